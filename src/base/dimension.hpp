@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace engrane {
+
+/// Physical dimension of a number: exponents of length, mass, time and angle.
+struct Dimension {
+  signed char length = 0;
+  signed char mass = 0;
+  signed char time = 0;
+  signed char angle = 0;
+
+  friend bool operator==(const Dimension&, const Dimension&) = default;
+};
+
+/// The dimensions that decks, elements and results use, by name.
+namespace dimension {
+inline constexpr Dimension none{};
+inline constexpr Dimension length{1, 0, 0, 0};
+inline constexpr Dimension angle{0, 0, 0, 1};  ///< radians inside; degrees in the deck
+inline constexpr Dimension mass{0, 1, 0, 0};
+inline constexpr Dimension time{0, 0, 1, 0};
+inline constexpr Dimension velocity{1, 0, -1, 0};
+inline constexpr Dimension acceleration{1, 0, -2, 0};
+inline constexpr Dimension angular_velocity{0, 0, -1, 1};
+inline constexpr Dimension angular_acceleration{0, 0, -2, 1};
+inline constexpr Dimension force{1, 1, -2, 0};
+inline constexpr Dimension moment{2, 1, -2, 0};
+inline constexpr Dimension energy{2, 1, -2, 0};
+inline constexpr Dimension power{2, 1, -3, 0};
+inline constexpr Dimension inertia{2, 1, 0, 0};
+inline constexpr Dimension stiffness{0, 1, -2, 0};            ///< force per length
+inline constexpr Dimension damping{0, 1, -1, 0};              ///< force per velocity
+inline constexpr Dimension torsional_stiffness{2, 1, -2, -1};  ///< moment per radian
+inline constexpr Dimension torsional_damping{2, 1, -1, -1};    ///< moment per radian per second
+}  // namespace dimension
+
+/// Factors from the deck's units to SI (`.UNIT`). Metadata only: numbers are never rescaled.
+struct UnitSystem {
+  bool given = false;  ///< without `.UNIT` the deck's units are consistent but unnamed
+  double length = 1;
+  double mass = 1;
+  double time = 1;
+
+  /// Factor that turns a number of this dimension into SI.
+  double to_si(Dimension d) const;
+  /// Name of the unit: "N", "lbf", "mm/s", "rad"; a name of the dimension in brackets, "[force]", when no units were given.
+  std::string label(Dimension d) const;
+};
+
+}  // namespace engrane

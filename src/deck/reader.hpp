@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.hpp"
+#include "deck/schema.hpp"
+
+namespace engrane::deck {
+
+/// All cards that a deck may hold: the general commands and the mechanism elements of `.MCE`.
+struct Catalogue {
+  std::vector<const Schema*> commands;  ///< names like `.NOE`, `.CLM FIX`
+  std::vector<const Schema*> elements;  ///< names like `GEAR`
+
+  const Schema* find(std::string_view name) const;  ///< by name, synonym or unambiguous prefix; nullptr otherwise
+};
+
+/// A deck as read: records in the order of the file, `.DEL.*` already carried out.
+struct Deck {
+  std::vector<Record> records;
+};
+
+/// Reads a deck and everything it includes. All faults go to `diagnostics`; never throws on bad input.
+Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics);
+
+/// The same for a text in memory, as `name`; INPUT is looked up in the working directory.
+Deck read_text(std::string name, std::string text, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics);
+
+/// The deck written out again, one record a line, every default filled in. Reading it gives the same records.
+std::string canonical_text(const Deck& deck);
+
+/// A JSON object of one record: {"id": 1, "type": "GEAR", "Z": [50, 10], …} with defaults, for the results file.
+std::string record_json(const Record& record);
+
+}  // namespace engrane::deck

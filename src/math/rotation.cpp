@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "math/rotation.hpp"
+
+#include <cmath>
+
+namespace engrane {
+
+Mat3 rotation_exp(const Vec3& y) {
+  const double angle = y.norm();
+  // sin(a)/a and (1 - cos a)/a² = ½ (sin(a/2)/(a/2))²: no cancellation at any angle
+  const double s = angle < 1e-8 ? 1 - angle * angle / 6 : std::sin(angle) / angle;
+  const double half = 0.5 * angle;
+  const double c = half < 1e-8 ? 1 - half * half / 6 : std::sin(half) / half;
+  const Mat3 Y = skew(y);
+  return Mat3::Identity() + s * Y + 0.5 * c * c * Y * Y;
+}
+
+Vec3 rotation_log(const Mat3& R) {
+  // through the quaternion: its vector part keeps full precision near 0 and near π alike
+  Eigen::Quaterniond q(R);
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  const double n = q.vec().norm();
+  if (n < 1e-150) return Vec3::Zero();
+  return q.vec() * (2 * std::atan2(n, q.w()) / n);
+}
+
+Mat3 rotation_tangent(const Vec3& y) {
+  const double a = y.norm();
+  const double half = 0.5 * a;
+  const double c = half < 1e-8 ? 1 - half * half / 6 : std::sin(half) / half;
+  // (a - sin a)/a³ cancels below a few tenths: its series there
+  const double a2 = a * a;
+  const double third = a < 0.3 ? 1.0 / 6 - a2 / 120 * (1 - a2 / 42 * (1 - a2 / 72 * (1 - a2 / 110 * (1 - a2 / 156))))
+                               : (a - std::sin(a)) / (a2 * a);
+  const Mat3 Y = skew(y);
+  return Mat3::Identity() - 0.5 * c * c * Y + third * Y * Y;
+}
+
+Mat3 orthonormalized(const Mat3& R) {
+  // one Newton step of the polar decomposition: quadratic, and the input is orthogonal to rounding already
+  return 0.5 * R * (3 * Mat3::Identity() - R.transpose() * R);
+}
+
+}  // namespace engrane

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/element.hpp"
+
+#include <algorithm>
+
+namespace engrane {
+
+void Element::start(std::span<double> scalars, std::span<double> history) const {
+  std::fill(scalars.begin(), scalars.end(), 0.0);
+  std::fill(history.begin(), history.end(), 0.0);
+}
+
+void Element::commit(const State& state, std::span<double>, std::span<double> history) const {
+  std::copy(state.history.begin(), state.history.end(), history.begin());
+}
+
+Energies Element::energies(const State&) const { return {}; }
+
+Mat3 Element::inertia_at(int) const { return Mat3::Zero(); }
+
+const std::vector<Named>& Element::channels() const {
+  static const std::vector<Named> none;
+  return none;
+}
+
+void Element::observe(const State&, std::span<double>) const {}
+
+std::vector<Derived> Element::derived() const { return {}; }
+
+Drawing Element::drawing() const { return {}; }
+
+}  // namespace engrane

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "deck/schema.hpp"
+#include "model/element.hpp"
+#include "model/function.hpp"
+
+namespace engrane {
+
+/// What an element may look up while it is built from its record. Faults of the deck go to `diagnostics`, at the
+/// location of the keyword that is wrong (`record.where("MN")`); an element that cannot be built is nullptr.
+struct BuildContext {
+  const std::map<int, Vec3>& nodes;  ///< reference positions; the ground, node 0, is at the origin
+  const std::map<int, std::unique_ptr<Function>>& functions;
+  Diagnostics& diagnostics;
+  const deck::Record& record;
+  /// Moment of inertia that the elements of the deck give to a node about a unit axis; 0 when none does.
+  std::function<double(int node, const Vec3& axis)> wheel_inertia;
+
+  /// The function a keyword names, or nullptr with an error when it does not exist.
+  const Function* function(int id, std::string_view keyword) const;
+  void error(std::string_view keyword, std::string message, std::string hint = {}) const {
+    diagnostics.error(record.where(keyword), std::move(message), std::move(hint));
+  }
+};
+
+/// An element of the deck language: its card and how to build it.
+struct ElementType {
+  deck::Schema schema;
+  std::function<std::unique_ptr<Element>(BuildContext&)> build;
+  int stage = 0;  ///< elements of stage 1 are built last and may ask what the others give (`wheel_inertia`)
+};
+
+/// All elements, in the order of the manual; written by CMake's add_element().
+const std::vector<ElementType>& element_types();
+
+/// Ties a card to the function that builds its element: the body of every `x_type()`.
+template <class Data>
+ElementType element_type(const deck::Card<Data>& card, std::unique_ptr<Element> (*build)(const Data&, BuildContext&),
+                         int stage = 0) {
+  return {card.schema(), [build](BuildContext& context) { return build(*context.record.get<Data>(), context); }, stage};
+}
+
+}  // namespace engrane
