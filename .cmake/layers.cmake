@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# engrane_layer(NAME [USES layer...] [WITH library...]): the folder src/NAME as a static library engrane_NAME; the layer
+# `app` as the executable. A layer without sources yet passes its dependencies on.
+function(engrane_layer name)
+  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "USES;WITH")
+  if(ENGRANE_FUZZ AND name MATCHES "^(assembly|solve|output|app)$")
+    return()  # what is fuzzed reads decks: it needs neither PETSc nor HDF5, and clang builds it faster without
+  endif()
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  list(TRANSFORM layer_USES PREPEND engrane_)
+
+  if(NOT sources)
+    add_library(engrane_${name} INTERFACE)
+    target_include_directories(engrane_${name} INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
+    target_link_libraries(engrane_${name} INTERFACE ${layer_USES} ${layer_WITH})
+    return()
+  endif()
+
+  if(name STREQUAL "app")
+    add_executable(engrane_app ${sources})
+    set_target_properties(engrane_app PROPERTIES OUTPUT_NAME engrane)
+    target_compile_definitions(engrane_app PRIVATE ENGRANE_VERSION="${PROJECT_VERSION}")
+  else()
+    add_library(engrane_${name} STATIC ${sources})
+  endif()
+  target_include_directories(engrane_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+  target_link_libraries(engrane_${name} PUBLIC ${layer_USES} ${layer_WITH} PRIVATE engrane_options)
+endfunction()

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs a deck on 1, 2 and 3 ranks: each run must pass its own .CHK, and all must give the same results.
+
+    decks.py --binary engrane --mpiexec mpiexec --work folder deck.dat
+
+A deck may say in a comment what its test is:
+
+    ! test: ranks 1          only on these ranks (one or several numbers)
+    ! test: tolerance 1e-4   results of two runs may differ by so much (default 1e-6), relative to the largest number of
+                             the same unit in the results: teeth that rattle enlarge the last digit's noise
+    ! test: slow             labelled slow, so that `ctest -LE slow` leaves it out
+    ! test: part             not run: other decks INPUT it
+"""
+
+import argparse
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+# How many steps and iterations a run takes is its own affair.
+NOT_COMPARED = re.compile(r"^(history/run/(STEP|ITERATIONS)|checks|deck|model)$")
+
+
+def wishes(deck: Path) -> dict[str, list[str]]:
+    text = deck.read_text(encoding="utf-8", errors="replace")
+    lines = re.findall(r"^\s*!\s*test:\s*(\w+)(.*)$", text, re.MULTILINE)
+    return {word: rest.split() for word, rest in lines}
+
+
+def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
+    """Dataset -> (unit, values), all numbers of the mesh, fields and histories."""
+    found = {}
+
+    def keep(name, item):
+        if isinstance(item, h5py.Dataset) and item.dtype.kind in "fiu" and not NOT_COMPARED.match(name):
+            unit = item.attrs.get("unit", "")
+            found[name] = (unit.decode() if isinstance(unit, bytes) else str(unit), item[()])
+
+    with h5py.File(path, "r") as file:
+        file.visititems(keep)
+    return found
+
+
+def differences(one: dict, other: dict, tolerance: float) -> list[str]:
+    faults = [f"only in one of the results: {name}" for name in sorted(one.keys() ^ other.keys())]
+    # A lateral force that is noise about zero is measured against the largest force, not against itself.
+    scale = {}
+    for unit, values in one.values():
+        scale[unit] = max(scale.get(unit, 0.0), float(np.max(np.abs(values), initial=0)))
+    for name in sorted(one.keys() & other.keys()):
+        unit, a = one[name]
+        b = other[name][1]
+        if a.shape != b.shape:
+            faults.append(f"{name}: shape {a.shape} and {b.shape}")
+            continue
+        gap = float(np.max(np.abs(a.astype(float) - b.astype(float)), initial=0))
+        if not gap <= tolerance * scale[unit]:  # also catches NaN
+            faults.append(f"{name}: differs by {gap:.3g} {unit}, allowed {tolerance * scale[unit]:.3g}")
+    return faults
+
+
+def run(arguments, ranks: int) -> Path:
+    prefix = arguments.work / f"{arguments.deck.stem}_{ranks}"
+    for old in arguments.work.glob(f"{prefix.name}.*"):
+        old.unlink()
+    command = [arguments.binary, str(arguments.deck), "-o", str(prefix)]
+    if ranks > 1:
+        command = [arguments.mpiexec, "-np", str(ranks), "--oversubscribe", "--bind-to", "none", *command]
+    print("+", " ".join(command), flush=True)
+    status = subprocess.run(command, check=False).returncode
+    if status != 0:
+        sys.exit(f"{arguments.deck.name} on {ranks} ranks: exit status {status}")
+    return prefix.with_name(prefix.name + ".h5")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--binary", required=True)
+    parser.add_argument("--mpiexec", required=True)
+    parser.add_argument("--work", required=True, type=Path)
+    parser.add_argument("deck", type=Path)
+    arguments = parser.parse_args()
+    arguments.work.mkdir(parents=True, exist_ok=True)
+
+    wanted = wishes(arguments.deck)
+    ranks = [int(n) for n in wanted.get("ranks", ["1", "2", "3"])]
+    tolerance = float(wanted.get("tolerance", ["1e-6"])[0])
+
+    first = read_results(run(arguments, ranks[0]))
+    faults = []
+    for n in ranks[1:]:
+        faults += [f"{n} ranks against {ranks[0]}: {fault}" for fault in differences(first, read_results(run(arguments, n)), tolerance)]
+    print("\n".join(faults) or f"{arguments.deck.name}: ranks {ranks} agree in {len(first)} datasets")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
