@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+
+#include "deck/cards.hpp"
+#include "math/vector.hpp"
+
+namespace engrane {
+
+/// The local frames of `.FRAME`, in which nodes may be given.
+class Frames {
+ public:
+  void add(const deck::Record& record, const deck::FrameCard& card, Diagnostics& diagnostics);
+
+  /// Global position of a node given in its frame (Cartesian, cylindrical r θ z or spherical r θ φ, degrees).
+  Vec3 to_global(const deck::Record& record, const deck::NodeCard& node, Diagnostics& diagnostics) const;
+
+ private:
+  enum class Kind { cartesian, cylindrical, spherical };
+  struct Frame {
+    Vec3 origin;
+    Mat3 axes;  ///< columns
+    Kind kind;
+  };
+  std::map<int, Frame> frames_;
+};
+
+}  // namespace engrane

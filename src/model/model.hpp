@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.hpp"
+#include "base/dimension.hpp"
+#include "deck/cards.hpp"
+#include "deck/reader.hpp"
+#include "model/element.hpp"
+#include "model/function.hpp"
+#include "model/registry.hpp"
+
+namespace engrane {
+
+/// A displacement component (0–2 translations, 3–5 rotations) of a node that the deck prescribes: value × function(t).
+/// Rotations in radians about the global axis.
+struct Support {
+  int node = 0;  ///< index into Model::nodes
+  int component = 0;
+  double value = 0;
+  const Function* function = nullptr;  ///< nullptr: constant
+};
+
+/// An initial displacement or velocity of a node's component; a wish that the constraints may change.
+struct InitialValue {
+  int node = 0;
+  int component = 0;
+  double value = 0;
+  bool velocity = false;
+};
+
+/// Acceleration of gravity: vector × function(t).
+struct Gravity {
+  Vec3 acceleration = Vec3::Zero();
+  const Function* function = nullptr;
+};
+
+/// What to run and how, each with the place it was said.
+struct Commands {
+  deck::AnalysisCard analysis;
+  deck::SteppingCard stepping;
+  deck::ArchiveCard archive;
+  std::vector<deck::CheckCard> checks;
+  std::vector<Location> check_locations;
+};
+
+/// The mechanism as the deck describes it: constant while it is solved.
+struct Model {
+  struct Node {
+    int id = 0;
+    Vec3 x = Vec3::Zero();
+  };
+  struct Part {
+    std::unique_ptr<Element> element;
+    std::string type;         ///< card name, such as `GEAR`; `CHA` for a nodal load
+    std::string parameters;   ///< record as JSON, for the results file
+    Location location;
+    std::vector<int> nodes;   ///< indices of the element's nodes
+  };
+
+  std::string title;
+  UnitSystem units;
+  std::vector<Node> nodes;  ///< the ground first (id 0), then by id
+  std::map<int, std::unique_ptr<Function>> functions;
+  std::vector<Part> parts;
+  std::vector<Support> supports;
+  std::vector<InitialValue> initial;
+  std::vector<Gravity> gravity;
+  Commands commands;
+
+  int node_index(int id) const;  ///< -1 when there is no such node
+  Vec3 gravity_at(double time) const;
+  /// Largest distance between nodes: the length that tolerances are measured with; 1 for a single point.
+  double extent() const;
+};
+
+/// All cards of the language: general commands and registered elements.
+deck::Catalogue catalogue(const std::vector<ElementType>& types);
+
+/// Builds the model of a deck. Faults go to `diagnostics`; the result is to be used only when there are none.
+Model build_model(const deck::Deck& deck, const std::vector<ElementType>& types, Diagnostics& diagnostics);
+
+}  // namespace engrane

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/node_load.hpp"
+
+#include "model/templated_element.hpp"
+
+namespace engrane {
+
+namespace {
+
+class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
+ public:
+  NodeLoad(int id, int node, const Vec3& force, const Vec3& moment, const Function* function)
+      : TemplatedElement(id), force_(force), moment_(moment), function_(function) {
+    Layout layout;
+    layout.nodes = {node};
+    const bool pushes = !force.isZero(0), turns = !moment.isZero(0);
+    layout.needs = {pushes && turns ? NodeNeed::both : turns ? NodeNeed::rotation : NodeNeed::translation};
+    set_layout(std::move(layout));
+  }
+
+  template <class T>
+  void evaluate(const Motion<T, 1>& motion, const State&, Balance<T, 1>& balance) const {
+    const T factor = function_ ? engrane::evaluate(*function_, motion.time) : T(1);
+    balance.force(0, Vec3T<T>(force_.template cast<T>() * (-factor)));
+    // a moment fixed in space seen from the turning node: its tangent is not symmetric, and the dual numbers carry it
+    balance.moment(0, Vec3T<T>(rotate_back(motion.node[0].R, Vec3T<T>(moment_.template cast<T>() * (-factor)))));
+  }
+
+  Energies energies(const State& state) const override {
+    const double factor = function_ ? function_->at(state.time).f : 1.0;
+    const NodeState& node = state.nodes[0];
+    Energies e;
+    e.external = factor * (force_.dot(node.v) + moment_.dot(node.R * node.W));
+    return e;
+  }
+
+ private:
+  Vec3 force_, moment_;
+  const Function* function_;
+};
+
+}  // namespace
+
+std::unique_ptr<Element> make_node_load(int id, int node, const Vec3& force, const Vec3& moment, const Function* function) {
+  return std::make_unique<NodeLoad>(id, node, force, moment, function);
+}
+
+}  // namespace engrane
