@@ -93,7 +93,10 @@ def main() -> int:
     first = read_results(run(arguments, ranks[0]))
     faults = []
     for n in ranks[1:]:
-        faults += [f"{n} ranks against {ranks[0]}: {fault}" for fault in differences(first, read_results(run(arguments, n)), tolerance)]
+        faults += [
+            f"{n} ranks against {ranks[0]}: {fault}"
+            for fault in differences(first, read_results(run(arguments, n)), tolerance)
+        ]
     print("\n".join(faults) or f"{arguments.deck.name}: ranks {ranks} agree in {len(first)} datasets")
     return 1 if faults else 0
 

@@ -71,7 +71,9 @@ def check_includes(file: Path, root: Path, table) -> list[str]:
             if not (root / "src" / header).is_file():
                 faults.append(f'{where}: "{header}" is no file under src/; name it as "layer/file.hpp"')
             elif other != layer and other not in uses:
-                faults.append(f"{where}: {layer} may not include {header}; it may use: {' '.join(sorted(uses)) or 'nothing'}")
+                faults.append(
+                    f"{where}: {layer} may not include {header}; it may use: {' '.join(sorted(uses)) or 'nothing'}"
+                )
         else:
             for target, pattern in FOREIGN.items():
                 if pattern.match(header) and target not in libraries:
