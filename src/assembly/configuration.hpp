@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "model/element.hpp"
+
+namespace engrane {
+
+/// The whole mechanism at one instant: every value that moves, on every rank.
+struct Configuration {
+  double time = 0;
+  std::vector<NodeState> nodes;  ///< in the order of Model::nodes; the first is the ground
+  std::vector<double> scalars, scalar_rates, scalar_accelerations;
+  std::vector<double> multipliers;  ///< kλ: forces and moments
+  std::vector<double> history;      ///< of all elements, as last committed
+};
+
+}  // namespace engrane

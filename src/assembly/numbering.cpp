@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/numbering.hpp"
+
+#include <fmt/format.h>
+
+namespace engrane {
+
+namespace {
+
+/// The measure of a constraint or of the force conjugate to a scalar, from the scalar's dimension.
+Measure measure_of(const Named& named, bool multiplier) {
+  const bool angular = named.dimension.length == 0;
+  if (multiplier) return angular ? Measure::angle : Measure::length;
+  return angular ? Measure::moment : Measure::force;
+}
+
+}  // namespace
+
+Numbering::Numbering(const Model& model) : model_(model), rotates_(model.nodes.size(), false) {
+  const auto node_slots = 6 * model.nodes.size();
+  std::vector<bool> used(node_slots, false);
+  for (const Model::Part& part : model.parts) {
+    const Layout& layout = part.element->layout();
+    for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+      const auto node = static_cast<std::size_t>(part.nodes[i]);
+      if (node == 0) continue;
+      const auto needs = static_cast<unsigned>(layout.needs[i]);
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (needs & static_cast<unsigned>(NodeNeed::translation)) used[6 * node + c] = true;
+        if (needs & static_cast<unsigned>(NodeNeed::rotation)) used[6 * node + 3 + c] = true;
+      }
+      if (needs & static_cast<unsigned>(NodeNeed::rotation)) rotates_[node] = true;
+    }
+    scalars_ += static_cast<int>(layout.scalars.size());
+    multipliers_ += static_cast<int>(layout.multipliers.size());
+  }
+  for (const Support& s : model.supports) used[static_cast<std::size_t>(6 * s.node + s.component)] = false;
+
+  motion_slots_ = static_cast<int>(node_slots) + scalars_;
+  equation_.assign(static_cast<std::size_t>(motion_slots_ + multipliers_), -1);
+  const auto add = [this](Unknown u) {
+    equation_[static_cast<std::size_t>(u.slot)] = equations();
+    unknowns_.push_back(u);
+  };
+  // nodes first, then each element's own unknowns: an equation number tells a reader roughly where it is
+  for (std::size_t slot = 0; slot < node_slots; ++slot)
+    if (used[slot]) {
+      const int c = static_cast<int>(slot % 6);
+      add({static_cast<int>(slot), -1, static_cast<int>(slot / 6), c, false, c < 3 ? Measure::force : Measure::moment});
+    }
+  int scalar = 0, multiplier = 0;
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const Layout& layout = model.parts[p].element->layout();
+    Part part;
+    part.scalar = scalar;
+    part.multiplier = multiplier;
+    part.history = history_;
+    for (const int node : model.parts[p].nodes)
+      for (int c = 0; c < 6; ++c) part.slots.push_back(6 * node + c);
+    for (std::size_t i = 0; i < layout.scalars.size(); ++i) {
+      const int slot = static_cast<int>(node_slots) + scalar++;
+      part.slots.push_back(slot);
+      add({slot, static_cast<int>(p), -1, static_cast<int>(i), false, measure_of(layout.scalars[i], false)});
+    }
+    for (std::size_t i = 0; i < layout.multipliers.size(); ++i) {
+      const int slot = motion_slots_ + multiplier++;
+      part.slots.push_back(slot);
+      add({slot, static_cast<int>(p), -1, static_cast<int>(i), true, measure_of(layout.multipliers[i], true)});
+    }
+    history_ += layout.history;
+    parts_.push_back(std::move(part));
+  }
+}
+
+Configuration Numbering::reference_configuration(double time) const {
+  Configuration c;
+  c.time = time;
+  c.nodes.resize(model_.nodes.size());
+  for (std::size_t i = 0; i < model_.nodes.size(); ++i) c.nodes[i].x = model_.nodes[i].x;
+  c.scalars.assign(static_cast<std::size_t>(scalars_), 0);
+  c.scalar_rates = c.scalar_accelerations = c.scalars;
+  c.multipliers.assign(static_cast<std::size_t>(multipliers_), 0);
+  c.history.assign(static_cast<std::size_t>(history_), 0);
+  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
+    const Layout& layout = model_.parts[p].element->layout();
+    model_.parts[p].element->start(
+        std::span(c.scalars).subspan(static_cast<std::size_t>(parts_[p].scalar), layout.scalars.size()),
+        std::span(c.history).subspan(static_cast<std::size_t>(parts_[p].history), static_cast<std::size_t>(layout.history)));
+  }
+  return c;
+}
+
+const char* component_name(int component) {
+  static constexpr const char* names[] = {"x", "y", "z", "rx", "ry", "rz"};
+  return names[component];
+}
+
+std::string Numbering::describe(int equation) const {
+  const Unknown& u = unknown(equation);
+  if (u.part < 0)
+    return fmt::format("node {} ({})", model_.nodes[static_cast<std::size_t>(u.node)].id, component_name(u.item));
+  const Model::Part& part = model_.parts[static_cast<std::size_t>(u.part)];
+  const Layout& layout = part.element->layout();
+  const auto& names = u.multiplier ? layout.multipliers : layout.scalars;
+  return fmt::format("{} {} ({})", part.type, part.element->id(), names[static_cast<std::size_t>(u.item)].name);
+}
+
+}  // namespace engrane

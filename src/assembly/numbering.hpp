@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assembly/configuration.hpp"
+#include "model/model.hpp"
+
+namespace engrane {
+
+/// What an unknown or its equation measures; decides how its residual is judged.
+enum class Measure : unsigned char { force, moment, length, angle };
+
+/// One unknown of the assembled system, for messages and norms.
+struct Unknown {
+  int slot = 0;
+  int part = -1;  ///< the element that owns it; -1 when a node does
+  int node = -1;  ///< index of the node that owns it; -1 when an element does
+  int item = 0;   ///< component of the node, or index of the element's scalar or multiplier
+  bool multiplier = false;
+  Measure measure = Measure::force;  ///< of its equation
+};
+
+/// Where everything stands. A slot is a place for a value: six per node (whether or not it has the unknown), then the
+/// elements' scalars (together the motion), then the multipliers. An equation is a slot that is really unknown.
+class Numbering {
+ public:
+  explicit Numbering(const Model& model);
+
+  int equations() const { return static_cast<int>(unknowns_.size()); }
+  int motion_slots() const { return motion_slots_; }
+  int slots() const { return static_cast<int>(equation_.size()); }
+  /// Equation of a slot; -1 when it is fixed, prescribed or not needed by any element.
+  int equation(int slot) const { return equation_[static_cast<std::size_t>(slot)]; }
+  const Unknown& unknown(int equation) const { return unknowns_[static_cast<std::size_t>(equation)]; }
+  const std::vector<Unknown>& unknowns() const { return unknowns_; }
+
+  /// Global slot of each local slot of an element.
+  const std::vector<int>& part_slots(int part) const { return parts_[static_cast<std::size_t>(part)].slots; }
+  int scalar_begin(int part) const { return parts_[static_cast<std::size_t>(part)].scalar; }
+  int multiplier_begin(int part) const { return parts_[static_cast<std::size_t>(part)].multiplier; }
+  int history_begin(int part) const { return parts_[static_cast<std::size_t>(part)].history; }
+
+  /// The mechanism as the deck gives it: reference positions, elements' starting values, everything at rest.
+  Configuration reference_configuration(double time) const;
+
+  /// Whether a node has rotation unknowns (free or held) at all.
+  bool rotates(int node) const { return rotates_[static_cast<std::size_t>(node)]; }
+
+  /// "node 57 (rz)" or "GEAR 7 (LAMBDA_1)".
+  std::string describe(int equation) const;
+
+ private:
+  struct Part {
+    std::vector<int> slots;
+    int scalar = 0, multiplier = 0, history = 0;
+  };
+  const Model& model_;
+  std::vector<int> equation_;
+  std::vector<Unknown> unknowns_;
+  std::vector<Part> parts_;
+  std::vector<bool> rotates_;
+  int motion_slots_ = 0;
+  int scalars_ = 0, multipliers_ = 0, history_ = 0;
+};
+
+/// Name of a node's component 0–5: "x" … "rz".
+const char* component_name(int component);
+
+}  // namespace engrane

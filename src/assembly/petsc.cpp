@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/petsc.hpp"
+
+#include <string>
+
+namespace engrane {
+
+namespace {
+
+std::string last_message;
+
+/// Keeps the first words of an error; PETSc calls again, with PETSC_ERROR_REPEAT, on the way up.
+PetscErrorCode keep_message(MPI_Comm, int line, const char* function, const char* file, PetscErrorCode code,
+                            PetscErrorType type, const char* message, void*) {
+  if (type == PETSC_ERROR_INITIAL) {
+    last_message = message ? message : "";
+    last_message += " [in " + std::string(function ? function : "?") + ", " + (file ? file : "?") + ":" +
+                    std::to_string(line) + "]";
+  }
+  return code;
+}
+
+}  // namespace
+
+void check_petsc(PetscErrorCode code) {
+  if (code == 0) return;
+  throw PetscFailure("PETSc error " + std::to_string(static_cast<int>(code)) + ": " + last_message);
+}
+
+PetscSession::PetscSession(int& argc, char**& argv) {
+  check_petsc(PetscInitialize(&argc, &argv, nullptr, nullptr));
+  check_petsc(PetscPushErrorHandler(keep_message, nullptr));
+  check_petsc(PetscPopSignalHandler());  // a signal is ours to handle: results are closed first
+}
+
+PetscSession::~PetscSession() {
+  (void)PetscPopErrorHandler();
+  (void)PetscFinalize();
+}
+
+}  // namespace engrane

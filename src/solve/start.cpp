@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solve/blame.hpp"
+
+namespace engrane {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+double largest(const std::vector<double>& v) {
+  double m = 0;
+  for (const double x : v) m = std::isnan(x) ? x : std::max(m, std::abs(x));
+  return m;
+}
+
+}  // namespace
+
+Start::Start(Assembler& assembler, LinearSolver& solver, const MotionSlots& motion)
+    : assembler_(assembler), solver_(solver), motion_(motion) {
+  *right_.out() = assembler.new_vector();
+  *solution_.out() = assembler.new_vector();
+}
+
+bool Start::solve(std::vector<double>& right, std::vector<double>& solution) {
+  assembler_.spread(right, right_);
+  if (!solver_.solve(right_, solution_)) return false;
+  const auto all = assembler_.gather(solution_);
+  solution.assign(all.begin(), all.end());
+  return true;
+}
+
+void Start::assemble(Configuration& c, StartReport& report) {
+  const Numbering& numbering = assembler_.numbering();
+  const double extent = assembler_.model().extent();
+  const auto motion_size = motion_.size();
+  const std::vector<NodeState> begun = c.nodes;
+  std::vector<double> phi, rate, second;
+  for (report.position_iterations = 0;; ++report.position_iterations) {
+    assembler_.constraint_rates(c, phi, rate, second);
+    std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0), step;
+    double open = 0;
+    for (std::size_t e = 0; e < right.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      if (!u.multiplier) continue;
+      right[e] = phi[static_cast<std::size_t>(u.slot) - motion_size];
+      open = std::max(open, std::abs(right[e]) / (u.measure == Measure::length ? extent : 1.0));
+    }
+    if (open <= 32 * epsilon) break;
+    if (report.position_iterations == 50 || !std::isfinite(open)) throw SolutionFailure(explain_open(phi));
+    assembler_.projection(c, Assembler::Metric::geometric);
+    if (!solve(right, step)) throw SolutionFailure(explain_singular(assembler_, "the constraints of the mechanism contradict or repeat one another"));
+    // a step far outside where the constraints are nearly linear would jump to another way of assembling
+    double length = 0;
+    std::vector<double> y(motion_size, 0.0);
+    motion_.scatter(step, y);
+    for (std::size_t i = 0; i < 6 * c.nodes.size(); ++i)
+      length = std::max(length, std::abs(y[i]) / (i % 6 < 3 ? 0.25 * extent : 0.5));
+    if (length > 1)
+      for (double& v : y) v /= length;
+    Configuration moved = c;
+    motion_.move(c, y, moved);
+    c = std::move(moved);
+    if (length < 4 * epsilon && open < 1e-11) break;  // closed as far as rounding lets it
+  }
+  for (std::size_t i = 1; i < c.nodes.size(); ++i) {
+    c.nodes[i].T.setIdentity();
+    const double move = (c.nodes[i].x - begun[i].x).norm();
+    const double turn = std::acos(std::clamp(((begun[i].R.transpose() * c.nodes[i].R).trace() - 1) / 2, -1.0, 1.0));
+    if (std::max(move / extent, turn) > std::max(report.largest_move / extent, report.largest_turn))
+      report.moved_most = fmt::format("node {}", assembler_.model().nodes[i].id);
+    report.largest_move = std::max(report.largest_move, move);
+    report.largest_turn = std::max(report.largest_turn, turn);
+  }
+}
+
+std::string Start::explain_open(const std::vector<double>& phi) const {
+  const Numbering& numbering = assembler_.numbering();
+  const double extent = assembler_.model().extent();
+  double worst = -1, value = 0;
+  int equation = -1;
+  for (int e = 0; e < numbering.equations(); ++e) {
+    const Unknown& u = numbering.unknown(e);
+    if (!u.multiplier) continue;
+    const double v = phi[static_cast<std::size_t>(u.slot) - motion_.size()];
+    const double relative = std::abs(v) / (u.measure == Measure::length ? extent : 1.0);
+    if (!(relative <= worst)) {
+      worst = relative;
+      value = v;
+      equation = e;
+    }
+  }
+  const bool length = equation >= 0 && numbering.unknown(equation).measure == Measure::length;
+  return fmt::format("the mechanism does not close: {} stays open by {:.3g} {}",
+                     equation >= 0 ? numbering.describe(equation) : "a constraint", std::abs(value),
+                     assembler_.model().units.label(length ? dimension::length : dimension::angle));
+}
+
+void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report) {
+  const Numbering& numbering = assembler_.numbering();
+  std::vector<double> v = motion_.velocities(c);
+  for (const auto& p : motion_.prescribed(c.time)) v[p.slot] = p.v;
+  motion_.set_velocities(v, c);
+  std::vector<double> phi, rate, second, change;
+  assembler_.constraint_rates(c, phi, rate, second);
+  if (largest(rate) == 0) return;
+  std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
+  for (std::size_t e = 0; e < right.size(); ++e) {
+    const Unknown& u = numbering.unknown(static_cast<int>(e));
+    if (u.multiplier) right[e] = rate[static_cast<std::size_t>(u.slot) - motion_.size()];
+  }
+  assembler_.projection(c, metric);
+  if (!solve(right, change))
+    throw SolutionFailure(explain_singular(assembler_, "no velocities fit the constraints and drives at the start"));
+  std::vector<double> delta(motion_.size(), 0.0);
+  motion_.scatter(change, delta);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += delta[i];
+  delta.resize(6 * c.nodes.size());  // scalars follow: their change says nothing
+  report.largest_velocity_change = largest(delta);
+  motion_.set_velocities(v, c);
+}
+
+void Start::balance_accelerations(Configuration& c) {
+  const Numbering& numbering = assembler_.numbering();
+  std::vector<double> a = motion_.accelerations(c);
+  for (const auto& p : motion_.prescribed(c.time)) a[p.slot] = p.a;
+  motion_.set_accelerations(a, c);
+  std::vector<double> phi, rate, second, change;
+  double before = std::numeric_limits<double>::infinity();
+  // linear but for forces that follow the multipliers (|λ| of the separating force), hence a short iteration
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    const std::vector<double> r = assembler_.slot_residual(c);
+    assembler_.constraint_rates(c, phi, rate, second);
+    std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
+    for (std::size_t e = 0; e < right.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      right[e] = u.multiplier ? second[static_cast<std::size_t>(u.slot) - motion_.size()] : -r[static_cast<std::size_t>(u.slot)];
+    }
+    const double size = largest(right);
+    if (!std::isfinite(size)) throw SolutionFailure("the forces at the start are not finite");
+    if (size == 0 || (iteration > 1 && size >= 0.5 * before)) return;
+    before = size;
+    assembler_.projection(c, Assembler::Metric::dynamic);
+    if (!solve(right, change))
+      throw SolutionFailure(explain_singular(assembler_, "the accelerations at the start are not determined"));
+    for (std::size_t e = 0; e < right.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      if (u.multiplier)
+        c.multipliers[static_cast<std::size_t>(u.slot) - motion_.size()] += change[e];
+      else
+        a[static_cast<std::size_t>(u.slot)] += change[e];
+    }
+    motion_.set_accelerations(a, c);
+  }
+}
+
+}  // namespace engrane

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "assembly/assembler.hpp"
+#include "solve/linear.hpp"
+#include "solve/motion.hpp"
+
+namespace engrane {
+
+/// The solution cannot go on; the words are for the user (exit status 2).
+struct SolutionFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What the start did, for the listing.
+struct StartReport {
+  int position_iterations = 0;
+  double largest_move = 0;      ///< translation, in the deck's unit of length
+  double largest_turn = 0;      ///< rotation, radians
+  std::string moved_most;       ///< node that moved or turned most
+  double largest_velocity_change = 0;  ///< from the wished initial velocities
+};
+
+/// Makes a configuration satisfy its constraints at the levels of position, velocity and acceleration.
+class Start {
+ public:
+  Start(Assembler& assembler, LinearSolver& solver, const MotionSlots& motion);
+
+  /// Moves `c` as little as possible until all constraints are closed at c.time. Throws SolutionFailure naming what
+  /// stays open.
+  void assemble(Configuration& c, StartReport& report);
+  /// Changes the velocities in `c` as little as possible (in kinetic energy, or geometrically) until they fit.
+  void fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report);
+  /// Sets accelerations and multipliers from the equations of motion and the constraints' second derivatives.
+  void balance_accelerations(Configuration& c);
+
+ private:
+  bool solve(std::vector<double>& right, std::vector<double>& solution);
+  std::string explain_open(const std::vector<double>& phi) const;
+
+  Assembler& assembler_;
+  LinearSolver& solver_;
+  const MotionSlots& motion_;
+  Owned<Vec> right_, solution_;
+};
+
+}  // namespace engrane
