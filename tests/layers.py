@@ -49,7 +49,10 @@ def circular(table) -> list[str]:
     faults = []
     above = set()
     for name, (uses, _) in table.items():
-        faults += [f"src/CMakeLists.txt: {name} uses {other}, which is not above it" for other in sorted(uses - above)]
+        faults += [
+            f"src/CMakeLists.txt: {name} uses {other}, which is not above it"
+            for other in sorted(uses - above)
+        ]
         above.add(name)
     return faults
 
@@ -57,7 +60,9 @@ def circular(table) -> list[str]:
 def check_includes(file: Path, root: Path, table) -> list[str]:
     layer = file.relative_to(root / "src").parts[0]
     if layer not in table:
-        return [f"{file.relative_to(root)}: no layer '{layer}' in src/CMakeLists.txt; add an engrane_layer line"]
+        return [
+            f"{file.relative_to(root)}: no layer '{layer}' in src/CMakeLists.txt; add an engrane_layer line"
+        ]
     uses, libraries = table[layer]
     faults = []
     for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
@@ -87,8 +92,12 @@ def check_text(file: Path, root: Path) -> list[str]:
         lines = file.read_text(encoding="utf-8").splitlines()
     except UnicodeDecodeError:
         return []
-    faults = [f"{name}:{n}: a path of one machine" for n, line in enumerate(lines, 1) if MACHINE_PATH.search(line)]
-    is_code = file.suffix in CODE or file.name == "CMakeLists.txt" or bool(lines and lines[0].startswith("#!"))
+    faults = [
+        f"{name}:{n}: a path of one machine" for n, line in enumerate(lines, 1) if MACHINE_PATH.search(line)
+    ]
+    is_code = (
+        file.suffix in CODE or file.name == "CMakeLists.txt" or bool(lines and lines[0].startswith("#!"))
+    )
     if is_code and not any(SPDX in line for line in lines[:2]):
         faults.append(f"{name}:1: the file does not begin with '{SPDX}'")
     if is_code and len(lines) > MOST_LINES:

@@ -14,7 +14,9 @@ LAUNCHER = ROOT / "engrane"
 
 
 def launch(*words, launcher=LAUNCHER, **options):
-    return subprocess.run([launcher, *words], capture_output=True, text=True, stdin=subprocess.DEVNULL, **options)
+    return subprocess.run(
+        [launcher, *words], capture_output=True, text=True, stdin=subprocess.DEVNULL, **options
+    )
 
 
 def test_words_are_listed_without_building():
