@@ -6,8 +6,8 @@
 A deck may say in a comment what its test is:
 
     ! test: ranks 1          only on these ranks (one or several numbers)
-    ! test: tolerance 1e-4   results of two runs may differ by so much (default 1e-6), relative to the largest number of
-                             the same unit in the results: teeth that rattle enlarge the last digit's noise
+    ! test: tolerance 1e-4   results of two runs may differ by so much (default 1e-6), relative to the largest
+                             number of the same unit: teeth that rattle enlarge the last digit's noise
     ! test: slow             labelled slow, so that `ctest -LE slow` leaves it out
     ! test: part             not run: other decks INPUT it
 """

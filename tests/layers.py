@@ -3,8 +3,9 @@
 
     layers.py [root]
 
-Which layer may include which, and which foreign library, stands in src/CMakeLists.txt and nowhere else. Beside it: no
-code file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, no layer in a circle.
+Which layer may include which, and which foreign library, stands in src/CMakeLists.txt and nowhere else. Beside
+it: no code file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, no circle of
+layers.
 """
 
 import re
@@ -76,9 +77,8 @@ def check_includes(file: Path, root: Path, table) -> list[str]:
             if not (root / "src" / header).is_file():
                 faults.append(f'{where}: "{header}" is no file under src/; name it as "layer/file.hpp"')
             elif other != layer and other not in uses:
-                faults.append(
-                    f"{where}: {layer} may not include {header}; it may use: {' '.join(sorted(uses)) or 'nothing'}"
-                )
+                may = " ".join(sorted(uses)) or "nothing"
+                faults.append(f"{where}: {layer} may not include {header}; it may use: {may}")
         else:
             for target, pattern in FOREIGN.items():
                 if pattern.match(header) and target not in libraries:

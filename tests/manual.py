@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The reference manual is written by the program: `manual.py engrane docs/reference.md` says where the two differ."""
+"""`manual.py engrane docs/reference.md`: is the reference manual the one that the program writes?"""
 
 import difflib
 import subprocess
