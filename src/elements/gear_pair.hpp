@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The gear pair: A. Cardona, "Modelado tridimensional de engranajes flexibles en análisis de mecanismos" (1995).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "elements/gear_geometry.hpp"
+#include "elements/gear_teeth.hpp"
+#include "model/templated_element.hpp"
+
+namespace engrane {
+
+/// Two toothed wheels A and B, each rigid and centred on a node; teeth rigid or elastic. One element for every kind of pair.
+///
+/// Own unknowns: ψ_A, ψ_B, the turns of the wheels about their axles relative to the frame that follows the contact point
+/// (16), and with elastic teeth u_m, their deformation along the circumference. ψ is kept within a turn; whole turns are
+/// counted in the history, so that no tooth phase is lost however far the wheels turn.
+///
+/// Multipliers: kλ₁ of the tooth contact φ₁ (21) is the normal tooth force, positive when A drives in the positive sense
+/// about its axle; kλ₂ of φ₂ (22) and kλ₃ of φ₃ (23) hold the frame to the contact point.
+///
+/// Differences from the print, beyond the corrections in docs/elements/gear_pair.md: φ₂ and φ₃ treat both wheels alike,
+///
+///     φ₂ = (x_C^A − x_C^B)·½(η₃^A + η₃^B),   φ₃ = ½(η₂^A·η₃^B − η₃^A·η₂^B),
+///
+/// and the separating force acts at the point midway between the contact points of A and B. Where the wheels are aligned
+/// this is the paper's; where supports bend, wheels may be exchanged and the pair stays in equilibrium by itself exactly.
+class GearPair final : public TemplatedElement<GearPair, 2, 18> {
+ public:
+  struct Options {
+    bool separation = true;  ///< the radial force (34, 35)
+    double width = 0;        ///< face width, for pictures; 0: 10 m_n
+  };
+
+  /// `teeth.stiffness` 0: rigid teeth.
+  GearPair(int id, std::array<int, 2> nodes, const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth,
+           Options options);
+
+  const GearDesign& design() const { return design_; }
+  const PitchFrames& frames() const { return frames_; }
+  const ToothLaw& teeth() const { return teeth_; }
+
+  void start(std::span<double> scalars, std::span<double> history) const override;
+  void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
+  Energies energies(const State& state) const override;
+  const std::vector<Named>& channels() const override { return channels_; }
+  void observe(const State& state, std::span<double> values) const override;
+  std::vector<Derived> derived() const override;
+  Drawing drawing() const override;
+
+ private:
+  friend class TemplatedElement<GearPair, 2, 18>;
+
+  /// A wheel's directions in the current configuration, global components.
+  template <class T>
+  struct Wheel {
+    Vec3T<T> axle;    ///< μ₁″ or ξ₁″
+    Vec3T<T> radius;  ///< r μ₂″ or r ξ₂″ (11)
+    Vec3T<T> eta_2;   ///< across the tooth, from A to B
+    Vec3T<T> eta_3;   ///< along the circumference, normal to the tooth's middle plane
+  };
+  /// From the wheel's rotation and turn ψ, by (4), (16) and (6) or (8).
+  template <class T>
+  Wheel<T> wheel(std::size_t i, const Mat3T<T>& R, const T& psi) const;
+
+  template <class T>
+  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const;
+
+  bool elastic() const { return teeth_.stiffness > 0; }
+  /// 2π (z_A n_A + z_B n_B), of the whole turns counted: the integers cancel before they are rounded.
+  double counted_phase(std::span<const double> history) const;
+  /// u_m + x_err
+  double approach(const State& state) const;
+
+  GearDesign design_;
+  PitchFrames frames_;
+  ToothLaw teeth_;
+  Options options_;
+  std::array<Mat3, 2> triad_;     ///< columns μ, ξ in the reference configuration
+  std::array<Mat3, 2> tooth_;     ///< Y_A, Y_B
+  std::array<double, 2> radius_;  ///< r
+  double cos_alpha_, sin_alpha_;
+  std::vector<Named> channels_;
+};
+
+}  // namespace engrane
