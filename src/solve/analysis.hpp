@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "solve/newton.hpp"
+#include "solve/start.hpp"
+
+namespace engrane {
+
+/// What every analysis works with; made once per run, outlives the analysis.
+struct Workbench {
+  Workbench(const Model& model, MPI_Comm comm);
+
+  const Model& model;
+  Numbering numbering;
+  Assembler assembler;
+  LinearSolver solver;
+  Newton newton;
+  MotionSlots motion;
+  Start start;
+};
+
+/// One way of going from one instant to the next.
+class Analysis {
+ public:
+  explicit Analysis(Workbench& bench) : bench_(bench) {}
+  virtual ~Analysis() = default;
+  Analysis(const Analysis&) = delete;
+  Analysis& operator=(const Analysis&) = delete;
+
+  /// Makes the given configuration a solution at c.time. Throws SolutionFailure.
+  virtual StartReport start(Configuration& c) = 0;
+  /// Tries a step of h from an accepted configuration; `to` is a solution when the report says converged.
+  virtual NewtonReport attempt(const Configuration& from, double h, Configuration& to) = 0;
+  /// The last attempt stands.
+  virtual void accept() {}
+
+ protected:
+  /// Displacements of the prescribed slots between two times, written into a flat step.
+  void prescribe_step(double from, double to, std::span<double> y) const;
+  /// Moves the reference configuration to the initial displacements and supports of the deck.
+  void apply_initial_displacements(Configuration& c) const;
+  void apply_initial_velocities(Configuration& c) const;
+  /// Fails a converged step in which a node turned so far that turns can no longer be counted.
+  void refuse_half_turns(std::span<const double> y, NewtonReport& report) const;
+  /// Multipliers of `c` in the scaled unknowns of the solver, and back.
+  void multipliers_to_unknowns(const Configuration& c, std::span<double> unknowns) const;
+  void unknowns_to_multipliers(std::span<const double> unknowns, Configuration& c) const;
+
+  Workbench& bench_;
+};
+
+/// The analysis that `.SAM` asks for.
+std::unique_ptr<Analysis> make_analysis(Workbench& bench);
+
+/// What the run tells about each accepted step.
+struct StepReport {
+  int number = 0;   ///< from 1; 0 is the start
+  double step = 0;  ///< h
+  int cuts = 0;     ///< failed attempts before this one
+  const NewtonReport* newton = nullptr;
+};
+
+/// Called with the start and every accepted step; false ends the run early.
+using Observer = std::function<bool(const Configuration&, const StepReport&)>;
+
+/// Runs from the start to the end of `.SUB`, cutting steps that fail. Throws SolutionFailure when cutting does not help.
+/// Returns false when the observer ended it.
+bool run(Workbench& bench, Analysis& analysis, const Observer& observer,
+         const std::function<void(const StartReport&)>& started);
+
+}  // namespace engrane

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/transient.hpp"
+
+#include <cmath>
+
+#include "solve/statics.hpp"
+
+namespace engrane {
+
+AlphaScheme AlphaScheme::chung(double rho) {
+  AlphaScheme s;
+  s.alpha_m = (2 * rho - 1) / (rho + 1);
+  s.alpha_f = rho / (rho + 1);
+  s.gamma = 0.5 + s.alpha_f - s.alpha_m;
+  s.beta = 0.25 * (s.gamma + 0.5) * (s.gamma + 0.5);
+  return s;
+}
+
+AlphaScheme AlphaScheme::newmark() { return {0, 0, 0.25, 0.5}; }
+
+AlphaScheme AlphaScheme::hht(double alpha) { return {0, alpha, 0.25 * (1 + alpha) * (1 + alpha), 0.5 + alpha}; }
+
+AlphaScheme AlphaScheme::bossak(double alpha) { return {-alpha, 0, 0.25 * (1 + alpha) * (1 + alpha), 0.5 + alpha}; }
+
+namespace {
+
+AlphaScheme scheme_of(const deck::AnalysisCard& card) {
+  if (card.scheme.is("NEWMARK")) return AlphaScheme::newmark();
+  if (card.scheme.is("HHT")) return AlphaScheme::hht(card.alpha.value_or(0.05));
+  if (card.scheme.is("BOSSAK")) return AlphaScheme::bossak(card.alpha.value_or(0.05));
+  return AlphaScheme::chung(card.rho.value_or(0.8));
+}
+
+}  // namespace
+
+Transient::Transient(Workbench& bench) : Analysis(bench), scheme_(scheme_of(bench.model.commands.analysis)) {
+  *unknowns_.out() = bench.assembler.new_vector();
+}
+
+StartReport Transient::start(Configuration& c) {
+  StartReport report;
+  if (bench_.model.commands.analysis.start.is("STATIC")) {
+    report = Statics(bench_).start(c);
+  } else {
+    apply_initial_displacements(c);
+    bench_.start.assemble(c, report);
+  }
+  apply_initial_velocities(c);
+  bench_.start.fit_velocities(c, Assembler::Metric::mass, report);
+  bench_.start.balance_accelerations(c);
+  start_algorithmic_accelerations(c);
+  return report;
+}
+
+void Transient::start_algorithmic_accelerations(const Configuration& c) {
+  // a_0 = v̇(t_0 + (α_m − α_f) h) to second order, or multipliers lose an order at first (Arnold, Brüls and Cardona
+  // 2015); the slope of v̇ is taken from a consistent acceleration one step ahead
+  const double h = bench_.model.commands.stepping.step;
+  algorithmic_ = bench_.motion.accelerations(c);
+  step_of_algorithmic_ = h;
+  if (scheme_.alpha_m == scheme_.alpha_f) return;
+  const auto v = bench_.motion.velocities(c);
+  std::vector<double> y(v.size()), ahead(v.size());
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    y[i] = h * (v[i] + 0.5 * h * algorithmic_[i]);
+    ahead[i] = v[i] + h * algorithmic_[i];
+  }
+  Configuration later = c;
+  later.time = c.time + h;
+  prescribe_step(c.time, later.time, y);
+  bench_.motion.move(c, y, later);
+  bench_.motion.set_velocities(ahead, later);
+  bench_.start.balance_accelerations(later);
+  const auto next = bench_.motion.accelerations(later);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    algorithmic_[i] += (scheme_.alpha_m - scheme_.alpha_f) * (next[i] - algorithmic_[i]);
+}
+
+NewtonReport Transient::attempt(const Configuration& from, double h, Configuration& to) {
+  const auto [am, af, beta, gamma] = scheme_;
+  const Weights weights{1, gamma / (beta * h), (1 - am) / ((1 - af) * beta * h * h)};
+  if (std::abs(h - scaled_for_) > 1e-6 * h) {
+    bench_.assembler.choose_scale(from, weights, bench_.model.commands.analysis.scale.value_or(0));
+    scaled_for_ = h;
+  }
+  const auto v0 = bench_.motion.velocities(from), vdot0 = bench_.motion.accelerations(from);
+  std::vector<double> a0 = algorithmic_;
+  // a_n is v̇ shifted by (α_m − α_f) h: another h, another shift
+  if (h != step_of_algorithmic_)
+    for (std::size_t i = 0; i < a0.size(); ++i) a0[i] = vdot0[i] + h / step_of_algorithmic_ * (a0[i] - vdot0[i]);
+
+  const std::size_t n = bench_.motion.size();
+  std::vector<double> y(n), v(n), vdot(n);
+  tried_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) y[i] = h * (v0[i] + 0.5 * h * a0[i]);
+  to = from;
+  to.time = from.time + h;
+  for (std::size_t slot = 0; slot < n; ++slot)
+    if (bench_.numbering.equation(static_cast<int>(slot)) < 0) y[slot] = 0;
+  prescribe_step(from.time, to.time, y);
+  const auto prescribed = bench_.motion.prescribed(to.time);
+
+  std::vector<double> guess(static_cast<std::size_t>(bench_.numbering.equations()), 0.0);
+  for (std::size_t e = 0; e < guess.size(); ++e)
+    if (const Unknown& u = bench_.numbering.unknown(static_cast<int>(e)); !u.multiplier)
+      guess[e] = y[static_cast<std::size_t>(u.slot)];
+  multipliers_to_unknowns(from, guess);
+
+  const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
+    bench_.motion.scatter(unknowns, y);
+    for (std::size_t i = 0; i < n; ++i) {
+      tried_[i] = (y[i] / h - v0[i] - (0.5 - beta) * h * a0[i]) / (beta * h);
+      v[i] = v0[i] + h * ((1 - gamma) * a0[i] + gamma * tried_[i]);
+      vdot[i] = ((1 - am) * tried_[i] + am * a0[i] - af * vdot0[i]) / (1 - af);
+      if (bench_.numbering.equation(static_cast<int>(i)) < 0) tried_[i] = v[i] = vdot[i] = 0;
+    }
+    for (const auto& p : prescribed) {
+      v[p.slot] = p.v;
+      tried_[p.slot] = vdot[p.slot] = p.a;
+    }
+    bench_.motion.move(from, y, c);
+    bench_.motion.set_velocities(v, c);
+    bench_.motion.set_accelerations(vdot, c);
+    unknowns_to_multipliers(unknowns, c);
+  };
+  bench_.assembler.spread(guess, unknowns_);
+  NewtonReport report = bench_.newton.solve(unknowns_, weights, apply, to);
+  refuse_half_turns(y, report);
+  tried_step_ = h;
+  return report;
+}
+
+void Transient::accept() {
+  algorithmic_ = tried_;
+  step_of_algorithmic_ = tried_step_;
+}
+
+}  // namespace engrane
