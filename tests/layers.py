@@ -3,9 +3,9 @@
 
     layers.py [root]
 
-Which layer may include which, and which foreign library, stands in src/CMakeLists.txt and nowhere else. Beside
-it: no code file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, no circle of
-layers.
+Which layer may include which, and which foreign library, stands in src/CMakeLists.txt and nowhere else. The
+rest: no code file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, no layers in a
+circle.
 """
 
 import re
