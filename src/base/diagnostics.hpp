@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <iosfwd>
 #include <string>
 #include <string_view>
@@ -31,6 +32,7 @@ class SourceMap {
 
   /// One line without its end-of-line characters; empty when the line does not exist.
   std::string_view line(int file, int number) const;
+  int line_count(int file) const;
 
  private:
   struct File {

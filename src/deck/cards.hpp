@@ -43,7 +43,7 @@ struct FrameCard {
 struct GroupCard {
   int number = 0;
   std::string name;
-  Tagged kind{"NODES", {}};     ///< NODES, ELEMENTS
+  Tagged kind{"NODES", {}};     ///< NODES, ELEMENTS, FACES (recognised, refused)
   bool all = false;             ///< TOUT
   std::vector<int> ids;         ///< ids and ranges `1 A 20`, expanded by the reader
   std::vector<std::string> united;  ///< UNION: names or numbers of groups
@@ -83,7 +83,7 @@ struct LoadCard : NodeTarget {
   int function = 0;
 };
 
-/// `.CLM STRU ACC VAL gx gy gz [NF f]`: acceleration of gravity on all masses.
+/// `.CLM STRU ACC VAL gx gy gz [NF f]` (`STRUCTURE`): acceleration of gravity on all masses.
 struct GravityCard {
   std::array<double, 3> acceleration{0, 0, 0};
   int function = 0;
@@ -103,9 +103,10 @@ struct FunctionCard {
 
 /// `.INI DEP|VIT NOEUD n C c V value`: initial displacements and velocities, a wish unless IMPOSED.
 struct InitialCard : NodeTarget {
-  Tagged kind;  ///< DISPLACEMENT, VELOCITY
+  Tagged kind;  ///< DISPLACEMENT, VELOCITY: from the record key
   std::vector<int> components;
   std::vector<double> values;
+  bool imposed = false;  ///< must hold exactly: an error when the joints do not allow it
 };
 
 /// `.SAM TYPE STATIC|KINEMATIC|DYNAMIC …`: analysis, scheme and solver.

@@ -110,8 +110,9 @@ Field::Values load_values(const M& member) {
 }  // namespace detail
 
 template <class Data>
-template <class Member>
-FieldBuilder Card<Data>::add(std::string keyword, Member Data::*member, std::string help) {
+template <class Member, class Owner>
+FieldBuilder Card<Data>::add(std::string keyword, Member Owner::*member, std::string help) {
+  static_assert(std::is_base_of_v<Owner, Data>, "a keyword binds to a member of the card's own struct");
   Field field;
   field.keyword = std::move(keyword);
   field.help = std::move(help);
@@ -122,6 +123,33 @@ FieldBuilder Card<Data>::add(std::string keyword, Member Data::*member, std::str
   field.load = [member](const std::any& data) { return detail::load_values(std::any_cast<const Data&>(data).*member); };
   schema_.fields.push_back(std::move(field));
   return FieldBuilder(schema_, schema_.fields.size() - 1);
+}
+
+template <class Data>
+template <class Member>
+FieldBuilder Card<Data>::add_part(std::string keyword, std::string whole, int part, Member Data::*member, std::string help) {
+  static_assert(detail::is_array<Member>::value, "only an array has parts");
+  Field field;
+  field.keyword = std::move(keyword);
+  field.help = std::move(help);
+  detail::shape_field<typename Member::value_type>(field);
+  field.whole = std::move(whole);
+  field.part = part;
+  field.store = [member, part](std::any& data, const Field::Values& values) {
+    detail::store_values((std::any_cast<Data&>(data).*member)[static_cast<std::size_t>(part)], values);
+  };
+  field.load = [](const std::any&) { return Field::Values{}; };  // the whole is written out, not its parts
+  schema_.fields.push_back(std::move(field));
+  return FieldBuilder(schema_, schema_.fields.size() - 1);
+}
+
+template <class Data>
+template <class Check>
+Card<Data>& Card<Data>::finish(Check check) {
+  schema_.finish = [check](Record& record, Diagnostics& diagnostics) {
+    check(std::any_cast<Data&>(record.data), record, diagnostics);
+  };
+  return *this;
 }
 
 }  // namespace engrane::deck

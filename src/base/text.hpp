@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace engrane {
+
+/// ASCII upper case; other bytes are left alone, so that Latin-1 and UTF-8 both survive.
+std::string upper(std::string_view text);
+
+/// Do two words differ in nothing but ASCII case?
+bool same_word(std::string_view a, std::string_view b);
+
+/// Is `start` the beginning of `word`, whatever the case?
+bool begins_with_word(std::string_view word, std::string_view start);
+
+/// `a, b and c`; `last` joins the final two.
+std::string join(const std::vector<std::string>& words, std::string_view last = " and ");
+
+/// The shortest spelling that reads back as exactly the same number: `0.1`, `2.1e+08`, `-3`.
+std::string format_number(double value);
+
+/// `1 value`, `3 values`.
+std::string counted(std::size_t count, std::string_view noun);
+
+/// Bytes of the character that starts at `text[i]`: 1 to 4 for valid UTF-8, 1 for any other byte.
+std::size_t character_size(std::string_view text, std::size_t i);
+
+/// Number of characters as a terminal shows them: UTF-8 sequences count once, other bytes one each.
+std::size_t character_count(std::string_view text);
+
+/// Valid, printable UTF-8: stray bytes are taken as Latin-1, control characters become `?`, tabs become blanks.
+std::string printable(std::string_view text);
+
+/// A JSON string with its quotes.
+std::string json_string(std::string_view text);
+
+/// Text broken at blanks into lines of at most `width` characters (a longer word keeps a line to itself).
+std::vector<std::string> wrap(std::string_view text, std::size_t width);
+
+}  // namespace engrane

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.hpp"
+
+namespace engrane::deck {
+
+/// The `ABRE '/name' 'text'` definitions of a deck. A text may use other names; they are looked up when it is used.
+class Abbreviations {
+ public:
+  /// Defines a name (again: the last text counts).
+  void define(std::string name, std::string text);
+
+  /// The longest defined name that `text` starts with, or nothing.
+  std::string_view longest_at(std::string_view text) const;
+
+  /// The text of a defined name, as given.
+  const std::string& text(std::string_view name) const { return texts_.find(name)->second; }
+
+  /// The text of a defined name with all names in it replaced. Cycles and runaway growth are errors at `where`.
+  std::string expand(std::string_view name, const Location& where, Diagnostics& diagnostics) const;
+
+  /// All names, for "did you mean".
+  std::vector<std::string> names() const;
+
+ private:
+  std::map<std::string, std::string, std::less<>> texts_;
+  std::size_t longest_name_ = 0;
+};
+
+}  // namespace engrane::deck

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/record_reader.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "base/text.hpp"
+#include "deck/matching.hpp"
+
+namespace engrane::deck {
+
+/// A record half read.
+struct RecordReader::Reading {
+  Record& record;
+  const Schema& schema;
+  const RecordKeys& keys;
+  std::map<std::string, Location, std::less<>> given;  ///< keyword → where its values are
+  std::map<std::string, std::size_t, std::less<>> counts;  ///< how many numbers a keyword had, for wholes and parts
+  bool past_leads = false;  ///< a keyword that does not lead was given
+};
+
+std::string record_title(const Schema& schema, int id) {
+  return id == 0 ? schema.name : schema.name + " " + std::to_string(id);
+}
+
+void RecordReader::read(Record& record, const RecordKeys& keys, const std::vector<Heading>& headings) {
+  Reading reading{record, *record.schema, keys, {}, {}};
+  while (!at_boundary(tokens_, keys) && !begins_next(reading)) read_item(reading);
+  for (const Heading& heading : headings) {
+    if (reading.given.contains(heading.field->keyword)) continue;
+    heading.field->store(record.data, heading.values);
+    record.field_locations[heading.field->keyword] = heading.where;
+  }
+  finish(reading);
+}
+
+/// `FIX NOEUD 1 C 1 NOEUD 2 C 3`: the second NOEUD begins another FIX.
+bool RecordReader::begins_next(const Reading& reading) {
+  const Token& token = tokens_.peek();
+  if (!token.is_word() || !reading.past_leads) return false;
+  const Match<Field> match = match_field(reading.schema, token.text);
+  if (!match.entry || !match.entry->leads) return false;
+  return std::any_of(reading.schema.fields.begin(), reading.schema.fields.end(),
+                     [&](const Field& field) { return field.leads && reading.given.contains(field.keyword); });
+}
+
+/// The first positional field that was not given and can take the token.
+const Field* RecordReader::positional_field(const Reading& reading, const Token& token) const {
+  for (const Field& field : reading.schema.fields) {
+    if (!field.positional || reading.given.contains(field.keyword)) continue;
+    const bool text = field.type == FieldType::text;
+    if (token.kind == Token::Kind::text && text) return &field;
+    if (token.is_number() && (field.type == FieldType::integer || field.type == FieldType::real)) return &field;
+    if (token.is_number() && text && field.reference == Reference::group) return &field;
+    if (!token.is_word()) continue;
+    if (text) return &field;
+    if (field.type == FieldType::choice && match_option(field, token.text).entry) return &field;
+    const bool ids = field.type == FieldType::integer && field.reference != Reference::nothing;
+    if (ids && same_word(token.text, "I")) return &field;  // the range I a J b K c
+  }
+  return nullptr;
+}
+
+void RecordReader::read_item(Reading& reading) {
+  const Token token = tokens_.peek();
+  if (!token.fault.empty() && token.is_word()) {
+    tokens_.take();
+    reading.record.faulty = true;
+    return;
+  }
+  Match<Field> match;
+  if (token.is_word()) match = match_field(reading.schema, token.text);
+  if (match.exact) {
+    tokens_.take();
+    return read_field(reading, *match.entry, &token);
+  }
+  if (const Field* field = positional_field(reading, token)) return read_field(reading, *field, nullptr);
+  if (match.entry) {
+    tokens_.take();
+    return read_field(reading, *match.entry, &token);
+  }
+  unknown_item(reading);
+}
+
+void RecordReader::read_field(Reading& reading, const Field& field, const Token* keyword) {
+  const Location start = keyword ? keyword->where : tokens_.peek().where;
+  FieldReading result = values_.read(field, reading.schema, reading.keys, start);
+  if (!field.leads) reading.past_leads = true;
+  const std::size_t count = result.values.numbers.size();
+  if (given_twice(reading, field, count, start)) return;
+  reading.given[field.keyword] = start;
+  reading.counts[field.keyword] = count;
+  Record& record = reading.record;
+  record.field_locations[field.keyword] = result.where;
+  if (!field.whole.empty()) record.field_locations.try_emplace(field.whole, result.where);
+  if (result.faulty)
+    record.faulty = true;
+  else
+    field.store(record.data, result.values);
+}
+
+/// Also `X 0 1 2 Y 3`, which gives the second coordinate twice.
+bool RecordReader::given_twice(Reading& reading, const Field& field, std::size_t count, const Location& where) {
+  const Field* clash = nullptr;
+  if (reading.given.contains(field.keyword)) clash = &field;
+  for (const Field& other : reading.schema.fields) {
+    if (!reading.given.contains(other.keyword)) continue;
+    if (other.whole == field.keyword && count > static_cast<std::size_t>(other.part)) clash = &other;
+    if (field.whole == other.keyword && reading.counts[other.keyword] > static_cast<std::size_t>(field.part)) clash = &other;
+  }
+  if (!clash) return false;
+  const Location& first = reading.given[clash->keyword];
+  diagnostics_.error(where, field.keyword + " is given twice in " + record_title(reading.schema, reading.record.id),
+                     clash == &field ? "first in line " + std::to_string(first.line)
+                                     : "already given by " + clash->keyword + " in line " + std::to_string(first.line));
+  reading.record.faulty = true;
+  return true;
+}
+
+void RecordReader::unknown_item(Reading& reading) {
+  const Token token = tokens_.take();
+  reading.record.faulty = true;
+  const std::string title = record_title(reading.schema, reading.record.id);
+  if (!token.is_word()) {
+    if (!token.fault.empty()) return;
+    const std::string what = token.kind == Token::Kind::text ? "\"" + token.text + "\"" : "`" + token.text + "`";
+    diagnostics_.error(token.where, what + " belongs to no keyword of " + title);
+    while (!tokens_.peek().is_word() && !at_boundary(tokens_, reading.keys)) tokens_.skip();
+    return;
+  }
+  const Match<Field> match = match_field(reading.schema, token.text);
+  const std::size_t equals = token.text.find('=');
+  if (match.ambiguous()) {
+    diagnostics_.error(token.where, "`" + token.text + "` is short for several keywords of " + reading.schema.name,
+                       "write " + join(match.candidates, " or "));
+  } else if (equals != std::string::npos) {
+    diagnostics_.error(token.where, "`" + token.text + "` is not a keyword of " + reading.schema.name,
+                       "values follow their keyword behind a blank, without `=`");
+  } else if (token.text.front() == '.') {
+    diagnostics_.error(token.where, "`" + token.text + "` is not a keyword of " + reading.schema.name,
+                       "a command must be the first word of its line");
+  } else {
+    std::string hint = did_you_mean(token.text, field_words(reading.schema));
+    if (hint.empty()) {
+      std::vector<std::string> names;
+      for (const Field& field : reading.schema.fields) names.push_back(field.keyword);
+      hint = names.size() > 24 ? "`engrane help " + reading.schema.name + "` lists its keywords" : "it has " + join(names);
+      if (names.empty()) hint = "it takes no keywords";
+    }
+    diagnostics_.error(token.where, "`" + token.text + "` is not a keyword of " + reading.schema.name, hint);
+  }
+  while (!tokens_.peek().is_word() && !at_boundary(tokens_, reading.keys)) tokens_.skip();
+}
+
+void RecordReader::finish(Reading& reading) {
+  Record& record = reading.record;
+  std::vector<std::string> missing;
+  std::vector<std::string> explained;
+  for (const Field& field : reading.schema.fields) {
+    if (!field.required || record.given(field.keyword)) continue;
+    missing.push_back(field.keyword);
+    explained.push_back(field.keyword + ": " + field.help);
+  }
+  if (!missing.empty() && !record.faulty) {
+    diagnostics_.error(record.location, record_title(reading.schema, record.id) + " lacks " + join(missing), join(explained, "; "));
+    record.faulty = true;
+  }
+  if (!record.faulty && reading.schema.finish) {
+    const int before = diagnostics_.errors();
+    reading.schema.finish(record, diagnostics_);
+    record.faulty = diagnostics_.errors() > before;
+  }
+}
+
+std::vector<Heading> RecordReader::read_headings(const Schema& schema, const RecordKeys& keys) {
+  std::vector<Heading> headings;
+  while (!at_boundary(tokens_, keys)) {
+    const Token token = tokens_.take();
+    const Match<Field> match = token.is_word() ? match_field(schema, token.text) : Match<Field>{};
+    if (match.entry && match.entry->heading) {
+      FieldReading result = values_.read(*match.entry, schema, keys, token.where);
+      if (!result.faulty) headings.push_back({match.entry, std::move(result.values), result.where});
+      continue;
+    }
+    if (token.fault.empty())
+      diagnostics_.error(token.where, "expected `" + keys.number_key + "` and a number instead of `" + token.text + "`",
+                         "a record of " + std::string(schema.command()) + " starts with `" + keys.number_key + " 1`");
+    skip_record(keys);
+  }
+  return headings;
+}
+
+void RecordReader::skip_record(const RecordKeys& keys) {
+  while (!at_boundary(tokens_, keys)) tokens_.skip();
+}
+
+}  // namespace engrane::deck
