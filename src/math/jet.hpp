@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace engrane {
+
+/// Value and first three derivatives of a function of one variable at one place.
+struct Jet {
+  double f = 0;
+  double d1 = 0;
+  double d2 = 0;
+  double d3 = 0;
+};
+
+}  // namespace engrane

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "math/spline.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace engrane {
+
+namespace {
+
+/// Does the gap between the last abscissa and one period after the first count as none?
+bool closes(double gap, double period) { return gap <= 1e-12 * period; }
+
+/// Solves a symmetric, diagonally dominant tridiagonal system in place: d the diagonal, e beside it, b the right side.
+void solve_tridiagonal(std::vector<double> d, const std::vector<double>& e, std::vector<double>& b) {
+  const std::size_t n = d.size();
+  for (std::size_t i = 1; i < n; ++i) {
+    const double w = e[i - 1] / d[i - 1];
+    d[i] -= w * e[i - 1];
+    b[i] -= w * b[i - 1];
+  }
+  for (std::size_t i = n; i-- > 0;) b[i] = (b[i] - (i + 1 < n ? e[i] * b[i + 1] : 0)) / d[i];
+}
+
+/// The cyclic system of a periodic spline: the same with a corner entry e[n-1], by Sherman and Morrison.
+void solve_cyclic(std::vector<double> d, const std::vector<double>& e, std::vector<double>& b) {
+  const std::size_t n = d.size();
+  const double corner = e[n - 1];
+  const double g = -d[0];
+  d[0] -= g;
+  d[n - 1] -= corner * corner / g;
+  std::vector<double> u(n, 0.0);
+  u[0] = g;
+  u[n - 1] = corner;
+  solve_tridiagonal(d, e, b);
+  solve_tridiagonal(d, e, u);
+  const double r = corner / g;
+  const double factor = (b[0] + r * b[n - 1]) / (1 + u[0] + r * u[n - 1]);
+  for (std::size_t i = 0; i < n; ++i) b[i] -= factor * u[i];
+}
+
+}  // namespace
+
+void Curve::sum_areas(double end) {
+  double area = 0;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    Piece& p = pieces_[i];
+    p.area = area;
+    const double s = (i + 1 < pieces_.size() ? pieces_[i + 1].x0 : end) - p.x0;
+    area += s * (p.c0 + s * (p.c1 / 2 + s * (p.c2 / 3 + s * p.c3 / 4)));
+  }
+  area_of_period_ = area;
+  from_start_to_zero_ = 0;
+  from_start_to_zero_ = from_start(0);
+}
+
+Curve Curve::lines(std::span<const double> x, std::span<const double> y, std::optional<double> period) {
+  assert(!x.empty() && x.size() == y.size());
+  const std::size_t n = x.size();
+  Curve curve;
+  curve.period_ = period;
+  curve.held_ = true;
+  for (std::size_t i = 0; i + 1 < n; ++i) curve.pieces_.push_back({x[i], y[i], (y[i + 1] - y[i]) / (x[i + 1] - x[i])});
+  const double gap = period ? *period - (x[n - 1] - x[0]) : 0;
+  if (!period || (n == 1 && closes(gap, *period)))
+    curve.pieces_.push_back({x[n - 1], y[n - 1]});
+  else if (!closes(gap, *period))
+    curve.pieces_.push_back({x[n - 1], y[n - 1], (y[0] - y[n - 1]) / gap});
+  curve.sum_areas(period ? x[0] + *period : x[n - 1]);
+  return curve;
+}
+
+Curve Curve::hermite(std::span<const double> x, std::span<const double> y, std::span<const double> slope) {
+  Curve curve;
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    const double h = x[i + 1] - x[i];
+    const double secant = (y[i + 1] - y[i]) / h;
+    curve.pieces_.push_back(
+        {x[i], y[i], slope[i], (3 * secant - 2 * slope[i] - slope[i + 1]) / h, (slope[i] + slope[i + 1] - 2 * secant) / (h * h)});
+  }
+  return curve;
+}
+
+Curve Curve::natural_spline(std::span<const double> x, std::span<const double> y) {
+  assert(!x.empty() && x.size() == y.size());
+  const std::size_t n = x.size();
+  if (n == 1) return lines(x, y);
+  // unknown slopes; rows scaled by 1/h are symmetric
+  std::vector<double> d(n), e(n), m(n);
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double w = 1 / (x[i + 1] - x[i]);
+    const double load = 3 * w * w * (y[i + 1] - y[i]);
+    d[i] += 2 * w;
+    d[i + 1] += 2 * w;
+    e[i] = w;
+    m[i] += load;
+    m[i + 1] += load;
+  }
+  solve_tridiagonal(d, e, m);
+  Curve curve = hermite(x, y, m);
+  curve.pieces_.push_back({x[n - 1], y[n - 1], m[n - 1]});
+  curve.sum_areas(x[n - 1]);
+  return curve;
+}
+
+Curve Curve::periodic_spline(std::span<const double> x, std::span<const double> y, double period) {
+  assert(!x.empty() && x.size() == y.size() && period > 0);
+  std::vector<double> xs(x.begin(), x.end()), ys(y.begin(), y.end());
+  if (closes(period - (xs.back() - xs.front()), period)) {
+    assert(xs.size() > 1);
+    xs.pop_back();
+    ys.pop_back();
+  }
+  const std::size_t n = xs.size();
+  if (n == 1) return lines(xs, ys);
+  xs.push_back(xs.front() + period);
+  ys.push_back(ys.front());
+  std::vector<double> d(n), e(n), m(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double w = 1 / (xs[i + 1] - xs[i]);
+    const double load = 3 * w * w * (ys[i + 1] - ys[i]);
+    const std::size_t next = (i + 1) % n;
+    d[i] += 2 * w;
+    d[next] += 2 * w;
+    e[i] = w;
+    m[i] += load;
+    m[next] += load;
+  }
+  if (n == 2) {
+    // both neighbours of a point are the other one, so its two entries beside the diagonal meet in one place
+    const double beside = e[0] + e[1], determinant = d[0] * d[1] - beside * beside;
+    m = {(m[0] * d[1] - m[1] * beside) / determinant, (m[1] * d[0] - m[0] * beside) / determinant};
+  } else {
+    solve_cyclic(d, e, m);
+  }
+  m.push_back(m[0]);
+  Curve curve = hermite(xs, ys, m);
+  curve.period_ = period;
+  curve.sum_areas(xs.back());
+  return curve;
+}
+
+Curve::Place Curve::find(double x) const {
+  Place place;
+  if (period_) {
+    const double from_first = x - pieces_.front().x0;
+    place.turns = std::floor(from_first / *period_);
+    double local = std::fma(-place.turns, *period_, from_first);
+    // the quotient rounds: a hair before a whole turn may count as after it
+    if (local < 0) {
+      place.turns -= 1;
+      local += *period_;
+    } else if (local >= *period_) {
+      place.turns += 1;
+      local -= *period_;
+    }
+    x = pieces_.front().x0 + local;
+  }
+  auto after = std::upper_bound(pieces_.begin(), pieces_.end(), x, [](double v, const Piece& p) { return v < p.x0; });
+  if (after != pieces_.begin()) --after;
+  place.piece = &*after;
+  place.s = x - after->x0;
+  return place;
+}
+
+Jet Curve::at(double x) const {
+  const auto [p, s, turns] = find(x);
+  if (s < 0) {
+    // before the first point: held by lines, straight on for a spline, whose first piece has no curvature there
+    const double slope = held_ ? 0 : p->c1;
+    return {p->c0 + slope * s, slope, 0, 0};
+  }
+  return {p->c0 + s * (p->c1 + s * (p->c2 + s * p->c3)), p->c1 + s * (2 * p->c2 + 3 * s * p->c3), 2 * p->c2 + 6 * s * p->c3,
+          6 * p->c3};
+}
+
+double Curve::from_start(double x) const {
+  const auto [p, s, turns] = find(x);
+  if (s < 0) return s * (p->c0 + s / 2 * (held_ ? 0 : p->c1));
+  return turns * area_of_period_ + p->area + s * (p->c0 + s * (p->c1 / 2 + s * (p->c2 / 3 + s * p->c3 / 4)));
+}
+
+}  // namespace engrane

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/function.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "base/text.hpp"
+#include "math/expression.hpp"
+#include "math/spline.hpp"
+#include "model/function_integral.hpp"
+
+namespace engrane {
+
+namespace {
+
+class CurveFunction final : public Function {
+ public:
+  explicit CurveFunction(Curve curve) : curve_(std::move(curve)) {}
+  Jet at(double x) const override { return curve_.at(x); }
+  double integral(double x) const override { return curve_.integral(x); }
+
+ private:
+  Curve curve_;
+};
+
+class SinusFunction final : public Function {
+ public:
+  SinusFunction(double amplitude, double frequency, double phase_degrees, double mean)
+      : amplitude_(amplitude),
+        omega_(2 * std::numbers::pi * frequency),
+        phase_(std::fmod(phase_degrees, 360) * std::numbers::pi / 180),
+        mean_(mean) {}
+
+  Jet at(double x) const override {
+    const double s = amplitude_ * std::sin(omega_ * x + phase_), c = amplitude_ * std::cos(omega_ * x + phase_);
+    return {mean_ + s, omega_ * c, -omega_ * omega_ * s, -omega_ * omega_ * omega_ * c};
+  }
+  double integral(double x) const override {
+    // cos φ - cos(ωx + φ) = 2 sin(ωx/2) sin(ωx/2 + φ): nothing cancels for small ωx
+    const double half = omega_ * x / 2;
+    const double width = half == 0 ? x : x * std::sin(half) / half;
+    return mean_ * x + amplitude_ * width * std::sin(half + phase_);
+  }
+
+ private:
+  double amplitude_, omega_, phase_, mean_;
+};
+
+/// y0, then y0 + (y1 - y0)(10 s³ - 15 s⁴ + 6 s⁵), then y1.
+class StepFunction final : public Function {
+ public:
+  StepFunction(double t0, double y0, double t1, double y1) : t0_(t0), y0_(y0), width_(t1 - t0), rise_(y1 - y0) {
+    from_t0_to_zero_ = from_t0(0);
+  }
+
+  Jet at(double x) const override {
+    const double s = (x - t0_) / width_;
+    if (s < 0) return {y0_, 0, 0, 0};
+    if (s >= 1) return {y0_ + rise_, 0, 0, 0};
+    const double w = width_;
+    return {y0_ + rise_ * s * s * s * (10 + s * (6 * s - 15)), rise_ * 30 * s * s * (1 - s) * (1 - s) / w,
+            rise_ * 60 * s * (1 - s) * (1 - 2 * s) / (w * w), rise_ * (60 + 360 * s * (s - 1)) / (w * w * w)};
+  }
+  double integral(double x) const override { return from_t0(x) - from_t0_to_zero_; }
+
+ private:
+  double from_t0(double x) const {
+    const double s = (x - t0_) / width_;
+    if (s < 0) return y0_ * (x - t0_);
+    if (s >= 1) return y0_ * (x - t0_) + rise_ * width_ * (s - 0.5);
+    return y0_ * (x - t0_) + rise_ * width_ * s * s * s * s * (2.5 + s * (s - 3));
+  }
+  double t0_, y0_, width_, rise_;
+  double from_t0_to_zero_ = 0;
+};
+
+class FormulaFunction final : public Function {
+ public:
+  explicit FormulaFunction(Expression formula)
+      : formula_(std::move(formula)), integral_([this](double x) { return formula_.value(x); }) {}
+  Jet at(double x) const override { return formula_.at(x); }
+  double integral(double x) const override { return integral_(x); }
+
+ private:
+  Expression formula_;
+  PanelIntegral integral_;
+};
+
+/// Checks one record and builds its function.
+class Builder {
+ public:
+  Builder(const deck::Record& record, Diagnostics& diagnostics)
+      : record_(record), card_(*record.get<deck::FunctionCard>()), diagnostics_(diagnostics) {}
+
+  std::unique_ptr<Function> build() {
+    const std::vector<std::pair<std::string, bool>> forms{{"TABLE", !card_.table.empty()},
+                                                          {"SINUS", !card_.sinus.empty()},
+                                                          {"RAMP", !card_.ramp.empty()},
+                                                          {"STEP", !card_.step.empty()},
+                                                          {"EXPR", !card_.expression.empty()}};
+    std::vector<std::string> given;
+    for (const auto& [name, is_given] : forms)
+      if (is_given) given.push_back(name);
+    if (given.size() != 1) {
+      const std::string what = given.empty() ? " gives no values" : " is given by " + join(given) + " at once";
+      return fail(given.empty() ? record_.location : record_.where(given[1]), "function " + std::to_string(record_.id) + what,
+                  "give exactly one of TABLE, SINUS, RAMP, STEP or EXPR");
+    }
+    if (given[0] != "TABLE") {
+      if (card_.spline) return fail(record_.where("SPLINE"), "SPLINE joins the points of a TABLE; this function has none");
+      if (card_.period) return fail(record_.where("PERIOD"), "PERIOD repeats a TABLE; this function has none");
+    }
+    if (given[0] == "TABLE") return table();
+    if (given[0] == "SINUS") return sinus();
+    if (given[0] == "EXPR") return formula();
+    return transition(given[0], given[0] == "RAMP" ? card_.ramp : card_.step);
+  }
+
+ private:
+  std::unique_ptr<Function> fail(Location where, std::string message, std::string hint = {}) {
+    diagnostics_.error(where, std::move(message), std::move(hint));
+    return nullptr;
+  }
+
+  std::unique_ptr<Function> table() {
+    const Location where = record_.where("TABLE");
+    const std::vector<double>& t = card_.table;
+    if (t.size() % 2 != 0)
+      return fail(where, "TABLE has " + counted(t.size(), "number") + "; the last abscissa lacks its ordinate",
+                  "give abscissa and ordinate in turn");
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i < t.size(); i += 2) {
+      if (!x.empty() && t[i] <= x.back())
+        return fail(where,
+                    "the abscissas of TABLE must increase: point " + std::to_string(i / 2 + 1) + " at " + format_number(t[i]) +
+                        " follows one at " + format_number(x.back()),
+                    "give abscissa and ordinate in turn, the abscissas in increasing order");
+      x.push_back(t[i]);
+      y.push_back(t[i + 1]);
+    }
+    if (!card_.period) return std::make_unique<CurveFunction>(card_.spline ? Curve::natural_spline(x, y) : Curve::lines(x, y));
+
+    const double period = *card_.period, reach = x.back() - x.front();
+    const Location at_period = record_.where("PERIOD");
+    if (!(period > 0)) return fail(at_period, "PERIOD must be positive, not " + format_number(period));
+    if (reach > period * (1 + 1e-12))
+      return fail(at_period,
+                  "PERIOD " + format_number(period) + " is shorter than the table, which reaches over " + format_number(reach));
+    const bool whole = x.size() > 1 && period - reach <= 1e-12 * period;
+    if (card_.spline && whole && y.back() != y.front())
+      return fail(where,
+                  "a periodic spline must end where it began: the table starts with " + format_number(y.front()) +
+                      " and ends, one period later, with " + format_number(y.back()),
+                  "repeat the first ordinate or leave the last point out");
+    return std::make_unique<CurveFunction>(card_.spline ? Curve::periodic_spline(x, y, period) : Curve::lines(x, y, period));
+  }
+
+  std::unique_ptr<Function> sinus() {
+    const std::vector<double>& v = card_.sinus;
+    if (v.size() < 2 || v.size() > 4)
+      return fail(record_.where("SINUS"), "SINUS takes two to four numbers, not " + std::to_string(v.size()),
+                  "give amplitude, frequency [Hz], phase [degrees], mean");
+    return std::make_unique<SinusFunction>(v[0], v[1], v.size() > 2 ? v[2] : 0, v.size() > 3 ? v[3] : 0);
+  }
+
+  std::unique_ptr<Function> transition(const std::string& name, const std::vector<double>& v) {
+    if (v.size() != 4)
+      return fail(record_.where(name), name + " takes four numbers, not " + std::to_string(v.size()), "give t0 y0 t1 y1");
+    if (v[2] <= v[0])
+      return fail(record_.where(name),
+                  name + " must end after it starts: t1 = " + format_number(v[2]) + " is not beyond t0 = " + format_number(v[0]));
+    if (name == "STEP") return std::make_unique<StepFunction>(v[0], v[1], v[2], v[3]);
+    return std::make_unique<CurveFunction>(Curve::lines(std::vector{v[0], v[2]}, std::vector{v[1], v[3]}));
+  }
+
+  std::unique_ptr<Function> formula() {
+    Expression::Parsed parsed = Expression::parse(card_.expression);
+    if (parsed.good()) return std::make_unique<FormulaFunction>(std::move(parsed.expression));
+    const Expression::Fault& fault = parsed.fault;
+    Location where = record_.where("EXPR");
+    std::string message = fault.message;
+    // The caret can point into the text only where the deck holds it as it is, between its quotes.
+    const auto size = static_cast<int>(card_.expression.size());
+    if (where.known() && (where.length == size + 2 || where.length == size)) {
+      where.column += static_cast<int>(fault.at) + (where.length == size + 2 ? 1 : 0);
+      where.length = static_cast<int>(fault.length);
+    } else {
+      message += " (column " + std::to_string(fault.at + 1) + " of the expression \"" + card_.expression + "\")";
+    }
+    return fail(where, "EXPR: " + message, fault.hint);
+  }
+
+  const deck::Record& record_;
+  const deck::FunctionCard& card_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+std::unique_ptr<Function> make_function(const deck::Record& record, Diagnostics& diagnostics) {
+  return Builder(record, diagnostics).build();
+}
+
+}  // namespace engrane

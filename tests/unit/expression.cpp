@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "math/expression.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace engrane {
+namespace {
+
+double constant(std::string_view text) {
+  const Expression::Parsed parsed = Expression::parse(text, false);
+  EXPECT_TRUE(parsed.good()) << text << ": " << parsed.fault.message;
+  EXPECT_TRUE(parsed.expression.constant());
+  return parsed.expression.value(0);
+}
+
+Expression formula(std::string_view text) {
+  Expression::Parsed parsed = Expression::parse(text);
+  EXPECT_TRUE(parsed.good()) << text << ": " << parsed.fault.message;
+  return std::move(parsed.expression);
+}
+
+Expression::Fault fault(std::string_view text, bool variable = true) {
+  const Expression::Parsed parsed = Expression::parse(text, variable);
+  EXPECT_FALSE(parsed.good()) << text;
+  return parsed.fault;
+}
+
+TEST(Expression, ArithmeticOfFortran) {
+  EXPECT_EQ(constant("1+2*3"), 7);
+  EXPECT_EQ(constant("(1+2)*3"), 9);
+  EXPECT_EQ(constant("2**3**2"), 512);
+  EXPECT_EQ(constant("-2**2"), -4);
+  EXPECT_EQ(constant("(-2)**3"), -8);
+  EXPECT_EQ(constant("2**-1"), 0.5);
+  EXPECT_EQ(constant("2*-3"), -6);
+  EXPECT_EQ(constant("8/4/2"), 1);
+  EXPECT_EQ(constant("1-2-3"), -4);
+  EXPECT_EQ(constant("--1"), 1);
+  EXPECT_EQ(constant("1.5D3 + .5d0 + 2.E-1"), 1500.7);
+  EXPECT_EQ(constant("1.5+3"), 4.5);
+  EXPECT_EQ(constant("  Max( 1 , 3,2 ) - MIN(4)"), -1);
+  EXPECT_EQ(constant("atan2(1,-1)"), std::atan2(1, -1));
+  EXPECT_EQ(constant("1000/cos(20*PI/180)"), 1000 / std::cos(20 * std::numbers::pi / 180));
+  EXPECT_EQ(constant("-atan(5)*180/pi"), -std::atan(5.0) * 180 / std::numbers::pi);
+  EXPECT_EQ(constant("abs(log(exp(-2)))"), 2);
+}
+
+TEST(Expression, FaultsNameTheirPlace) {
+  const auto expect = [](std::string_view text, std::size_t at, std::string_view words, bool variable = true) {
+    const Expression::Fault f = fault(text, variable);
+    EXPECT_EQ(f.at, at) << text << ": " << f.message;
+    EXPECT_NE(f.message.find(words), std::string::npos) << text << ": " << f.message;
+  };
+  expect("", 0, "missing here");
+  expect("1+", 1, "missing here");
+  expect("1+*2", 2, "not `*`");
+  expect("2 T", 2, "operator is missing");
+  expect("(1+2", 0, "never closed");
+  expect("sin(1", 3, "never closed");
+  expect("1+2)", 3, "closes nothing");
+  expect("sin 1", 0, "parentheses");
+  expect("sine(1)", 0, "not known");
+  expect("T*2", 0, "not known", false);
+  expect("T+X", 2, "one variable");
+  expect("sin(1,2)", 0, "takes 1 argument");
+  expect("atan2(1)", 0, "takes 2 arguments");
+  expect("(1,2)", 2, "comma");
+  expect("3+1/0", 3, "not a finite");
+  expect("sqrt(-1)", 0, "not a finite");
+  expect("1e999", 0, "range");
+  expect("1 $ 2", 2, "operator is missing");
+  expect(std::string(200, '('), 99, "deep");
+  EXPECT_EQ(fault("sine(1)").hint, "did you mean sin?");
+}
+
+TEST(Expression, SurvivesDepthAndLength) {
+  fault(std::string(100000, '('));
+  std::string tower = "1";
+  for (int i = 0; i < 100000; ++i) tower += "**1";
+  fault(tower);
+  std::string chain = "T";
+  for (int i = 0; i < 10000; ++i) chain += "+T*1";
+  EXPECT_EQ(formula(chain).value(1), 10001);
+  EXPECT_EQ(formula(std::string(9999, '-') + "T").value(3), -3);
+  std::string nested = "T";
+  for (int i = 0; i < 40; ++i) nested = "(1+" + nested + ")";
+  EXPECT_EQ(formula(nested).value(2), 42);
+}
+
+/// Third-order Taylor agreement: f(t+h) minus the series shrinks as h⁴.
+void expect_series(std::string_view text, double t) {
+  const Expression f = formula(text);
+  const Jet j = f.at(t);
+  EXPECT_EQ(j.f, f.value(t)) << text;
+  const auto gap = [&](double h) { return std::abs(f.value(t + h) - (j.f + h * (j.d1 + h / 2 * (j.d2 + h / 3 * j.d3)))); };
+  const double large = gap(2e-2), small = gap(1e-2);
+  EXPECT_LE(small, std::max(large / 12, 1e-13 * (1 + std::abs(j.f)))) << text << " at " << t << ": " << large << " " << small;
+}
+
+TEST(Expression, DerivativesAreThoseOfTheFunction) {
+  for (const double t : {0.3, 0.71}) {
+    for (const std::string_view text :
+         {"sin(3*T)",     "cos(T**2)", "tan(T)",        "asin(T/2)", "acos(T/3)",     "atan(4*T)",   "atan2(T, 1-T)",
+          "sqrt(1+T**3)", "exp(-T)*T", "log(2+sin(T))", "abs(T-2)",  "min(T, T**2)",  "max(T, 1/T)", "T**2.5",
+          "T**T",         "2**T",      "T**-2",         "1/(1+T)",   "(1+T)/(2-T*T)", "X*(1-X)",     "3"})
+      expect_series(text, t);
+  }
+}
+
+TEST(Expression, ExactValuesOfDerivatives) {
+  const Jet cubic = formula("T**3 - 2*T").at(0);
+  EXPECT_EQ(cubic.f, 0);
+  EXPECT_EQ(cubic.d1, -2);
+  EXPECT_EQ(cubic.d2, 0);
+  EXPECT_EQ(cubic.d3, 6);
+  const Jet e = formula("exp(2*T)").at(0);
+  EXPECT_EQ(e.d3, 8);
+  const Jet constant_power = formula("(0*T)**0.5").at(1);
+  EXPECT_EQ(constant_power.d1, 0);
+}
+
+TEST(Expression, CornersTakeTheRight) {
+  EXPECT_EQ(formula("abs(T)").at(0).d1, 1);
+  EXPECT_EQ(formula("abs(1-T)").at(1).d1, 1);
+  EXPECT_EQ(formula("max(0, T-1)").at(1).d1, 1);
+  EXPECT_EQ(formula("max(T-1, 0)").at(1).d1, 1);
+  EXPECT_EQ(formula("min(0, T-1)").at(1).d1, 0);
+  EXPECT_EQ(formula("min(T-1, 0)").at(1).d1, 0);
+  EXPECT_EQ(formula("max(0, T**3)").at(0).d3, 6);
+}
+
+TEST(Expression, OutsideItsDomainNotANumber) {
+  EXPECT_TRUE(std::isnan(formula("sqrt(T)").value(-1)));
+  EXPECT_TRUE(std::isnan(formula("log(T)").at(-1).f));
+  EXPECT_FALSE(std::isfinite(formula("1/T").value(0)));
+}
+
+}  // namespace
+}  // namespace engrane
