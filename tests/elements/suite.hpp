@@ -58,20 +58,20 @@ class StateBuffer {
 
 /// The checks of the suite, to name one that does not apply.
 enum class Check {
-  tangent,        ///< tangent = derivative of the residual for q, v, a apart, rotations in the step's rotation vector
-  rates,          ///< constraint_rates = differences of Φ along the motion
-  ideal,          ///< constraint forces are Bᵀλ: the tangent's blocks are transposes of each other
-  lagrange,       ///< without multipliers the residual is Lagrange's equations of energies().kinetic and .potential
-  power,          ///< r·q̇ + λ·Φ̇ = d(kinetic + potential)/dt + dissipated − external
-  rigid,          ///< a rigid motion of the reference configuration makes no force
-  objectivity,    ///< a rigid rotation and shift of any state rotates the forces
-  rotated_copy,   ///< the element built in a rotated frame gives rotated forces
-  equilibrium,    ///< forces and moments of all nodes, the ground too, sum to zero
-  zero,           ///< the reference configuration at rest has no residual
-  needs,          ///< nothing depends on, or acts on, unknowns that the layout does not ask for
-  mass,           ///< the resistance to a common acceleration, and the weight, are those of Subject::mass
-  swap,           ///< the element with its nodes the other way round gives the same forces
-  finite,         ///< everything is finite
+  tangent,       ///< tangent = derivative of the residual for q, v, a apart, rotations in the step's rotation vector
+  rates,         ///< constraint_rates = differences of Φ along the motion
+  ideal,         ///< constraint forces are Bᵀλ: the tangent's blocks are transposes of each other
+  lagrange,      ///< without multipliers the residual is Lagrange's equations of energies().kinetic and .potential
+  power,         ///< r·q̇ + λ·Φ̇ = d(kinetic + potential)/dt + dissipated − external
+  rigid,         ///< a rigid motion of the reference configuration makes no force
+  objectivity,   ///< a rigid rotation and shift of any state rotates the forces
+  rotated_copy,  ///< the element built in a rotated frame gives rotated forces
+  equilibrium,   ///< forces and moments of all nodes, the ground too, sum to zero
+  zero,          ///< the reference configuration at rest has no residual
+  needs,         ///< nothing depends on, or acts on, unknowns that the layout does not ask for
+  mass,          ///< the resistance to a common acceleration, and the weight, are those of Subject::mass
+  swap,          ///< the element with its nodes the other way round gives the same forces
+  finite,        ///< everything is finite
 };
 
 /// An element under test.
@@ -82,19 +82,22 @@ struct Subject {
   std::function<std::unique_ptr<Element>(const Mat3& turn)> build;
   /// Bends a random state to where the element has a meaning (teeth in contact, lengths not zero); may be empty.
   std::function<void(StateBuffer&, Random&)> adjust = {};
-  double length = 1;        ///< size of random displacements, and unit of difference steps
-  double velocity = 1;      ///< size of random velocities and, per unit time, accelerations
-  double force = 1;         ///< size of random multipliers
-  double scalar = 1;        ///< size of random own unknowns
-  double penalty = 3;       ///< penalty p used in tangents
-  double turn = 3;          ///< largest random rotation, radians (from the reference orientation)
-  double step = 1e-3;       ///< of the sixth-order differences, as a fraction of the sizes above
-  double tolerance = 1e-8;  ///< relative, of everything compared with differences
-  int states = 4;           ///< number of random states
+  double length = 1;                ///< size of random displacements, and unit of difference steps
+  double velocity = 1;              ///< size of random velocities and, per unit time, accelerations
+  double force = 1;                 ///< size of random multipliers
+  double scalar = 1;                ///< size of random own unknowns
+  double penalty = 3;               ///< penalty p used in tangents
+  double turn = 3;                  ///< largest random rotation, radians (from the reference orientation)
+  double step = 1e-3;               ///< of the sixth-order differences, as a fraction of the sizes above
+  double tolerance = 1e-8;          ///< relative, of everything compared with differences
+  int states = 4;                   ///< number of random states
   std::optional<double> mass = {};  ///< of all nodes together
   /// The same element with its nodes the other way round, and how own unknowns and multipliers are carried over.
   std::function<std::unique_ptr<Element>()> build_swapped = {};
   std::function<void(const StateBuffer& state, StateBuffer& swapped)> carry = {};
+  /// The constraints' components are along axes of the element's own choice: `rotated_copy` then compares forces of the
+  /// penalised violations only, which no choice changes.
+  bool own_axes = false;
   std::map<Check, std::string> skip = {};  ///< checks that do not apply, each with its reason
 };
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "model/registry.hpp"
+
+namespace engrane {
+
+/// Card of a torsion spring. `TSPRING N a b AXIS x y z [K k] [C c] [ANGLE0 deg]`
+struct TorsionSpringData {
+  std::array<int, 2> nodes{};
+  std::array<double, 3> axis{};
+  double stiffness = 0;  ///< per radian
+  double damping = 0;
+  double angle0 = 0;  ///< at which the spring is relaxed, degrees
+};
+
+/// TSPRING (RESSORT_TORSION): spring and damper on the turn of node B relative to A about an axis held by A.
+ElementType torsion_spring_type();
+
+}  // namespace engrane
