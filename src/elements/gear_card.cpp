@@ -11,15 +11,14 @@
 #include <string_view>
 #include <utility>
 
+#include "elements/building.hpp"
+
 namespace engrane {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 /// Relative misfit of lengths up to which typed numbers count as equal.
 constexpr double typing_tolerance = 1e-6;
-
-Vec3 vector_of(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 /// A length as the user should read and may copy it.
 std::string number(double value) { return fmt::format("{:.10g}", std::abs(value) < 1e-12 ? 0.0 : value); }
@@ -61,7 +60,7 @@ std::optional<std::array<double, 2>> cones_of(const GearData& data, const Vec3& 
   if (data.internal) return internal_cones(data, context);
   if (data.shaft_angle) return bevel_cones(*data.shaft_angle * degree, data, x_b - x_a, axle);
   if (data.axis_b) {
-    const Vec3 axle_b = vector_of(*data.axis_b).normalized();
+    const Vec3 axle_b = to_vector(*data.axis_b).normalized();
     if (const auto shaft = shaft_angle_of_axles(x_a, axle, x_b, axle_b)) return bevel_cones(*shaft, data, x_b - x_a, axle);
   }
   return std::array<double, 2>{0, 0};
@@ -138,7 +137,7 @@ bool check_axle_b(const GearDesign& design, const GearData& data, const PitchFra
           "give AXISB to confirm; for parallel axles give HELIX one value, or opposite hands (equal hands inside a ring)");
     return true;
   }
-  const Vec3 given = vector_of(*data.axis_b).normalized();
+  const Vec3 given = to_vector(*data.axis_b).normalized();
   const double off = cross(given, needed).norm();
   if (off <= typing_tolerance) return true;
   const double angle = std::atan2(off, std::abs(given.dot(needed))) / degree;
@@ -301,22 +300,11 @@ const deck::Card<GearData>& gear_card() {
 }
 
 std::optional<GearPlacement> place_gear(const GearData& data, const BuildContext& context) {
-  if (data.nodes[0] == data.nodes[1]) {
-    context.error("N", fmt::format("both wheels are at node {}", data.nodes[0]), "give each wheel a node of its own");
-    return {};
-  }
-  bool good = true;
-  if (!(vector_of(data.axis).norm() > 0)) {
-    context.error("AXIS", "the axle of wheel A has no direction: AXIS is zero");
-    good = false;
-  }
-  if (data.axis_b && !(vector_of(*data.axis_b).norm() > 0)) {
-    context.error("AXISB", "the axle of wheel B has no direction: AXISB is zero");
-    good = false;
-  }
-  if (!good) return {};
-  const Vec3 axle = vector_of(data.axis).normalized(), x_a = context.nodes.at(data.nodes[0]),
-             x_b = context.nodes.at(data.nodes[1]);
+  const bool nodes_good = check_nodes(context, {data.nodes[0], data.nodes[1]});
+  const auto axle_given = unit_vector(context, "AXIS", data.axis);
+  const bool axle_b_good = !data.axis_b || unit_vector(context, "AXISB", *data.axis_b);
+  if (!nodes_good || !axle_given || !axle_b_good) return {};
+  const Vec3 axle = *axle_given, x_a = context.nodes.at(data.nodes[0]), x_b = context.nodes.at(data.nodes[1]);
   const auto cones = cones_of(data, x_a, x_b, axle, context);
   if (!cones) return {};
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "elements/gear_card.hpp"
+#include "elements/building.hpp"
 
 namespace engrane {
 
@@ -49,10 +49,6 @@ std::vector<Named> channel_list(bool elastic) {
 
 Vec3 vector_at(std::span<const double> values, std::size_t first) {
   return {values[first], values[first + 1], values[first + 2]};
-}
-
-std::string json_vector(const Vec3& v) {
-  return "[" + format_number(v[0]) + ", " + format_number(v[1]) + ", " + format_number(v[2]) + "]";
 }
 
 }  // namespace
@@ -266,16 +262,14 @@ std::vector<Derived> GearPair::derived() const {
 }
 
 Drawing GearPair::drawing() const {
-  constexpr double degrees = 180 / std::numbers::pi;
   Drawing shapes;
   for (std::size_t i = 0; i < 2; ++i) {
     const Vec3 toward = triad_[i].col(1);
     const Vec3 center = frames_.contact - radius_[i] * toward;
-    shapes.push_back(R"("shape": "wheel", "node": )" + std::to_string(layout().nodes[i]) + R"(, "center": )" +
-                     json_vector(center) + R"(, "axis": )" + json_vector(triad_[i].col(0)) + R"(, "toward": )" +
-                     json_vector(toward) + R"(, "radius": )" + format_number(radius_[i]) + R"(, "cone": )" +
-                     format_number(design_.cone[i] * degrees) + R"(, "helix": )" +
-                     format_number(paper_helix(design_.helix[i], design_.cone[i]) * degrees) + R"(, "teeth": )" +
+    shapes.push_back(R"("shape": "wheel", "node": )" + std::to_string(layout().nodes[i]) + R"(, "center": )" + json(center) +
+                     R"(, "axis": )" + json(Vec3(triad_[i].col(0))) + R"(, "toward": )" + json(toward) + R"(, "radius": )" +
+                     format_number(radius_[i]) + R"(, "cone": )" + format_number(design_.cone[i] / degree) + R"(, "helix": )" +
+                     format_number(paper_helix(design_.helix[i], design_.cone[i]) / degree) + R"(, "teeth": )" +
                      std::to_string(design_.teeth[i]) + R"(, "module": )" + format_number(design_.normal_module) +
                      R"(, "width": )" + format_number(options_.width > 0 ? options_.width : 10 * design_.normal_module));
   }
@@ -295,7 +289,6 @@ std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& con
 
 }  // namespace
 
-ElementType gear_pair_type();
 ElementType gear_pair_type() { return element_type(gear_card(), build_gear_pair, 1); }
 
 }  // namespace engrane

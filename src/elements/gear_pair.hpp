@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "elements/gear_card.hpp"
 #include "elements/gear_geometry.hpp"
 #include "elements/gear_teeth.hpp"
 #include "model/templated_element.hpp"
@@ -83,5 +84,7 @@ class GearPair final : public TemplatedElement<GearPair, 2, 18> {
   double cos_alpha_, sin_alpha_;
   std::vector<Named> channels_;
 };
+
+ElementType gear_pair_type();
 
 }  // namespace engrane
