@@ -4,8 +4,8 @@
     layers.py [root]
 
 Which layer may include which, and which foreign library, stands in src/CMakeLists.txt and nowhere else. The
-rest: no code file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, no layers in a
-circle.
+rest: no code file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, and no
+layers that use each other in a circle.
 """
 
 import re
