@@ -40,6 +40,7 @@ class CommandTable {
     Command mechanism;
     mechanism.name = ".MCE";
     mechanism.schemas = catalogue.elements;
+    mechanism.keys.command = mechanism.name;
     mechanism.keys.number_key = "I";
     mechanism.elements = true;
     for (const char* word : {".MCE", ".MECHANISM"}) index_[significant(word)] = commands_.size();
@@ -65,6 +66,7 @@ class CommandTable {
     }
     Command& command = commands_[entry->second];
     command.schemas.push_back(&schema);
+    command.keys.command = command.name;
     if (!schema.key().empty()) command.keys.keyed.push_back(&schema);
     if (schema.numbered) command.keys.number_key = schema.record_key;
     command.keys.rows = command.keys.rows || schema.rows;

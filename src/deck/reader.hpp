@@ -29,7 +29,8 @@ Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, So
 /// The same for a text in memory, as `name`; INPUT is looked up in the working directory.
 Deck read_text(std::string name, std::string text, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics);
 
-/// The deck written out again, one record a line, every default filled in. Reading it gives the same records.
+/// The deck written out again, record by record in one spelling. Defaults that hold because nothing was given follow in
+/// a comment, so that reading the text gives the same records, down to what was given and what was not.
 std::string canonical_text(const Deck& deck);
 
 /// A JSON object of one record: {"id": 1, "type": "GEAR", "Z": [50, 10], …} with defaults, for the results file.

@@ -127,8 +127,7 @@ void RecordReader::unknown_item(Reading& reading) {
     if (!token.fault.empty()) return;
     const std::string what = token.kind == Token::Kind::text ? "\"" + token.text + "\"" : "`" + token.text + "`";
     diagnostics_.error(token.where, what + " belongs to no keyword of " + title);
-    while (!tokens_.peek().is_word() && !at_boundary(tokens_, reading.keys)) tokens_.skip();
-    return;
+    return skip_values(reading);
   }
   const Match<Field> match = match_field(reading.schema, token.text);
   const std::size_t equals = token.text.find('=');
@@ -142,7 +141,10 @@ void RecordReader::unknown_item(Reading& reading) {
     diagnostics_.error(token.where, "`" + token.text + "` is not a keyword of " + reading.schema.name,
                        "a command must be the first word of its line");
   } else {
-    std::string hint = did_you_mean(token.text, field_words(reading.schema));
+    std::vector<std::string> words = field_words(reading.schema);
+    const std::vector<std::string> record_keys = schema_words(reading.keys.keyed);
+    words.insert(words.end(), record_keys.begin(), record_keys.end());
+    std::string hint = did_you_mean(token.text, words);
     if (hint.empty()) {
       std::vector<std::string> names;
       for (const Field& field : reading.schema.fields) names.push_back(field.keyword);
@@ -151,7 +153,12 @@ void RecordReader::unknown_item(Reading& reading) {
     }
     diagnostics_.error(token.where, "`" + token.text + "` is not a keyword of " + reading.schema.name, hint);
   }
-  while (!tokens_.peek().is_word() && !at_boundary(tokens_, reading.keys)) tokens_.skip();
+  skip_values(reading);
+}
+
+/// Skips the values of a keyword that is none. Words that cannot be read at all are still reported.
+void RecordReader::skip_values(const Reading& reading) {
+  while (!tokens_.peek().is_word() && !at_boundary(tokens_, reading.keys)) tokens_.take();
 }
 
 void RecordReader::finish(Reading& reading) {
@@ -193,7 +200,7 @@ std::vector<Heading> RecordReader::read_headings(const Schema& schema, const Rec
 }
 
 void RecordReader::skip_record(const RecordKeys& keys) {
-  while (!at_boundary(tokens_, keys)) tokens_.skip();
+  while (!at_boundary(tokens_, keys)) tokens_.take();
 }
 
 }  // namespace engrane::deck

@@ -45,6 +45,7 @@ class RecordReader {
   void read_field(Reading& reading, const Field& field, const Token* keyword);
   bool given_twice(Reading& reading, const Field& field, std::size_t count, const Location& where);
   void unknown_item(Reading& reading);
+  void skip_values(const Reading& reading);
   void finish(Reading& reading);
 
   TokenStream& tokens_;

@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "deck/matching.hpp"
 #include "deck/number.hpp"
+#include "deck/recognised.hpp"
 
 namespace engrane::deck {
 
@@ -57,7 +58,8 @@ const Schema* keyed_schema(const RecordKeys& keys, const Token& token) {
 
 bool at_boundary(TokenStream& tokens, const RecordKeys& keys) {
   const Token& token = tokens.peek();
-  return token.is_end() || token.is_command() || at_number_key(tokens, keys) || keyed_schema(keys, token) != nullptr;
+  if (token.is_end() || token.is_command() || at_number_key(tokens, keys) || keyed_schema(keys, token)) return true;
+  return !keys.keyed.empty() && token.is_word() && find_recognised(keys.command, token.text);
 }
 
 std::string expected_count(int least, int most) {

@@ -12,6 +12,7 @@ namespace engrane::deck {
 
 /// What ends a record inside one command: the next record's key.
 struct RecordKeys {
+  std::string command;               ///< `.CLM`: its records that BACON has and this version has not are keys too
   std::string number_key;            ///< `I`, or `GROUP` in `.SEL`; empty when records have no number
   bool rows = false;                 ///< a number at the start of a line begins a record
   std::vector<const Schema*> keyed;  ///< `FIX`, `DEP`, … of `.CLM`
