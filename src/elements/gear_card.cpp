@@ -227,7 +227,7 @@ const deck::Card<GearData>& gear_card() {
     using namespace dimension;
     deck::Card<GearData> c("GEAR", {"ENGRENAGE", "GEAR_PAIR"},
                            "Pair of gears: spur, helical, internal, bevel, crossed, hypoid or worm");
-    c.chapter("Gears").numbered();
+    c.chapter("Rigid kinematic joints").numbered();
     c.describe(
         "Two toothed wheels, each at a node that is its centre. The pair passes the normal tooth force between them, with its "
         "tangential, radial and axial parts; bearings and shafts are other elements. The geometry must close: the places of "
