@@ -1,45 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elements/inertia.hpp"
 
-#include <fmt/format.h>
-
-#include "elements/body_inertia.hpp"
 #include "elements/building.hpp"
-#include "model/templated_element.hpp"
+#include "elements/carried_body.hpp"
 
 namespace engrane {
 
 namespace {
-
-class Inertia final : public TemplatedElement<Inertia, 1, 6> {
- public:
-  Inertia(int id, int node, const BodyInertia& body) : TemplatedElement(id), body_(body), channels_(body_channels(body)) {
-    Layout layout;
-    layout.nodes = {node};
-    layout.needs = {!body.turns() ? NodeNeed::translation : body.mass == 0 ? NodeNeed::rotation : NodeNeed::both};
-    set_layout(std::move(layout));
-  }
-
-  template <class T>
-  void evaluate(const Motion<T, 1>& motion, const State& state, Balance<T, 1>& balance) const {
-    const auto resistance = body_.resistance<T>(motion.node[0], state.gravity);
-    balance.force(0, resistance.force);
-    balance.moment(0, resistance.moment);
-  }
-
-  Energies energies(const State& state) const override { return body_.energies(state.nodes[0], state.gravity); }
-
-  Mat3 inertia_at(int node) const override { return node == layout().nodes[0] ? body_.about_node() : Mat3(Mat3::Zero()); }
-
-  const std::vector<Named>& channels() const override { return channels_; }
-  void observe(const State& state, std::span<double> values) const override { observe_body(body_, state.nodes[0], values); }
-
-  Drawing drawing() const override { return {fmt::format(R"("shape": "mass", "node": {})", layout().nodes[0])}; }
-
- private:
-  BodyInertia body_;
-  std::vector<Named> channels_;
-};
 
 std::unique_ptr<Element> build(const InertiaData& data, BuildContext& context) {
   const auto tensor = inertia_tensor(context, data.tensor);
@@ -50,7 +17,7 @@ std::unique_ptr<Element> build(const InertiaData& data, BuildContext& context) {
   }
   Vec3 offset = to_vector(data.offset);
   if (data.mass == 0) offset.setZero();  // a couple-like body: where it sits on the node makes no difference
-  return std::make_unique<Inertia>(context.record.id, data.node, BodyInertia{data.mass, offset, *tensor});
+  return std::make_unique<CarriedBody>(context.record.id, data.node, BodyInertia{data.mass, offset, *tensor});
 }
 
 }  // namespace

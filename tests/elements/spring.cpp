@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/spring.hpp"
+
+#include <gtest/gtest.h>
+
+#include "suite.hpp"
+
+namespace engrane {
+namespace {
+
+using namespace suite;
+
+const NodeMap places = {{0, Vec3::Zero()}, {1, {1, 0.2, -0.3}}, {2, {-0.5, 0.4, 0.8}}};
+
+Subject line(std::array<int, 2> ends, double stiffness, double damping, double size = 1) {
+  Subject s;
+  s.name = "along the line, K " + std::to_string(stiffness) + " C " + std::to_string(damping);
+  for (const auto& [id, x] : places) s.nodes[id] = size * x;
+  s.length = s.velocity = size;
+  const auto make = [=, nodes = s.nodes](std::array<int, 2> order, const Mat3& Q) {
+    SpringData data;
+    data.nodes = order;
+    data.stiffness = {stiffness};
+    data.damping = {damping};
+    if (ends[0] == 0) {
+      const Vec3 at = size * Q * Vec3(0.3, -0.6, 0.2);
+      data.at = {{at[0], at[1], at[2]}};
+    }
+    return build(spring_type(), data, turned(nodes, Q));
+  };
+  s.build = [=](const Mat3& Q) { return make(ends, Q); };
+  s.build_swapped = [=] { return make({ends[1], ends[0]}, Mat3::Identity()); };
+  s.step = 1e-4;  // the line may be short, and turns fast then
+  s.tolerance = 1e-7;
+  if (damping > 0) s.skip[Check::lagrange] = "a damper has no potential";
+  return s;
+}
+
+TEST(Spring, SuiteAlongTheLine) {
+  run_suite(line({1, 2}, 40, 0));
+  run_suite(line({1, 2}, 40, 3));
+  run_suite(line({0, 2}, 40, 3));
+}
+
+TEST(Spring, SuiteInGlobalDirections) {
+  for (const auto& ends : {std::array<int, 2>{1, 2}, {0, 2}}) {
+    Subject s;
+    s.name = "global directions";
+    s.nodes = places;
+    s.build = [=](const Mat3& Q) {
+      SpringData data;
+      data.nodes = ends;
+      data.stiffness = {40, 50, 60};
+      return build(spring_type(), data, turned(places, Q));
+    };
+    s.skip[Check::rigid] = "its directions are fixed in space";
+    s.skip[Check::objectivity] = "its directions are fixed in space";
+    s.skip[Check::rotated_copy] = "its directions are the global ones";
+    s.skip[Check::equilibrium] = "its opposite forces need not be in line, as those of a support";
+    run_suite(s);
+  }
+}
+
+TEST(Spring, Extremes) {
+  for (const double stiffness : {1e-6, 1e15})
+    for (const double size : {1e-9, 1e6}) run_extreme(line({1, 2}, stiffness, stiffness, size));
+}
+
+TEST(Spring, EndsThatMeetMakeNoForce) {
+  const Subject s = line({1, 2}, 40, 3);
+  const auto spring = s.build(Mat3::Identity());
+  StateBuffer state(*spring, s.nodes);
+  state.nodes[1].x = state.nodes[0].x;
+  state.nodes[1].v = {1, 0, 0};
+  for (const double entry : residual_of(*spring, state)) EXPECT_EQ(entry, 0);
+  for (const double entry : tangent_of(*spring, state, {1, 1, 0})) EXPECT_EQ(entry, 0);
+}
+
+TEST(Spring, NaturalLength) {
+  SpringData data;
+  data.nodes = {1, 2};
+  data.stiffness = {10};
+  const NodeMap nodes = {{1, Vec3::Zero()}, {2, {3, 4, 0}}};
+  auto spring = build(spring_type(), data, nodes);
+  EXPECT_EQ(channel_of(*spring, StateBuffer(*spring, nodes), "FORCE"), 0);
+  data.length = 2;
+  spring = build(spring_type(), data, nodes);
+  EXPECT_NEAR(channel_of(*spring, StateBuffer(*spring, nodes), "FORCE"), 30, 1e-13);
+  const auto r = residual_of(*spring, StateBuffer(*spring, nodes));
+  EXPECT_NEAR(-r[0], 18, 1e-13) << "in tension the first end is pulled towards the second";
+  EXPECT_NEAR(-r[6], -18, 1e-13);
+}
+
+TEST(Spring, FaultsOfTheCard) {
+  const NodeMap nodes = {{0, Vec3::Zero()}, {1, {1, 0, 0}}, {2, {1, 0, 0}}};
+  const auto message = [&](const SpringData& data) {
+    Diagnostics diagnostics;
+    EXPECT_EQ(build(spring_type(), data, nodes, {.diagnostics = &diagnostics}), nullptr);
+    return diagnostics.all().empty() ? std::string() : diagnostics.all().front().message;
+  };
+  SpringData data;
+  data.nodes = {1, 2};
+  EXPECT_EQ(message(data), "a spring with neither stiffness nor damping does nothing");
+  data.stiffness = {1};
+  EXPECT_EQ(message(data), "nodes 1 and 2 are in one place: there is no line between them");
+  data.stiffness = {1, 2};
+  EXPECT_EQ(message(data), "K has 2 values");
+  data.stiffness = {1, 2, 3};
+  data.damping = {1};
+  EXPECT_EQ(message(data), "one value beside three");
+  data.damping = {};
+  data.length = 1;
+  EXPECT_EQ(message(data), "L0 has no meaning for a spring in the global directions");
+  data.length.reset();
+  data.stiffness = {1};
+  data.at = {{0, 0, 1}};
+  EXPECT_EQ(message(data), "AT is where the ground's end is, and neither node is the ground");
+}
+
+}  // namespace
+}  // namespace engrane
