@@ -60,7 +60,6 @@ Curve Curve::lines(std::span<const double> x, std::span<const double> y, std::op
   const std::size_t n = x.size();
   Curve curve;
   curve.period_ = period;
-  curve.held_ = true;
   for (std::size_t i = 0; i + 1 < n; ++i) curve.pieces_.push_back({x[i], y[i], (y[i + 1] - y[i]) / (x[i + 1] - x[i])});
   const double gap = period ? *period - (x[n - 1] - x[0]) : 0;
   if (!period || (n == 1 && closes(gap, *period)))
@@ -99,7 +98,7 @@ Curve Curve::natural_spline(std::span<const double> x, std::span<const double> y
   }
   solve_tridiagonal(d, e, m);
   Curve curve = hermite(x, y, m);
-  curve.pieces_.push_back({x[n - 1], y[n - 1], m[n - 1]});
+  curve.pieces_.push_back({x[n - 1], y[n - 1]});
   curve.sum_areas(x[n - 1]);
   return curve;
 }
@@ -166,18 +165,14 @@ Curve::Place Curve::find(double x) const {
 
 Jet Curve::at(double x) const {
   const auto [p, s, turns] = find(x);
-  if (s < 0) {
-    // before the first point: held by lines, straight on for a spline, whose first piece has no curvature there
-    const double slope = held_ ? 0 : p->c1;
-    return {p->c0 + slope * s, slope, 0, 0};
-  }
+  if (s < 0) return {p->c0, 0, 0, 0};  // before the first point
   return {p->c0 + s * (p->c1 + s * (p->c2 + s * p->c3)), p->c1 + s * (2 * p->c2 + 3 * s * p->c3), 2 * p->c2 + 6 * s * p->c3,
           6 * p->c3};
 }
 
 double Curve::from_start(double x) const {
   const auto [p, s, turns] = find(x);
-  if (s < 0) return s * (p->c0 + s / 2 * (held_ ? 0 : p->c1));
+  if (s < 0) return s * p->c0;
   return turns * area_of_period_ + p->area + s * (p->c0 + s * (p->c1 / 2 + s * (p->c2 / 3 + s * p->c3 / 4)));
 }
 

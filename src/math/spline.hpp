@@ -11,9 +11,8 @@ namespace engrane {
 
 /// A curve through given points: straight lines, or a cubic spline (C²).
 ///
-/// Outside its points a curve of straight lines keeps its first and last ordinate; a natural spline, whose curvature is
-/// zero at its ends, goes on along its end tangents, which keeps it C². A periodic curve repeats. At corners and jumps the
-/// derivatives (and the value) are those on the right.
+/// Outside its points a curve keeps its first and last ordinate, unless it is periodic: it is bounded, and continuous. At
+/// corners and jumps the derivatives (and the value) are those on the right.
 class Curve {
  public:
   /// Straight lines. Abscissas strictly increasing, at least one point, as many ordinates. With a period, no shorter than
@@ -52,7 +51,6 @@ class Curve {
 
   std::vector<Piece> pieces_;  ///< the first and last reach to infinity unless the curve is periodic
   std::optional<double> period_;
-  bool held_ = false;  ///< before the first point: its ordinate, not its tangent
   double area_of_period_ = 0;
   double from_start_to_zero_ = 0;
 };

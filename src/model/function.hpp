@@ -30,8 +30,8 @@ class Function {
 
 /// Builds a function from its record (a FunctionCard); faults go to `diagnostics` and yield nullptr.
 ///
-/// TABLE joins its points by straight lines and keeps its first and last ordinate outside them; with SPLINE it is a
-/// natural cubic spline that goes on along its end tangents; with PERIOD either repeats. SINUS is
+/// TABLE joins its points by straight lines, with SPLINE by a natural cubic spline, and keeps its first and last ordinate
+/// outside them; with PERIOD either repeats. SINUS is
 /// mean + amplitude sin(2π frequency x + phase). RAMP and STEP lead from (t0, y0) to (t1, y1), by a straight line or by
 /// the polynomial of degree five that makes value, slope and curvature continuous, and are constant outside.
 std::unique_ptr<Function> make_function(const deck::Record& record, Diagnostics& diagnostics);

@@ -57,23 +57,25 @@ TEST(Curve, PeriodicLines) {
 TEST(Curve, NaturalSplineIsSmoothAndExactOnLines) {
   const std::vector<double> x{-1, 0, 0.5, 2, 3}, y{1, -2, 0.5, 4, 3};
   const Curve spline = Curve::natural_spline(x, y);
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    EXPECT_NEAR(spline.at(x[i]).f, y[i], 1e-14);
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(spline.at(x[i]).f, y[i], 1e-14);
+  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
     const Jet left = spline.at(std::nextafter(x[i], -10)), right = spline.at(x[i]);
     EXPECT_NEAR(left.f, right.f, 1e-13);
     EXPECT_NEAR(left.d1, right.d1, 1e-12);
     EXPECT_NEAR(left.d2, right.d2, 1e-11);
   }
   EXPECT_NEAR(spline.at(-1).d2, 0, 1e-13);
-  EXPECT_NEAR(spline.at(3).d2, 0, 1e-13);
-  EXPECT_NEAR(spline.at(5).d1, spline.at(3).d1, 1e-14);
-  EXPECT_NEAR(spline.at(-3).f, 1 - 2 * spline.at(-1).d1, 1e-13);
+  EXPECT_NEAR(spline.at(std::nextafter(3.0, 0)).d2, 0, 1e-13);
+  EXPECT_EQ(spline.at(5).f, 3);
+  EXPECT_EQ(spline.at(3).d1, 0);
+  EXPECT_EQ(spline.at(-3).f, 1);
+  EXPECT_EQ(spline.at(-3).d1, 0);
   for (const double t : {-2.5, -0.5, 0.25, 1.0, 2.5, 4.0})
     EXPECT_NEAR(spline.integral(t), t < 0 ? -quadrature(spline, t, 0, 400) : quadrature(spline, 0, t, 400), 1e-12) << t;
 
   const Curve line = Curve::natural_spline(std::vector{0.0, 1.0, 4.0}, std::vector{1.0, 3.0, 9.0});
   EXPECT_NEAR(line.at(2.5).f, 6, 1e-14);
-  EXPECT_NEAR(line.at(10).f, 21, 1e-13);
+  EXPECT_EQ(line.at(10).f, 9);
   EXPECT_EQ(Curve::natural_spline(std::vector{1.0, 2.0}, std::vector{0.0, 1.0}).at(1.5).f, 0.5);
 }
 
