@@ -30,9 +30,7 @@ std::string_view SourceMap::line(int file, int number) const {
   return line;
 }
 
-int SourceMap::line_count(int file) const {
-  return static_cast<int>(files_[static_cast<std::size_t>(file)].line_starts.size());
-}
+int SourceMap::line_count(int file) const { return static_cast<int>(files_[static_cast<std::size_t>(file)].line_starts.size()); }
 
 void Diagnostics::error(Location where, std::string message, std::string hint) {
   all_.push_back({Severity::error, where, std::move(message), std::move(hint)});
@@ -77,8 +75,8 @@ void print_excerpt(std::ostream& out, const SourceMap& sources, const Location& 
   const std::string margin = std::to_string(where.line);
   const std::string blank(margin.size(), ' ');
   const std::string lead = first > 0 ? "..." : "";
-  out << "  " << margin << " | " << lead << printable(line.substr(first, last - first))
-      << (last < line.size() ? "..." : "") << '\n';
+  out << "  " << margin << " | " << lead << printable(line.substr(first, last - first)) << (last < line.size() ? "..." : "")
+      << '\n';
   const std::size_t indent = lead.size() + character_count(line.substr(first, start - first));
   const std::size_t marked = std::max<std::size_t>(character_count(line.substr(start, std::min(end, last) - start)), 1);
   out << "  " << blank << " | " << std::string(indent, ' ') << '^' << std::string(marked - 1, '~') << '\n';
@@ -109,8 +107,7 @@ void print_one(std::ostream& out, const SourceMap& sources, const Diagnostic& di
 void Diagnostics::print(std::ostream& out, const SourceMap& sources) const {
   using Key = std::vector<std::pair<int, int>>;
   std::vector<std::pair<Key, const Diagnostic*>> ordered;
-  for (const Diagnostic& diagnostic : all_)
-    ordered.emplace_back(deck_position(sources, diagnostic.location), &diagnostic);
+  for (const Diagnostic& diagnostic : all_) ordered.emplace_back(deck_position(sources, diagnostic.location), &diagnostic);
   std::stable_sort(ordered.begin(), ordered.end(), [](const auto& a, const auto& b) {
     // what concerns no place in particular comes last: it often follows from the errors that have one
     if (a.first.empty() != b.first.empty()) return b.first.empty();

@@ -22,8 +22,7 @@ constexpr std::array<NamedUnit, 7> length_units{
 constexpr std::array<NamedUnit, 6> mass_units{
     {{"kg", 1}, {"g", 1e-3}, {"t", 1e3}, {"lbm", 0.45359237}, {"slug", 14.593903}, {"lbf·s²/in", 175.126835}}};
 constexpr std::array<NamedUnit, 4> time_units{{{"s", 1}, {"ms", 1e-3}, {"min", 60}, {"h", 3600}}};
-constexpr std::array<NamedUnit, 5> force_units{
-    {{"N", 1}, {"kN", 1e3}, {"MN", 1e6}, {"mN", 1e-3}, {"lbf", 4.4482216152605}}};
+constexpr std::array<NamedUnit, 5> force_units{{{"N", 1}, {"kN", 1e3}, {"MN", 1e6}, {"mN", 1e-3}, {"lbf", 4.4482216152605}}};
 
 /// The name of a unit of this size; decks give factors with few digits, hence the tolerance.
 template <std::size_t N>
@@ -84,8 +83,7 @@ std::string UnitSystem::label(Dimension d) const {
   const std::string force_name = unit_name(force_units, length * mass / (time * time));
   const bool as_force = reads_as_force(d) && !force_name.empty();
   const bool named = (length_name.empty() ? d.length == (as_force ? 1 : 0) : true) &&
-                     (as_force || !mass_name.empty() || d.mass == 0) &&
-                     (!time_name.empty() || d.time == (as_force ? -2 : 0));
+                     (as_force || !mass_name.empty() || d.mass == 0) && (!time_name.empty() || d.time == (as_force ? -2 : 0));
   if (!named) return format_number(to_si(d)) + " SI";
   if (as_force) {
     if (d.length == -1 && d.time == -2 && d.angle == 0 && force_name == "N") {  // a pressure has names of its own

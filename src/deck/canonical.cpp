@@ -67,14 +67,15 @@ void write_fields(Writer& writer, const Record& record) {
   for (const Field& field : record.schema->fields) {
     if (!field.whole.empty()) continue;
     Field::Values values = field.load(record.data);
-    const bool ids = ranges_allowed && field.type == FieldType::integer && field.reference != Reference::nothing && field.max_values > 1;
+    const bool ids =
+        ranges_allowed && field.type == FieldType::integer && field.reference != Reference::nothing && field.max_values > 1;
     if (!record.given(field.keyword)) {
       if (!has_default(field, values)) continue;
       for (const std::string& word : deck_words(field, values, ids)) defaults += word + " ";
       continue;
     }
     if (field.type == FieldType::text && values.texts.empty()) values.texts.emplace_back();  // an empty text was given
-    if (!values.present && field.type != FieldType::text) continue;  // all its codes were unknown
+    if (!values.present && field.type != FieldType::text) continue;                          // all its codes were unknown
     for (const std::string& word : deck_words(field, values, ids)) writer.word(word);
   }
   if (!defaults.empty()) writer.comment("by default: " + defaults);

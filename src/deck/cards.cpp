@@ -46,14 +46,17 @@ Schema node_card() {
   Card<NodeCard> card(".NOE", {".NODES"}, "Nodes");
   card.chapter(model_chapter).numbered().rows();
   card.describe(
-      "A node has a position and, where an element needs it, an orientation. Missing coordinates are 0. A line that starts with a "
+      "A node has a position and, where an element needs it, an orientation. Missing coordinates are 0. A line that starts with "
+      "a "
       "number is a node too: its number and up to three coordinates. `.NOE` may be opened several times. "
       "`FRAME n` before the first node holds for all nodes that follow under this `.NOE`.");
   card.add("X", &NodeCard::x, "coordinates: x, or x y, or x y z").unit(dimension::length).positional().values(1, 3);
   card.add_part("Y", "X", 1, &NodeCard::x, "second coordinate").unit(dimension::length);
   card.add_part("Z", "X", 2, &NodeCard::x, "third coordinate").unit(dimension::length);
   card.add("FRAME", &NodeCard::frame, "the `.FRAME` in which the coordinates are given; 0 is the global one")
-      .synonyms({"REPERE"}).refers(Reference::frame).heading();
+      .synonyms({"REPERE"})
+      .refers(Reference::frame)
+      .heading();
   card.example(".NOE\n I 1 X 0 0 5\n I 2 X -10. Z 2.5\n 12 0. 0. 5.");
   return card.schema();
 }
@@ -63,12 +66,14 @@ Schema frame_card() {
   card.chapter(model_chapter).numbered();
   card.describe(
       "The first axis points along V1; the second lies in the plane of V1 and V2, on the side of V2; the third completes a "
-      "right-handed frame. In a cylindrical frame the coordinates of a node are radius, angle (degrees) and height; in a spherical "
+      "right-handed frame. In a cylindrical frame the coordinates of a node are radius, angle (degrees) and height; in a "
+      "spherical "
       "one radius, longitude and latitude (degrees).");
   card.add("ORIGIN", &FrameCard::origin, "origin").synonyms({"ORIGINE"}).unit(dimension::length);
   card.add("V1", &FrameCard::first, "direction of the first axis");
   card.add("V2", &FrameCard::second, "a direction in the half plane of the second axis");
-  card.add("TYPE", &FrameCard::kind, "kind of coordinates").positional()
+  card.add("TYPE", &FrameCard::kind, "kind of coordinates")
+      .positional()
       .option({"CARTESIAN", {"CARTESIEN"}, "x, y, z"})
       .option({"CYLINDRICAL", {"CYLINDRIQUE"}, "radius, angle in degrees, height"})
       .option({"SPHERICAL", {"SPHERIQUE"}, "radius, longitude and latitude in degrees"});
@@ -80,26 +85,34 @@ Schema group_card() {
   Card<GroupCard> card(".SEL", {".SELECTION"}, "Named groups of nodes or elements");
   card.chapter(model_chapter).key("GROUP");
   card.describe(
-      "What a group holds is given by numbers and ranges (`1 A 20`, or `I 1 J 20 K 1`: from, to, step), by TOUT, by a box, by other "
+      "What a group holds is given by numbers and ranges (`1 A 20`, or `I 1 J 20 K 1`: from, to, step), by TOUT, by a box, by "
+      "other "
       "groups, or by the attribute of elements; several of these add up. Other cards name a group by its number or by its name.");
   card.add("NOM", &GroupCard::name, "name").synonyms({"NAME"});
-  card.add("KIND", &GroupCard::kind, "what the group holds").synonyms({"GENRE"}).positional()
+  card.add("KIND", &GroupCard::kind, "what the group holds")
+      .synonyms({"GENRE"})
+      .positional()
       .option({"NODES", {"NOEUDS", "NOEUD"}, "nodes"})
       .option({"ELEMENTS", {"MAILLES", "MAILLE"}, "elements"})
       .option({"FACES", {}, "faces of cells: recognised, not in this version"});
   card.add("IDS", &GroupCard::ids, "numbers and ranges").refers(Reference::node).at_least(1).positional();
   card.add("TOUT", &GroupCard::all, "all of them").synonyms({"ALL"});
-  card.add("UNION", &GroupCard::united, "other groups whose members belong to this one").refers(Reference::group)
+  card.add("UNION", &GroupCard::united, "other groups whose members belong to this one")
+      .refers(Reference::group)
       .values(1, detail::any_number);
-  card.add("BOITE", &GroupCard::box, "nodes in the box xmin xmax ymin ymax zmin zmax").synonyms({"BOX"})
-      .unit(dimension::length).values(6, 6);
+  card.add("BOITE", &GroupCard::box, "nodes in the box xmin xmax ymin ymax zmin zmax")
+      .synonyms({"BOX"})
+      .unit(dimension::length)
+      .values(6, 6);
   card.add("AT", &GroupCard::attribute, "elements with this attribute").synonyms({"ATTRIBUTE", "ATTRIBUT"});
   card.finish([](GroupCard& group, Record& record, Diagnostics& diagnostics) {
     group.number = record.id;
     if (group.kind.is("FACES"))
-      diagnostics.error(record.where("KIND"), "groups of FACES are recognised but not in this version", "there are no cells to have faces; remove the group");
+      diagnostics.error(record.where("KIND"), "groups of FACES are recognised but not in this version",
+                        "there are no cells to have faces; remove the group");
     if (!group.all && group.ids.empty() && group.united.empty() && group.box.empty() && !group.attribute)
-      diagnostics.error(record.location, "group " + std::to_string(record.id) + " holds nothing", "give numbers, TOUT, UNION, BOITE or AT");
+      diagnostics.error(record.location, "group " + std::to_string(record.id) + " holds nothing",
+                        "give numbers, TOUT, UNION, BOITE or AT");
     for (std::size_t axis = 0; axis + 1 < group.box.size(); axis += 2)
       if (group.box[axis] > group.box[axis + 1])
         diagnostics.error(record.where("BOITE"), "the box ends before it starts", "give xmin xmax ymin ymax zmin zmax");

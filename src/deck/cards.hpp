@@ -43,12 +43,12 @@ struct FrameCard {
 struct GroupCard {
   int number = 0;
   std::string name;
-  Tagged kind{"NODES", {}};     ///< NODES, ELEMENTS, FACES (recognised, refused)
-  bool all = false;             ///< TOUT
-  std::vector<int> ids;         ///< ids and ranges `1 A 20`, expanded by the reader
+  Tagged kind{"NODES", {}};         ///< NODES, ELEMENTS, FACES (recognised, refused)
+  bool all = false;                 ///< TOUT
+  std::vector<int> ids;             ///< ids and ranges `1 A 20`, expanded by the reader
   std::vector<std::string> united;  ///< UNION: names or numbers of groups
-  std::vector<double> box;      ///< BOITE xmin xmax ymin ymax zmin zmax
-  std::optional<int> attribute;  ///< MAILLE AT n
+  std::vector<double> box;          ///< BOITE xmin xmax ymin ymax zmin zmax
+  std::optional<int> attribute;     ///< MAILLE AT n
 };
 
 /// `.MAT I id NOM "steel" BEHA "ELASTIC" YT … NT … M …`
@@ -60,8 +60,8 @@ struct MaterialCard {
 
 /// Which nodes a record of `.CLM` or `.INI` speaks of.
 struct NodeTarget {
-  std::vector<int> nodes;             ///< NOEUD ids and ranges
-  std::vector<std::string> groups;    ///< GROUP names or numbers
+  std::vector<int> nodes;           ///< NOEUD ids and ranges
+  std::vector<std::string> groups;  ///< GROUP names or numbers
 };
 
 /// `.CLM FIX NOEUD n C 1 2 3`
@@ -92,13 +92,13 @@ struct GravityCard {
 /// `.FCT I id NOM "…" TABLE t y t y … | SINUS … | RAMP … | STEP … | EXPR "…"`: a function of time or of another variable.
 struct FunctionCard {
   std::string name;
-  std::vector<double> table;         ///< abscissa and ordinate in turn
-  bool spline = false;               ///< join the table by a C² cubic spline instead of straight lines
-  std::optional<double> period;      ///< the table or spline repeats with this period
-  std::vector<double> sinus;         ///< amplitude, frequency [Hz], phase [degrees], mean
-  std::vector<double> ramp;          ///< t0 y0 t1 y1: constant, straight line, constant
-  std::vector<double> step;          ///< t0 y0 t1 y1: constant, C² polynomial, constant
-  std::string expression;            ///< of T (and PI)
+  std::vector<double> table;     ///< abscissa and ordinate in turn
+  bool spline = false;           ///< join the table by a C² cubic spline instead of straight lines
+  std::optional<double> period;  ///< the table or spline repeats with this period
+  std::vector<double> sinus;     ///< amplitude, frequency [Hz], phase [degrees], mean
+  std::vector<double> ramp;      ///< t0 y0 t1 y1: constant, straight line, constant
+  std::vector<double> step;      ///< t0 y0 t1 y1: constant, C² polynomial, constant
+  std::string expression;        ///< of T (and PI)
 };
 
 /// `.INI DEP|VIT NOEUD n C c V value`: initial displacements and velocities, a wish unless IMPOSED.
@@ -112,14 +112,14 @@ struct InitialCard : NodeTarget {
 /// `.SAM TYPE STATIC|KINEMATIC|DYNAMIC …`: analysis, scheme and solver.
 struct AnalysisCard {
   Tagged type{"STATIC", {}};
-  Tagged scheme{"CHUNG", {}};  ///< CHUNG (generalised-alpha), NEWMARK, HHT, BOSSAK
+  Tagged scheme{"CHUNG", {}};   ///< CHUNG (generalised-alpha), NEWMARK, HHT, BOSSAK
   std::optional<double> rho;    ///< spectral radius at infinity, CHUNG
   std::optional<double> alpha;  ///< HHT, BOSSAK
   Tagged solver{"MUMPS", {}};
-  Tagged start{"AS_GIVEN", {}};  ///< AS_GIVEN: assemble from the given positions; STATIC: from static equilibrium at the start
-  double precision = 1e-9;      ///< of Newton, relative to the largest force in the model
-  int iterations = 20;          ///< most Newton iterations before the step is cut
-  int cuts = 10;                ///< most halvings of one step
+  Tagged start{"AS_GIVEN", {}};   ///< AS_GIVEN: assemble from the given positions; STATIC: from static equilibrium at the start
+  double precision = 1e-9;        ///< of Newton, relative to the largest force in the model
+  int iterations = 20;            ///< most Newton iterations before the step is cut
+  int cuts = 10;                  ///< most halvings of one step
   std::optional<double> scale;    ///< k of the augmented Lagrangian; automatic when not given
   std::optional<double> penalty;  ///< p; automatic when not given
 };
@@ -141,17 +141,17 @@ struct ArchiveCard {
 
 /// `.CHK`: what the run must give.
 struct CheckCard {
-  std::optional<int> element;  ///< ELEMENT id
-  std::optional<int> node;     ///< NODE id
-  bool run = false;            ///< RUN: a quantity of the whole model (energies, steps, Newton order)
-  std::string quantity;        ///< the channel: NORMAL_FORCE, UX, …; positional behind the id
-  std::optional<double> time;  ///< T t: the value at that time; default: at the end
-  std::vector<double> window;  ///< WINDOW t0 t1, for MIN MAX MEAN RMS AMPLITUDE
-  Tagged measure{"VALUE", {}};  ///< VALUE MIN MAX MEAN RMS AMPLITUDE (half of max - min)
-  double value = 0;            ///< V
+  std::optional<int> element;      ///< ELEMENT id
+  std::optional<int> node;         ///< NODE id
+  bool run = false;                ///< RUN: a quantity of the whole model (energies, steps, Newton order)
+  std::string quantity;            ///< the channel: NORMAL_FORCE, UX, …; positional behind the id
+  std::optional<double> time;      ///< T t: the value at that time; default: at the end
+  std::vector<double> window;      ///< WINDOW t0 t1, for MIN MAX MEAN RMS AMPLITUDE
+  Tagged measure{"VALUE", {}};     ///< VALUE MIN MAX MEAN RMS AMPLITUDE (half of max - min)
+  double value = 0;                ///< V
   std::optional<double> relative;  ///< RTOL
   std::optional<double> absolute;  ///< ATOL
-  std::string reference;       ///< REF "where the number comes from"
+  std::string reference;           ///< REF "where the number comes from"
 };
 
 /// The schemas of all general commands, in the order of the manual.

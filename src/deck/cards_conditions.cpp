@@ -21,15 +21,26 @@ constexpr const char* clm_text =
 
 template <class Data>
 void add_target(Card<Data>& card) {
-  card.add("NOEUD", &Data::nodes, "nodes: numbers and ranges").synonyms({"NOEUDS", "NODES"}).refers(Reference::node).at_least(1)
-      .positional().leads();
-  card.add("GROUP", &Data::groups, "groups of nodes: names or numbers").refers(Reference::group).values(1, detail::any_number).leads();
+  card.add("NOEUD", &Data::nodes, "nodes: numbers and ranges")
+      .synonyms({"NOEUDS", "NODES"})
+      .refers(Reference::node)
+      .at_least(1)
+      .positional()
+      .leads();
+  card.add("GROUP", &Data::groups, "groups of nodes: names or numbers")
+      .refers(Reference::group)
+      .values(1, detail::any_number)
+      .leads();
 }
 
 template <class Data>
 void add_components(Card<Data>& card, std::string what) {
-  card.add("C", &Data::components, std::move(what)).synonyms({"COMPONENTS", "COMPOSANTES"}).at_least(1).at_most(6)
-      .values(1, 6).required();
+  card.add("C", &Data::components, std::move(what))
+      .synonyms({"COMPONENTS", "COMPOSANTES"})
+      .at_least(1)
+      .at_most(6)
+      .values(1, 6)
+      .required();
 }
 
 /// One value for all components, or one for each; and somebody whom it concerns.
@@ -43,8 +54,8 @@ void check_target(const Data& data, const Record& record, Diagnostics& diagnosti
     diagnostics.error(record.where("C"), "a component is named twice", "C takes each of 1 to 6 once");
   if constexpr (requires { data.values; }) {
     if (data.values.size() != 1 && data.values.size() != data.components.size())
-      diagnostics.error(record.where("V"), "V has " + counted(data.values.size(), "value") + " for " +
-                                               counted(data.components.size(), "component"),
+      diagnostics.error(record.where("V"),
+                        "V has " + counted(data.values.size(), "value") + " for " + counted(data.components.size(), "component"),
                         "give one value for all components, or one for each");
   }
 }
@@ -67,11 +78,13 @@ Schema fix_card() {
 Schema displacement_card() {
   Card<DisplacementCard> card(".CLM DEP", {".BOUNDARY", "DEPLACEMENT", "DISPLACEMENT"}, "Prescribed displacements and rotations");
   card.chapter(chapter).redefines();
-  card.describe("The value times the function NF of time; without a function the value holds from the start. Rotations are in degrees.");
+  card.describe(
+      "The value times the function NF of time; without a function the value holds from the start. Rotations are in degrees.");
   add_target(card);
   add_components(card, "components: 1 to 3 translations, 4 to 6 rotations");
   card.add("V", &DisplacementCard::values, "displacement, or rotation in degrees: one for all components or one for each")
-      .values(1, 6).required();
+      .values(1, 6)
+      .required();
   card.add("NF", &DisplacementCard::function, "number of the function of time; 0: constant").refers(Reference::function);
   finish_with_target(card);
   card.example(".CLM\n DEP NOEUD 7 C 1 V 0.02 NF 1");
@@ -94,8 +107,11 @@ Schema load_card() {
 Schema gravity_card() {
   Card<GravityCard> card(".CLM STRU", {".BOUNDARY", "STRUCTURE"}, "Acceleration of gravity on all masses");
   card.chapter(chapter).redefines();
-  card.add("ACC", &GravityCard::acceleration, "acceleration of gravity").synonyms({"ACCELERATION"})
-      .unit(dimension::acceleration).filler({"VAL", "V"}).required();
+  card.add("ACC", &GravityCard::acceleration, "acceleration of gravity")
+      .synonyms({"ACCELERATION"})
+      .unit(dimension::acceleration)
+      .filler({"VAL", "V"})
+      .required();
   card.add("NF", &GravityCard::function, "number of the function of time; 0: constant").refers(Reference::function);
   card.example(".CLM\n STRU ACC VAL 0 0 -9.81");
   return card.schema();
@@ -103,11 +119,13 @@ Schema gravity_card() {
 
 void check_pairs(const Record& record, const char* keyword, const std::vector<double>& values, Diagnostics& diagnostics) {
   if (values.size() % 2 != 0)
-    return diagnostics.error(record.where(keyword), std::string(keyword) + " has an odd count of numbers", "give abscissa and ordinate in turn");
+    return diagnostics.error(record.where(keyword), std::string(keyword) + " has an odd count of numbers",
+                             "give abscissa and ordinate in turn");
   for (std::size_t i = 2; i < values.size(); i += 2)
     if (values[i] <= values[i - 2])
-      return diagnostics.error(record.where(keyword), "the abscissas of " + std::string(keyword) + " do not rise: " + format_number(values[i - 2]) +
-                                                          " is followed by " + format_number(values[i]));
+      return diagnostics.error(record.where(keyword), "the abscissas of " + std::string(keyword) +
+                                                          " do not rise: " + format_number(values[i - 2]) + " is followed by " +
+                                                          format_number(values[i]));
 }
 
 void check_function(FunctionCard& function, Record& record, Diagnostics& diagnostics) {
@@ -115,15 +133,14 @@ void check_function(FunctionCard& function, Record& record, Diagnostics& diagnos
   for (const char* keyword : {"TABLE", "SINUS", "RAMP", "STEP", "EXPR"})
     if (record.given(keyword)) shapes.emplace_back(keyword);
   const std::string title = ".FCT " + std::to_string(record.id);
-  if (shapes.empty())
-    return diagnostics.error(record.location, title + " has no shape", "give TABLE, SINUS, RAMP, STEP or EXPR");
+  if (shapes.empty()) return diagnostics.error(record.location, title + " has no shape", "give TABLE, SINUS, RAMP, STEP or EXPR");
   if (shapes.size() > 1)
-    return diagnostics.error(record.where(shapes[1]), title + " has more than one shape: " + join(shapes), "a function has one; products are written as EXPR");
+    return diagnostics.error(record.where(shapes[1]), title + " has more than one shape: " + join(shapes),
+                             "a function has one; products are written as EXPR");
   check_pairs(record, "TABLE", function.table, diagnostics);
   for (const char* keyword : {"RAMP", "STEP"})
     if (record.given(keyword)) check_pairs(record, keyword, keyword[0] == 'R' ? function.ramp : function.step, diagnostics);
-  if (function.spline && function.table.empty())
-    diagnostics.error(record.where("SPLINE"), "SPLINE belongs to a TABLE");
+  if (function.spline && function.table.empty()) diagnostics.error(record.where("SPLINE"), "SPLINE belongs to a TABLE");
   if (function.period && function.table.empty())
     diagnostics.error(record.where("PERIOD"), "PERIOD belongs to a TABLE");
   else if (function.period && !function.table.empty() && function.table.size() % 2 == 0 &&
@@ -134,28 +151,38 @@ void check_function(FunctionCard& function, Record& record, Diagnostics& diagnos
 Schema function_card() {
   Card<FunctionCard> card(".FCT", {".FUNCTION", ".FONCTION"}, "Functions of time");
   card.chapter(chapter).numbered();
-  card.describe("A function has one shape. Before the first and behind the last point of a TABLE the end values hold, unless it has a PERIOD.");
+  card.describe(
+      "A function has one shape. Before the first and behind the last point of a TABLE the end values hold, unless it has a "
+      "PERIOD.");
   card.add("NOM", &FunctionCard::name, "name").synonyms({"NAME"});
-  card.add("TABLE", &FunctionCard::table, "abscissa and ordinate in turn, joined by straight lines").values(4, detail::any_number);
+  card.add("TABLE", &FunctionCard::table, "abscissa and ordinate in turn, joined by straight lines")
+      .values(4, detail::any_number);
   card.add("SPLINE", &FunctionCard::spline, "join the TABLE by a cubic spline with continuous curvature");
   card.add("PERIOD", &FunctionCard::period, "the TABLE repeats with this period").synonyms({"PERIODE"}).positive();
-  card.add("SINUS", &FunctionCard::sinus, "amplitude, frequency (per unit of time), phase (degrees), mean").synonyms({"SINE"}).values(2, 4);
+  card.add("SINUS", &FunctionCard::sinus, "amplitude, frequency (per unit of time), phase (degrees), mean")
+      .synonyms({"SINE"})
+      .values(2, 4);
   card.add("RAMP", &FunctionCard::ramp, "t0 y0 t1 y1: constant, a straight line, constant").synonyms({"RAMPE"}).values(4, 4);
   card.add("STEP", &FunctionCard::step, "t0 y0 t1 y1: constant, a polynomial with continuous curvature, constant")
-      .synonyms({"ECHELON"}).values(4, 4);
-  card.add("EXPR", &FunctionCard::expression, "a formula of the time T, with PI and the functions of the deck's arithmetic (radians)")
+      .synonyms({"ECHELON"})
+      .values(4, 4);
+  card.add("EXPR", &FunctionCard::expression,
+           "a formula of the time T, with PI and the functions of the deck's arithmetic (radians)")
       .synonyms({"EXPRESSION", "FORMULE"});
   card.finish(check_function);
   card.example(".FCT\n I 1 TABLE 0 0  1 1\n I 2 NOM \"swell\" SINUS 0.5 10. 90. 1.\n I 3 EXPR \"sin(2*PI*T)**2\"");
   return card.schema();
 }
 
-Schema initial_card(const char* name, std::vector<std::string> synonyms, const char* summary, const char* tag, const char* values) {
+Schema initial_card(const char* name, std::vector<std::string> synonyms, const char* summary, const char* tag,
+                    const char* values) {
   Card<InitialCard> card(name, std::move(synonyms), summary);
   InitialCard data;
   data.kind.tag = tag;
   card.chapter(chapter).initial(data);
-  card.describe("A wish: where joints or drives do not allow it, the nearest state that they allow is taken. With IMPOSED this is an error.");
+  card.describe(
+      "A wish: where joints or drives do not allow it, the nearest state that they allow is taken. With IMPOSED this is an "
+      "error.");
   add_target(card);
   add_components(card, "components: 1 to 3 translations, 4 to 6 rotations");
   card.add("V", &InitialCard::values, values).values(1, 6).required();
@@ -167,13 +194,15 @@ Schema initial_card(const char* name, std::vector<std::string> synonyms, const c
 }  // namespace
 
 std::vector<Schema> condition_cards() {
-  Schema position = initial_card(".INI DEP", {".INITIAL", "DEPLACEMENT", "DISPLACEMENT"}, "Initial displacements and rotations", "DISPLACEMENT",
-                                 "displacement, or rotation in degrees: one for all components or one for each");
-  Schema velocity = initial_card(".INI VIT", {".INITIAL", "VITESSE", "VELOCITY"}, "Initial velocities", "VELOCITY",
-                                 "velocity, or angular velocity in radians per unit of time: one for all components or one for each");
+  Schema position = initial_card(".INI DEP", {".INITIAL", "DEPLACEMENT", "DISPLACEMENT"}, "Initial displacements and rotations",
+                                 "DISPLACEMENT", "displacement, or rotation in degrees: one for all components or one for each");
+  Schema velocity =
+      initial_card(".INI VIT", {".INITIAL", "VITESSE", "VELOCITY"}, "Initial velocities", "VELOCITY",
+                   "velocity, or angular velocity in radians per unit of time: one for all components or one for each");
   position.examples = {".INI\n DEP NOEUD 3 C 4 V 5."};
   velocity.examples = {".INI\n VIT GROUP \"rotor\" C 6 V (12000*PI/30)"};
-  return {fix_card(), displacement_card(), load_card(), gravity_card(), function_card(), std::move(position), std::move(velocity)};
+  return {fix_card(),      displacement_card(), load_card(),        gravity_card(),
+          function_card(), std::move(position), std::move(velocity)};
 }
 
 }  // namespace engrane::deck

@@ -12,12 +12,18 @@ namespace {
 
 std::string noun(const Field& field) {
   switch (field.reference) {
-    case Reference::node: return "node";
-    case Reference::element: return "element";
-    case Reference::function: return "function";
-    case Reference::group: return "group";
-    case Reference::frame: return "frame";
-    case Reference::nothing: break;
+    case Reference::node:
+      return "node";
+    case Reference::element:
+      return "element";
+    case Reference::function:
+      return "function";
+    case Reference::group:
+      return "group";
+    case Reference::frame:
+      return "frame";
+    case Reference::nothing:
+      break;
   }
   if (field.type == FieldType::text) return "text";
   return field.type == FieldType::integer ? "whole number" : "number";
@@ -27,7 +33,8 @@ std::string noun(const Field& field) {
 void append_numbers(std::vector<std::string>& words, const std::vector<double>& numbers, bool ranges) {
   for (std::size_t i = 0; i < numbers.size();) {
     std::size_t same = i + 1;
-    while (same < numbers.size() && numbers[same] == numbers[i] && std::signbit(numbers[same]) == std::signbit(numbers[i])) ++same;
+    while (same < numbers.size() && numbers[same] == numbers[i] && std::signbit(numbers[same]) == std::signbit(numbers[i]))
+      ++same;
     std::size_t run = i + 1;
     while (ranges && run < numbers.size() && numbers[run] == numbers[run - 1] + 1) ++run;
     if (run - i > 2) {
@@ -89,11 +96,14 @@ std::string json_value(const Field& field, const Field::Values& values) {
   for (const std::string& text : values.texts) items.push_back(json_string(text));
   const std::string list = "[" + join(items, ", ") + "]";
   switch (field.type) {
-    case FieldType::flag: return "true";
-    case FieldType::choice: return items.empty() ? json_string(values.tag) : "{" + json_string(values.tag) + ": " + list + "}";
+    case FieldType::flag:
+      return "true";
+    case FieldType::choice:
+      return items.empty() ? json_string(values.tag) : "{" + json_string(values.tag) + ": " + list + "}";
     case FieldType::integer:
     case FieldType::real:
-    case FieldType::text: break;
+    case FieldType::text:
+      break;
   }
   if (field.max_values > 1) return list;
   return items.empty() ? "null" : items.front();

@@ -52,11 +52,16 @@ std::string record_start(const Schema& schema) {
 
 std::string blank(const Field& field) {
   switch (field.type) {
-    case FieldType::flag: return {};
-    case FieldType::text: return "\"<text>\"";
-    case FieldType::choice: return "<word>";
-    case FieldType::integer: return field.reference == Reference::node ? "<node>" : "<whole>";
-    case FieldType::real: break;
+    case FieldType::flag:
+      return {};
+    case FieldType::text:
+      return "\"<text>\"";
+    case FieldType::choice:
+      return "<word>";
+    case FieldType::integer:
+      return field.reference == Reference::node ? "<node>" : "<whole>";
+    case FieldType::real:
+      break;
   }
   return "<number>";
 }
@@ -88,8 +93,9 @@ std::string help_overview(const Catalogue& catalogue) {
   append_overview(out, catalogue.commands);
   out += "\nElements: .MCE, then I <id> <TYPE> N <nodes> <keyword values>\n";
   append_overview(out, catalogue.elements);
-  out += "\nWithout a dot: INPUT \"file\", RETURN, EXIT, ABRE '/name' 'text', MODE LECT n. "
-         ".DEL.CLM or .DEL.* forgets records; .FIN ends the deck.\n";
+  out +=
+      "\nWithout a dot: INPUT \"file\", RETURN, EXIT, ABRE '/name' 'text', MODE LECT n. "
+      ".DEL.CLM or .DEL.* forgets records; .FIN ends the deck.\n";
   return out;
 }
 

@@ -20,10 +20,14 @@ std::string object(const std::vector<std::string>& members) { return "{" + join(
 /// The schema of one value of a field.
 std::string item(const Field& field) {
   std::vector<std::string> members;
-  members.push_back(member("type", field.type == FieldType::text ? "\"string\"" : field.type == FieldType::integer ? "\"integer\"" : "\"number\""));
+  members.push_back(member("type", field.type == FieldType::text      ? "\"string\""
+                                   : field.type == FieldType::integer ? "\"integer\""
+                                                                      : "\"number\""));
   if (field.type != FieldType::text) {
-    if (std::isfinite(field.lower)) members.push_back(member(field.lower_open ? "exclusiveMinimum" : "minimum", format_number(field.lower)));
-    if (std::isfinite(field.upper)) members.push_back(member(field.upper_open ? "exclusiveMaximum" : "maximum", format_number(field.upper)));
+    if (std::isfinite(field.lower))
+      members.push_back(member(field.lower_open ? "exclusiveMinimum" : "minimum", format_number(field.lower)));
+    if (std::isfinite(field.upper))
+      members.push_back(member(field.upper_open ? "exclusiveMaximum" : "maximum", format_number(field.upper)));
   }
   return object(members);
 }
@@ -32,14 +36,17 @@ std::string item(const Field& field) {
 std::string choice(const Field& field) {
   std::vector<std::string> alternatives;
   for (const Option& option : field.options) {
-    if (option.min_values == 0) alternatives.push_back(object({member("const", json_string(option.name)), member("description", json_string(option.help))}));
+    if (option.min_values == 0)
+      alternatives.push_back(
+          object({member("const", json_string(option.name)), member("description", json_string(option.help))}));
     if (option.max_values == 0) continue;
     const std::string numbers = object({member("type", "\"array\""), member("items", "{\"type\": \"number\"}"),
                                         member("minItems", std::to_string(std::max(option.min_values, 1))),
                                         member("maxItems", std::to_string(option.max_values))});
-    alternatives.push_back(object({member("type", "\"object\""), member("description", json_string(option.help)),
-                                   member("properties", object({member(option.name, numbers)})),
-                                   member("required", "[" + json_string(option.name) + "]"), member("additionalProperties", "false")}));
+    alternatives.push_back(
+        object({member("type", "\"object\""), member("description", json_string(option.help)),
+                member("properties", object({member(option.name, numbers)})),
+                member("required", "[" + json_string(option.name) + "]"), member("additionalProperties", "false")}));
   }
   return "[" + join(alternatives, ", ") + "]";
 }
@@ -81,11 +88,13 @@ std::string definition(const Schema& schema) {
   }
   return object({member("title", json_string(schema.summary)), member("type", "\"object\""),
                  member("required", "[" + join(required, ", ") + "]"),
-                 "\n      \"properties\": {\n        " + [&] {
-                   std::string text;
-                   for (std::size_t i = 0; i < properties.size(); ++i) text += (i > 0 ? ",\n        " : "") + properties[i];
-                   return text;
-                 }() + "}",
+                 "\n      \"properties\": {\n        " +
+                     [&] {
+                       std::string text;
+                       for (std::size_t i = 0; i < properties.size(); ++i) text += (i > 0 ? ",\n        " : "") + properties[i];
+                       return text;
+                     }() +
+                     "}",
                  member("additionalProperties", "false")});
 }
 
@@ -100,15 +109,19 @@ std::string json_schema(const Catalogue& catalogue) {
     const std::string separator = schema == all.front() ? "" : ",\n";
     definitions += separator + "    " + member(schema->name, definition(*schema));
     references += separator + "    " + object({member("$ref", json_string("#/$defs/" + [&] {
-                    std::string name = schema->name;
-                    if (const std::size_t space = name.find(' '); space != std::string::npos) name.replace(space, 1, "%20");
-                    return name;
-                  }()))});
+                                                        std::string name = schema->name;
+                                                        if (const std::size_t space = name.find(' '); space != std::string::npos)
+                                                          name.replace(space, 1, "%20");
+                                                        return name;
+                                                      }()))});
   }
   return "{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n"
          "  \"title\": \"The records of a deck, as the results file holds them\",\n"
-         "  \"type\": \"array\",\n  \"items\": {\"oneOf\": [\n" + references + "]},\n"
-         "  \"$defs\": {\n" + definitions + "}\n}\n";
+         "  \"type\": \"array\",\n  \"items\": {\"oneOf\": [\n" +
+         references +
+         "]},\n"
+         "  \"$defs\": {\n" +
+         definitions + "}\n}\n";
 }
 
 }  // namespace engrane::deck

@@ -19,9 +19,7 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' |
 
 bool ends_word(char c) { return is_blank(c) || c == '"' || c == '\'' || c == '(' || c == ')' || c == '!'; }
 
-bool is_name_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
+bool is_name_character(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
 
 /// Is there nothing but blanks and a comment?
 bool nothing_left(std::string_view rest) {
@@ -95,16 +93,19 @@ class LineBuilder {
     const char before = i > 0 ? source[i - 1] : ' ';
     if (parentheses_ > 0 && (is_name_character(before) || before == '.' || before == ')')) {
       const std::string quoted = "`" + std::string(name) + "`";
-      diagnostics_.error(where, "the abbreviation " + quoted + " would be pasted right behind `" + before + "`",
-                         "to divide by it write `/" + std::string(name) + "`; to divide by something else put a blank behind `/`");
+      diagnostics_.error(
+          where, "the abbreviation " + quoted + " would be pasted right behind `" + before + "`",
+          "to divide by it write `/" + std::string(name) + "`; to divide by something else put a blank behind `/`");
     }
     const std::size_t end = i + name.size();
     if (end < source.size() && is_name_character(source[end]) && is_name_character(name.back())) {
       std::size_t word_end = end;
       while (word_end < source.size() && is_name_character(source[word_end])) ++word_end;
       const std::string word(source.substr(i, word_end - i));
-      diagnostics_.warning(where, "`" + word + "` is read as the abbreviation `" + std::string(name) + "` followed by `" +
-                                      word.substr(name.size()) + "`", "no ABRE defines `" + word + "`");
+      diagnostics_.warning(
+          where,
+          "`" + word + "` is read as the abbreviation `" + std::string(name) + "` followed by `" + word.substr(name.size()) + "`",
+          "no ABRE defines `" + word + "`");
     }
     for (char c : abbreviations_.expand(name, where, diagnostics_)) {
       parentheses_ = std::max(0, parentheses_ + (c == '(' ? 1 : c == ')' ? -1 : 0));

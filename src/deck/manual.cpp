@@ -88,10 +88,10 @@ std::string meaning(const Field& field) {
   if (field.heading) text += "; may stand before the first record and then holds for all";
   for (const Option& option : field.options) {
     text += "<br>" + codes([&] {
-      std::vector<std::string> words{option.name};
-      words.insert(words.end(), option.synonyms.begin(), option.synonyms.end());
-      return words;
-    }());
+              std::vector<std::string> words{option.name};
+              words.insert(words.end(), option.synonyms.begin(), option.synonyms.end());
+              return words;
+            }());
     if (option.max_values > 0) text += " and " + expected_count(option.min_values, option.max_values);
     if (const std::string unit = deck_unit(option.dimension); !unit.empty()) text += " " + unit;
     text += ": " + option.help;
@@ -117,8 +117,8 @@ void append_card(std::string& out, const Schema& schema) {
       std::vector<std::string> synonyms = spellings(field);
       synonyms.erase(synonyms.begin());
       const std::string fallback = field.required ? "required" : code(default_text(schema, field));
-      out += "| " + code(field.keyword) + " | " + codes(synonyms) + " | " + value_kind(field) + " | " + deck_unit(field.dimension) + " | " +
-             fallback + " | " + bare_range(field) + " | " + cell(meaning(field)) + " |\n";
+      out += "| " + code(field.keyword) + " | " + codes(synonyms) + " | " + value_kind(field) + " | " +
+             deck_unit(field.dimension) + " | " + fallback + " | " + bare_range(field) + " | " + cell(meaning(field)) + " |\n";
     }
   }
   if (schema.examples.empty()) return;
@@ -139,10 +139,12 @@ void append_chapters(std::string& out, const std::vector<const Schema*>& schemas
 }
 
 void append_recognised(std::string& out) {
-  out += "\n## Recognised, not in this version\n\nThese parts of BACON are known to the reader, which says what to do instead.\n\n"
-         "| command | meaning | instead |\n|---|---|---|\n";
+  out +=
+      "\n## Recognised, not in this version\n\nThese parts of BACON are known to the reader, which says what to do instead.\n\n"
+      "| command | meaning | instead |\n|---|---|---|\n";
   for (const Recognised& entry : recognised_commands())
-    out += "| " + code(entry.name) + " | " + entry.meaning + " | " + (entry.skipped() ? "skipped with a warning" : entry.cure) + " |\n";
+    out += "| " + code(entry.name) + " | " + entry.meaning + " | " + (entry.skipped() ? "skipped with a warning" : entry.cure) +
+           " |\n";
 }
 
 }  // namespace
@@ -150,8 +152,10 @@ void append_recognised(std::string& out) {
 std::string manual_markdown(const Catalogue& catalogue) {
   std::string out = preface;
   append_chapters(out, catalogue.commands, "");
-  out += "\n## Elements of mechanisms: `.MCE`\n\nA record is `I <id> <TYPE> N <nodes> <keyword values>`; TYPE is the name of a section below or a "
-         "synonym of it. `.MCE` may be opened several times.\n";
+  out +=
+      "\n## Elements of mechanisms: `.MCE`\n\nA record is `I <id> <TYPE> N <nodes> <keyword values>`; TYPE is the name of a "
+      "section below or a "
+      "synonym of it. `.MCE` may be opened several times.\n";
   append_chapters(out, catalogue.elements, "Elements: ");
   append_recognised(out);
   return out;

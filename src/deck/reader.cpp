@@ -29,7 +29,9 @@ struct Command {
   const Schema& only() const { return *schemas.front(); }
   bool keyed() const { return !keys.keyed.empty(); }
   bool numbered() const { return !keys.number_key.empty(); }
-  bool redefines() const { return std::any_of(schemas.begin(), schemas.end(), [](const Schema* s) { return s->redefines; }); }
+  bool redefines() const {
+    return std::any_of(schemas.begin(), schemas.end(), [](const Schema* s) { return s->redefines; });
+  }
 };
 
 /// All commands of a catalogue by the significant part of their words.
@@ -143,7 +145,8 @@ class Reader {
                          target.empty() ? "write .DEL.CLM, or .DEL.* for all" : did_you_mean(target, commands_.words()));
     while (!tokens_.peek().is_end() && !tokens_.peek().is_command()) {
       const Token token = tokens_.take();
-      if (token.fault.empty()) diagnostics_.error(token.where, "`" + token.text + "`: nothing may follow `" + upper(word.text) + "`");
+      if (token.fault.empty())
+        diagnostics_.error(token.where, "`" + token.text + "`: nothing may follow `" + upper(word.text) + "`");
     }
   }
 
@@ -160,10 +163,13 @@ class Reader {
   /// `.CLM ADD` adds, `.CLM` alone starts afresh.
   void open_again(const Command& command, const Token& word) {
     const Token& next = tokens_.peek();
-    if (next.is_word() && !next.starts_line && (same_word(next.text, "ADD") || same_word(next.text, "AJOUT"))) return tokens_.skip();
+    if (next.is_word() && !next.starts_line && (same_word(next.text, "ADD") || same_word(next.text, "AJOUT")))
+      return tokens_.skip();
     if (const int dropped = forget(&command); dropped > 0)
-      diagnostics_.warning(word.where, command.name + " starts afresh: " + counted(static_cast<std::size_t>(dropped), "earlier record") + " dropped",
-                           "`" + command.name + " ADD` adds to them");
+      diagnostics_.warning(
+          word.where,
+          command.name + " starts afresh: " + counted(static_cast<std::size_t>(dropped), "earlier record") + " dropped",
+          "`" + command.name + " ADD` adds to them");
   }
 
   /// Records `I <id> …`, of one card or, in `.MCE`, of the one whose TYPE follows the id.
@@ -193,7 +199,9 @@ class Reader {
         deck_.records.back().id = id;
       }
       deck_.records.push_back(std::move(record));
-      if (!copies.empty()) std::rotate(deck_.records.rbegin(), deck_.records.rbegin() + 1, deck_.records.rbegin() + static_cast<std::ptrdiff_t>(copies.size()) + 1);
+      if (!copies.empty())
+        std::rotate(deck_.records.rbegin(), deck_.records.rbegin() + 1,
+                    deck_.records.rbegin() + static_cast<std::ptrdiff_t>(copies.size()) + 1);
     }
   }
 
@@ -201,7 +209,8 @@ class Reader {
     if (at_boundary(tokens_, command.keys)) return;
     const Token token = tokens_.take();
     if (token.fault.empty())
-      diagnostics_.error(token.where, "expected `I` and a number instead of `" + token.text + "`", "an element is given as I 1 GEAR N 1 2 …");
+      diagnostics_.error(token.where, "expected `I` and a number instead of `" + token.text + "`",
+                         "an element is given as I 1 GEAR N 1 2 …");
     records_.skip_record(command.keys);
   }
 
@@ -211,7 +220,8 @@ class Reader {
     if (!token.is_number()) {
       tokens_.skip();
       if (!tokens_.peek().is_number()) {
-        diagnostics_.error(token.where, "`" + token.text + "` needs a number behind it", "records are numbered: " + command.keys.number_key + " 1");
+        diagnostics_.error(token.where, "`" + token.text + "` needs a number behind it",
+                           "records are numbered: " + command.keys.number_key + " 1");
         return false;
       }
     }
@@ -256,7 +266,8 @@ class Reader {
   const Schema* element_type(Record& record) {
     const Token& next = tokens_.peek();
     if (!next.is_word() || next.is_command()) {
-      diagnostics_.error(record.location, "element " + std::to_string(record.id) + " has no type", "an element is given as I 1 GEAR N 1 2 …");
+      diagnostics_.error(record.location, "element " + std::to_string(record.id) + " has no type",
+                         "an element is given as I 1 GEAR N 1 2 …");
       return nullptr;
     }
     const Token word = tokens_.take();
@@ -266,11 +277,13 @@ class Reader {
     span(record.location, word.where);
     if (match.entry) return match.entry;
     if (match.ambiguous()) {
-      diagnostics_.error(word.where, "`" + word.text + "` is short for several element types", "write " + join(match.candidates, " or "));
+      diagnostics_.error(word.where, "`" + word.text + "` is short for several element types",
+                         "write " + join(match.candidates, " or "));
       return nullptr;
     }
     std::string hint = did_you_mean(word.text, schema_words(elements));
-    diagnostics_.error(word.where, "unknown element type `" + word.text + "`", hint.empty() ? "`engrane help` lists the element types" : hint);
+    diagnostics_.error(word.where, "unknown element type `" + word.text + "`",
+                       hint.empty() ? "`engrane help` lists the element types" : hint);
     return nullptr;
   }
 
@@ -363,7 +376,8 @@ class Reader {
 
 const Schema* Catalogue::find(std::string_view name) const {
   for (const Schema* schema : commands)
-    if (same_word(schema->name, name) || (name.starts_with('.') && significant(name) == significant(schema->name) && name.find(' ') == name.npos))
+    if (same_word(schema->name, name) ||
+        (name.starts_with('.') && significant(name) == significant(schema->name) && name.find(' ') == name.npos))
       return schema;
   if (const Match<Schema> match = match_schema(elements, name); match.entry) return match.entry;
   for (const Schema* schema : commands)

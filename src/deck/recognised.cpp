@@ -11,7 +11,8 @@ namespace engrane::deck {
 const std::vector<Recognised>& recognised_commands() {
   static const std::vector<Recognised> all{
       {".MAI", "the cells of a finite-element mesh", "give mechanism elements in .MCE and remove .MAI"},
-      {".COL", "joining nodes that lie closer than a tolerance", "use the same node in both parts, or .MCE RIGID, and remove .COL"},
+      {".COL", "joining nodes that lie closer than a tolerance",
+       "use the same node in both parts, or .MCE RIGID, and remove .COL"},
       {".AXL", "local axes of nodes", "give directions by AXIS in .MCE, nodes in a .FRAME, and remove .AXL"},
       {".HYP", "which formulation a group of cells gets", "the TYPE of an .MCE record says it; remove .HYP"},
       {".PHP", "physical properties of cells (thickness, section)", "give them in the .MCE record and remove .PHP"},

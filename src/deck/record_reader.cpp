@@ -16,14 +16,12 @@ struct RecordReader::Reading {
   Record& record;
   const Schema& schema;
   const RecordKeys& keys;
-  std::map<std::string, Location, std::less<>> given;  ///< keyword → where its values are
+  std::map<std::string, Location, std::less<>> given;      ///< keyword → where its values are
   std::map<std::string, std::size_t, std::less<>> counts;  ///< how many numbers a keyword had, for wholes and parts
-  bool past_leads = false;  ///< a keyword that does not lead was given
+  bool past_leads = false;                                 ///< a keyword that does not lead was given
 };
 
-std::string record_title(const Schema& schema, int id) {
-  return id == 0 ? schema.name : schema.name + " " + std::to_string(id);
-}
+std::string record_title(const Schema& schema, int id) { return id == 0 ? schema.name : schema.name + " " + std::to_string(id); }
 
 void RecordReader::read(Record& record, const RecordKeys& keys, const std::vector<Heading>& headings) {
   Reading reading{record, *record.schema, keys, {}, {}};
@@ -171,7 +169,8 @@ void RecordReader::finish(Reading& reading) {
     explained.push_back(field.keyword + ": " + field.help);
   }
   if (!missing.empty() && !record.faulty) {
-    diagnostics_.error(record.location, record_title(reading.schema, record.id) + " lacks " + join(missing), join(explained, "; "));
+    diagnostics_.error(record.location, record_title(reading.schema, record.id) + " lacks " + join(missing),
+                       join(explained, "; "));
     record.faulty = true;
   }
   if (!record.faulty && reading.schema.finish) {

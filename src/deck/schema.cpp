@@ -95,8 +95,7 @@ void find_field_faults(const Schema& schema, const Field& field, std::set<std::s
   }
   const Field::Values defaults = field.load(schema.make());
   const auto has_tag = [&](const Option& option) { return option.name == defaults.tag; };
-  if (field.type == FieldType::choice && defaults.present &&
-      std::none_of(field.options.begin(), field.options.end(), has_tag))
+  if (field.type == FieldType::choice && defaults.present && std::none_of(field.options.begin(), field.options.end(), has_tag))
     faults.push_back(prefix + "the default `" + defaults.tag + "` is no option");
 }
 
@@ -104,7 +103,8 @@ void find_field_faults(const Schema& schema, const Field& field, std::set<std::s
 
 std::vector<std::string> schema_faults(const Schema& schema) {
   std::vector<std::string> faults;
-  if (schema.name.empty() || schema.name != upper(schema.name)) faults.push_back("`" + schema.name + "` is not an upper-case name");
+  if (schema.name.empty() || schema.name != upper(schema.name))
+    faults.push_back("`" + schema.name + "` is not an upper-case name");
   if (schema.summary.empty()) faults.push_back(schema.name + ": no summary");
   if (schema.chapter.empty()) faults.push_back(schema.name + ": no chapter");
   if (!schema.make) return faults;

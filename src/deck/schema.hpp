@@ -72,7 +72,7 @@ struct Field {
   bool upper_open = false;
   std::vector<std::string> fillers;  ///< words without meaning that may stand before the values (`ACC VAL …`)
   std::vector<Code> codes;           ///< the integers that mean something; others are skipped with a warning
-  std::vector<Option> options;  ///< of a choice; the first is taken when the keyword stands alone and needs no value
+  std::vector<Option> options;       ///< of a choice; the first is taken when the keyword stands alone and needs no value
 
   /// Values as the deck gives them; exactly one vector is in use, by type (a choice uses `tag` and `numbers`).
   struct Values {
@@ -81,8 +81,8 @@ struct Field {
     std::string tag;
     bool present = false;
   };
-  std::function<void(std::any&, const Values&)> store;   ///< writes the values into the card's struct
-  std::function<Values(const std::any&)> load;           ///< reads them back: defaults, canonical deck, JSON
+  std::function<void(std::any&, const Values&)> store;  ///< writes the values into the card's struct
+  std::function<Values(const std::any&)> load;          ///< reads them back: defaults, canonical deck, JSON
 };
 
 /// A card without its struct's type: what reader, help and manual work with.
@@ -94,19 +94,19 @@ struct Schema {
   std::string description;            ///< paragraphs, may be empty
   std::vector<std::string> examples;  ///< deck lines
   std::vector<Field> fields;
-  bool numbered = false;  ///< the record starts with `I <id>`
-  std::string record_key = "I";  ///< the word before the number (`GROUP` in `.SEL`)
-  bool repeated_ids = false;  ///< `I a J b K c` ranges of ids make sense
-  bool rows = false;          ///< a line that starts with a number is a record: id, then the positional values
-  bool once = false;          ///< a second record is an error
-  bool redefines = false;     ///< opening the command again without ADD drops its earlier records
+  bool numbered = false;           ///< the record starts with `I <id>`
+  std::string record_key = "I";    ///< the word before the number (`GROUP` in `.SEL`)
+  bool repeated_ids = false;       ///< `I a J b K c` ranges of ids make sense
+  bool rows = false;               ///< a line that starts with a number is a record: id, then the positional values
+  bool once = false;               ///< a second record is an error
+  bool redefines = false;          ///< opening the command again without ADD drops its earlier records
   std::function<std::any()> make;  ///< a default-constructed struct
   /// Checks across fields and values that follow from others, once the record is read without a fault; may be empty.
   std::function<void(Record&, Diagnostics&)> finish;
 
   const Field* find(std::string_view keyword) const;  ///< exact canonical keyword
-  std::string_view command() const;  ///< `.CLM` of `.CLM FIX`; `.MCE` for elements
-  std::string_view key() const;      ///< `FIX` of `.CLM FIX`; empty when the command has one kind of record only
+  std::string_view command() const;                   ///< `.CLM` of `.CLM FIX`; `.MCE` for elements
+  std::string_view key() const;                       ///< `FIX` of `.CLM FIX`; empty when the command has one kind of record only
 };
 
 /// Every spelling of a field: keyword, declared synonyms, and those that BACON gives this keyword everywhere (V = VAL).
@@ -122,22 +122,74 @@ std::string deck_unit(Dimension dimension);
 class FieldBuilder {
  public:
   FieldBuilder(Schema& schema, std::size_t index) : schema_(schema), index_(index) {}
-  FieldBuilder& synonyms(std::vector<std::string> words) { field().synonyms = std::move(words); return *this; }
-  FieldBuilder& unit(Dimension d) { field().dimension = d; return *this; }
-  FieldBuilder& refers(Reference r) { field().reference = r; return *this; }
-  FieldBuilder& required() { field().required = true; return *this; }
-  FieldBuilder& positional() { field().positional = true; return *this; }
-  FieldBuilder& values(int least, int most) { field().min_values = least; field().max_values = most; return *this; }
-  FieldBuilder& positive() { field().lower = 0; field().lower_open = true; return *this; }
-  FieldBuilder& at_least(double bound) { field().lower = bound; return *this; }
-  FieldBuilder& at_most(double bound) { field().upper = bound; return *this; }
-  FieldBuilder& below(double bound) { field().upper = bound; field().upper_open = true; return *this; }
-  FieldBuilder& above(double bound) { field().lower = bound; field().lower_open = true; return *this; }
-  FieldBuilder& leads() { field().leads = true; return *this; }
-  FieldBuilder& heading() { field().heading = true; return *this; }
-  FieldBuilder& filler(std::vector<std::string> words) { field().fillers = std::move(words); return *this; }
-  FieldBuilder& codes(std::vector<Code> known) { field().codes = std::move(known); return *this; }
-  FieldBuilder& option(Option o) { field().options.push_back(std::move(o)); return *this; }
+  FieldBuilder& synonyms(std::vector<std::string> words) {
+    field().synonyms = std::move(words);
+    return *this;
+  }
+  FieldBuilder& unit(Dimension d) {
+    field().dimension = d;
+    return *this;
+  }
+  FieldBuilder& refers(Reference r) {
+    field().reference = r;
+    return *this;
+  }
+  FieldBuilder& required() {
+    field().required = true;
+    return *this;
+  }
+  FieldBuilder& positional() {
+    field().positional = true;
+    return *this;
+  }
+  FieldBuilder& values(int least, int most) {
+    field().min_values = least;
+    field().max_values = most;
+    return *this;
+  }
+  FieldBuilder& positive() {
+    field().lower = 0;
+    field().lower_open = true;
+    return *this;
+  }
+  FieldBuilder& at_least(double bound) {
+    field().lower = bound;
+    return *this;
+  }
+  FieldBuilder& at_most(double bound) {
+    field().upper = bound;
+    return *this;
+  }
+  FieldBuilder& below(double bound) {
+    field().upper = bound;
+    field().upper_open = true;
+    return *this;
+  }
+  FieldBuilder& above(double bound) {
+    field().lower = bound;
+    field().lower_open = true;
+    return *this;
+  }
+  FieldBuilder& leads() {
+    field().leads = true;
+    return *this;
+  }
+  FieldBuilder& heading() {
+    field().heading = true;
+    return *this;
+  }
+  FieldBuilder& filler(std::vector<std::string> words) {
+    field().fillers = std::move(words);
+    return *this;
+  }
+  FieldBuilder& codes(std::vector<Code> known) {
+    field().codes = std::move(known);
+    return *this;
+  }
+  FieldBuilder& option(Option o) {
+    field().options.push_back(std::move(o));
+    return *this;
+  }
 
  private:
   Field& field() { return schema_.fields[index_]; }
@@ -171,17 +223,48 @@ class Card {
   template <class Member>
   FieldBuilder add_part(std::string keyword, std::string whole, int part, Member Data::*member, std::string help);
 
-  Card& chapter(std::string title) { schema_.chapter = std::move(title); return *this; }
-  Card& describe(std::string text) { schema_.description = std::move(text); return *this; }
-  Card& example(std::string lines) { schema_.examples.push_back(std::move(lines)); return *this; }
-  Card& numbered() { schema_.numbered = true; return *this; }
-  Card& key(std::string word) { schema_.numbered = true; schema_.record_key = std::move(word); return *this; }
-  Card& repeated_ids() { schema_.repeated_ids = true; return *this; }
-  Card& rows() { schema_.rows = true; return *this; }
-  Card& once() { schema_.once = true; return *this; }
-  Card& redefines() { schema_.redefines = true; return *this; }
+  Card& chapter(std::string title) {
+    schema_.chapter = std::move(title);
+    return *this;
+  }
+  Card& describe(std::string text) {
+    schema_.description = std::move(text);
+    return *this;
+  }
+  Card& example(std::string lines) {
+    schema_.examples.push_back(std::move(lines));
+    return *this;
+  }
+  Card& numbered() {
+    schema_.numbered = true;
+    return *this;
+  }
+  Card& key(std::string word) {
+    schema_.numbered = true;
+    schema_.record_key = std::move(word);
+    return *this;
+  }
+  Card& repeated_ids() {
+    schema_.repeated_ids = true;
+    return *this;
+  }
+  Card& rows() {
+    schema_.rows = true;
+    return *this;
+  }
+  Card& once() {
+    schema_.once = true;
+    return *this;
+  }
+  Card& redefines() {
+    schema_.redefines = true;
+    return *this;
+  }
   /// The struct a record starts from, where it is not Data's own default.
-  Card& initial(Data data) { schema_.make = [data] { return std::any(data); }; return *this; }
+  Card& initial(Data data) {
+    schema_.make = [data] { return std::any(data); };
+    return *this;
+  }
   /// `check(Data&, Record&, Diagnostics&)` runs once a record is read without a fault.
   template <class Check>
   Card& finish(Check check);
@@ -203,7 +286,9 @@ struct Record {
 
   /// The card's struct, or nullptr when the record is of another card.
   template <class Data>
-  const Data* get() const { return std::any_cast<Data>(&data); }
+  const Data* get() const {
+    return std::any_cast<Data>(&data);
+  }
   bool given(std::string_view keyword) const { return field_locations.contains(keyword); }
   /// Where the keyword's values stand; the record itself when the keyword was not given.
   Location where(std::string_view keyword) const;

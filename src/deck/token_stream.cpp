@@ -162,8 +162,7 @@ void TokenStream::abbreviation(std::vector<Token>& tokens) {
     return diagnostics_.error(tokens.front().where, "ABRE needs a name and a text in single quotes", "ABRE '/radius' '0.25'");
   for (std::size_t i = 1; i < tokens.size(); i += 2) {
     if (report(tokens[i])) return;
-    if (tokens[i].kind != Token::Kind::replacement || i + 1 == tokens.size() ||
-        tokens[i + 1].kind != Token::Kind::replacement)
+    if (tokens[i].kind != Token::Kind::replacement || i + 1 == tokens.size() || tokens[i + 1].kind != Token::Kind::replacement)
       return diagnostics_.error(tokens[i].where, "ABRE takes pairs of a name and a text, each in single quotes",
                                 "ABRE '/radius' '0.25'");
     if (report(tokens[i + 1])) return;
@@ -180,8 +179,9 @@ void TokenStream::mode(std::vector<Token>& tokens) {
   if (tokens.size() > 1 && same_word(tokens[1].text, "LECT")) {
     if (tokens.size() < 3 || !tokens[2].is_number() || tokens[2].value < 1 || tokens[2].value > most_columns ||
         tokens[2].value != static_cast<int>(tokens[2].value))
-      return diagnostics_.error(tokens[1].where, "MODE LECT needs the number of columns to read, 1 to " +
-                                                     std::to_string(most_columns), "MODE LECT 132");
+      return diagnostics_.error(tokens[1].where,
+                                "MODE LECT needs the number of columns to read, 1 to " + std::to_string(most_columns),
+                                "MODE LECT 132");
     columns_ = static_cast<int>(tokens[2].value);
     return surplus(tokens, 3);
   }
@@ -191,7 +191,8 @@ void TokenStream::mode(std::vector<Token>& tokens) {
 }
 
 void TokenStream::leave_file(const Token& word) {
-  if (open_.size() < 2) return diagnostics_.error(word.where, "RETURN outside a file read by INPUT", "EXIT or .FIN ends the deck");
+  if (open_.size() < 2)
+    return diagnostics_.error(word.where, "RETURN outside a file read by INPUT", "EXIT or .FIN ends the deck");
   const OpenFile left = open_.back();
   open_.pop_back();
   warn_of_rest(left, word);

@@ -37,9 +37,9 @@ struct ValueReader::Work {
   const RecordKeys& keys;
   Location keyword;
   FieldReading result;
-  std::string name{};        ///< the keyword, and the option of a choice
-  Location surplus{};        ///< the first value too many
-  bool any = false;        ///< a value was taken
+  std::string name{};  ///< the keyword, and the option of a choice
+  Location surplus{};  ///< the first value too many
+  bool any = false;    ///< a value was taken
 };
 
 bool at_number_key(TokenStream& tokens, const RecordKeys& keys) {
@@ -95,14 +95,19 @@ FieldReading ValueReader::read(const Field& field, const Schema& schema, const R
     take(work);
   work.any = false;
   switch (field.type) {
-    case FieldType::flag: break;
+    case FieldType::flag:
+      break;
     case FieldType::integer:
     case FieldType::real:
       read_numbers(work);
       check_count(work, field.keyword, field.min_values, field.max_values);
       break;
-    case FieldType::text: read_texts(work); break;
-    case FieldType::choice: read_choice(work); break;
+    case FieldType::text:
+      read_texts(work);
+      break;
+    case FieldType::choice:
+      read_choice(work);
+      break;
   }
   if (!field.codes.empty()) skip_unknown_codes(work);
   return std::move(work.result);
@@ -177,7 +182,8 @@ void ValueReader::append_range(Work& work, const Token& first, const Token& last
     return error(work, last.where, "this range ends before it starts or has no step forward",
                  "write the smaller number first, and a step of 1 or more");
   const double count = std::floor((last.value - first.value) / step) + 1;
-  if (count > most_repeated) return error(work, last.where, "this range has more than " + std::to_string(most_repeated) + " numbers");
+  if (count > most_repeated)
+    return error(work, last.where, "this range has more than " + std::to_string(most_repeated) + " numbers");
   for (int i = 0; i < static_cast<int>(count) && !work.result.faulty; ++i) append(work, first.value + i * step, 1, first.where);
 }
 
@@ -188,7 +194,8 @@ void ValueReader::append(Work& work, double value, int count, const Location& wh
     return error(work, where, "the repeat counts and ranges of this deck make too many values");
   }
   const int most = work.field.type == FieldType::choice ? detail::any_number : work.field.max_values;
-  if (!work.surplus.known() && numbers.size() + static_cast<std::size_t>(count) > static_cast<std::size_t>(most)) work.surplus = where;
+  if (!work.surplus.known() && numbers.size() + static_cast<std::size_t>(count) > static_cast<std::size_t>(most))
+    work.surplus = where;
   numbers.insert(numbers.end(), static_cast<std::size_t>(count), value);
 }
 
@@ -197,8 +204,8 @@ void ValueReader::check_number(Work& work, const Token& token) {
   if (!token.fault.empty()) return;
   if (field.type == FieldType::integer && !is_integer(token.value)) {
     const bool large = std::floor(token.value) == token.value;
-    return error(work, token.where, field.keyword + " (" + field.help + ") takes whole numbers" +
-                                        (large ? " of at most 9 digits" : ""));
+    return error(work, token.where,
+                 field.keyword + " (" + field.help + ") takes whole numbers" + (large ? " of at most 9 digits" : ""));
   }
   const double lower = lower_bound(field);
   const bool low = field.lower_open ? token.value <= lower : token.value < lower;
@@ -252,14 +259,15 @@ void ValueReader::read_choice(Work& work) {
   const Option* option = nullptr;
   const Token next = tokens_.peek();
   const Match<Option> match = next.is_word() ? match_option(field, next.text) : Match<Option>{};
-  const bool keyword = next.is_word() && !match.exact &&
-                       (at_boundary(tokens_, work.keys) || has_exact_field(work.schema, next.text));
+  const bool keyword =
+      next.is_word() && !match.exact && (at_boundary(tokens_, work.keys) || has_exact_field(work.schema, next.text));
   if (match.entry && !keyword) {
     option = match.entry;
     take(work);
   } else if (match.ambiguous() && !keyword) {
     take(work);
-    error(work, next.where, "`" + next.text + "` is short for several words of " + field.keyword, "give one of " + join(match.candidates, " or "));
+    error(work, next.where, "`" + next.text + "` is short for several words of " + field.keyword,
+          "give one of " + join(match.candidates, " or "));
   } else if (!field.options.empty() && field.options.front().min_values == 0 &&
              (keyword || !next.is_word() || match_field(work.schema, next.text).entry)) {
     option = &field.options.front();  // the keyword stands alone
@@ -270,8 +278,8 @@ void ValueReader::read_choice(Work& work) {
     if (hint.empty()) hint = "give " + join(names, " or ");
     if (next.is_word() && !keyword) take(work);
     error(work, next.is_word() && !keyword ? next.where : work.keyword,
-          next.is_word() && !keyword ? field.keyword + " does not know `" + next.text + "`"
-                                     : field.keyword + " needs a word", hint);
+          next.is_word() && !keyword ? field.keyword + " does not know `" + next.text + "`" : field.keyword + " needs a word",
+          hint);
   }
   if (!option) {
     while (at_value_number(work)) take(work);
@@ -282,7 +290,8 @@ void ValueReader::read_choice(Work& work) {
   while (option->max_values > 0 && at_value_number(work)) {
     const Token token = take(work);
     const auto& numbers = work.result.values.numbers;
-    if (numbers.size() + static_cast<std::size_t>(token.repeat) > static_cast<std::size_t>(option->max_values) && !work.surplus.known())
+    if (numbers.size() + static_cast<std::size_t>(token.repeat) > static_cast<std::size_t>(option->max_values) &&
+        !work.surplus.known())
       work.surplus = token.where;
     append(work, token.value, token.repeat, token.where);
   }
@@ -299,7 +308,8 @@ void ValueReader::skip_unknown_codes(Work& work) {
   };
   for (double number : numbers)
     if (unknown(number))
-      diagnostics_.warning(work.result.where, work.field.keyword + " " + format_number(number) + " is not known here and is skipped");
+      diagnostics_.warning(work.result.where,
+                           work.field.keyword + " " + format_number(number) + " is not known here and is skipped");
   numbers.erase(std::remove_if(numbers.begin(), numbers.end(), unknown), numbers.end());
 }
 

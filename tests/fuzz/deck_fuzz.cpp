@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // libFuzzer target: the reader survives any bytes, and the canonical text of a good deck reads back as the same deck.
 //
-//   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -Isrc -Itests/unit \
+//   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -Isrc \
 //     tests/fuzz/deck_fuzz.cpp src/base/*.cpp src/deck/*.cpp src/math/expression.cpp -o deck_fuzz
 //   mkdir empty && cd empty && ../deck_fuzz -max_len=4096 <a copy of tests/fuzz/corpus>
 //
@@ -13,9 +13,9 @@
 #include <sstream>
 #include <string>
 
+#include "../unit/fake_elements.hpp"
 #include "deck/manual.hpp"
 #include "deck/reader.hpp"
-#include "fake_elements.hpp"
 
 namespace {
 
@@ -50,7 +50,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::ostringstream complaints;
   again.print(complaints, sources_again);
   if (again.has_errors()) fail("the canonical text does not read", canonical, complaints.str());
-  if (deck::canonical_text(reread) != canonical) fail("the canonical text is not stable", canonical, deck::canonical_text(reread));
+  if (deck::canonical_text(reread) != canonical)
+    fail("the canonical text is not stable", canonical, deck::canonical_text(reread));
   if (records_json(reread) != records_json(read)) fail("the records differ", records_json(read), records_json(reread));
   return 0;
 }

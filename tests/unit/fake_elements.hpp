@@ -66,7 +66,8 @@ inline Schema fake_hinge() {
   card.chapter("Joints").numbered();
   card.add("N", &FakeHinge::nodes, "the two nodes; 0 is the ground").refers(Reference::node).required();
   card.add("AXIS", &FakeHinge::axis, "axis").synonyms({"AXE"});
-  card.add("DRIVE", &FakeHinge::drive, "motion imposed on the hinge").synonyms({"MOTEUR"})
+  card.add("DRIVE", &FakeHinge::drive, "motion imposed on the hinge")
+      .synonyms({"MOTEUR"})
       .option({"ANGLE", {}, "the angle is the function"})
       .option({"SPEED", {"VITESSE"}, "the speed is the function"});
   card.add("NF", &FakeHinge::function, "number of the function").refers(Reference::function);
