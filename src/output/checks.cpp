@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "output/checks.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "base/text.hpp"
+
+namespace engrane {
+
+namespace {
+
+constexpr double default_tolerance = 1e-6;
+
+bool is_value(const deck::CheckCard& card) { return card.measure.is("VALUE") || !card.measure.given(); }
+
+/// Value at `time` of the polynomial through the samples (Neville).
+template <class Samples>
+double interpolated(const Samples& samples, double time) {
+  std::vector<double> p;
+  for (const auto& s : samples) p.push_back(s.value);
+  for (std::size_t width = 1; width < p.size(); ++width)
+    for (std::size_t i = 0; i + width < p.size(); ++i) {
+      const double a = samples[i].time, b = samples[i + width].time;
+      p[i] = ((b - time) * p[i] + (time - a) * p[i + 1]) / (b - a);
+    }
+  return p.front();
+}
+
+}  // namespace
+
+std::string check_title(const deck::CheckCard& card) {
+  std::string title = card.element ? "ELEMENT " + std::to_string(*card.element) + " "
+                      : card.node  ? "NODE " + std::to_string(*card.node) + " "
+                                   : "RUN ";
+  title += card.quantity;
+  if (is_value(card)) return title + (card.time ? " at t = " + format_number(*card.time) : " at the end");
+  title = card.measure.tag + " of " + title;
+  if (card.window.size() == 2) title += " from t = " + format_number(card.window[0]) + " to " + format_number(card.window[1]);
+  return title;
+}
+
+Checks::Checks(std::vector<Resolved> checks) : last_values_(checks.size(), 0.0) {
+  for (Resolved& check : checks) {
+    checks_.emplace_back();
+    checks_.back().resolved = std::move(check);
+  }
+}
+
+double Checks::slack(double time) const {
+  return std::max(1e-9 * last_step_, 8 * std::numeric_limits<double>::epsilon() * std::abs(time));
+}
+
+void Checks::observe(double time, std::span<const double> values) {
+  // a time said twice: the first word of it has gone into measures already, and only a jump there makes them differ
+  const bool repeated = started_ && time <= last_time_;
+  if (!started_) first_time_ = time;
+  if (started_ && !repeated) last_step_ = time - last_time_;
+  for (std::size_t i = 0; i < checks_.size(); ++i) {
+    Measured& m = checks_[i];
+    assert(m.resolved.channel < values.size());
+    const Sample sample{time, values[m.resolved.channel]};
+    if (is_value(m.resolved.card))
+      observe_value(m, sample);
+    else
+      observe_window(m, sample);
+    last_values_[i] = sample.value;
+  }
+  last_time_ = time;
+  started_ = true;
+}
+
+void Checks::observe_value(Measured& m, Sample sample) const {
+  if (!m.resolved.card.time) return;  // the last sample is kept for all
+  const double wanted = *m.resolved.card.time;
+  if (std::abs(sample.time - wanted) <= slack(wanted)) {
+    m.near[0] = sample;
+    m.before = 1;
+    m.exact = true;
+  } else if (m.exact) {
+    return;
+  } else if (sample.time < wanted) {
+    if (m.before > 0 && sample.time <= m.near[m.before - 1].time) --m.before;
+    if (m.before == 2) {
+      m.near[0] = m.near[1];
+      m.before = 1;
+    }
+    m.near[m.before++] = sample;
+  } else if (m.after > 0 && sample.time <= m.near[m.before + m.after - 1].time) {
+    m.near[m.before + m.after - 1] = sample;
+  } else if (m.after < 2) {
+    m.near[m.before + m.after++] = sample;
+  }
+}
+
+void Checks::observe_window(Measured& m, Sample sample) const {
+  const deck::CheckCard& card = m.resolved.card;
+  const bool whole = card.window.size() != 2;
+  const double from = whole ? -std::numeric_limits<double>::infinity() : card.window[0];
+  const double to = whole ? std::numeric_limits<double>::infinity() : card.window[1];
+  const auto see = [&m](double value) {
+    m.least = m.any ? std::min(m.least, value) : value;
+    m.largest = m.any ? std::max(m.largest, value) : value;
+    m.any = true;
+  };
+  const auto inside = [&](double t) { return t >= from - slack(from) && t <= to + slack(to); };
+  const std::size_t index = static_cast<std::size_t>(&m - checks_.data());
+  const Sample last{last_time_, last_values_[index]};
+  if (started_ && sample.time > last.time) {
+    const double a = std::max(from, last.time), b = std::min(to, sample.time);
+    if (b > a) {
+      const double slope = (sample.value - last.value) / (sample.time - last.time);
+      const double ya = last.value + slope * (a - last.time), yb = last.value + slope * (b - last.time);
+      see(ya);
+      see(yb);
+      m.area += (b - a) * (ya + yb) / 2;
+      m.squares += (b - a) * (ya * ya + ya * yb + yb * yb) / 3;
+      m.covered += b - a;
+    }
+  }
+  if (inside(sample.time)) see(sample.value);
+}
+
+double Checks::value(const Measured& m, std::string& remark) const {
+  const deck::CheckCard& card = m.resolved.card;
+  const auto index = static_cast<std::size_t>(&m - checks_.data());
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  if (!started_) {
+    remark = "the run has no results";
+    return nothing;
+  }
+  const auto too_late = [&](double t) {
+    if (last_time_ >= t - slack(t)) return false;
+    remark = "the run ended at t = " + format_number(last_time_);
+    return true;
+  };
+  const auto too_early = [&](double t) {
+    if (first_time_ <= t + slack(t)) return false;
+    remark = "the run started at t = " + format_number(first_time_);
+    return true;
+  };
+  if (is_value(card)) {
+    if (!card.time) return last_values_[index];
+    if (too_late(*card.time) || too_early(*card.time)) return nothing;
+    return interpolated(std::span(m.near).first(m.before + m.after), *card.time);
+  }
+  if (card.window.size() == 2 && (too_late(card.window[1]) || too_early(card.window[0]))) return nothing;
+  if (card.measure.is("MIN")) return m.least;
+  if (card.measure.is("MAX")) return m.largest;
+  if (card.measure.is("AMPLITUDE")) return (m.largest - m.least) / 2;
+  // a single instant is its own mean
+  if (m.covered == 0) return card.measure.is("RMS") ? std::abs(last_values_[index]) : last_values_[index];
+  return card.measure.is("RMS") ? std::sqrt(m.squares / m.covered) : m.area / m.covered;
+}
+
+CheckResult Checks::result(const Measured& m) const {
+  const deck::CheckCard& card = m.resolved.card;
+  CheckResult r;
+  r.text = check_title(card);
+  r.expected = card.value;
+  r.reference = card.reference;
+  const double relative = card.relative ? *card.relative : card.absolute ? 0 : default_tolerance;
+  r.tolerance = std::max(card.absolute.value_or(0), relative * std::abs(card.value));
+  r.value = value(m, r.remark);
+  // written so that what is not a number fails
+  r.passed = std::abs(r.value - r.expected) <= r.tolerance;
+  if (!std::isfinite(r.value) && r.remark.empty()) r.remark = "the value is not a finite number";
+  return r;
+}
+
+std::vector<CheckResult> Checks::results() const {
+  std::vector<CheckResult> all;
+  for (const Measured& m : checks_) all.push_back(result(m));
+  return all;
+}
+
+}  // namespace engrane

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "output/listing.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <sstream>
+
+#include "base/text.hpp"
+#include "output/error.hpp"
+#include "output/table.hpp"
+
+namespace engrane {
+
+namespace {
+
+using Align = Table::Align;
+
+std::string with_unit(const std::string& title, const std::string& unit) {
+  if (unit.empty()) return title;
+  return unit.front() == '[' ? title + " " + unit : title + " [" + unit + "]";
+}
+
+std::string entry(const std::string& name, const std::string& text) {
+  return text.empty() ? "" : fmt::format("  {:<10}{}\n", name, text);
+}
+
+/// Residuals and the like: two figures tell enough, zero is exact.
+std::string magnitude(double value) { return value == 0 ? "0" : fmt::format("{:.2e}", value); }
+
+}  // namespace
+
+std::string listing_header(const ListingHeader& header) {
+  std::string out = "engrane " + header.version + "\n";
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  out += entry("title", header.title) + entry("deck", header.deck) + entry("analysis", header.analysis) +
+         entry("date", fmt::format("{:%Y-%m-%d %H:%M:%S %z}", local)) + entry("machine", header.machine) +
+         entry("libraries", header.libraries);
+  return out;
+}
+
+std::string listing_section(const std::string& title) {
+  return "\n" + title + "\n" + std::string(character_count(title), '=') + "\n";
+}
+
+std::string listing_built(const BuiltSummary& s) {
+  Table elements({{"element", Align::left}, {"count"}, {"own unknowns"}, {"constraints"}});
+  for (const BuiltSummary::ElementCount& e : s.elements)
+    elements.row({e.type, std::to_string(e.count), std::to_string(e.scalars), std::to_string(e.constraints)});
+  Table unknowns({{"unknowns", Align::left}, {"number"}});
+  unknowns.row({"translations of nodes", std::to_string(s.translations)});
+  unknowns.row({"rotations of nodes", std::to_string(s.rotations)});
+  unknowns.row({"of elements", std::to_string(s.scalars)});
+  unknowns.row({"multipliers", std::to_string(s.multipliers)});
+  unknowns.row({"prescribed by supports", "-" + std::to_string(s.prescribed)});
+  unknowns.rule();
+  unknowns.row({"to be solved for", std::to_string(s.translations + s.rotations + s.scalars + s.multipliers - s.prescribed)});
+  std::string out = "  " + counted(s.nodes, "node") + "\n\n";
+  if (!elements.empty()) out += elements.text() + "\n";
+  out += unknowns.text();
+  if (s.nonzeros > 0) out += fmt::format("  {} nonzeros in the tangent\n", s.nonzeros);
+  if (!s.choices.empty()) {
+    Table choices({{"setting", Align::left}, {"value", Align::left}});
+    for (const auto& [name, value] : s.choices) choices.row({name, value});
+    out += "\n" + choices.text();
+  }
+  return out;
+}
+
+std::string listing_warnings(const Diagnostics& diagnostics, const SourceMap& sources) {
+  if (diagnostics.all().empty()) return "";
+  std::ostringstream out;
+  diagnostics.print(out, sources);
+  return out.str();
+}
+
+std::string listing_newton(std::span<const NewtonRow> rows, bool with_heading) {
+  const Table table({{"step"},
+                     {"time"},
+                     {"it."},
+                     {"forces"},
+                     {"moments"},
+                     {"own"},
+                     {"constraints"},
+                     {"correction"},
+                     {"largest residual", Align::left}});
+  // fixed widths, because the rows come a step at a time
+  const std::vector<std::size_t> widths{6, 12, 3, 9, 9, 9, 11, 10, 24};
+  std::string out = with_heading ? table.heading(widths) : "";
+  for (const NewtonRow& r : rows)
+    out += table.line({std::to_string(r.step), shown(r.time, 8), std::to_string(r.iteration), magnitude(r.forces),
+                       magnitude(r.moments), magnitude(r.scalars), magnitude(r.constraints), magnitude(r.correction), r.blame},
+                      widths);
+  return out;
+}
+
+std::string listing_energies(std::span<const EnergyRow> rows, const UnitSystem& units) {
+  if (rows.empty()) return "";
+  const std::string unit = units.label(dimension::energy);
+  Table table({{with_unit("time", units.label(dimension::time))},
+               {with_unit("kinetic", unit)},
+               {with_unit("potential", unit)},
+               {with_unit("external work", unit)},
+               {with_unit("dissipated", unit)},
+               {with_unit("balance error", unit)}});
+  for (const EnergyRow& r : rows)
+    table.row({shown(r.time, 8), shown(r.kinetic), shown(r.potential), shown(r.external_work), shown(r.dissipated),
+               magnitude(r.error)});
+  return table.text();
+}
+
+std::string listing_reactions(std::span<const ReactionRow> rows, const UnitSystem& units) {
+  if (rows.empty()) return "";
+  const std::string force = units.label(dimension::force), torque = units.label(dimension::moment);
+  Table table({{"node"},
+               {with_unit("force x", force)},
+               {with_unit("y", force)},
+               {with_unit("z", force)},
+               {with_unit("torque x", torque)},
+               {with_unit("y", torque)},
+               {with_unit("z", torque)}});
+  for (const ReactionRow& r : rows)
+    table.row({std::to_string(r.node), shown(r.force[0]), shown(r.force[1]), shown(r.force[2]), shown(r.torque[0]),
+               shown(r.torque[1]), shown(r.torque[2])});
+  return table.text();
+}
+
+std::string listing_checks(std::span<const CheckResult> checks) {
+  if (checks.empty()) return "";
+  Table table({{"check", Align::left},
+               {"value"},
+               {"expected"},
+               {"deviation"},
+               {"allowed"},
+               {"", Align::left},
+               {"reference", Align::left}});
+  std::size_t passed = 0;
+  for (const CheckResult& c : checks) {
+    passed += c.passed ? 1 : 0;
+    // with few digits a value could look like the one expected although it fails
+    table.row({c.text, shown(c.value, 10), shown(c.expected, 10), magnitude(std::abs(c.value - c.expected)),
+               magnitude(c.tolerance), c.passed ? "PASS" : "FAIL",
+               c.remark.empty() ? c.reference : c.remark + (c.reference.empty() ? "" : "; " + c.reference)});
+  }
+  const std::string sum = passed == checks.size()
+                              ? (passed == 1 ? "The check passed." : fmt::format("All {} checks passed.", passed))
+                              : fmt::format("{} of {} checks FAILED.", checks.size() - passed, checks.size());
+  return table.text() + "  " + sum + "\n";
+}
+
+std::string listing_times(const TimeSplit& split) {
+  Table table({{"time spent", Align::left}, {"seconds"}, {"%"}});
+  const double percent = split.total > 0 ? 100 / split.total : 0;
+  double known = 0;
+  for (const auto& [name, seconds] : split.parts) {
+    table.row({name, fmt::format("{:.3f}", seconds), fmt::format("{:.1f}", percent * seconds)});
+    known += seconds;
+  }
+  const double rest = std::max(0.0, split.total - known);
+  table.row({"the rest", fmt::format("{:.3f}", rest), fmt::format("{:.1f}", percent * rest)});
+  table.rule();
+  table.row({"total", fmt::format("{:.3f}", split.total), ""});
+  return table.text();
+}
+
+Listing::Listing(OutputName name) : name_(std::move(name)), path_(name_.path(".lst")), file_(std::fopen(path_.c_str(), "we")) {
+  if (!file_) throw OutputError(path_, std::strerror(errno));
+}
+
+Listing::~Listing() {
+  if (file_) std::fclose(file_);
+}
+
+void Listing::write(std::string_view text) {
+  if (!file_) return;
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size() || std::fflush(file_) != 0)
+    throw OutputError(path_, std::strerror(errno));
+}
+
+void Listing::finish(bool complete) {
+  if (!file_) return;
+  const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
+  if (!closed) throw OutputError(path_, std::strerror(errno));
+  const std::string final_path = name_.final_path(".lst");
+  if (complete && path_ != final_path) {
+    rename_over(path_, final_path);
+    path_ = final_path;
+  }
+}
+
+}  // namespace engrane
