@@ -75,23 +75,20 @@ void Checks::observe(double time, std::span<const double> values) {
 void Checks::observe_value(Measured& m, Sample sample) const {
   if (!m.resolved.card.time) return;  // the last sample is kept for all
   const double wanted = *m.resolved.card.time;
+  const auto put = [&sample](std::vector<Sample>& samples) {
+    if (!samples.empty() && sample.time <= samples.back().time) samples.pop_back();
+    samples.push_back(sample);
+  };
   if (std::abs(sample.time - wanted) <= slack(wanted)) {
-    m.near[0] = sample;
-    m.before = 1;
+    m.before = {sample};
     m.exact = true;
   } else if (m.exact) {
     return;
   } else if (sample.time < wanted) {
-    if (m.before > 0 && sample.time <= m.near[m.before - 1].time) --m.before;
-    if (m.before == 2) {
-      m.near[0] = m.near[1];
-      m.before = 1;
-    }
-    m.near[m.before++] = sample;
-  } else if (m.after > 0 && sample.time <= m.near[m.before + m.after - 1].time) {
-    m.near[m.before + m.after - 1] = sample;
-  } else if (m.after < 2) {
-    m.near[m.before + m.after++] = sample;
+    put(m.before);
+    if (m.before.size() > 3) m.before.erase(m.before.begin());
+  } else if (m.after.size() < 3 || sample.time <= m.after.back().time) {
+    put(m.after);
   }
 }
 
@@ -144,7 +141,13 @@ double Checks::value(const Measured& m, std::string& remark) const {
   if (is_value(card)) {
     if (!card.time) return last_values_[index];
     if (too_late(*card.time) || too_early(*card.time)) return nothing;
-    return interpolated(std::span(m.near).first(m.before + m.after), *card.time);
+    // two on either side, or more of one side near the ends of the run
+    if (m.exact) return m.before.front().value;
+    const std::size_t before = std::min(m.before.size(), 4 - std::min<std::size_t>(m.after.size(), 2));
+    const std::size_t after = std::min(m.after.size(), 4 - before);
+    std::vector<Sample> around(m.before.end() - static_cast<std::ptrdiff_t>(before), m.before.end());
+    around.insert(around.end(), m.after.begin(), m.after.begin() + static_cast<std::ptrdiff_t>(after));
+    return interpolated(around, *card.time);
   }
   if (card.window.size() == 2 && (too_late(card.window[1]) || too_early(card.window[0]))) return nothing;
   if (card.measure.is("MIN")) return m.least;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -14,8 +13,8 @@ namespace engrane {
 
 /// Compares channels with what the deck's `.CHK` records expect, while the run goes on.
 ///
-/// VALUE with a time is the sample at that time when there is one (to 1e-9 of a step), else the polynomial through up
-/// to two samples on either side: fourth order where the channel is smooth. VALUE without a time is the last sample. The
+/// VALUE with a time is the sample at that time when there is one (to 1e-9 of a step), else the cubic through the
+/// four samples around it: fourth order where the channel is smooth. VALUE without a time is the last sample. The
 /// other measures are taken over WINDOW, or over the whole run, of the channel as straight lines between samples, cut
 /// at the window's ends: MIN, MAX, MEAN and RMS over time (RMS about zero, not about the mean), AMPLITUDE = (MAX - MIN)/2.
 ///
@@ -44,10 +43,8 @@ class Checks {
   };
   struct Measured {
     Resolved resolved;
-    // VALUE: up to two samples before the time, then up to two after it
-    std::array<Sample, 4> near{};
-    std::size_t before = 0, after = 0;
-    bool exact = false;
+    std::vector<Sample> before, after;  ///< VALUE: the last three before its time, the first three after it
+    bool exact = false;                 ///< `before` holds the sample at that time, and nothing else
     // measures over a window
     double least = 0, largest = 0, area = 0, squares = 0, covered = 0;
     bool any = false;

@@ -31,7 +31,10 @@ std::string entry(const std::string& name, const std::string& text) {
 }
 
 /// Residuals and the like: two figures tell enough, zero is exact.
-std::string magnitude(double value) { return value == 0 ? "0" : fmt::format("{:.2e}", value); }
+std::string magnitude(double value) {
+  if (std::isnan(value)) return "-";
+  return value == 0 ? "0" : fmt::format("{:.2e}", value);
+}
 
 }  // namespace
 
@@ -103,17 +106,12 @@ std::string listing_newton(std::span<const NewtonRow> rows, bool with_heading) {
 
 std::string listing_energies(std::span<const EnergyRow> rows, const UnitSystem& units) {
   if (rows.empty()) return "";
-  const std::string unit = units.label(dimension::energy);
-  Table table({{with_unit("time", units.label(dimension::time))},
-               {with_unit("kinetic", unit)},
-               {with_unit("potential", unit)},
-               {with_unit("external work", unit)},
-               {with_unit("dissipated", unit)},
-               {with_unit("balance error", unit)}});
+  Table table({{"time"}, {"kinetic"}, {"potential"}, {"external work"}, {"dissipated"}, {"balance error"}});
   for (const EnergyRow& r : rows)
     table.row({shown(r.time, 8), shown(r.kinetic), shown(r.potential), shown(r.external_work), shown(r.dissipated),
                magnitude(r.error)});
-  return table.text();
+  // deck units without names make long labels: said once
+  return "  time in " + units.label(dimension::time) + ", energies in " + units.label(dimension::energy) + "\n\n" + table.text();
 }
 
 std::string listing_reactions(std::span<const ReactionRow> rows, const UnitSystem& units) {
