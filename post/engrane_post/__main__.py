@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`engrane plot | spectrum | picture | animate` (python -m engrane_post)."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+
+from .errors import UserError
+
+DESCRIPTION = (
+    "Shows the results of engrane. Every command takes a result by its file (run.h5), prefix (run) "
+    "or deck (run.dat)."
+)
+EPILOG = """examples:
+  engrane plot run --list                          all channels with units
+  engrane plot run element/7/NORMAL_FORCE          a history
+  engrane spectrum run 7/NORMAL_FORCE              its spectrum, with the tooth frequencies marked
+  engrane picture run --both -o run.png            the mechanism before and after
+  engrane animate run --fps 20 -o run.gif          the mechanism in motion
+
+engrane <command> --help tells more."""
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line; each command's module adds its own words."""
+    from . import animate, histories, lines, picture
+
+    top = argparse.ArgumentParser(
+        prog="engrane",
+        description=DESCRIPTION,
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    commands = top.add_subparsers(dest="command", required=True, metavar="command")
+    for module in (histories, lines, picture, animate):
+        module.add(commands)
+    return top
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs one command. Exit status 0, or 1 after a sentence on standard error."""
+    args = parser().parse_args(arguments)
+    try:
+        args.run(args)
+        sys.stdout.flush()
+    except UserError as error:
+        print(f"engrane {args.command}: {error}", file=sys.stderr)
+        return 1
+    except BrokenPipeError:
+        # `engrane plot run --list | head`: the reader has seen enough. Point stdout elsewhere or Python
+        # complains at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except PermissionError as error:
+        print(f"engrane {args.command}: {error.filename} may not be written or read.", file=sys.stderr)
+        return 1
+    except FileNotFoundError as error:
+        print(f"engrane {args.command}: the folder of {error.filename} does not exist.", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The one error that is the user's to mend."""
+
+
+class UserError(Exception):
+    """A sentence for the user: what is wrong and what would be right. Printed without a traceback, exit
+    status 1."""

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`engrane plot`: histories against time."""
+
+from __future__ import annotations
+
+import argparse
+from contextlib import ExitStack
+
+from . import options
+from .errors import UserError
+from .results import Channel, Results, bracketed
+
+MOST_PANELS = 12
+EXAMPLES = """  engrane plot run --list
+  engrane plot run element/7/NORMAL_FORCE
+  engrane plot run 7.normal_force 7.u_m --from 0.01 --to 0.012
+  engrane plot run 'element/*/NORMAL_FORCE' --together
+  engrane plot rigid.h5 flexible.h5 7/NORMAL_FORCE -o compare.png"""
+
+
+def add(commands: argparse._SubParsersAction) -> None:
+    """Declares the command."""
+    p = options.subcommand(
+        commands,
+        "plot",
+        "histories against time",
+        "Draws histories against time, one diagram per channel, or all in one with --together. "
+        "Several results are drawn over each other for comparison. Channel names may be written in any "
+        "case and cut to 7/NORMAL_FORCE.",
+        EXAMPLES,
+    )
+    options.history_arguments(p)
+    p.add_argument("--together", action="store_true", help="all channels in one diagram; two units at most")
+    p.add_argument("--title", help="text above the diagram (default: the deck's title)")
+    p.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> None:
+    """Lists or draws."""
+    files, wanted = options.split(args.what)
+    with ExitStack() as stack:
+        results = [stack.enter_context(Results(f)) for f in files]
+        if args.list:
+            for r in results:
+                options.print_list(r)
+            return
+        channels = options.chosen(results, wanted)
+        if len(channels) > MOST_PANELS and not args.together:
+            raise UserError(
+                f"{len(channels)} channels make too many diagrams (at most {MOST_PANELS}); add --together."
+            )
+        suffix = [c.name for c in channels[:2]]
+        path = options.check_output(
+            args.output or options.default_output(results[0], suffix, ".png"), (".png", ".pdf", ".svg")
+        )
+        draw(results, channels, args.start, args.end, args.together, args.title, path)
+
+
+def legend_text(result: Results, channel: Channel, several_files: bool, several_channels: bool) -> str:
+    """Only what tells the curves apart."""
+    parts = [result.name] if several_files else []
+    if several_channels:
+        parts.append(f"{channel.owner}: {channel.label}" if channel.owner and channel.label else channel.name)
+    return ", ".join(parts)
+
+
+def draw(
+    results: list[Results],
+    channels: list[Channel],
+    start: float | None,
+    end: float | None,
+    together: bool,
+    title: str | None,
+    path: str,
+) -> None:
+    """Reads, draws and writes one picture."""
+    from . import style
+
+    units = list(dict.fromkeys(c.unit for c in channels))
+    if together and len(units) > 2:
+        raise UserError(
+            f"One diagram has two axes at most, but the channels have {len(units)} units: {', '.join(units)}."
+        )
+    figure, axes = style.panels(1 if together else len(channels))
+    shared = {units[0]: axes[0]}
+    if together and len(units) == 2:
+        shared[units[1]] = axes[0].twinx()
+        shared[units[1]].spines["right"].set_visible(True)
+        shared[units[1]].grid(False)
+    color = 0
+    for i, channel in enumerate(channels):
+        axis = shared[channel.unit] if together else axes[i]
+        for j, result in enumerate(results):
+            t, y = options.finite(result, channel, *result.history(channel, start, end), need_all=False)
+            label = legend_text(result, channel, len(results) > 1, together and len(channels) > 1)
+            pen = color if together else j
+            axis.plot(
+                t,
+                y,
+                label=label or None,
+                color=style.COLORS[pen % len(style.COLORS)],
+                linestyle="-" if j == 0 else (0, (5, 1.5)),
+                marker="." if len(t) < 3 else None,
+            )
+            color += 1
+        if not together:
+            axis.set_ylabel(channel.axis_label)
+            axis.set_title(channel.owner, fontsize=9, loc="left", color="#444444")
+            if len(results) > 1:
+                axis.legend(fontsize=8, loc="best")
+    if together:
+        for unit, axis in shared.items():
+            labels = list(dict.fromkeys(c.label or c.name for c in channels if c.unit == unit))
+            axis.set_ylabel(
+                f"{', '.join(labels[:2])}{' ...' if len(labels) > 2 else ''} {bracketed(unit)}".strip()
+            )
+        handles = [h for a in shared.values() for h in a.get_legend_handles_labels()[0]]
+        if handles and (len(results) > 1 or len(channels) > 1):
+            axes[0].legend(handles=handles, fontsize=8, loc="upper right")
+    axes[-1].set_xlabel(f"time {bracketed(results[0].time_unit)}".strip())
+    for axis in axes:
+        axis.margins(x=0.01)
+    text = title if title is not None else results[0].title
+    state = "" if results[0].status == "complete" else f" ({results[0].status})"
+    if text or state:
+        figure.suptitle((text + state).strip(), fontsize=11)
+    style.save(figure, path)

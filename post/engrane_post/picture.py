@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`engrane picture`: the mechanism at one time, or before and after."""
+
+from __future__ import annotations
+
+import argparse
+
+from . import options
+from .errors import UserError
+from .results import Frame, Results
+
+SIDES = ("front", "back", "right", "left", "top", "bottom")
+EXAMPLES = """  engrane picture run                          the last frame
+  engrane picture run --time 0.01 -o run.png
+  engrane picture run --both                   before and after, side by side
+  engrane picture run --reference --view top   the model as the deck gives it, from above"""
+
+
+def add(commands: argparse._SubParsersAction) -> None:
+    """Declares the command."""
+    p = options.subcommand(
+        commands,
+        "picture",
+        "the mechanism, before and after",
+        "Draws the mechanism: wheels with their teeth, hinges, bodies, springs, loads. One tooth of "
+        "every wheel is painted, to show its turn. Teeth are drawn for the eye from radius, number, cone and helix.",
+        EXAMPLES,
+    )
+    view_arguments(p)
+    which = p.add_mutually_exclusive_group()
+    which.add_argument(
+        "--frame", type=int, metavar="n", help="frame number from 0, negative from the end (default -1)"
+    )
+    which.add_argument("--time", type=float, metavar="t", help="the frame nearest to this time")
+    which.add_argument("--reference", action="store_true", help="the undeformed model")
+    p.add_argument(
+        "--both", action="store_true", help="reference and frame side by side, seen from the same place"
+    )
+    p.add_argument("-o", "--output", metavar="file", help="picture to write (.png .jpg)")
+    p.set_defaults(run=run)
+
+
+def view_arguments(p: argparse.ArgumentParser) -> None:
+    """What pictures and animations share."""
+    p.add_argument("result", help="result file, prefix or deck")
+    p.add_argument(
+        "--view",
+        choices=SIDES,
+        help="look from this side: front +z, right +x, top +y (default: chosen to show the wheels)",
+    )
+    p.add_argument("--zoom", type=float, default=1.0, help="above 1 comes nearer")
+    p.add_argument("--size", default=None, metavar="WxH", help="pixels, such as 1600x1000")
+    p.add_argument("--title", help="text above (default: the deck's title)")
+
+
+def pixels(text: str | None, default: tuple[int, int]) -> tuple[int, int]:
+    """`1600x1000` as two numbers."""
+    if text is None:
+        return default
+    parts = text.lower().split("x")
+    if len(parts) != 2 or not all(p.isdigit() and 50 <= int(p) <= 8000 for p in parts):
+        raise UserError(f"--size {text} is not a size; write for instance 1600x1000.")
+    return int(parts[0]), int(parts[1])
+
+
+def selected(result: Results, args: argparse.Namespace) -> Frame:
+    """The frame asked for; a file without frames shows its reference when nothing else was asked."""
+    if args.reference:
+        return result.reference()
+    if args.time is not None:
+        return result.frame_at(args.time)
+    return result.frame(-1 if args.frame is None else args.frame)
+
+
+def run(args: argparse.Namespace) -> None:
+    """Draws one picture."""
+    if not args.zoom > 0:
+        raise UserError("--zoom must be above 0.")
+    with Results(args.result) as result:
+        path = options.check_output(
+            args.output or options.default_output(result, ["picture"], ".png"), (".png", ".jpg", ".jpeg")
+        )
+        if args.both and args.reference:
+            raise UserError("--both shows the reference anyway; leave out --reference or --both.")
+        if not result.elements and len(result.points) == 0:
+            raise UserError(f"{result.path} holds no nodes and no elements; there is nothing to draw.")
+        frame = selected(result, args)
+        frames = [result.reference(), frame] if args.both else [frame]
+        render(result, frames, path, args)
+    print(f"wrote {path}")
+
+
+def render(result: Results, frames: list[Frame], path: str, args: argparse.Namespace) -> None:
+    """Draws the frames side by side."""
+    from . import view
+    from .graphics import pv
+    from .scene import Scene, Stage
+
+    scene = Scene(result)
+    size = pixels(args.size, (1800, 900) if len(frames) > 1 else (1400, 1000))
+    plotter = pv.Plotter(off_screen=True, shape=(1, len(frames)), window_size=size, border=False)
+    title = args.title if args.title is not None else (result.title or result.name)
+    for i, frame in enumerate(frames):
+        plotter.subplot(0, i)
+        Stage(scene, plotter).show(frame)
+        view.dress(plotter, title if i == 0 else "", view.caption(result, frame))
+        view.aim(plotter, scene, frames, args.view, args.zoom)
+        plotter.enable_anti_aliasing("ssaa")
+    plotter.screenshot(path)
+    plotter.close()

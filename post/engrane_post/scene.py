@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Builds and moves the pictures of a model: every shape is a surface fixed to a node, or is drawn anew
+between two nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from . import shapes
+from .graphics import pv
+from .results import Element, Frame, Results
+from .wheels import collect
+
+WHEEL_COLORS = ("#6d8fb5", "#c58f4a", "#7aa06c", "#a97ba8", "#b5695c", "#5f9ea0")
+MARK, DARK, STEEL, BODY = "#d1571b", "#3c4650", "#8d979f", "#5d6b78"
+SPRING, ARROW, GROUND, CELL = "#2a8a4a", "#c02a2a", "#70665a", "#86a8c8"
+
+
+@dataclass
+class Item:
+    """A drawn thing: `node` moves it rigidly, or `remake` gives its surface from the nodes' positions."""
+
+    mesh: pv.PolyData
+    color: str
+    node: int = 0
+    remake: Callable[[dict[int, np.ndarray]], pv.PolyData] | None = None
+    smooth: bool = True
+    opacity: float = 1.0
+    edges: bool = False
+
+
+class Scene:
+    """All items of a result, and where its nodes are at a frame."""
+
+    def __init__(self, result: Results) -> None:
+        self.result = result
+        self.ids = [int(i) for i in result.node_ids]
+        self.row = {n: i for i, n in enumerate(self.ids)}
+        self.points = {n: result.points[i] for n, i in self.row.items()}
+        self.wheels = collect(result.elements)
+        self.size = self._size()
+        self.items: list[Item] = []
+        self._wheels()
+        drawn = set()
+        for element in result.elements:
+            if element.drawing:
+                drawn.add(element.id)
+            for d in element.drawing:
+                if d.get("shape") != "wheel":
+                    self._shape(element, d)
+        self._cells(drawn)
+        self._grounds()
+
+    def corners(self, frames: list[Frame]) -> np.ndarray:
+        """Points (k x 3) whose box holds the model at all the frames."""
+        out = [self.result.points + f.displacement for f in frames]
+        turn = np.arange(0, 2 * np.pi, np.pi / 12)
+        for w in self.wheels:
+            reach = w.shape.radius + (3.2 if w.shape.ring else 1.0) * w.shape.module
+            circle = reach * (np.outer(np.cos(turn), w.frame[:, 1]) + np.outer(np.sin(turn), w.frame[:, 2]))
+            for f in frames[:: max(1, len(frames) // 40)]:
+                t = self.transform(w.node, f)
+                c = t[:3, :3] @ w.center + t[:3, 3]
+                out.append(c + circle @ t[:3, :3].T)
+                out.append(
+                    c + np.outer([-0.5, 0.5], t[:3, :3] @ w.frame[:, 0] * min(w.shape.width, w.shape.radius))
+                )
+        return np.concatenate(out) if out else np.zeros((1, 3))
+
+    def _size(self) -> float:
+        corners = self.corners([self.result.reference()])
+        size = float(np.linalg.norm(np.ptp(corners, axis=0)))
+        return size if size > 0 else 1.0
+
+    def transform(self, node: int, frame: Frame) -> np.ndarray:
+        """4 x 4 matrix that carries reference positions fixed to a node to the frame; identity for the
+        ground."""
+        t = np.eye(4)
+        if node in self.row:
+            i = self.row[node]
+            r = Rotation.from_rotvec(frame.rotation[i]).as_matrix()
+            t[:3, :3] = r
+            t[:3, 3] = self.points[node] + frame.displacement[i] - r @ self.points[node]
+        return t
+
+    def positions(self, frame: Frame) -> dict[int, np.ndarray]:
+        """Where the nodes are."""
+        return {n: self.points[n] + frame.displacement[i] for n, i in self.row.items()}
+
+    def _wheels(self) -> None:
+        slots: dict[int, int] = {}
+        for w in self.wheels:
+            color = WHEEL_COLORS[slots.setdefault(w.node, len(slots)) % len(WHEEL_COLORS)]
+            for mesh, tint in shapes.wheel(w, color, MARK, DARK):
+                self.items.append(Item(mesh, tint, w.node, smooth=False))
+
+    def _shape(self, element: Element, d: dict[str, Any]) -> None:
+        """One entry of `drawing`; a shape unknown to this version or without its nodes is left out."""
+        kind, size = d.get("shape"), self.size
+        nodes = [int(n) for n in (d.get("points") or d.get("nodes") or [])]
+        node = int(d.get("node", 0))
+        axis = np.asarray(d.get("axis", [0, 0, 1]), float)
+        center = np.asarray(d["center"], float) if "center" in d else self.points.get(node, np.zeros(3))
+        if kind in ("line", "coil") and len(nodes) >= 2:
+            ends = self._ends(nodes[:2], element)
+            if ends is None:
+                return
+            make = shapes.coil if kind == "coil" else shapes.tube
+            radius = size * (0.016 if kind == "coil" else 0.0055)
+            self._flexible(lambda p: make(ends(p), radius), SPRING if kind == "coil" else BODY)
+        elif kind == "body" and nodes:
+            known = [n for n in nodes if n in self.row]
+            if len(known) > 1:
+                self._flexible(lambda p: shapes.star([p[n] for n in known], size * 0.009), BODY)
+            elif known:
+                self.items.append(
+                    Item(shapes.box(self.points[known[0]], size * 0.03), BODY, known[0], smooth=False)
+                )
+        elif kind == "axis":
+            length, radius = self._axle(node, element, center, axis)
+            self.items.append(Item(shapes.axle(center, axis, length, radius), STEEL, node))
+        elif kind == "mass" and node in self.row:
+            self.items.append(Item(shapes.ball(self.points[node], size * 0.016), DARK, node))
+        elif kind == "arrow":
+            couple = element.type.upper() in ("TORQUE", "COUPLE", "MOMENT") or bool(d.get("couple"))
+            make_arrow = shapes.turn_arrow if couple else shapes.arrow
+            self.items.append(Item(make_arrow(center, axis, size * (0.09 if couple else 0.16)), ARROW, node))
+
+    def _flexible(self, remake: Callable[[dict[int, np.ndarray]], pv.PolyData], color: str) -> None:
+        self.items.append(Item(remake(self.points), color, remake=remake))
+
+    def _ends(
+        self, nodes: list[int], element: Element
+    ) -> Callable[[dict[int, np.ndarray]], np.ndarray] | None:
+        """Both ends of a line or spring. A torsion spring joins nodes on one spot: it is drawn along its
+        axis."""
+        known = [n for n in nodes if n in self.row]
+        if not known:
+            return None
+        axis = np.asarray(element.parameters.get("AXIS", [0, 0, 1]), float).ravel()[:3]
+        axis = axis / (np.linalg.norm(axis) or 1.0) if len(axis) == 3 else np.array([0, 0, 1.0])
+        if len(known) == 1:
+            anchor = self.points[known[0]] - axis * 0.1 * self.size
+            return lambda p: np.stack([anchor, p[known[0]]])
+        a, b = known
+        if np.linalg.norm(self.points[a] - self.points[b]) < 1e-6 * self.size:
+            return lambda p: np.stack([p[a] - axis * 0.04 * self.size, p[b] + axis * 0.04 * self.size])
+        return lambda p: np.stack([p[a], p[b]])
+
+    def _axle(self, node: int, element: Element, center: np.ndarray, axis: np.ndarray) -> tuple[float, float]:
+        """Length and radius of a hinge's axis: through the wheel that sits on it, if any."""
+        radius, length = 0.008 * self.size, 0.12 * self.size
+        for w in self.wheels:
+            near = np.linalg.norm(w.center - center) < 1e-3 * w.shape.radius
+            if near and (w.node == node or w.node in element.nodes) and not w.shape.ring:
+                radius = min(max(radius, 0.07 * w.shape.radius), 0.12 * w.shape.radius)
+                length = max(length, 1.5 * min(w.shape.width, w.shape.radius))
+        return length, radius
+
+    def _cells(self, drawn: set[int]) -> None:
+        """Cells of elements that bring no drawing (beams, membranes); surfaces and solids always."""
+        f = self.result.file
+        if "mesh/topology" not in f:
+            return
+        owner = f["mesh/cell_elements"][()] if "mesh/cell_elements" in f else None
+        cells = shapes.cells(np.asarray(f["mesh/topology"][()], int))
+        lines, faces = [], []
+        for i, (code, nodes) in enumerate(cells):
+            mine = owner is not None and i < len(owner) and int(owner[i]) in drawn
+            if code == 2 and not mine and len(set(nodes)) > 1:
+                lines.append(nodes)
+            elif code in (3, 4, 5):
+                faces.append(nodes)
+        order = self.ids
+        if lines:
+            self._flexible(
+                lambda p: shapes.tubes(np.array([p[n] for n in order]), lines, 0.006 * self.size), BODY
+            )
+        if faces:
+            self._flexible(lambda p: shapes.surface(np.array([p[n] for n in order]), faces), CELL)
+            self.items[-1].edges = True
+            self.items[-1].smooth = False
+
+    def _grounds(self) -> None:
+        """A small stand where an element is tied to the ground."""
+        done: list[np.ndarray] = []
+        for element in self.result.elements:
+            if 0 not in element.nodes:
+                continue
+            for d in element.drawing:
+                if d.get("shape") != "axis":
+                    continue
+                center, axis = np.asarray(d.get("center", [0, 0, 0]), float), np.asarray(d["axis"], float)
+                if any(np.linalg.norm(center - c) < 1e-6 * self.size for c in done):
+                    continue
+                done.append(center)
+                length, radius = self._axle(int(d.get("node", 0)), element, center, axis)
+                unit = axis / (np.linalg.norm(axis) or 1.0)
+                self.items.append(
+                    Item(
+                        shapes.bearing(center - unit * length * 0.5, axis, 2.3 * radius, 0.025 * self.size),
+                        GROUND,
+                        0,
+                    )
+                )
+
+
+class Stage:
+    """A scene put into one view of a plotter; `show` moves it to a frame."""
+
+    def __init__(self, scene: Scene, plotter: pv.Plotter, opacity: float = 1.0) -> None:
+        self.scene = scene
+        self.actors = []
+        for item in scene.items:
+            mesh = item.mesh.copy()
+            look = dict(
+                color=item.color,
+                smooth_shading=item.smooth,
+                split_sharp_edges=item.smooth,
+                specular=0.25,
+                specular_power=18,
+                ambient=0.22,
+                diffuse=0.9,
+                opacity=opacity * item.opacity,
+                show_edges=item.edges,
+                edge_color="#4a6a88",
+            )
+            if item.remake is not None:
+                # Splitting edges would make a copy whose points no longer follow.
+                look["split_sharp_edges"] = False
+            self.actors.append((item, mesh, plotter.add_mesh(mesh, **look)))
+
+    def show(self, frame: Frame) -> None:
+        """Moves everything to a frame."""
+        positions = self.scene.positions(frame)
+        for item, mesh, actor in self.actors:
+            if item.remake is not None:
+                mesh.copy_from(item.remake(positions))
+                if item.smooth:
+                    mesh.compute_normals(inplace=True, split_vertices=False)
+            elif item.node:
+                actor.user_matrix = self.scene.transform(item.node, frame)

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Surfaces of the things a mechanism is made of."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import gear_mesh
+from .graphics import pv
+from .wheels import Wheel
+
+
+def unit(v: np.ndarray) -> np.ndarray:
+    """v with length one; the z direction for a null vector."""
+    n = np.linalg.norm(v)
+    return np.asarray(v, float) / n if n > 0 else np.array([0.0, 0.0, 1.0])
+
+
+def square_to(axis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Two unit vectors that make a right-handed frame with the axis."""
+    frame = gear_mesh.frame_of(unit(axis), np.array([0.0, 1.0, 0.1]))
+    return frame[:, 1], frame[:, 2]
+
+
+def quads(points: np.ndarray, corners: np.ndarray) -> pv.PolyData:
+    faces = np.column_stack([np.full(len(corners), 4), corners]).ravel()
+    return pv.PolyData(points, faces=faces)
+
+
+def wheel(w: Wheel, color: str, mark: str, dark: str) -> list[tuple[pv.PolyData, str]]:
+    """Rim with teeth, the marked tooth, web, hub and the dark discs on the web, in the reference position."""
+    points, corners, marked = gear_mesh.teeth_mesh(w.shape)
+    place = points @ w.frame.T + w.center
+    out = [
+        (quads(place, corners[marked == 0]), color),
+        (quads(place, corners[marked == 1]), mark),
+    ]
+    for p, c in gear_mesh.web_mesh(w.shape):
+        out.append((quads(p @ w.frame.T + w.center, c), color))
+    spots = gear_mesh.holes(w.shape)
+    if spots is not None:
+        axial, half, radius, centres = spots
+        parts = []
+        for y, z in centres:
+            center = w.frame @ np.array([axial, y, z]) + w.center
+            parts.append(
+                pv.Cylinder(
+                    center=center, direction=w.frame[:, 0], radius=radius, height=2 * half, resolution=32
+                )
+            )
+        out.append((pv.merge(parts), dark))
+    return [(m, c) for m, c in out if m.n_cells]
+
+
+def tube(ends: np.ndarray, radius: float) -> pv.PolyData:
+    """Round bar between two points."""
+    a, b = np.asarray(ends, float)
+    length = float(np.linalg.norm(b - a))
+    return pv.Cylinder(
+        center=(a + b) / 2, direction=unit(b - a), radius=radius, height=max(length, 1e-12), resolution=24
+    )
+
+
+def star(points: list[np.ndarray], radius: float) -> pv.PolyData:
+    """Rigid body: bars from the first point to the others, balls at the joints."""
+    parts = [pv.Sphere(radius=1.6 * radius, center=p, theta_resolution=20, phi_resolution=14) for p in points]
+    for p in points[1:]:
+        if np.linalg.norm(p - points[0]) > radius:
+            parts.append(tube(np.stack([points[0], p]), radius))
+    return pv.merge(parts).extract_surface(algorithm="dataset_surface") if len(parts) > 1 else parts[0]
+
+
+def coil(ends: np.ndarray, radius: float, turns: int = 7) -> pv.PolyData:
+    """Spring between two points."""
+    a, b = np.asarray(ends, float)
+    axis = unit(b - a)
+    u, v = square_to(axis)
+    length = np.linalg.norm(b - a)
+    x = np.linspace(0, 1, turns * 24 + 1)
+    inside = np.clip((x - 0.12) / 0.76, 0, 1)
+    reach = np.minimum(np.minimum(x, 1 - x) / 0.12, 1.0)
+    turn = 2 * np.pi * turns * inside
+    r = min(radius, 0.25 * length or radius) * reach
+    line = a + np.outer(x * length, axis) + (r * np.cos(turn))[:, None] * u + (r * np.sin(turn))[:, None] * v
+    return pv.lines_from_points(line).tube(radius=0.16 * radius, n_sides=10)
+
+
+def box(center: np.ndarray, side: float) -> pv.PolyData:
+    return pv.Cube(center=center, x_length=side, y_length=side, z_length=side)
+
+
+def ball(center: np.ndarray, radius: float) -> pv.PolyData:
+    return pv.Sphere(radius=radius, center=center, theta_resolution=28, phi_resolution=20)
+
+
+def axle(center: np.ndarray, axis: np.ndarray, length: float, radius: float) -> pv.PolyData:
+    """Pin of a hinge, with a collar at each end."""
+    a = unit(axis)
+    parts = [pv.Cylinder(center=center, direction=a, radius=radius, height=length, resolution=32)]
+    for side in (-1, 1):
+        parts.append(
+            pv.Cylinder(
+                center=center + a * side * 0.46 * length,
+                direction=a,
+                radius=1.5 * radius,
+                height=0.08 * length,
+                resolution=32,
+            )
+        )
+    return pv.merge(parts).extract_surface(algorithm="dataset_surface")
+
+
+def bearing(center: np.ndarray, axis: np.ndarray, radius: float, thick: float) -> pv.PolyData:
+    """Pedestal that ties an axle to the ground: a flange behind the axle's end."""
+    a = unit(axis)
+    parts = [
+        pv.Cylinder(
+            center=center - a * thick * 0.3, direction=a, radius=radius, height=thick * 0.6, resolution=32
+        ),
+        pv.Cylinder(
+            center=center - a * thick * 0.75,
+            direction=a,
+            radius=1.7 * radius,
+            height=thick * 0.3,
+            resolution=6,
+        ),
+    ]
+    return pv.merge(parts).extract_surface(algorithm="dataset_surface")
+
+
+def arrow(center: np.ndarray, axis: np.ndarray, length: float) -> pv.PolyData:
+    """Force: an arrow whose tip is at the point."""
+    a = unit(axis)
+    return pv.Arrow(
+        start=np.asarray(center) - a * length,
+        direction=a,
+        tip_length=0.3,
+        tip_radius=0.11,
+        shaft_radius=0.04,
+        scale=length,
+    )
+
+
+def turn_arrow(center: np.ndarray, axis: np.ndarray, radius: float) -> pv.PolyData:
+    """Torque: three quarters of a circle about the axis, with a tip."""
+    a = unit(axis)
+    u, v = square_to(a)
+    angle = np.linspace(0, 1.4 * np.pi, 60)
+    line = np.asarray(center) + radius * (np.outer(np.cos(angle), u) + np.outer(np.sin(angle), v))
+    end = angle[-1]
+    tip = pv.Cone(
+        center=line[-1] + 0.12 * radius * (-np.sin(end) * u + np.cos(end) * v),
+        direction=-np.sin(end) * u + np.cos(end) * v,
+        height=0.45 * radius,
+        radius=0.17 * radius,
+        resolution=24,
+    )
+    return pv.merge(
+        [pv.lines_from_points(line).tube(radius=0.055 * radius, n_sides=12), tip]
+    ).extract_surface(algorithm="dataset_surface")
+
+
+def cells(topology: np.ndarray) -> list[tuple[int, list[int]]]:
+    """(type code, 0-based points) of an XDMF mixed topology; stops where the array is cut or a code is
+    unknown."""
+    counted = (1, 2, 3)
+    fixed = {
+        4: 3,
+        5: 4,
+        6: 4,
+        7: 5,
+        8: 6,
+        9: 8,
+        34: 3,
+        35: 9,
+        36: 6,
+        37: 8,
+        38: 10,
+        39: 13,
+        40: 15,
+        41: 18,
+        48: 20,
+        49: 24,
+    }
+    out, i = [], 0
+    data = [int(v) for v in np.ravel(topology)]
+    while i < len(data):
+        code = data[i]
+        if code in counted and i + 1 < len(data):
+            count, i = data[i + 1], i + 2
+        elif code in fixed:
+            count, i = fixed[code], i + 1
+        else:
+            break
+        if count < 0 or i + count > len(data):
+            break
+        nodes = data[i : i + count]
+        # Quadratic faces are drawn by their corners.
+        out.append(({36: 4, 37: 5, 34: 2}.get(code, code), nodes[: {36: 3, 37: 4, 34: 2}.get(code, count)]))
+        i += count
+    return out
+
+
+def tubes(points: np.ndarray, lines: list[list[int]], radius: float) -> pv.PolyData:
+    """Round bars along polylines."""
+    table = np.concatenate([[len(line), *line] for line in lines])
+    return pv.PolyData(points, lines=table).tube(radius=radius, n_sides=14)
+
+
+def surface(points: np.ndarray, faces: list[list[int]]) -> pv.PolyData:
+    """Mesh of faces."""
+    return pv.PolyData(points, faces=np.concatenate([[len(f), *f] for f in faces]))

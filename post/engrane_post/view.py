@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Camera, background and labels of the pictures."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .graphics import pv
+from .results import Frame, Results
+from .scene import Scene
+
+DIRECTIONS = {
+    "front": (0, 0, 1),
+    "back": (0, 0, -1),
+    "right": (1, 0, 0),
+    "left": (-1, 0, 0),
+    "top": (0, 1, 0),
+    "bottom": (0, -1, 0),
+}
+
+
+def direction(scene: Scene, frames: list[Frame]) -> tuple[np.ndarray, np.ndarray]:
+    """From where to look (unit vector from the model to the eye) and what is up.
+
+    Wheels are seen best nearly along their axles, so the eye stands about 35 degrees off the commonest axle;
+    without wheels off the direction in which the model is thinnest."""
+    axes = np.array([w.frame[:, 0] * w.shape.radius for w in scene.wheels])
+    crossed = False
+    if len(axes):
+        values, vectors = np.linalg.eigh(axes.T @ axes)
+        front = vectors[:, -1]
+        crossed = values[-2] > 0.02 * values[-1]
+    else:
+        corners = scene.corners(frames)
+        values, vectors = np.linalg.eigh(np.cov((corners - corners.mean(axis=0)).T))
+        front = vectors[:, 0]
+    front = front * (1 if front[np.argmax(np.abs(front))] >= 0 else -1)
+    candidates = [np.array([0, 0, 1.0]), np.array([0, 1.0, 0])]
+    up = next((c for c in candidates if abs(c @ front) < 0.75), np.array([1.0, 0, 0]))
+    if crossed and abs(front[1]) > 0.75:
+        up = np.array([0, 1.0, 0])
+        front = np.array([0.35, 0.0, 1.0]) if abs(front[2]) < 0.75 else front
+        front = front / np.linalg.norm(front)
+    up = up - front * (up @ front)
+    up = up / np.linalg.norm(up)
+    side = np.cross(up, front)
+    eye = front + (0.62 if crossed else 0.5) * side + (0.55 if crossed else 0.38) * up
+    return eye / np.linalg.norm(eye), up
+
+
+def aim(plotter: pv.Plotter, scene: Scene, frames: list[Frame], view: str | None, zoom: float = 1.0) -> None:
+    """Points the camera of the current view at everything the frames show."""
+    eye, up = direction(scene, frames)
+    if view:
+        eye = np.asarray(DIRECTIONS[view], float)
+        up = np.array([0, 1.0, 0]) if abs(eye[1]) < 0.5 else np.array([0, 0, 1.0])
+    corners = scene.corners(frames)
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    side = np.cross(up, eye)
+    side = side / np.linalg.norm(side)
+    vertical = np.cross(eye, side)
+    flat = np.stack([(corners - middle) @ side, (corners - middle) @ vertical], axis=-1)
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    middle = middle + side * (low[0] + high[0]) / 2 + vertical * (low[1] + high[1]) / 2
+    width, height = np.maximum(high - low, 0.02 * scene.size)
+    aspect = plotter.window_size[0] / plotter.shape[1] / plotter.window_size[1]
+    # A long lens: nearly parallel projection keeps circles round at the edge, a little depth remains.
+    angle = 18.0
+    half = max(height / 2, width / 2 / aspect) * 1.1 / zoom
+    depth = np.ptp((corners - middle) @ eye) / 2
+    distance = half / np.tan(np.radians(angle / 2)) + depth
+    camera = plotter.camera
+    camera.view_angle = angle
+    camera.focal_point = middle
+    camera.position = middle + eye * distance
+    camera.up = up
+    plotter.reset_camera_clipping_range()
+
+
+def dress(plotter: pv.Plotter, title: str, caption: str) -> None:
+    """Background, lights, triad, title at the top, time at the bottom."""
+    plotter.set_background("#c4d2df", top="white")
+    plotter.add_axes(line_width=3, color="#222222", viewport=(0, 0, 0.15, 0.15))
+    plotter.renderer.remove_all_lights()
+    # Lights that go with the camera: from the upper left, a soft one from the right, a weak one from the eye.
+    for place, strength in (((-0.8, 1.0, 1.2), 0.82), ((1.2, 0.2, 0.6), 0.34), ((0.0, 0.0, 1.0), 0.42)):
+        plotter.add_light(
+            pv.Light(position=place, light_type="camera light", intensity=strength), only_active=True
+        )
+    if title:
+        write(plotter, title, (0.02, 0.945), "title")
+    if caption:
+        write(plotter, caption, (0.78, 0.03), "caption")
+
+
+def write(plotter: pv.Plotter, text: str, place: tuple[float, float], name: str) -> None:
+    """Text at a place given in fractions of the view; a text of the same name is replaced."""
+    plotter.add_text(
+        text, position=place, viewport=True, font_size=11, color="#222222", name=name, render=False
+    )
+
+
+def caption(result: Results, frame: Frame) -> str:
+    """`t = 0.0125 s`, or that this is the reference."""
+    if frame.time is None:
+        return "reference"
+    unit = result.time_unit
+    return f"t = {frame.time:.6g} {'' if unit.startswith('[') else unit}".strip()

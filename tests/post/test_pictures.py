@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Wheels and their motion as geometry; pictures and animations as files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import models
+import numpy as np
+import pytest
+from engrane_post import Results
+from engrane_post.gear_mesh import WheelShape, teeth_mesh
+from engrane_post.shapes import cells
+
+
+def scene(path: Path):
+    from engrane_post.scene import Scene
+
+    return Scene(Results(path))
+
+
+@pytest.mark.parametrize(
+    ("cone", "low", "high"), [(0, 0.05 - 1.25 * 0.005, 0.055), (180, 0.045, 0.05 + 1.25 * 0.005)]
+)
+def test_teeth_stand_on_the_pitch_circle(cone: float, low: float, high: float) -> None:
+    """Outside for a wheel, inside for a ring."""
+    shape = WheelShape(0.05, 20, 0.005, np.radians(cone), 0.0, 0.02)
+    points, quads, marked = teeth_mesh(shape)
+    r = np.hypot(points[:, 1], points[:, 2])
+    tips = r[: len(r) // 2]
+    assert [tips.min(), tips.max()] == pytest.approx([low, high], rel=1e-9)
+    assert quads.max() < len(points) and 0 < marked.sum() < len(marked) / 10
+    edge = np.sort(np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1)
+    _, count = np.unique(edge, axis=0, return_counts=True)
+    assert (count == 2).all()  # a closed surface
+
+
+def test_right_hand_helix() -> None:
+    """A right-hand tooth turns about +axle as it goes along it, on wheels and rings alike."""
+    for cone in (0.0, np.pi):
+        shape = WheelShape(0.05, 20, 0.005, cone, np.radians(20), 0.02)
+        low, high = shape.span()
+        s = np.array([low, high])
+        axial, _ = shape.place(s, np.zeros(2))
+        turn = shape.twist(s)
+        assert (turn[1] - turn[0]) / (axial[1] - axial[0]) == pytest.approx(np.tan(np.radians(20)) / 0.05)
+
+
+def _tooth_at(w, direction: np.ndarray) -> float:
+    """Distance of the contact direction from the middle of a tooth, in tooth pitches, -0.5 to 0.5."""
+    share = (w.angle_of(direction) - w.shape.phase) / w.shape.pitch_angle
+    return (share + 0.5) % 1 - 0.5
+
+
+def test_teeth_interlock(planetary: Path) -> None:
+    s = scene(planetary)
+    assert len(s.wheels) == 5  # the sun and the ring once, three planets
+    sun, ring = (next(w for w in s.wheels if w.node == n) for n in (1, 2))
+    for node in (10, 11, 12):
+        planet = next(w for w in s.wheels if w.node == node)
+        d = planet.center / np.linalg.norm(planet.center)
+        assert abs(abs(_tooth_at(sun, d)) + abs(_tooth_at(planet, -d)) - 0.5) < 1e-9
+        assert abs(abs(_tooth_at(planet, d)) + abs(_tooth_at(ring, d)) - 0.5) < 1e-9
+
+
+def test_shapes_follow_their_nodes(two: Path) -> None:
+    s = scene(two)
+    frame = s.result.frame(4)
+    t = s.transform(1, frame)
+    angle = models.SPEED * frame.time
+    assert t[:3, :3] @ [1, 0, 0] == pytest.approx([np.cos(angle), np.sin(angle), 0], abs=1e-12)
+    assert s.transform(0, frame) == pytest.approx(np.eye(4))
+
+
+def test_bevel_teeth_share_the_apex(bevel: Path) -> None:
+    """The tooth lines of both wheels run to the point where their axles cross."""
+    for w in scene(bevel).wheels:
+        apex = np.array([0.0, 1.0, 0.0])
+        s = np.array([0.0, 0.5])
+        axial, radial = w.shape.place(s, np.zeros(2))
+        p = w.center + np.outer(axial, w.frame[:, 0]) + np.outer(radial, w.frame[:, 1])
+        assert np.linalg.norm(np.cross(apex - p[0], p[1] - p[0])) < 1e-9
+
+
+def test_topology() -> None:
+    data = np.array([1, 1, 0, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5, 0, 1, 2, 3, 36, 0, 1, 2, 3, 4, 5])
+    assert cells(data) == [(1, [0]), (2, [0, 1, 2]), (4, [0, 1, 2]), (5, [0, 1, 2, 3]), (4, [0, 1, 2])]
+    assert cells(data[:5]) == [(1, [0])]  # cut in the middle of a cell
+
+
+def test_picture(two: Path, bevel: Path, command, tmp_path: Path) -> None:
+    out = tmp_path / "a.png"
+    for words in ((two, "--both"), (two, "--reference", "--view", "back"), (bevel, "--time", "0.4")):
+        status, _, err = command("picture", *words, "--size", "320x240", "-o", out)
+        assert (status, err) == (0, "")
+        from PIL import Image
+
+        image = np.asarray(Image.open(out).convert("RGB"))
+        assert image.shape == (240, 320, 3)
+        saturation = image.max(axis=-1).astype(int) - image.min(axis=-1)
+        assert (saturation > 60).mean() > 0.01  # something coloured is there
+
+
+def test_membrane_and_beam(tmp_path: Path, command) -> None:
+    points = {i + 1: p for i, p in enumerate([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0.5)])}
+    elements = [dict(id=1, type="MEMBRANE", nodes=[1, 2, 3, 4]), dict(id=2, type="BEAM", nodes=[2, 5])]
+    path = models.write(
+        tmp_path / "m.h5",
+        points,
+        elements,
+        np.array([0.0]),
+        np.zeros((1, 5, 3)),
+        cells=[(5, [0, 1, 2, 3], 1), (2, [1, 4], 2)],
+    )
+    assert command("picture", path, "--size", "200x150", "-o", tmp_path / "m.png")[0] == 0
+
+
+def test_animation(two: Path, command, tmp_path: Path) -> None:
+    gif = tmp_path / "a.gif"
+    status, out, err = command("animate", two, "--every", "4", "--size", "160x120", "--fps", "10", "-o", gif)
+    assert (status, err) == (0, "")
+    assert "wrote 3 frames" in out
+    from PIL import Image
+
+    with Image.open(gif) as image:
+        assert image.n_frames == 3
+    assert command("animate", two, "--every", "8", "--size", "100x80", "-o", tmp_path / "s_%02d.png")[0] == 0
+    assert sorted(p.name for p in tmp_path.glob("s_*.png")) == ["s_00.png", "s_01.png"]
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("picture", "two", "--frame", "99"), "there is no frame 99"),
+        (("picture", "two", "--size", "big"), "is not a size"),
+        (("picture", "two", "-o", "a.pdf"), "Cannot write a.pdf"),
+        (("animate", "two", "--from", "9"), "no frames between"),
+        (("animate", "two", "--fps", "0"), "--fps"),
+        (("animate", "none"), "no frames"),
+        (("picture", "none"), "--reference"),
+    ],
+)
+def test_picture_errors(two: Path, command, tmp_path: Path, monkeypatch, words, sentence) -> None:
+    monkeypatch.chdir(tmp_path)
+    models.write(tmp_path / "none.h5", {1: (0, 0, 0)}, [])
+    status, _, err = command(*words)
+    assert status == 1
+    assert sentence in err and "Traceback" not in err
