@@ -190,7 +190,7 @@ void Assembler::tangent(const Configuration& configuration, Weights weights) {
   set_matrix_values();
 }
 
-void Assembler::projection(const Configuration& configuration, Metric metric) {
+void Assembler::projection(const Configuration& configuration, Metric metric, std::span<const int> held) {
   const bool mass = metric != Metric::geometric;
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
   std::vector<double> inertia(motion, 0.0);
@@ -223,6 +223,7 @@ void Assembler::projection(const Configuration& configuration, Metric metric) {
     double d = 0;
     if (!u.multiplier && !mass) d = u.part >= 0 ? 1e-12 : u.measure == Measure::force ? 1 / (extent * extent) : 1.0;
     if (!u.multiplier && mass && inertia[static_cast<std::size_t>(u.slot)] == 0) d = 1e-13 * (largest > 0 ? largest : 1.0);
+    if (std::find(held.begin(), held.end(), static_cast<int>(row)) != held.end()) d = 1e8 * std::max(largest, 1.0);
     coo_values_[diagonal_begin_ + static_cast<std::size_t>(row - first_row_)] = d;
   }
   set_matrix_values();

@@ -51,8 +51,9 @@ class Assembler {
     mass,       ///< least kinetic energy
     dynamic     ///< the mass matrix, and the multipliers' columns with all forces that follow them
   };
-  /// [D −Bᵀ; −B 0] (unscaled) in matrix(), D by metric. Unknowns without mass get a negligible one.
-  void projection(const Configuration& configuration, Metric metric);
+  /// [D −Bᵀ; −B 0] (unscaled) in matrix(), D by metric. Unknowns without mass get a negligible one; the equations in
+  /// `held` one so large that everything else moves first.
+  void projection(const Configuration& configuration, Metric metric, std::span<const int> held = {});
   /// Φ and its time derivatives along the motion (unscaled), in the order of the multipliers.
   void constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
                         std::vector<double>& second);

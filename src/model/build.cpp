@@ -190,7 +190,7 @@ class Builder {
     const auto each = values_of(record, card.components, card.values, !velocity);
     for (const int id : groups_.resolve(record, card))
       for (std::size_t i = 0; i < card.components.size(); ++i)
-        model_.initial.push_back({model_.node_index(id), card.components[i] - 1, each[i], velocity});
+        model_.initial.push_back({model_.node_index(id), card.components[i] - 1, each[i], velocity, card.imposed});
   }
 
   void add_element(const deck::Record& record, int stage) {

@@ -25,12 +25,13 @@ struct Support {
   const Function* function = nullptr;  ///< nullptr: constant
 };
 
-/// An initial displacement or velocity of a node's component; a wish that the constraints may change.
+/// An initial displacement or velocity of a node's component.
 struct InitialValue {
   int node = 0;
   int component = 0;
   double value = 0;
   bool velocity = false;
+  bool imposed = false;  ///< must hold; otherwise a wish that the constraints may change
 };
 
 /// Acceleration of gravity: vector × function(t).

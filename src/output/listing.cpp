@@ -84,22 +84,22 @@ std::string listing_warnings(const Diagnostics& diagnostics, const SourceMap& so
   return out.str();
 }
 
-std::string listing_newton(std::span<const NewtonRow> rows, bool with_heading) {
+std::string listing_newton(std::span<const IterationRow> rows, bool with_heading) {
   const Table table({{"step"},
                      {"time"},
                      {"it."},
                      {"forces"},
                      {"moments"},
-                     {"own"},
-                     {"constraints"},
+                     {"lengths"},
+                     {"angles"},
                      {"correction"},
                      {"largest residual", Align::left}});
   // fixed widths, because the rows come a step at a time
-  const std::vector<std::size_t> widths{6, 12, 3, 9, 9, 9, 11, 10, 24};
+  const std::vector<std::size_t> widths{6, 12, 3, 9, 9, 9, 9, 10, 24};
   std::string out = with_heading ? table.heading(widths) : "";
-  for (const NewtonRow& r : rows)
+  for (const IterationRow& r : rows)
     out += table.line({std::to_string(r.step), shown(r.time, 8), std::to_string(r.iteration), magnitude(r.forces),
-                       magnitude(r.moments), magnitude(r.scalars), magnitude(r.constraints), magnitude(r.correction), r.blame},
+                       magnitude(r.moments), magnitude(r.lengths), magnitude(r.angles), magnitude(r.correction), r.blame},
                       widths);
   return out;
 }

@@ -42,11 +42,11 @@ struct BuiltSummary {
 };
 
 /// One Newton iteration. Residuals are relative, as the convergence test sees them.
-struct NewtonRow {
+struct IterationRow {
   int step = 0;
   double time = 0;
   int iteration = 0;
-  double forces = 0, moments = 0, scalars = 0, constraints = 0;  ///< largest residual of each class of equations
+  double forces = 0, moments = 0, lengths = 0, angles = 0;  ///< largest relative residual; of constraints: lengths, angles
   double correction = 0;
   std::string blame;  ///< where the largest residual is: `node 57 (rz)`
 };
@@ -78,7 +78,7 @@ std::string listing_section(const std::string& title);  ///< an underlined title
 std::string listing_built(const BuiltSummary& summary);
 std::string listing_warnings(const Diagnostics& diagnostics, const SourceMap& sources);
 /// With `with_heading` false the rows go on under those of an earlier call.
-std::string listing_newton(std::span<const NewtonRow> rows, bool with_heading);
+std::string listing_newton(std::span<const IterationRow> rows, bool with_heading);
 std::string listing_energies(std::span<const EnergyRow> rows, const UnitSystem& units);
 std::string listing_reactions(std::span<const ReactionRow> rows, const UnitSystem& units);
 /// The table of checks, with PASS or FAIL, and a line that counts them. Also what the program prints at its end.

@@ -28,8 +28,8 @@ NewtonReport Kinematics::attempt(const Configuration& from, double h, Configurat
   if (!report.converged) return report;
   try {
     StartReport assembly;
-    bench_.start.assemble(to, assembly);
-    bench_.start.fit_velocities(to, Assembler::Metric::geometric, assembly);
+    bench_.start.assemble(to, assembly, false);
+    bench_.start.fit_velocities(to, Assembler::Metric::geometric, assembly, false);
     bench_.start.balance_accelerations(to);
     report.iterations = assembly.position_iterations;
   } catch (const SolutionFailure& failure) {

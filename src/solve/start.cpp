@@ -37,11 +37,37 @@ bool Start::solve(std::vector<double>& right, std::vector<double>& solution) {
   return true;
 }
 
-void Start::assemble(Configuration& c, StartReport& report) {
+std::vector<int> Start::imposed(bool velocity) const {
+  std::vector<int> equations;
+  for (const InitialValue& value : assembler_.model().initial) {
+    if (value.velocity != velocity || !value.imposed) continue;
+    if (const int e = assembler_.numbering().equation(6 * value.node + value.component); e >= 0) equations.push_back(e);
+  }
+  return equations;
+}
+
+void Start::verify_imposed(const Configuration& c, std::span<const double> wished, bool velocity) const {
+  const auto v = motion_.velocities(c);
+  for (const int e : imposed(velocity)) {
+    const Unknown& u = assembler_.numbering().unknown(e);
+    const auto slot = static_cast<std::size_t>(u.slot);
+    const NodeState& node = c.nodes[static_cast<std::size_t>(u.node)];
+    // a displacement is compared where the node stands; turns are left to the joints' own angles
+    const double is = velocity ? v[slot] : u.item < 3 ? node.x[u.item] : wished[slot];
+    const double size = velocity ? largest(v) : assembler_.model().extent();
+    if (std::abs(is - wished[slot]) <= 1e-6 * size) continue;
+    throw SolutionFailure(fmt::format("the initial {} of {} is imposed, but the joints do not allow it: they make it {:.6g} "
+                                      "instead of {:.6g}",
+                                      velocity ? "velocity" : "position", assembler_.numbering().describe(e), is, wished[slot]));
+  }
+}
+
+void Start::assemble(Configuration& c, StartReport& report, bool initial) {
   const Numbering& numbering = assembler_.numbering();
   const double extent = assembler_.model().extent();
   const auto motion_size = motion_.size();
   const std::vector<NodeState> begun = c.nodes;
+  const std::vector<int> held = initial ? imposed(false) : std::vector<int>{};
   std::vector<double> phi, rate, second;
   for (report.position_iterations = 0;; ++report.position_iterations) {
     assembler_.constraint_rates(c, phi, rate, second);
@@ -55,7 +81,7 @@ void Start::assemble(Configuration& c, StartReport& report) {
     }
     if (open <= 32 * epsilon) break;
     if (report.position_iterations == 50 || !std::isfinite(open)) throw SolutionFailure(explain_open(phi));
-    assembler_.projection(c, Assembler::Metric::geometric);
+    assembler_.projection(c, Assembler::Metric::geometric, held);
     if (!solve(right, step)) throw SolutionFailure(explain_singular(assembler_, "the constraints of the mechanism contradict or repeat one another"));
     // a step far outside where the constraints are nearly linear would jump to another way of assembling
     double length = 0;
@@ -70,6 +96,10 @@ void Start::assemble(Configuration& c, StartReport& report) {
     c = std::move(moved);
     if (length < 4 * epsilon && open < 1e-11) break;  // closed as far as rounding lets it
   }
+  std::vector<double> wished(motion_size, 0.0);
+  for (std::size_t i = 0; i < begun.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) wished[6 * i + k] = begun[i].x[static_cast<Eigen::Index>(k)];
+  if (initial) verify_imposed(c, wished, false);
   for (std::size_t i = 1; i < c.nodes.size(); ++i) {
     c.nodes[i].T.setIdentity();
     const double move = (c.nodes[i].x - begun[i].x).norm();
@@ -103,7 +133,7 @@ std::string Start::explain_open(const std::vector<double>& phi) const {
                      assembler_.model().units.label(length ? dimension::length : dimension::angle));
 }
 
-void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report) {
+void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report, bool initial) {
   const Numbering& numbering = assembler_.numbering();
   std::vector<double> v = motion_.velocities(c);
   for (const auto& p : motion_.prescribed(c.time)) v[p.slot] = p.v;
@@ -116,7 +146,8 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
     const Unknown& u = numbering.unknown(static_cast<int>(e));
     if (u.multiplier) right[e] = rate[static_cast<std::size_t>(u.slot) - motion_.size()];
   }
-  assembler_.projection(c, metric);
+  const std::vector<double> wished = v;
+  assembler_.projection(c, metric, initial ? imposed(true) : std::vector<int>{});
   if (!solve(right, change))
     throw SolutionFailure(explain_singular(assembler_, "no velocities fit the constraints and drives at the start"));
   std::vector<double> delta(motion_.size(), 0.0);
@@ -125,6 +156,7 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
   delta.resize(6 * c.nodes.size());  // scalars follow: their change says nothing
   report.largest_velocity_change = largest(delta);
   motion_.set_velocities(v, c);
+  if (initial) verify_imposed(c, wished, true);
 }
 
 void Start::balance_accelerations(Configuration& c) {

@@ -31,13 +31,17 @@ class Start {
 
   /// Moves `c` as little as possible until all constraints are closed at c.time. Throws SolutionFailure naming what
   /// stays open.
-  void assemble(Configuration& c, StartReport& report);
+  /// `initial`: what the deck imposes on the start holds here.
+  void assemble(Configuration& c, StartReport& report, bool initial = true);
   /// Changes the velocities in `c` as little as possible (in kinetic energy, or geometrically) until they fit.
-  void fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report);
+  void fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report, bool initial = true);
   /// Sets accelerations and multipliers from the equations of motion and the constraints' second derivatives.
   void balance_accelerations(Configuration& c);
 
  private:
+  /// Equations of the initial values of one kind that must hold.
+  std::vector<int> imposed(bool velocity) const;
+  void verify_imposed(const Configuration& c, std::span<const double> wished, bool velocity) const;
   bool solve(std::vector<double>& right, std::vector<double>& solution);
   std::string explain_open(const std::vector<double>& phi) const;
 

@@ -55,7 +55,7 @@ TEST(Listing, Tables) {
   const std::string text = listing_built(built);
   EXPECT_TRUE(contains(text, "4 nodes")) << text;
   EXPECT_TRUE(contains(text, "to be solved for            24")) << text;
-  const NewtonRow row{3, 0.031, 2, 1e-3, 0, 0, 1e-12, 1e-5, "node 57 (rz)"};
+  const IterationRow row{3, 0.031, 2, 1e-3, 0, 0, 1e-12, 1e-5, "node 57 (rz)"};
   const std::string newton = listing_newton(std::vector{row}, true), more = listing_newton(std::vector{row}, false);
   EXPECT_EQ(newton.substr(newton.size() - more.size()), more);
   EXPECT_TRUE(contains(listing_times({{{"assembly", 1}, {"factorization", 2}}, 4}), "the rest"));

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include "app/check.hpp"
+#include "app/options.hpp"
+#include "app/read.hpp"
+#include "app/solve_deck.hpp"
+#include "assembly/petsc.hpp"
+#include "deck/manual.hpp"
+
+namespace engrane {
+
+namespace {
+
+/// The tasks that need no mechanism.
+int print_about_cards(const Options& options) {
+  const deck::Catalogue all = catalogue(element_types());
+  if (options.task == Options::Task::manual) {
+    std::cout << deck::manual_markdown(all);
+    return exit_status::fine;
+  }
+  if (options.task == Options::Task::schema) {
+    std::cout << deck::json_schema(all);
+    return exit_status::fine;
+  }
+  if (options.card.empty()) {
+    std::cout << deck::help_overview(all);
+    return exit_status::fine;
+  }
+  const deck::Schema* card = all.find(options.card);
+  if (!card) {
+    std::vector<std::string> names;
+    for (const auto* list : {&all.commands, &all.elements})
+      for (const deck::Schema* schema : *list) names.push_back(schema->name);
+    const std::string near = nearest(options.card, names);
+    std::cerr << "engrane: there is no card " << options.card
+              << (near.empty() ? "; `engrane help` lists all" : "; did you mean " + near + "?") << '\n';
+    return exit_status::wrong_deck;
+  }
+  std::cout << (options.task == Options::Task::help ? deck::help_card(*card) : deck::template_card(*card));
+  return exit_status::fine;
+}
+
+int perform(const Options& options, bool talk) {
+  if (options.task != Options::Task::run && options.task != Options::Task::check)
+    return talk ? print_about_cards(options) : exit_status::fine;
+  const Reading reading = read_deck(options.deck);
+  if (talk) reading.diagnostics.print(std::cerr, reading.sources);
+  if (!reading.good()) return exit_status::wrong_deck;
+  if (options.task == Options::Task::check) {
+    if (talk) print_model(reading.model, std::cout);
+    return exit_status::fine;
+  }
+  return solve_deck(reading, options, PETSC_COMM_WORLD);
+}
+
+}  // namespace
+
+}  // namespace engrane
+
+int main(int argc, char** argv) {
+  using namespace engrane;
+  int status = exit_status::our_error;
+  try {
+    // words about cards need neither MPI nor PETSc, which take a while to start
+    {
+      int done = 0;
+      const auto early = parse_command_line(argc, argv, false, done);
+      if (early && early->task != Options::Task::run) return perform(*early, true);
+    }
+    PetscSession session(argc, argv);
+    int rank = 0;
+    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    try {
+      if (const auto options = parse_command_line(argc, argv, rank == 0, status)) status = perform(*options, rank == 0);
+    } catch (const std::exception& e) {
+      // one rank's fault must not leave the others waiting
+      std::fprintf(stderr, "engrane: internal error: %s\n", e.what());
+      int size = 1;
+      MPI_Comm_size(PETSC_COMM_WORLD, &size);
+      if (size > 1) MPI_Abort(PETSC_COMM_WORLD, exit_status::our_error);
+      status = exit_status::our_error;
+    }
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "engrane: internal error: %s\n", e.what());
+  }
+  return status;
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/model_json.hpp"
+
+#include <fmt/format.h>
+#include <petscversion.h>
+
+#include <Eigen/Core>
+
+#include "assembly/petsc.hpp"
+#include "base/text.hpp"
+
+namespace engrane {
+
+std::string model_json(const Model& model) {
+  std::string json = fmt::format("{{\"title\": {},\n \"elements\": [", json_string(model.title));
+  bool first = true;
+  for (const Model::Part& part : model.parts) {
+    const auto& nodes = part.element->layout().nodes;
+    json += fmt::format("{}\n  {{\"id\": {}, \"type\": {}, \"nodes\": [{}], \"parameters\": {}, \"drawing\": [", first ? "" : ",",
+                        part.element->id(), json_string(part.type), fmt::join(nodes, ", "), part.parameters);
+    first = false;
+    const Drawing shapes = part.element->drawing();
+    for (std::size_t i = 0; i < shapes.size(); ++i) json += fmt::format("{}{{{}}}", i ? ", " : "", shapes[i]);
+    json += "]}";
+  }
+  return json + "]}\n";
+}
+
+std::string library_versions() {
+  char mpi[MPI_MAX_LIBRARY_VERSION_STRING] = "";
+  int length = 0;
+  MPI_Get_library_version(mpi, &length);
+  std::string mpi_name(mpi, static_cast<std::size_t>(length));
+  mpi_name.resize(std::min(mpi_name.find_first_of(",\n"), mpi_name.size()));
+  return fmt::format("PETSc {}.{}.{}, {}, Eigen {}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR,
+                     mpi_name, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
+}
+
+}  // namespace engrane

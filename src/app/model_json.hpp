@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "model/model.hpp"
+
+namespace engrane {
+
+/// The model as the results file keeps it (docs/format.md, `/model`): elements with parameters and the shapes that draw them.
+std::string model_json(const Model& model);
+
+/// Names and versions of the libraries below, in one line.
+std::string library_versions();
+
+}  // namespace engrane

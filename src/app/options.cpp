@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <string_view>
+
+#include "app/version.hpp"
+
+namespace engrane {
+
+namespace {
+
+constexpr std::array petsc_prefixes{"-snes_", "-ksp_", "-pc_",   "-mat_",     "-vec_",         "-log_",
+                                    "-info",  "-malloc", "-memory_", "-options_", "-malloc_dump", "-on_error_"};
+
+bool is_petsc_option(std::string_view word) {
+  return std::any_of(petsc_prefixes.begin(), petsc_prefixes.end(), [&](std::string_view p) { return word.starts_with(p); });
+}
+
+/// The command line without PETSc's options and their values, last word first as CLI11 wants it.
+std::vector<std::string> own_words(int argc, char** argv) {
+  std::vector<std::string> words;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (!is_petsc_option(word)) {
+      words.emplace_back(word);
+      continue;
+    }
+    // what follows is the option's value, unless it is another option or plainly a deck
+    if (i + 1 == argc) continue;
+    const std::string_view next = argv[i + 1];
+    const bool number = next.size() > 1 && next[0] == '-' && (std::isdigit(static_cast<unsigned char>(next[1])) || next[1] == '.');
+    if ((next[0] != '-' || number) && !next.ends_with(".dat")) ++i;
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
+}
+
+}  // namespace
+
+std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int& status) {
+  Options options;
+  CLI::App app{
+      "engrane: flexible multibody mechanisms with gears, from a SAMCEF/MECANO-like deck\n\n"
+      "  engrane deck.dat              solve; writes deck.h5, deck.xdmf and deck.lst here\n"
+      "  engrane check deck.dat        read and verify only, and say what would be built\n"
+      "  engrane help GEAR             what a card takes; without a word, all cards\n"
+      "  engrane template GEAR         a card to fill in\n"};
+  app.name("engrane");
+  app.footer(
+      "Exit status: 0 fine, 1 the deck is wrong, 2 the solution failed, 3 a fault of the program, 4 a .CHK failed.\n"
+      "PETSc's options (-snes_monitor, -ksp_view, -mat_mumps_icntl_14 80, -log_view ...) reach PETSc unchanged.\n"
+      "Under MPI: mpiexec -n 2 engrane deck.dat");
+  app.set_version_flag("--version", std::string("engrane ") + version);
+  app.add_option("-o,--output", options.prefix, "where the results go: prefix of .h5, .xdmf and .lst");
+  app.add_flag("-q,--quiet", options.quiet, "no progress");
+  app.add_option("deck", options.deck, "the deck to solve");
+
+  auto* check = app.add_subcommand("check", "read and verify a deck, and say what would be built");
+  check->add_option("deck", options.deck, "the deck")->required();
+  auto* help = app.add_subcommand("help", "explain a card, or list all cards");
+  help->add_option("card", options.card, "GEAR, HINGE, .SAM, \".CLM FIX\" ...");
+  auto* blank = app.add_subcommand("template", "print a card to fill in");
+  blank->add_option("card", options.card, "GEAR, HINGE, .SAM ...")->required();
+  auto* manual = app.add_subcommand("manual", "print the reference manual (Markdown)");
+  auto* schema = app.add_subcommand("schema", "print all cards as a JSON schema");
+  app.require_subcommand(0, 1);
+
+  try {
+    app.parse(own_words(argc, argv));
+    if (check->parsed()) options.task = Options::Task::check;
+    if (help->parsed()) options.task = Options::Task::help;
+    if (blank->parsed()) options.task = Options::Task::make_template;
+    if (manual->parsed()) options.task = Options::Task::manual;
+    if (schema->parsed()) options.task = Options::Task::schema;
+    if (options.task == Options::Task::run && options.deck.empty())
+      throw CLI::RequiredError("a deck to solve, or one of check, help, template, manual, schema,");
+    return options;
+  } catch (const CLI::ParseError& e) {
+    std::ostream silent(nullptr);
+    const int code = talk ? app.exit(e, std::cout, std::cerr) : app.exit(e, silent, silent);
+    status = code == 0 ? exit_status::fine : exit_status::wrong_deck;
+    return std::nullopt;
+  }
+}
+
+}  // namespace engrane

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace engrane {
+
+/// What the command line asks for.
+struct Options {
+  enum class Task { run, check, help, make_template, manual, schema } task = Task::run;
+  std::string deck;
+  std::string prefix;  ///< of the results; empty: the deck's name in the working directory
+  std::string card;    ///< of help and template; empty: the overview
+  bool quiet = false;  ///< no progress
+};
+
+/// Exit statuses of the program.
+namespace exit_status {
+inline constexpr int fine = 0, wrong_deck = 1, solution_failed = 2, our_error = 3, check_failed = 4;
+}
+
+/// Reads the command line; PETSc's own options (`-snes_…`, `-ksp_…`, `-mat_…`, `-log_view` …) are left to PETSc.
+/// Without a value the program is to end at once with `status` (help, version, or a wrong command line).
+std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int& status);
+
+}  // namespace engrane

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/read.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace engrane {
+
+namespace {
+
+/// Rows of `.CHK` and others that name what only the built model knows.
+void check_targets(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  for (const deck::Record& record : deck.records) {
+    const auto* check = record.get<deck::CheckCard>();
+    if (!check || !check->element) continue;
+    const Model::Part* found = nullptr;
+    std::vector<std::string> names;
+    for (const Model::Part& part : model.parts)
+      if (part.element->id() == *check->element && part.type != "CHA") found = &part;
+    if (!found) {
+      diagnostics.error(record.where("ELEMENT"), fmt::format("there is no element {}", *check->element));
+      continue;
+    }
+    bool known = false;
+    for (const Named& channel : found->element->channels()) {
+      names.push_back(channel.name);
+      known = known || channel.name == check->quantity;
+    }
+    if (known) continue;
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : " ") + name;
+    const std::string near = nearest(check->quantity, names);
+    diagnostics.error(record.where("QUANTITY"),
+                      fmt::format("{} {} has no output {}", found->type, *check->element, check->quantity),
+                      near.empty() ? "it has " + list : fmt::format("did you mean {}? It has {}", near, list));
+  }
+}
+
+}  // namespace
+
+Reading read_deck(const std::string& path) {
+  Reading reading;
+  std::filesystem::path file = path;
+  // `engrane gear` finds gear.dat, as INPUT does
+  if (!std::filesystem::exists(file) && !file.has_extension()) file += ".dat";
+  reading.deck = deck::read_file(file, catalogue(element_types()), reading.sources, reading.diagnostics);
+  const bool syntax_good = reading.good();
+  Diagnostics building;
+  reading.model = build_model(reading.deck, element_types(), building);
+  if (syntax_good) check_targets(reading.deck, reading.model, building);
+  // a record that could not be read leaves a hole: what the model then misses is an echo, not a fault of its own. But
+  // what is wrong with records that were read is wrong all the same
+  for (const Diagnostic& d : building.all()) {
+    const bool echo = !syntax_good && d.message.find("does not exist") != std::string::npos;
+    if (echo) continue;
+    if (d.severity == Severity::error) reading.diagnostics.error(d.location, d.message, d.hint);
+    else reading.diagnostics.warning(d.location, d.message, d.hint);
+  }
+  return reading;
+}
+
+}  // namespace engrane

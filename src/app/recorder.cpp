@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/model_json.hpp"
+#include "app/version.hpp"
+#include "math/rotation.hpp"
+
+namespace engrane {
+
+namespace {
+
+/// More nodes than this get histories only where a check asks; fields show the rest.
+constexpr std::size_t most_observed_nodes = 64;
+
+void add_vector(std::vector<Named>& channels, const char* prefix, Dimension d, const char* help) {
+  for (const char axis : {'X', 'Y', 'Z'}) channels.push_back({fmt::format("{}{}", prefix, axis), d, help});
+}
+
+std::vector<Named> node_channels(bool moves, bool supported) {
+  std::vector<Named> c;
+  add_vector(c, "U", dimension::length, "displacement");
+  add_vector(c, "R", dimension::angle, "rotation vector");
+  if (moves) {
+    add_vector(c, "V", dimension::velocity, "velocity");
+    add_vector(c, "W", dimension::angular_velocity, "angular velocity");
+    add_vector(c, "A", dimension::acceleration, "acceleration");
+    add_vector(c, "E", dimension::angular_acceleration, "angular acceleration");
+  }
+  if (supported) {
+    add_vector(c, "F", dimension::force, "reaction force");
+    add_vector(c, "M", dimension::moment, "reaction torque");
+  }
+  return c;
+}
+
+const std::vector<Named>& run_channels() {
+  static const std::vector<Named> channels{
+      {"KINETIC_ENERGY", dimension::energy, "kinetic energy"},
+      {"POTENTIAL_ENERGY", dimension::energy, "potential energy"},
+      {"EXTERNAL_WORK", dimension::energy, "work of applied forces and drives"},
+      {"DISSIPATED_ENERGY", dimension::energy, "energy lost to damping"},
+      {"ENERGY_ERROR", dimension::energy, "what the energy balance fails to close by"},
+      {"STEP", dimension::time, "time step"},
+      {"ITERATIONS", dimension::none, "Newton iterations of the step"},
+  };
+  return channels;
+}
+
+}  // namespace
+
+Recorder::Recorder(const Reading& reading, Workbench& bench)
+    : reading_(reading), bench_(bench), moves_(!reading.model.commands.analysis.type.is("STATIC")) {
+  const Model& model = reading.model;
+  const auto& commands = model.commands;
+  int next = 0;
+  for (const Model::Part& part : model.parts) {
+    channel_begin_.push_back(next);
+    const auto& channels = part.element->channels();
+    if (channels.empty()) continue;
+    groups_.push_back({fmt::format("element/{}", part.element->id()), {{"type", part.type}}, channels});
+    next += static_cast<int>(channels.size());
+  }
+  std::set<int> supported, observed;
+  for (const Support& s : model.supports) supported.insert(s.node);
+  supported_.assign(supported.begin(), supported.end());
+  if (model.nodes.size() <= most_observed_nodes + 1)
+    for (std::size_t i = 1; i < model.nodes.size(); ++i) observed.insert(static_cast<int>(i));
+  for (const deck::CheckCard& check : commands.checks)
+    if (check.node) observed.insert(model.node_index(*check.node));
+  observed.erase(-1);
+  observed_nodes_.assign(observed.begin(), observed.end());
+  node_begin_ = next;
+  for (const int node : observed_nodes_) {
+    groups_.push_back({fmt::format("node/{}", model.nodes[static_cast<std::size_t>(node)].id),
+                       {},
+                       node_channels(moves_, supported.contains(node))});
+    next += static_cast<int>(groups_.back().channels.size());
+  }
+  run_begin_ = next;
+  groups_.push_back({"run", {}, run_channels()});
+  next += static_cast<int>(run_channels().size());
+  values_.assign(static_cast<std::size_t>(next), 0.0);
+
+  const auto& s = commands.stepping;
+  frame_step_ = commands.archive.field_step.value_or((s.end - s.start) / 200);
+  sample_step_ = commands.archive.history_step.value_or(0);
+  next_frame_ = next_sample_ = s.start;
+}
+
+ResultsLayout Recorder::layout() const {
+  const Model& model = reading_.model;
+  ResultsLayout layout;
+  layout.title = model.title;
+  layout.analysis = model.commands.analysis.type.tag;
+  layout.deck_text = deck::canonical_text(reading_.deck);
+  layout.model_json = model_json(model);
+  layout.version = version;
+  layout.libraries = library_versions();
+  layout.units = model.units;
+  for (std::size_t i = 1; i < model.nodes.size(); ++i) {
+    layout.node_ids.push_back(model.nodes[i].id);
+    layout.points.push_back(model.nodes[i].x);
+  }
+  for (const Model::Part& part : model.parts) {
+    Cell cell{{}, part.element->id(), false};
+    for (const int node : part.nodes)
+      if (node > 0 && std::find(cell.points.begin(), cell.points.end(), node - 1) == cell.points.end())
+        cell.points.push_back(node - 1);
+    if (!cell.points.empty()) layout.cells.push_back(std::move(cell));
+  }
+  layout.history = groups_;
+  layout.velocities = moves_;
+  return layout;
+}
+
+int Recorder::channel(const std::string& owner, const std::string& name) const {
+  int index = 0;
+  for (const ChannelGroup& group : groups_) {
+    if (group.path == owner)
+      for (std::size_t i = 0; i < group.channels.size(); ++i)
+        if (group.channels[i].name == name) return index + static_cast<int>(i);
+    index += static_cast<int>(group.channels.size());
+  }
+  return -1;
+}
+
+void Recorder::observe(const Configuration& c, const StepReport& step) {
+  // half a step early is on time: sums of steps do not meet sums of intervals to the last digit
+  const double early = 0.5 * (step.number == 0 ? 0.0 : step.step);
+  const bool last = c.time >= reading_.model.commands.stepping.end;
+  sample_due_ = last || c.time + early >= next_sample_;
+  frame_due_ = last || c.time + early >= next_frame_;
+  while (sample_step_ > 0 && next_sample_ <= c.time + early) next_sample_ += sample_step_;
+  while (frame_step_ > 0 && next_frame_ <= c.time + early) next_frame_ += frame_step_;
+
+  find_reactions(c);
+  observe_elements(c, step);
+  observe_nodes(c);
+  if (frame_due_) fill_fields(c);
+}
+
+void Recorder::observe_elements(const Configuration& c, const StepReport& step) {
+  Energies sum;
+  const auto& parts = reading_.model.parts;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Element& element = *parts[p].element;
+    const State state = bench_.assembler.view(static_cast<int>(p), c);
+    const Energies e = element.energies(state);
+    sum.kinetic += e.kinetic;
+    sum.potential += e.potential;
+    sum.external += e.external;
+    sum.dissipated += e.dissipated;
+    element.observe(state, std::span(values_).subspan(static_cast<std::size_t>(channel_begin_[p]), element.channels().size()));
+  }
+  for (const Reaction& reaction : reactions_) {
+    const NodeState& node = c.nodes[static_cast<std::size_t>(reaction.node)];
+    sum.external += reaction.force.dot(node.v) + reaction.torque.dot(node.R * node.W);
+  }
+  energies_.kinetic = sum.kinetic;
+  energies_.potential = sum.potential;
+  if (step.number == 0) {
+    energies_.initial = sum.kinetic + sum.potential;
+  } else {
+    const double half = 0.5 * (c.time - last_time_);
+    energies_.external_work += half * (external_power_ + sum.external);
+    energies_.dissipated += half * (dissipated_power_ + sum.dissipated);
+  }
+  energies_.largest_error = std::max(energies_.largest_error, std::abs(energies_.error()));
+  external_power_ = sum.external;
+  dissipated_power_ = sum.dissipated;
+  last_time_ = c.time;
+  double* run = values_.data() + run_begin_;
+  run[0] = energies_.kinetic;
+  run[1] = energies_.potential;
+  run[2] = energies_.external_work;
+  run[3] = energies_.dissipated;
+  run[4] = energies_.error();
+  run[5] = step.step;
+  run[6] = step.newton ? step.newton->iterations : 0;
+}
+
+void Recorder::find_reactions(const Configuration& c) {
+  reactions_.clear();
+  if (supported_.empty()) return;
+  const std::vector<double> residual = bench_.assembler.slot_residual(c);
+  for (const int node : supported_) {
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    for (int i = 0; i < 6; ++i) {
+      const int slot = 6 * node + i;
+      if (bench_.numbering.equation(slot) < 0) (i < 3 ? force : moment)[i % 3] = residual[static_cast<std::size_t>(slot)];
+    }
+    reactions_.push_back({node, force, c.nodes[static_cast<std::size_t>(node)].R * moment});
+  }
+}
+
+void Recorder::observe_nodes(const Configuration& c) {
+  double* out = values_.data() + node_begin_;
+  const auto put = [&out](const Vec3& v) { out = std::copy(v.data(), v.data() + 3, out); };
+  for (const int index : observed_nodes_) {
+    const NodeState& node = c.nodes[static_cast<std::size_t>(index)];
+    put(node.x - reading_.model.nodes[static_cast<std::size_t>(index)].x);
+    put(rotation_log(node.R));
+    if (moves_) {
+      put(node.v);
+      put(node.R * node.W);
+      put(node.a);
+      put(node.R * node.A);
+    }
+    for (const Reaction& reaction : reactions_)
+      if (reaction.node == index) {
+        put(reaction.force);
+        put(reaction.torque);
+      }
+  }
+}
+
+void Recorder::fill_fields(const Configuration& c) {
+  for (auto* field : {&displacement_, &rotation_, &velocity_, &angular_, &reaction_force_, &reaction_torque_}) field->clear();
+  const auto put = [](std::vector<double>& field, const Vec3& v) { field.insert(field.end(), v.data(), v.data() + 3); };
+  for (std::size_t i = 1; i < c.nodes.size(); ++i) {
+    const NodeState& node = c.nodes[i];
+    put(displacement_, node.x - reading_.model.nodes[i].x);
+    put(rotation_, rotation_log(node.R));
+    if (moves_) {
+      put(velocity_, node.v);
+      put(angular_, node.R * node.W);
+    }
+    put(reaction_force_, Vec3::Zero());
+    put(reaction_torque_, Vec3::Zero());
+  }
+  for (const Reaction& reaction : reactions_) {
+    const auto at = 3 * static_cast<std::size_t>(reaction.node - 1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      reaction_force_[at + k] = reaction.force[static_cast<Eigen::Index>(k)];
+      reaction_torque_[at + k] = reaction.torque[static_cast<Eigen::Index>(k)];
+    }
+  }
+}
+
+FrameValues Recorder::frame() const {
+  return {displacement_, rotation_, velocity_, angular_, reaction_force_, reaction_torque_};
+}
+
+}  // namespace engrane

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/solve_deck.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include "app/model_json.hpp"
+#include "app/recorder.hpp"
+#include "app/summary.hpp"
+#include "app/times.hpp"
+#include "app/version.hpp"
+#include "output/checks.hpp"
+#include "output/listing.hpp"
+#include "output/progress.hpp"
+
+namespace engrane {
+
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+void interrupt(int) { interrupted = 1; }
+
+/// Checks of the deck, each tied to its channel. The reader has made sure that the channels exist.
+Checks resolve_checks(const Model& model, const Recorder& recorder) {
+  std::vector<Checks::Resolved> all;
+  for (const deck::CheckCard& card : model.commands.checks) {
+    const std::string owner = card.element ? fmt::format("element/{}", *card.element)
+                              : card.node  ? fmt::format("node/{}", *card.node)
+                                           : std::string("run");
+    all.push_back({card, static_cast<std::size_t>(recorder.channel(owner, card.quantity))});
+  }
+  return Checks(std::move(all));
+}
+
+/// Everything that rank 0 writes during a run.
+class Writer {
+ public:
+  Writer(const Reading& reading, const Recorder& recorder, const Options& options, const std::string& prefix)
+      : reading_(reading),
+        recorder_(recorder),
+        results_(prefix, recorder.layout()),
+        listing_(results_.name()),
+        checks_(resolve_checks(reading.model, recorder)),
+        progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
+                  options.quiet ? Progress::Style::silent : Progress::suitable()) {}
+
+  void begin(const Workbench& bench, const Options& options, int ranks) {
+    const Model& model = reading_.model;
+    listing_.write(listing_header({version, library_versions(), model.title, options.deck, describe_analysis(model),
+                                   fmt::format("{} process{}", ranks, ranks == 1 ? "" : "es")}));
+    listing_.write(listing_section("What was built"));
+    listing_.write(listing_built(summarize(model, bench.numbering)));
+    listing_.write(describe_geometry(model));
+    listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
+    listing_.write(listing_section("Start"));
+  }
+
+  void started(const StartReport& start, const UnitSystem& units) {
+    if (start.position_iterations == 0)
+      listing_.write("  the mechanism closes as given\n");
+    else
+      listing_.write(fmt::format("  assembled in {} iterations; moved most: {}, by {:.4g} {} and {:.4g} deg\n",
+                                 start.position_iterations, start.moved_most, start.largest_move,
+                                 units.label(dimension::length), start.largest_turn * 57.295779513082320877));
+    if (start.largest_velocity_change > 0)
+      listing_.write(fmt::format("  initial velocities changed by up to {:.4g} to fit joints and drives\n",
+                                 start.largest_velocity_change));
+    if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
+  }
+
+  void step(const Configuration& c, const StepReport& step, const Numbering& numbering) {
+    const bool last = c.time >= reading_.model.commands.stepping.end;
+    checks_.observe(c.time, recorder_.values());
+    if (recorder_.sample_due()) results_.sample(c.time, recorder_.values());
+    if (recorder_.frame_due()) {
+      results_.frame(c.time, recorder_.frame());
+      const EnergyBalance& e = recorder_.energies();
+      energies_.push_back({c.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error()});
+    }
+    ++steps_;
+    cuts_ += step.cuts;
+    if (step.newton) {
+      iterations_ += step.newton->iterations;
+      if (reading_.model.commands.archive.newton) write_newton(c, step, numbering);
+    }
+    progress_.update(c.time, step.step, step.number);
+    if (last) progress_.finish();
+  }
+
+  /// Ends listing and results; returns the exit status.
+  int finish(RunStatus status, const std::string& failure, const TimeSplit& times) {
+    progress_.finish();
+    const UnitSystem& units = reading_.model.units;
+    listing_.write(listing_section("Energies"));
+    listing_.write(listing_energies(thinned_energies(), units));
+    std::vector<ReactionRow> reactions;
+    for (const Recorder::Reaction& r : recorder_.reactions())
+      reactions.push_back({reading_.model.nodes[static_cast<std::size_t>(r.node)].id, r.force, r.torque});
+    if (!reactions.empty()) {
+      listing_.write(listing_section("Reactions at the end"));
+      listing_.write(listing_reactions(reactions, units));
+    }
+    int exit = exit_status::fine;
+    if (!failure.empty()) {
+      listing_.write(listing_section("The run failed"));
+      listing_.write("  " + failure + "\n");
+      exit = exit_status::solution_failed;
+    }
+    if (!checks_.empty()) {
+      const auto results = checks_.results();
+      results_.checks(results);
+      const std::string table = listing_checks(results);
+      listing_.write(listing_section("Checks"));
+      listing_.write(table);
+      if (failure.empty()) {
+        std::cout << table;
+        for (const CheckResult& r : results)
+          if (!r.passed) exit = exit_status::check_failed;
+      }
+    }
+    listing_.write(listing_section("Effort"));
+    listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1, iterations_,
+                               steps_ > 1 ? static_cast<double>(iterations_) / static_cast<double>(steps_ - 1) : 0.0, cuts_));
+    listing_.write(listing_times(times));
+    results_.finish(status);
+    listing_.finish(status == RunStatus::complete);
+    return exit;
+  }
+
+  const std::string& path() const { return results_.path(); }
+  void note(const std::string& text) { progress_.note(text); }
+
+ private:
+  void write_newton(const Configuration& c, const StepReport& step, const Numbering& numbering) {
+    std::vector<IterationRow> rows;
+    for (const NewtonRow& r : step.newton->rows)
+      rows.push_back({step.number, c.time, r.iteration, r.force, r.moment, r.length, r.angle, r.correction,
+                      r.worst >= 0 ? numbering.describe(r.worst) : ""});
+    listing_.write(listing_newton(rows, step.number == 1));
+  }
+  /// About twenty rows are enough to see a trend; the file has them all.
+  std::vector<EnergyRow> thinned_energies() const {
+    std::vector<EnergyRow> rows;
+    const std::size_t every = std::max<std::size_t>(1, (energies_.size() + 19) / 20);
+    for (std::size_t i = 0; i < energies_.size(); ++i)
+      if (i % every == 0 || i + 1 == energies_.size()) rows.push_back(energies_[i]);
+    return rows;
+  }
+
+  const Reading& reading_;
+  const Recorder& recorder_;
+  Results results_;
+  Listing listing_;
+  Checks checks_;
+  Progress progress_;
+  std::vector<EnergyRow> energies_;
+  long steps_ = 0, iterations_ = 0, cuts_ = 0;
+};
+
+std::string default_prefix(const Options& options) {
+  if (!options.prefix.empty()) return options.prefix;
+  return std::filesystem::path(options.deck).stem().string();
+}
+
+/// Has any rank been asked to stop? Collective, so that all stop at the same step.
+bool asked_to_stop(MPI_Comm comm, int ranks) {
+  int stop = interrupted;
+  if (ranks > 1) MPI_Allreduce(MPI_IN_PLACE, &stop, 1, MPI_INT, MPI_MAX, comm);
+  return stop != 0;
+}
+
+}  // namespace
+
+int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+
+  Times times;
+  Workbench bench(reading.model, comm);
+  Recorder recorder(reading, bench);
+  std::optional<Writer> writer;
+  // the other ranks must hear of it when the files cannot be made
+  std::string trouble;
+  if (rank == 0) try {
+      writer.emplace(reading, recorder, options, default_prefix(options));
+      writer->begin(bench, options, ranks);
+    } catch (const OutputError& e) {
+      trouble = e.what();
+    }
+  int bad = !trouble.empty();
+  MPI_Bcast(&bad, 1, MPI_INT, 0, comm);
+  if (bad) {
+    if (rank == 0) std::cerr << "engrane: " << trouble << '\n';
+    return exit_status::solution_failed;
+  }
+  if (rank == 0 && bench.solver.package() != reading.model.commands.analysis.solver.tag)
+    writer->note("engrane: on several processes MUMPS solves, not " + reading.model.commands.analysis.solver.tag);
+
+  std::string failure;
+  bool complete = false;
+  try {
+    const auto analysis = make_analysis(bench);
+    complete = run(
+        bench, *analysis,
+        [&](const Configuration& c, const StepReport& step) {
+          const auto watch = times.output();
+          int stop = 0;
+          if (rank == 0) try {
+              recorder.observe(c, step);
+              writer->step(c, step, bench.numbering);
+            } catch (const OutputError& e) {
+              failure = e.what();
+              stop = 1;
+            }
+          if (ranks > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, comm);
+          if (asked_to_stop(comm, ranks)) {
+            failure = fmt::format("interrupted at t = {:.6g}", c.time);
+            stop = 1;
+          }
+          return stop == 0;
+        },
+        [&](const StartReport& start) {
+          if (rank == 0) writer->started(start, reading.model.units);
+        });
+  } catch (const SolutionFailure& e) {
+    failure = e.what();
+  }
+  int status = complete ? exit_status::fine : exit_status::solution_failed;
+  if (rank == 0) {
+    try {
+      status = writer->finish(complete ? RunStatus::complete : RunStatus::failed, failure, times.split(bench.solver));
+    } catch (const OutputError& e) {
+      failure = e.what();
+      status = exit_status::solution_failed;
+    }
+    if (!failure.empty())
+      std::cerr << "engrane: " << failure << "\n         results up to there are in " << writer->path() << '\n';
+    else if (const std::string advice = times.advice(bench.solver, ranks); !advice.empty() && !options.quiet)
+      std::cerr << advice;
+  }
+  MPI_Bcast(&status, 1, MPI_INT, 0, comm);
+  return status;
+}
+
+}  // namespace engrane

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+namespace engrane {
+
+BuiltSummary summarize(const Model& model, const Numbering& numbering) {
+  BuiltSummary summary;
+  std::map<std::string, BuiltSummary::ElementCount> counts;
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const Layout& layout = model.parts[p].element->layout();
+    auto& count = counts[model.parts[p].type];
+    ++count.count;
+    count.scalars += layout.scalars.size();
+    count.constraints += layout.multipliers.size();
+    std::size_t active = 0;
+    for (const int slot : numbering.part_slots(static_cast<int>(p))) active += numbering.equation(slot) >= 0;
+    summary.nonzeros += active * active;
+  }
+  for (auto& [type, count] : counts) {
+    count.type = type;
+    summary.elements.push_back(count);
+  }
+  summary.nodes = model.nodes.size() - 1;
+  for (const Unknown& u : numbering.unknowns()) {
+    if (u.multiplier) ++summary.multipliers;
+    else if (u.part >= 0) ++summary.scalars;
+    else if (u.item < 3) ++summary.translations;
+    else ++summary.rotations;
+  }
+  summary.prescribed = model.supports.size();
+  const auto motions = summary.translations + summary.rotations + summary.scalars;
+  summary.choices.emplace_back("motions less constraints",
+                               std::to_string(static_cast<long>(motions) - static_cast<long>(summary.multipliers)));
+  return summary;
+}
+
+std::string describe_analysis(const Model& model) {
+  const deck::AnalysisCard& a = model.commands.analysis;
+  const deck::SteppingCard& s = model.commands.stepping;
+  std::string text = a.type.tag;
+  if (a.type.is("DYNAMIC")) {
+    text += ", " + a.scheme.tag;
+    if (a.scheme.is("CHUNG")) text += fmt::format(" rho {:g}", a.rho.value_or(0.8));
+    if (a.alpha && !a.scheme.is("CHUNG")) text += fmt::format(" alpha {:g}", *a.alpha);
+  }
+  const double steps = std::ceil((s.end - s.start) / s.step * (1 - 1e-9));
+  return text + fmt::format(", t = {:g} to {:g}, {:.0f} steps of {:g}, {}", s.start, s.end, steps, s.step, a.solver.tag);
+}
+
+std::string describe_geometry(const Model& model) {
+  std::string text;
+  for (const Model::Part& part : model.parts) {
+    const auto derived = part.element->derived();
+    if (derived.empty()) continue;
+    text += fmt::format("\n  {} {}, nodes {}\n", part.type, part.element->id(), fmt::join(part.element->layout().nodes, " "));
+    for (const Derived& d : derived) {
+      // angles are radians inside and degrees wherever a person reads or writes a deck
+      const bool angle = d.dimension == dimension::angle;
+      const double value = (angle ? d.value * 57.295779513082320877 : d.value) + 0.0;  // + 0: no minus zero
+      text += fmt::format("    {:<42}{:>16.9g} {}\n", d.name, value,
+                          angle                             ? "deg"
+                          : d.dimension == dimension::none ? ""
+                                                            : model.units.label(d.dimension));
+    }
+  }
+  return text;
+}
+
+}  // namespace engrane

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "assembly/numbering.hpp"
+#include "output/listing.hpp"
+
+namespace engrane {
+
+/// Counts of what the deck built, for the listing and `engrane check`.
+BuiltSummary summarize(const Model& model, const Numbering& numbering);
+
+/// "DYNAMIC, CHUNG rho 0.8, t = 0 to 0.03, 15000 steps of 2e-06, MUMPS"
+std::string describe_analysis(const Model& model);
+
+/// Table of the derived geometry of each element that has any.
+std::string describe_geometry(const Model& model);
+
+}  // namespace engrane

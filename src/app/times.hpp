@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "output/listing.hpp"
+#include "solve/linear.hpp"
+
+namespace engrane {
+
+/// Where a run's time goes: PETSc's own event log for elements and factorisation, a stopwatch for the output.
+class Times {
+ public:
+  Times();
+
+  /// Counts its own lifetime as output.
+  class Watch {
+   public:
+    explicit Watch(double& sum) : sum_(sum) {}
+    ~Watch() { sum_ += std::chrono::duration<double>(Clock::now() - begun_).count(); }
+    Watch(const Watch&) = delete;
+    Watch& operator=(const Watch&) = delete;
+
+   private:
+    using Clock = std::chrono::steady_clock;
+    double& sum_;
+    Clock::time_point begun_ = Clock::now();
+  };
+  Watch output() { return Watch(output_); }
+
+  TimeSplit split(const LinearSolver& solver) const;
+  /// What the user could gain by another solver; empty when nothing worth a word.
+  std::string advice(const LinearSolver& solver, int ranks) const;
+
+ private:
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  double output_ = 0;
+};
+
+}  // namespace engrane

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace engrane {
+
+inline constexpr const char* version = ENGRANE_VERSION;
+
+}  // namespace engrane

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Newton's method must be quadratic: an inexact tangent would show here before anywhere else.
+#include <cmath>
+
+#include "run_deck.hpp"
+
+namespace engrane::test {
+namespace {
+
+double largest(const NewtonRow& row) { return std::max({row.force, row.moment, row.length, row.angle}); }
+
+/// Order p of e₂ ~ e₁^p from three successive residuals, the last of which must be clear of rounding.
+double order(const NewtonRow& a, const NewtonRow& b, const NewtonRow& c) {
+  return std::log(largest(c) / largest(b)) / std::log(largest(b) / largest(a));
+}
+
+const char* const bevel = R"(
+.NOE
+ I 1 X 0 0 0
+ I 2 X 0 1 5
+ I 3 X 0 1 5
+ I 4 X 0 1 0
+.MCE
+ I 1 GEAR N 1 2 AXIS 0 1 0 Z 50 10 MN 0.2 ALPHA 20 CONE (-atan(5)*180/PI) (-atan(0.2)*180/PI)
+ I 2 RIGID N 4 3
+ I 3 HINGE N 3 2 AXIS 0 0 -1
+ I 4 HINGE N 0 4 AXIS 0 1 0 DRIVE NF 1
+ I 5 TORQUE N 3 2 AXIS 0 0 -1 V 1000
+.FCT
+ I 1 TABLE 0 0 1 1
+.CLM
+ FIX NOEUD 1 C 1 2 3 4 5 6
+.SAM TYPE STATIC
+.SUB TF 1 H 0.25
+)";
+
+TEST(Newton, IsQuadraticOnTheBevelPair) {
+  DeckRun deck(bevel);
+  int judged = 0;
+  deck.run([&](const Configuration&, const StepReport& step) {
+    if (!step.newton) return;
+    const auto& rows = step.newton->rows;
+    for (std::size_t i = 2; i < rows.size(); ++i) {
+      if (largest(rows[i - 2]) > 1e-2 || largest(rows[i]) < 1e-13) continue;
+      EXPECT_GT(order(rows[i - 2], rows[i - 1], rows[i]), 1.7) << "step " << step.number << ", iteration " << i;
+      ++judged;
+    }
+  });
+  EXPECT_GE(judged, 3) << "no step had three residuals between 1e-2 and rounding: the test judged nothing";
+}
+
+TEST(Newton, IsQuadraticInDynamicsAtLargeSteps) {
+  // spatial double pendulum with offset inertia: rotations, gyroscopic terms, gravity, constraints
+  DeckRun deck(R"(
+.NOE
+ I 1 X 1 0 0
+ I 2 X 2 0.5 0.3
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 1 1 AT 0 0 0
+ I 2 HINGE N 1 2 AXIS 1 0 2 AT 1.5 0.2 0.1
+ I 3 INERTIA N 1 M 1 J 0.1 0.3 0.3
+ I 4 INERTIA N 2 M 2 J 0.2 0.1 0.2
+.CLM
+ STRU ACC VAL 0 0 -9.81
+.INI
+ VIT NOEUD 2 C 4 V 6
+.SAM TYPE DYNAMIC RHO 0.8 PREC 1e-12
+.SUB TF 1 H 0.05
+)");
+  int judged = 0;
+  deck.run([&](const Configuration&, const StepReport& step) {
+    if (!step.newton) return;
+    const auto& rows = step.newton->rows;
+    for (std::size_t i = 2; i < rows.size(); ++i) {
+      if (largest(rows[i - 2]) > 1e-1 || largest(rows[i]) < 1e-13) continue;
+      EXPECT_GT(order(rows[i - 2], rows[i - 1], rows[i]), 1.6) << "step " << step.number << ", iteration " << i;
+      ++judged;
+    }
+  });
+  EXPECT_GE(judged, 5);
+}
+
+TEST(Newton, ReportsTheFreeMotionOfASingularModel) {
+  DeckRun deck(R"(
+.NOE
+ I 1 X 0 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1
+ I 2 TORQUE N 0 1 AXIS 0 0 1 V 1
+.SAM TYPE STATIC
+.SUB TF 1 H 1
+)");
+  try {
+    deck.run();
+    FAIL() << "a free hinge has no equilibrium under a torque";
+  } catch (const SolutionFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("node 1 (rz)"), std::string::npos) << failure.what();
+  }
+}
+
+}  // namespace
+}  // namespace engrane::test

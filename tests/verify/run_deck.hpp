@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs a deck given as text inside a test, step by step.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <sstream>
+#include <string>
+
+#include "model/model.hpp"
+#include "solve/analysis.hpp"
+
+namespace engrane::test {
+
+/// A model read from text, with its workbench; fails the test when the deck is wrong.
+class DeckRun {
+ public:
+  explicit DeckRun(const std::string& text) {
+    deck_ = deck::read_text("test.dat", text, catalogue(element_types()), sources_, diagnostics_);
+    model_ = build_model(deck_, element_types(), diagnostics_);
+    std::ostringstream faults;
+    diagnostics_.print(faults, sources_);
+    if (diagnostics_.has_errors()) throw std::runtime_error(faults.str());
+    bench_ = std::make_unique<Workbench>(model_, PETSC_COMM_SELF);
+  }
+
+  Workbench& bench() { return *bench_; }
+  const Model& model() const { return model_; }
+
+  /// Runs to the end; `look` sees the start and every step. Returns the last configuration.
+  Configuration run(const std::function<void(const Configuration&, const StepReport&)>& look = {}) {
+    Configuration last;
+    const auto analysis = make_analysis(*bench_);
+    engrane::run(
+        *bench_, *analysis,
+        [&](const Configuration& c, const StepReport& step) {
+          if (look) look(c, step);
+          last = c;
+          return true;
+        },
+        [](const StartReport&) {});
+    return last;
+  }
+
+  const NodeState& node(const Configuration& c, int id) const {
+    return c.nodes[static_cast<std::size_t>(model_.node_index(id))];
+  }
+
+  /// A channel of an element in a configuration.
+  double channel(const Configuration& c, int element, const std::string& name) {
+    for (std::size_t p = 0; p < model_.parts.size(); ++p) {
+      const Element& e = *model_.parts[p].element;
+      if (e.id() != element) continue;
+      std::vector<double> values(e.channels().size());
+      e.observe(bench_->assembler.view(static_cast<int>(p), c), values);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (e.channels()[i].name == name) return values[i];
+    }
+    throw std::runtime_error("no channel " + name);
+  }
+
+ private:
+  SourceMap sources_;
+  Diagnostics diagnostics_;
+  deck::Deck deck_;
+  Model model_;
+  std::unique_ptr<Workbench> bench_;
+};
+
+}  // namespace engrane::test
