@@ -20,13 +20,14 @@ EPILOG = """examples:
   engrane spectrum run 7/NORMAL_FORCE              its spectrum, with the tooth frequencies marked
   engrane picture run --both -o run.png            the mechanism before and after
   engrane animate run --fps 20 -o run.gif          the mechanism in motion
+  engrane figures                                  the founding paper's figures
 
 engrane <command> --help tells more."""
 
 
 def parser() -> argparse.ArgumentParser:
     """The command line; each command's module adds its own words."""
-    from . import animate, histories, lines, picture
+    from . import animate, figures, histories, lines, picture
 
     top = argparse.ArgumentParser(
         prog="engrane",
@@ -35,15 +36,20 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = top.add_subparsers(dest="command", required=True, metavar="command")
-    for module in (histories, lines, picture, animate):
+    for module in (histories, lines, picture, animate, figures):
         module.add(commands)
     return top
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs one command. Exit status 0, or 1 after a sentence on standard error."""
-    args = parser().parse_args(arguments)
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    args = parser().parse_args(words[:1] if words[:1] == ["figures"] else words)
     try:
+        if args.command == "figures":
+            from . import figures
+
+            return figures.main(words[1:])
         args.run(args)
         sys.stdout.flush()
     except UserError as error:

@@ -22,8 +22,8 @@ def add(commands: argparse._SubParsersAction) -> None:
         commands,
         "picture",
         "the mechanism, before and after",
-        "Draws the mechanism: wheels with their teeth, hinges, bodies, springs, loads. One tooth of "
-        "every wheel is painted, to show its turn. Teeth are drawn for the eye from radius, number, cone and helix.",
+        "Draws the mechanism: wheels with their teeth, hinges, bodies, springs, loads. One tooth of every "
+        "wheel is painted, to show its turn. Teeth are drawn for the eye, from radius, cone and helix.",
         EXAMPLES,
     )
     view_arguments(p)

@@ -138,3 +138,9 @@ def test_help(command, capsys) -> None:
             command(*words)
         assert e.value.code == 0
         assert "examples:" in capsys.readouterr().out
+
+
+def test_figures_without_results(command, tmp_path: Path) -> None:
+    status, _, err = command("figures", "--results", tmp_path)
+    assert status == 2
+    assert "run engrane on decks/paper" in err

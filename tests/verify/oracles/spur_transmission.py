@@ -29,7 +29,7 @@ Which flank. F > 0 presses A's leading flank: A drives B. That needs T > 0, a mo
 which turns about -z. The card `CHA NOEUD 4 C 6 V -945.8` with disc 1 turning about +z is T = -945.8: the
 torque then helps disc 2 along, B pushes A, F < 0 and the loaded flank is the other one, x <= -b. Reversing T
 nearly mirrors the force (x_err reversed is x_err half a tooth later but for a constant), not exactly: P and
-the wind-up inside x_err keep their sign (amplitude in case A: 5996.0 against 5997.8 lbf).
+the wind-up inside x_err keep their sign (amplitude in case A: 5996.0 against 5997.2 lbf).
 
 Contact. Each corner of [[.]] is rounded over the width `smooth` (engrane's SMOOTH, 0.001 b when not given) by
 a ramp whose slope is 3 t^2 - 2 t^3. Damping ALWAYS is the paper's. CONTACT damps only while a flank touches
