@@ -74,14 +74,15 @@ void rename_over(const std::string& from, const std::string& to) {
 }
 
 void exchange_names(const std::string& a, const std::string& b) {
-  if (renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0) return;
-  // Some network file systems cannot: a second name for `a` lets `b` take its place without a gap.
+  // some network file systems do not know this call
+  if (renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) != 0) exchange_names_by_links(a, b);
+}
+
+void exchange_names_by_links(const std::string& a, const std::string& b) {
+  // with a second name for `a`, `b` can take its place without a gap
   const std::string second = b + "~";
   unlink(second.c_str());
-  if (link(a.c_str(), second.c_str()) != 0) {
-    // No links either: for an instant nothing is called `a`.
-    if (rename(a.c_str(), second.c_str()) != 0) fail(a);
-  }
+  if (link(a.c_str(), second.c_str()) != 0 && rename(a.c_str(), second.c_str()) != 0) fail(a);
   rename_over(b, a);
   rename_over(second, b);
 }

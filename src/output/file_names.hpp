@@ -46,6 +46,8 @@ void rename_over(const std::string& from, const std::string& to);
 
 /// Lets two files change names, in one step where the system can. Throws OutputError.
 void exchange_names(const std::string& a, const std::string& b);
+/// The same where the system cannot: at every moment one of the files is called `a`, unless there are no links either.
+void exchange_names_by_links(const std::string& a, const std::string& b);
 
 /// Replaces a text file in one step, so that no reader ever sees half of it. Throws OutputError.
 void replace_text(const std::string& path, std::string_view text);

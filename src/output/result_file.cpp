@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t first_chunks = std::size_t{4} << 20;
 
 hsize_t chunk_of_channels(std::size_t channels) {
-  return std::clamp<hsize_t>(first_chunks / sizeof(double) / std::max<std::size_t>(channels, 1), 64, 4096);
+  return std::clamp<hsize_t>(first_chunks / sizeof(double) / std::max<std::size_t>(channels, 1), 64, 1024);
 }
 
 }  // namespace

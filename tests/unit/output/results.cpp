@@ -163,6 +163,19 @@ TEST(Results, SecondRunOfTheSameNameIsRefused) {
   EXPECT_EQ(ResultReader(scratch / "run.h5").numbers("/history/time").size(), 2u);
 }
 
+TEST(FileNames, Exchange) {
+  const Scratch scratch;
+  const std::string a = scratch / "a", b = scratch / "a~";
+  std::ofstream(a) << "first";
+  std::ofstream(b) << "second";
+  exchange_names(a, b);
+  EXPECT_EQ(read_text(a) + read_text(b), "secondfirst");
+  exchange_names_by_links(a, b);
+  EXPECT_EQ(read_text(a) + read_text(b), "firstsecond");
+  EXPECT_FALSE(scratch.has("a~~"));
+  EXPECT_THROW(exchange_names(a, scratch / "c"), OutputError);
+}
+
 TEST(Results, ErrorsAreSentences) {
   const Scratch scratch;
   try {
