@@ -328,7 +328,7 @@ class Reader {
       report(*known, token);
     else if (!faulty)
       diagnostics_.error(token.where, "`" + token.text + "` starts no record of " + command.name, key_hint(command, token.text));
-    records_.skip_record(command.keys);
+    records_.skip_to_line(command.keys);
   }
 
   static std::string key_hint(const Command& command, const std::string& word) {

@@ -11,6 +11,18 @@
 
 namespace engrane::deck {
 
+namespace {
+
+std::string list_of_keywords(const Schema& schema) {
+  constexpr std::size_t most_listed = 24;
+  std::vector<std::string> names;
+  for (const Field& field : schema.fields) names.push_back(field.keyword);
+  if (names.empty()) return "it takes no keywords";
+  return names.size() > most_listed ? "`engrane help " + schema.name + "` lists its keywords" : "it has " + join(names);
+}
+
+}  // namespace
+
 /// A record half read.
 struct RecordReader::Reading {
   Record& record;
@@ -120,38 +132,50 @@ bool RecordReader::given_twice(Reading& reading, const Field& field, std::size_t
 void RecordReader::unknown_item(Reading& reading) {
   const Token token = tokens_.take();
   reading.record.faulty = true;
-  const std::string title = record_title(reading.schema, reading.record.id);
-  if (!token.is_word()) {
-    if (!token.fault.empty()) return;
-    const std::string what = token.kind == Token::Kind::text ? "\"" + token.text + "\"" : "`" + token.text + "`";
-    diagnostics_.error(token.where, what + " belongs to no keyword of " + title);
-    return skip_values(reading);
+  if (token.is_word()) return unknown_word(reading, token);
+  if (!token.fault.empty()) return;
+  const std::string what = token.kind == Token::Kind::text ? "\"" + token.text + "\"" : "`" + token.text + "`";
+  diagnostics_.error(token.where, what + " belongs to no keyword of " + record_title(reading.schema, reading.record.id));
+  skip_values(reading);
+}
+
+void RecordReader::unknown_word(Reading& reading, const Token& token) {
+  const std::string what = "`" + token.text + "` is ";
+  const std::string no_keyword = what + "not a keyword of " + reading.schema.name;
+  if (token.text.front() == '.') {
+    diagnostics_.error(token.where, no_keyword, "a command must be the first word of its line");
+    while (!at_boundary(tokens_, reading.keys) && !tokens_.peek().starts_line) tokens_.skip();
+    return;
+  }
+  if (token.starts_line) {  // rather a record key with a slip than a keyword of the record before it
+    const std::string key = did_you_mean(token.text, schema_words(reading.keys.keyed));
+    if (!key.empty()) {
+      diagnostics_.error(token.where, "`" + token.text + "` starts no record of " + reading.keys.command, key);
+      return skip_to_line(reading.keys);
+    }
   }
   const Match<Field> match = match_field(reading.schema, token.text);
-  const std::size_t equals = token.text.find('=');
   if (match.ambiguous()) {
-    diagnostics_.error(token.where, "`" + token.text + "` is short for several keywords of " + reading.schema.name,
+    diagnostics_.error(token.where, what + "short for several keywords of " + reading.schema.name,
                        "write " + join(match.candidates, " or "));
-  } else if (equals != std::string::npos) {
-    diagnostics_.error(token.where, "`" + token.text + "` is not a keyword of " + reading.schema.name,
-                       "values follow their keyword behind a blank, without `=`");
-  } else if (token.text.front() == '.') {
-    diagnostics_.error(token.where, "`" + token.text + "` is not a keyword of " + reading.schema.name,
-                       "a command must be the first word of its line");
+    if (tokens_.peek().is_word() && !tokens_.peek().starts_line && !at_boundary(tokens_, reading.keys) &&
+        !match_field(reading.schema, tokens_.peek().text).entry)
+      tokens_.skip();  // the word of a choice
+  } else if (token.text.find('=') != std::string::npos) {
+    diagnostics_.error(token.where, no_keyword, "values follow their keyword behind a blank, without `=`");
   } else {
-    std::vector<std::string> words = field_words(reading.schema);
-    const std::vector<std::string> record_keys = schema_words(reading.keys.keyed);
-    words.insert(words.end(), record_keys.begin(), record_keys.end());
-    std::string hint = did_you_mean(token.text, words);
-    if (hint.empty()) {
-      std::vector<std::string> names;
-      for (const Field& field : reading.schema.fields) names.push_back(field.keyword);
-      hint = names.size() > 24 ? "`engrane help " + reading.schema.name + "` lists its keywords" : "it has " + join(names);
-      if (names.empty()) hint = "it takes no keywords";
-    }
-    diagnostics_.error(token.where, "`" + token.text + "` is not a keyword of " + reading.schema.name, hint);
+    std::string hint = did_you_mean(token.text, field_words(reading.schema));
+    diagnostics_.error(token.where, no_keyword, hint.empty() ? list_of_keywords(reading.schema) : hint);
+    skip_filler(reading);
   }
   skip_values(reading);
+}
+
+void RecordReader::skip_filler(const Reading& reading) {
+  const Token& next = tokens_.peek();
+  for (const Field& field : reading.schema.fields)
+    for (const std::string& filler : field.fillers)
+      if (next.is_word() && same_word(filler, next.text)) return tokens_.skip();
 }
 
 /// Skips the values of a keyword that is none. Words that cannot be read at all are still reported.
@@ -196,6 +220,10 @@ std::vector<Heading> RecordReader::read_headings(const Schema& schema, const Rec
     skip_record(keys);
   }
   return headings;
+}
+
+void RecordReader::skip_to_line(const RecordKeys& keys) {
+  while (!at_boundary(tokens_, keys) && !(tokens_.peek().is_word() && tokens_.peek().starts_line)) tokens_.take();
 }
 
 void RecordReader::skip_record(const RecordKeys& keys) {

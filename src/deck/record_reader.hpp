@@ -33,6 +33,9 @@ class RecordReader {
   /// Reads the keywords before the first record. What cannot stand there is an error.
   std::vector<Heading> read_headings(const Schema& schema, const RecordKeys& keys);
 
+  /// Skips a record whose key is not known: up to the next key, or a word that starts a line and may be meant as one.
+  void skip_to_line(const RecordKeys& keys);
+
   /// Skips what belongs to nothing, up to the next record key or command.
   void skip_record(const RecordKeys& keys);
 
@@ -45,6 +48,8 @@ class RecordReader {
   void read_field(Reading& reading, const Field& field, const Token* keyword);
   bool given_twice(Reading& reading, const Field& field, std::size_t count, const Location& where);
   void unknown_item(Reading& reading);
+  void unknown_word(Reading& reading, const Token& token);
+  void skip_filler(const Reading& reading);
   void skip_values(const Reading& reading);
   void finish(Reading& reading);
 

@@ -21,6 +21,11 @@ constexpr int most_produced = 20'000'000;
 
 bool is_integer(double value) { return std::floor(value) == value && std::abs(value) <= std::numeric_limits<int>::max(); }
 
+/// A token as messages name it.
+std::string quoted(const Token& token) {
+  return token.kind == Token::Kind::text ? "\"" + token.text + "\"" : "`" + token.text + "`";
+}
+
 bool has_exact_field(const Schema& schema, std::string_view word) { return match_field(schema, word).exact; }
 
 /// Node 0 is the ground and number 0 of the others is "none"; below that nothing has a number.
@@ -219,14 +224,22 @@ void ValueReader::check_count(Work& work, const std::string& name, int least, in
   if (work.result.faulty) return;
   const std::size_t count = work.result.values.numbers.size();
   const std::string what = name + " takes " + expected_count(least, most);
-  if (count > static_cast<std::size_t>(most))
-    return error(work, work.surplus.known() ? work.surplus : work.result.where, what + ", " + std::to_string(count) + " given");
+  const std::string given = what + ", " + (count == 0 ? "none" : std::to_string(count)) + " given";
+  if (count > static_cast<std::size_t>(most)) return error(work, work.surplus.known() ? work.surplus : work.result.where, given);
   if (count >= static_cast<std::size_t>(least)) return;
+  if (!at_stray_value(work)) return error(work, work.keyword, given);
+  const Token stray = take(work);
+  if (stray.fault.empty()) error(work, stray.where, quoted(stray) + " is not a number", what);
+  while (at_value_number(work)) take(work);
+}
+
+/// Is the next token, on the same line, something that can only be meant as a value of this field?
+bool ValueReader::at_stray_value(const Work& work) {
   const Token& next = tokens_.peek();
-  std::string hint;
-  if (next.is_word() && !at_boundary(tokens_, work.keys) && !match_field(work.schema, next.text).entry)
-    hint = "`" + next.text + "` is not a number";
-  error(work, work.keyword, what + ", " + (count == 0 ? "none" : std::to_string(count)) + " given", hint);
+  if (at_boundary(tokens_, work.keys) || next.starts_line || next.is_number()) return false;
+  if (!next.is_word()) return true;
+  const Match<Field> match = match_field(work.schema, next.text);
+  return !match.entry && !match.ambiguous() && next.text.front() != '.';
 }
 
 /// Texts stand in double quotes; a single bare word is taken too where it cannot be a keyword. Groups may be numbers.
@@ -246,12 +259,26 @@ void ValueReader::read_texts(Work& work) {
     } else if (next.is_word() && texts.empty() && !at_boundary(tokens_, work.keys) &&
                (field.positional || !match_field(work.schema, next.text).entry)) {
       texts.push_back(take(work).text);
+      if (most == 1) refuse_more_words(work);
     } else {
       break;
     }
   }
   if (texts.size() >= static_cast<std::size_t>(std::max(field.min_values, 1)) || work.result.faulty) return;
-  error(work, work.keyword, field.keyword + " (" + field.help + ") needs a text in double quotes");
+  const std::string needs = field.keyword + " (" + field.help + ") needs a text in double quotes";
+  if (!at_value_number(work)) return error(work, work.keyword, needs);
+  const Token number = take(work);
+  if (number.fault.empty()) error(work, number.where, quoted(number) + " is not a text", needs);
+}
+
+/// `.TITRE spur gear pair`: one complaint instead of one for each word.
+void ValueReader::refuse_more_words(Work& work) {
+  const auto more = [&] { return tokens_.peek().is_word() && at_stray_value(work); };
+  const auto& fields = work.schema.fields;
+  const auto takes_words = [&](const Field& field) { return field.positional && &field != &work.field; };
+  if (!more() || std::any_of(fields.begin(), fields.end(), takes_words)) return;
+  error(work, tokens_.peek().where, "a text of several words stands in double quotes");
+  while (more()) tokens_.skip();
 }
 
 void ValueReader::read_choice(Work& work) {

@@ -48,11 +48,13 @@ class ValueReader {
   Token take(Work& work);
   void error(Work& work, const Location& where, std::string message, std::string hint = {});
   bool at_value_number(const Work& work);
+  bool at_stray_value(const Work& work);
   void read_numbers(Work& work);
   bool read_range(Work& work);
   void append_range(Work& work, const Token& first, const Token& last, double step);
   void append(Work& work, double value, int count, const Location& where);
   void read_texts(Work& work);
+  void refuse_more_words(Work& work);
   void read_choice(Work& work);
   void check_number(Work& work, const Token& token);
   void check_count(Work& work, const std::string& name, int least, int most);

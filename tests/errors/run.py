@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`run.py engrane folder [--update]`: does every wrong deck give exactly the message beside it?
+
+Each `x.dat` of the folder that has an `x.err` is checked, in that folder, by `engrane check x.dat`. The program must end with
+status 1 and write `x.err` to stderr. Decks without an `.err` are parts that others read by INPUT. `--update` writes the messages
+afresh, for every deck of the folder that is not such a part: read the difference before you commit it.
+"""
+
+import argparse
+import difflib
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+parser = argparse.ArgumentParser(description="compares the messages about wrong decks with the expected ones")
+parser.add_argument("engrane", type=Path)
+parser.add_argument("folder", type=Path)
+parser.add_argument("--update", action="store_true", help="write the expected messages afresh")
+arguments = parser.parse_args()
+
+binary = arguments.engrane.resolve()
+decks = sorted(arguments.folder.glob("*.dat"))
+parts = set()
+for deck in decks:
+    for name in re.findall(r'(?im)^\s*INPUT\s+"([^"]+)"', deck.read_bytes().decode("latin-1")):
+        parts.add(name if name.endswith(".dat") else name + ".dat")
+
+checked = 0
+failures = []
+for deck in decks:
+    expected_file = deck.with_suffix(".err")
+    if not expected_file.exists() and (not arguments.update or deck.name in parts):
+        if deck.name not in parts:
+            failures.append(f"{deck}: no {expected_file.name} beside it")
+        continue
+    run = subprocess.run([binary, "check", deck.name], cwd=deck.parent, capture_output=True, timeout=60, check=False)
+    messages = run.stderr.decode("utf-8", errors="replace")
+    checked += 1
+    if run.returncode != 1:
+        failures.append(f"{deck}: exit status {run.returncode} instead of 1\n{messages}")
+        continue
+    if arguments.update:
+        expected_file.write_text(messages, encoding="utf-8", newline="\n")
+        continue
+    expected = expected_file.read_text(encoding="utf-8")
+    if messages != expected:
+        lines = difflib.unified_diff(
+            expected.splitlines(), messages.splitlines(), expected_file.name, "engrane check", lineterm=""
+        )
+        failures.append("\n".join([f"{deck}: other messages than expected", *lines]))
+
+for failure in failures:
+    print(failure)
+print(f"{checked} wrong decks checked, {len(failures)} failures")
+if failures or checked == 0:
+    sys.exit(1)
