@@ -230,11 +230,10 @@ const deck::Card<GearData>& gear_card() {
     c.chapter("Rigid kinematic joints").numbered();
     c.describe(
         "Two toothed wheels, each at a node that is its centre. The pair passes the normal tooth force between them, with its "
-        "tangential, radial and axial parts; bearings and shafts are other elements. The geometry must close: the places of "
-        "the nodes must agree with Z, MN, HELIX and the cones.\n\n"
-        "Teeth are rigid unless KM is given. XI, CM, JEU, SMOOTH, DAMP and ERR describe elastic teeth and need KM.\n\n"
-        "Angles are in degrees. Right-hand helices are positive. Cone angles are the paper's: 0 an external cylinder, 180 a "
-        "ring gear, positive when the wheel widens along its axle.");
+        "tangential, radial and axial parts; bearings and shafts are other elements. The places of the nodes must agree with "
+        "Z, MN, HELIX and the cones. Teeth are rigid unless KM is given; XI, CM, JEU, SMOOTH, DAMP and ERR need it. "
+        "Right-hand helices are positive. Cone angles are the paper's: 0 an external cylinder, 180 a ring gear, positive "
+        "when the wheel widens along its axle.");
     c.add("N", &GearData::nodes, "centres of wheel A and wheel B")
         .synonyms({"NOEUDS", "NODES", "NOEUD"})
         .refers(deck::Reference::node)
