@@ -62,7 +62,7 @@ std::string listing_built(const BuiltSummary& s) {
   unknowns.row({"rotations of nodes", std::to_string(s.rotations)});
   unknowns.row({"of elements", std::to_string(s.scalars)});
   unknowns.row({"multipliers", std::to_string(s.multipliers)});
-  unknowns.row({"prescribed by supports", "-" + std::to_string(s.prescribed)});
+  unknowns.row({"prescribed by supports", (s.prescribed > 0 ? "-" : "") + std::to_string(s.prescribed)});
   unknowns.rule();
   unknowns.row({"to be solved for", std::to_string(s.translations + s.rotations + s.scalars + s.multipliers - s.prescribed)});
   std::string out = "  " + counted(s.nodes, "node") + "\n\n";
@@ -162,7 +162,7 @@ std::string listing_times(const TimeSplit& split) {
     known += seconds;
   }
   const double rest = std::max(0.0, split.total - known);
-  table.row({"the rest", fmt::format("{:.3f}", rest), fmt::format("{:.1f}", percent * rest)});
+  if (rest > 5e-4 * split.total) table.row({"the rest", fmt::format("{:.3f}", rest), fmt::format("{:.1f}", percent * rest)});
   table.rule();
   table.row({"total", fmt::format("{:.3f}", split.total), ""});
   return table.text();

@@ -130,7 +130,7 @@ def test_vtk(prefix, frames, name):
 
 def test_killed_run_opens(tmp_path):
     """SIGKILL at ten moments: the file opens, histories are as long as the time, frames are there."""
-    (tmp_path / "long.dat").write_text(DECK.format(end=1e6))
+    (tmp_path / "long.dat").write_text(DECK.format(end=100000))
     draw = random.Random(1)
     most = 0
     for attempt in range(10):
