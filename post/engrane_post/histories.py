@@ -84,7 +84,8 @@ def draw(
     figure, axes = style.panels(1 if together else len(channels))
     shared = {units[0]: axes[0]}
     if together and len(units) == 2:
-        shared[units[1]] = axes[0].twinx()
+        with style.plt.rc_context(style.RC):
+            shared[units[1]] = axes[0].twinx()
         shared[units[1]].spines["right"].set_visible(True)
         shared[units[1]].grid(False)
     color = 0
@@ -116,7 +117,7 @@ def draw(
             )
         handles = [h for a in shared.values() for h in a.get_legend_handles_labels()[0]]
         if handles and (len(results) > 1 or len(channels) > 1):
-            axes[0].legend(handles=handles, fontsize=8, loc="upper right")
+            axes[0].legend(handles=handles, fontsize=8, loc="lower left", bbox_to_anchor=(0, 1.0), ncols=2)
     axes[-1].set_xlabel(f"time {bracketed(results[0].time_unit)}".strip())
     for axis in axes:
         axis.margins(x=0.01)

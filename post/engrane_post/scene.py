@@ -4,7 +4,7 @@ between two nodes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -32,6 +32,7 @@ class Item:
     smooth: bool = True
     opacity: float = 1.0
     edges: bool = False
+    wheel: bool = False
 
 
 class Scene:
@@ -43,8 +44,8 @@ class Scene:
         self.row = {n: i for i, n in enumerate(self.ids)}
         self.points = {n: result.points[i] for n, i in self.row.items()}
         self.wheels = collect(result.elements)
-        self.size = self._size()
         self.items: list[Item] = []
+        self.size = self._size()
         self._wheels()
         drawn = set()
         for element in result.elements:
@@ -57,20 +58,28 @@ class Scene:
         self._grounds()
 
     def corners(self, frames: list[Frame]) -> np.ndarray:
-        """Points (k x 3) whose box holds the model at all the frames."""
+        """Points (k x 3) that hold the model at all the frames: nodes, rims of the wheels, boxes of the
+        rest."""
         out = [self.result.points + f.displacement for f in frames]
+        few = frames[:: max(1, len(frames) // 40)]
+        for node, points in self._outlines():
+            for f in few:
+                t = self.transform(node, f)
+                out.append(points @ t[:3, :3].T + t[:3, 3])
+        return np.concatenate(out) if out else np.zeros((1, 3))
+
+    def _outlines(self) -> Iterator[tuple[int, np.ndarray]]:
+        """(node, reference points) of everything that moves with a node."""
         turn = np.arange(0, 2 * np.pi, np.pi / 12)
         for w in self.wheels:
             reach = w.shape.radius + (3.2 if w.shape.ring else 1.0) * w.shape.module
             circle = reach * (np.outer(np.cos(turn), w.frame[:, 1]) + np.outer(np.sin(turn), w.frame[:, 2]))
-            for f in frames[:: max(1, len(frames) // 40)]:
-                t = self.transform(w.node, f)
-                c = t[:3, :3] @ w.center + t[:3, 3]
-                out.append(c + circle @ t[:3, :3].T)
-                out.append(
-                    c + np.outer([-0.5, 0.5], t[:3, :3] @ w.frame[:, 0] * min(w.shape.width, w.shape.radius))
-                )
-        return np.concatenate(out) if out else np.zeros((1, 3))
+            half = 0.5 * min(w.shape.width, w.shape.radius) * w.frame[:, 0]
+            yield w.node, w.center + np.r_[circle - half, circle + half]
+        for item in self.items:
+            if item.remake is None and not item.wheel:
+                x = np.reshape(item.mesh.bounds, (3, 2))
+                yield item.node, np.array([[a, b, c] for a in x[0] for b in x[1] for c in x[2]])
 
     def _size(self) -> float:
         corners = self.corners([self.result.reference()])
@@ -97,7 +106,7 @@ class Scene:
         for w in self.wheels:
             color = WHEEL_COLORS[slots.setdefault(w.node, len(slots)) % len(WHEEL_COLORS)]
             for mesh, tint in shapes.wheel(w, color, MARK, DARK):
-                self.items.append(Item(mesh, tint, w.node, smooth=False))
+                self.items.append(Item(mesh, tint, w.node, smooth=False, wheel=True))
 
     def _shape(self, element: Element, d: dict[str, Any]) -> None:
         """One entry of `drawing`; a shape unknown to this version or without its nodes is left out."""
@@ -128,8 +137,20 @@ class Scene:
             self.items.append(Item(shapes.ball(self.points[node], size * 0.016), DARK, node))
         elif kind == "arrow":
             couple = element.type.upper() in ("TORQUE", "COUPLE", "MOMENT") or bool(d.get("couple"))
-            make_arrow = shapes.turn_arrow if couple else shapes.arrow
-            self.items.append(Item(make_arrow(center, axis, size * (0.09 if couple else 0.16)), ARROW, node))
+            if couple:
+                mesh = shapes.turn_arrow(center, axis, self._clear_of_wheels(center))
+            else:
+                mesh = shapes.arrow(center, axis, size * 0.14)
+            self.items.append(Item(mesh, ARROW, node))
+
+    def _clear_of_wheels(self, center: np.ndarray) -> float:
+        """Radius of a torque's arrow: around the wheel that sits there, unless that is a large one."""
+        radius = 0.06 * self.size
+        for w in self.wheels:
+            tip = 1.2 * (w.shape.radius + w.shape.module)
+            if np.linalg.norm(w.center - center) < 1e-3 * w.shape.radius and tip < 0.15 * self.size:
+                radius = max(radius, tip)
+        return radius
 
     def _flexible(self, remake: Callable[[dict[int, np.ndarray]], pv.PolyData], color: str) -> None:
         self.items.append(Item(remake(self.points), color, remake=remake))

@@ -60,15 +60,16 @@ def aim(plotter: pv.Plotter, scene: Scene, frames: list[Frame], view: str | None
     side = side / np.linalg.norm(side)
     vertical = np.cross(eye, side)
     flat = np.stack([(corners - middle) @ side, (corners - middle) @ vertical], axis=-1)
-    low, high = flat.min(axis=0), flat.max(axis=0)
-    middle = middle + side * (low[0] + high[0]) / 2 + vertical * (low[1] + high[1]) / 2
-    width, height = np.maximum(high - low, 0.02 * scene.size)
+    middle = middle + np.mean([flat.min(axis=0), flat.max(axis=0)], axis=0) @ np.stack([side, vertical])
+    # A long lens keeps circles round at the edge. The eye goes as far back as the point needs that is nearest
+    # the rim of the view, perspective included.
+    angle = 20.0
+    slope = np.tan(np.radians(angle / 2))
     aspect = plotter.window_size[0] / plotter.shape[1] / plotter.window_size[1]
-    # A long lens: nearly parallel projection keeps circles round at the edge, a little depth remains.
-    angle = 18.0
-    half = max(height / 2, width / 2 / aspect) * 1.1 / zoom
-    depth = np.ptp((corners - middle) @ eye) / 2
-    distance = half / np.tan(np.radians(angle / 2)) + depth
+    offset = corners - middle
+    reach = np.maximum(np.abs(offset @ vertical), np.abs(offset @ side) / aspect) / slope * 1.12 / zoom
+    distance = float((reach + offset @ eye).max())
+    distance = max(distance, 0.1 * scene.size)
     camera = plotter.camera
     camera.view_angle = angle
     camera.focal_point = middle
