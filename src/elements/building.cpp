@@ -20,6 +20,7 @@ std::optional<Vec3> unit_vector(const BuildContext& context, std::string_view ke
 }
 
 bool check_nodes(const BuildContext& context, const std::vector<int>& nodes) {
+  if (nodes.empty()) return false;  // the reader has said what is wrong with them
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (std::count(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(i), nodes[i]) > 0) {
       context.error("N", fmt::format("node {} is named twice", nodes[i]), "give different nodes; 0 is the ground");
