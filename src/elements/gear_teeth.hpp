@@ -3,6 +3,7 @@
 // (A. Cardona 1995, equations 28–33).
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "math/dual.hpp"
@@ -50,11 +51,13 @@ struct ToothLaw {
   /// −1, 0, 1: on the back flank, in the gap, on the flank with which A drives in the positive sense.
   int contact(double x) const;
 
-  /// k_m [[x]], the elastic force of (29).
+  /// k_m [[x]], the elastic force of (29). Its derivative inside the gap is 1e-9 k_m instead of zero: nothing to dynamics or
+  /// to frequencies, but the statics of a load that presses the far flank then has a way across.
   template <class T>
   T elastic_force(const T& x) const {
+    constexpr double least_slope = 1e-9;
     const Function::Jet d = deflection(value_of(x));
-    return compose(x, stiffness * d.f, stiffness * d.d1, stiffness * d.d2);
+    return compose(x, stiffness * d.f, stiffness * std::max(d.d1, least_slope), stiffness * d.d2);
   }
 
   /// What damping adds to it. With Damping::contact the sum of both keeps the sign of the flank that touches: where c_m du_m/dt
