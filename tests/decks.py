@@ -64,7 +64,8 @@ def differences(one: dict, other: dict, tolerance: float) -> list[str]:
 
 
 def run(arguments, ranks: int) -> Path:
-    prefix = arguments.work / f"{arguments.deck.stem}_{ranks}"
+    """The results on one rank keep the deck's name: tests/verify reads them."""
+    prefix = arguments.work / (arguments.deck.stem + (f"_np{ranks}" if ranks > 1 else ""))
     for old in arguments.work.glob(f"{prefix.name}.*"):
         old.unlink()
     command = [arguments.binary, str(arguments.deck), "-o", str(prefix)]
