@@ -39,16 +39,16 @@ std::vector<Named> node_channels(bool moves, bool supported) {
   return c;
 }
 
-const std::vector<Named>& run_channels() {
-  static const std::vector<Named> channels{
-      {"KINETIC_ENERGY", dimension::energy, "kinetic energy"},
-      {"POTENTIAL_ENERGY", dimension::energy, "potential energy"},
-      {"EXTERNAL_WORK", dimension::energy, "work of applied forces and drives"},
-      {"DISSIPATED_ENERGY", dimension::energy, "energy lost to damping"},
-      {"ENERGY_ERROR", dimension::energy, "what the energy balance fails to close by"},
-      {"STEP", dimension::time, "time step"},
-      {"ITERATIONS", dimension::none, "Newton iterations of the step"},
-  };
+/// A static run has no speed and so no power: it keeps no balance.
+std::vector<Named> run_channels(bool moves) {
+  std::vector<Named> channels{{"STEP", dimension::time, "time step"},
+                              {"ITERATIONS", dimension::none, "Newton iterations of the step"},
+                              {"POTENTIAL_ENERGY", dimension::energy, "potential energy"}};
+  if (moves)
+    channels.insert(channels.end(), {{"KINETIC_ENERGY", dimension::energy, "kinetic energy"},
+                                     {"EXTERNAL_WORK", dimension::energy, "work of applied forces and drives"},
+                                     {"DISSIPATED_ENERGY", dimension::energy, "energy lost to damping"},
+                                     {"ENERGY_ERROR", dimension::energy, "what the energy balance fails to close by"}});
   return channels;
 }
 
@@ -83,8 +83,8 @@ Recorder::Recorder(const Reading& reading, Workbench& bench)
     next += static_cast<int>(groups_.back().channels.size());
   }
   run_begin_ = next;
-  groups_.push_back({"run", {}, run_channels()});
-  next += static_cast<int>(run_channels().size());
+  groups_.push_back({"run", {}, run_channels(moves_)});
+  next += static_cast<int>(groups_.back().channels.size());
   values_.assign(static_cast<std::size_t>(next), 0.0);
 
   const auto& s = commands.stepping;
@@ -176,13 +176,14 @@ void Recorder::observe_elements(const Configuration& c, const StepReport& step) 
   dissipated_power_ = sum.dissipated;
   last_time_ = c.time;
   double* run = values_.data() + run_begin_;
-  run[0] = energies_.kinetic;
-  run[1] = energies_.potential;
-  run[2] = energies_.external_work;
-  run[3] = energies_.dissipated;
-  run[4] = energies_.error();
-  run[5] = step.step;
-  run[6] = step.newton ? step.newton->iterations : 0;
+  run[0] = step.step;
+  run[1] = step.newton ? step.newton->iterations : 0;
+  run[2] = energies_.potential;
+  if (!moves_) return;
+  run[3] = energies_.kinetic;
+  run[4] = energies_.external_work;
+  run[5] = energies_.dissipated;
+  run[6] = energies_.error();
 }
 
 void Recorder::find_reactions(const Configuration& c) {

@@ -96,8 +96,10 @@ class Writer {
   int finish(RunStatus status, const std::string& failure, const TimeSplit& times) {
     progress_.finish();
     const UnitSystem& units = reading_.model.units;
-    listing_.write(listing_section("Energies"));
-    listing_.write(listing_energies(thinned_energies(), units));
+    if (!reading_.model.commands.analysis.type.is("STATIC")) {
+      listing_.write(listing_section("Energies"));
+      listing_.write(listing_energies(thinned_energies(), units));
+    }
     std::vector<ReactionRow> reactions;
     for (const Recorder::Reaction& r : recorder_.reactions())
       reactions.push_back({reading_.model.nodes[static_cast<std::size_t>(r.node)].id, r.force, r.torque});

@@ -61,7 +61,8 @@ std::string describe_geometry(const Model& model) {
     for (const Derived& d : derived) {
       // angles are radians inside and degrees wherever a person reads or writes a deck
       const bool angle = d.dimension == dimension::angle;
-      const double value = (angle ? d.value * 57.295779513082320877 : d.value) + 0.0;  // + 0: no minus zero
+      const double shown = angle ? d.value * 57.295779513082320877 : d.value;
+      const double value = std::abs(shown) < 1e-14 ? 0.0 : shown;  // rounding, and no minus zero
       text += fmt::format("    {:<42}{:>16.9g} {}\n", d.name, value,
                           angle                             ? "deg"
                           : d.dimension == dimension::none ? ""

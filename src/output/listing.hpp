@@ -36,7 +36,7 @@ struct BuiltSummary {
   std::size_t nodes = 0;
   std::size_t translations = 0, rotations = 0;               ///< unknowns of nodes
   std::size_t scalars = 0, multipliers = 0;                  ///< unknowns of elements
-  std::size_t prescribed = 0;                                ///< node unknowns that supports take away
+  std::size_t prescribed = 0;                                ///< components of nodes that supports hold: no unknowns
   std::size_t nonzeros = 0;                                  ///< of the tangent; 0 when not counted
   std::vector<std::pair<std::string, std::string>> choices;  ///< settled by the program: scale, penalty, tolerance, …
 };

@@ -50,7 +50,7 @@ std::string explain_singular(Assembler& assembler, const std::string& what) {
   Eigen::VectorXd scale;
   const Eigen::MatrixXd dense = dense_copy(assembler, scale);
   if (!dense.allFinite()) return what + ": the matrix is not finite";
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(dense, Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(dense, Eigen::ComputeThinV);
   const Eigen::VectorXd null = svd.matrixV().col(n - 1).cwiseProduct(scale);
   std::vector<int> order(static_cast<std::size_t>(n));
   std::iota(order.begin(), order.end(), 0);
