@@ -43,7 +43,7 @@ void add_components(Card<Data>& card, std::string what) {
       .required();
 }
 
-/// One value for all components, or one for each; and somebody whom it concerns.
+/// Somebody whom it concerns, and each component once. What the model must know to judge is checked where it is built.
 template <class Data>
 void check_target(const Data& data, const Record& record, Diagnostics& diagnostics) {
   if (data.nodes.empty() && data.groups.empty())
@@ -52,12 +52,6 @@ void check_target(const Data& data, const Record& record, Diagnostics& diagnosti
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
     diagnostics.error(record.where("C"), "a component is named twice", "C takes each of 1 to 6 once");
-  if constexpr (requires { data.values; }) {
-    if (data.values.size() != 1 && data.values.size() != data.components.size())
-      diagnostics.error(record.where("V"),
-                        "V has " + counted(data.values.size(), "value") + " for " + counted(data.components.size(), "component"),
-                        "give one value for all components, or one for each");
-  }
 }
 
 template <class Data>
@@ -117,37 +111,6 @@ Schema gravity_card() {
   return card.schema();
 }
 
-void check_pairs(const Record& record, const char* keyword, const std::vector<double>& values, Diagnostics& diagnostics) {
-  if (values.size() % 2 != 0)
-    return diagnostics.error(record.where(keyword), std::string(keyword) + " has an odd count of numbers",
-                             "give abscissa and ordinate in turn");
-  for (std::size_t i = 2; i < values.size(); i += 2)
-    if (values[i] <= values[i - 2])
-      return diagnostics.error(record.where(keyword), "the abscissas of " + std::string(keyword) +
-                                                          " do not rise: " + format_number(values[i - 2]) + " is followed by " +
-                                                          format_number(values[i]));
-}
-
-void check_function(FunctionCard& function, Record& record, Diagnostics& diagnostics) {
-  std::vector<std::string> shapes;
-  for (const char* keyword : {"TABLE", "SINUS", "RAMP", "STEP", "EXPR"})
-    if (record.given(keyword)) shapes.emplace_back(keyword);
-  const std::string title = ".FCT " + std::to_string(record.id);
-  if (shapes.empty()) return diagnostics.error(record.location, title + " has no shape", "give TABLE, SINUS, RAMP, STEP or EXPR");
-  if (shapes.size() > 1)
-    return diagnostics.error(record.where(shapes[1]), title + " has more than one shape: " + join(shapes),
-                             "a function has one; products are written as EXPR");
-  check_pairs(record, "TABLE", function.table, diagnostics);
-  for (const char* keyword : {"RAMP", "STEP"})
-    if (record.given(keyword)) check_pairs(record, keyword, keyword[0] == 'R' ? function.ramp : function.step, diagnostics);
-  if (function.spline && function.table.empty()) diagnostics.error(record.where("SPLINE"), "SPLINE belongs to a TABLE");
-  if (function.period && function.table.empty())
-    diagnostics.error(record.where("PERIOD"), "PERIOD belongs to a TABLE");
-  else if (function.period && !function.table.empty() && function.table.size() % 2 == 0 &&
-           function.table[function.table.size() - 2] - function.table[0] > *function.period * (1 + 1e-12))
-    diagnostics.error(record.where("PERIOD"), "the TABLE is longer than its PERIOD");
-}
-
 Schema function_card() {
   Card<FunctionCard> card(".FCT", {".FUNCTION", ".FONCTION"}, "Functions of time");
   card.chapter(chapter).numbered();
@@ -169,7 +132,6 @@ Schema function_card() {
   card.add("EXPR", &FunctionCard::expression,
            "a formula of the time T, with PI and the functions of the deck's arithmetic (radians)")
       .synonyms({"EXPRESSION", "FORMULE"});
-  card.finish(check_function);
   card.example(".FCT\n I 1 TABLE 0 0  1 1\n I 2 NOM \"swell\" SINUS 0.5 10. 90. 1.\n I 3 EXPR \"sin(2*PI*T)**2\"");
   return card.schema();
 }

@@ -38,7 +38,7 @@ void append_overview(std::string& out, const std::vector<const Schema*>& schemas
       words.erase(words.begin());
       std::string name = schema->name;
       if (!words.empty()) name += " (" + join(words, ", ") + ")";
-      out += "  " + padded(name, 36) + schema->summary + "\n";
+      out += "  " + padded(name, 42) + schema->summary + "\n";
     }
   }
 }

@@ -2,6 +2,7 @@
 #include "deck/reader.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -99,6 +100,10 @@ class Reader {
                            "a deck starts with a command such as .NOE");
       complained = true;
     }
+    const auto first_faulty =
+        std::stable_partition(deck_.records.begin(), deck_.records.end(), [](const Record& record) { return !record.faulty; });
+    std::move(first_faulty, deck_.records.end(), std::back_inserter(deck_.faulty));
+    deck_.records.erase(first_faulty, deck_.records.end());
     return std::move(deck_);
   }
 
@@ -122,6 +127,10 @@ class Reader {
       if (hint.empty()) hint = "`engrane help` lists the commands; its data is skipped";
       diagnostics_.error(word.where, "unknown command `" + word.text + "`", hint);
     }
+    skip_command();
+  }
+
+  void skip_command() {
     while (!tokens_.peek().is_end() && !tokens_.peek().is_command()) tokens_.skip();
   }
 
@@ -143,11 +152,10 @@ class Reader {
     else if (target.empty() || !find_recognised(target))
       diagnostics_.error(word.where, "`" + word.text + "` does not say which command to delete",
                          target.empty() ? "write .DEL.CLM, or .DEL.* for all" : did_you_mean(target, commands_.words()));
-    while (!tokens_.peek().is_end() && !tokens_.peek().is_command()) {
-      const Token token = tokens_.take();
-      if (token.fault.empty())
-        diagnostics_.error(token.where, "`" + token.text + "`: nothing may follow `" + upper(word.text) + "`");
-    }
+    const Token rest = tokens_.peek();
+    if (rest.is_end() || rest.is_command()) return;
+    diagnostics_.error(rest.where, "nothing may follow `" + upper(word.text) + "`");
+    skip_command();
   }
 
   int forget(const Command* command) {
@@ -265,7 +273,9 @@ class Reader {
 
   const Schema* element_type(Record& record) {
     const Token& next = tokens_.peek();
-    if (!next.is_word() || next.is_command()) {
+    const bool keyword =
+        next.is_word() && (same_word(next.text, "N") || same_word(next.text, "NOEUDS") || same_word(next.text, "NODES"));
+    if (!next.is_word() || next.is_command() || keyword) {
       diagnostics_.error(record.location, "element " + std::to_string(record.id) + " has no type",
                          "an element is given as I 1 GEAR N 1 2 …");
       return nullptr;
@@ -282,8 +292,8 @@ class Reader {
       return nullptr;
     }
     std::string hint = did_you_mean(word.text, schema_words(elements));
-    diagnostics_.error(word.where, "unknown element type `" + word.text + "`",
-                       hint.empty() ? "`engrane help` lists the element types" : hint);
+    if (hint.empty()) hint = "`engrane help` lists the element types";
+    diagnostics_.error(word.where, "unknown element type `" + word.text + "`", hint);
     return nullptr;
   }
 

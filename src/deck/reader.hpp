@@ -21,6 +21,9 @@ struct Catalogue {
 /// A deck as read: records in the order of the file, `.DEL.*` already carried out.
 struct Deck {
   std::vector<Record> records;
+  /// Records about which an error was reported, apart: whoever builds a model from the good ones neither trips over them
+  /// nor complains again. That something refers to their numbers is no fault of its own.
+  std::vector<Record> faulty;
 };
 
 /// Reads a deck and everything it includes. All faults go to `diagnostics`; never throws on bad input.

@@ -282,7 +282,7 @@ struct Record {
   Location location;
   std::map<std::string, Location, std::less<>> field_locations;  ///< by canonical keyword; only those given
   std::any data;
-  bool faulty = false;  ///< an error was reported for it: its id counts, its values are not to be trusted
+  bool faulty = false;  ///< an error was reported for it; it is then in Deck::faulty
 
   /// The card's struct, or nullptr when the record is of another card.
   template <class Data>

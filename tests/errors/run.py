@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`run.py engrane folder [--update]`: does every wrong deck give exactly the message beside it?
 
-Each `x.dat` of the folder that has an `x.err` is checked, in that folder, by `engrane check x.dat`. The program must end with
-status 1 and write `x.err` to stderr. Decks without an `.err` are parts that others read by INPUT. `--update` writes the messages
-afresh, for every deck of the folder that is not such a part: read the difference before you commit it.
+Each `x.dat` of the folder that has an `x.err` is checked, in that folder, by `engrane check x.dat`.
+The program must end with status 1 and write `x.err` to stderr. Decks without an `.err` are parts that
+others read by INPUT. `--update` writes the messages afresh, for every deck of the folder that is not
+such a part: read the difference before you commit it.
 """
 
 import argparse

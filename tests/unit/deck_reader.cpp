@@ -76,11 +76,11 @@ TEST(DeckReader, AllErrorsInOneRun) {
   EXPECT_EQ(deck.diagnostics.errors(), 9) << deck.messages();
 }
 
-TEST(DeckReader, FaultyRecordsKeepTheirId) {
+TEST(DeckReader, FaultyRecordsStandApart) {
   const ReadDeck deck = read(".NOE\n I 7 X oops\n");
-  ASSERT_EQ(deck.deck.records.size(), 1U);
-  EXPECT_EQ(deck.deck.records[0].id, 7);
-  EXPECT_TRUE(deck.deck.records[0].faulty);
+  EXPECT_EQ(deck.deck.records.size(), 0U);
+  ASSERT_EQ(deck.deck.faulty.size(), 1U);
+  EXPECT_EQ(deck.deck.faulty[0].id, 7);
 }
 
 TEST(DeckReader, LocationsOfFields) {
