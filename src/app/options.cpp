@@ -13,7 +13,7 @@ namespace engrane {
 
 namespace {
 
-constexpr std::array petsc_prefixes{"-snes_", "-ksp_", "-pc_",   "-mat_",     "-vec_",         "-log_",
+constexpr std::array petsc_prefixes{"-snes_", "-ksp_",   "-pc_",     "-mat_",     "-vec_",        "-log_",
                                     "-info",  "-malloc", "-memory_", "-options_", "-malloc_dump", "-on_error_"};
 
 bool is_petsc_option(std::string_view word) {
@@ -32,7 +32,8 @@ std::vector<std::string> own_words(int argc, char** argv) {
     // what follows is the option's value, unless it is another option or plainly a deck
     if (i + 1 == argc) continue;
     const std::string_view next = argv[i + 1];
-    const bool number = next.size() > 1 && next[0] == '-' && (std::isdigit(static_cast<unsigned char>(next[1])) || next[1] == '.');
+    const bool number =
+        next.size() > 1 && next[0] == '-' && (std::isdigit(static_cast<unsigned char>(next[1])) || next[1] == '.');
     if ((next[0] != '-' || number) && !next.ends_with(".dat")) ++i;
   }
   std::reverse(words.begin(), words.end());

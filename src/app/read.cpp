@@ -54,8 +54,10 @@ Reading read_deck(const std::string& path) {
   for (const Diagnostic& d : building.all()) {
     const bool echo = !syntax_good && d.message.find("does not exist") != std::string::npos;
     if (echo) continue;
-    if (d.severity == Severity::error) reading.diagnostics.error(d.location, d.message, d.hint);
-    else reading.diagnostics.warning(d.location, d.message, d.hint);
+    if (d.severity == Severity::error)
+      reading.diagnostics.error(d.location, d.message, d.hint);
+    else
+      reading.diagnostics.warning(d.location, d.message, d.hint);
   }
   return reading;
 }

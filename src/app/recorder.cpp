@@ -244,8 +244,6 @@ void Recorder::fill_fields(const Configuration& c) {
   }
 }
 
-FrameValues Recorder::frame() const {
-  return {displacement_, rotation_, velocity_, angular_, reaction_force_, reaction_torque_};
-}
+FrameValues Recorder::frame() const { return {displacement_, rotation_, velocity_, angular_, reaction_force_, reaction_torque_}; }
 
 }  // namespace engrane

@@ -65,11 +65,11 @@ class Writer {
       listing_.write("  the mechanism closes as given\n");
     else
       listing_.write(fmt::format("  assembled in {} iterations; moved most: {}, by {:.4g} {} and {:.4g} deg\n",
-                                 start.position_iterations, start.moved_most, start.largest_move,
-                                 units.label(dimension::length), start.largest_turn * 57.295779513082320877));
+                                 start.position_iterations, start.moved_most, start.largest_move, units.label(dimension::length),
+                                 start.largest_turn * 57.295779513082320877));
     if (start.largest_velocity_change > 0)
-      listing_.write(fmt::format("  initial velocities changed by up to {:.4g} to fit joints and drives\n",
-                                 start.largest_velocity_change));
+      listing_.write(
+          fmt::format("  initial velocities changed by up to {:.4g} to fit joints and drives\n", start.largest_velocity_change));
     if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
   }
 
@@ -126,8 +126,9 @@ class Writer {
       }
     }
     listing_.write(listing_section("Effort"));
-    listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1, iterations_,
-                               steps_ > 1 ? static_cast<double>(iterations_) / static_cast<double>(steps_ - 1) : 0.0, cuts_));
+    listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1,
+                               iterations_, steps_ > 1 ? static_cast<double>(iterations_) / static_cast<double>(steps_ - 1) : 0.0,
+                               cuts_));
     listing_.write(listing_times(times));
     results_.finish(status);
     listing_.finish(status == RunStatus::complete);

@@ -27,10 +27,14 @@ BuiltSummary summarize(const Model& model, const Numbering& numbering) {
   }
   summary.nodes = model.nodes.size() - 1;
   for (const Unknown& u : numbering.unknowns()) {
-    if (u.multiplier) ++summary.multipliers;
-    else if (u.part >= 0) ++summary.scalars;
-    else if (u.item < 3) ++summary.translations;
-    else ++summary.rotations;
+    if (u.multiplier)
+      ++summary.multipliers;
+    else if (u.part >= 0)
+      ++summary.scalars;
+    else if (u.item < 3)
+      ++summary.translations;
+    else
+      ++summary.rotations;
   }
   summary.prescribed = model.supports.size();
   const auto motions = summary.translations + summary.rotations + summary.scalars;
@@ -64,9 +68,9 @@ std::string describe_geometry(const Model& model) {
       const double shown = angle ? d.value * 57.295779513082320877 : d.value;
       const double value = std::abs(shown) < 1e-14 ? 0.0 : shown;  // rounding, and no minus zero
       text += fmt::format("    {:<42}{:>16.9g} {}\n", d.name, value,
-                          angle                             ? "deg"
+                          angle                            ? "deg"
                           : d.dimension == dimension::none ? ""
-                                                            : model.units.label(d.dimension));
+                                                           : model.units.label(d.dimension));
     }
   }
   return text;

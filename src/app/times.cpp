@@ -51,9 +51,10 @@ std::string Times::advice(const LinearSolver& solver, int ranks) const {
   if (each > 3 * overhead_of_mumps) return {};
   const double gain = std::min(factor.time + solve.time, overhead_of_mumps * factor.count) / total;
   if (gain < 0.25) return {};
-  return fmt::format("engrane: this system is so small that MUMPS' own overhead takes about {:.0f} % of the time; .SAM SOLVER KLU "
-                     "would save most of it\n",
-                     100 * gain);
+  return fmt::format(
+      "engrane: this system is so small that MUMPS' own overhead takes about {:.0f} % of the time; .SAM SOLVER KLU "
+      "would save most of it\n",
+      100 * gain);
 }
 
 }  // namespace engrane

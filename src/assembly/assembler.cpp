@@ -112,8 +112,7 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
       const Element& element = *model_.parts[static_cast<std::size_t>(share.part)].element;
       const auto& slots = numbering_.part_slots(share.part);
       const std::size_t n = slots.size();
-      element.tangent(view(share.part, configuration), weights, std::span(local_r_).first(n),
-                      std::span(local_k_).first(n * n));
+      element.tangent(view(share.part, configuration), weights, std::span(local_r_).first(n), std::span(local_k_).first(n * n));
       use(share, slots, n);
     }
   };
@@ -125,7 +124,8 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
 
   std::vector<double> k(scale_.size(), 0.0);
   for_each_tangent([&](const Share& share, const std::vector<int>& slots, std::size_t n) {
-    for (std::size_t i = n - model_.parts[static_cast<std::size_t>(share.part)].element->layout().multipliers.size(); i < n; ++i) {
+    for (std::size_t i = n - model_.parts[static_cast<std::size_t>(share.part)].element->layout().multipliers.size(); i < n;
+         ++i) {
       double steepest = 0;
       for (std::size_t j = 0; j < n; ++j) steepest = std::max(steepest, std::abs(local_k_[i * n + j]));
       double size = 0;
@@ -174,16 +174,13 @@ void Assembler::add_entries(const Share& share, std::span<const double> k) {
   }
 }
 
-void Assembler::set_matrix_values() {
-  check_petsc(MatSetValuesCOO(matrix_, coo_values_.data(), INSERT_VALUES));
-}
+void Assembler::set_matrix_values() { check_petsc(MatSetValuesCOO(matrix_, coo_values_.data(), INSERT_VALUES)); }
 
 void Assembler::tangent(const Configuration& configuration, Weights weights) {
   for (const Share& share : shares_) {
     const Element& element = *model_.parts[static_cast<std::size_t>(share.part)].element;
     const std::size_t n = share.factor.size();
-    element.tangent(view(share.part, configuration), weights, std::span(local_r_).first(n),
-                    std::span(local_k_).first(n * n));
+    element.tangent(view(share.part, configuration), weights, std::span(local_r_).first(n), std::span(local_k_).first(n * n));
     add_entries(share, local_k_);
   }
   std::fill(coo_values_.begin() + static_cast<long>(diagonal_begin_), coo_values_.end(), 0.0);
@@ -199,8 +196,7 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
     const Layout& layout = element.layout();
     const auto& slots = numbering_.part_slots(share.part);
     const std::size_t n = slots.size(), m0 = n - layout.multipliers.size();
-    element.tangent(view(share.part, configuration), {1, 0, 0}, std::span(local_r_).first(n),
-                    std::span(local_k_).first(n * n));
+    element.tangent(view(share.part, configuration), {1, 0, 0}, std::span(local_r_).first(n), std::span(local_k_).first(n * n));
     if (mass)
       element.tangent(view(share.part, configuration), {0, 0, 1}, std::span(local_r_).first(n),
                       std::span(local_mass_).first(n * n));
@@ -239,8 +235,7 @@ void Assembler::constraint_rates(const Configuration& configuration, std::vector
     const std::size_t count = model_.parts[p].element->layout().multipliers.size();
     const auto begin = static_cast<std::size_t>(numbering_.multiplier_begin(part));
     model_.parts[p].element->constraint_rates(view(part, configuration), std::span(phi).subspan(begin, count),
-                                              std::span(rate).subspan(begin, count),
-                                              std::span(second).subspan(begin, count));
+                                              std::span(rate).subspan(begin, count), std::span(second).subspan(begin, count));
   }
 }
 

@@ -72,11 +72,11 @@ class Assembler {
  private:
   struct Share {
     int part;
-    std::size_t coo_begin;               ///< first of this element's entries in the COO arrays
-    std::vector<std::size_t> entries;    ///< local index row·n + column of each entry
+    std::size_t coo_begin;             ///< first of this element's entries in the COO arrays
+    std::vector<std::size_t> entries;  ///< local index row·n + column of each entry
     std::size_t row_begin;
-    std::vector<std::size_t> rows;       ///< local slots that have an equation
-    std::vector<double> factor;          ///< k of the local slot, 1 but for multipliers
+    std::vector<std::size_t> rows;  ///< local slots that have an equation
+    std::vector<double> factor;     ///< k of the local slot, 1 but for multipliers
   };
   void add_entries(const Share& share, std::span<const double> k);
   void set_matrix_values();

@@ -97,8 +97,7 @@ const char* component_name(int component) {
 
 std::string Numbering::describe(int equation) const {
   const Unknown& u = unknown(equation);
-  if (u.part < 0)
-    return fmt::format("node {} ({})", model_.nodes[static_cast<std::size_t>(u.node)].id, component_name(u.item));
+  if (u.part < 0) return fmt::format("node {} ({})", model_.nodes[static_cast<std::size_t>(u.node)].id, component_name(u.item));
   const Model::Part& part = model_.parts[static_cast<std::size_t>(u.part)];
   const Layout& layout = part.element->layout();
   const auto& names = u.multiplier ? layout.multipliers : layout.scalars;

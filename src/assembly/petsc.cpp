@@ -10,12 +10,12 @@ namespace {
 std::string last_message;
 
 /// Keeps the first words of an error; PETSc calls again, with PETSC_ERROR_REPEAT, on the way up.
-PetscErrorCode keep_message(MPI_Comm, int line, const char* function, const char* file, PetscErrorCode code,
-                            PetscErrorType type, const char* message, void*) {
+PetscErrorCode keep_message(MPI_Comm, int line, const char* function, const char* file, PetscErrorCode code, PetscErrorType type,
+                            const char* message, void*) {
   if (type == PETSC_ERROR_INITIAL) {
     last_message = message ? message : "";
-    last_message += " [in " + std::string(function ? function : "?") + ", " + (file ? file : "?") + ":" +
-                    std::to_string(line) + "]";
+    last_message +=
+        " [in " + std::string(function ? function : "?") + ", " + (file ? file : "?") + ":" + std::to_string(line) + "]";
   }
   return code;
 }

@@ -56,9 +56,18 @@ struct Dual {
   friend Dual operator-(Dual a, const Dual& b) { return a -= b; }
   friend Dual operator*(Dual a, const Dual& b) { return a *= b; }
   friend Dual operator/(Dual a, const Dual& b) { return a /= b; }
-  friend Dual operator+(Dual a, double s) { a.value += s; return a; }
-  friend Dual operator+(double s, Dual a) { a.value += s; return a; }
-  friend Dual operator-(Dual a, double s) { a.value -= s; return a; }
+  friend Dual operator+(Dual a, double s) {
+    a.value += s;
+    return a;
+  }
+  friend Dual operator+(double s, Dual a) {
+    a.value += s;
+    return a;
+  }
+  friend Dual operator-(Dual a, double s) {
+    a.value -= s;
+    return a;
+  }
   friend Dual operator-(double s, const Dual& a) { return s + (-a); }
   friend Dual operator*(Dual a, double s) { return a *= s; }
   friend Dual operator*(double s, Dual a) { return a *= s; }
@@ -88,12 +97,16 @@ struct Dual {
 /// The plain value under any scalar that elements are evaluated with.
 inline double value_of(double x) { return x; }
 template <int N>
-double value_of(const Dual<N>& x) { return x.value; }
+double value_of(const Dual<N>& x) {
+  return x.value;
+}
 
 /// f(x) for a function given by value and derivatives at x, in the scalar's own arithmetic.
 inline double compose(double, double f, double, double) { return f; }
 template <int N>
-Dual<N> compose(const Dual<N>& x, double f, double df, double) { return x.chain(f, df); }
+Dual<N> compose(const Dual<N>& x, double f, double df, double) {
+  return x.chain(f, df);
+}
 
 }  // namespace engrane
 
@@ -106,7 +119,11 @@ struct NumTraits<engrane::Dual<N>> : GenericNumTraits<engrane::Dual<N>> {
   enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = N, AddCost = N, MulCost = 2 * N };
 };
 template <int N, typename Op>
-struct ScalarBinaryOpTraits<engrane::Dual<N>, double, Op> { using ReturnType = engrane::Dual<N>; };
+struct ScalarBinaryOpTraits<engrane::Dual<N>, double, Op> {
+  using ReturnType = engrane::Dual<N>;
+};
 template <int N, typename Op>
-struct ScalarBinaryOpTraits<double, engrane::Dual<N>, Op> { using ReturnType = engrane::Dual<N>; };
+struct ScalarBinaryOpTraits<double, engrane::Dual<N>, Op> {
+  using ReturnType = engrane::Dual<N>;
+};
 }  // namespace Eigen

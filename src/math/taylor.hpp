@@ -20,8 +20,18 @@ struct Taylor {
   /// Chain rule for a function with value f, slope df and curvature ddf at this number.
   Taylor chain(double f, double df, double ddf) const { return {f, df * d1, df * d2 + ddf * d1 * d1}; }
 
-  Taylor& operator+=(const Taylor& b) { value += b.value; d1 += b.d1; d2 += b.d2; return *this; }
-  Taylor& operator-=(const Taylor& b) { value -= b.value; d1 -= b.d1; d2 -= b.d2; return *this; }
+  Taylor& operator+=(const Taylor& b) {
+    value += b.value;
+    d1 += b.d1;
+    d2 += b.d2;
+    return *this;
+  }
+  Taylor& operator-=(const Taylor& b) {
+    value -= b.value;
+    d1 -= b.d1;
+    d2 -= b.d2;
+    return *this;
+  }
   Taylor& operator*=(const Taylor& b) {
     d2 = d2 * b.value + 2 * d1 * b.d1 + value * b.d2;
     d1 = d1 * b.value + value * b.d1;
@@ -80,7 +90,11 @@ struct NumTraits<engrane::Taylor> : GenericNumTraits<engrane::Taylor> {
   enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 3, AddCost = 3, MulCost = 6 };
 };
 template <typename Op>
-struct ScalarBinaryOpTraits<engrane::Taylor, double, Op> { using ReturnType = engrane::Taylor; };
+struct ScalarBinaryOpTraits<engrane::Taylor, double, Op> {
+  using ReturnType = engrane::Taylor;
+};
 template <typename Op>
-struct ScalarBinaryOpTraits<double, engrane::Taylor, Op> { using ReturnType = engrane::Taylor; };
+struct ScalarBinaryOpTraits<double, engrane::Taylor, Op> {
+  using ReturnType = engrane::Taylor;
+};
 }  // namespace Eigen

@@ -98,8 +98,8 @@ class Builder {
 
   /// Checks that components are 1 to 6 and that there is one value for all or one for each; returns the values, one
   /// per component, rotations turned from degrees to radians when `degrees`.
-  std::vector<double> values_of(const deck::Record& record, const std::vector<int>& components,
-                                const std::vector<double>& values, bool degrees) {
+  std::vector<double> values_of(const deck::Record& record, const std::vector<int>& components, const std::vector<double>& values,
+                                bool degrees) {
     for (const int c : components)
       if (c < 1 || c > 6)
         diagnostics_.error(record.where("C"), fmt::format("component {}: components are 1 to 6", c),
@@ -142,22 +142,21 @@ class Builder {
     for (std::size_t i = 0; i < model_.supports.size(); ++i) {
       const Support& s = model_.supports[i];
       if (s.component < 3) continue;
-      const auto held = std::count_if(model_.supports.begin(), model_.supports.end(), [&](const Support& other) {
-        return other.node == s.node && other.component >= 3;
-      });
+      const auto held = std::count_if(model_.supports.begin(), model_.supports.end(),
+                                      [&](const Support& other) { return other.node == s.node && other.component >= 3; });
       const int id = model_.nodes[static_cast<std::size_t>(s.node)].id;
       if (held == 1)
         diagnostics_.error(support_locations_[i],
                            fmt::format("node {} has only rotation component {} prescribed, which has no meaning for "
-                                       "rotations of any size", id, s.component + 1),
+                                       "rotations of any size",
+                                       id, s.component + 1),
                            "prescribe two or three of the components 4 5 6, or join the node to the ground with a HINGE");
       if (s.value != 0 && held == 3) {
         const auto moved = std::count_if(model_.supports.begin(), model_.supports.end(), [&](const Support& other) {
           return other.node == s.node && other.component >= 3 && other.value != 0;
         });
         if (moved > 1)
-          diagnostics_.error(support_locations_[i],
-                             fmt::format("node {} is turned about more than one axis at once", id),
+          diagnostics_.error(support_locations_[i], fmt::format("node {} is turned about more than one axis at once", id),
                              "prescribe one rotation and hold the other two at zero");
       }
     }
@@ -181,8 +180,11 @@ class Builder {
     int id = 0;
     for (const Model::Part& part : model_.parts) id = std::max(id, part.element->id());
     for (const Load& load : loads_)
-      model_.parts.push_back({make_node_load(++id, load.node, load.force, load.moment, load.function), "CHA",
-                              load.parameters, load.location, {}});
+      model_.parts.push_back({make_node_load(++id, load.node, positions_.at(load.node), load.force, load.moment, load.function),
+                              "CHA",
+                              load.parameters,
+                              load.location,
+                              {}});
   }
 
   void add_initial(const deck::Record& record, const deck::InitialCard& card) {

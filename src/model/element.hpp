@@ -15,19 +15,19 @@ enum class NodeNeed : unsigned char { translation = 1, rotation = 2, both = 3 };
 
 /// A named scalar of an element: an unknown of its own, a multiplier, or an output channel.
 struct Named {
-  std::string name;      ///< upper case with underscores: `NORMAL_FORCE`
-  Dimension dimension;   ///< of the value; of a multiplier: of its constraint
-  std::string help;      ///< a few words, shown beside plots and in the listing
+  std::string name;     ///< upper case with underscores: `NORMAL_FORCE`
+  Dimension dimension;  ///< of the value; of a multiplier: of its constraint
+  std::string help;     ///< a few words, shown beside plots and in the listing
 };
 
 /// Which unknowns an element works on. Its local slots, in order: six per node (three translations, three material
 /// rotation increments, whether the node has them or not; node 0, the ground, too), its scalars, its multipliers.
 struct Layout {
-  std::vector<int> nodes;           ///< ids; 0 is the ground
-  std::vector<NodeNeed> needs;      ///< one per node
-  std::vector<Named> scalars;       ///< own unknowns with rates, such as ψ_A, ψ_B, u_m
-  std::vector<Named> multipliers;   ///< one per holonomic constraint, in the order of the residual's constraint rows
-  int history = 0;                  ///< committed numbers kept from step to step (turn counts, contact states)
+  std::vector<int> nodes;          ///< ids; 0 is the ground
+  std::vector<NodeNeed> needs;     ///< one per node
+  std::vector<Named> scalars;      ///< own unknowns with rates, such as ψ_A, ψ_B, u_m
+  std::vector<Named> multipliers;  ///< one per holonomic constraint, in the order of the residual's constraint rows
+  int history = 0;                 ///< committed numbers kept from step to step (turn counts, contact states)
 
   int slots() const { return static_cast<int>(6 * nodes.size() + scalars.size() + multipliers.size()); }
 };
@@ -44,15 +44,15 @@ struct NodeState {
 
 /// Everything an element may look at. The spans view arrays owned by the caller.
 struct State {
-  std::span<const NodeState> nodes;        ///< in the order of Layout::nodes
-  std::span<const double> scalars;         ///< values of the own unknowns
+  std::span<const NodeState> nodes;  ///< in the order of Layout::nodes
+  std::span<const double> scalars;   ///< values of the own unknowns
   std::span<const double> scalar_rates;
   std::span<const double> scalar_accelerations;
-  std::span<const double> multipliers;     ///< kλ, in units of force or moment
-  std::span<const double> history;         ///< as committed at the end of the last step
+  std::span<const double> multipliers;  ///< kλ, in units of force or moment
+  std::span<const double> history;      ///< as committed at the end of the last step
   double time = 0;
   Vec3 gravity = Vec3::Zero();
-  double penalty = 0;                      ///< p of the augmented Lagrangian (paper, eq. 2)
+  double penalty = 0;  ///< p of the augmented Lagrangian (paper, eq. 2)
 };
 
 /// Weights of a tangent: cq ∂r/∂q + cv ∂r/∂v + ca ∂r/∂a in the columns of nodes and scalars; those of multipliers are

@@ -57,10 +57,10 @@ struct Model {
   };
   struct Part {
     std::unique_ptr<Element> element;
-    std::string type;         ///< card name, such as `GEAR`; `CHA` for a nodal load
-    std::string parameters;   ///< record as JSON, for the results file
+    std::string type;        ///< card name, such as `GEAR`; `CHA` for a nodal load
+    std::string parameters;  ///< record as JSON, for the results file
     Location location;
-    std::vector<int> nodes;   ///< indices of the element's nodes
+    std::vector<int> nodes;  ///< indices of the element's nodes
   };
 
   std::string title;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/node_load.hpp"
 
+#include <fmt/format.h>
+
 #include "model/templated_element.hpp"
 
 namespace engrane {
@@ -9,8 +11,8 @@ namespace {
 
 class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
  public:
-  NodeLoad(int id, int node, const Vec3& force, const Vec3& moment, const Function* function)
-      : TemplatedElement(id), force_(force), moment_(moment), function_(function) {
+  NodeLoad(int id, int node, const Vec3& at, const Vec3& force, const Vec3& moment, const Function* function)
+      : TemplatedElement(id), at_(at), force_(force), moment_(moment), function_(function) {
     Layout layout;
     layout.nodes = {node};
     const bool pushes = !force.isZero(0), turns = !moment.isZero(0);
@@ -34,15 +36,27 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
     return e;
   }
 
+  Drawing drawing() const override {
+    Drawing shapes;
+    for (const Vec3* load : {&force_, &moment_}) {
+      if (load->isZero(0)) continue;
+      const Vec3 axis = load->normalized();
+      shapes.push_back(fmt::format(R"("shape": "arrow", "node": {}, "center": [{}, {}, {}], "axis": [{}, {}, {}])",
+                                   layout().nodes[0], at_[0], at_[1], at_[2], axis[0], axis[1], axis[2]));
+    }
+    return shapes;
+  }
+
  private:
-  Vec3 force_, moment_;
+  Vec3 at_, force_, moment_;
   const Function* function_;
 };
 
 }  // namespace
 
-std::unique_ptr<Element> make_node_load(int id, int node, const Vec3& force, const Vec3& moment, const Function* function) {
-  return std::make_unique<NodeLoad>(id, node, force, moment, function);
+std::unique_ptr<Element> make_node_load(int id, int node, const Vec3& at, const Vec3& force, const Vec3& moment,
+                                        const Function* function) {
+  return std::make_unique<NodeLoad>(id, node, at, force, moment, function);
 }
 
 }  // namespace engrane

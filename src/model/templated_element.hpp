@@ -125,12 +125,10 @@ class TemplatedElement : public Element {
       }
     const std::size_t s0 = 6 * nodes, m0 = s0 + layout_.scalars.size();
     for (std::size_t i = 0; i < layout_.scalars.size(); ++i) write(s0 + i, balance.scalar_at(static_cast<int>(i)), 1);
-    for (std::size_t i = 0; i < layout_.multipliers.size(); ++i)
-      write(m0 + i, balance.constraint_at(static_cast<int>(i)), -1);
+    for (std::size_t i = 0; i < layout_.multipliers.size(); ++i) write(m0 + i, balance.constraint_at(static_cast<int>(i)), -1);
   }
 
-  void constraint_rates(const State& state, std::span<double> phi, std::span<double> rate,
-                        std::span<double> second) const final {
+  void constraint_rates(const State& state, std::span<double> phi, std::span<double> rate, std::span<double> second) const final {
     auto m = motion<Taylor>(state);
     for (std::size_t i = 0; i < layout_.nodes.size(); ++i) {
       const NodeState& s = state.nodes[i];

@@ -77,8 +77,8 @@ void Analysis::multipliers_to_unknowns(const Configuration& c, std::span<double>
 void Analysis::unknowns_to_multipliers(std::span<const double> unknowns, Configuration& c) const {
   const auto motion = bench_.motion.size();
   for (std::size_t m = 0; m < c.multipliers.size(); ++m)
-    c.multipliers[m] = bench_.assembler.scale()[m] *
-                       unknowns[static_cast<std::size_t>(bench_.numbering.equation(static_cast<int>(motion + m)))];
+    c.multipliers[m] =
+        bench_.assembler.scale()[m] * unknowns[static_cast<std::size_t>(bench_.numbering.equation(static_cast<int>(motion + m)))];
 }
 
 std::unique_ptr<Analysis> make_analysis(Workbench& bench) {
@@ -109,16 +109,17 @@ void commit(Workbench& bench, Configuration& c) {
 
 std::string failure_text(Workbench& bench, const Configuration& tried, const NewtonReport& report, int number, int cuts) {
   std::string text = fmt::format("step {}, t = {:.6g}: {}", number, tried.time, report.reason);
-  if (report.singular) text = explain_singular(bench.assembler, text);
-  else if (const std::string where = explain_residual(bench.assembler, tried, report); !where.empty()) text += "; " + where;
+  if (report.singular)
+    text = explain_singular(bench.assembler, text);
+  else if (const std::string where = explain_residual(bench.assembler, tried, report); !where.empty())
+    text += "; " + where;
   if (cuts > 0) text += fmt::format("; the step was cut {} time{}", cuts, cuts == 1 ? "" : "s");
   return text;
 }
 
 }  // namespace
 
-bool run(Workbench& bench, Analysis& analysis, const Observer& observer,
-         const std::function<void(const StartReport&)>& started) {
+bool run(Workbench& bench, Analysis& analysis, const Observer& observer, const std::function<void(const StartReport&)>& started) {
   const auto& stepping = bench.model.commands.stepping;
   const int most_cuts = bench.model.commands.analysis.cuts;
   Configuration now = bench.numbering.reference_configuration(stepping.start);

@@ -69,7 +69,6 @@ using Observer = std::function<bool(const Configuration&, const StepReport&)>;
 
 /// Runs from the start to the end of `.SUB`, cutting steps that fail. Throws SolutionFailure when cutting does not help.
 /// Returns false when the observer ended it.
-bool run(Workbench& bench, Analysis& analysis, const Observer& observer,
-         const std::function<void(const StartReport&)>& started);
+bool run(Workbench& bench, Analysis& analysis, const Observer& observer, const std::function<void(const StartReport&)>& started);
 
 }  // namespace engrane

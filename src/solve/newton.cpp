@@ -13,6 +13,12 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 /// A correction this small (over the extent, or in radians) changes nothing that anybody can see: what residual is left
 /// is the rounding of the sums themselves.
 constexpr double negligible_correction = 1e-13;
+/// And below this nothing moves at all, whatever the forces are compared with: a freely spinning body has forces that
+/// cancel inside its one element, and leaves nothing but rounding to judge by.
+constexpr double no_correction = 2e-15;
+
+/// Share of the largest force so far that a residual is at least compared with.
+constexpr double remembered = 1e-3;
 
 }  // namespace
 
@@ -54,9 +60,12 @@ NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configura
       check_petsc(VecCopy(guess, x));
       continue;
     }
-    if (reason == SNES_DIVERGED_MAX_IT) report.reason = "no convergence in " + std::to_string(rows_.size() - 1) + " iterations";
-    else if (report.singular) report.reason = "the tangent matrix is singular";
-    else if (reason < 0) report.reason = "the iteration left the range of numbers";
+    if (reason == SNES_DIVERGED_MAX_IT)
+      report.reason = "no convergence in " + std::to_string(rows_.size() - 1) + " iterations";
+    else if (report.singular)
+      report.reason = "the tangent matrix is singular";
+    else if (reason < 0)
+      report.reason = "the iteration left the range of numbers";
     break;
   }
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
@@ -94,7 +103,10 @@ PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
 void Newton::measure(Vec f) {
   const Numbering& numbering = assembler_.numbering();
   const double extent = assembler_.model().extent();
+  // what has been carried so far stays the measure, or a load that passes through zero could never be balanced
+  for (int i = 0; i < 4; ++i) largest_.of[i] = std::max(largest_.of[i], magnitudes_.of[i]);
   Magnitudes reference = magnitudes_;
+  for (const Measure m : {Measure::force, Measure::moment}) reference[m] = std::max(reference[m], remembered * largest_[m]);
   // a model where all is force, or all moment, must not judge the other by rounding noise
   reference[Measure::moment] = std::max(reference[Measure::moment], reference[Measure::force] * extent);
   reference[Measure::force] = std::max(reference[Measure::force], reference[Measure::moment] / extent);
@@ -168,6 +180,7 @@ bool Newton::judge(int iteration) {
   const bool balanced = std::max({row_.force, row_.moment}) <= precision_;
   const bool closed = std::max({row_.length, row_.angle}) <= precision_ && constraint_force_ <= precision_;
   if (balanced && closed) return true;
+  if (iteration > 1 && row_.correction <= no_correction) return true;
   const bool settled = iteration > 1 && row_.correction <= negligible_correction;
   return settled && std::max({row_.force, row_.moment, row_.length, row_.angle}) <= std::sqrt(precision_);
 }

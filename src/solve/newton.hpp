@@ -41,8 +41,8 @@ class Newton {
  private:
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
   static PetscErrorCode form_jacobian(SNES, Vec x, Mat, Mat, void* self);
-  static PetscErrorCode test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal,
-                                         SNESConvergedReason* reason, void* self);
+  static PetscErrorCode test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal, SNESConvergedReason* reason,
+                                         void* self);
   void measure(Vec f);
   bool judge(int iteration);
 
@@ -54,12 +54,13 @@ class Newton {
   const Apply* apply_ = nullptr;
   Configuration* work_ = nullptr;
   Weights weights_;
-  Magnitudes magnitudes_;
+  Magnitudes magnitudes_;  ///< of the last residual
+  Magnitudes largest_;     ///< of all residuals so far
   NewtonRow row_;
-  double constraint_force_ = 0;   ///< largest k Φ over the largest force
-  double scaled_open_ = 0;        ///< largest open constraint in units of rounding
+  double constraint_force_ = 0;  ///< largest k Φ over the largest force
+  double scaled_open_ = 0;       ///< largest open constraint in units of rounding
   std::vector<NewtonRow> rows_;
-  std::string failure_;           ///< of an exception inside a callback
+  std::string failure_;  ///< of an exception inside a callback
 };
 
 }  // namespace engrane

@@ -56,9 +56,10 @@ void Start::verify_imposed(const Configuration& c, std::span<const double> wishe
     const double is = velocity ? v[slot] : u.item < 3 ? node.x[u.item] : wished[slot];
     const double size = velocity ? largest(v) : assembler_.model().extent();
     if (std::abs(is - wished[slot]) <= 1e-6 * size) continue;
-    throw SolutionFailure(fmt::format("the initial {} of {} is imposed, but the joints do not allow it: they make it {:.6g} "
-                                      "instead of {:.6g}",
-                                      velocity ? "velocity" : "position", assembler_.numbering().describe(e), is, wished[slot]));
+    throw SolutionFailure(
+        fmt::format("the initial {} of {} is imposed, but the joints do not allow it: they make it {:.6g} "
+                    "instead of {:.6g}",
+                    velocity ? "velocity" : "position", assembler_.numbering().describe(e), is, wished[slot]));
   }
 }
 
@@ -82,7 +83,8 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
     if (open <= 32 * epsilon) break;
     if (report.position_iterations == 50 || !std::isfinite(open)) throw SolutionFailure(explain_open(phi));
     assembler_.projection(c, Assembler::Metric::geometric, held);
-    if (!solve(right, step)) throw SolutionFailure(explain_singular(assembler_, "the constraints of the mechanism contradict or repeat one another"));
+    if (!solve(right, step))
+      throw SolutionFailure(explain_singular(assembler_, "the constraints of the mechanism contradict or repeat one another"));
     // a step far outside where the constraints are nearly linear would jump to another way of assembling
     double length = 0;
     std::vector<double> y(motion_size, 0.0);

@@ -18,9 +18,9 @@ struct SolutionFailure : std::runtime_error {
 /// What the start did, for the listing.
 struct StartReport {
   int position_iterations = 0;
-  double largest_move = 0;      ///< translation, in the deck's unit of length
-  double largest_turn = 0;      ///< rotation, radians
-  std::string moved_most;       ///< node that moved or turned most
+  double largest_move = 0;             ///< translation, in the deck's unit of length
+  double largest_turn = 0;             ///< rotation, radians
+  std::string moved_most;              ///< node that moved or turned most
   double largest_velocity_change = 0;  ///< from the wished initial velocities
 };
 

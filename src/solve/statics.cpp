@@ -18,8 +18,10 @@ StartReport Statics::start(Configuration& c) {
   const NewtonReport newton = attempt(c, 0, balanced);
   if (!newton.converged) {
     std::string why = fmt::format("no equilibrium at the start, t = {:.6g}: {}", c.time, newton.reason);
-    if (newton.singular) why = explain_singular(bench_.assembler, why);
-    else why += "; " + explain_residual(bench_.assembler, balanced, newton);
+    if (newton.singular)
+      why = explain_singular(bench_.assembler, why);
+    else
+      why += "; " + explain_residual(bench_.assembler, balanced, newton);
     throw SolutionFailure(why + ". Loads given without NF act in full from the start: ramp them with a function of time");
   }
   c = std::move(balanced);

@@ -72,8 +72,7 @@ void Transient::start_algorithmic_accelerations(const Configuration& c) {
   bench_.motion.set_velocities(ahead, later);
   bench_.start.balance_accelerations(later);
   const auto next = bench_.motion.accelerations(later);
-  for (std::size_t i = 0; i < v.size(); ++i)
-    algorithmic_[i] += (scheme_.alpha_m - scheme_.alpha_f) * (next[i] - algorithmic_[i]);
+  for (std::size_t i = 0; i < v.size(); ++i) algorithmic_[i] += (scheme_.alpha_m - scheme_.alpha_f) * (next[i] - algorithmic_[i]);
 }
 
 NewtonReport Transient::attempt(const Configuration& from, double h, Configuration& to) {

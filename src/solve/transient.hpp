@@ -36,10 +36,10 @@ class Transient final : public Analysis {
 
   AlphaScheme scheme_;
   Owned<Vec> unknowns_;
-  double step_of_algorithmic_ = 0;    ///< the h that `algorithmic_` belongs to
-  double scaled_for_ = 0;             ///< the h that k was chosen for
-  std::vector<double> algorithmic_;   ///< a_n of the scheme: v̇ shifted by (α_m − α_f) h
-  std::vector<double> tried_;         ///< its value at the end of the last attempt
+  double step_of_algorithmic_ = 0;   ///< the h that `algorithmic_` belongs to
+  double scaled_for_ = 0;            ///< the h that k was chosen for
+  std::vector<double> algorithmic_;  ///< a_n of the scheme: v̇ shifted by (α_m − α_f) h
+  std::vector<double> tried_;        ///< its value at the end of the last attempt
   double tried_step_ = 0;
 };
 

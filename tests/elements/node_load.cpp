@@ -18,7 +18,7 @@ TEST(NodeLoad, Suite) {
     Subject s;
     s.name = "force " + std::to_string(force.norm()) + ", moment " + std::to_string(moment.norm());
     s.nodes = {{4, {1, 2, 3}}};
-    s.build = [=](const Mat3& Q) { return make_node_load(1, 4, Q * force, Q * moment, &wave); };
+    s.build = [=](const Mat3& Q) { return make_node_load(1, 4, Vec3::Zero(), Q * force, Q * moment, &wave); };
     s.skip[Check::lagrange] = "an applied load has no potential";
     s.skip[Check::zero] = s.skip[Check::rigid] = "a load acts at rest";
     s.skip[Check::objectivity] = "it is fixed in space";

@@ -64,9 +64,7 @@ TEST(GeneralizedAlpha, HasItsTheoreticalDampingAndPeriod) {
   }
 }
 
-TEST(GeneralizedAlpha, NewmarkLosesNothing) {
-  EXPECT_NEAR(principal_root(0.05, "SCHEME NEWMARK").radius, 1.0, 1e-10);
-}
+TEST(GeneralizedAlpha, NewmarkLosesNothing) { EXPECT_NEAR(principal_root(0.05, "SCHEME NEWMARK").radius, 1.0, 1e-10); }
 
 TEST(GeneralizedAlpha, RadiusTendsToRhoAtInfinity) {
   // three equal roots −ρ at infinite frequency: x grows as n² ρⁿ at most, so a ratio far out tends to ρ from above
@@ -111,7 +109,10 @@ TEST(GeneralizedAlpha, IsOfSecondOrderInPositionVelocityAndMultiplier) {
     for (int what = 0; what < 3; ++what)
       for (int level = 1; level < 3; ++level) {
         const double slope = std::log2(error[level - 1][what] / error[level][what]);
-        EXPECT_NEAR(slope, 2.0, 0.15) << scheme << ": " << (what == 0 ? "position" : what == 1 ? "velocity" : "multiplier")
+        EXPECT_NEAR(slope, 2.0, 0.15) << scheme << ": "
+                                      << (what == 0   ? "position"
+                                          : what == 1 ? "velocity"
+                                                      : "multiplier")
                                       << ", error " << error[level][what];
       }
   }

@@ -43,9 +43,7 @@ class DeckRun {
     return last;
   }
 
-  const NodeState& node(const Configuration& c, int id) const {
-    return c.nodes[static_cast<std::size_t>(model_.node_index(id))];
-  }
+  const NodeState& node(const Configuration& c, int id) const { return c.nodes[static_cast<std::size_t>(model_.node_index(id))]; }
 
   /// A channel of an element in a configuration.
   double channel(const Configuration& c, int element, const std::string& name) {
