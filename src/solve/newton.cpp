@@ -159,6 +159,7 @@ void Newton::measure(Vec f) {
 
 bool Newton::judge(int iteration) {
   row_.iteration = iteration;
+  double forces = 0;  // largest change of a multiplier
   if (iteration > 0) {
     Vec update = nullptr;
     check_petsc(SNESGetSolutionUpdate(snes_, &update));
@@ -169,19 +170,24 @@ bool Newton::judge(int iteration) {
     const double extent = assembler_.model().extent();
     for (PetscInt row = first; row < end; ++row) {
       const Unknown& u = assembler_.numbering().unknown(static_cast<int>(row));
-      if (u.multiplier) continue;
-      const double size = u.measure == Measure::force ? extent : 1.0;
-      row_.correction = std::max(row_.correction, std::abs(values[row - first]) / size);
+      // a multiplier over its k is the displacement that its force stands for
+      const double size = u.measure == Measure::force || u.measure == Measure::length ? extent : 1.0;
+      double& largest = u.multiplier ? forces : row_.correction;
+      largest = std::max(largest, std::abs(values[row - first]) / size);
     }
     check_petsc(VecRestoreArrayRead(update, &values));
-    MPI_Allreduce(MPI_IN_PLACE, &row_.correction, 1, MPI_DOUBLE, MPI_MAX, assembler_.comm());
+    double both[2] = {row_.correction, forces};
+    MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_DOUBLE, MPI_MAX, assembler_.comm());
+    row_.correction = both[0];
+    forces = both[1];
   }
   rows_.push_back(row_);
   const bool balanced = std::max({row_.force, row_.moment}) <= precision_;
   const bool closed = std::max({row_.length, row_.angle}) <= precision_ && constraint_force_ <= precision_;
   if (balanced && closed) return true;
-  if (iteration > 1 && row_.correction <= no_correction) return true;
-  const bool settled = iteration > 1 && row_.correction <= negligible_correction;
+  const double changed = std::max(row_.correction, forces);
+  if (iteration > 1 && changed <= no_correction) return true;
+  const bool settled = iteration > 1 && changed <= negligible_correction;
   return settled && std::max({row_.force, row_.moment, row_.length, row_.angle}) <= std::sqrt(precision_);
 }
 

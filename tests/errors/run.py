@@ -35,7 +35,8 @@ for deck in decks:
         if deck.name not in parts:
             failures.append(f"{deck}: no {expected_file.name} beside it")
         continue
-    run = subprocess.run([binary, "check", deck.name], cwd=deck.parent, capture_output=True, timeout=60, check=False)
+    command = [binary, "check", deck.name]
+    run = subprocess.run(command, cwd=deck.parent, capture_output=True, timeout=60, check=False)
     messages = run.stderr.decode("utf-8", errors="replace")
     checked += 1
     if run.returncode != 1:
