@@ -8,6 +8,7 @@ A deck may say in a comment what its test is:
     ! test: ranks 1          only on these ranks (one or several numbers)
     ! test: tolerance 1e-4   results of two runs may differ by so much (default 1e-6), relative to the largest
                              number of the same unit: teeth that rattle enlarge the last digit's noise
+    ! test: short TF 1 H 0.1 the whole deck on one rank only; all ranks are compared over this much of it
     ! test: slow             labelled slow, so that `ctest -LE slow` leaves it out
     ! test: part             not run: other decks INPUT it
 """
@@ -32,7 +33,8 @@ def wishes(deck: Path) -> dict[str, list[str]]:
 
 
 def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
-    """Dataset -> (unit, values), all numbers of the mesh, fields and histories."""
+    """Dataset -> (unit, values): all numbers of the mesh, fields and histories. Under "" stands the noise of
+    accelerations, which are differences of rounded positions over the square of the step."""
     found = {}
 
     def keep(name, item):
@@ -42,11 +44,16 @@ def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
 
     with h5py.File(path, "r") as file:
         file.visititems(keep)
+        steps = file["history/run/STEP"][1:]
+        extent = float(np.max(np.abs(file["mesh/points"][()]), initial=1.0))
+    found[""] = ("", np.array(np.finfo(float).eps * extent / np.min(steps, initial=1.0) ** 2))
     return found
 
 
 def differences(one: dict, other: dict, tolerance: float) -> list[str]:
     faults = [f"only in one of the results: {name}" for name in sorted(one.keys() ^ other.keys())]
+    noise = float(one[""][1])
+    one, other = ({name: data for name, data in results.items() if name} for results in (one, other))
     # A lateral force that is noise about zero is measured against the largest force, not against itself.
     # If all forces are noise, the rounding of the largest number there is counts.
     largest = max((float(np.max(np.abs(values), initial=0)) for _, values in one.values()), default=0.0)
@@ -62,23 +69,36 @@ def differences(one: dict, other: dict, tolerance: float) -> list[str]:
             continue
         gap = float(np.max(np.abs(a.astype(float) - b.astype(float)), initial=0))
         allowed = tolerance * scale[unit]
+        if re.search("(s|time)²", unit):
+            allowed = max(allowed, noise)
         if not gap <= allowed:  # also catches NaN
             faults.append(f"{name}: differs by {gap:.3g} {unit}, allowed {allowed:.3g}")
     return faults
 
 
-def run(arguments, ranks: int) -> Path:
+def shortened(arguments, stepping: list[str]) -> Path:
+    """The deck with another `.SUB` and without checks, which it would not reach."""
+    text = arguments.deck.read_text(encoding="utf-8", errors="replace")
+    end = re.search(r"^\.FIN", text, re.MULTILINE)
+    head = text[: end.start()] if end else text
+    short = arguments.work / "short" / f"{arguments.deck.stem}_short.dat"
+    short.parent.mkdir(exist_ok=True)
+    short.write_text(f"{head}.DEL.CHK\n.DEL.SUB\n.SUB {' '.join(stepping)}\n.FIN 1\n", encoding="utf-8")
+    return short
+
+
+def run(arguments, deck: Path, ranks: int) -> Path:
     """The results on one rank keep the deck's name: tests/verify reads them."""
-    prefix = arguments.work / (arguments.deck.stem + (f"_np{ranks}" if ranks > 1 else ""))
+    prefix = arguments.work / (deck.stem + (f"_np{ranks}" if ranks > 1 else ""))
     for old in arguments.work.glob(f"{prefix.name}.*"):
         old.unlink()
-    command = [arguments.binary, str(arguments.deck), "-o", str(prefix)]
+    command = [arguments.binary, str(deck), "-o", str(prefix)]
     if ranks > 1:
         command = [arguments.mpiexec, "-np", str(ranks), "--oversubscribe", "--bind-to", "none", *command]
     print("+", " ".join(command), flush=True)
     status = subprocess.run(command, check=False).returncode
     if status != 0:
-        sys.exit(f"{arguments.deck.name} on {ranks} ranks: exit status {status}")
+        sys.exit(f"{deck.name} on {ranks} ranks: exit status {status}")
     return prefix.with_name(prefix.name + ".h5")
 
 
@@ -95,12 +115,16 @@ def main() -> int:
     ranks = [int(n) for n in wanted.get("ranks", ["1", "2", "3"])]
     tolerance = float(wanted.get("tolerance", ["1e-6"])[0])
 
-    first = read_results(run(arguments, ranks[0]))
+    deck = arguments.deck
+    if "short" in wanted:
+        run(arguments, deck, 1)
+        deck = shortened(arguments, wanted["short"])
+    first = read_results(run(arguments, deck, ranks[0]))
     faults = []
     for n in ranks[1:]:
         faults += [
             f"{n} ranks against {ranks[0]}: {fault}"
-            for fault in differences(first, read_results(run(arguments, n)), tolerance)
+            for fault in differences(first, read_results(run(arguments, deck, n)), tolerance)
         ]
     print("\n".join(faults) or f"{arguments.deck.name}: ranks {ranks} agree in {len(first)} datasets")
     return 1 if faults else 0
