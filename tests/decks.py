@@ -94,7 +94,8 @@ def run(arguments, deck: Path, ranks: int) -> Path:
         old.unlink()
     command = [arguments.binary, str(deck), "-o", str(prefix)]
     if ranks > 1:
-        command = [arguments.mpiexec, "-np", str(ranks), "--oversubscribe", "--bind-to", "none", *command]
+        mpi = f"{arguments.mpiexec} -np {ranks} --quiet --oversubscribe --bind-to none"
+        command = [*mpi.split(), *command]
     print("+", " ".join(command), flush=True)
     status = subprocess.run(command, check=False).returncode
     if status != 0:
