@@ -124,6 +124,7 @@ bool run(Workbench& bench, Analysis& analysis, const Observer& observer, const s
   const int most_cuts = bench.model.commands.analysis.cuts;
   Configuration now = bench.numbering.reference_configuration(stepping.start);
   started(analysis.start(now));
+  bench.solver.reset();  // the start solved with matrices of other kinds; the steps deserve their own analysis
   commit(bench, now);
   StepReport step;
   if (!observer(now, step)) return false;

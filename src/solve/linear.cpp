@@ -25,16 +25,30 @@ LinearSolver::LinearSolver(Mat matrix, const std::string& package) : package_(pa
   check_petsc(KSPCreate(comm, ksp_.out()));
   check_petsc(KSPSetOperators(ksp_, matrix, matrix));
   check_petsc(KSPSetType(ksp_, KSPPREONLY));
+  set_up();
+}
+
+void LinearSolver::set_up() {
   PC pc = nullptr;
   check_petsc(KSPGetPC(ksp_, &pc));
   check_petsc(PCSetType(pc, PCLU));
   check_petsc(PCFactorSetMatSolverType(pc, petsc_name(package_)));
   check_petsc(PCFactorSetUpMatSolverType(pc));
-  if (package_ == "MUMPS") {
-    // MUMPS stops with -9 when pivoting needs more room than the analysis guessed
-    check_petsc(MatMumpsSetIcntl(factor(), 14, mumps_room_));
-  }
+  // MUMPS stops with -9 when pivoting needs more room than the analysis guessed
+  if (package_ == "MUMPS") check_petsc(MatMumpsSetIcntl(factor(), 14, mumps_room_));
   check_petsc(KSPSetFromOptions(ksp_));
+}
+
+void LinearSolver::reset() {
+  Mat matrix = nullptr;
+  PC pc = nullptr;
+  check_petsc(KSPGetOperators(ksp_, &matrix, nullptr));
+  check_petsc(KSPGetPC(ksp_, &pc));
+  check_petsc(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
+  check_petsc(PCReset(pc));
+  check_petsc(KSPSetOperators(ksp_, matrix, matrix));
+  check_petsc(PetscObjectDereference(reinterpret_cast<PetscObject>(matrix)));
+  set_up();
 }
 
 Mat LinearSolver::factor() const {
@@ -54,6 +68,7 @@ bool LinearSolver::solve(Vec right, Vec solution) {
     check_petsc(VecNorm(solution, NORM_INFINITY, &norm));
     if (reason > 0 && std::isfinite(norm)) return true;
   } while (enlarge());
+  reset();
   return false;
 }
 

@@ -21,12 +21,15 @@ class LinearSolver {
 
   /// After a failure: gives MUMPS more room when that was all it lacked; true when it is worth another try.
   bool enlarge();
+  /// Forgets the analysis, which looks at numbers too: after a failure, or before matrices of another kind.
+  void reset();
 
   /// Memory of the factors in bytes, as the package reports it; 0 when it does not.
   double factor_bytes() const;
 
  private:
   Mat factor() const;
+  void set_up();
   Owned<KSP> ksp_;
   std::string package_;
   int mumps_room_ = 50;  ///< ICNTL(14): per cent over the estimate

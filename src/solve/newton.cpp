@@ -68,6 +68,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configura
       report.reason = "the iteration left the range of numbers";
     break;
   }
+  if (report.singular) solver_.reset();
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
   report.rows = rows_;
   return report;
