@@ -3,8 +3,8 @@
 
     python tests/bench/transmission.py build/bin/engrane [--runs 5] [--steps 5000]
 
-Runs the solvers in turn, so that a machine that slows down slows all of them; prints a Markdown table of medians and the
-ratio to MUMPS, run by run. One rank, one thread.
+Runs the solvers in turn, so that a machine that slows down slows all of them; prints a Markdown table of
+medians and the ratio to MUMPS, run by run. One rank, one thread.
 """
 
 import argparse
