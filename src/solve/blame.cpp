@@ -98,4 +98,20 @@ std::string explain_residual(Assembler& assembler, const Configuration& configur
   return text;
 }
 
+std::string explain_not_finite(Assembler& assembler, const Configuration& configuration) {
+  const auto& parts = assembler.model().parts;
+  std::vector<double> r, k;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Element& element = *parts[p].element;
+    const auto n = static_cast<std::size_t>(element.layout().slots());
+    r.assign(n, 0);
+    k.assign(n * n, 0);
+    element.tangent(assembler.view(static_cast<int>(p), configuration), {1, 1, 1}, r, k);
+    const auto finite = [](double x) { return std::isfinite(x); };
+    if (std::all_of(r.begin(), r.end(), finite) && std::all_of(k.begin(), k.end(), finite)) continue;
+    return fmt::format("{} {} gives a force or a slope of it that is not a finite number", parts[p].type, element.id());
+  }
+  return {};
+}
+
 }  // namespace engrane

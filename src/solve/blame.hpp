@@ -15,4 +15,7 @@ std::string explain_singular(Assembler& assembler, const std::string& what);
 /// Says where a Newton iteration got stuck: "largest residual at node 57 (rz) from HINGE 3".
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report);
 
+/// Names the first element whose forces or tangent are not finite numbers; empty when all are.
+std::string explain_not_finite(Assembler& assembler, const Configuration& configuration);
+
 }  // namespace engrane
