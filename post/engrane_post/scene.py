@@ -136,21 +136,28 @@ class Scene:
         elif kind == "mass" and node in self.row:
             self.items.append(Item(shapes.ball(self.points[node], size * 0.016), DARK, node))
         elif kind == "arrow":
-            couple = element.type.upper() in ("TORQUE", "COUPLE", "MOMENT") or bool(d.get("couple"))
-            if couple:
-                mesh = shapes.turn_arrow(center, axis, self._clear_of_wheels(center))
+            # A .CLM load on the components 4 to 6 is a moment.
+            components = [int(c) for c in np.ravel(element.parameters.get("C") or [])]
+            loads_turn = element.type.upper() == "CHA" and bool(components) and min(components) > 3
+            if loads_turn or element.type.upper() in ("TORQUE", "COUPLE", "MOMENT") or d.get("couple"):
+                radius, gap = self._clear_of_wheels(center)
+                mesh = shapes.turn_arrow(center, axis, radius, gap)
+                # A moment between arm and wheel goes with the arm, so that its gap stays at the mesh.
+                bare = [n for n in element.nodes if n in self.row and all(w.node != n for w in self.wheels)]
+                node = bare[0] if gap is not None and bare else node
             else:
                 mesh = shapes.arrow(center, axis, size * 0.14)
             self.items.append(Item(mesh, ARROW, node))
 
-    def _clear_of_wheels(self, center: np.ndarray) -> float:
-        """Radius of a torque's arrow: around the wheel that sits there, unless that is a large one."""
-        radius = 0.06 * self.size
+    def _clear_of_wheels(self, center: np.ndarray) -> tuple[float, np.ndarray | None]:
+        """Radius of a torque's arrow, around the wheel that sits there unless that is a large one, and the
+        direction in which the wheel meshes."""
+        radius, gap = 0.06 * self.size, None
         for w in self.wheels:
             tip = 1.2 * (w.shape.radius + w.shape.module)
             if np.linalg.norm(w.center - center) < 1e-3 * w.shape.radius and tip < 0.15 * self.size:
-                radius = max(radius, tip)
-        return radius
+                radius, gap = max(radius, tip), w.frame[:, 1]
+        return radius, gap
 
     def _flexible(self, remake: Callable[[dict[int, np.ndarray]], pv.PolyData], color: str) -> None:
         self.items.append(Item(remake(self.points), color, remake=remake))

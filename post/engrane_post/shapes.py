@@ -141,11 +141,15 @@ def arrow(center: np.ndarray, axis: np.ndarray, length: float) -> pv.PolyData:
     )
 
 
-def turn_arrow(center: np.ndarray, axis: np.ndarray, radius: float) -> pv.PolyData:
-    """Torque: three quarters of a circle about the axis, with a tip."""
+def turn_arrow(
+    center: np.ndarray, axis: np.ndarray, radius: float, gap: np.ndarray | None = None
+) -> pv.PolyData:
+    """Torque: two thirds of a circle about the axis, with a tip; `gap` points to the middle of what is left
+    out."""
     a = unit(axis)
     u, v = square_to(a)
-    angle = np.linspace(0, 1.4 * np.pi, 60)
+    start = 0.0 if gap is None else np.arctan2(gap @ v, gap @ u) + 0.28 * np.pi
+    angle = start + np.linspace(0, 1.33 * np.pi, 60)
     line = np.asarray(center) + radius * (np.outer(np.cos(angle), u) + np.outer(np.sin(angle), v))
     end = angle[-1]
     tip = pv.Cone(
