@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import textwrap
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -21,6 +22,7 @@ from .channels import resolve
 from .errors import UserError
 
 FORMAT_VERSION = 1
+AXIS_WIDTH = 36  # characters along the shortest diagram
 
 
 @dataclass(frozen=True)
@@ -35,9 +37,9 @@ class Channel:
 
     @property
     def axis_label(self) -> str:
-        """Text for a plot's axis: the label with the unit in brackets."""
-        text = self.label or self.name
-        return f"{text} {bracketed(self.unit)}".strip()
+        """Text for a plot's axis: the label with the unit in brackets, broken so that neither is cut off."""
+        text = f"{self.label or self.name} {bracketed(self.unit)}".strip()
+        return "\n".join(textwrap.wrap(text, AXIS_WIDTH))
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,7 @@ constexpr double turn = 2 * std::numbers::pi;
 
 std::vector<Named> channel_list(bool elastic) {
   using namespace dimension;
-  std::vector<Named> list{
-      {"NORMAL_FORCE", force, "normal tooth force k lambda_1; > 0: A drives in the positive sense about its axle"}};
+  std::vector<Named> list{{"NORMAL_FORCE", force, "normal tooth force, positive where A drives"}};
   for (const char* wheel : {"A", "B"}) {
     const std::string w(wheel), of = " on wheel " + w;
     list.push_back({"TANGENTIAL_FORCE_" + w, force, "tooth force" + of + " along its positive sense of turning"});
@@ -42,7 +41,7 @@ std::vector<Named> channel_list(bool elastic) {
   if (elastic) {
     list.push_back({"U_M", length, "tooth deformation and play along the circumference, u_m"});
     list.push_back({"TRANSMISSION_ERROR", length, "approach of the teeth, u_m + x_err"});
-    list.push_back({"CONTACT", none, "1: on the flank with which A drives in the positive sense, -1: on the other, 0: apart"});
+    list.push_back({"CONTACT", none, "contact: 1 where A drives, -1 on the other flank, 0 apart"});
   }
   return list;
 }
