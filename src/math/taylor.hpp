@@ -70,9 +70,9 @@ struct Taylor {
   friend Taylor abs(const Taylor& a) { return a.value < 0 ? -a : a; }
   friend Taylor atan2(const Taylor& y, const Taylor& x) {
     const double n = 1 / (x.value * x.value + y.value * y.value);
-    const double d1 = (x.value * y.d1 - y.value * x.d1) * n;
-    const double dn = 2 * (x.value * x.d1 + y.value * y.d1) * n;
-    return {std::atan2(y.value, x.value), d1, (x.value * y.d2 - y.value * x.d2) * n - d1 * dn};
+    const double rate = (x.value * y.d1 - y.value * x.d1) * n;
+    const double growth = 2 * (x.value * x.d1 + y.value * y.d1) * n;  // of x² + y²
+    return {std::atan2(y.value, x.value), rate, (x.value * y.d2 - y.value * x.d2) * n - rate * growth};
   }
 };
 
