@@ -64,7 +64,13 @@ class Builder {
     if (const auto* group = record.get<deck::GroupCard>()) groups_.add(record, *group);
     if (const auto* analysis = record.get<deck::AnalysisCard>()) model_.commands.analysis = *analysis;
     if (const auto* stepping = record.get<deck::SteppingCard>()) set_stepping(record, *stepping);
-    if (const auto* archive = record.get<deck::ArchiveCard>()) model_.commands.archive = *archive;
+    if (const auto* archive = record.get<deck::ArchiveCard>()) {
+      model_.commands.archive = *archive;
+      if (!archive->codes.empty())
+        diagnostics_.warning(record.where("STYP"), "STYP selects nothing in this version: all fields and histories are archived");
+    }
+    if (record.get<deck::MaterialCard>())
+      diagnostics_.warning(record.location, "no element of this version takes a material: this one has no effect");
     if (const auto* check = record.get<deck::CheckCard>()) {
       model_.commands.checks.push_back(*check);
       model_.commands.check_locations.push_back(record.location);
