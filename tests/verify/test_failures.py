@@ -131,7 +131,8 @@ def test_terminated_run_closes_its_results(tmp_path):
 
 
 def test_what_has_no_effect_is_said(tmp_path):
-    deck = BREAKS.replace("sqrt(0.5-T)", "1") + '.SAI STYP 163\n.MAT\n I 1 NOM "steel" BEHA "ELASTIC" YT 2.1e11\n'
+    idle = '.SAI STYP 163\n.MAT\n I 1 NOM "steel" BEHA "ELASTIC" YT 2.1e11\n'
+    deck = BREAKS.replace("sqrt(0.5-T)", "1") + idle
     ended = run(deck, tmp_path)
     assert ended.returncode == 0
     assert "STYP selects nothing" in ended.stderr and "this one has no effect" in ended.stderr
