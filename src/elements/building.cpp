@@ -44,6 +44,8 @@ bool same_place(const Vec3& a, const Vec3& b) {
   return (a - b).norm() <= 1e-6 * std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
 }
 
+std::string number(double value) { return fmt::format("{:.10g}", std::abs(value) < 1e-12 ? 0.0 : value); }
+
 std::string json(const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
 
 std::string json(const std::vector<int>& ids) { return fmt::format("[{}]", fmt::join(ids, ", ")); }

@@ -30,6 +30,9 @@ bool find_function(const BuildContext& context, int id, const Function*& functio
 /// Are two places the same up to the digits a deck gives them with?
 bool same_place(const Vec3& a, const Vec3& b);
 
+/// A number as the user should read and may copy it: ten digits, and no rounding noise instead of zero.
+std::string number(double value);
+
 /// `[1, 2, 3]` for drawings.
 std::string json(const Vec3& v);
 std::string json(const std::vector<int>& ids);

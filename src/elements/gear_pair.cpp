@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "elements/building.hpp"
+#include "elements/gear_place.hpp"
 
 namespace engrane {
 
@@ -280,9 +281,12 @@ namespace {
 std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& context) {
   const auto placement = place_gear(data, context);
   if (!placement) return nullptr;
-  const auto teeth = tooth_law(data, *placement, context);
+  const GearDesign& design = placement->design;
+  const TeethOwner owner{
+      data.nodes, {placement->frames.mu.col(0), placement->frames.xi.col(0)}, design.teeth, {design.lever(0), design.lever(1)}};
+  const auto teeth = tooth_law(data, owner, context);
   if (!teeth) return nullptr;
-  return std::make_unique<GearPair>(context.record.id, data.nodes, placement->design, placement->frames, *teeth,
+  return std::make_unique<GearPair>(context.record.id, data.nodes, design, placement->frames, *teeth,
                                     GearPair::Options{!data.separation.is("NO"), data.width.value_or(0)});
 }
 

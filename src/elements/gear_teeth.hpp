@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "math/dual.hpp"
@@ -22,6 +23,20 @@ struct TransmissionError {
 
   /// x_err and its derivatives with respect to ψ_A (radians).
   Function::Jet at(double psi_a) const;
+};
+
+/// How the teeth of a pair stand in the reference configuration, relative to all other meshes of the same wheels. Angles in
+/// radians; entry 0 is wheel A, entry 1 wheel B.
+struct MeshPhase {
+  /// z_A times the angle from the contact point to a tooth of A, about A's axle: 0 with a tooth of A at the contact point.
+  /// The mesh is at phase + z_A ψ_A, 2π for each tooth that passes.
+  double phase = 0;
+  /// Angle about each wheel's axle from the wheel's first contact point in the deck to this one: the place on the wheel
+  /// that is in contact is that many radians further, and moves back by ψ.
+  std::array<double, 2> contact{0, 0};
+  /// Approach of the teeth, along the circumference, that a loop of wheels closes with; 0 in all but planetary trains with
+  /// misplaced planets.
+  double misfit = 0;
 };
 
 /// max(x, 0) with its corner rounded over |x| < width/2 by a polynomial that keeps value, slope and curvature continuous;
@@ -43,6 +58,7 @@ struct ToothLaw {
   double onset = 0;      ///< width over which contact comes on, at most b
   Damping mode = Damping::always;
   TransmissionError error;
+  MeshPhase mesh;
 
   /// [[x]] of (28), each corner rounded over `onset`.
   Function::Jet deflection(double x) const;
