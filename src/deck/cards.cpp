@@ -126,7 +126,7 @@ Schema material_card() {
   card.chapter(model_chapter).numbered();
   card.add("NOM", &MaterialCard::name, "name").synonyms({"NAME"});
   card.add("BEHA", &MaterialCard::behaviour, "behaviour").synonyms({"BEHAVIOUR", "BEHAVIOR", "COMPORTEMENT"});
-  card.add("YT", &MaterialCard::young, "Young's modulus").synonyms({"YOUNG"}).unit({-1, 1, -2, 0}).positive();
+  card.add("YT", &MaterialCard::young, "Young's modulus").synonyms({"YOUNG"}).unit(dimension::pressure).positive();
   card.add("NT", &MaterialCard::poisson, "Poisson's ratio").synonyms({"POISSON", "NU"}).above(-1).at_most(0.5);
   card.add("M", &MaterialCard::density, "mass per volume").synonyms({"DENSITY", "DENSITE"}).unit({-3, 1, 0, 0}).at_least(0);
   card.add("A", &MaterialCard::expansion, "coefficient of thermal expansion, per degree").synonyms({"EXPANSION"});

@@ -44,14 +44,7 @@ const deck::Card<GearData>& gear_card() {
         .synonyms({"RAYONS", "RADII"})
         .unit(length)
         .positive();
-    c.add("WIDTH", &GearData::width, "face width, for pictures; 10 m_n when not given")
-        .synonyms({"LARGEUR"})
-        .unit(length)
-        .positive();
     add_teeth_keywords(c);
-    c.add("SEPARATION", &GearData::separation, "the radial part of the tooth force, which pushes the wheels apart")
-        .option({"YES", {"OUI"}, "with it"})
-        .option({"NO", {"NON"}, "without: tangential and axial parts only"});
     c.example("I 1 GEAR N 1 2 AXIS 0 0 1 Z 20 40 MN 2 HELIX 15");
     c.example("I 2 GEAR N 2 3 AXIS 0 0 1 Z 25 25 MN 0.15748 KM 1.477E7 XI 0.1 ERR COS 0.003937 JEU 0.001968");
     c.example("I 3 GEAR N 1 2 AXIS 0 1 0 Z 50 10 MN 0.2 SHAFT 90");

@@ -23,8 +23,6 @@ struct GearData : TeethData {
   std::array<double, 3> axis{0, 0, 0};
   std::optional<std::array<double, 3>> axis_b;
   std::optional<std::array<double, 2>> radii;
-  std::optional<double> width;
-  deck::Tagged separation{"YES", {}};
 };
 
 const deck::Card<GearData>& gear_card();

@@ -96,22 +96,21 @@ std::optional<double> shaft_angle_of_axles(const Vec3& x_a, const Vec3& axle_a, 
   return std::acos(std::clamp((s * t > 0 ? 1 : -1) * axle_a.dot(axle_b), -1.0, 1.0));
 }
 
-std::optional<double> contact_ratio(const GearDesign& design) {
+std::optional<double> path_of_contact(const GearDesign& design, std::size_t wheel) {
   const int kind = design.parallel_kind();
   if (kind == 0) return {};
-  const double alpha = design.transverse_pressure_angle(0);
-  const double base_pitch = std::numbers::pi * design.transverse_module(0) * std::cos(alpha);
-  // length of the path of contact on either side of the pitch point, up to the tip circle of the wheel
-  double path = 0;
-  for (const std::size_t wheel : {std::size_t{0}, std::size_t{1}}) {
-    const double r = design.radius(wheel), base = r * std::cos(alpha);
-    const bool ring = kind == (wheel == 0 ? -2 : -1);
-    const double tip = ring ? r - design.normal_module : r + design.normal_module;
-    if (tip <= base) return {};  // the ring's tip lies inside its base circle: no involute there
-    const double side = std::sqrt(tip * tip - base * base) - r * std::sin(alpha);
-    path += ring ? -side : side;
-  }
-  return path / base_pitch;
+  const double alpha = design.transverse_pressure_angle(wheel), r = design.radius(wheel), base = r * std::cos(alpha);
+  const bool ring = kind == (wheel == 0 ? -2 : -1);
+  const double tip = ring ? r - design.normal_module : r + design.normal_module;
+  if (tip <= base) return {};  // the ring's tip lies inside its base circle: no involute there
+  const double side = std::sqrt(tip * tip - base * base) - r * std::sin(alpha);
+  return ring ? -side : side;
+}
+
+std::optional<double> contact_ratio(const GearDesign& design) {
+  const auto a = path_of_contact(design, 0), b = path_of_contact(design, 1);
+  if (!a || !b) return {};
+  return (*a + *b) / (std::numbers::pi * design.transverse_module(0) * std::cos(design.transverse_pressure_angle(0)));
 }
 
 }  // namespace engrane

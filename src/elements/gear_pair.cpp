@@ -17,7 +17,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-std::vector<Named> channel_list(bool elastic) {
+std::vector<Named> channel_list(const ToothContact& contact) {
   using namespace dimension;
   std::vector<Named> list{{"NORMAL_FORCE", force, "normal tooth force, positive where A drives"}};
   for (const char* wheel : {"A", "B"}) {
@@ -39,10 +39,28 @@ std::vector<Named> channel_list(bool elastic) {
     list.push_back({std::string("CONTACT_") + component, length, std::string("contact point, global ") + component});
   list.push_back({"PSI_A", angle, "turn of wheel A relative to the pair's frame, whole turns included"});
   list.push_back({"PSI_B", angle, "turn of wheel B relative to the pair's frame, whole turns included"});
-  if (elastic) {
+  const Dimension speed = dimension::velocity, watts = dimension::power;
+  list.push_back({"SLIDING_SPEED", speed, "sliding speed of the flanks at the pitch point"});
+  list.push_back({"POWER_A", watts, "power of the teeth on wheel A, in the pair's frame"});
+  list.push_back({"POWER_B", watts, "power of the teeth on wheel B, in the pair's frame"});
+  list.push_back({"EFFICIENCY", none, "power given to one wheel over power taken from the other; 1 without power"});
+  if (contact.options().friction) {
+    list.push_back({"FRICTION_FORCE", force, "friction between the flanks"});
+    list.push_back({"FRICTION_POWER", watts, "power lost by sliding and rolling"});
+  }
+  if (contact.options().running) list.push_back({"PRESSURE_ANGLE", angle, "working pressure angle, transverse"});
+  if (contact.elastic()) {
     list.push_back({"U_M", length, "tooth deformation and play along the circumference, u_m"});
     list.push_back({"TRANSMISSION_ERROR", length, "approach of the teeth, u_m + x_err"});
     list.push_back({"CONTACT", none, "contact: 1 where A drives, -1 on the other flank, 0 apart"});
+    if (contact.law().course.varies()) list.push_back({"STIFFNESS", stiffness, "tooth stiffness along the circumference"});
+  }
+  if (const int n = contact.options().slices; n > 1) {
+    list.push_back({"FACE_LOAD_FACTOR", none, "largest over mean load along the face width, K_H_beta"});
+    list.push_back({"TILTING_MOMENT", moment, "moment of the load along the face about the middle of the face"});
+    for (int i = 1; i <= n; ++i)
+      list.push_back(
+          {"LINE_LOAD_" + std::to_string(i), dimension::stiffness, "normal force per face width, slice " + std::to_string(i)});
   }
   return list;
 }
@@ -54,29 +72,47 @@ Vec3 vector_at(std::span<const double> values, std::size_t first) {
 }  // namespace
 
 GearPair::GearPair(int id, std::array<int, 2> nodes, const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth,
-                   Options options)
+                   const ContactOptions& options, double width)
     : TemplatedElement(id),
       design_(design),
       frames_(frames),
-      teeth_(teeth),
-      options_(options),
       triad_{frames.mu, frames.xi},
       tooth_{tooth_axes(design.cone[0], design.helix[0]), mating_tooth_axes(design.cone[1], design.helix[1])},
       radius_{design.radius(0), design.radius(1)},
-      cos_alpha_(std::cos(design.pressure_angle)),
-      sin_alpha_(std::sin(design.pressure_angle)),
-      channels_(channel_list(teeth.stiffness > 0)) {
+      contact_(contact_geometry(design, width), teeth, options),
+      channels_(channel_list(contact_)) {
   Layout layout;
   layout.nodes = {nodes[0], nodes[1]};
   layout.needs = {NodeNeed::both, NodeNeed::both};
   layout.scalars = {{"PSI_A", dimension::angle, "turn of wheel A relative to the pair's frame"},
                     {"PSI_B", dimension::angle, "turn of wheel B relative to the pair's frame"}};
-  if (elastic()) layout.scalars.push_back({"U_M", dimension::length, "tooth deformation along the circumference"});
+  if (contact_.elastic()) layout.scalars.push_back({"U_M", dimension::length, "tooth deformation along the circumference"});
   layout.multipliers = {{"TOOTH", dimension::length, "tooth contact, phi_1: its multiplier is the normal force"},
                         {"MESH", dimension::length, "contact points along the circumference, phi_2"},
                         {"TRIAD", dimension::angle, "tooth triads about the tooth, phi_3"}};
   layout.history = 2;
   set_layout(std::move(layout));
+}
+
+ContactGeometry contact_geometry(const GearDesign& design, double width) {
+  ContactGeometry g;
+  g.pressure_angle = design.pressure_angle;
+  g.transverse_pressure_angle = design.transverse_pressure_angle(0);
+  g.helix = design.helix[0];
+  g.teeth = design.teeth[0];
+  g.radius = design.radius(0);
+  g.width = width;
+  const int kind = design.parallel_kind();
+  if (kind == 0) return g;
+  g.side = g.axle_sense = kind > 0 ? 1 : -1;
+  const double c = std::cos(g.transverse_pressure_angle);
+  const double sign_a = kind == -2 ? -1 : 1, sign_b = kind == -1 ? -1 : 1;
+  g.base_radii = c * (sign_a * design.radius(0) + sign_b * design.radius(1));
+  g.center_distance = std::abs(g.base_radii) / c;
+  g.base_pitch = std::numbers::pi * design.transverse_module(0) * c;
+  g.approach = path_of_contact(design, 1).value_or(0);
+  g.recess = path_of_contact(design, 0).value_or(0);
+  return g;
 }
 
 void GearPair::start(std::span<double> scalars, std::span<double> history) const {
@@ -97,100 +133,58 @@ double GearPair::counted_phase(std::span<const double> history) const {
 }
 
 template <class T>
-GearPair::Wheel<T> GearPair::wheel(std::size_t i, const Mat3T<T>& R, const T& psi) const {
+ToothedSide<T> GearPair::wheel(std::size_t i, const Mat3T<T>& R, const T& psi) const {
   using std::cos, std::sin;
   const Mat3& triad = triad_[i];
   const Mat3& Y = tooth_[i];
   const T c = cos(psi), s = sin(psi);
   const Vec3T<T> turned_2 = rotate(R, Vec3(triad.col(1))), turned_3 = rotate(R, Vec3(triad.col(2)));  // (4)
-  Wheel<T> w;
+  ToothedSide<T> w;
   w.axle = rotate(R, Vec3(triad.col(0)));
-  Vec3T<T> e_2, e_3;  // (16)
   for (int k = 0; k < 3; ++k) {
-    e_2[k] = turned_2[k] * c - turned_3[k] * s;
-    e_3[k] = turned_2[k] * s + turned_3[k] * c;
-    w.radius[k] = radius_[i] * e_2[k];
-    w.eta_2[k] = Y(0, 1) * w.axle[k] + Y(1, 1) * e_2[k] + Y(2, 1) * e_3[k];
-    w.eta_3[k] = Y(0, 2) * w.axle[k] + Y(1, 2) * e_2[k] + Y(2, 2) * e_3[k];
+    const T e_2 = turned_2[k] * c - turned_3[k] * s;  // (16)
+    w.forward[k] = turned_2[k] * s + turned_3[k] * c;
+    w.arm[k] = radius_[i] * e_2;
+    w.eta_2[k] = Y(0, 1) * w.axle[k] + Y(1, 1) * e_2 + Y(2, 1) * w.forward[k];
+    w.eta_3[k] = Y(0, 2) * w.axle[k] + Y(1, 2) * e_2 + Y(2, 2) * w.forward[k];
   }
   return w;
 }
 
 template <class T>
-void GearPair::evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
-  using std::abs;
+void GearPair::evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const {
   const T &psi_a = motion.scalar[0], &psi_b = motion.scalar[1];
-  const Wheel<T> a = wheel(0, motion.node[0].R, psi_a), b = wheel(1, motion.node[1].R, psi_b);
-  const double lever_a = design_.lever(0), lever_b = design_.lever(1);
-
-  // (21) with the sign of external contact, (22) and (23) for both wheels alike
+  const ToothedSide<T> a = wheel(0, motion.node[0].R, psi_a), b = wheel(1, motion.node[1].R, psi_b);
   const double pitch = design_.normal_module / 2;
-  T approach_of_flanks = -pitch * (design_.teeth[0] * psi_a + design_.teeth[1] * psi_b + counted_phase(state.history));
-  if (elastic()) approach_of_flanks += motion.scalar[2];
-  const T force_1 = balance.constraint(0, cos_alpha_ * approach_of_flanks);
-  Vec3T<T> gap, normal, across;  // x_C^A − x_C^B (10), means of η₃ and η₂
-  for (int k = 0; k < 3; ++k) {
-    gap[k] = motion.node[0].x[k] - motion.node[1].x[k] + a.radius[k] - b.radius[k];
-    normal[k] = 0.5 * (a.eta_3[k] + b.eta_3[k]);
-    across[k] = 0.5 * (a.eta_2[k] + b.eta_2[k]);
-  }
-  const T force_2 = balance.constraint(1, dot(gap, normal));
-  const T moment_3 = balance.constraint(2, 0.5 * (dot(a.eta_2, b.eta_3) - dot(a.eta_3, b.eta_2)));
+  const T closing = -pitch * (design_.teeth[0] * psi_a + design_.teeth[1] * psi_b + counted_phase(state.history));
+  ToothLoads<T> loads;
+  const T normal_force = contact_.act(motion, a, b, closing, balance, loads, report);
 
-  // The gradients (24)–(26). A small turn θ of a wheel's frame changes its radius and η by θ ×; a change of ψ is the turn
-  // −δψ about the axle (18). So each wheel's ψ row is the moment about its axle, reversed.
-  const T separating = options_.separation ? T(-sin_alpha_ * abs(force_1)) : T(0);
-  const Vec3T<T> lateral_a = cross(a.eta_3, gap), lateral_b = cross(b.eta_3, gap);
-  const Vec3T<T> triads_a = cross(a.eta_2, b.eta_3), triads_b = cross(a.eta_3, b.eta_2);
-  Vec3T<T> along, radial, arm_a, arm_b, frame_a, frame_b;
-  for (int k = 0; k < 3; ++k) {
-    along[k] = force_2 * normal[k];
-    radial[k] = separating * across[k];  // F^A of (34)
-    arm_a[k] = a.radius[k] - 0.5 * gap[k];
-    arm_b[k] = b.radius[k] + 0.5 * gap[k];
-  }
-  const Vec3T<T> along_a = cross(a.radius, along), along_b = cross(b.radius, along);
-  for (int k = 0; k < 3; ++k) {
-    const T couple = 0.5 * moment_3 * (triads_a[k] - triads_b[k]);
-    frame_a[k] = along_a[k] + 0.5 * force_2 * lateral_a[k] + couple;
-    frame_b[k] = -along_b[k] + 0.5 * force_2 * lateral_b[k] - couple;
-  }
-  // (35), at the point midway between the two contact points; it does no work on ψ
-  const Vec3T<T> moment_a = frame_a + cross(arm_a, radial), moment_b = frame_b - cross(arm_b, radial);
-  balance.force(0, -(along + radial));
-  balance.force(1, along + radial);
-  balance.moment(0, -rotate_back(motion.node[0].R, moment_a));
-  balance.moment(1, -rotate_back(motion.node[1].R, moment_b));
-  balance.scalar(0, cos_alpha_ * lever_a * force_1 + dot(a.axle, frame_a));
-  balance.scalar(1, cos_alpha_ * lever_b * force_1 + dot(b.axle, frame_b));
-
-  if (!elastic()) return;
-  const Function::Jet error = teeth_.error.at(value_of(psi_a));
-  const T x = motion.scalar[2] + compose(psi_a, error.f, error.d1, error.d2);
-  const T spring = teeth_.elastic_force(x);
-  balance.scalar(0, spring * compose(psi_a, error.d1, error.d2, error.d3));  // (29)
-  balance.scalar(2, spring + teeth_.damping_force(x, motion.scalar_rate[2]) - cos_alpha_ * force_1);
+  const Vec3T<T> force = loads.frame_force + loads.body_force;
+  balance.force(0, -force);
+  balance.force(1, force);
+  balance.moment(0, -rotate_back(motion.node[0].R, Vec3T<T>(loads.frame_moment[0] + loads.body_moment[0])));
+  balance.moment(1, -rotate_back(motion.node[1].R, Vec3T<T>(loads.frame_moment[1] + loads.body_moment[1])));
+  // a change of ψ is the turn −δψ of the wheel's frame about its axle (18)
+  balance.scalar(0, contact_.cos_alpha() * design_.lever(0) * normal_force + dot(a.axle, loads.frame_moment[0]));
+  balance.scalar(1, contact_.cos_alpha() * design_.lever(1) * normal_force + dot(b.axle, loads.frame_moment[1]));
 }
 
-double GearPair::approach(const State& state) const { return state.scalars[2] + teeth_.error.at(state.scalars[0]).f; }
+ContactReport GearPair::report(const State& state) const {
+  ContactReport report;
+  const auto m = motion<double>(state);
+  Balance<double, 2> balance(state);
+  evaluate(m, state, balance, &report);
+  return report;
+}
 
 Energies GearPair::energies(const State& state) const {
+  const ContactReport r = report(state);
   Energies e;
-  if (elastic()) {
-    const double x = approach(state), rate = state.scalar_rates[2];
-    e.potential = teeth_.potential(x);
-    e.dissipated = teeth_.damping_force(x, rate) * rate;
-  }
-  if (options_.separation) {
-    // What the separating force gives to the wheels: nothing while the centres keep their distance.
-    const NodeState &node_a = state.nodes[0], &node_b = state.nodes[1];
-    const auto a = wheel(0, node_a.R, state.scalars[0]), b = wheel(1, node_b.R, state.scalars[1]);
-    const Vec3 gap = node_a.x - node_b.x + a.radius - b.radius;
-    const Vec3 force = -0.5 * sin_alpha_ * std::abs(state.multipliers[0]) * (a.eta_2 + b.eta_2);
-    const Vec3 v_a = node_a.v + cross(Vec3(node_a.R * node_a.W), Vec3(a.radius - 0.5 * gap));
-    const Vec3 v_b = node_b.v + cross(Vec3(node_b.R * node_b.W), Vec3(b.radius + 0.5 * gap));
-    e.external = force.dot(v_a - v_b);
-  }
+  e.potential = r.potential;
+  e.dissipated = r.damping_power + r.friction_power;
+  // what the separating force (34) gives to the wheels: nothing while the centres keep their distance
+  e.external = r.separation_power;
   return e;
 }
 
@@ -205,17 +199,20 @@ void GearPair::observe(const State& state, std::span<double> values) const {
 
   put(state.multipliers[0]);
   std::array<Vec3, 2> force, moment, point;
+  std::array<double, 2> power{};  // that the teeth give to each wheel, in the pair's frame
   for (std::size_t i = 0; i < 2; ++i) {
     const NodeState& node = state.nodes[i];
     const auto w = wheel(i, node.R, state.scalars[i]);
     force[i] = -vector_at(r, 6 * i);  // the residual is what the element resists with
     moment[i] = -(node.R * vector_at(r, 6 * i + 3));
-    point[i] = node.x + w.radius;
-    const Vec3 outward = w.radius / radius_[i], forward = cross(w.axle, outward);
+    point[i] = node.x + w.arm;
+    const Vec3 outward = w.arm / radius_[i], forward = cross(w.axle, outward);
+    const double torque = moment[i].dot(w.axle);
     put(force[i].dot(forward));
     put(-force[i].dot(outward));
     put(force[i].dot(w.axle));
-    put(moment[i].dot(w.axle));
+    put(torque);
+    power[i] = torque * state.scalar_rates[i];
   }
   for (std::size_t i = 0; i < 2; ++i) {
     put_vector(force[i]);
@@ -223,12 +220,35 @@ void GearPair::observe(const State& state, std::span<double> values) const {
   }
   put_vector(0.5 * (point[0] + point[1]));
   for (std::size_t i = 0; i < 2; ++i) put(state.scalars[i] + turn * state.history[i]);
-  if (elastic()) {
-    const double x = approach(state);
-    put(state.scalars[2]);
-    put(x);
-    put(teeth_.contact(x));
+  const ContactReport c = report(state);
+  put(c.sliding_speed);
+  for (const double p : power) put(p);
+  const double taken = -std::min({power[0], power[1], 0.0}), given = std::max({power[0], power[1], 0.0});
+  put(taken > 0 ? given / taken : 1);
+  if (contact_.options().friction) {
+    put(c.friction_force);
+    put(c.friction_power);
   }
+  if (contact_.options().running) put(contact_.geometry().working_pressure_angle(c.opening));
+  if (!contact_.elastic()) return;
+  put(state.scalars[2]);
+  put(c.approach);
+  put(ToothLaw::contact(c.front, c.back));
+  if (contact_.law().course.varies()) put(c.stiffness_factor * contact_.law().stiffness);
+  const std::size_t n = c.slices.size();
+  if (n < 2) return;
+  const double width = contact_.geometry().width;
+  double total = 0, largest = 0, tilting = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double normal = c.slices[i] / contact_.cos_alpha(),
+                 y = width * ((static_cast<double>(i) + 0.5) / static_cast<double>(n) - 0.5);
+    total += normal;
+    tilting += y * normal;
+    if (std::abs(normal) > std::abs(largest)) largest = normal;
+  }
+  put(total != 0 ? std::abs(largest * static_cast<double>(n) / total) : 1);
+  put(tilting);
+  for (const double slice : c.slices) put(slice / contact_.cos_alpha() * static_cast<double>(n) / width);
 }
 
 std::vector<Derived> GearPair::derived() const {
@@ -253,10 +273,11 @@ std::vector<Derived> GearPair::derived() const {
   list.push_back({"ratio z_B/z_A", static_cast<double>(design_.teeth[1]) / design_.teeth[0], none});
   list.push_back({"teeth met per turn of wheel A", static_cast<double>(design_.teeth[0]), none});
   if (const auto ratio = contact_ratio(design_)) list.push_back({"transverse contact ratio", *ratio, none});
-  if (elastic()) {
-    list.push_back({"tooth stiffness", teeth_.stiffness, dimension::stiffness});
-    list.push_back({"tooth damping", teeth_.damping, dimension::damping});
-    if (teeth_.backlash > 0) list.push_back({"onset of contact", teeth_.onset, length});
+  if (contact_.elastic()) {
+    const ToothLaw& teeth = contact_.law();
+    list.push_back({"tooth stiffness", teeth.stiffness, dimension::stiffness});
+    list.push_back({"tooth damping", teeth.damping, dimension::damping});
+    if (teeth.backlash > 0) list.push_back({"onset of contact", teeth.onset, length});
   }
   return list;
 }
@@ -271,7 +292,7 @@ Drawing GearPair::drawing() const {
                      format_number(radius_[i]) + R"(, "cone": )" + format_number(design_.cone[i] / degree) + R"(, "helix": )" +
                      format_number(paper_helix(design_.helix[i], design_.cone[i]) / degree) + R"(, "teeth": )" +
                      std::to_string(design_.teeth[i]) + R"(, "module": )" + format_number(design_.normal_module) +
-                     R"(, "width": )" + format_number(options_.width > 0 ? options_.width : 10 * design_.normal_module));
+                     R"(, "width": )" + format_number(contact_.geometry().width));
   }
   return shapes;
 }
@@ -282,12 +303,19 @@ std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& con
   const auto placement = place_gear(data, context);
   if (!placement) return nullptr;
   const GearDesign& design = placement->design;
-  const TeethOwner owner{
-      data.nodes, {placement->frames.mu.col(0), placement->frames.xi.col(0)}, design.teeth, {design.lever(0), design.lever(1)}};
-  const auto teeth = tooth_law(data, owner, context);
+  const int kind = design.parallel_kind();
+  const double width = data.width.value_or(10 * design.normal_module);
+  TeethOwner owner;
+  owner.nodes = data.nodes;
+  owner.axle = {placement->frames.mu.col(0), placement->frames.xi.col(0)};
+  owner.teeth = design.teeth;
+  owner.ring = {kind == -2, kind == -1};
+  owner.lever = {design.lever(0), design.lever(1)};
+  owner.parallel = kind != 0;
+  owner.geometry = contact_geometry(design, width);
+  const auto teeth = read_teeth(data, owner, context);
   if (!teeth) return nullptr;
-  return std::make_unique<GearPair>(context.record.id, data.nodes, design, placement->frames, *teeth,
-                                    GearPair::Options{!data.separation.is("NO"), data.width.value_or(0)});
+  return std::make_unique<GearPair>(context.record.id, data.nodes, design, placement->frames, teeth->law, teeth->options, width);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "elements/gear_card.hpp"
 #include "elements/gear_geometry.hpp"
-#include "elements/gear_teeth.hpp"
+#include "elements/tooth_contact.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane {
@@ -29,18 +29,16 @@ namespace engrane {
 /// this is the paper's; where supports bend, wheels may be exchanged and the pair stays in equilibrium by itself exactly.
 class GearPair final : public TemplatedElement<GearPair, 2, 18> {
  public:
-  struct Options {
-    bool separation = true;  ///< the radial force (34, 35)
-    double width = 0;        ///< face width, for pictures; 0: 10 m_n
-  };
-
-  /// `teeth.stiffness` 0: rigid teeth.
+  /// `teeth.stiffness` 0: rigid teeth. `width`: face width.
   GearPair(int id, std::array<int, 2> nodes, const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth,
-           Options options);
+           const ContactOptions& options, double width);
 
   const GearDesign& design() const { return design_; }
   const PitchFrames& frames() const { return frames_; }
-  const ToothLaw& teeth() const { return teeth_; }
+  const ToothLaw& teeth() const { return contact_.law(); }
+  const ContactOptions& options() const { return contact_.options(); }
+  /// What the teeth tell besides their forces.
+  ContactReport report(const State& state) const;
 
   void start(std::span<double> scalars, std::span<double> history) const override;
   void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
@@ -53,37 +51,32 @@ class GearPair final : public TemplatedElement<GearPair, 2, 18> {
  private:
   friend class TemplatedElement<GearPair, 2, 18>;
 
-  /// A wheel's directions in the current configuration, global components.
-  template <class T>
-  struct Wheel {
-    Vec3T<T> axle;    ///< μ₁″ or ξ₁″
-    Vec3T<T> radius;  ///< r μ₂″ or r ξ₂″ (11)
-    Vec3T<T> eta_2;   ///< across the tooth, from A to B
-    Vec3T<T> eta_3;   ///< along the circumference, normal to the tooth's middle plane
-  };
   /// From the wheel's rotation and turn ψ, by (4), (16) and (6) or (8).
   template <class T>
-  Wheel<T> wheel(std::size_t i, const Mat3T<T>& R, const T& psi) const;
+  ToothedSide<T> wheel(std::size_t i, const Mat3T<T>& R, const T& psi) const;
 
   template <class T>
-  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const;
+  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
+    evaluate(motion, state, balance, nullptr);
+  }
+  template <class T>
+  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const;
 
-  bool elastic() const { return teeth_.stiffness > 0; }
   /// 2π (z_A n_A + z_B n_B), of the whole turns counted: the integers cancel before they are rounded.
   double counted_phase(std::span<const double> history) const;
-  /// u_m + x_err
-  double approach(const State& state) const;
 
   GearDesign design_;
   PitchFrames frames_;
-  ToothLaw teeth_;
-  Options options_;
   std::array<Mat3, 2> triad_;     ///< columns μ, ξ in the reference configuration
   std::array<Mat3, 2> tooth_;     ///< Y_A, Y_B
   std::array<double, 2> radius_;  ///< r
-  double cos_alpha_, sin_alpha_;
+  ToothContact contact_;
   std::vector<Named> channels_;
 };
+
+/// What the contact needs of a pair's geometry. Involute relations, sliding along the profile and slices are of parallel axles
+/// only; for others their dimensions stay zero.
+ContactGeometry contact_geometry(const GearDesign& design, double width);
 
 ElementType gear_pair_type();
 

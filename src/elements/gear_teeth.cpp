@@ -6,19 +6,58 @@
 
 namespace engrane {
 
-Function::Jet TransmissionError::at(double psi_a) const {
-  const double z = teeth;
+namespace {
+
+void add(Function::Jet& sum, const Function::Jet& term) {
+  sum.f += term.f;
+  sum.d1 += term.d1;
+  sum.d2 += term.d2;
+  sum.d3 += term.d3;
+}
+
+/// A function of degrees, with derivatives by radians.
+Function::Jet by_radians(const Function& function, double angle) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  Function::Jet j = function.at(angle * degrees);
+  j.d1 *= degrees;
+  j.d2 *= degrees * degrees;
+  j.d3 *= degrees * degrees * degrees;
+  return j;
+}
+
+}  // namespace
+
+Function::Jet TransmissionError::Wheel::at(double place) const {
+  Function::Jet e;
+  if (eccentricity != 0) {
+    const double s = eccentricity * std::sin(place + phase), c = eccentricity * std::cos(place + phase);
+    e = {s, c, -s, -c};
+  }
+  if (pitch) add(e, by_radians(*pitch, place));
+  return e;
+}
+
+Function::Jet TransmissionError::of_b(double psi_b, const MeshPhase& mesh) const { return wheel[1].at(psi_b - mesh.contact[1]); }
+
+Function::Jet TransmissionError::of_a(double psi_a, const MeshPhase& mesh) const {
+  Function::Jet e = of_teeth(psi_a, mesh);
+  add(e, wheel[0].at(psi_a - mesh.contact[0]));
+  return e;
+}
+
+Function::Jet TransmissionError::of_teeth(double psi_a, const MeshPhase& mesh) const {
+  const double z = teeth, tau = z * psi_a + mesh.phase;
   switch (kind) {
     case Kind::none:
       return {};
     case Kind::cosine: {
-      const double s = std::sin(z * psi_a), c = std::cos(z * psi_a), X = amplitude;
+      const double s = std::sin(tau), c = std::cos(tau), X = amplitude;
       return {X * (1 - c), X * z * s, X * z * z * c, -X * z * z * z * s};
     }
     case Kind::fourier: {
       Function::Jet e;
       for (std::size_t i = 0; i + 1 < coefficients.size(); i += 2) {
-        const double w = z * (static_cast<double>(i / 2) + 1), s = std::sin(w * psi_a), c = std::cos(w * psi_a);
+        const double n = static_cast<double>(i / 2) + 1, w = z * n, s = std::sin(n * tau), c = std::cos(n * tau);
         const double even = coefficients[i] * c + coefficients[i + 1] * s, odd = coefficients[i + 1] * c - coefficients[i] * s;
         e.f += even;
         e.d1 += w * odd;
@@ -27,14 +66,8 @@ Function::Jet TransmissionError::at(double psi_a) const {
       }
       return e;
     }
-    case Kind::table: {
-      constexpr double degrees = 180 / std::numbers::pi;
-      Function::Jet e = function->at(psi_a * degrees);
-      e.d1 *= degrees;
-      e.d2 *= degrees * degrees;
-      e.d3 *= degrees * degrees * degrees;
-      return e;
-    }
+    case Kind::table:
+      return by_radians(*function, psi_a - mesh.contact[0]);
   }
   return {};
 }
@@ -53,20 +86,28 @@ double rounded_ramp_integral(double x, double width) {
   return width * width * t * t * t * t * (0.25 - 0.1 * t);
 }
 
+Function::Jet ToothLaw::flank(double x) const {
+  if (exponent == 1) return rounded_ramp(x, onset);
+  if (x <= 0) return {};
+  const double p = exponent, y = x / reference, power = std::pow(y, p - 2);
+  return {reference * power * y * y, p * power * y, p * (p - 1) * power / reference,
+          p * (p - 1) * (p - 2) * power / (y * reference * reference)};
+}
+
+double ToothLaw::flank_integral(double x) const {
+  if (exponent == 1) return rounded_ramp_integral(x, onset);
+  return x <= 0 ? 0 : reference * reference / (exponent + 1) * std::pow(x / reference, exponent + 1);
+}
+
 Function::Jet ToothLaw::deflection(double x) const {
-  if (backlash == 0) return {x, 1, 0, 0};
-  const Function::Jet front = rounded_ramp(x, onset), back = rounded_ramp(-backlash - x, onset);
+  if (backlash == 0 && exponent == 1) return {x, 1, 0, 0};
+  const Function::Jet front = flank(x), back = flank(-backlash - x);
   return {front.f - back.f, front.d1 + back.d1, front.d2 - back.d2, front.d3 + back.d3};
 }
 
-double ToothLaw::potential(double x) const {
-  if (backlash == 0) return 0.5 * stiffness * x * x;
-  return stiffness * (rounded_ramp_integral(x, onset) + rounded_ramp_integral(-backlash - x, onset));
-}
-
-int ToothLaw::contact(double x) const {
-  if (x >= 0) return 1;
-  return x <= -backlash ? -1 : 0;
+double ToothLaw::deflection_integral(double x) const {
+  if (backlash == 0 && exponent == 1) return 0.5 * x * x;
+  return flank_integral(x) + flank_integral(-backlash - x);
 }
 
 double tooth_damping(double ratio, double stiffness, double inertia_a, double inertia_b, double lever_a, double lever_b) {

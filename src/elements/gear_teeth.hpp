@@ -7,23 +7,11 @@
 #include <array>
 #include <vector>
 
+#include "elements/mesh_stiffness.hpp"
 #include "math/dual.hpp"
 #include "model/function.hpp"
 
 namespace engrane {
-
-/// Transmission error under static load, x_err(ψ_A): a length along the circumference that the turn of wheel A adds to u_m.
-struct TransmissionError {
-  enum class Kind { none, cosine, fourier, table };
-  Kind kind = Kind::none;
-  int teeth = 1;                       ///< z_A
-  double amplitude = 0;                ///< X of (31): X (1 − cos z_A ψ_A)
-  std::vector<double> coefficients;    ///< a₁ b₁ a₂ b₂ …: Σ a_n cos(n z_A ψ_A) + b_n sin(n z_A ψ_A)
-  const Function* function = nullptr;  ///< of ψ_A in degrees, repeating with every turn
-
-  /// x_err and its derivatives with respect to ψ_A (radians).
-  Function::Jet at(double psi_a) const;
-};
 
 /// How the teeth of a pair stand in the reference configuration, relative to all other meshes of the same wheels. Angles in
 /// radians; entry 0 is wheel A, entry 1 wheel B.
@@ -37,6 +25,32 @@ struct MeshPhase {
   /// Approach of the teeth, along the circumference, that a loop of wheels closes with; 0 in all but planetary trains with
   /// misplaced planets.
   double misfit = 0;
+};
+
+/// Transmission error under static load: a length along the circumference that the turn of the wheels adds to u_m.
+struct TransmissionError {
+  enum class Kind { none, cosine, fourier, table };
+  Kind kind = Kind::none;
+  int teeth = 1;                       ///< z_A
+  double amplitude = 0;                ///< X of (31): X (1 − cos τ), τ = z_A ψ_A + phase
+  std::vector<double> coefficients;    ///< a₁ b₁ a₂ b₂ …: Σ a_n cos nτ + b_n sin nτ
+  const Function* function = nullptr;  ///< of the place on wheel A in degrees, repeating with every turn
+
+  /// What one wheel adds whatever its partner: its runout and the cumulative error of its pitches.
+  struct Wheel {
+    double eccentricity = 0;          ///< amplitude of the sine over a turn
+    double phase = 0;                 ///< of that sine, radians
+    const Function* pitch = nullptr;  ///< of the place on the wheel in degrees, repeating with every turn
+    Function::Jet at(double place) const;
+  };
+  std::array<Wheel, 2> wheel;
+
+  /// x_err as far as it follows wheel A, and as far as it follows wheel B, with derivatives by the wheel's turn in radians.
+  Function::Jet of_a(double psi_a, const MeshPhase& mesh) const;
+  Function::Jet of_b(double psi_b, const MeshPhase& mesh) const;
+
+ private:
+  Function::Jet of_teeth(double psi_a, const MeshPhase& mesh) const;
 };
 
 /// max(x, 0) with its corner rounded over |x| < width/2 by a polynomial that keeps value, slope and curvature continuous;
@@ -56,43 +70,59 @@ struct ToothLaw {
   double damping = 0;    ///< c_m
   double backlash = 0;   ///< b along the circumference; 0: the teeth touch on both flanks at once
   double onset = 0;      ///< width over which contact comes on, at most b
+  double exponent = 1;   ///< p: the force grows with x^p
+  double reference = 1;  ///< x₀ > 0 at which the secant stiffness is k_m; of no consequence for p = 1
   Damping mode = Damping::always;
+  MeshStiffness course;
   TransmissionError error;
   MeshPhase mesh;
 
-  /// [[x]] of (28), each corner rounded over `onset`.
-  Function::Jet deflection(double x) const;
-  /// ∫ k_m [[x]] dx: ½ k_m [[x]]² where no corner is rounded, (28).
-  double potential(double x) const;
-  /// −1, 0, 1: on the back flank, in the gap, on the flank with which A drives in the positive sense.
-  int contact(double x) const;
+  /// What a flank pressed in by x resists with, over k_m: max(x, 0) rounded over `onset`, or x₀ (x/x₀)^p, which needs no
+  /// rounding.
+  Function::Jet flank(double x) const;
+  /// Its integral from −∞.
+  double flank_integral(double x) const;
 
-  /// k_m [[x]], the elastic force of (29). Its derivative inside the gap is 1e-9 k_m instead of zero: nothing to dynamics or
-  /// to frequencies, but the statics of a load that presses the far flank then has a way across.
-  template <class T>
-  T elastic_force(const T& x) const {
-    constexpr double least_slope = 1e-9;
-    const Function::Jet d = deflection(value_of(x));
-    return compose(x, stiffness * d.f, stiffness * std::max(d.d1, least_slope), stiffness * d.d2);
+  /// [[x]] of (28) by both flanks.
+  Function::Jet deflection(double x) const;
+  /// ∫ [[x]] dx: ½ [[x]]² where no corner is rounded, (28) over k_m.
+  double deflection_integral(double x) const;
+  /// ∫ k_m [[x]] dx
+  double potential(double x) const { return stiffness * deflection_integral(x); }
+  /// −1, 0, 1: on the back flank, in the gap, on the flank with which A drives in the positive sense.
+  int contact(double x) const { return contact(x, -backlash - x); }
+  /// The same from how far each flank is pressed in.
+  static int contact(double front, double back) {
+    if (front >= 0) return 1;
+    return back >= 0 ? -1 : 0;
   }
 
-  /// What damping adds to it. With Damping::contact the sum of both keeps the sign of the flank that touches: where c_m du_m/dt
+  /// [[x]] in the arithmetic of x. Its derivative inside the gap is 1e-9 instead of zero: nothing to dynamics or to
+  /// frequencies, but the statics of a load that presses the far flank then has a way across.
+  template <class T>
+  T elastic_deflection(const T& x) const {
+    const Function::Jet d = deflection(value_of(x));
+    return compose(x, d.f, std::max(d.d1, least_slope), d.d2);
+  }
+  static constexpr double least_slope = 1e-9;
+
+  /// What damping adds to the elastic force, where the flanks are pressed in by `front` and `back` and resist with `elastic`
+  /// forces of their own. With Damping::contact the sum of both keeps the sign of the flank that touches: where c_m du_m/dt
   /// alone would make it pull, it takes away the elastic force and no more. That limit is rounded too, between 90 and 110
   /// per cent of the elastic force, so that the law has a continuous slope.
   template <class T>
-  T damping_force(const T& x, const T& rate) const {
-    if (mode == Damping::always || backlash == 0) return damping * rate;
-    return flank_damping(x, rate) - flank_damping(T(-backlash - x), T(-rate));  // the flanks mirror each other
+  T damping_force(const T& front, const T& back, const T& elastic_front, const T& elastic_back, const T& rate) const {
+    if (mode == Damping::always) return damping * rate;
+    return flank_damping(front, elastic_front, rate) - flank_damping(back, elastic_back, T(-rate));  // mirror images
   }
 
  private:
   template <class T>
-  T flank_damping(const T& x, const T& rate) const {
-    const Function::Jet ramp = rounded_ramp(value_of(x), onset);
-    if (ramp.d1 == 0) return T(0);
-    const T free = damping * compose(x, ramp.d1, ramp.d2, ramp.d3) * rate;
+  T flank_damping(const T& x, const T& elastic, const T& rate) const {
+    const Function::Jet window = rounded_ramp(value_of(x), onset);
+    if (window.d1 == 0) return T(0);
+    const T free = damping * compose(x, window.d1, window.d2, window.d3) * rate;
     if (value_of(free) >= 0) return free;
-    const T elastic = compose(x, stiffness * ramp.f, stiffness * ramp.d1, stiffness * ramp.d2);
     constexpr double rounding = 0.1;
     if (value_of(free) <= -(1 + rounding) * value_of(elastic)) return -elastic;
     const T rest = 1 + free / elastic;  // what is left of the elastic force, as a fraction

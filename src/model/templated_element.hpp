@@ -170,12 +170,7 @@ class TemplatedElement : public Element {
     assert(layout_.scalars.size() <= 8 && layout_.multipliers.size() <= 16);
   }
 
- private:
-  const Derived& self() const { return static_cast<const Derived&>(*this); }
-  bool needs(std::size_t node, NodeNeed need) const {
-    return (static_cast<unsigned>(layout_.needs[node]) & static_cast<unsigned>(need)) != 0;
-  }
-
+  /// The state in numbers of type T, without derivatives.
   template <class T>
   Motion<T, Nodes> motion(const State& state) const {
     Motion<T, Nodes> m;
@@ -199,6 +194,12 @@ class TemplatedElement : public Element {
     }
     m.time = T(state.time);
     return m;
+  }
+
+ private:
+  const Derived& self() const { return static_cast<const Derived&>(*this); }
+  bool needs(std::size_t node, NodeNeed need) const {
+    return (static_cast<unsigned>(layout_.needs[node]) & static_cast<unsigned>(need)) != 0;
   }
 
   template <class Node>

@@ -14,27 +14,6 @@ namespace {
 using namespace suite;
 using namespace gear_cases;
 
-/// Swapping the wheels changes the sign of φ₃, and of nothing else.
-void carry_over(const StateBuffer& state, StateBuffer& swapped) {
-  for (const auto member : {&StateBuffer::scalars, &StateBuffer::scalar_rates, &StateBuffer::scalar_accelerations}) {
-    swapped.*member = state.*member;
-    std::swap((swapped.*member)[0], (swapped.*member)[1]);
-  }
-  swapped.multipliers = {state.multipliers[0], state.multipliers[1], -state.multipliers[2]};
-}
-
-Subject subject(const Case& c) {
-  Subject s;
-  s.name = c.name;
-  s.nodes = {{1, c.x_a}, {2, c.x_b}};
-  s.build = [c](const Mat3& Q) { return c.build(Q); };
-  s.build_swapped = [c] { return c.swapped().build(Mat3::Identity()); };
-  s.carry = carry_over;
-  s.force = 5;
-  s.skip[Check::ideal] = "the separating force is not the gradient of a constraint: SuiteWithoutSeparation";
-  return s;
-}
-
 TEST(GearPair, SuiteOfEveryKind) {
   for (const Case& c : all_cases()) run_suite(subject(c));
 }
@@ -46,11 +25,6 @@ TEST(GearPair, SuiteWithoutSeparation) {
     s.skip.clear();
     run_suite(s);
   }
-}
-
-/// Puts u_m where the approach of the teeth is x, and keeps ψ_A.
-void approach(const GearPair& pair, StateBuffer& state, double x) {
-  state.scalars[2] = x - pair.teeth().error.at(state.scalars[0]).f;
 }
 
 TEST(GearPair, SuiteOfElasticTeeth) {

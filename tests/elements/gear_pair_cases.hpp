@@ -145,4 +145,31 @@ inline std::vector<Case> all_cases() {
   return {spur(), helical(), internal(), ring_first(), bevel(), spiral_bevel(), crossed(), hypoid(), worm()};
 }
 
+/// Swapping the wheels changes the sign of φ₃, and of nothing else.
+inline void carry_over(const suite::StateBuffer& state, suite::StateBuffer& swapped) {
+  for (const auto member :
+       {&suite::StateBuffer::scalars, &suite::StateBuffer::scalar_rates, &suite::StateBuffer::scalar_accelerations}) {
+    swapped.*member = state.*member;
+    std::swap((swapped.*member)[0], (swapped.*member)[1]);
+  }
+  swapped.multipliers = {state.multipliers[0], state.multipliers[1], -state.multipliers[2]};
+}
+
+inline suite::Subject subject(const Case& c) {
+  suite::Subject s;
+  s.name = c.name;
+  s.nodes = {{1, c.x_a}, {2, c.x_b}};
+  s.build = [c](const Mat3& Q) { return c.build(Q); };
+  s.build_swapped = [c] { return c.swapped().build(Mat3::Identity()); };
+  s.carry = carry_over;
+  s.force = 5;
+  s.skip[suite::Check::ideal] = "the separating force is not the gradient of a constraint: SuiteWithoutSeparation";
+  return s;
+}
+
+/// Puts u_m where the approach of the teeth is x, and keeps ψ_A.
+inline void approach(const GearPair& pair, suite::StateBuffer& state, double x) {
+  state.scalars[2] = x - pair.teeth().error.of_a(state.scalars[0], pair.teeth().mesh).f;
+}
+
 }  // namespace engrane::gear_cases
