@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "elements/building.hpp"
+#include "elements/contact_channels.hpp"
 #include "elements/gear_place.hpp"
 
 namespace engrane {
@@ -27,46 +28,11 @@ std::vector<Named> channel_list(const ToothContact& contact) {
     list.push_back({"AXIAL_FORCE_" + w, force, "tooth force" + of + " along its axle"});
     list.push_back({"TORQUE_" + w, moment, "moment of the tooth forces" + of + " about its axle"});
   }
-  for (const char* wheel : {"A", "B"})
-    for (const char* kind : {"FORCE", "MOMENT"})
-      for (const char* component : {"X", "Y", "Z"}) {
-        const bool is_force = kind[0] == 'F';
-        list.push_back({std::string(kind) + "_" + wheel + component, is_force ? force : moment,
-                        std::string(is_force ? "tooth force" : "moment of the tooth forces about the centre") + " on wheel " +
-                            wheel + ", global " + component});
-      }
-  for (const char* component : {"X", "Y", "Z"})
-    list.push_back({std::string("CONTACT_") + component, length, std::string("contact point, global ") + component});
+  add_force_channels(list, {"wheel A", "wheel B"});
   list.push_back({"PSI_A", angle, "turn of wheel A relative to the pair's frame, whole turns included"});
   list.push_back({"PSI_B", angle, "turn of wheel B relative to the pair's frame, whole turns included"});
-  const Dimension speed = dimension::velocity, watts = dimension::power;
-  list.push_back({"SLIDING_SPEED", speed, "sliding speed of the flanks at the pitch point"});
-  list.push_back({"POWER_A", watts, "power of the teeth on wheel A, in the pair's frame"});
-  list.push_back({"POWER_B", watts, "power of the teeth on wheel B, in the pair's frame"});
-  list.push_back({"EFFICIENCY", none, "power given to one wheel over power taken from the other; 1 without power"});
-  if (contact.options().friction) {
-    list.push_back({"FRICTION_FORCE", force, "friction between the flanks"});
-    list.push_back({"FRICTION_POWER", watts, "power lost by sliding and rolling"});
-  }
-  if (contact.options().running) list.push_back({"PRESSURE_ANGLE", angle, "working pressure angle, transverse"});
-  if (contact.elastic()) {
-    list.push_back({"U_M", length, "tooth deformation and play along the circumference, u_m"});
-    list.push_back({"TRANSMISSION_ERROR", length, "approach of the teeth, u_m + x_err"});
-    list.push_back({"CONTACT", none, "contact: 1 where A drives, -1 on the other flank, 0 apart"});
-    if (contact.law().course.varies()) list.push_back({"STIFFNESS", stiffness, "tooth stiffness along the circumference"});
-  }
-  if (const int n = contact.options().slices; n > 1) {
-    list.push_back({"FACE_LOAD_FACTOR", none, "largest over mean load along the face width, K_H_beta"});
-    list.push_back({"TILTING_MOMENT", moment, "moment of the load along the face about the middle of the face"});
-    for (int i = 1; i <= n; ++i)
-      list.push_back(
-          {"LINE_LOAD_" + std::to_string(i), dimension::stiffness, "normal force per face width, slice " + std::to_string(i)});
-  }
+  add_contact_channels(list, contact);
   return list;
-}
-
-Vec3 vector_at(std::span<const double> values, std::size_t first) {
-  return {values[first], values[first + 1], values[first + 2]};
 }
 
 }  // namespace
@@ -134,21 +100,7 @@ double GearPair::counted_phase(std::span<const double> history) const {
 
 template <class T>
 ToothedSide<T> GearPair::wheel(std::size_t i, const Mat3T<T>& R, const T& psi) const {
-  using std::cos, std::sin;
-  const Mat3& triad = triad_[i];
-  const Mat3& Y = tooth_[i];
-  const T c = cos(psi), s = sin(psi);
-  const Vec3T<T> turned_2 = rotate(R, Vec3(triad.col(1))), turned_3 = rotate(R, Vec3(triad.col(2)));  // (4)
-  ToothedSide<T> w;
-  w.axle = rotate(R, Vec3(triad.col(0)));
-  for (int k = 0; k < 3; ++k) {
-    const T e_2 = turned_2[k] * c - turned_3[k] * s;  // (16)
-    w.forward[k] = turned_2[k] * s + turned_3[k] * c;
-    w.arm[k] = radius_[i] * e_2;
-    w.eta_2[k] = Y(0, 1) * w.axle[k] + Y(1, 1) * e_2 + Y(2, 1) * w.forward[k];
-    w.eta_3[k] = Y(0, 2) * w.axle[k] + Y(1, 2) * e_2 + Y(2, 2) * w.forward[k];
-  }
-  return w;
+  return toothed_wheel(triad_[i], tooth_[i], radius_[i], R, psi);
 }
 
 template <class T>
@@ -178,77 +130,29 @@ ContactReport GearPair::report(const State& state) const {
   return report;
 }
 
-Energies GearPair::energies(const State& state) const {
-  const ContactReport r = report(state);
-  Energies e;
-  e.potential = r.potential;
-  e.dissipated = r.damping_power + r.friction_power;
-  // what the separating force (34) gives to the wheels: nothing while the centres keep their distance
-  e.external = r.separation_power;
-  return e;
-}
+Energies GearPair::energies(const State& state) const { return energies_of(report(state)); }
 
 void GearPair::observe(const State& state, std::span<double> values) const {
-  std::vector<double> r(static_cast<std::size_t>(layout().slots()));
-  residual(state, r);
-  std::size_t next = 0;
-  const auto put = [&](double value) { values[next++] = value; };
-  const auto put_vector = [&](const Vec3& v) {
-    for (int k = 0; k < 3; ++k) put(v[k]);
-  };
-
-  put(state.multipliers[0]);
-  std::array<Vec3, 2> force, moment, point;
+  ChannelWriter out(values);
+  const BodyForces on(*this, state);
+  out.put(state.multipliers[0]);
+  std::array<Vec3, 2> point;
   std::array<double, 2> power{};  // that the teeth give to each wheel, in the pair's frame
   for (std::size_t i = 0; i < 2; ++i) {
     const NodeState& node = state.nodes[i];
     const auto w = wheel(i, node.R, state.scalars[i]);
-    force[i] = -vector_at(r, 6 * i);  // the residual is what the element resists with
-    moment[i] = -(node.R * vector_at(r, 6 * i + 3));
     point[i] = node.x + w.arm;
     const Vec3 outward = w.arm / radius_[i], forward = cross(w.axle, outward);
-    const double torque = moment[i].dot(w.axle);
-    put(force[i].dot(forward));
-    put(-force[i].dot(outward));
-    put(force[i].dot(w.axle));
-    put(torque);
+    const double torque = on.moment[i].dot(w.axle);
+    out.put(on.force[i].dot(forward));
+    out.put(-on.force[i].dot(outward));
+    out.put(on.force[i].dot(w.axle));
+    out.put(torque);
     power[i] = torque * state.scalar_rates[i];
   }
-  for (std::size_t i = 0; i < 2; ++i) {
-    put_vector(force[i]);
-    put_vector(moment[i]);
-  }
-  put_vector(0.5 * (point[0] + point[1]));
-  for (std::size_t i = 0; i < 2; ++i) put(state.scalars[i] + turn * state.history[i]);
-  const ContactReport c = report(state);
-  put(c.sliding_speed);
-  for (const double p : power) put(p);
-  const double taken = -std::min({power[0], power[1], 0.0}), given = std::max({power[0], power[1], 0.0});
-  put(taken > 0 ? given / taken : 1);
-  if (contact_.options().friction) {
-    put(c.friction_force);
-    put(c.friction_power);
-  }
-  if (contact_.options().running) put(contact_.geometry().working_pressure_angle(c.opening));
-  if (!contact_.elastic()) return;
-  put(state.scalars[2]);
-  put(c.approach);
-  put(ToothLaw::contact(c.front, c.back));
-  if (contact_.law().course.varies()) put(c.stiffness_factor * contact_.law().stiffness);
-  const std::size_t n = c.slices.size();
-  if (n < 2) return;
-  const double width = contact_.geometry().width;
-  double total = 0, largest = 0, tilting = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double normal = c.slices[i] / contact_.cos_alpha(),
-                 y = width * ((static_cast<double>(i) + 0.5) / static_cast<double>(n) - 0.5);
-    total += normal;
-    tilting += y * normal;
-    if (std::abs(normal) > std::abs(largest)) largest = normal;
-  }
-  put(total != 0 ? std::abs(largest * static_cast<double>(n) / total) : 1);
-  put(tilting);
-  for (const double slice : c.slices) put(slice / contact_.cos_alpha() * static_cast<double>(n) / width);
+  on.put(out, 0.5 * (point[0] + point[1]));
+  for (std::size_t i = 0; i < 2; ++i) out.put(state.scalars[i] + turn * state.history[i]);
+  put_contact_channels(out, contact_, report(state), power, state.scalars);
 }
 
 std::vector<Derived> GearPair::derived() const {

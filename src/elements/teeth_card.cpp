@@ -187,6 +187,10 @@ bool set_damping(ToothLaw& law, const TeethData& data, const TeethOwner& owner, 
   }
   if (data.damping) law.damping = *data.damping;
   if (!data.damping_ratio || *data.damping_ratio == 0) return true;
+  if (owner.teeth[1] == 0) {
+    context.error("XI", "XI is measured against the inertia of two wheels", "give the damper of a rack's teeth itself with CM");
+    return false;
+  }
   std::array<double, 2> inertia{};
   bool good = true;
   for (const std::size_t wheel : {std::size_t{0}, std::size_t{1}}) {

@@ -66,6 +66,25 @@ struct ToothedSide {
   Vec3T<T> forward;  ///< μ₃″ or ξ₃″
 };
 
+/// A wheel from its rotation and turn ψ, by (4), (16) and (6) or (8). `triad`: columns μ or ξ of the reference configuration;
+/// `tooth`: Y_A or Y_B.
+template <class T>
+ToothedSide<T> toothed_wheel(const Mat3& triad, const Mat3& tooth, double radius, const Mat3T<T>& R, const T& psi) {
+  using std::cos, std::sin;
+  const T c = cos(psi), s = sin(psi);
+  const Vec3T<T> turned_2 = rotate(R, Vec3(triad.col(1))), turned_3 = rotate(R, Vec3(triad.col(2)));  // (4)
+  ToothedSide<T> w;
+  w.axle = rotate(R, Vec3(triad.col(0)));
+  for (int k = 0; k < 3; ++k) {
+    const T e_2 = turned_2[k] * c - turned_3[k] * s;  // (16)
+    w.forward[k] = turned_2[k] * s + turned_3[k] * c;
+    w.arm[k] = radius * e_2;
+    w.eta_2[k] = tooth(0, 1) * w.axle[k] + tooth(1, 1) * e_2 + tooth(2, 1) * w.forward[k];
+    w.eta_3[k] = tooth(0, 2) * w.axle[k] + tooth(1, 2) * e_2 + tooth(2, 2) * w.forward[k];
+  }
+  return w;
+}
+
 /// Forces of the teeth on A; B gets the opposite. Moments on A and B about their nodes. What belongs to the pair's frame also
 /// acts on the coordinate by which a body moves relative to it; what acts on the bodies does not.
 template <class T>
@@ -86,6 +105,11 @@ struct ContactReport {
   double friction_force = 0;   ///< size
   std::vector<double> slices;  ///< force on each along the circumference
 };
+
+/// The separating force (34) works on the wheels where the centres change their distance; it counts as external.
+inline Energies energies_of(const ContactReport& r) {
+  return {0, r.potential, r.damping_power + r.friction_power, r.separation_power};
+}
 
 /// The contact of two toothed bodies: (21)–(23) with their forces, the tooth law (28–33), and what a scene asks for beyond the
 /// paper. Scalars of the element are ψ_A, the motion of B, and u_m with elastic teeth; multipliers those of φ₁, φ₂, φ₃.

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/contact_channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace engrane {
+
+void add_force_channels(std::vector<Named>& list, const std::array<const char*, 2>& bodies) {
+  for (const std::size_t body : {std::size_t{0}, std::size_t{1}})
+    for (const char* kind : {"FORCE", "MOMENT"})
+      for (const char* component : {"X", "Y", "Z"}) {
+        const bool is_force = kind[0] == 'F';
+        list.push_back({std::string(kind) + "_" + "AB"[body] + component, is_force ? dimension::force : dimension::moment,
+                        std::string(is_force ? "tooth force" : "moment of the tooth forces about the centre") + " on " +
+                            bodies[body] + ", global " + component});
+      }
+  for (const char* component : {"X", "Y", "Z"})
+    list.push_back({std::string("CONTACT_") + component, dimension::length, std::string("contact point, global ") + component});
+}
+
+BodyForces::BodyForces(const Element& element, const State& state) {
+  std::vector<double> r(static_cast<std::size_t>(element.layout().slots()));
+  element.residual(state, r);
+  for (std::size_t i = 0; i < 2; ++i) {  // the residual is what the element resists with
+    force[i] = -Vec3(r[6 * i], r[6 * i + 1], r[6 * i + 2]);
+    moment[i] = -(state.nodes[i].R * Vec3(r[6 * i + 3], r[6 * i + 4], r[6 * i + 5]));
+  }
+}
+
+void BodyForces::put(ChannelWriter& out, const Vec3& contact) const {
+  for (std::size_t i = 0; i < 2; ++i) {
+    out.put(force[i]);
+    out.put(moment[i]);
+  }
+  out.put(contact);
+}
+
+void add_contact_channels(std::vector<Named>& list, const ToothContact& contact) {
+  using namespace dimension;
+  const Dimension speed = dimension::velocity, watts = dimension::power;
+  list.push_back({"SLIDING_SPEED", speed, "sliding speed of the flanks at the pitch point"});
+  list.push_back({"POWER_A", watts, "power of the teeth on A, in the pair's frame"});
+  list.push_back({"POWER_B", watts, "power of the teeth on B, in the pair's frame"});
+  list.push_back({"EFFICIENCY", none, "power given to one wheel over power taken from the other; 1 without power"});
+  if (contact.options().friction) {
+    list.push_back({"FRICTION_FORCE", force, "friction between the flanks"});
+    list.push_back({"FRICTION_POWER", watts, "power lost by sliding and rolling"});
+  }
+  if (contact.options().running) list.push_back({"PRESSURE_ANGLE", angle, "working pressure angle, transverse"});
+  if (contact.elastic()) {
+    list.push_back({"U_M", length, "tooth deformation and play along the circumference, u_m"});
+    list.push_back({"TRANSMISSION_ERROR", length, "approach of the teeth, u_m + x_err"});
+    list.push_back({"CONTACT", none, "contact: 1 where A drives, -1 on the other flank, 0 apart"});
+    if (contact.law().course.varies()) list.push_back({"STIFFNESS", stiffness, "tooth stiffness along the circumference"});
+  }
+  if (const int n = contact.options().slices; n > 1) {
+    list.push_back({"FACE_LOAD_FACTOR", none, "largest over mean load along the face width, K_H_beta"});
+    list.push_back({"TILTING_MOMENT", moment, "moment of the load along the face about the middle of the face"});
+    for (int i = 1; i <= n; ++i)
+      list.push_back(
+          {"LINE_LOAD_" + std::to_string(i), dimension::stiffness, "normal force per face width, slice " + std::to_string(i)});
+  }
+}
+
+void put_contact_channels(ChannelWriter& out, const ToothContact& contact, const ContactReport& report,
+                          const std::array<double, 2>& power, std::span<const double> scalars) {
+  out.put(report.sliding_speed);
+  for (const double p : power) out.put(p);
+  const double taken = -std::min({power[0], power[1], 0.0}), given = std::max({power[0], power[1], 0.0});
+  out.put(taken > 0 ? given / taken : 1);
+  if (contact.options().friction) {
+    out.put(report.friction_force);
+    out.put(report.friction_power);
+  }
+  if (contact.options().running) out.put(contact.geometry().working_pressure_angle(report.opening));
+  if (!contact.elastic()) return;
+  out.put(scalars[2]);
+  out.put(report.approach);
+  out.put(ToothLaw::contact(report.front, report.back));
+  if (contact.law().course.varies()) out.put(report.stiffness_factor * contact.law().stiffness);
+  const std::size_t n = report.slices.size();
+  if (n < 2) return;
+  const double width = contact.geometry().width;
+  double total = 0, largest = 0, tilting = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double normal = report.slices[i] / contact.cos_alpha(),
+                 y = width * ((static_cast<double>(i) + 0.5) / static_cast<double>(n) - 0.5);
+    total += normal;
+    tilting += y * normal;
+    if (std::abs(normal) > std::abs(largest)) largest = normal;
+  }
+  out.put(total != 0 ? std::abs(largest * static_cast<double>(n) / total) : 1);
+  out.put(tilting);
+  for (const double slice : report.slices) out.put(slice / contact.cos_alpha() * static_cast<double>(n) / width);
+}
+
+}  // namespace engrane
