@@ -2,24 +2,15 @@
 // The condition of a step's matrix must not grow as h → 0, which is what the scale k of the multipliers is for.
 #include <Eigen/Dense>
 
+#include "dense_matrix.hpp"
 #include "run_deck.hpp"
 
 namespace engrane::test {
 namespace {
 
-double condition(Assembler& assembler) {
-  const int n = assembler.numbering().equations();
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
-  for (PetscInt row = 0; row < n; ++row) {
-    PetscInt count = 0;
-    const PetscInt* columns = nullptr;
-    const PetscScalar* values = nullptr;
-    check_petsc(MatGetRow(assembler.matrix(), row, &count, &columns, &values));
-    for (PetscInt i = 0; i < count; ++i) dense(row, columns[i]) = values[i];
-    check_petsc(MatRestoreRow(assembler.matrix(), row, &count, &columns, &values));
-  }
-  const Eigen::VectorXd sizes = Eigen::JacobiSVD<Eigen::MatrixXd>(dense).singularValues();
-  return sizes[0] / sizes[n - 1];
+double condition(const Assembler& assembler) {
+  const Eigen::VectorXd sizes = Eigen::JacobiSVD<Eigen::MatrixXd>(dense(assembler)).singularValues();
+  return sizes[0] / sizes[sizes.size() - 1];
 }
 
 /// Conditions of the matrix of a first step for h = 1e-2 … 1e-8; `fixed` 0 lets the assembler choose k.

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs decks written by tests with the program that the variable ENGRANE names."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+
+class Run:
+    """Histories of a finished run: run["3/NORMAL_FORCE"], run["node/2/UX"], run.t."""
+
+    def __init__(self, file: Path) -> None:
+        self.file = file
+        with h5py.File(file) as f:
+            self.t = f["history/time"][()]
+
+    def __getitem__(self, channel: str) -> np.ndarray:
+        path = channel if channel.split("/")[0] in ("node", "run", "element") else f"element/{channel}"
+        with h5py.File(self.file) as f:
+            return f[f"history/{path}"][()]
+
+
+def run(text: str, folder: Path, name: str = "deck", timeout: float = 300) -> Run:
+    """Writes a deck into the folder and runs it there; failed runs and failed checks fail the test."""
+    program = os.environ.get("ENGRANE", "")
+    if not Path(program).is_file():
+        pytest.skip("the variable ENGRANE names no program")
+    (folder / f"{name}.dat").write_text(text)
+    done = subprocess.run(
+        [program, f"{name}.dat", "-o", name], cwd=folder, capture_output=True, text=True, timeout=timeout
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return Run(folder / f"{name}.h5")
