@@ -15,8 +15,9 @@ ANGLE = 2 * pi * TURNS + 0.777
 
 
 def test_million_meshes(tmp_path: Path) -> None:
-    """Quasi-static, with runout of both wheels, a tooth error and stiffness that varies with the mesh: at the end the
-    approach of the teeth must be that of the angle within the turn, and the turns of B that of A's times the ratio."""
+    """Quasi-static, with runout of both wheels, a tooth error and stiffness that varies with the mesh:
+    at the end the approach of the teeth must be that of the angle within the turn, and the turns of
+    B that of A's times the ratio."""
     deck = f""".NOE
  I 1 X 0 0 0
  I 2 X {(Z_A + Z_B) / 2!r} 0 0

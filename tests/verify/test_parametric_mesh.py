@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A gear pair whose tooth stiffness varies with the mesh, x'' + (1 + eps cos(rate t)) x = 0: the boundaries of its first
-instability, found from runs of the program, against those of the differential equation."""
+"""A gear pair whose tooth stiffness varies with the mesh, x'' + (1 + eps cos(rate t)) x = 0: the
+boundaries of its first instability, found from runs of the program, against those of the differential
+equation."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ EPSILON = 0.2
 
 
 def deck(rate: float, steps: int) -> str:
-    """Wheel A turns at constant speed, 20 teeth; wheel B, of inertia 1 at the lever 1, swings on the teeth."""
+    """Wheel A turns at constant speed, 20 teeth; wheel B, of inertia 1 at the lever 1, swings on the
+    teeth."""
     period = 2 * pi / rate
     return f""".NOE
  I 1 X 0 0 0
@@ -37,8 +39,8 @@ def deck(rate: float, steps: int) -> str:
 
 
 def trace(rate: float, folder: Path, steps: int = 400) -> float:
-    """Of the matrix that carries (x, x') over a period: from three samples a period apart, since its determinant is 1.
-    Beyond 2 the motion grows."""
+    """Of the matrix that carries (x, x') over a period: from three samples a period apart, since its
+    determinant is 1. Beyond 2 the motion grows."""
     x = run(deck(rate, steps), folder)["3/U_M"][::steps]
     return float((x[3] + x[1]) / x[2])
 
@@ -54,7 +56,8 @@ def test_boundaries_of_instability(tmp_path: Path) -> None:
 
 
 def test_second_order(tmp_path: Path) -> None:
-    exact = 2 * parametric_mesh.monodromy(EPSILON, 1.95)[0, 0]  # an even equation: both diagonal entries are equal
+    # an even equation: both diagonal entries are equal
+    exact = 2 * parametric_mesh.monodromy(EPSILON, 1.95)[0, 0]
     errors = [abs(trace(1.95, tmp_path, steps) - exact) for steps in (50, 100, 200)]
     assert errors[0] / errors[1] == pytest.approx(4, rel=0.1)
     assert errors[1] / errors[2] == pytest.approx(4, rel=0.1)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Order in time of a planetary set with a floating sun, running centre distances and stiffness that varies with each mesh:
-geometry that were updated only at the end of a step would show as order 1."""
+"""Order in time of a planetary set with a floating sun, running centre distances and stiffness that
+varies with each mesh: geometry that were updated only at the end of a step would show as order 1."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ FINE = 6.25e-7
 
 
 def deck(step: float) -> str:
-    """24-18-60, module 3 mm; the sun floats on a soft bearing and is off its place at the start, the ring is held, the
-    carrier drives a flywheel through a shaft."""
+    """24-18-60, module 3 mm; the sun floats on a soft bearing and is off its place at the start, the
+    ring is held, the carrier drives a flywheel through a shaft."""
     nodes = joints = ""
     for i in range(3):
         x, y = 0.063 * cos(2 * pi * i / 3), 0.063 * sin(2 * pi * i / 3)
@@ -70,10 +70,18 @@ def test_second_order(tmp_path: Path) -> None:
     for name, channel in QUANTITIES.items():
         true = fine[channel][:: round(STEPS[0] / FINE)]
         errors = np.array(
-            [np.abs(r[channel][:: round(STEPS[0] / h)] - true).max() for r, h in zip(coarse, STEPS, strict=True)]
+            [
+                np.abs(r[channel][:: round(STEPS[0] / h)] - true).max()
+                for r, h in zip(coarse, STEPS, strict=True)
+            ]
         )
         slopes = np.log2(errors[:-1] / errors[1:])
-        print(f"{name:16s}", " ".join(f"{e:.3e}" for e in errors), " slopes", " ".join(f"{s:.2f}" for s in slopes))
+        print(
+            f"{name:16s}",
+            " ".join(f"{e:.3e}" for e in errors),
+            " slopes",
+            " ".join(f"{s:.2f}" for s in slopes),
+        )
         # the fine run has an error of its own, 1/16 of the last one compared
         assert slopes[1:] == pytest.approx([2, 2], abs=0.2), name
         assert np.ptp(true) > 200 * errors[-1], f"{name} hardly moves: the test would judge nothing"

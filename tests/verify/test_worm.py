@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Worm drives: efficiency over lead angle and friction in both directions, self-locking, and what friction takes."""
+"""Worm drives: efficiency over lead angle and friction in both directions, self-locking, and what
+friction takes."""
 
 from __future__ import annotations
 
@@ -33,7 +34,8 @@ def test_self_locking(lead: float, tmp_path: Path) -> None:
     """On either side of mu = cos a_n tan L: a wheel that cannot and one that can turn its worm."""
     limit = worm.locking_friction(radians(lead))
     locked = worm.released(radians(lead), 1.1 * limit, tmp_path)
-    # once the start is over all that is left is creep, below the speed at which friction is regularised, VREG = 0.01:
+    # once the start is over all that is left is creep, below the speed at which friction is
+    # regularised, VREG = 0.01:
     # v s = mu_needed/mu of (15 - 10 s^2 + 3 s^4) s/8
     sliding = locked["3/SLIDING_SPEED"][len(locked.t) // 2 :]
     s = brentq(lambda s: (15 - 10 * s**2 + 3 * s**4) * s / 8 - 1 / 1.1, 0, 1)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Efficiency of a worm drive over lead angle and friction, driven from either side, against the closed form.
+"""Efficiency of a worm drive over lead angle and friction, driven from either side, against the closed
+form.
 
-Run it to make docs/figures/worm_efficiency.png: `python tests/verify/worm.py` with the program in the variable
-ENGRANE."""
+Run it to make docs/figures/worm_efficiency.png: `python tests/verify/worm.py` with the program in
+the variable ENGRANE."""
 
 from __future__ import annotations
 
@@ -18,8 +19,8 @@ FRICTIONS = (0.0, 0.03, 0.1)
 
 
 def closed_form(lead: float, mu: float, worm_drives: bool) -> float:
-    """(cos a_n - mu tan L)/(cos a_n + mu cot L) where the worm drives; with the wheel driving friction changes
-    side, and below zero the wheel cannot turn the worm."""
+    """(cos a_n - mu tan L)/(cos a_n + mu cot L) where the worm drives; with the wheel driving friction
+    changes side, and below zero the wheel cannot turn the worm."""
     c = cos(ALPHA)
     if worm_drives:
         return (c - mu * tan(lead)) / (c + mu / tan(lead))
@@ -27,7 +28,8 @@ def closed_form(lead: float, mu: float, worm_drives: bool) -> float:
 
 
 def deck(lead: float, mu: float, worm_drives: bool, analysis: str, more: str = "") -> str:
-    """Two threads, 30 teeth, module 1 in the wheel's plane; a torque of 1000 on the wheel, which drives or resists."""
+    """Two threads, 30 teeth, module 1 in the wheel's plane; a torque of 1000 on the wheel, which drives
+    or resists."""
     radius = 1 / tan(lead)
     module = cos(lead)
     # for a positive turn of the worm the wheel turns in the negative sense about its axle
@@ -71,7 +73,7 @@ def main() -> None:
     import numpy as np
     from engrane_post import style
 
-    style.apply() if hasattr(style, "apply") else None
+    plt.rcParams.update(style.RC)
     figure, axes = plt.subplots(1, 2, figsize=(10, 4), sharey=True)
     angles = np.radians(np.linspace(1, 45, 200))
     with tempfile.TemporaryDirectory() as folder:
@@ -83,14 +85,14 @@ def main() -> None:
                     found = steady(radians(lead), mu, worm_drives, Path(folder))["3/EFFICIENCY"][-1]
                     axis.plot(lead, found, "o", color=f"C{i}", markersize=4)
             axis.set_xlabel("lead angle, degrees")
-            axis.set_title("worm drives the wheel" if worm_drives else "wheel drives the worm: self-locking at 0")
+            axis.set_title(
+                "worm drives the wheel" if worm_drives else "wheel drives the worm: self-locking at 0"
+            )
             axis.set_ylim(0, 1)
-            axis.grid(alpha=0.3)
     axes[0].set_ylabel("efficiency")
     axes[0].legend(loc="lower right", title="lines: closed form, points: engrane")
     figure.tight_layout()
     figure.savefig(Path(__file__).resolve().parents[2] / "docs" / "figures" / "worm_efficiency.png", dpi=110)
-
 
 
 if __name__ == "__main__":
