@@ -31,8 +31,8 @@ inline constexpr Dimension moment{2, 1, -2, 0};
 inline constexpr Dimension energy{2, 1, -2, 0};
 inline constexpr Dimension power{2, 1, -3, 0};
 inline constexpr Dimension inertia{2, 1, 0, 0};
-inline constexpr Dimension stiffness{0, 1, -2, 0};             ///< force per length
-inline constexpr Dimension damping{0, 1, -1, 0};               ///< force per velocity
+inline constexpr Dimension stiffness{0, 1, -2, 0};  ///< force per length
+inline constexpr Dimension damping{0, 1, -1, 0};    ///< force per velocity
 inline constexpr Dimension pressure{-1, 1, -2, 0};
 inline constexpr Dimension torsional_stiffness{2, 1, -2, -1};  ///< moment per radian
 inline constexpr Dimension torsional_damping{2, 1, -1, -1};    ///< moment per radian per second

@@ -43,7 +43,7 @@ void add_contact_channels(std::vector<Named>& list, const ToothContact& contact)
   list.push_back({"SLIDING_SPEED", speed, "sliding speed of the flanks at the pitch point"});
   list.push_back({"POWER_A", watts, "power of the teeth on A, in the pair's frame"});
   list.push_back({"POWER_B", watts, "power of the teeth on B, in the pair's frame"});
-  list.push_back({"EFFICIENCY", none, "power given to one wheel over power taken from the other; 1 without power"});
+  list.push_back({"EFFICIENCY", none, "1 less the part of the power through the teeth that is lost; 1 without power"});
   if (contact.options().friction) {
     list.push_back({"FRICTION_FORCE", force, "friction between the flanks"});
     list.push_back({"FRICTION_POWER", watts, "power lost by sliding and rolling"});
@@ -68,8 +68,12 @@ void put_contact_channels(ChannelWriter& out, const ToothContact& contact, const
                           const std::array<double, 2>& power, std::span<const double> scalars) {
   out.put(report.sliding_speed);
   for (const double p : power) out.put(p);
-  const double taken = -std::min({power[0], power[1], 0.0}), given = std::max({power[0], power[1], 0.0});
-  out.put(taken > 0 ? given / taken : 1);
+  // what goes through the teeth, of which a part is lost: the power taken, or where springy teeth give theirs back, given
+  const double lost = report.friction_power + report.damping_power;
+  const double taken = -std::min(power[0], 0.0) - std::min(power[1], 0.0);
+  const double given = std::max(power[0], 0.0) + std::max(power[1], 0.0);
+  const double through = std::max(taken, given + lost);
+  out.put(through > 0 ? 1 - lost / through : 1);
   if (contact.options().friction) {
     out.put(report.friction_force);
     out.put(report.friction_power);
