@@ -163,14 +163,12 @@ class Runner {
       double size = left;
       if (h_ < 0.99 * size) size /= std::ceil(size / h_ * 0.99);
       NewtonReport report = analysis_.attempt(now_, size, next_);
-      EventLocator::Outcome outcome;
-      if (report.converged) {
-        outcome = locator_.inspect(now_, size, next_);
-        step_.locating += outcome.attempts;
-        if (outcome.report) report = std::move(*outcome.report);
-        if (outcome.step > 0) size = outcome.step;
-      }
-      if (!report.converged) {
+      EventLocator::Outcome outcome = locator_.inspect(now_, size, report.converged, next_);
+      using Kind = EventLocator::Outcome::Kind;
+      step_.locating += outcome.attempts;
+      size = outcome.step;
+      if (outcome.report) report = std::move(*outcome.report);
+      if (!report.converged && outcome.kind != Kind::drift) {
         if (cuts == bench_.model.commands.analysis.cuts || now_.time + size / 2 == now_.time)
           throw SolutionFailure(failure_text(bench_, next_, report, step_.number + 1, cuts));
         ++cuts;
@@ -178,7 +176,6 @@ class Runner {
         h_ = size / 2;
         continue;
       }
-      using Kind = EventLocator::Outcome::Kind;
       if (outcome.kind != Kind::drift) {
         if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // no drift from the sums of h
         analysis_.accept();

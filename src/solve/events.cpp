@@ -16,6 +16,10 @@ constexpr double rounding = 1e-13;
 constexpr int most_events = 40;
 /// Bisections enough for any tolerance, and some attempts by extrapolation before them.
 constexpr int quick_attempts = 6, most_attempts = 60;
+/// A step that does not converge is suspected to end at an event when the speeds at its beginning reach one in this many steps.
+constexpr double foreseen = 4;
+/// Attempts without a solution after which something else must be wrong.
+constexpr int most_failures = 30;
 
 }  // namespace
 
@@ -71,6 +75,10 @@ std::vector<Event> Switches::take(const Configuration& c) {
   const std::vector<Switch> now = at(c);
   std::vector<Event> events;
   for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i].size == 0) {
+      side_[i] = 0;
+      continue;
+    }
     const bool unclear = std::abs(now[i].value) <= rounding * now[i].size;
     if (unclear && side_[i] != 0) continue;
     const int side = (unclear ? now[i].rate : now[i].value) < 0 ? -1 : 1;
@@ -83,6 +91,7 @@ std::vector<Event> Switches::take(const Configuration& c) {
 std::optional<double> Switches::first_change(const std::vector<Switch>& from, const std::vector<Switch>& to, double h) const {
   std::optional<double> first;
   for (std::size_t i = 0; i < side_.size(); ++i) {
+    if (side_[i] == 0 || to[i].size == 0) continue;
     const double s = side_[i], band = rounding * std::max(from[i].size, to[i].size);
     const auto t = first_descent(s * from[i].value, s * from[i].rate, s * to[i].value, s * to[i].rate, h, band);
     if (t && (!first || *t < *first)) first = t;
@@ -112,17 +121,28 @@ bool EventLocator::chatters() {
   return true;
 }
 
-EventLocator::Outcome EventLocator::inspect(const Configuration& from, double size, Configuration& to) {
+EventLocator::Outcome EventLocator::inspect(const Configuration& from, double size, bool converged, Configuration& to) {
   Outcome outcome;
   outcome.step = size;
   if (!active_ || located_ >= most_events) return outcome;
   const std::vector<Switch> before = switches_.at(from);
-  std::vector<Switch> after = switches_.at(to);
-  const auto seen = switches_.first_change(before, after, size);
-  if (!seen) return outcome;
+  std::vector<Switch> after;
+  double free = 0, past = size, event = 0;  // no change up to `free`; one before `past`, or no solution there
+  int failures = 0;
+  if (converged) {
+    after = switches_.at(to);
+    const auto seen = switches_.first_change(before, after, size);
+    if (!seen) return outcome;
+    event = *seen;
+  } else {
+    // where a force jumps, a step that would end at the jump has no solution
+    event = switches_.time_to_change(before);
+    if (event > foreseen * size) return outcome;
+    event = std::min(event, 0.5 * size);
+    failures = 1;
+  }
   if (++located_ == most_events) chattered_ = true;
 
-  double free = 0, past = size, event = *seen;  // no change up to `free`, one before `past`
   while (true) {
     if (event < shortest()) {
       outcome.kind = Outcome::Kind::drift;
@@ -143,8 +163,13 @@ EventLocator::Outcome EventLocator::inspect(const Configuration& from, double si
     outcome.step = size_tried;
     ++outcome.attempts;
     if (!outcome.report->converged) {
-      outcome.kind = Outcome::Kind::failed;
-      return outcome;
+      if (last || ++failures == most_failures) {
+        outcome.kind = Outcome::Kind::failed;
+        return outcome;
+      }
+      past = size_tried;
+      event = 0.5 * (free + past);
+      continue;
     }
     after = switches_.at(to);
     const double ahead = switches_.time_to_change(after);

@@ -68,8 +68,8 @@ class EventLocator {
     int attempts = 0;  ///< beyond the first
     std::optional<NewtonReport> report;
   };
-  /// After a converged attempt of `size` from `from` to `to`.
-  Outcome inspect(const Configuration& from, double size, Configuration& to);
+  /// After an attempt of `size` from `from` to `to`, converged or not.
+  Outcome inspect(const Configuration& from, double size, bool converged, Configuration& to);
 
   /// Whether the guard has switched location off for the rest of the step; true once per run.
   bool chatters();
