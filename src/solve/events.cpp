@@ -127,11 +127,18 @@ EventLocator::Outcome EventLocator::inspect(const Configuration& from, double si
   if (!active_ || located_ >= most_events) return outcome;
   const std::vector<Switch> before = switches_.at(from);
   std::vector<Switch> after;
+  double ahead = 0;  // from `to` to the next event
+  // a step that ends within rounding of an event may have taken either law at its end: as good as past it
+  const auto change_within = [&](double h) {
+    after = switches_.at(to);
+    ahead = switches_.time_to_change(after);
+    const auto change = switches_.first_change(before, after, h);
+    return change || ahead > 0.1 * tolerance_ ? change : h;
+  };
   double free = 0, past = size, event = 0;  // no change up to `free`; one before `past`, or no solution there
   int failures = 0;
   if (converged) {
-    after = switches_.at(to);
-    const auto seen = switches_.first_change(before, after, size);
+    const auto seen = change_within(size);
     if (!seen) return outcome;
     event = *seen;
   } else {
@@ -171,9 +178,7 @@ EventLocator::Outcome EventLocator::inspect(const Configuration& from, double si
       event = 0.5 * (free + past);
       continue;
     }
-    after = switches_.at(to);
-    const double ahead = switches_.time_to_change(after);
-    const auto change = switches_.first_change(before, after, size_tried);
+    const auto change = change_within(size_tried);
     if (last || (!change && ahead <= tolerance_)) {
       outcome.kind = Outcome::Kind::land;
       outcome.drift = std::min(ahead, past - size_tried) + tolerance_;

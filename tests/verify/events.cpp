@@ -14,7 +14,10 @@
 namespace engrane::test {
 namespace {
 
-constexpr double stiffness = 100, damping = 0.4, torque = 1, released = -0.5, ending = 6;
+constexpr double stiffness = 100, torque = 1, released = -0.53, ending = 6;
+
+/// c_m. With CONTACT so large that the rounding of its limit, which takes 0.2 c/k, is longer than the steps.
+double damping_of(bool always) { return always ? 0.4 : 4; }
 
 /// Wheel A of inertia 1 and radius 1 turns under a torque 1 towards the front flank of a wheel held fast: u_m is its angle and
 /// u'' + force(u, u') = 1. The back flank is too far away to matter.
@@ -33,7 +36,7 @@ std::string bouncing(double h, const std::string& law, const std::string& events
 .SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.8 PREC 1e-12 EVENTS {}
 .SUB TF {} H {}
 )",
-                     stiffness, damping, law, torque, released, events, ending, h);
+                     stiffness, damping_of(law == "ALWAYS"), law, torque, released, events, ending, h);
 }
 
 struct Motion {
@@ -42,7 +45,7 @@ struct Motion {
 
 /// u'' + c u' + k u = 1 from the state at the beginning, t later.
 Motion free_motion(Motion s, double k, double t) {
-  const double c = damping;
+  const double c = damping_of(true);
   if (k == 0) {
     const double limit = torque / c, e = std::exp(-c * t);
     return {s.u + limit * t + (s.v - limit) * (1 - e) / c, limit + (s.v - limit) * e};
@@ -55,7 +58,7 @@ Motion free_motion(Motion s, double k, double t) {
 
 /// The law CONTACT with a sharp corner: the damper takes away no more than the elastic force, rounded between 90 and 110 %.
 double contact_force(Motion s) {
-  const double elastic = stiffness * s.u, damper = damping * s.v;
+  const double elastic = stiffness * s.u, damper = damping_of(false) * s.v;
   if (elastic <= 0) return damper > 0 ? damper : 0;
   const double t = (1 + damper / elastic) / 0.2 + 0.5;
   if (t >= 1) return elastic + damper;
@@ -117,7 +120,12 @@ Bounces computed(double h, const std::string& law, const std::string& events) {
   double before = released, time = 0;
   const Configuration end = deck.run([&](const Configuration& c, const StepReport& step) {
     const double u = deck.channel(c, 2, "U_M");
-    for (std::size_t i = 0; i < step.events.size(); ++i) out.times.push_back(c.time);
+    for (const Event& e : step.events) {
+      const auto& names = deck.model().parts[static_cast<std::size_t>(e.part)].element->layout().switches;
+      const std::string& name =
+          e.rises ? names[static_cast<std::size_t>(e.index)].rises : names[static_cast<std::size_t>(e.index)].falls;
+      if (name == "front flank touches" || name == "front flank parts") out.times.push_back(c.time);
+    }
     // what a user would read off the histories
     if (events == "NO" && (u >= 0) != (before >= 0)) out.times.push_back(c.time - (c.time - time) * u / (u - before));
     before = u;
@@ -139,11 +147,11 @@ std::array<double, 3> errors(const Bounces& mine, const Bounces& right) {
 TEST(Events, KeepSecondOrderAcrossContact) {
   for (const std::string law : {"ALWAYS", "CONTACT"}) {
     const Bounces right = exact(law == "ALWAYS");
-    ASSERT_GE(right.times.size(), 6u);
+    ASSERT_GE(right.times.size(), 4u);
     for (const std::string events : {"YES 1e-8", "NO"}) {
       if (law == "CONTACT" && events == "NO") continue;  // a step that ends where the force jumps has no solution
       std::vector<std::array<double, 3>> found;
-      for (const double h : {0.02, 0.01, 0.005, 0.0025}) found.push_back(errors(computed(h, law, events), right));
+      for (const double h : {0.01, 0.005, 0.0025, 0.00125}) found.push_back(errors(computed(h, law, events), right));
       for (std::size_t what = 0; what < 3; ++what) {
         std::string line = fmt::format("{:8} EVENTS {:9} {:9}", law, events,
                                        what == 0   ? "position"
