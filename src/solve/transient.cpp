@@ -63,7 +63,7 @@ void Transient::start_algorithmic_accelerations(const Configuration& c, double h
   step_of_algorithmic_ = h;
   if (scheme_.alpha_m == scheme_.alpha_f) return;
   Configuration later = glide(c, ahead);
-  bench_.start.balance_accelerations(later);
+  bench_.start.balance_accelerations(later, ahead < h ? 1 : 12);
   const auto next = bench_.motion.accelerations(later);
   const double shift = (scheme_.alpha_m - scheme_.alpha_f) * h / ahead;
   for (std::size_t i = 0; i < next.size(); ++i) algorithmic_[i] += shift * (next[i] - algorithmic_[i]);
@@ -90,7 +90,7 @@ void Transient::drift(Configuration& c, double h) {
   // a hundredth of a step at most, and the next step closes them.
   const auto before = bench_.motion.accelerations(c);
   c = glide(c, h);
-  bench_.start.balance_accelerations(c);
+  bench_.start.balance_accelerations(c, 2);
   auto v = bench_.motion.velocities(c);
   const auto after = bench_.motion.accelerations(c);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
@@ -103,7 +103,8 @@ void Transient::drift(Configuration& c, double h) {
 NewtonReport Transient::attempt(const Configuration& from, double h, Configuration& to) {
   const auto [am, af, beta, gamma] = scheme_;
   const Weights weights{1, gamma / (beta * h), (1 - am) / ((1 - af) * beta * h * h)};
-  if (std::abs(h - scaled_for_) > 1e-6 * h) {
+  // only the order of magnitude of k matters: steps of a little less than H need no other
+  if (!(h > 0.3 * scaled_for_ && h < 3 * scaled_for_)) {
     bench_.assembler.choose_scale(from, weights, bench_.model.commands.analysis.scale.value_or(0));
     scaled_for_ = h;
   }
