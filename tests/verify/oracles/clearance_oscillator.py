@@ -5,8 +5,9 @@
     g = x - 1 (x > 1), 0, x + 1 (x < -1);   zeta = 0.05, F_m = 0.1, F_a = 0.05
 
 Each stretch between contacts is integrated by itself (Dormand-Prince of order 8) and ends where x passes +-1.
-The frequency is constant, W = W_0, or swept, W = W_0 + rate t. Below the loss of contact the motion is that of
-the linear oscillator about 1 + F_m, with amplitude F_a W^2/sqrt((1 - W^2)^2 + (2 zeta W)^2).
+The frequency is constant, W = W_0, or swept, W = W_0 + rate t, and then held. Below the loss of contact the
+motion is that of the linear oscillator about 1 + F_m, with amplitude
+F_a W^2/sqrt((1 - W^2)^2 + (2 zeta W)^2).
 
     python tests/verify/oracles/clearance_oscillator.py      steady states and where they start
 """
@@ -34,8 +35,11 @@ def linear_start(frequency: float) -> tuple[float, float]:
     return 1 + F_M + z.real, -w * z.imag
 
 
-def simulate(start, frequency: float, times: np.ndarray, rate: float = 0.0, rtol: float = 1e-9):
-    """x, x' at `times` (the first is the start) and the instants at which x passed +-1."""
+def simulate(
+    start, frequency: float, times: np.ndarray, rate: float = 0.0, hold: float = math.inf, rtol: float = 1e-9
+):
+    """x, x' at `times` (the first is the start) and the instants at which x passed +-1. The sweep ends at the
+    time `hold`."""
     x, v = start
     t, end = float(times[0]), float(times[-1])
     region = 1 if x > 1 else -1 if x < -1 else 0
@@ -56,8 +60,9 @@ def simulate(start, frequency: float, times: np.ndarray, rate: float = 0.0, rtol
     while t < end:
 
         def slope(time, y, region=region):
-            w = frequency + rate * time
-            force = F_M + F_A * w**2 * math.cos((frequency + 0.5 * rate * time) * time)
+            swept = min(time, hold)
+            w = frequency + rate * swept
+            force = F_M + F_A * w**2 * math.cos((frequency + 0.5 * rate * swept) * swept + w * (time - swept))
             return [y[1], force - 2 * ZETA * y[1] - (y[0] - region if region else 0.0)]
 
         wanted = times[(times > t) & (times <= end)]
@@ -105,7 +110,10 @@ def main() -> None:
     ]
     for name, start, frequency in cases:
         mean, rms, begin = steady(start, frequency)
-        print(f"W = {name}: mean {mean:.9f}, rms {rms:.9f}, rms of x - 1 {math.hypot(mean - 1, rms):.9f},", end=" ")
+        print(
+            f"W = {name}: mean {mean:.9f}, rms {rms:.9f}, rms of x - 1 {math.hypot(mean - 1, rms):.9f},",
+            end=" ",
+        )
         print(f"at phase 0: x - 1 = {begin[0] - 1:.12f}, x' = {begin[1]:.12f}")
 
 
