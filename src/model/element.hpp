@@ -30,7 +30,8 @@ struct SwitchNames {
 struct Switch {
   double value = 0;
   double rate = 0;  ///< its time derivative
-  double size = 0;  ///< of the terms that `value` is the sum of: what is rounding, and what is not; 0: the switch has no meaning now
+  double size =
+      0;  ///< of the terms that `value` is the sum of: what is rounding, and what is not; 0: the switch has no meaning now
 };
 
 /// Which unknowns an element works on. Its local slots, in order: six per node (three translations, three material
