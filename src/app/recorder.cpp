@@ -43,6 +43,7 @@ std::vector<Named> node_channels(bool moves, bool supported) {
 std::vector<Named> run_channels(bool moves) {
   std::vector<Named> channels{{"STEP", dimension::time, "time step"},
                               {"ITERATIONS", dimension::none, "Newton iterations of the step"},
+                              {"EVENTS", dimension::none, "events met since the start: teeth that begin or cease to touch"},
                               {"POTENTIAL_ENERGY", dimension::energy, "potential energy"}};
   if (moves)
     channels.insert(channels.end(), {{"KINETIC_ENERGY", dimension::energy, "kinetic energy"},
@@ -134,10 +135,13 @@ void Recorder::observe(const Configuration& c, const StepReport& step) {
   // half a step early is on time: sums of steps do not meet sums of intervals to the last digit
   const double early = 0.5 * (step.number == 0 ? 0.0 : step.step);
   const bool last = c.time >= reading_.model.commands.stepping.end;
-  sample_due_ = last || c.time + early >= next_sample_;
-  frame_due_ = last || c.time + early >= next_frame_;
-  while (sample_step_ > 0 && next_sample_ <= c.time + early) next_sample_ += sample_step_;
-  while (frame_step_ > 0 && next_frame_ <= c.time + early) next_frame_ += frame_step_;
+  // spectra want samples at equal intervals: what lies between multiples of H for an event is for energies and checks only
+  sample_due_ = last || (step.regular && c.time + early >= next_sample_);
+  frame_due_ = last || (step.regular && c.time + early >= next_frame_);
+  if (step.regular) {
+    while (sample_step_ > 0 && next_sample_ <= c.time + early) next_sample_ += sample_step_;
+    while (frame_step_ > 0 && next_frame_ <= c.time + early) next_frame_ += frame_step_;
+  }
 
   find_reactions(c);
   observe_elements(c, step);
@@ -178,12 +182,14 @@ void Recorder::observe_elements(const Configuration& c, const StepReport& step) 
   double* run = values_.data() + run_begin_;
   run[0] = step.step;
   run[1] = step.newton ? step.newton->iterations : 0;
-  run[2] = energies_.potential;
+  events_ += static_cast<double>(step.events.size());
+  run[2] = events_;
+  run[3] = energies_.potential;
   if (!moves_) return;
-  run[3] = energies_.kinetic;
-  run[4] = energies_.external_work;
-  run[5] = energies_.dissipated;
-  run[6] = energies_.error();
+  run[4] = energies_.kinetic;
+  run[5] = energies_.external_work;
+  run[6] = energies_.dissipated;
+  run[7] = energies_.error();
 }
 
 void Recorder::find_reactions(const Configuration& c) {

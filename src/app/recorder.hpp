@@ -64,6 +64,7 @@ class Recorder {
   int node_begin_ = 0, run_begin_ = 0;
   std::vector<double> values_;
   EnergyBalance energies_;
+  double events_ = 0;
   double external_power_ = 0, dissipated_power_ = 0, last_time_ = 0;
   std::vector<int> supported_;
   std::vector<Reaction> reactions_;

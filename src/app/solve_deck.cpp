@@ -37,6 +37,9 @@ Checks resolve_checks(const Model& model, const Recorder& recorder) {
   return Checks(std::move(all));
 }
 
+/// More events than this are counted only.
+constexpr long most_listed_events = 100;
+
 /// Everything that rank 0 writes during a run.
 class Writer {
  public:
@@ -75,7 +78,7 @@ class Writer {
 
   void step(const Configuration& c, const StepReport& step, const Numbering& numbering) {
     const bool last = c.time >= reading_.model.commands.stepping.end;
-    checks_.observe(c.time, recorder_.values());
+    checks_.observe(c.time, recorder_.values(), step.regular);
     if (recorder_.sample_due()) results_.sample(c.time, recorder_.values());
     if (recorder_.frame_due()) {
       results_.frame(c.time, recorder_.frame());
@@ -84,6 +87,8 @@ class Writer {
     }
     ++steps_;
     cuts_ += step.cuts;
+    locating_ += step.locating;
+    note_events(c, step);
     if (step.newton) {
       iterations_ += step.newton->iterations;
       if (reading_.model.commands.archive.newton) write_newton(c, step, numbering);
@@ -106,6 +111,12 @@ class Writer {
     if (!reactions.empty()) {
       listing_.write(listing_section("Reactions at the end"));
       listing_.write(listing_reactions(reactions, units));
+    }
+    if (event_count_ > 0) {
+      listing_.write(listing_section("Events"));
+      listing_.write(events_);
+      if (event_count_ > most_listed_events) listing_.write(fmt::format("  and {} more\n", event_count_ - most_listed_events));
+      listing_.write(fmt::format("  {} in all, located by {} attempts beyond those of the steps\n", event_count_, locating_));
     }
     int exit = exit_status::fine;
     if (!failure.empty()) {
@@ -139,6 +150,20 @@ class Writer {
   void note(const std::string& text) { progress_.note(text); }
 
  private:
+  void note_events(const Configuration& c, const StepReport& step) {
+    for (const Event& e : step.events) {
+      if (++event_count_ > most_listed_events) continue;
+      const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(e.part)];
+      const SwitchNames& names = part.element->layout().switches[static_cast<std::size_t>(e.index)];
+      events_ +=
+          fmt::format("  t = {:<14.9g} {} {}: {}\n", c.time, part.type, part.element->id(), e.rises ? names.rises : names.falls);
+    }
+    if (!step.chatter) return;
+    const std::string text =
+        fmt::format("t = {:.6g}: events come too thick to be met one by one; some steps pass over them", c.time);
+    events_ += "  warning: " + text + "\n";
+    progress_.note("engrane: " + text);
+  }
   void write_newton(const Configuration& c, const StepReport& step, const Numbering& numbering) {
     std::vector<IterationRow> rows;
     for (const NewtonRow& r : step.newton->rows)
@@ -162,7 +187,8 @@ class Writer {
   Checks checks_;
   Progress progress_;
   std::vector<EnergyRow> energies_;
-  long steps_ = 0, iterations_ = 0, cuts_ = 0;
+  std::string events_;
+  long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;
 };
 
 std::string default_prefix(const Options& options) {

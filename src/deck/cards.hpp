@@ -120,6 +120,7 @@ struct AnalysisCard {
   double precision = 1e-9;        ///< of Newton, relative to the largest force in the model
   int iterations = 20;            ///< most Newton iterations before the step is cut
   int cuts = 10;                  ///< most halvings of one step
+  Tagged events{"YES", {}};       ///< EVENTS YES [tolerance] or NO: steps end where contact begins and ends
   std::optional<double> scale;    ///< k of the augmented Lagrangian; automatic when not given
   std::optional<double> penalty;  ///< p; automatic when not given
 };

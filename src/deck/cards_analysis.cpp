@@ -18,8 +18,10 @@ void check_analysis(AnalysisCard& analysis, Record& record, Diagnostics& diagnos
     diagnostics.error(record.where("RHO"), "RHO belongs to SCHEME CHUNG, not to " + analysis.scheme.tag);
   if (analysis.alpha && !damped)
     diagnostics.error(record.where("ALPHA"), "ALPHA belongs to the schemes HHT and BOSSAK, not to " + analysis.scheme.tag);
+  if (!analysis.events.values.empty() && !(analysis.events.values[0] > 0 && analysis.events.values[0] <= 0.01))
+    diagnostics.error(record.where("EVENTS"), "the tolerance of EVENTS is a fraction of H, from above 0 to 0.01");
   if (analysis.type.is("DYNAMIC")) return;
-  for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START"})
+  for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START", "EVENTS"})
     if (record.given(keyword))
       diagnostics.warning(record.where(keyword), std::string(keyword) + " has no effect on a " + analysis.type.tag + " analysis");
 }
@@ -60,6 +62,10 @@ Schema analysis_card() {
       .at_least(1)
       .at_most(1000);
   card.add("CUTS", &AnalysisCard::cuts, "how often a step may be halved").synonyms({"COUPES"}).at_least(0).at_most(50);
+  card.add("EVENTS", &AnalysisCard::events, "whether a DYNAMIC analysis ends steps where teeth begin and cease to touch")
+      .synonyms({"EVENEMENTS"})
+      .option({"YES", {"OUI"}, "each such instant is located, to a fraction of H that may follow (1E-6)", 0, 1})
+      .option({"NO", {"NON"}, "steps pass over them"});
   card.add("SCALE", &AnalysisCard::scale, "scale factor of the constraint equations; automatic when not given")
       .synonyms({"ECHELLE"})
       .positive();

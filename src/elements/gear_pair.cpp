@@ -57,6 +57,7 @@ GearPair::GearPair(int id, std::array<int, 2> nodes, const GearDesign& design, c
                         {"MESH", dimension::length, "contact points along the circumference, phi_2"},
                         {"TRIAD", dimension::angle, "tooth triads about the tooth, phi_3"}};
   layout.history = 2;
+  layout.switches = contact_.switch_names();
   set_layout(std::move(layout));
 }
 
@@ -153,6 +154,10 @@ void GearPair::observe(const State& state, std::span<double> values) const {
   on.put(out, 0.5 * (point[0] + point[1]));
   for (std::size_t i = 0; i < 2; ++i) out.put(state.scalars[i] + turn * state.history[i]);
   put_contact_channels(out, contact_, report(state), power, state.scalars);
+}
+
+void GearPair::switches(const State& state, std::span<Switch> values) const {
+  if (!values.empty()) contact_.switches(report(state), state, values);
 }
 
 std::vector<Derived> GearPair::derived() const {

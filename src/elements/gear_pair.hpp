@@ -47,6 +47,7 @@ class GearPair final : public TemplatedElement<GearPair, 2, 18> {
   void observe(const State& state, std::span<double> values) const override;
   std::vector<Derived> derived() const override;
   Drawing drawing() const override;
+  void switches(const State& state, std::span<Switch> values) const override;
 
  private:
   friend class TemplatedElement<GearPair, 2, 18>;

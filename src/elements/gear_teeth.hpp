@@ -105,6 +105,8 @@ struct ToothLaw {
     return compose(x, d.f, std::max(d.d1, least_slope), d.d2);
   }
   static constexpr double least_slope = 1e-9;
+  /// Half the width over which the limit of a flank's damping is rounded, of the elastic force.
+  static constexpr double limit_rounding = 0.1;
 
   /// What damping adds to the elastic force, where the flanks are pressed in by `front` and `back` and resist with `elastic`
   /// forces of their own. With Damping::contact the sum of both keeps the sign of the flank that touches: where c_m du_m/dt
@@ -123,7 +125,7 @@ struct ToothLaw {
     if (window.d1 == 0) return T(0);
     const T free = damping * compose(x, window.d1, window.d2, window.d3) * rate;
     if (value_of(free) >= 0) return free;
-    constexpr double rounding = 0.1;
+    constexpr double rounding = limit_rounding;
     if (value_of(free) <= -(1 + rounding) * value_of(elastic)) return -elastic;
     const T rest = 1 + free / elastic;  // what is left of the elastic force, as a fraction
     const Function::Jet kept = rounded_ramp(value_of(rest), 2 * rounding);

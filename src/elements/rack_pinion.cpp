@@ -70,6 +70,7 @@ RackPinion::RackPinion(int id, std::array<int, 2> nodes, const Geometry& geometr
                         {"MESH", dimension::length, "contact points along the circumference, phi_2"},
                         {"TRIAD", dimension::angle, "tooth triads about the tooth, phi_3"}};
   layout.history = 1;
+  layout.switches = contact_.switch_names();
   set_layout(std::move(layout));
 }
 
@@ -150,6 +151,10 @@ void RackPinion::observe(const State& state, std::span<double> values) const {
   out.put(state.scalars[1]);
   put_contact_channels(out, contact_, report(state), {torque * state.scalar_rates[0], thrust * state.scalar_rates[1]},
                        state.scalars);
+}
+
+void RackPinion::switches(const State& state, std::span<Switch> values) const {
+  if (!values.empty()) contact_.switches(report(state), state, values);
 }
 
 std::vector<Derived> RackPinion::derived() const {

@@ -53,6 +53,7 @@ class RackPinion final : public TemplatedElement<RackPinion, 2, 18> {
   void observe(const State& state, std::span<double> values) const override;
   std::vector<Derived> derived() const override;
   Drawing drawing() const override;
+  void switches(const State& state, std::span<Switch> values) const override;
 
  private:
   friend class TemplatedElement<RackPinion, 2, 18>;

@@ -136,7 +136,14 @@ class ToothContact {
   T act(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const T& closing, Balance<T, 2>& balance,
         ToothLoads<T>& loads, ContactReport* report) const;
 
+  /// Where the force between flanks is not smooth: both ends of each rounded corner, or the corner itself, and where the
+  /// damping of a flank in contact is limited. None with slices, which come into contact one after another.
+  std::vector<SwitchNames> switch_names() const;
+  /// Their values. Rates leave out what the distance of running axles changes, which only aims at events, never moves them.
+  void switches(const ContactReport& report, const State& state, std::span<Switch> values) const;
+
  private:
+  bool limits_damping() const { return law_.mode == ToothLaw::Damping::contact && law_.damping > 0; }
   template <class T>
   struct Course;  // of the stiffness: factor and its derivative by ψ_A
   template <class T>

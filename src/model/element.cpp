@@ -14,6 +14,8 @@ void Element::commit(const State& state, std::span<double>, std::span<double> hi
   std::copy(state.history.begin(), state.history.end(), history.begin());
 }
 
+void Element::switches(const State&, std::span<Switch>) const {}
+
 Energies Element::energies(const State&) const { return {}; }
 
 Mat3 Element::inertia_at(int) const { return Mat3::Zero(); }

@@ -20,14 +20,29 @@ struct Named {
   std::string help;     ///< a few words, shown beside plots and in the listing
 };
 
+/// What happens when a switch of an element changes sign, in words for the listing: `front flank touches`.
+struct SwitchNames {
+  std::string rises;  ///< from negative to positive
+  std::string falls;
+};
+
+/// A scalar function of the state whose sign tells phases of an element's motion apart, such as a gap that is open or closed.
+struct Switch {
+  double value = 0;
+  double rate = 0;  ///< its time derivative
+  double size =
+      0;  ///< of the terms that `value` is the sum of: what is rounding, and what is not; 0: the switch has no meaning now
+};
+
 /// Which unknowns an element works on. Its local slots, in order: six per node (three translations, three material
 /// rotation increments, whether the node has them or not; node 0, the ground, too), its scalars, its multipliers.
 struct Layout {
-  std::vector<int> nodes;          ///< ids; 0 is the ground
-  std::vector<NodeNeed> needs;     ///< one per node
-  std::vector<Named> scalars;      ///< own unknowns with rates, such as ψ_A, ψ_B, u_m
-  std::vector<Named> multipliers;  ///< one per holonomic constraint, in the order of the residual's constraint rows
-  int history = 0;                 ///< committed numbers kept from step to step (turn counts, contact states)
+  std::vector<int> nodes;             ///< ids; 0 is the ground
+  std::vector<NodeNeed> needs;        ///< one per node
+  std::vector<Named> scalars;         ///< own unknowns with rates, such as ψ_A, ψ_B, u_m
+  std::vector<Named> multipliers;     ///< one per holonomic constraint, in the order of the residual's constraint rows
+  int history = 0;                    ///< committed numbers kept from step to step (turn counts, contact states)
+  std::vector<SwitchNames> switches;  ///< where the element's law is not smooth: dynamics places ends of steps there
 
   int slots() const { return static_cast<int>(6 * nodes.size() + scalars.size() + multipliers.size()); }
 };
@@ -110,6 +125,9 @@ class Element {
   virtual void start(std::span<double> scalars, std::span<double> history) const;
   /// Called when a step is accepted: writes the new history; may shift own scalars by whole periods.
   virtual void commit(const State& state, std::span<double> scalars, std::span<double> history) const;
+
+  /// Values of the switches, in the order of Layout::switches.
+  virtual void switches(const State& state, std::span<Switch> values) const;
 
   virtual Energies energies(const State& state) const;
 

@@ -53,7 +53,7 @@ double Checks::slack(double time) const {
   return std::max(1e-9 * last_step_, 8 * std::numeric_limits<double>::epsilon() * std::abs(time));
 }
 
-void Checks::observe(double time, std::span<const double> values) {
+void Checks::observe(double time, std::span<const double> values, bool regular) {
   // a time said twice: the first word of it has gone into measures already, and only a jump there makes them differ
   const bool repeated = started_ && time <= last_time_;
   if (!started_) first_time_ = time;
@@ -62,10 +62,11 @@ void Checks::observe(double time, std::span<const double> values) {
     Measured& m = checks_[i];
     assert(m.resolved.channel < values.size());
     const Sample sample{time, values[m.resolved.channel]};
-    if (is_value(m.resolved.card))
-      observe_value(m, sample);
-    else
+    if (is_value(m.resolved.card)) {
+      if (regular) observe_value(m, sample);
+    } else {
       observe_window(m, sample);
+    }
     last_values_[i] = sample.value;
   }
   last_time_ = time;

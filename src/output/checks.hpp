@@ -30,7 +30,8 @@ class Checks {
   explicit Checks(std::vector<Resolved> checks);
 
   /// Every step, the start included, in the order of time. Repeating a time replaces what was said of it.
-  void observe(double time, std::span<const double> values);
+  /// `regular` false: an instant between the steps, close to others, which a value is not interpolated from.
+  void observe(double time, std::span<const double> values, bool regular = true);
 
   /// One result per check, in the deck's order; after the last step.
   std::vector<CheckResult> results() const;

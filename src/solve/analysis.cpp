@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "solve/blame.hpp"
+#include "solve/events.hpp"
 #include "solve/kinematics.hpp"
 #include "solve/statics.hpp"
 #include "solve/transient.hpp"
@@ -121,49 +122,111 @@ std::string failure_text(Workbench& bench, const Configuration& tried, const New
   return text;
 }
 
+/// One run: the present configuration and the ways it goes on from there.
+class Runner {
+ public:
+  Runner(Workbench& bench, Analysis& analysis, const Observer& observer)
+      : bench_(bench),
+        analysis_(analysis),
+        observer_(observer),
+        stepping_(bench.model.commands.stepping),
+        locator_(bench, analysis),
+        now_(bench.numbering.reference_configuration(stepping_.start)),
+        h_(stepping_.step) {}
+
+  bool run(const std::function<void(const StartReport&)>& started) {
+    started(analysis_.start(now_));
+    bench_.solver.reset();  // the start solved with matrices of other kinds; the steps deserve their own analysis
+    commit(bench_, now_);
+    if (locator_.active()) locator_.switches().take(now_);
+    next_ = now_;
+    if (!observer_(now_, step_)) return false;
+    const double span = stepping_.end - stepping_.start;
+    // a last step shorter than a billionth of the others is the rounding of their sum
+    const auto steps = static_cast<long long>(std::ceil(span / stepping_.step * (1 - 1e-9)));
+    for (long long k = 1; k <= steps; ++k)
+      if (!reach(k == steps ? stepping_.end : stepping_.start + static_cast<double>(k) * stepping_.step)) return false;
+    return true;
+  }
+
+ private:
+  bool reach(double target) {
+    int cuts = 0;
+    step_.locating = 0;
+    locator_.new_target();
+    while (now_.time < target) {
+      const double left = target - now_.time;
+      if (locator_.active() && left < locator_.shortest()) {
+        if (!drift(left, target)) return false;
+        continue;
+      }
+      double size = left;
+      if (h_ < 0.99 * size) size /= std::ceil(size / h_ * 0.99);
+      NewtonReport report = analysis_.attempt(now_, size, next_);
+      EventLocator::Outcome outcome = locator_.inspect(now_, size, report.converged, next_);
+      using Kind = EventLocator::Outcome::Kind;
+      step_.locating += outcome.attempts;
+      size = outcome.step;
+      if (outcome.report) report = std::move(*outcome.report);
+      if (!report.converged && outcome.kind != Kind::drift) {
+        if (cuts == bench_.model.commands.analysis.cuts || now_.time + size / 2 == now_.time)
+          throw SolutionFailure(failure_text(bench_, next_, report, step_.number + 1, cuts));
+        ++cuts;
+        ++step_.cuts;
+        h_ = size / 2;
+        continue;
+      }
+      if (outcome.kind != Kind::drift) {
+        if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // no drift from the sums of h
+        analysis_.accept();
+        std::swap(now_, next_);
+        h_ = std::min(stepping_.step, 2 * h_);  // back to the asked step as soon as it goes
+        step_.newton = &report;
+        if (!accepted(size, outcome.kind == Kind::none || now_.time == target)) return false;
+      }
+      if (outcome.kind != Kind::none && now_.time < target && !drift(outcome.drift, target)) return false;
+    }
+    return true;
+  }
+
+  /// Over an event, and to the target if a step would be too short to get there.
+  bool drift(double time, double target) {
+    const double left = target - now_.time;
+    const bool arrives = left - time < locator_.shortest();
+    const double size = arrives ? left : time;
+    analysis_.drift(now_, size);
+    if (arrives) now_.time = target;
+    step_.newton = nullptr;
+    return accepted(size, arrives);
+  }
+
+  bool accepted(double size, bool regular) {
+    commit(bench_, now_);
+    step_.events.clear();
+    if (locator_.active()) step_.events = locator_.switches().take(now_);
+    ++step_.number;
+    step_.step = size;
+    step_.regular = regular;
+    step_.chatter = locator_.chatters();
+    const bool go_on = observer_(now_, step_);
+    step_.cuts = step_.locating = 0;
+    return go_on;
+  }
+
+  Workbench& bench_;
+  Analysis& analysis_;
+  const Observer& observer_;
+  const deck::SteppingCard& stepping_;
+  EventLocator locator_;
+  Configuration now_, next_;
+  double h_;
+  StepReport step_;
+};
+
 }  // namespace
 
 bool run(Workbench& bench, Analysis& analysis, const Observer& observer, const std::function<void(const StartReport&)>& started) {
-  const auto& stepping = bench.model.commands.stepping;
-  const int most_cuts = bench.model.commands.analysis.cuts;
-  Configuration now = bench.numbering.reference_configuration(stepping.start);
-  started(analysis.start(now));
-  bench.solver.reset();  // the start solved with matrices of other kinds; the steps deserve their own analysis
-  commit(bench, now);
-  StepReport step;
-  if (!observer(now, step)) return false;
-
-  const double span = stepping.end - stepping.start;
-  // a last step shorter than a billionth of the others is the rounding of their sum
-  const auto steps = static_cast<long long>(std::ceil(span / stepping.step * (1 - 1e-9)));
-  Configuration next = now;
-  double h = stepping.step;
-  for (long long k = 1; k <= steps; ++k) {
-    const double target = k == steps ? stepping.end : stepping.start + static_cast<double>(k) * stepping.step;
-    step.cuts = 0;
-    while (now.time < target) {
-      double size = target - now.time;
-      if (h < 0.99 * size) size /= std::ceil(size / h * 0.99);
-      const NewtonReport report = analysis.attempt(now, size, next);
-      if (!report.converged) {
-        if (step.cuts == most_cuts || now.time + size / 2 == now.time)
-          throw SolutionFailure(failure_text(bench, next, report, step.number + 1, step.cuts));
-        ++step.cuts;
-        h = size / 2;
-        continue;
-      }
-      if (std::abs(next.time - target) <= 1e-9 * size) next.time = target;  // no drift from the sums of h
-      analysis.accept();
-      std::swap(now, next);
-      commit(bench, now);
-      ++step.number;
-      step.step = size;
-      step.newton = &report;
-      if (!observer(now, step)) return false;
-      h = std::min(stepping.step, 2 * h);  // back to the asked step as soon as it goes
-    }
-  }
-  return true;
+  return Runner(bench, analysis, observer).run(started);
 }
 
 }  // namespace engrane

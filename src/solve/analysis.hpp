@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "solve/newton.hpp"
 #include "solve/start.hpp"
@@ -37,6 +38,11 @@ class Analysis {
   virtual NewtonReport attempt(const Configuration& from, double h, Configuration& to) = 0;
   /// The last attempt stands.
   virtual void accept() {}
+  /// Whether steps are to end at the events of the elements' switches; drift() is then defined.
+  virtual bool meets_events() const { return false; }
+  /// Moves an accepted configuration over a stretch much shorter than a step, past an event; what the analysis
+  /// remembers of earlier steps is forgotten.
+  virtual void drift(Configuration&, double /*h*/) {}
 
  protected:
   /// Displacements of the prescribed slots between two times, written into a flat step.
@@ -56,19 +62,30 @@ class Analysis {
 /// The analysis that `.SAM` asks for.
 std::unique_ptr<Analysis> make_analysis(Workbench& bench);
 
+/// A switch of an element that has changed sign.
+struct Event {
+  int part = 0;   ///< index into Model::parts
+  int index = 0;  ///< into Layout::switches
+  bool rises = true;
+};
+
 /// What the run tells about each accepted step.
 struct StepReport {
-  int number = 0;   ///< from 1; 0 is the start
-  double step = 0;  ///< h
-  int cuts = 0;     ///< failed attempts before this one
+  int number = 0;             ///< from 1; 0 is the start
+  double step = 0;            ///< h
+  int cuts = 0;               ///< failed attempts before this one
+  bool regular = true;        ///< false: the step ended for an event, not where a multiple of H or a cut asks for it
+  int locating = 0;           ///< attempts spent on locating an event before this step
+  bool chatter = false;       ///< the first time that events come too thick to be located
+  std::vector<Event> events;  ///< that happened in this step
   const NewtonReport* newton = nullptr;
 };
 
 /// Called with the start and every accepted step; false ends the run early.
 using Observer = std::function<bool(const Configuration&, const StepReport&)>;
 
-/// Runs from the start to the end of `.SUB`, cutting steps that fail. Throws SolutionFailure when cutting does not help.
-/// Returns false when the observer ended it.
+/// Runs from the start to the end of `.SUB`, cutting steps that fail and ending steps at events. Throws SolutionFailure when
+/// cutting does not help. Returns false when the observer ended it.
 bool run(Workbench& bench, Analysis& analysis, const Observer& observer, const std::function<void(const StartReport&)>& started);
 
 }  // namespace engrane

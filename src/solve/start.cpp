@@ -161,7 +161,7 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
   if (initial) verify_imposed(c, wished, true);
 }
 
-void Start::balance_accelerations(Configuration& c) {
+void Start::balance_accelerations(Configuration& c, int most_iterations) {
   const Numbering& numbering = assembler_.numbering();
   std::vector<double> a = motion_.accelerations(c);
   for (const auto& p : motion_.prescribed(c.time)) a[p.slot] = p.a;
@@ -169,7 +169,7 @@ void Start::balance_accelerations(Configuration& c) {
   std::vector<double> phi, rate, second, change;
   double before = std::numeric_limits<double>::infinity();
   // linear but for forces that follow the multipliers (|λ| of the separating force), hence a short iteration
-  for (int iteration = 0; iteration < 12; ++iteration) {
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const std::vector<double> r = assembler_.slot_residual(c);
     assembler_.constraint_rates(c, phi, rate, second);
     std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);

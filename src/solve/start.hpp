@@ -35,8 +35,9 @@ class Start {
   void assemble(Configuration& c, StartReport& report, bool initial = true);
   /// Changes the velocities in `c` as little as possible (in kinetic energy, or geometrically) until they fit.
   void fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report, bool initial = true);
-  /// Sets accelerations and multipliers from the equations of motion and the constraints' second derivatives.
-  void balance_accelerations(Configuration& c);
+  /// Sets accelerations and multipliers from the equations of motion and the constraints' second derivatives. With those in `c`
+  /// close to right, few iterations are enough.
+  void balance_accelerations(Configuration& c, int most_iterations = 12);
 
  private:
   /// Equations of the initial values of one kind that must hold.

@@ -30,9 +30,15 @@ class Transient final : public Analysis {
   StartReport start(Configuration& c) override;
   NewtonReport attempt(const Configuration& from, double h, Configuration& to) override;
   void accept() override;
+  bool meets_events() const override { return true; }
+  void drift(Configuration& c, double h) override;
 
  private:
-  void start_algorithmic_accelerations(const Configuration& c);
+  /// Starts the scheme's memory for steps of h; the slope of v̇ is looked for over the time `ahead`.
+  void start_algorithmic_accelerations(const Configuration& c, double h, double ahead);
+
+  /// `c` moved by h with the accelerations it has; these and the multipliers do not change.
+  Configuration glide(const Configuration& c, double h) const;
 
   AlphaScheme scheme_;
   Owned<Vec> unknowns_;
