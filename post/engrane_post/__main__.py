@@ -22,13 +22,14 @@ EPILOG = """examples:
   engrane picture run --both -o run.png            the mechanism before and after
   engrane animate run --fps 20 -o run.gif          the mechanism in motion
   engrane figures                                  the founding paper's figures
+  engrane gallery                                  pictures of the gear trains in decks/trains
 
 engrane <command> --help tells more."""
 
 
 def parser() -> argparse.ArgumentParser:
     """The command line; each command's module adds its own words."""
-    from . import animate, figures, histories, lines, orders, picture
+    from . import animate, figures, gallery, histories, lines, orders, picture
 
     top = argparse.ArgumentParser(
         prog="engrane",
@@ -37,7 +38,7 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = top.add_subparsers(dest="command", required=True, metavar="command")
-    for module in (histories, lines, orders, picture, animate, figures):
+    for module in (histories, lines, orders, picture, animate, figures, gallery):
         module.add(commands)
     return top
 

@@ -54,6 +54,7 @@ class Scene:
             for d in element.drawing:
                 if d.get("shape") != "wheel":
                     self._shape(element, d)
+        self._carriers()
         self._cells(drawn)
         self._grounds()
 
@@ -102,9 +103,14 @@ class Scene:
         return {n: self.points[n] + frame.displacement[i] for n, i in self.row.items()}
 
     def _wheels(self) -> None:
+        """Wheels of one body have one colour."""
+        body: dict[int, int] = {}
+        for element in self.result.elements:
+            if element.type.upper() == "RIGID":
+                body.update({n: body.get(element.nodes[0], element.nodes[0]) for n in element.nodes if n})
         slots: dict[int, int] = {}
         for w in self.wheels:
-            color = WHEEL_COLORS[slots.setdefault(w.node, len(slots)) % len(WHEEL_COLORS)]
+            color = WHEEL_COLORS[slots.setdefault(body.get(w.node, w.node), len(slots)) % len(WHEEL_COLORS)]
             for mesh, tint in shapes.wheel(w, color, MARK, DARK):
                 self.items.append(Item(mesh, tint, w.node, smooth=False, wheel=True))
 
@@ -189,6 +195,29 @@ class Scene:
                 radius = min(max(radius, 0.07 * w.shape.radius), 0.12 * w.shape.radius)
                 length = max(length, 1.5 * min(w.shape.width, w.shape.radius))
         return length, radius
+
+    def _carriers(self) -> None:
+        """Arms from a body to the pins that it carries: hinges of two bodies, away from the first
+        one's node."""
+        for element in self.result.elements:
+            axes = [d for d in element.drawing if d.get("shape") == "axis" and "center" in d]
+            if element.type.upper() != "HINGE" or len(axes) != 1 or element.nodes[0] not in self.row:
+                continue
+            carrier, node = element.nodes[0], self.points[element.nodes[0]]
+            center, axis = (
+                np.asarray(axes[0]["center"], float),
+                shapes.unit(np.asarray(axes[0]["axis"], float)),
+            )
+            foot = center - axis * ((center - node) @ axis)
+            _, radius = self._axle(element.nodes[1], element, center, axis)
+            parts = []
+            if np.linalg.norm(foot - node) > radius:
+                parts.append(shapes.arm(node, foot, axis, 1.6 * radius))
+            if np.linalg.norm(center - foot) > radius:
+                parts.append(shapes.tube(np.stack([foot, center]), radius))
+            if parts:
+                mesh = pv.merge(parts).extract_surface(algorithm="dataset_surface")
+                self.items.append(Item(mesh, BODY, carrier, smooth=False))
 
     def _cells(self, drawn: set[int]) -> None:
         """Cells of elements that bring no drawing (beams, membranes); surfaces and solids always."""

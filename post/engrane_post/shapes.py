@@ -61,6 +61,21 @@ def tube(ends: np.ndarray, radius: float) -> pv.PolyData:
     )
 
 
+def arm(start: np.ndarray, end: np.ndarray, axis: np.ndarray, width: float) -> pv.PolyData:
+    """Flat bar with round ends across an axis, such as one arm of a planet carrier."""
+    along = unit(np.asarray(end, float) - start)
+    across = np.cross(axis, along)
+    turn = np.linspace(-np.pi / 2, np.pi / 2, 13)
+    half = np.outer(np.cos(turn), along) + np.outer(np.sin(turn), across)
+    outline = np.r_[end + width * half, start - width * half]
+    n, thick = len(outline), 0.35 * width * np.asarray(axis, float)
+    side = np.arange(n)
+    following = (side + 1) % n
+    faces = [[n, *range(n)], [n, *range(2 * n - 1, n - 1, -1)]]
+    faces += [[4, a, b, b + n, a + n] for a, b in zip(side.tolist(), following.tolist(), strict=True)]
+    return pv.PolyData(np.r_[outline - thick, outline + thick], faces=np.concatenate(faces))
+
+
 def star(points: list[np.ndarray], radius: float) -> pv.PolyData:
     """Rigid body: bars from the first point to the others, balls at the joints."""
     parts = [pv.Sphere(radius=1.6 * radius, center=p, theta_resolution=20, phi_resolution=14) for p in points]

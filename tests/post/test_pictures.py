@@ -46,6 +46,54 @@ def test_right_hand_helix() -> None:
         assert (turn[1] - turn[0]) / (axial[1] - axial[0]) == pytest.approx(np.tan(np.radians(20)) / 0.05)
 
 
+@pytest.mark.parametrize("hand", [1, -1])
+def test_worm(hand: int) -> None:
+    """Two threads, lead angle 9.5 degrees: a closed surface between root and tip circle, no facet a large
+    turn, and at any angle about the axle the crests follow each other by the axial pitch."""
+    shape = WheelShape(0.0254, 2, 0.00418, 0.0, hand * np.radians(80.54), 0.03)
+    points, quads, _ = teeth_mesh(shape)
+    edge = np.sort(np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1)
+    _, count = np.unique(edge, axis=0, return_counts=True)
+    assert (count == 2).all()
+    outside = points[: len(points) // 2]
+    r = np.hypot(outside[:, 1], outside[:, 2])
+    assert [r.min(), r.max()] == pytest.approx([0.0254 - 1.25 * 0.00418, 0.0254 + 0.00418], rel=1e-9)
+    low, high = shape.span()
+    s = np.array([low, high])
+    lead = 2 * np.pi * (high - low) / (shape.twist(s)[1] - shape.twist(s)[0])
+    assert lead / 2 == pytest.approx(hand * np.pi * 0.0254 * np.tan(np.radians(9.46)), rel=1e-3)
+    assert high - low > 0.03  # beyond the wheel's width
+
+
+def test_carrier(planetary: Path) -> None:
+    """Arms and pins of the carrier turn with it and reach every planet."""
+    s = scene(planetary)
+    from engrane_post.scene import BODY
+
+    arms = [i for i in s.items if i.node == 3 and i.color == BODY and i.remake is None]
+    assert len(arms) == 3
+    for item, k in zip(arms, range(3), strict=True):
+        near = np.linalg.norm(item.mesh.points - s.points[10 + k], axis=1).min()
+        assert near < 0.02 * s.size
+
+
+def test_wheels_of_one_body_have_one_colour(tmp_path: Path) -> None:
+    path = models.two_wheels(tmp_path / "two.h5")
+    import json
+
+    import h5py
+
+    with h5py.File(path, "a") as f:
+        model = json.loads(f["model"][()])
+        model["elements"].append(dict(id=20, type="RIGID", nodes=[1, 2], parameters={}, drawing=[]))
+        del f["model"]
+        f["model"] = json.dumps(model)
+    from engrane_post.scene import WHEEL_COLORS
+
+    colors = {i.color for i in scene(path).items if i.wheel and i.color in WHEEL_COLORS}
+    assert len(colors) == 1
+
+
 def _tooth_at(w, direction: np.ndarray) -> float:
     """Distance of the contact direction from the middle of a tooth, in tooth pitches, -0.5 to 0.5."""
     share = (w.angle_of(direction) - w.shape.phase) / w.shape.pitch_angle
@@ -90,7 +138,12 @@ def test_topology() -> None:
 
 def test_picture(two: Path, bevel: Path, command, tmp_path: Path) -> None:
     out = tmp_path / "a.png"
-    for words in ((two, "--both"), (two, "--reference", "--view", "back"), (bevel, "--time", "0.4")):
+    for words in (
+        (two, "--both"),
+        (two, "--reference", "--view", "back"),
+        (two, "--view=-1,0.5,2"),
+        (bevel, "--time", "0.4"),
+    ):
         status, _, err = command("picture", *words, "--size", "320x240", "-o", out)
         assert (status, err) == (0, "")
         from PIL import Image
@@ -133,6 +186,9 @@ def test_animation(two: Path, command, tmp_path: Path) -> None:
     [
         (("picture", "two", "--frame", "99"), "there is no frame 99"),
         (("picture", "two", "--size", "big"), "is not a size"),
+        (("picture", "two", "--view", "sideways"), "is no direction"),
+        (("picture", "two", "--view", "0,0,0"), "is no direction"),
+        (("gallery", "no_such_deck"), "The gallery has no no_such_deck"),
         (("picture", "two", "-o", "a.pdf"), "Cannot write a.pdf"),
         (("animate", "two", "--from", "9"), "no frames between"),
         (("animate", "two", "--fps", "0"), "--fps"),
@@ -146,3 +202,25 @@ def test_picture_errors(two: Path, command, tmp_path: Path, monkeypatch, words, 
     status, _, err = command(*words)
     assert status == 1
     assert sentence in err and "Traceback" not in err
+
+
+def test_gallery(command, tmp_path: Path, monkeypatch) -> None:
+    """Every picture of docs/gallery.md has its deck, and is in the page."""
+    from engrane_post import gallery
+
+    page = (gallery.ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+    for shot in gallery.SHOTS:
+        assert (gallery.ROOT / "decks" / "trains" / f"{shot.deck}.dat").is_file()
+        assert f"figures/gallery/{shot.deck}.png" in page and f"decks/trains/{shot.deck}.dat" in page
+        picture = gallery.ROOT / "docs" / "figures" / "gallery" / f"{shot.deck}.png"
+        assert 5_000 < picture.stat().st_size < 150_000
+    # Drawing itself, with a result that is newer than everything.
+    models.two_wheels(tmp_path / "idler.h5")
+    monkeypatch.setenv("ENGRANE", __file__)
+    out = tmp_path / "pictures"
+    status, text, err = command("gallery", "idler", "--results", tmp_path, "-o", out)
+    assert (status, err) == (0, "") and "running" not in text
+    assert (out / "idler.png").read_bytes()[:4] == b"\x89PNG"
+    (tmp_path / "idler.h5").unlink()
+    monkeypatch.setenv("ENGRANE", "/no/program")
+    assert "needs engrane's source tree" in command("gallery", "idler", "--results", tmp_path, "-o", out)[2]
