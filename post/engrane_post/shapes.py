@@ -7,6 +7,7 @@ import numpy as np
 
 from . import gear_mesh
 from .graphics import pv
+from .rack_mesh import rack_mesh
 from .wheels import Wheel
 
 
@@ -50,6 +51,22 @@ def wheel(w: Wheel, color: str, mark: str, dark: str) -> list[tuple[pv.PolyData,
             )
         out.append((pv.merge(parts), dark))
     return [(m, c) for m, c in out if m.n_cells]
+
+
+def rack(
+    center: np.ndarray,
+    travel: np.ndarray,
+    normal: np.ndarray,
+    module: float,
+    width: float,
+    span: tuple[float, float],
+    shift: float,
+    slant: float,
+) -> pv.PolyData:
+    """Toothed bar through `center`, a point of the pitch plane; `normal` points to the pinion."""
+    points, corners = rack_mesh(module, width, *span, shift, slant)
+    frame = np.stack([travel, normal, np.cross(travel, normal)], axis=1)
+    return quads(points @ frame.T + center, corners)
 
 
 def tube(ends: np.ndarray, radius: float) -> pv.PolyData:

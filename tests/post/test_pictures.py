@@ -224,3 +224,52 @@ def test_gallery(command, tmp_path: Path, monkeypatch) -> None:
     (tmp_path / "idler.h5").unlink()
     monkeypatch.setenv("ENGRANE", "/no/program")
     assert "needs engrane's source tree" in command("gallery", "idler", "--results", tmp_path, "-o", out)[2]
+
+
+@pytest.mark.parametrize("helix", [0.0, 15.0, -15.0])
+def test_rack(tmp_path: Path, helix: float) -> None:
+    """A bar as long as the pinion travels, with a gap where the pinion has a tooth, all along the
+    contact line."""
+    radius, module = 0.05, 0.005 * np.cos(np.radians(helix))
+    elements = [
+        dict(
+            id=1,
+            type="RACK",
+            nodes=[1, 2],
+            drawing=[
+                models.wheel(1, (0, 0, 0), (0, 0, 1), (0, -1, 0), radius, 20, module, 0.03, 0, helix),
+                dict(
+                    shape="rack",
+                    node=2,
+                    center=[0, -radius, 0],
+                    direction=[1, 0, 0],
+                    toward=[0, 1, 0],
+                    module=module,
+                ),
+            ],
+        )
+    ]
+    shift = np.zeros((3, 2, 3))
+    shift[:, 1, 0] = 0, -0.1, -0.3
+    path = models.write(
+        tmp_path / "rack.h5",
+        {1: (0.0, 0.0, 0.0), 2: (0.0, -0.1, 0.0)},
+        elements,
+        np.linspace(0, 1, 3),
+        shift,
+        np.zeros((3, 2, 3)),
+    )
+    s = scene(path)
+    (bar,) = [i.mesh for i in s.items if i.node == 2]
+    assert (
+        bar.bounds[0] < -0.05 and bar.bounds[1] > 0.35
+    )  # where the contact has been, in the rack's place at the start
+    (pinion,) = s.wheels
+    tip = bar.points[bar.points[:, 1] > bar.bounds[3] - 1e-9]
+    pitch = np.pi * 2 * radius / 20
+    for z in (-0.015, 0.015):
+        tooth = pinion.shape.phase + pinion.shape.twist(np.array([z]))[0]  # at the contact, turned about +z
+        x = np.sort(tip[abs(tip[:, 2] - z) < 1e-9][:, 0])
+        middles = (x[0::2] + x[1::2]) / 2
+        gap = (middles - radius * tooth) / pitch % 1
+        assert gap == pytest.approx(0.5, abs=1e-6)
