@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`engrane plot | spectrum | picture | animate` (python -m engrane_post)."""
+"""`engrane plot | spectrum | orders | picture | animate` (python -m engrane_post)."""
 
 from __future__ import annotations
 
@@ -18,16 +18,18 @@ EPILOG = """examples:
   engrane plot run --list                          all channels with units
   engrane plot run element/7/NORMAL_FORCE          a history
   engrane spectrum run 7/NORMAL_FORCE              its spectrum, with the tooth frequencies marked
+  engrane orders run 7/NORMAL_FORCE --map          order against speed, of a run-up
   engrane picture run --both -o run.png            the mechanism before and after
   engrane animate run --fps 20 -o run.gif          the mechanism in motion
   engrane figures                                  the founding paper's figures
+  engrane gallery                                  pictures of the gear trains in decks/trains
 
 engrane <command> --help tells more."""
 
 
 def parser() -> argparse.ArgumentParser:
     """The command line; each command's module adds its own words."""
-    from . import animate, figures, histories, lines, picture
+    from . import animate, figures, gallery, histories, lines, orders, picture
 
     top = argparse.ArgumentParser(
         prog="engrane",
@@ -36,7 +38,7 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = top.add_subparsers(dest="command", required=True, metavar="command")
-    for module in (histories, lines, picture, animate, figures):
+    for module in (histories, lines, orders, picture, animate, figures, gallery):
         module.add(commands)
     return top
 

@@ -12,6 +12,8 @@ ADDENDUM, DEDENDUM, RIM = 1.0, 1.25, 1.7  # in modules
 PRESSURE = np.radians(20.0)
 SLIM = 0.95  # teeth a little thinner than the gap, so that the gap of a pair shows
 MOST_TEETH = 600
+STEEP = np.radians(60.0)  # a helix beyond is a worm's
+SMALL_TURN = np.radians(7.0)  # of one facet
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,9 @@ class WheelShape:
     def span(self) -> tuple[float, float]:
         """Extent along the teeth from the contact point; a cone's teeth end well before the apex."""
         half = self.width / 2
+        if abs(self.helix) > STEEP:
+            # WIDTH is the wheel's; its worm reaches beyond.
+            half = max(1.1 * self.width, 0.9 * self.radius)
         low, high = -half, half
         shrink = np.sin(self.cone)
         if shrink < -1e-9:
@@ -84,8 +89,9 @@ class WheelShape:
         """Half the tooth's thickness (length) at height v, at the contact point's section."""
         m = 2 * self.radius / self.teeth
         cg = np.cos(self.cone)
-        straight = SLIM * np.pi * m / 4 - v * np.tan(PRESSURE)
-        if cg < 0.05:
+        # Across the axle a tooth is wider than across itself, by 1/cos(helix).
+        straight = SLIM * np.pi * m / 4 - v * np.tan(PRESSURE) / np.cos(self.helix)
+        if cg < 0.05 or abs(self.helix) > STEEP:
             return np.maximum(straight, 0.08 * m)
         r = self.radius / cg
         angle = np.arccos(np.clip(r * np.cos(PRESSURE) / (r + v), 0, 1))
@@ -103,14 +109,26 @@ def profile(shape: WheelShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     half = shape.half_thickness(heights) / np.maximum(radial, 0.1 * shape.radius)
     # A root as wide as the pitch would close the gap between neighbours.
     half = np.minimum(half, 0.46 * shape.pitch_angle)
-    angle = np.r_[-half, half[::-1]]
-    height = np.r_[heights, heights[::-1]]
+    # Flank up, tip, flank down, root: few teeth need more points, or their arcs would be cut short.
+    flank = _refined(-half, heights)
+    tip = _refined(np.array([-half[-1], half[-1]]), heights[[-1, -1]])
+    root = _refined(np.array([half[0], shape.pitch_angle - half[0]]), heights[[0, 0]])
+    angle = np.r_[flank[0], tip[0][1:-1], -flank[0][::-1], root[0][1:-1]]
+    height = np.r_[flank[1], tip[1][1:-1], flank[1][::-1], root[1][1:-1]]
     turns = np.arange(shape.teeth) * shape.pitch_angle + shape.phase
     return (
         (turns[:, None] + angle).ravel(),
         np.tile(height, shape.teeth),
         np.repeat(np.arange(shape.teeth), len(angle)),
     )
+
+
+def _refined(angle: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The same line with no facet that turns by more than SMALL_TURN."""
+    parts = np.maximum(1, np.ceil(np.abs(np.diff(angle)) / SMALL_TURN)).astype(int)
+    at = np.concatenate([i + np.arange(n) / n for i, n in enumerate(parts)] + [[len(angle) - 1.0]])
+    index = np.arange(len(angle))
+    return np.interp(at, index, angle), np.interp(at, index, height)
 
 
 def _sweep(axial: np.ndarray, radial: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -127,7 +145,8 @@ def teeth_mesh(shape: WheelShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Toothed rim: points (n x 3), quads (q x 4) and 1 for the quads of the marked tooth, which shows the
     wheel's turn."""
     low, high = shape.span()
-    sections = 2 if abs(shape.helix) < 1e-6 else 9
+    turn = float(np.ptp(shape.twist(np.array([low, high]))))
+    sections = 2 if abs(shape.helix) < 1e-6 else int(np.clip(np.ceil(turn / SMALL_TURN), 9, 400))
     s = np.linspace(low, high, sections)
     angle, height, tooth = profile(shape)
     depth = -(DEDENDUM + RIM) * shape.module
@@ -137,8 +156,7 @@ def teeth_mesh(shape: WheelShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     ss = np.r_[s, s[::-1]][:, None] + 0 * angle
     vv = np.r_[np.tile(height, (sections, 1)), np.full((sections, len(angle)), depth)]
     axial, radial = shape.place(ss, vv)
-    turn = angle + shape.twist(ss)
-    points, quads = _sweep(axial, np.maximum(radial, 0.02 * shape.radius), turn)
+    points, quads = _sweep(axial, np.maximum(radial, 0.02 * shape.radius), angle + shape.twist(ss))
     column = np.tile(np.arange(len(angle)), 2 * sections)
     row = np.repeat(np.arange(2 * sections), len(angle))
     # Colour the outside and the end faces of tooth 0, not its root nor the inside of the rim.
@@ -159,6 +177,8 @@ def web_mesh(shape: WheelShape, hub: float = 0.26, bore: float = 0.13) -> list[t
     thick = max(0.30 * np.ptp(axial), 0.05 * shape.radius)
     if abs(np.sin(shape.cone)) > 0.7:
         thick = max(0.05 * shape.radius, 0.5 * shape.module)
+    if abs(shape.helix) > STEEP:
+        thick = np.ptp(axial)
     rings = [_tube(middle - thick / 2, middle + thick / 2, inner, outer)]
     hub_length = max(1.08 * np.ptp(axial), 2.2 * thick)
     if hub * shape.radius < 0.9 * outer:
@@ -178,7 +198,7 @@ def _tube(x0: float, x1: float, r0: float, r1: float, n: int = 72) -> tuple[np.n
 def holes(shape: WheelShape, count: int = 5) -> tuple[float, float, float, np.ndarray] | None:
     """Dark discs on the web that show the turn: axial position of both faces, radius of a hole, centres
     (count x 2)."""
-    if shape.ring or abs(np.sin(shape.cone)) > 0.7:
+    if shape.ring or abs(np.sin(shape.cone)) > 0.7 or abs(shape.helix) > STEEP:
         return None
     low, high = shape.span()
     depth = -(DEDENDUM + RIM) * shape.module

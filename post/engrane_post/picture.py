@@ -9,11 +9,11 @@ from . import options
 from .errors import UserError
 from .results import Frame, Results
 
-SIDES = ("front", "back", "right", "left", "top", "bottom")
 EXAMPLES = """  engrane picture run                          the last frame
   engrane picture run --time 0.01 -o run.png
   engrane picture run --both                   before and after, side by side
-  engrane picture run --reference --view top   the model as the deck gives it, from above"""
+  engrane picture run --reference --view top   the model as the deck gives it, from above
+  engrane picture run --view 1,0.5,2 --zoom 1.2"""
 
 
 def add(commands: argparse._SubParsersAction) -> None:
@@ -45,8 +45,9 @@ def view_arguments(p: argparse.ArgumentParser) -> None:
     p.add_argument("result", help="result file, prefix or deck")
     p.add_argument(
         "--view",
-        choices=SIDES,
-        help="look from this side: front +z, right +x, top +y (default: chosen to show the wheels)",
+        metavar="side|x,y,z",
+        help="look from this side: front +z, back, right +x, left, top +y, bottom, or from the direction "
+        "x,y,z (write --view=-1,0,1 when it starts with a minus; default: chosen to show the wheels)",
     )
     p.add_argument("--zoom", type=float, default=1.0, help="above 1 comes nearer")
     p.add_argument("--size", default=None, metavar="WxH", help="pixels, such as 1600x1000")
@@ -91,20 +92,36 @@ def run(args: argparse.Namespace) -> None:
 
 
 def render(result: Results, frames: list[Frame], path: str, args: argparse.Namespace) -> None:
-    """Draws the frames side by side."""
+    """Draws the frames side by side, as the command line says."""
+    title = args.title if args.title is not None else (result.title or result.name)
+    picture(result, frames, path, args.size, args.view, args.zoom, title)
+
+
+def picture(
+    result: Results,
+    frames: list[Frame],
+    path: str,
+    size: str | None = None,
+    view_from: str | None = None,
+    zoom: float = 1.0,
+    title: str = "",
+    bare: bool = False,
+) -> None:
+    """Draws the frames side by side; `bare` leaves the time out and the background white."""
     from . import view
     from .graphics import pv
     from .scene import Scene, Stage
 
     scene = Scene(result)
-    size = pixels(args.size, (1800, 900) if len(frames) > 1 else (1400, 1000))
-    plotter = pv.Plotter(off_screen=True, shape=(1, len(frames)), window_size=size, border=False)
-    title = args.title if args.title is not None else (result.title or result.name)
+    pixel_size = pixels(size, (1800, 900) if len(frames) > 1 else (1400, 1000))
+    plotter = pv.Plotter(off_screen=True, shape=(1, len(frames)), window_size=pixel_size, border=False)
     for i, frame in enumerate(frames):
         plotter.subplot(0, i)
         Stage(scene, plotter).show(frame)
-        view.dress(plotter, title if i == 0 else "", view.caption(result, frame))
-        view.aim(plotter, scene, frames, args.view, args.zoom)
+        view.dress(plotter, title if i == 0 else "", "" if bare else view.caption(result, frame))
+        if bare:
+            plotter.set_background("white")
+        view.aim(plotter, scene, frames, view_from, zoom)
         plotter.enable_anti_aliasing("ssaa")
     plotter.screenshot(path)
     plotter.close()

@@ -54,6 +54,7 @@ class Scene:
             for d in element.drawing:
                 if d.get("shape") != "wheel":
                     self._shape(element, d)
+        self._carriers()
         self._cells(drawn)
         self._grounds()
 
@@ -102,9 +103,14 @@ class Scene:
         return {n: self.points[n] + frame.displacement[i] for n, i in self.row.items()}
 
     def _wheels(self) -> None:
+        """Wheels of one body have one colour."""
+        body: dict[int, int] = {}
+        for element in self.result.elements:
+            if element.type.upper() == "RIGID":
+                body.update({n: body.get(element.nodes[0], element.nodes[0]) for n in element.nodes if n})
         slots: dict[int, int] = {}
         for w in self.wheels:
-            color = WHEEL_COLORS[slots.setdefault(w.node, len(slots)) % len(WHEEL_COLORS)]
+            color = WHEEL_COLORS[slots.setdefault(body.get(w.node, w.node), len(slots)) % len(WHEEL_COLORS)]
             for mesh, tint in shapes.wheel(w, color, MARK, DARK):
                 self.items.append(Item(mesh, tint, w.node, smooth=False, wheel=True))
 
@@ -130,6 +136,8 @@ class Scene:
                 self.items.append(
                     Item(shapes.box(self.points[known[0]], size * 0.03), BODY, known[0], smooth=False)
                 )
+        elif kind == "rack":
+            self._rack(element, d)
         elif kind == "axis":
             length, radius = self._axle(node, element, center, axis)
             self.items.append(Item(shapes.axle(center, axis, length, radius), STEEL, node))
@@ -189,6 +197,65 @@ class Scene:
                 radius = min(max(radius, 0.07 * w.shape.radius), 0.12 * w.shape.radius)
                 length = max(length, 1.5 * min(w.shape.width, w.shape.radius))
         return length, radius
+
+    def _rack(self, element: Element, d: dict[str, Any]) -> None:
+        """A bar long enough for all that the pinion travels along it, with a gap where the pinion has a
+        tooth."""
+        wheels = [e for e in element.drawing if e.get("shape") == "wheel"]
+        if not wheels:
+            return
+        pinion, center = int(wheels[0].get("node", 0)), np.asarray(d["center"], float)
+        travel, normal = (shapes.unit(np.asarray(d[k], float)) for k in ("direction", "toward"))
+        normal = shapes.unit(normal - travel * (normal @ travel))
+        middle = np.asarray(wheels[0]["center"], float)
+        normal = normal if normal @ (middle - center) >= 0 else -normal
+        node, module = int(d.get("node", 0)), float(d["module"])
+        places = []
+        count = len(self.result.frame_times)
+        for i in range(0, count, max(1, count // 200)):
+            frame = self.result.frame(i)
+            back = np.linalg.inv(self.transform(node, frame))
+            now = self.transform(pinion, frame) @ np.r_[middle, 1.0]
+            places.append(float(((back @ now)[:3] - middle) @ travel))
+        radius = float(wheels[0]["radius"])
+        span = (min([0.0, *places]) - radius, max([0.0, *places]) + radius)
+        for w in self.wheels:
+            if w.node == pinion and np.linalg.norm(w.center - middle) < 1e-6 * radius:
+                axle, toward = w.frame[:, 0], shapes.unit(center - middle)
+                rolled = float(
+                    np.cross(axle, toward) @ travel
+                )  # 1 or -1: the way a tooth goes at the contact
+                slant = np.tan(w.shape.helix) * rolled * float(np.cross(travel, normal) @ axle)
+                pitch = np.pi * module * np.hypot(1, slant)
+                offset = (w.shape.phase - w.angle_of(toward)) / w.shape.pitch_angle
+                shift = pitch * (0.5 + offset * rolled)
+                mesh = shapes.rack(center, travel, normal, module, w.shape.width, span, shift, slant)
+                color = WHEEL_COLORS[(len(self.wheels) + 1) % len(WHEEL_COLORS)]
+                self.items.append(Item(mesh, color, node, smooth=False))
+                return
+
+    def _carriers(self) -> None:
+        """Arms from a body to the pins that it carries: hinges of two bodies, away from the first
+        one's node."""
+        for element in self.result.elements:
+            axes = [d for d in element.drawing if d.get("shape") == "axis" and "center" in d]
+            if element.type.upper() != "HINGE" or len(axes) != 1 or element.nodes[0] not in self.row:
+                continue
+            carrier, node = element.nodes[0], self.points[element.nodes[0]]
+            center, axis = (
+                np.asarray(axes[0]["center"], float),
+                shapes.unit(np.asarray(axes[0]["axis"], float)),
+            )
+            foot = center - axis * ((center - node) @ axis)
+            _, radius = self._axle(element.nodes[1], element, center, axis)
+            parts = []
+            if np.linalg.norm(foot - node) > radius:
+                parts.append(shapes.arm(node, foot, axis, 1.6 * radius))
+            if np.linalg.norm(center - foot) > radius:
+                parts.append(shapes.tube(np.stack([foot, center]), radius))
+            if parts:
+                mesh = pv.merge(parts).extract_surface(algorithm="dataset_surface")
+                self.items.append(Item(mesh, BODY, carrier, smooth=False))
 
     def _cells(self, drawn: set[int]) -> None:
         """Cells of elements that bring no drawing (beams, membranes); surfaces and solids always."""

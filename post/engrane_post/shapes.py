@@ -7,6 +7,7 @@ import numpy as np
 
 from . import gear_mesh
 from .graphics import pv
+from .rack_mesh import rack_mesh
 from .wheels import Wheel
 
 
@@ -52,6 +53,22 @@ def wheel(w: Wheel, color: str, mark: str, dark: str) -> list[tuple[pv.PolyData,
     return [(m, c) for m, c in out if m.n_cells]
 
 
+def rack(
+    center: np.ndarray,
+    travel: np.ndarray,
+    normal: np.ndarray,
+    module: float,
+    width: float,
+    span: tuple[float, float],
+    shift: float,
+    slant: float,
+) -> pv.PolyData:
+    """Toothed bar through `center`, a point of the pitch plane; `normal` points to the pinion."""
+    points, corners = rack_mesh(module, width, *span, shift, slant)
+    frame = np.stack([travel, normal, np.cross(travel, normal)], axis=1)
+    return quads(points @ frame.T + center, corners)
+
+
 def tube(ends: np.ndarray, radius: float) -> pv.PolyData:
     """Round bar between two points."""
     a, b = np.asarray(ends, float)
@@ -59,6 +76,21 @@ def tube(ends: np.ndarray, radius: float) -> pv.PolyData:
     return pv.Cylinder(
         center=(a + b) / 2, direction=unit(b - a), radius=radius, height=max(length, 1e-12), resolution=24
     )
+
+
+def arm(start: np.ndarray, end: np.ndarray, axis: np.ndarray, width: float) -> pv.PolyData:
+    """Flat bar with round ends across an axis, such as one arm of a planet carrier."""
+    along = unit(np.asarray(end, float) - start)
+    across = np.cross(axis, along)
+    turn = np.linspace(-np.pi / 2, np.pi / 2, 13)
+    half = np.outer(np.cos(turn), along) + np.outer(np.sin(turn), across)
+    outline = np.r_[end + width * half, start - width * half]
+    n, thick = len(outline), 0.35 * width * np.asarray(axis, float)
+    side = np.arange(n)
+    following = (side + 1) % n
+    faces = [[n, *range(n)], [n, *range(2 * n - 1, n - 1, -1)]]
+    faces += [[4, a, b, b + n, a + n] for a, b in zip(side.tolist(), following.tolist(), strict=True)]
+    return pv.PolyData(np.r_[outline - thick, outline + thick], faces=np.concatenate(faces))
 
 
 def star(points: list[np.ndarray], radius: float) -> pv.PolyData:

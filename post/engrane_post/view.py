@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .errors import UserError
 from .graphics import pv
 from .results import Frame, Results
 from .scene import Scene
@@ -48,12 +49,30 @@ def direction(scene: Scene, frames: list[Frame]) -> tuple[np.ndarray, np.ndarray
     return eye / np.linalg.norm(eye), up
 
 
+def eye_of(view: str) -> np.ndarray:
+    """Unit vector from the model to the eye, from a side's name or from `x,y,z`."""
+    if view in DIRECTIONS:
+        return np.asarray(DIRECTIONS[view], float)
+    try:
+        eye = np.array([float(v) for v in view.split(",")])
+    except ValueError:
+        eye = np.zeros(0)
+    length = np.linalg.norm(eye)
+    if len(eye) != 3 or not np.isfinite(length) or length == 0:
+        raise UserError(
+            f"--view {view} is no direction; write {', '.join(DIRECTIONS)} or x,y,z such as 1,0.5,2."
+        )
+    return eye / length
+
+
 def aim(plotter: pv.Plotter, scene: Scene, frames: list[Frame], view: str | None, zoom: float = 1.0) -> None:
     """Points the camera of the current view at everything the frames show."""
     eye, up = direction(scene, frames)
     if view:
-        eye = np.asarray(DIRECTIONS[view], float)
-        up = np.array([0, 1.0, 0]) if abs(eye[1]) < 0.5 else np.array([0, 0, 1.0])
+        eye = eye_of(view)
+        up = np.array([0, 1.0, 0]) if abs(eye[1]) < 0.75 else np.array([0, 0, 1.0])
+        up = up - eye * (up @ eye)
+        up = up / np.linalg.norm(up)
     corners = scene.corners(frames)
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
     side = np.cross(up, eye)

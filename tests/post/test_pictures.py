@@ -46,6 +46,54 @@ def test_right_hand_helix() -> None:
         assert (turn[1] - turn[0]) / (axial[1] - axial[0]) == pytest.approx(np.tan(np.radians(20)) / 0.05)
 
 
+@pytest.mark.parametrize("hand", [1, -1])
+def test_worm(hand: int) -> None:
+    """Two threads, lead angle 9.5 degrees: a closed surface between root and tip circle, no facet a large
+    turn, and at any angle about the axle the crests follow each other by the axial pitch."""
+    shape = WheelShape(0.0254, 2, 0.00418, 0.0, hand * np.radians(80.54), 0.03)
+    points, quads, _ = teeth_mesh(shape)
+    edge = np.sort(np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1)
+    _, count = np.unique(edge, axis=0, return_counts=True)
+    assert (count == 2).all()
+    outside = points[: len(points) // 2]
+    r = np.hypot(outside[:, 1], outside[:, 2])
+    assert [r.min(), r.max()] == pytest.approx([0.0254 - 1.25 * 0.00418, 0.0254 + 0.00418], rel=1e-9)
+    low, high = shape.span()
+    s = np.array([low, high])
+    lead = 2 * np.pi * (high - low) / (shape.twist(s)[1] - shape.twist(s)[0])
+    assert lead / 2 == pytest.approx(hand * np.pi * 0.0254 * np.tan(np.radians(9.46)), rel=1e-3)
+    assert high - low > 0.03  # beyond the wheel's width
+
+
+def test_carrier(planetary: Path) -> None:
+    """Arms and pins of the carrier turn with it and reach every planet."""
+    s = scene(planetary)
+    from engrane_post.scene import BODY
+
+    arms = [i for i in s.items if i.node == 3 and i.color == BODY and i.remake is None]
+    assert len(arms) == 3
+    for item, k in zip(arms, range(3), strict=True):
+        near = np.linalg.norm(item.mesh.points - s.points[10 + k], axis=1).min()
+        assert near < 0.02 * s.size
+
+
+def test_wheels_of_one_body_have_one_colour(tmp_path: Path) -> None:
+    path = models.two_wheels(tmp_path / "two.h5")
+    import json
+
+    import h5py
+
+    with h5py.File(path, "a") as f:
+        model = json.loads(f["model"][()])
+        model["elements"].append(dict(id=20, type="RIGID", nodes=[1, 2], parameters={}, drawing=[]))
+        del f["model"]
+        f["model"] = json.dumps(model)
+    from engrane_post.scene import WHEEL_COLORS
+
+    colors = {i.color for i in scene(path).items if i.wheel and i.color in WHEEL_COLORS}
+    assert len(colors) == 1
+
+
 def _tooth_at(w, direction: np.ndarray) -> float:
     """Distance of the contact direction from the middle of a tooth, in tooth pitches, -0.5 to 0.5."""
     share = (w.angle_of(direction) - w.shape.phase) / w.shape.pitch_angle
@@ -90,7 +138,12 @@ def test_topology() -> None:
 
 def test_picture(two: Path, bevel: Path, command, tmp_path: Path) -> None:
     out = tmp_path / "a.png"
-    for words in ((two, "--both"), (two, "--reference", "--view", "back"), (bevel, "--time", "0.4")):
+    for words in (
+        (two, "--both"),
+        (two, "--reference", "--view", "back"),
+        (two, "--view=-1,0.5,2"),
+        (bevel, "--time", "0.4"),
+    ):
         status, _, err = command("picture", *words, "--size", "320x240", "-o", out)
         assert (status, err) == (0, "")
         from PIL import Image
@@ -133,6 +186,9 @@ def test_animation(two: Path, command, tmp_path: Path) -> None:
     [
         (("picture", "two", "--frame", "99"), "there is no frame 99"),
         (("picture", "two", "--size", "big"), "is not a size"),
+        (("picture", "two", "--view", "sideways"), "is no direction"),
+        (("picture", "two", "--view", "0,0,0"), "is no direction"),
+        (("gallery", "no_such_deck"), "The gallery has no no_such_deck"),
         (("picture", "two", "-o", "a.pdf"), "Cannot write a.pdf"),
         (("animate", "two", "--from", "9"), "no frames between"),
         (("animate", "two", "--fps", "0"), "--fps"),
@@ -146,3 +202,74 @@ def test_picture_errors(two: Path, command, tmp_path: Path, monkeypatch, words, 
     status, _, err = command(*words)
     assert status == 1
     assert sentence in err and "Traceback" not in err
+
+
+def test_gallery(command, tmp_path: Path, monkeypatch) -> None:
+    """Every picture of docs/gallery.md has its deck, and is in the page."""
+    from engrane_post import gallery
+
+    page = (gallery.ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
+    for shot in gallery.SHOTS:
+        assert (gallery.ROOT / "decks" / "trains" / f"{shot.deck}.dat").is_file()
+        assert f"figures/gallery/{shot.deck}.png" in page and f"decks/trains/{shot.deck}.dat" in page
+        picture = gallery.ROOT / "docs" / "figures" / "gallery" / f"{shot.deck}.png"
+        assert 5_000 < picture.stat().st_size < 150_000
+    # Drawing itself, with a result that is newer than everything.
+    models.two_wheels(tmp_path / "idler.h5")
+    monkeypatch.setenv("ENGRANE", __file__)
+    out = tmp_path / "pictures"
+    status, text, err = command("gallery", "idler", "--results", tmp_path, "-o", out)
+    assert (status, err) == (0, "") and "running" not in text
+    assert (out / "idler.png").read_bytes()[:4] == b"\x89PNG"
+    (tmp_path / "idler.h5").unlink()
+    monkeypatch.setenv("ENGRANE", "/no/program")
+    assert "needs engrane's source tree" in command("gallery", "idler", "--results", tmp_path, "-o", out)[2]
+
+
+@pytest.mark.parametrize("helix", [0.0, 15.0, -15.0])
+def test_rack(tmp_path: Path, helix: float) -> None:
+    """A bar as long as the pinion travels, with a gap where the pinion has a tooth, all along the
+    contact line."""
+    radius, module = 0.05, 0.005 * np.cos(np.radians(helix))
+    elements = [
+        dict(
+            id=1,
+            type="RACK",
+            nodes=[1, 2],
+            drawing=[
+                models.wheel(1, (0, 0, 0), (0, 0, 1), (0, -1, 0), radius, 20, module, 0.03, 0, helix),
+                dict(
+                    shape="rack",
+                    node=2,
+                    center=[0, -radius, 0],
+                    direction=[1, 0, 0],
+                    toward=[0, 1, 0],
+                    module=module,
+                ),
+            ],
+        )
+    ]
+    shift = np.zeros((3, 2, 3))
+    shift[:, 1, 0] = 0, -0.1, -0.3
+    path = models.write(
+        tmp_path / "rack.h5",
+        {1: (0.0, 0.0, 0.0), 2: (0.0, -0.1, 0.0)},
+        elements,
+        np.linspace(0, 1, 3),
+        shift,
+        np.zeros((3, 2, 3)),
+    )
+    s = scene(path)
+    (bar,) = [i.mesh for i in s.items if i.node == 2]
+    assert (
+        bar.bounds[0] < -0.05 and bar.bounds[1] > 0.35
+    )  # where the contact has been, in the rack's place at the start
+    (pinion,) = s.wheels
+    tip = bar.points[bar.points[:, 1] > bar.bounds[3] - 1e-9]
+    pitch = np.pi * 2 * radius / 20
+    for z in (-0.015, 0.015):
+        tooth = pinion.shape.phase + pinion.shape.twist(np.array([z]))[0]  # at the contact, turned about +z
+        x = np.sort(tip[abs(tip[:, 2] - z) < 1e-9][:, 0])
+        middles = (x[0::2] + x[1::2]) / 2
+        gap = (middles - radius * tooth) / pitch % 1
+        assert gap == pytest.approx(0.5, abs=1e-6)

@@ -118,6 +118,13 @@ def worm(tangential: float, lead: float, alpha_n: float, friction: float = 0.0) 
     }
 
 
+def wheel_drives_worm(lead: float, alpha_n: float, friction: float) -> float:
+    """Efficiency when the wheel drives; nothing comes out of a worm that locks itself, friction >=
+    cos(alpha_n) tan(lead)."""
+    cn = math.cos(alpha_n)
+    return max(0.0, (cn - friction / math.tan(lead)) / (cn + friction * math.tan(lead)))
+
+
 def worm_of_shigley() -> dict[str, float]:
     """Two threads, 30 teeth, transverse pitch 6 per inch, worm pitch diameter 2 in, 1 hp at 1200 rpm, 14.5
     degrees, f = 0.03."""

@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.linalg import eigh
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from oracles import gear_statics, rigid_body, spur_transmission
+from oracles import gear_statics, parametric_mesh, planetary, rigid_body, spur_transmission
 
 
 def test_pendulum() -> None:
@@ -55,6 +56,24 @@ def test_worm() -> None:
         assert w[name] == pytest.approx(value, rel=2e-7)
 
 
+def test_worm_locks_itself() -> None:
+    """The virtual work of the force components gives the efficiencies; at f = cos(a_n) tan(lead) the
+    wheel's force on the worm passes through its axle."""
+    alpha, lead = math.radians(14.5), math.radians(9.46232221)
+    limit = gear_statics.worm(1.0, lead, alpha)["self_locking_friction"]
+    assert limit == pytest.approx(math.cos(alpha) * math.tan(lead))
+    for f in (0.0, 0.03, 0.1, 0.9 * limit, 1.5 * limit):
+        w = gear_statics.worm(1.0, lead, alpha, f)
+        # One turn of the worm moves the wheel's pitch circle by the lead, 2 pi r tan(lead).
+        assert w["W_z"] * math.tan(lead) / w["W_x"] == pytest.approx(w["efficiency"])
+        # With the wheel driving, friction points the other way.
+        back = gear_statics.wheel_drives_worm(lead, alpha, f)
+        x = math.cos(alpha) * math.sin(lead) - f * math.cos(lead)
+        z = math.cos(alpha) * math.cos(lead) + f * math.sin(lead)
+        assert back == pytest.approx(max(0.0, x / (z * math.tan(lead))))
+        assert (back == 0) == (f >= limit)
+
+
 def test_hypoid() -> None:
     h = gear_statics.hypoid(11, 43, math.radians(50), math.radians(31.5), 85.0)
     assert h["pinion_radius"] == pytest.approx(28.84306742)
@@ -91,6 +110,69 @@ def test_planetary() -> None:
     w = gear_statics.willis(24, 60)
     assert [w["carrier"], w["planet"]] == pytest.approx([2 / 7, -2 / 3])
     assert 1 + w["torque_ring"] + w["torque_carrier"] == pytest.approx(0)
+
+
+def test_lin_and_parker() -> None:
+    f = planetary.frequencies(planetary.Planetary())
+    single = [0, 1475.7472, 1930.3466, 2658.3244, 7462.8034, 11775.2658]
+    double = [743.1639, 1102.4193, 1896.0199, 2276.3801, 6986.2982, 9647.9132]
+    assert len(f) == 18
+    assert f[0] == pytest.approx(0, abs=1e-3)  # the root of a rounding error: all turn together
+    assert f[1:] == pytest.approx(sorted(single[1:] + double + double), abs=6e-5)
+
+
+def test_four_planets_have_modes_of_their_own() -> None:
+    """With more than three planets, modes in which only planets move are N - 3 fold (Lin and Parker 1999)."""
+    p = planetary.Planetary(planets=4)
+    mass, stiffness = planetary.matrices(p)
+    values, shapes = eigh(stiffness, mass)
+    still = np.abs(shapes[:9]).max(axis=0) < 1e-6 * np.abs(shapes).max(axis=0)
+    assert still.sum() == 3 * (p.planets - 3)
+    assert values.min() > -1e-3
+
+
+def test_load_sharing() -> None:
+    places = 2 * np.pi * np.arange(3) / 3
+    error, alpha = np.array([2e-5, 0, 0]), math.radians(20)
+    for radial_closes in (True, False):
+
+        def share(k: float, closes: bool = radial_closes) -> np.ndarray:
+            return planetary.load_sharing(6000.0, error, places, 4e8, 5e8, k, alpha, closes)
+
+        # A free sun finds its place between three planets; in a rigid bearing the springs of both teeth in
+        # a row, over which the error is spread twice, make the difference.
+        assert share(1e-3) == pytest.approx([2000, 2000, 2000], rel=1e-6)
+        row = 4e8 * 5e8 / 9e8
+        held = 2000 + row * 2 * math.cos(alpha) * (error.mean() - error)
+        assert share(1e18) == pytest.approx(held, rel=1e-6)
+        assert share(1e8).sum() == pytest.approx(6000)
+        # A pin that stands ahead of the load's sense opens its teeth.
+        assert share(1e8)[0] < 2000 < share(1e8)[1:].min()
+
+
+def test_load_sharing_deck() -> None:
+    """The numbers in decks/trains/planetary_load_sharing*.dat; k_m is measured along the circumference."""
+    alpha = math.radians(20)
+    c = math.cos(alpha)
+    places = 2 * np.pi * np.arange(3) / 3
+    for radial_closes, expected in (
+        (False, [63.65289, 231.85794, 295.69904]),
+        (True, [66.59017, 262.30985, 262.30985]),
+    ):
+        mesh = 4.2e8 / c**2
+        found = planetary.load_sharing(
+            20 / 0.036 / c, np.array([2e-6, 0, 0]), places, mesh, mesh, 1e8, alpha, radial_closes
+        )
+        assert found == pytest.approx(expected, abs=5e-5)
+
+
+def test_parametric_mesh() -> None:
+    assert parametric_mesh.first_instability(0.2) == pytest.approx((1.8988481105, 2.0986875606), abs=2e-10)
+    assert np.linalg.det(parametric_mesh.monodromy(0.2, 1.7)) == pytest.approx(1, abs=1e-10)  # Liouville
+    for rate, stable in ((1.89, True), (1.91, False), (2.09, False), (2.11, True)):
+        assert (parametric_mesh.growth(0.2, rate) < 1 + 1e-9) == stable
+    # Damping above epsilon/4 closes the region (first order of the perturbation in epsilon).
+    assert parametric_mesh.growth(0.2, 2.0, 0.045) > 1 > parametric_mesh.growth(0.2, 2.0, 0.055)
 
 
 def test_transmission_starts_in_equilibrium() -> None:
