@@ -35,6 +35,7 @@ class Assembler {
   /// Scale k of each multiplier, in the order of Configuration::multipliers.
   const std::vector<double>& scale() const { return scale_; }
   double penalty = 0;  ///< p of the augmented Lagrangian
+  double bridge = 0;   ///< of contacts, State::bridge
 
   /// Chooses k so that constraint rows are as large as the rows they act on (Bottasso, Dopico and Trainelli 2008: the
   /// condition number then does not grow as h → 0). A positive `fixed` is used for all instead.

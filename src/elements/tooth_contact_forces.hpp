@@ -41,7 +41,7 @@ template <class T>
 void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap,
                          const T& force_1, Balance<T, 2>& balance, ToothLoads<T>& loads, ContactReport* report) const {
   const T &psi_a = motion.scalar[0], &psi_b = motion.scalar[1];
-  const double k = law_.stiffness;
+  const double bridge = balance.bridge(), k = (1 - bridge) * law_.stiffness;
   const Function::Jet error_a = law_.error.of_a(value_of(psi_a), law_.mesh),
                       error_b = law_.error.of_b(value_of(psi_b), law_.mesh);
   const T x = motion.scalar[2] + compose(psi_a, error_a.f, error_a.d1, error_a.d2) +
@@ -150,6 +150,10 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
     if (report) report->opening = value_of(opening);
   }
 
+  if (bridge > 0) {
+    net += bridge * law_.stiffness * x;
+    potential += 0.5 * bridge * law_.stiffness * value_of(x) * value_of(x);
+  }
   const T& rate = motion.scalar_rate[2];
   T damping(0);
   if (law_.damping > 0) {

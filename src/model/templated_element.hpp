@@ -50,6 +50,8 @@ class Balance {
     return T(state_.multipliers[static_cast<std::size_t>(i)]) + multiplier_lane(i) - state_.penalty * phi;
   }
 
+  double bridge() const { return state_.bridge; }
+
   const Vec3T<T>& force_at(int node) const { return force_[static_cast<std::size_t>(node)]; }
   const Vec3T<T>& moment_at(int node) const { return moment_[static_cast<std::size_t>(node)]; }
   const T& scalar_at(int i) const { return scalar_[static_cast<std::size_t>(i)]; }

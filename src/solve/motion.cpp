@@ -67,6 +67,13 @@ void MotionSlots::scatter(std::span<const double> unknowns, std::span<double> mo
   }
 }
 
+void MotionSlots::gather(std::span<const double> motion, std::span<double> unknowns) const {
+  for (std::size_t e = 0; e < unknowns.size(); ++e) {
+    const Unknown& u = numbering_.unknown(static_cast<int>(e));
+    if (!u.multiplier) unknowns[e] = motion[static_cast<std::size_t>(u.slot)];
+  }
+}
+
 std::vector<MotionSlots::Prescribed> MotionSlots::prescribed(double time) const {
   std::vector<Prescribed> all;
   for (const Support& s : model_.supports) {

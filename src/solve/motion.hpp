@@ -27,6 +27,9 @@ class MotionSlots {
   /// Copies the entries of `unknowns` (one per equation) into the motion slots that have an equation.
   void scatter(std::span<const double> unknowns, std::span<double> motion) const;
 
+  /// The other way round: an entry of `unknowns` for each motion slot that has an equation.
+  void gather(std::span<const double> motion, std::span<double> unknowns) const;
+
   /// A prescribed slot at a time: displacement from the reference, its rate and acceleration.
   struct Prescribed {
     std::size_t slot;

@@ -14,6 +14,12 @@ class Statics final : public Analysis {
   NewtonReport attempt(const Configuration& from, double h, Configuration& to) override;
 
  private:
+  /// Newton's iteration from the displacements `y` and the multipliers of `to`, which end as the solution.
+  NewtonReport balance(const Configuration& from, std::span<double> y, Configuration& to);
+  /// Flanks across a gap give no stiffness to find each other by: contacts begin as springs that fade away.
+  NewtonReport balance_across_gaps(const Configuration& from, std::span<const double> y, Configuration& to);
+
+  bool has_contacts_;
   Owned<Vec> unknowns_;
 };
 

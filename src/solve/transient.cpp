@@ -126,9 +126,7 @@ NewtonReport Transient::attempt(const Configuration& from, double h, Configurati
   const auto prescribed = bench_.motion.prescribed(to.time);
 
   std::vector<double> guess(static_cast<std::size_t>(bench_.numbering.equations()), 0.0);
-  for (std::size_t e = 0; e < guess.size(); ++e)
-    if (const Unknown& u = bench_.numbering.unknown(static_cast<int>(e)); !u.multiplier)
-      guess[e] = y[static_cast<std::size_t>(u.slot)];
+  bench_.motion.gather(y, guess);
   multipliers_to_unknowns(from, guess);
 
   const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
