@@ -78,6 +78,12 @@ PitchFrames pitch_frames(const GearDesign& design, const Vec3& x_a, const Vec3& 
   return f;
 }
 
+Vec3 centre_of_second_wheel(const GearDesign& design, const Vec3& x_a, const Vec3& axle, const Vec3& toward) {
+  const Vec3 xi_2 = wheel_to_wheel(design).col(1);  // in the components of μ
+  const Vec3 across = cross(axle, toward);
+  return x_a + design.radius(0) * toward - design.radius(1) * (xi_2[0] * axle + xi_2[1] * toward + xi_2[2] * across);
+}
+
 std::array<double, 2> cones_of_shaft_angle(double shaft, const std::array<int, 2>& teeth) {
   const double s = std::sin(shaft), c = std::cos(shaft);
   const double ratio = static_cast<double>(teeth[1]) / teeth[0];

@@ -70,6 +70,10 @@ Closure closure(const GearDesign& design, const Vec3& x_a, const Vec3& x_b, cons
 /// points of A and B.
 PitchFrames pitch_frames(const GearDesign& design, const Vec3& x_a, const Vec3& x_b, const Vec3& axle);
 
+/// Where the centre of B must be when the contact lies in the direction `toward`, a unit vector across the axle of A: the
+/// inverse of pitch_frames().
+Vec3 centre_of_second_wheel(const GearDesign& design, const Vec3& x_a, const Vec3& axle, const Vec3& toward);
+
 /// Cone angles of two wheels whose axles meet at the angle `shaft`, from the numbers of teeth:
 /// tanγ = sinΣ/(z_other/z + cosΣ), both positive.
 std::array<double, 2> cones_of_shaft_angle(double shaft, const std::array<int, 2>& teeth);

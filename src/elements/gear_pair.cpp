@@ -229,6 +229,6 @@ std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& con
 
 }  // namespace
 
-ElementType gear_pair_type() { return element_type(gear_card(), build_gear_pair, 1); }
+ElementType gear_pair_type() { return element_type(gear_card(), build_gear_pair, 1, place_second_wheel); }
 
 }  // namespace engrane
