@@ -85,7 +85,9 @@ std::optional<double> shaft_angle_of_axles(const Vec3& x_a, const Vec3& axle_a, 
 /// Length of the path of contact from the pitch point to the tip circle of a wheel with addendum m_n, without profile shift;
 /// only for parallel axles.
 std::optional<double> path_of_contact(const GearDesign& design, std::size_t wheel);
-/// Transverse contact ratio of involute teeth with addendum m_n, without profile shift; only for parallel axles.
+/// Transverse contact ratio of involute teeth with addendum m_n, without profile shift. For axles that meet, of the virtual
+/// cylindrical wheels r/cosγ at the middle of the face (Tredgold). Nothing for axles that pass each other, nor where the tip
+/// of a ring lies inside its base circle.
 std::optional<double> contact_ratio(const GearDesign& design);
 
 }  // namespace engrane

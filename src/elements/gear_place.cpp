@@ -10,6 +10,7 @@
 
 #include "elements/building.hpp"
 #include "elements/gear_kinds.hpp"
+#include "elements/gear_report.hpp"
 
 namespace engrane {
 
@@ -199,6 +200,7 @@ std::optional<GearPlacement> place_gear(const GearData& data, const BuildContext
   if (!check_closure(design, data, x_a, x_b, axle, context) || !radii_good) return {};
   GearPlacement placement{design, pitch_frames(design, x_a, x_b, axle)};
   if (!check_axle_b(design, data, placement.frames, context)) return {};
+  warn_about_teeth(design, data, context);
   return placement;
 }
 
