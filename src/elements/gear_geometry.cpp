@@ -102,10 +102,7 @@ std::optional<double> shaft_angle_of_axles(const Vec3& x_a, const Vec3& axle_a, 
   return std::acos(std::clamp((s * t > 0 ? 1 : -1) * axle_a.dot(axle_b), -1.0, 1.0));
 }
 
-namespace {
-
-/// Half of the path of contact, up to the tip circle of a wheel, of the cylindrical wheel r/cosγ that a bevel wheel resembles.
-std::optional<double> virtual_path(const GearDesign& design, std::size_t wheel) {
+std::optional<double> virtual_path_of_contact(const GearDesign& design, std::size_t wheel) {
   const double alpha = design.transverse_pressure_angle(wheel), m_n = design.normal_module, cosine = std::cos(design.cone[wheel]);
   if (std::abs(cosine) < angular_rounding) return m_n / std::sin(alpha);  // a crown wheel: its virtual wheel is a rack
   const double r = design.radius(wheel) / std::abs(cosine), base = r * std::cos(alpha);
@@ -115,16 +112,14 @@ std::optional<double> virtual_path(const GearDesign& design, std::size_t wheel) 
   return cosine < 0 ? -side : side;
 }
 
-}  // namespace
-
 std::optional<double> path_of_contact(const GearDesign& design, std::size_t wheel) {
   if (design.parallel_kind() == 0) return {};
-  return virtual_path(design, wheel);
+  return virtual_path_of_contact(design, wheel);
 }
 
 std::optional<double> contact_ratio(const GearDesign& design) {
   if (std::abs(design.helix[0] + design.helix[1]) > angular_rounding) return {};  // the axles pass each other
-  const auto a = virtual_path(design, 0), b = virtual_path(design, 1);
+  const auto a = virtual_path_of_contact(design, 0), b = virtual_path_of_contact(design, 1);
   if (!a || !b) return {};
   return (*a + *b) / (std::numbers::pi * design.transverse_module(0) * std::cos(design.transverse_pressure_angle(0)));
 }

@@ -49,6 +49,20 @@ double least_teeth(const GearDesign& design, std::size_t wheel) {
   return 2 * std::cos(design.helix[wheel]) / (sine * sine);
 }
 
+std::optional<double> usable_contact_ratio(const GearDesign& design) {
+  const auto full = contact_ratio(design);
+  if (!full) return {};
+  const double sine = std::sin(design.transverse_pressure_angle(0));
+  double path = 0;
+  for (const std::size_t i : wheels) {
+    const std::size_t mate = 1 - i;
+    const double side = *virtual_path_of_contact(design, i), cosine = std::cos(design.cone[mate]);
+    // a ring's involute starts outside its base circle, a crown wheel's nowhere
+    path += cosine > 1e-9 ? std::min(side, design.radius(mate) / cosine * sine) : side;
+  }
+  return path / (std::numbers::pi * design.transverse_module(0) * std::cos(design.transverse_pressure_angle(0)));
+}
+
 int hunting_period(const std::array<int, 2>& teeth) { return teeth[1] / std::gcd(teeth[0], teeth[1]); }
 
 std::optional<InternalClearance> internal_clearance(const GearDesign& design) {
@@ -181,9 +195,9 @@ void warn_about_teeth(const GearDesign& design, const GearData& data, const Buil
          fmt::format("the tips of pinion and ring gear strike each other: {} teeth differ too little from {}",
                      std::min(design.teeth[0], design.teeth[1]), std::max(design.teeth[0], design.teeth[1])),
          "take a larger difference, a larger ALPHA or stub teeth");
-  if (const auto ratio = contact_ratio(design); ratio && *ratio < 1)
-    warn("Z", fmt::format("contact ratio {:.3g}: at times no tooth would be in contact", *ratio),
-         "take more teeth, or a smaller ALPHA; the model passes the motion on all the same");
+  if (const auto ratio = usable_contact_ratio(design); ratio && *ratio < 1)
+    warn("Z", fmt::format("contact ratio {:.3g}, undercut considered: at times no teeth would touch", *ratio),
+         "take more teeth; the model passes the motion on all the same");
 }
 
 }  // namespace engrane

@@ -38,6 +38,10 @@ struct InternalClearance {
 /// Geometry and Applied Theory, chapter 11); the unit test compares it with the path of a tip corner through the ring.
 std::optional<InternalClearance> internal_clearance(const GearDesign& design);
 
+/// Contact ratio of what is left of the path of contact where tips would reach beyond the start of the mate's involute: undercut
+/// takes that part away. Nothing where contact_ratio() gives nothing.
+std::optional<double> usable_contact_ratio(const GearDesign& design);
+
 /// Undercut, contact ratio below 1 and interference of internal pairs, each a warning with its cure. Of equal pairs in a deck
 /// only the first is spoken of.
 void warn_about_teeth(const GearDesign& design, const GearData& data, const BuildContext& context);
