@@ -300,7 +300,7 @@ class KindBuilder {
     const auto cones = hypoid_cones(h);
     if (!cones)
       return fail(data_.offset ? "OFFSET" : "HELIX", "no pitch cones touch with these numbers",
-                  "a smaller offset, or spiral angles that differ less, bring it nearer to a spiral bevel pair");
+                  "a smaller offset, spiral angles that differ less or a smaller SHAFT bring it nearer to a spiral bevel pair");
     design_.normal_module = cones->normal_module;
     design_.cone[pinion] = cones->pinion_cone;
     design_.cone[ring] = cones->ring_cone;
