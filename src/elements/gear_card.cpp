@@ -12,7 +12,8 @@ const deck::Card<GearData>& gear_card() {
     c.describe(
         "Two toothed wheels, each at a node that is its centre. The pair passes the normal tooth force between them, with its "
         "tangential, radial and axial parts; bearings and shafts are other elements. The places of the nodes must agree with "
-        "Z, MN, HELIX and the cones. Teeth are rigid unless KM is given; XI, CM, JEU, SMOOTH, DAMP and ERR need it. "
+        "Z, MN, HELIX and the cones, unless PLACE puts B where it belongs. KIND is the short way to all common pairs. Teeth are "
+        "rigid unless KM is given; XI, CM, JEU, SMOOTH, DAMP and ERR need it. "
         "Right-hand helices are positive. Cone angles are the paper's: 0 an external cylinder, 180 a ring gear, positive "
         "when the wheel widens along its axle.");
     c.add("N", &GearData::nodes, "centres of wheel A and wheel B")
