@@ -78,6 +78,12 @@ PitchFrames pitch_frames(const GearDesign& design, const Vec3& x_a, const Vec3& 
   return f;
 }
 
+Vec3 centre_of_second_wheel(const GearDesign& design, const Vec3& x_a, const Vec3& axle, const Vec3& toward) {
+  const Vec3 xi_2 = wheel_to_wheel(design).col(1);  // in the components of μ
+  const Vec3 across = cross(axle, toward);
+  return x_a + design.radius(0) * toward - design.radius(1) * (xi_2[0] * axle + xi_2[1] * toward + xi_2[2] * across);
+}
+
 std::array<double, 2> cones_of_shaft_angle(double shaft, const std::array<int, 2>& teeth) {
   const double s = std::sin(shaft), c = std::cos(shaft);
   const double ratio = static_cast<double>(teeth[1]) / teeth[0];
@@ -96,19 +102,24 @@ std::optional<double> shaft_angle_of_axles(const Vec3& x_a, const Vec3& axle_a, 
   return std::acos(std::clamp((s * t > 0 ? 1 : -1) * axle_a.dot(axle_b), -1.0, 1.0));
 }
 
-std::optional<double> path_of_contact(const GearDesign& design, std::size_t wheel) {
-  const int kind = design.parallel_kind();
-  if (kind == 0) return {};
-  const double alpha = design.transverse_pressure_angle(wheel), r = design.radius(wheel), base = r * std::cos(alpha);
-  const bool ring = kind == (wheel == 0 ? -2 : -1);
-  const double tip = ring ? r - design.normal_module : r + design.normal_module;
+std::optional<double> virtual_path_of_contact(const GearDesign& design, std::size_t wheel) {
+  const double alpha = design.transverse_pressure_angle(wheel), m_n = design.normal_module, cosine = std::cos(design.cone[wheel]);
+  if (std::abs(cosine) < angular_rounding) return m_n / std::sin(alpha);  // a crown wheel: its virtual wheel is a rack
+  const double r = design.radius(wheel) / std::abs(cosine), base = r * std::cos(alpha);
+  const double tip = cosine < 0 ? r - m_n : r + m_n;
   if (tip <= base) return {};  // the ring's tip lies inside its base circle: no involute there
   const double side = std::sqrt(tip * tip - base * base) - r * std::sin(alpha);
-  return ring ? -side : side;
+  return cosine < 0 ? -side : side;
+}
+
+std::optional<double> path_of_contact(const GearDesign& design, std::size_t wheel) {
+  if (design.parallel_kind() == 0) return {};
+  return virtual_path_of_contact(design, wheel);
 }
 
 std::optional<double> contact_ratio(const GearDesign& design) {
-  const auto a = path_of_contact(design, 0), b = path_of_contact(design, 1);
+  if (std::abs(design.helix[0] + design.helix[1]) > angular_rounding) return {};  // the axles pass each other
+  const auto a = virtual_path_of_contact(design, 0), b = virtual_path_of_contact(design, 1);
   if (!a || !b) return {};
   return (*a + *b) / (std::numbers::pi * design.transverse_module(0) * std::cos(design.transverse_pressure_angle(0)));
 }

@@ -70,6 +70,10 @@ Closure closure(const GearDesign& design, const Vec3& x_a, const Vec3& x_b, cons
 /// points of A and B.
 PitchFrames pitch_frames(const GearDesign& design, const Vec3& x_a, const Vec3& x_b, const Vec3& axle);
 
+/// Where the centre of B must be when the contact lies in the direction `toward`, a unit vector across the axle of A: the
+/// inverse of pitch_frames().
+Vec3 centre_of_second_wheel(const GearDesign& design, const Vec3& x_a, const Vec3& axle, const Vec3& toward);
+
 /// Cone angles of two wheels whose axles meet at the angle `shaft`, from the numbers of teeth:
 /// tanγ = sinΣ/(z_other/z + cosΣ), both positive.
 std::array<double, 2> cones_of_shaft_angle(double shaft, const std::array<int, 2>& teeth);
@@ -78,10 +82,15 @@ std::array<double, 2> cones_of_shaft_angle(double shaft, const std::array<int, 2
 /// each other, or meet in one of the centres.
 std::optional<double> shaft_angle_of_axles(const Vec3& x_a, const Vec3& axle_a, const Vec3& x_b, const Vec3& axle_b);
 
-/// Length of the path of contact from the pitch point to the tip circle of a wheel with addendum m_n, without profile shift;
-/// only for parallel axles.
+/// Length of the path of contact from the pitch point to the tip circle of a wheel with addendum m_n, without profile shift, of
+/// the virtual cylindrical wheel r/cosγ at the middle of the face (Tredgold). Nothing where the tip of a ring lies inside its
+/// base circle.
+std::optional<double> virtual_path_of_contact(const GearDesign& design, std::size_t wheel);
+/// The same, only for parallel axles.
 std::optional<double> path_of_contact(const GearDesign& design, std::size_t wheel);
-/// Transverse contact ratio of involute teeth with addendum m_n, without profile shift; only for parallel axles.
+/// Transverse contact ratio of involute teeth with addendum m_n, without profile shift. For axles that meet, of the virtual
+/// cylindrical wheels r/cosγ at the middle of the face (Tredgold). Nothing for axles that pass each other, nor where the tip
+/// of a ring lies inside its base circle.
 std::optional<double> contact_ratio(const GearDesign& design);
 
 }  // namespace engrane

@@ -11,6 +11,8 @@
 #include "elements/building.hpp"
 #include "elements/contact_channels.hpp"
 #include "elements/gear_place.hpp"
+#include "elements/gear_report.hpp"
+#include "elements/tooth_phases.hpp"
 
 namespace engrane {
 
@@ -161,34 +163,7 @@ void GearPair::switches(const State& state, std::span<Switch> values) const {
 }
 
 std::vector<Derived> GearPair::derived() const {
-  using namespace dimension;
-  std::vector<Derived> list;
-  const Mat3 Z = wheel_to_wheel(design_);
-  const auto each = [&](const std::string& name, Dimension d, auto value) {
-    list.push_back({name + " of wheel A", value(std::size_t{0}), d});
-    list.push_back({name + " of wheel B", value(std::size_t{1}), d});
-  };
-  each("pitch radius", length, [&](std::size_t i) { return radius_[i]; });
-  each("base radius", length, [&](std::size_t i) { return radius_[i] * std::cos(design_.transverse_pressure_angle(i)); });
-  each("transverse module", length, [&](std::size_t i) { return design_.transverse_module(i); });
-  each("transverse pressure angle", angle, [&](std::size_t i) { return design_.transverse_pressure_angle(i); });
-  each("cone angle", angle, [&](std::size_t i) { return design_.cone[i]; });
-  each("helix angle (right hand > 0)", angle, [&](std::size_t i) { return paper_helix(design_.helix[i], design_.cone[i]); });
-  for (int k = 0; k < 3; ++k) list.push_back({std::string("axle of wheel B, ") + "xyz"[k], frames_.xi(k, 0), none});
-  for (int k = 0; k < 3; ++k) list.push_back({std::string("contact point, ") + "xyz"[k], frames_.contact[k], length});
-  const Vec3 span = radius_[0] * frames_.mu.col(1) - radius_[1] * frames_.xi.col(1);
-  list.push_back({"distance of the centres", span.norm(), length});
-  list.push_back({"angle between the axles", std::atan2(std::hypot(Z(1, 0), Z(2, 0)), std::abs(Z(0, 0))), angle});
-  list.push_back({"ratio z_B/z_A", static_cast<double>(design_.teeth[1]) / design_.teeth[0], none});
-  list.push_back({"teeth met per turn of wheel A", static_cast<double>(design_.teeth[0]), none});
-  if (const auto ratio = contact_ratio(design_)) list.push_back({"transverse contact ratio", *ratio, none});
-  if (contact_.elastic()) {
-    const ToothLaw& teeth = contact_.law();
-    list.push_back({"tooth stiffness", teeth.stiffness, dimension::stiffness});
-    list.push_back({"tooth damping", teeth.damping, dimension::damping});
-    if (teeth.backlash > 0) list.push_back({"onset of contact", teeth.onset, length});
-  }
-  return list;
+  return gear_report(design_, frames_, contact_.law(), contact_.geometry().width);
 }
 
 Drawing GearPair::drawing() const {
@@ -222,6 +197,9 @@ std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& con
   owner.lever = {design.lever(0), design.lever(1)};
   owner.parallel = kind != 0;
   owner.geometry = contact_geometry(design, width);
+  const auto mesh = mesh_phase(context, data.stiffness || data.course.is("ISO"));
+  if (!mesh) return nullptr;
+  owner.mesh = *mesh;
   const auto teeth = read_teeth(data, owner, context);
   if (!teeth) return nullptr;
   return std::make_unique<GearPair>(context.record.id, data.nodes, design, placement->frames, teeth->law, teeth->options, width);
@@ -229,6 +207,6 @@ std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& con
 
 }  // namespace
 
-ElementType gear_pair_type() { return element_type(gear_card(), build_gear_pair, 1); }
+ElementType gear_pair_type() { return element_type(gear_card(), build_gear_pair, 1, place_second_wheel); }
 
 }  // namespace engrane

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "elements/building.hpp"
+#include "elements/gear_kinds.hpp"
+#include "elements/gear_report.hpp"
 
 namespace engrane {
 
@@ -18,31 +20,18 @@ namespace {
 constexpr double typing_tolerance = 1e-6;
 
 /// The wheel with more teeth is the ring of an internal pair.
-std::optional<std::array<double, 2>> internal_cones(const GearData& data, const BuildContext& context) {
-  if (data.teeth[0] == data.teeth[1]) {
-    context.error("INTERNAL", fmt::format("an internal pair with {} teeth on both wheels", data.teeth[0]),
+std::optional<std::array<double, 2>> internal_cones(const std::array<int, 2>& teeth, const BuildContext& context) {
+  if (teeth[0] == teeth[1]) {
+    context.error("INTERNAL", fmt::format("an internal pair with {} teeth on both wheels", teeth[0]),
                   "the ring gear needs more teeth than the pinion");
     return {};
   }
-  const bool ring_is_a = data.teeth[0] > data.teeth[1];
+  const bool ring_is_a = teeth[0] > teeth[1];
   return std::array<double, 2>{ring_is_a ? std::numbers::pi : 0.0, ring_is_a ? 0.0 : std::numbers::pi};
 }
 
-/// Cones of a pair whose axles meet: the sign is the one that suits the side of A on which B lies.
-std::array<double, 2> bevel_cones(double shaft, const GearData& data, const Vec3& x_ab, const Vec3& axle) {
-  auto cones = cones_of_shaft_angle(shaft, data.teeth);
-  // the offset of B along the axle of A, −r_B Z₁₂ = −r_B sin(γ_A + γ_B), has the sign to choose by
-  GearDesign design;
-  design.teeth = data.teeth;
-  design.normal_module = data.normal_module;
-  design.cone = cones;
-  if (closure(design, Vec3::Zero(), x_ab, axle).offset_needed * x_ab.dot(axle) < 0)
-    for (double& cone : cones) cone = -cone;
-  return cones;
-}
-
 /// Cone angles, radians, from whichever of CONE, SHAFT, INTERNAL and AXISB the deck gives.
-std::optional<std::array<double, 2>> cones_of(const GearData& data, const Vec3& x_a, const Vec3& x_b, const Vec3& axle,
+std::optional<std::array<double, 2>> cones_of(const GearData& data, const std::array<int, 2>& teeth, const GearSite& site,
                                               const BuildContext& context) {
   const int ways = (data.cone ? 1 : 0) + (data.shaft_angle ? 1 : 0) + (data.internal ? 1 : 0);
   if (ways > 1) {
@@ -51,11 +40,11 @@ std::optional<std::array<double, 2>> cones_of(const GearData& data, const Vec3& 
     return {};
   }
   if (data.cone) return std::array<double, 2>{(*data.cone)[0] * degree, (*data.cone)[1] * degree};
-  if (data.internal) return internal_cones(data, context);
-  if (data.shaft_angle) return bevel_cones(*data.shaft_angle * degree, data, x_b - x_a, axle);
-  if (data.axis_b) {
+  if (data.internal) return internal_cones(teeth, context);
+  if (data.shaft_angle) return bevel_cones(*data.shaft_angle * degree, teeth, site);
+  if (data.axis_b && site.x_b) {
     const Vec3 axle_b = to_vector(*data.axis_b).normalized();
-    if (const auto shaft = shaft_angle_of_axles(x_a, axle, x_b, axle_b)) return bevel_cones(*shaft, data, x_b - x_a, axle);
+    if (const auto shaft = shaft_angle_of_axles(site.x_a, site.axle, *site.x_b, axle_b)) return bevel_cones(*shaft, teeth, site);
   }
   return std::array<double, 2>{0, 0};
 }
@@ -123,7 +112,8 @@ bool check_closure(const GearDesign& design, const GearData& data, const Vec3& x
 bool check_axle_b(const GearDesign& design, const GearData& data, const PitchFrames& frames, const BuildContext& context) {
   const Vec3 needed = frames.xi.col(0);
   if (!data.axis_b) {
-    if (std::abs(std::sin(design.cone[0])) + std::abs(std::sin(design.cone[1])) < 1e-9 && design.parallel_kind() == 0)
+    if (!data.kind.given() && std::abs(std::sin(design.cone[0])) + std::abs(std::sin(design.cone[1])) < 1e-9 &&
+        design.parallel_kind() == 0)
       context.diagnostics.warning(
           context.record.where("HELIX"),
           fmt::format("these helices make crossed axles: B turns about ({}, {}, {})", number(needed[0]), number(needed[1]),
@@ -144,29 +134,84 @@ bool check_axle_b(const GearDesign& design, const GearData& data, const PitchFra
   return false;
 }
 
-}  // namespace
-
-std::optional<GearPlacement> place_gear(const GearData& data, const BuildContext& context) {
-  const bool nodes_good = check_nodes(context, {data.nodes[0], data.nodes[1]});
-  const auto axle_given = unit_vector(context, "AXIS", data.axis);
-  const bool axle_b_good = !data.axis_b || unit_vector(context, "AXISB", *data.axis_b);
-  if (!nodes_good || !axle_given || !axle_b_good) return {};
-  const Vec3 axle = *axle_given, x_a = context.nodes.at(data.nodes[0]), x_b = context.nodes.at(data.nodes[1]);
-  const auto cones = cones_of(data, x_a, x_b, axle, context);
+/// The design without KIND, from cones and helices.
+std::optional<GearDesign> design_of_angles(const GearData& data, const GearSite& site, const BuildContext& context) {
+  const auto teeth = gear_teeth_numbers(data, context);
+  if (!check_long_form(data, context) || !teeth) return {};
+  const auto cones = cones_of(data, *teeth, site, context);
   if (!cones) return {};
-
-  GearPlacement placement;
-  GearDesign& design = placement.design;
-  design.teeth = data.teeth;
-  design.normal_module = data.normal_module;
+  GearDesign design;
+  design.teeth = *teeth;
+  design.normal_module = *data.normal_module;
   design.pressure_angle = data.pressure_angle * degree;
   design.cone = *cones;
   set_helices(design, data);
+  return design;
+}
+
+/// What the card says, apart from whether B is where it must be.
+struct Intention {
+  GearSite site;
+  GearDesign design;
+};
+
+std::optional<Intention> intention(const GearData& data, const BuildContext& context) {
+  const bool nodes_good = check_nodes(context, {data.nodes[0], data.nodes[1]});
+  const auto axle = unit_vector(context, "AXIS", data.axis);
+  const bool axle_b_good = !data.axis_b || unit_vector(context, "AXISB", *data.axis_b);
+  if (!nodes_good || !axle || !axle_b_good) return {};
+  Intention i;
+  i.site.x_a = context.nodes.at(data.nodes[0]);
+  i.site.axle = *axle;
+  if (!data.place) i.site.x_b = context.nodes.at(data.nodes[1]);
+  const auto design = data.kind.given() ? design_of_kind(data, i.site, context) : design_of_angles(data, i.site, context);
+  if (!design) return {};
+  i.design = *design;
+  return i;
+}
+
+/// The direction of PLACE across the axle.
+std::optional<Vec3> place_direction(const GearData& data, const Vec3& axle, const BuildContext& context) {
+  if (data.nodes[1] == 0) {
+    context.error("PLACE", "wheel B is at node 0, the ground, which stays at the origin",
+                  "name the wheels the other way round, so that B is the one to be placed");
+    return {};
+  }
+  const auto direction = unit_vector(context, "PLACE", *data.place);
+  if (!direction) return {};
+  const Vec3 across = *direction - direction->dot(axle) * axle;
+  if (across.norm() < 1e-6) {
+    context.error("PLACE", "PLACE points along AXIS",
+                  "it is the direction from the centre of A to the contact point, across the axle");
+    return {};
+  }
+  return across.normalized();
+}
+
+}  // namespace
+
+std::optional<GearPlacement> place_gear(const GearData& data, const BuildContext& context) {
+  const auto intended = intention(data, context);
+  if (!intended) return {};
+  const GearDesign& design = intended->design;
+  const Vec3 &x_a = intended->site.x_a, &axle = intended->site.axle, &x_b = context.nodes.at(data.nodes[1]);
+  if (data.place && !place_direction(data, axle, context)) return {};
   const bool radii_good = check_radii(design, data, context);  // both, so that one run reports all faults
   if (!check_closure(design, data, x_a, x_b, axle, context) || !radii_good) return {};
-  placement.frames = pitch_frames(design, x_a, x_b, axle);
+  GearPlacement placement{design, pitch_frames(design, x_a, x_b, axle)};
   if (!check_axle_b(design, data, placement.frames, context)) return {};
+  warn_about_teeth(design, data, context);
   return placement;
+}
+
+std::optional<NodePlacement> place_second_wheel(const GearData& data, const BuildContext& context) {
+  if (!data.place) return {};
+  const auto intended = intention(data, context);
+  if (!intended) return {};
+  const auto toward = place_direction(data, intended->site.axle, context);
+  if (!toward) return {};
+  return NodePlacement{data.nodes[1], data.nodes[0],
+                       centre_of_second_wheel(intended->design, intended->site.x_a, intended->site.axle, *toward)};
 }
 
 }  // namespace engrane

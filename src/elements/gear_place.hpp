@@ -20,4 +20,7 @@ struct GearPlacement {
 /// the context's diagnostics; then there is no result.
 std::optional<GearPlacement> place_gear(const GearData& data, const BuildContext& context);
 
+/// Where `PLACE` puts the node of wheel B; nothing without it. To be asked before anything looks at the nodes.
+std::optional<NodePlacement> place_second_wheel(const GearData& data, const BuildContext& context);
+
 }  // namespace engrane

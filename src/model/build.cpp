@@ -28,6 +28,7 @@ class Builder {
       if (const auto* card = record.get<deck::NodeCard>()) add_node(record, *card);
       if (record.get<deck::FunctionCard>()) add_function(record);
     }
+    for (const deck::Record& record : deck_.records) place_node(record);
     for (const auto& [id, x] : positions_) model_.nodes.push_back({id, x});
     for (const deck::Record& record : deck_.records) add_command(record);
     for (int stage = 0; stage < 2; ++stage)
@@ -204,23 +205,61 @@ class Builder {
   void add_element(const deck::Record& record, int stage) {
     for (const ElementType& type : types_) {
       if (type.stage != stage || record.schema->name != type.schema.name) continue;
-      if (!check_references(record)) return;
-      BuildContext context{positions_, model_.functions, diagnostics_, record,
-                           [this](int node, const Vec3& axis) { return inertia_about(node, axis); }};
+      if (!check_references(record, diagnostics_)) return;
+      BuildContext context = context_of(record, diagnostics_);
       if (auto element = type.build(context))
         model_.parts.push_back({std::move(element), type.schema.name, deck::record_json(record), record.location, {}});
     }
   }
 
-  bool check_references(const deck::Record& record) {
+  BuildContext context_of(const deck::Record& record, Diagnostics& diagnostics) {
+    return {positions_,
+            model_.functions,
+            diagnostics,
+            record,
+            [this](int node, const Vec3& axis) { return inertia_about(node, axis); },
+            &deck_.records};
+  }
+
+  /// Lets an element put a node where it needs it: one after another in the order of the deck.
+  void place_node(const deck::Record& record) {
+    for (const ElementType& type : types_) {
+      if (!type.place || record.schema->name != type.schema.name) continue;
+      Diagnostics unheard;  // the element says it again when it is built
+      if (!check_references(record, unheard)) continue;
+      const auto placed = type.place(context_of(record, unheard));
+      if (!placed) continue;
+      const auto old = placed_by_.find(placed->node);
+      const double size = (placed->x - positions_.at(placed->from)).norm();
+      if (old == placed_by_.end()) {
+        for (const auto& [node, other] : placed_by_)
+          if (other.from == placed->node)
+            diagnostics_.error(record.where("PLACE"),
+                               fmt::format("node {} moves only here, but {} {} has already placed node {} from it", placed->node,
+                                           other.record->schema->name, other.record->id, node),
+                               "write the elements of a chain in its order");
+        positions_[placed->node] = placed->x;
+        placed_by_[placed->node] = {&record, placed->from};
+      } else if (const Vec3& x = positions_[placed->node]; (placed->x - x).norm() > 1e-6 * size) {
+        diagnostics_.error(
+            record.where("PLACE"),
+            fmt::format("node {} is placed at ({:.10g}, {:.10g}, {:.10g}) here and at ({:.10g}, {:.10g}, {:.10g}) by {} {}",
+                        placed->node, placed->x[0], placed->x[1], placed->x[2], x[0], x[1], x[2],
+                        old->second.record->schema->name, old->second.record->id),
+            "keep PLACE in one of them");
+      }
+    }
+  }
+
+  bool check_references(const deck::Record& record, Diagnostics& diagnostics) {
     bool good = true;
     for (const deck::Field& field : record.schema->fields) {
       if (field.reference != deck::Reference::node) continue;
       for (const double value : field.load(record.data).numbers) {
         const int id = static_cast<int>(value);
         if (positions_.contains(id)) continue;
-        diagnostics_.error(record.where(field.keyword),
-                           fmt::format("node {} of {} {} does not exist", id, record.schema->name, record.id));
+        diagnostics.error(record.where(field.keyword),
+                          fmt::format("node {} of {} {} does not exist", id, record.schema->name, record.id));
         good = false;
       }
     }
@@ -241,10 +280,17 @@ class Builder {
     std::string parameters;
   };
 
+  /// Which element placed a node, and from which other node.
+  struct Placed {
+    const deck::Record* record;
+    int from;
+  };
+
   const deck::Deck& deck_;
   const std::vector<ElementType>& types_;
   Diagnostics& diagnostics_;
   std::map<int, Vec3> positions_;
+  std::map<int, Placed> placed_by_;
   Frames frames_;
   NodeGroups groups_;
   std::vector<Load> loads_;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct BuildContext {
   const deck::Record& record;
   /// Moment of inertia that the elements of the deck give to a node about a unit axis; 0 when none does.
   std::function<double(int node, const Vec3& axis)> wheel_inertia;
+  /// All records of the deck, for elements that depend on others of their kind; nullptr: this one stands alone.
+  const std::vector<deck::Record>* records = nullptr;
 
   /// The function a keyword names, or nullptr with an error when it does not exist.
   const Function* function(int id, std::string_view keyword) const;
@@ -30,11 +33,20 @@ struct BuildContext {
   }
 };
 
+/// A node that an element puts where it needs it, before anything else looks at the nodes.
+struct NodePlacement {
+  int node = 0;
+  int from = 0;  ///< the node from which its place was found
+  Vec3 x = Vec3::Zero();
+};
+
 /// An element of the deck language: its card and how to build it.
 struct ElementType {
   deck::Schema schema;
   std::function<std::unique_ptr<Element>(BuildContext&)> build;
   int stage = 0;  ///< elements of stage 1 are built last and may ask what the others give (`wheel_inertia`)
+  /// May place a node. Faults that hinder it are left to `build`: diagnostics of this call are thrown away.
+  std::function<std::optional<NodePlacement>(const BuildContext&)> place = nullptr;
 };
 
 /// All elements, in the order of the manual; written by CMake's add_element().
@@ -43,8 +55,11 @@ const std::vector<ElementType>& element_types();
 /// Ties a card to the function that builds its element: the body of every `x_type()`.
 template <class Data>
 ElementType element_type(const deck::Card<Data>& card, std::unique_ptr<Element> (*build)(const Data&, BuildContext&),
-                         int stage = 0) {
-  return {card.schema(), [build](BuildContext& context) { return build(*context.record.get<Data>(), context); }, stage};
+                         int stage = 0, std::optional<NodePlacement> (*place)(const Data&, const BuildContext&) = nullptr) {
+  ElementType type{card.schema(), [build](BuildContext& context) { return build(*context.record.get<Data>(), context); }, stage,
+                   nullptr};
+  if (place) type.place = [place](const BuildContext& context) { return place(*context.record.get<Data>(), context); };
+  return type;
 }
 
 }  // namespace engrane

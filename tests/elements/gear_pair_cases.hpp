@@ -54,7 +54,7 @@ struct Case {
     Case s = *this;
     s.x_a *= length;
     s.x_b *= length;
-    s.data.normal_module *= length;
+    *s.data.normal_module *= length;
     return s;
   }
 };
@@ -62,8 +62,8 @@ struct Case {
 /// B is put where it belongs when A is at x_a with axle `axis` and the contact in the half plane of `toward`.
 inline Case placed(std::string name, GearData data, const Vec3& x_a, const Vec3& axis, const Vec3& toward) {
   GearDesign d;
-  d.teeth = data.teeth;
-  d.normal_module = data.normal_module;
+  d.teeth = {data.teeth[0], data.teeth[1]};
+  d.normal_module = *data.normal_module;
   if (data.cone) d.cone = {(*data.cone)[0] * deg, (*data.cone)[1] * deg};
   if (data.internal) d.cone[data.teeth[0] > data.teeth[1] ? 0 : 1] = std::numbers::pi;
   if (!data.helix.empty()) d.helix[0] = paper_helix(data.helix[0] * deg, d.cone[0]);

@@ -173,7 +173,7 @@ TEST(GearPairForces, RandomCrossedPairsBalance) {
     const Case c = placed("random", data, {u(random), u(random), u(random)}, {u(random), u(random), u(random)},
                           {u(random), u(random), u(random)});
     GearDesign d;
-    d.teeth = data.teeth;
+    d.teeth = {data.teeth[0], data.teeth[1]};
     d.normal_module = 0.1;
     for (const std::size_t w : {std::size_t{0}, std::size_t{1}}) {
       d.cone[w] = (*data.cone)[w] * deg;

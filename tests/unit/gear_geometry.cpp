@@ -148,7 +148,10 @@ TEST(GearGeometry, ContactRatios) {
   };
   EXPECT_NEAR(contact_ratio(design({20, 60}, 3, {0, 180}, {0, 0})).value(), (half(20, 20 * deg) + ring(60, 20 * deg)) / two_pi,
               1e-14);
-  EXPECT_FALSE(contact_ratio(design({20, 20}, 3, {45, 45}, {0, 0})));
+  // a bevel pair by its virtual wheels of z/cos 45 teeth; axles that pass each other have none
+  EXPECT_NEAR(contact_ratio(design({20, 20}, 3, {45, 45}, {0, 0})).value(), half(20 * std::sqrt(2), 20 * deg) / std::numbers::pi,
+              1e-14);
+  EXPECT_FALSE(contact_ratio(design({20, 20}, 3, {0, 0}, {30, 40})));
 }
 
 }  // namespace
