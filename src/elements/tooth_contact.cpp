@@ -6,10 +6,18 @@
 
 namespace engrane {
 
+namespace {
+
+/// Less than this no pair runs at: where the base circles touch it would be zero, and closer there is no involute contact. What
+/// an iteration may try beyond is continued by a parabola.
+constexpr double least_pressure_angle = 0.05;
+
+}  // namespace
+
 double ContactGeometry::working_pressure_angle(double opening) const {
   if (base_radii == 0) return transverse_pressure_angle;
-  const double cosine = std::abs(base_radii) / (center_distance + side * opening);
-  return cosine > 0 && cosine <= 1 ? std::acos(cosine) : std::numeric_limits<double>::quiet_NaN();
+  const double distance = center_distance + side * opening, cosine = std::abs(base_radii) / distance;
+  return distance > 0 && cosine < std::cos(least_pressure_angle) ? std::acos(cosine) : least_pressure_angle;
 }
 
 Function::Jet ContactGeometry::flank_opening(double opening) const {
@@ -17,6 +25,12 @@ Function::Jet ContactGeometry::flank_opening(double opening) const {
   if (base_radii == 0) {
     const double slope = lead * std::sin(transverse_pressure_angle);
     return {slope * opening, slope, 0, 0};
+  }
+  const double closest = side * (std::abs(base_radii) / std::cos(least_pressure_angle) - center_distance);
+  if (side * (opening - closest) < 0) {
+    const Function::Jet end = flank_opening(closest);
+    const double beyond = opening - closest;
+    return {end.f + beyond * (end.d1 + 0.5 * beyond * end.d2), end.d1 + beyond * end.d2, end.d2, 0};
   }
   const double running = working_pressure_angle(opening), distance = center_distance + side * opening;
   const double c = std::cos(running), s = std::sin(running);
