@@ -39,6 +39,7 @@ SHOTS = (
     Shot("bevel_differential", "-1,0.8,0.5"),
     Shot("hypoid_axle", "-1,0.6,0.8"),
     Shot("worm_drive", "0.5,1,0.6"),
+    Shot("rack_steering", "0.1,-0.6,1", 1.05),
     Shot("wind_turbine", "1,0.55,0.6", 1.1),
     Shot("run_up_elastic", "0.45,0.4,1"),
 )

@@ -99,7 +99,10 @@ def star(points: list[np.ndarray], radius: float) -> pv.PolyData:
     for p in points[1:]:
         if np.linalg.norm(p - points[0]) > radius:
             parts.append(tube(np.stack([points[0], p]), radius))
-    return pv.merge(parts).extract_surface(algorithm="dataset_surface") if len(parts) > 1 else parts[0]
+    if len(parts) == 1:
+        return parts[0]
+    # bars that lie in line share the rims of their ends: joined there, one would be turned inside out
+    return pv.merge(parts, merge_points=False).extract_surface(algorithm="dataset_surface")
 
 
 def coil(ends: np.ndarray, radius: float, turns: int = 7) -> pv.PolyData:

@@ -222,8 +222,13 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
   const Vec3T<T> at_pitch_point = slip(arm_a, arm_b);
   if (report) {
     report->separation_power = value_of(dot(separating, at_pitch_point));
-    const double v_n = value_of(dot(at_pitch_point, normal));
-    report->sliding_speed = std::sqrt(std::max(0.0, value_of(dot(at_pitch_point, at_pitch_point)) - v_n * v_n));
+    Vec3 v, n;
+    for (int k = 0; k < 3; ++k) {
+      v[k] = value_of(at_pitch_point[k]);
+      n[k] = value_of(normal[k]);
+    }
+    n.normalize();
+    report->sliding_speed = (v - n * v.dot(n)).norm();
   }
   if (!options_.friction) return;
 

@@ -29,20 +29,13 @@ HALF_WAY = 0.13  # between the branches
 WAIT = 600.0
 
 
-def sweep(first: float, last: float, start: tuple[float, float], folder: Path) -> dict[str, np.ndarray]:
-    """x by engrane and by the oracle, from W = first to last, and the phase of the force at the times."""
-    program = os.environ.get("ENGRANE", "")
-    if not Path(program).is_file():
-        pytest.skip("the variable ENGRANE names no program")
-    rate = RATE if last > first else -RATE
-    hold = (last - first) / rate
-    end = hold + WAIT
-    s = f"min(T, {hold})"
-    deck = f""".TITRE "clearance oscillator, swept from {first} to {last}"
+def oscillator(title: str, force: str, start: tuple[float, float], end: float) -> str:
+    """The deck: a pair of gears in the oscillator's units, whose wheel A swings between flanks of B."""
+    return f""".TITRE "{title}"
 .NOE
  I 1 X 2 0 0
 .FCT
- I 1 EXPR "0.1 + 0.05*({first} + ({rate})*{s})**2*cos(({first} + ({rate / 2})*{s})*{s} + {last}*(T - {s}))"
+ I 1 EXPR "{force}"
 .MCE
  I 1 HINGE   N 0 1 AXIS 0 0 1
  I 2 GEAR    N 1 0 AXIS 0 0 1 Z 20 20 MN 0.1 KM 1 CM 0.1 JEU 2 SMOOTH 0 DAMP ALWAYS
@@ -57,10 +50,29 @@ def sweep(first: float, last: float, start: tuple[float, float], folder: Path) -
 .SAI FIELDS DT {end / 10} HISTORY DT {2 * STEP}
 .FIN 1
 """
-    (folder / "sweep.dat").write_text(deck)
-    subprocess.run([program, "-q", "sweep.dat"], cwd=folder, check=True, timeout=300)
-    with h5py.File(folder / "sweep.h5") as f:
-        t, x = f["history/time"][()], 1 + f["history/element/2/U_M"][()]
+
+
+def swing(deck: str, folder: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Times and x of a run."""
+    program = os.environ.get("ENGRANE", "")
+    if not Path(program).is_file():
+        pytest.skip("the variable ENGRANE names no program")
+    (folder / "swing.dat").write_text(deck)
+    subprocess.run([program, "-q", "swing.dat"], cwd=folder, check=True, timeout=300)
+    with h5py.File(folder / "swing.h5") as f:
+        return f["history/time"][()], 1 + f["history/element/2/U_M"][()]
+
+
+def sweep(first: float, last: float, start: tuple[float, float], folder: Path) -> dict[str, np.ndarray]:
+    """x by engrane and by the oracle, from W = first to last, and the phase of the force at the times."""
+    rate = RATE if last > first else -RATE
+    hold = (last - first) / rate
+    end = hold + WAIT
+    s = f"min(T, {hold})"
+    size = f"0.05*({first} + ({rate})*{s})**2"
+    force = f"0.1 + {size}*cos(({first} + ({rate / 2})*{s})*{s} + {last}*(T - {s}))"
+    deck = oscillator(f"clearance oscillator, swept from {first} to {last}", force, start, end)
+    t, x = swing(deck, folder)
     exact = oracle.simulate(start, first, t, rate, hold, rtol=1e-8)[0]
     swept = np.minimum(t, hold)
     phase = (first + rate / 2 * swept) * swept + last * (t - swept)
@@ -107,6 +119,22 @@ def test_sweeps(tmp_path: Path) -> None:
     down = found["down"]
     assert down["engrane"][down["W"] > 0.75].min() > HALF_WAY
     assert down["engrane"][-1] == pytest.approx(oracle.linear_rms(0.7), abs=1e-3)
+
+
+@pytest.mark.parametrize("offset", [-0.0002, 0.0002])
+def test_contact_is_lost_where_the_lower_branch_ends(offset: float, tmp_path: Path) -> None:
+    """Held just below and just above 0.8206, from the motion without impacts: whether flanks part at all."""
+    frequency = LOSS_OF_CONTACT + offset
+    force = f"0.1 + {0.05 * frequency**2!r}*cos({frequency!r}*T)"
+    t, x = swing(oscillator("held", force, oracle.linear_start(frequency), 600), tmp_path)
+    with h5py.File(tmp_path / "swing.h5") as f:
+        events = f["history/run/EVENTS"][-1]
+    if offset < 0:
+        assert events == 0
+        assert x[t > 500].std() == pytest.approx(oracle.linear_rms(frequency), rel=2e-3)
+    else:
+        assert events > 50  # twice a period
+        assert x.min() < 1
 
 
 def draw() -> None:
