@@ -194,6 +194,25 @@ TEST(GearTeeth, DefaultsOfTheCard) {
   EXPECT_NEAR(teeth(options).damping, tooth_damping(0.07, 1e4, 0.3, 1.7, 13 * 0.025, 29 * 0.025), 1e-12);
 }
 
+TEST(GearTeeth, BacklashInThreeWays) {
+  Case c = helical();
+  c.data.stiffness = 1e4;
+  const auto backlash = [&] { return dynamic_cast<const GearPair&>(*c.build(Mat3::Identity())).teeth().backlash; };
+  c.data.normal_backlash = 0.01;
+  EXPECT_NEAR(backlash(), 0.01 / std::cos(20 * deg), 1e-16);
+  c.data.normal_backlash = {};
+  c.data.center_backlash = 0.003;  // taken up by moving the wheels together: twice what each flank opens by
+  const double helix = 23 * deg, alpha = std::atan(std::tan(20 * deg) / std::cos(helix));
+  const double a0 = (21 + 34) * 0.02 / std::cos(helix), running = std::acos(a0 / (a0 + 0.003) * std::cos(alpha));
+  const auto involute = [](double t) { return std::tan(t) - t; };
+  EXPECT_NEAR(backlash(), 2 * std::cos(helix) * a0 * (involute(running) - involute(alpha)), 1e-14);
+  EXPECT_NEAR(backlash(), 2 * 0.003 * std::tan(20 * deg), 2e-5) << "for small changes 2 Δa tan α_n";
+  c = bevel();
+  c.data.stiffness = 1e4;
+  c.data.center_backlash = 0.003;
+  EXPECT_NEAR(backlash(), 0.006 * std::tan(20 * deg), 1e-16);
+}
+
 /// The first error message of a card that must not build.
 std::string fault(const Case& c, const FunctionMap* functions = nullptr) {
   Diagnostics diagnostics;
