@@ -114,12 +114,6 @@ void GearPair::evaluate(const Motion<T, 2>& motion, const State& state, Balance<
   const T closing = -pitch * (design_.teeth[0] * psi_a + design_.teeth[1] * psi_b + counted_phase(state.history));
   ToothLoads<T> loads;
   const T normal_force = contact_.act(motion, a, b, closing, balance, loads, report);
-
-  const Vec3T<T> force = loads.frame_force + loads.body_force;
-  balance.force(0, -force);
-  balance.force(1, force);
-  balance.moment(0, -rotate_back(motion.node[0].R, Vec3T<T>(loads.frame_moment[0] + loads.body_moment[0])));
-  balance.moment(1, -rotate_back(motion.node[1].R, Vec3T<T>(loads.frame_moment[1] + loads.body_moment[1])));
   // a change of ψ is the turn −δψ of the wheel's frame about its axle (18)
   balance.scalar(0, contact_.cos_alpha() * design_.lever(0) * normal_force + dot(a.axle, loads.frame_moment[0]));
   balance.scalar(1, contact_.cos_alpha() * design_.lever(1) * normal_force + dot(b.axle, loads.frame_moment[1]));

@@ -18,11 +18,7 @@ void add(Function::Jet& sum, const Function::Jet& term) {
 /// A function of degrees, with derivatives by radians.
 Function::Jet by_radians(const Function& function, double angle) {
   constexpr double degrees = 180 / std::numbers::pi;
-  Function::Jet j = function.at(angle * degrees);
-  j.d1 *= degrees;
-  j.d2 *= degrees * degrees;
-  j.d3 *= degrees * degrees * degrees;
-  return j;
+  return stretched(function.at(angle * degrees), degrees);
 }
 
 }  // namespace
@@ -54,18 +50,8 @@ Function::Jet TransmissionError::of_teeth(double psi_a, const MeshPhase& mesh) c
       const double s = std::sin(tau), c = std::cos(tau), X = amplitude;
       return {X * (1 - c), X * z * s, X * z * z * c, -X * z * z * z * s};
     }
-    case Kind::fourier: {
-      Function::Jet e;
-      for (std::size_t i = 0; i + 1 < coefficients.size(); i += 2) {
-        const double n = static_cast<double>(i / 2) + 1, w = z * n, s = std::sin(n * tau), c = std::cos(n * tau);
-        const double even = coefficients[i] * c + coefficients[i + 1] * s, odd = coefficients[i + 1] * c - coefficients[i] * s;
-        e.f += even;
-        e.d1 += w * odd;
-        e.d2 -= w * w * even;
-        e.d3 -= w * w * w * odd;
-      }
-      return e;
-    }
+    case Kind::fourier:
+      return stretched(fourier_series(coefficients, tau), z);
     case Kind::table:
       return by_radians(*function, psi_a - mesh.contact[0]);
   }

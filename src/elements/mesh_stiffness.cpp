@@ -20,6 +20,19 @@ Function::Jet smooth_step(double x, double width) {
           60 * w * w * w * (1 + 6 * t * (t - 1))};
 }
 
+Function::Jet fourier_series(const std::vector<double>& coefficients, double angle) {
+  Function::Jet sum;
+  for (std::size_t i = 0; i + 1 < coefficients.size(); i += 2) {
+    const double n = static_cast<double>(i / 2) + 1, c = std::cos(n * angle), s = std::sin(n * angle);
+    const double even = coefficients[i] * c + coefficients[i + 1] * s, odd = coefficients[i + 1] * c - coefficients[i] * s;
+    sum.f += even;
+    sum.d1 += n * odd;
+    sum.d2 -= n * n * even;
+    sum.d3 -= n * n * n * odd;
+  }
+  return sum;
+}
+
 Function::Jet MeshStiffness::square_wave(double cycle) const {
   // One pair more for the fraction of the pitch by which the contact ratio exceeds a whole number. The middle of that
   // interval is where two flanks touch half a base pitch on either side of the pitch point.
@@ -36,26 +49,14 @@ Function::Jet MeshStiffness::at(double phase) const {
     case Kind::constant:
       return {1, 0, 0, 0};
     case Kind::fourier: {
-      Function::Jet k{1, 0, 0, 0};
-      for (std::size_t i = 0; i + 1 < coefficients.size(); i += 2) {
-        const double n = static_cast<double>(i / 2) + 1, c = std::cos(n * phase), s = std::sin(n * phase);
-        const double even = coefficients[i] * c + coefficients[i + 1] * s, odd = coefficients[i + 1] * c - coefficients[i] * s;
-        k.f += even;
-        k.d1 += n * odd;
-        k.d2 -= n * n * even;
-        k.d3 -= n * n * n * odd;
-      }
+      Function::Jet k = fourier_series(coefficients, phase);
+      k.f += 1;
       return k;
     }
     case Kind::table:
-    case Kind::square: {
-      const double cycle = phase / turn;
-      Function::Jet k = kind == Kind::table ? function->at(cycle) : square_wave(cycle);
-      k.d1 /= turn;
-      k.d2 /= turn * turn;
-      k.d3 /= turn * turn * turn;
-      return k;
-    }
+      return stretched(function->at(phase / turn), 1 / turn);
+    case Kind::square:
+      return stretched(square_wave(phase / turn), 1 / turn);
   }
   return {1, 0, 0, 0};
 }

@@ -12,6 +12,9 @@ namespace engrane {
 /// From 0 to 1 over |x| < width/2 by the polynomial of degree five: value, slope and curvature are continuous.
 Function::Jet smooth_step(double x, double width);
 
+/// Σ a_n cos(n angle) + b_n sin(n angle) of the coefficients a₁ b₁ a₂ b₂ …
+Function::Jet fourier_series(const std::vector<double>& coefficients, double angle);
+
 /// Course of the tooth stiffness over the mesh phase τ, 2π for each tooth that passes: a factor on k_m with mean 1.
 struct MeshStiffness {
   enum class Kind {

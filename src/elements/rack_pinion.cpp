@@ -111,12 +111,6 @@ void RackPinion::evaluate(const Motion<T, 2>& motion, const State& state, Balanc
   const T closing = -(lever_a * (psi + turn * state.history[0]) + lever_b * travel);
   ToothLoads<T> loads;
   const T normal_force = contact_.act(motion, a, b, closing, balance, loads, report);
-
-  const Vec3T<T> force = loads.frame_force + loads.body_force;
-  balance.force(0, -force);
-  balance.force(1, force);
-  balance.moment(0, -rotate_back(motion.node[0].R, Vec3T<T>(loads.frame_moment[0] + loads.body_moment[0])));
-  balance.moment(1, -rotate_back(motion.node[1].R, Vec3T<T>(loads.frame_moment[1] + loads.body_moment[1])));
   balance.scalar(0, contact_.cos_alpha() * lever_a * normal_force + dot(a.axle, loads.frame_moment[0]));
   // the travel shifts the contact point along the rack by −s ξ₃
   balance.scalar(1, contact_.cos_alpha() * lever_b * normal_force - geometry_.sense * dot(b.forward, loads.frame_force));

@@ -130,8 +130,8 @@ class ToothContact {
   double cos_alpha() const { return cos_alpha_; }
   double sin_alpha() const { return sin_alpha_; }
 
-  /// Everything but the rows of ψ_A and of B's motion from (21) and the frame, which the element knows. `closing` is φ₁
-  /// over cosα_n without u_m. Returns the force kλ₁ along the normal.
+  /// Everything but the rows of ψ_A and of B's motion from (21) and the frame, which the element knows how to make of `loads`.
+  /// `closing` is φ₁ over cosα_n without u_m. Returns the force kλ₁ along the normal.
   template <class T>
   T act(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const T& closing, Balance<T, 2>& balance,
         ToothLoads<T>& loads, ContactReport* report) const;

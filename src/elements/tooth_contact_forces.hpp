@@ -34,6 +34,14 @@ T ToothContact::act(const Motion<T, 2>& motion, const ToothedSide<T>& a, const T
 
   if (elastic()) press(motion, a, b, gap, force_1, balance, loads, report);
   rub(motion, a, b, gap, force_1, loads, report);
+
+  const Vec3T<T> force = loads.frame_force + loads.body_force;
+  balance.force(0, -force);
+  balance.force(1, force);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec3T<T> moment = loads.frame_moment[i] + loads.body_moment[i];
+    balance.moment(static_cast<int>(i), -rotate_back(motion.node[i].R, moment));
+  }
   return force_1;
 }
 

@@ -11,4 +11,7 @@ struct Jet {
   double d3 = 0;
 };
 
+/// A function of rate·x, from its jet at that place.
+inline Jet stretched(const Jet& j, double rate) { return {j.f, rate * j.d1, rate * rate * j.d2, rate * rate * rate * j.d3}; }
+
 }  // namespace engrane

@@ -189,7 +189,7 @@ bool Newton::judge(int iteration) {
   const double changed = std::max(row_.correction, forces);
   if (iteration > 1 && changed <= no_correction) return true;
   const bool settled = iteration > 1 && changed <= negligible_correction;
-  return settled && std::max({row_.force, row_.moment, row_.length, row_.angle}) <= std::sqrt(precision_);
+  return settled && std::max({row_.force, row_.moment, row_.length, row_.angle}) <= 100 * precision_;
 }
 
 PetscErrorCode Newton::test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal fnorm,

@@ -6,6 +6,7 @@
 
 #include "elements/gear_teeth.hpp"
 #include "gear_pair_cases.hpp"
+#include "jets.hpp"
 #include "suite.hpp"
 
 namespace engrane {
@@ -13,6 +14,7 @@ namespace {
 
 using namespace suite;
 using namespace gear_cases;
+using test::expect_jet, test::slope;
 
 /// A table that repeats with the tooth: 0.001 (1 − cos(25 ψ)), ψ in degrees.
 class ToothWave : public Function {
@@ -27,17 +29,6 @@ class ToothWave : public Function {
  private:
   double rate_;
 };
-
-double slope(const std::function<double(double)>& f, double x, double h) {
-  return (45 * (f(x + h) - f(x - h)) - 9 * (f(x + 2 * h) - f(x - 2 * h)) + (f(x + 3 * h) - f(x - 3 * h))) / (60 * h);
-}
-
-void expect_jet(const std::function<Function::Jet(double)>& f, double x, double h, double tolerance) {
-  const Function::Jet j = f(x);
-  EXPECT_NEAR(j.d1, slope([&](double t) { return f(t).f; }, x, h), tolerance * (1 + std::abs(j.d1)));
-  EXPECT_NEAR(j.d2, slope([&](double t) { return f(t).d1; }, x, h), tolerance * (1 + std::abs(j.d2)));
-  EXPECT_NEAR(j.d3, slope([&](double t) { return f(t).d2; }, x, h), tolerance * (1 + std::abs(j.d3)));
-}
 
 TEST(GearTeeth, RoundedRamp) {
   for (const double x : {-0.6, -0.2, 0.0, 0.1, 0.31, 0.7}) {

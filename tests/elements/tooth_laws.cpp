@@ -3,29 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "elements/friction_law.hpp"
 #include "elements/gear_pair.hpp"
 #include "elements/mesh_stiffness.hpp"
+#include "jets.hpp"
 #include "suite.hpp"
 
 namespace engrane {
 namespace {
 
+using test::expect_jet, test::slope;
+
 constexpr double pi = std::numbers::pi, deg = pi / 180;
-
-double slope(const std::function<double(double)>& f, double x, double h) {
-  return (45 * (f(x + h) - f(x - h)) - 9 * (f(x + 2 * h) - f(x - 2 * h)) + (f(x + 3 * h) - f(x - 3 * h))) / (60 * h);
-}
-
-void expect_jet(const std::function<Function::Jet(double)>& f, double x, double h, double tolerance) {
-  const Function::Jet j = f(x);
-  EXPECT_NEAR(j.d1, slope([&](double t) { return f(t).f; }, x, h), tolerance * (1 + std::abs(j.d1)));
-  EXPECT_NEAR(j.d2, slope([&](double t) { return f(t).d1; }, x, h), tolerance * (1 + std::abs(j.d2)));
-  EXPECT_NEAR(j.d3, slope([&](double t) { return f(t).d2; }, x, h), tolerance * (1 + std::abs(j.d3)));
-}
 
 MeshStiffness square(double contact_ratio, double edge) {
   MeshStiffness course;
