@@ -69,6 +69,8 @@ NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configura
     break;
   }
   if (report.singular) solver_.reset();
+  if (report.converged)
+    for (int i = 0; i < 4; ++i) largest_.of[i] = std::max(largest_.of[i], magnitudes_.of[i]);
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
   report.rows = rows_;
   return report;
@@ -104,8 +106,7 @@ PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
 void Newton::measure(Vec f) {
   const Numbering& numbering = assembler_.numbering();
   const double extent = assembler_.model().extent();
-  // what has been carried so far stays the measure, or a load that passes through zero could never be balanced
-  for (int i = 0; i < 4; ++i) largest_.of[i] = std::max(largest_.of[i], magnitudes_.of[i]);
+  // what solutions have carried so far stays the measure, or a load that passes through zero could never be balanced
   Magnitudes reference = magnitudes_;
   for (const Measure m : {Measure::force, Measure::moment}) reference[m] = std::max(reference[m], remembered * largest_[m]);
   // a model where all is force, or all moment, must not judge the other by rounding noise

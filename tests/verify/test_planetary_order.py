@@ -85,3 +85,17 @@ def test_second_order(tmp_path: Path) -> None:
         # the fine run has an error of its own, 1/16 of the last one compared
         assert slopes[1:] == pytest.approx([2, 2], abs=0.2), name
         assert np.ptp(true) > 200 * errors[-1], f"{name} hardly moves: the test would judge nothing"
+
+
+@pytest.mark.parametrize("teeth", ["JEU 1D-4 RUNNING", "JEU 1D-4"])
+def test_statics_finds_the_flanks(teeth: str, tmp_path: Path) -> None:
+    """With play in all six meshes and the load in full from the start: which flanks carry is not where the
+    wheels stand, and planets must cross their gaps to the ring."""
+    text = deck(1e-5).replace("RUNNING", teeth).replace("TYPE DYNAMIC RHO 0.8 START STATIC", "TYPE STATIC")
+    text = text.replace(f".SUB TF {END!r} H 1e-05", ".SUB TF 1 H 1")
+    result = run(text, tmp_path)
+    assert [result[f"{i}/CONTACT"][0] for i in (31, 32, 33, 41, 42, 43)] == [1, 1, 1, -1, -1, -1]
+    for i in (31, 32, 33):
+        # each planet takes a third of the torque at r_b, as the sun may float
+        assert result[f"{i}/NORMAL_FORCE"][0] == pytest.approx(200 / 3 / (0.036 * cos(pi / 9)), rel=2e-3)
+    assert sum(result[f"{i}/TORQUE_A"][0] for i in (31, 32, 33)) == pytest.approx(-200, rel=1e-9)
