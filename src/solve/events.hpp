@@ -48,7 +48,7 @@ class EventLocator {
   EventLocator(Workbench& bench, Analysis& analysis);
 
   bool active() const { return active_; }
-  double shortest() const { return 0.05 * step_; }
+  double shortest() const { return 0.01 * step_; }
   /// How far an event may be from the end of the step before it.
   double tolerance() const { return tolerance_; }
 

@@ -87,7 +87,7 @@ Configuration Transient::glide(const Configuration& c, double h) const {
 
 void Transient::drift(Configuration& c, double h) {
   // Heun's step. Both accelerations fit the constraints, so their mean does; the constraints open by a third of the cube of
-  // a twentieth of a step at most, and the next step closes them.
+  // a hundredth of a step at most, and the next step closes them.
   const auto before = bench_.motion.accelerations(c);
   c = glide(c, h);
   bench_.start.balance_accelerations(c, 2);
