@@ -150,6 +150,9 @@ class Runner {
   }
 
  private:
+  /// Part of H below which reactions would carry visible noise of rounding.
+  static constexpr double noisy = 0.1;
+
   bool reach(double target) {
     int cuts = 0;
     step_.locating = 0;
@@ -180,6 +183,8 @@ class Runner {
         if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // no drift from the sums of h
         analysis_.accept();
         std::swap(now_, next_);
+        // the inverse square of a short step enlarges rounding in accelerations and multipliers: they are found anew
+        if (locator_.active() && size < noisy * stepping_.step) analysis_.drift(now_, 0);
         h_ = std::min(stepping_.step, 2 * h_);  // back to the asked step as soon as it goes
         step_.newton = &report;
         if (!accepted(size, outcome.kind == Kind::none || now_.time == target)) return false;
