@@ -43,6 +43,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configura
   work_ = &work;
   weights_ = weights;
   NewtonReport report;
+  const Magnitudes before = largest_;
   Owned<Vec> guess;
   *guess.out() = assembler_.new_vector();
   check_petsc(VecCopy(x, guess));
@@ -69,8 +70,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configura
     break;
   }
   if (report.singular) solver_.reset();
-  if (report.converged)
-    for (int i = 0; i < 4; ++i) largest_.of[i] = std::max(largest_.of[i], magnitudes_.of[i]);
+  if (!report.converged) largest_ = before;  // what a failed iteration tried is no measure of anything
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
   report.rows = rows_;
   return report;
@@ -106,7 +106,8 @@ PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
 void Newton::measure(Vec f) {
   const Numbering& numbering = assembler_.numbering();
   const double extent = assembler_.model().extent();
-  // what solutions have carried so far stays the measure, or a load that passes through zero could never be balanced
+  // what has been carried so far stays the measure, or a load that passes through zero could never be balanced
+  for (int i = 0; i < 4; ++i) largest_.of[i] = std::max(largest_.of[i], magnitudes_.of[i]);
   Magnitudes reference = magnitudes_;
   for (const Measure m : {Measure::force, Measure::moment}) reference[m] = std::max(reference[m], remembered * largest_[m]);
   // a model where all is force, or all moment, must not judge the other by rounding noise
@@ -190,7 +191,7 @@ bool Newton::judge(int iteration) {
   const double changed = std::max(row_.correction, forces);
   if (iteration > 1 && changed <= no_correction) return true;
   const bool settled = iteration > 1 && changed <= negligible_correction;
-  return settled && std::max({row_.force, row_.moment, row_.length, row_.angle}) <= 100 * precision_;
+  return settled && std::max({row_.force, row_.moment, row_.length, row_.angle}) <= std::sqrt(precision_);
 }
 
 PetscErrorCode Newton::test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal fnorm,

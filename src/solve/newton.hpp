@@ -55,7 +55,7 @@ class Newton {
   Configuration* work_ = nullptr;
   Weights weights_;
   Magnitudes magnitudes_;  ///< of the last residual
-  Magnitudes largest_;     ///< of all solutions so far
+  Magnitudes largest_;     ///< of all residuals so far
   NewtonRow row_;
   double constraint_force_ = 0;  ///< largest k Φ over the largest force
   double scaled_open_ = 0;       ///< largest open constraint in units of rounding
