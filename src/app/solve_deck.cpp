@@ -73,6 +73,7 @@ class Writer {
     if (start.largest_velocity_change > 0)
       listing_.write(
           fmt::format("  initial velocities changed by up to {:.4g} to fit joints and drives\n", start.largest_velocity_change));
+    listing_.write(start.mobility);
     if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
   }
 
