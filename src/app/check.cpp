@@ -21,6 +21,8 @@ int print_model(const Model& model, std::ostream& out) {
     apply_initial_displacements(bench, c);
     StartReport report;
     bench.start.assemble(c, report);
+    // drives may agree on the place and not on the speed
+    bench.start.fit_velocities(c, Assembler::Metric::geometric, report, false);
   } catch (const SolutionFailure& failure) {
     out << "\n  " << failure.what() << '\n';
     return exit_status::solution_failed;

@@ -249,6 +249,9 @@ std::string names(Assembler& assembler, const Configuration& c, const std::vecto
   constexpr int most = 12;
   std::string text;
   int part = -1, elements = 0;
+  std::map<int, std::size_t> directions;
+  for (const int m : members) ++directions[multiplier_unknown(assembler.numbering(), m).part];
+  bool all = false;
   std::size_t unnamed = 0;
   for (const int m : members) {
     const Unknown& u = multiplier_unknown(assembler.numbering(), m);
@@ -260,8 +263,9 @@ std::string names(Assembler& assembler, const Configuration& c, const std::vecto
       }
       const Model::Part& owner = assembler.model().parts[static_cast<std::size_t>(part)];
       text += fmt::format("{}{} {} (", elements > 1 ? "), " : "", owner.type, owner.element->id());
-      text += describe_direction(assembler, c, u);
-    } else if (elements <= most) {
+      all = directions[part] > 3 && directions[part] == owner.element->layout().multipliers.size();
+      text += all ? "in all directions that it holds" : describe_direction(assembler, c, u);
+    } else if (elements <= most && !all) {
       text += ", " + describe_direction(assembler, c, u);
     }
   }

@@ -79,6 +79,7 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
     }
     // joints that repeat one another do so exactly only where the mechanism is closed
     if (redundancy_.analyse(c)) close(c, report, initial);
+    report.redundant = redundancy_.mobility().redundant();
     report.mobility = describe_mobility(assembler_, c, redundancy_.mobility());
   } else {
     close(c, report, initial);

@@ -23,6 +23,7 @@ struct StartReport {
   double largest_turn = 0;             ///< rotation, radians
   std::string moved_most;              ///< node that moved or turned most
   double largest_velocity_change = 0;  ///< from the wished initial velocities
+  int redundant = 0;                   ///< constraints that follow from others
   std::string mobility;                ///< degrees of freedom and redundant constraints, as a paragraph
 };
 
