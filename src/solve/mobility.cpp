@@ -345,7 +345,7 @@ std::string describe_mobility(Assembler& assembler, const Configuration& configu
 
 bool Redundancy::analyse(const Configuration& c, double tolerance, bool whatever_size) {
   const int constraints = assembler_.numbering().slots() - assembler_.numbering().motion_slots();
-  if (constraints == 0 || (constraints > most_analysed && !whatever_size)) return false;
+  if (constraints > most_analysed && !whatever_size) return false;
   std::vector<int> before = mobility_.dependent;
   mobility_ = analyse_mobility(assembler_, motion_, c, tolerance);
   assembler_.release(mobility_.dependent, c.multipliers);

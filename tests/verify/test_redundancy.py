@@ -158,7 +158,7 @@ def test_supports_are_counted_once(tmp_path):
 """
     ended = engrane(deck, tmp_path, "check")
     rows = dict(re.findall(r"^  (\S.*?\S)  +(-?\d+)$", ended.stdout, re.MULTILINE))
-    # neither node turns for a spring: of nine components held four take an unknown away, and x and y of node 2 remain
+    # neither node turns for a spring: of nine components held four take an unknown away
     assert rows["translations of nodes"] == "6" and rows["rotations of nodes"] == "0"
     assert rows["prescribed by supports"] == "-4"
     assert rows["to be solved for"] == "2" and rows["motions less constraints"] == "2"
