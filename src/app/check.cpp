@@ -5,15 +5,30 @@
 
 #include <ostream>
 
+#include "app/options.hpp"
 #include "app/summary.hpp"
+#include "solve/analysis.hpp"
 
 namespace engrane {
 
-void print_model(const Model& model, std::ostream& out) {
-  const Numbering numbering(model);
+int print_model(const Model& model, std::ostream& out) {
+  Workbench bench(model, PETSC_COMM_SELF);
   if (!model.title.empty()) out << model.title << '\n';
-  out << describe_analysis(model) << "\n\n" << listing_built(summarize(model, numbering)) << describe_geometry(model);
+  out << describe_analysis(model) << "\n\n" << listing_built(summarize(model, bench.numbering)) << describe_geometry(model);
   if (!model.commands.checks.empty()) out << fmt::format("\n  {} checks (.CHK) will be made\n", model.commands.checks.size());
+  Configuration c = bench.numbering.reference_configuration(model.commands.stepping.start);
+  try {
+    apply_initial_displacements(bench, c);
+    StartReport report;
+    bench.start.assemble(c, report);
+    // drives may agree on the place and not on the speed
+    bench.start.fit_velocities(c, Assembler::Metric::geometric, report, false);
+  } catch (const SolutionFailure& failure) {
+    out << "\n  " << failure.what() << '\n';
+    return exit_status::solution_failed;
+  }
+  out << '\n' << describe_mobility(bench.assembler, c, bench.redundancy.mobility());
+  return exit_status::fine;
 }
 
 }  // namespace engrane

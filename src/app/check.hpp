@@ -7,7 +7,9 @@
 
 namespace engrane {
 
-/// `engrane check`: what would be built (nodes, unknowns by kind, equations by element, derived geometry, expected cost).
-void print_model(const Model& model, std::ostream& out);
+/// `engrane check`: what would be built (nodes, unknowns by kind, equations by element, derived geometry), the
+/// degrees of freedom, and which constraints repeat one another. Returns the exit status: a mechanism that does not close is
+/// a solution that fails.
+int print_model(const Model& model, std::ostream& out);
 
 }  // namespace engrane

@@ -51,8 +51,7 @@ int perform(const Options& options, bool talk) {
   if (talk) reading.diagnostics.print(std::cerr, reading.sources);
   if (!reading.good()) return exit_status::wrong_deck;
   if (options.task == Options::Task::check) {
-    if (talk) print_model(reading.model, std::cout);
-    return exit_status::fine;
+    return talk ? print_model(reading.model, std::cout) : exit_status::fine;
   }
   return solve_deck(reading, options, PETSC_COMM_WORLD);
 }
@@ -65,11 +64,11 @@ int main(int argc, char** argv) {
   using namespace engrane;
   int status = exit_status::our_error;
   try {
-    // words about cards need neither MPI nor PETSc, which take a while to start
+    // words about cards need neither MPI nor PETSc, which take a while to start; decks are checked with the solver's means
     {
       int done = 0;
       const auto early = parse_command_line(argc, argv, false, done);
-      if (early && early->task != Options::Task::run) return perform(*early, true);
+      if (early && early->task != Options::Task::run && early->task != Options::Task::check) return perform(*early, true);
     }
     PetscSession session(argc, argv);
     int rank = 0;

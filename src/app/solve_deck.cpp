@@ -73,6 +73,11 @@ class Writer {
     if (start.largest_velocity_change > 0)
       listing_.write(
           fmt::format("  initial velocities changed by up to {:.4g} to fit joints and drives\n", start.largest_velocity_change));
+    listing_.write(start.mobility);
+    if (start.redundant > 0)
+      progress_.note(
+          fmt::format("engrane: {} redundant constraint{}: how some reactions share a load is not unique (see the listing)",
+                      start.redundant, start.redundant == 1 ? "" : "s"));
     if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
   }
 

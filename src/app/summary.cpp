@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace engrane {
 
@@ -36,8 +37,21 @@ BuiltSummary summarize(const Model& model, const Numbering& numbering) {
     else
       ++summary.rotations;
   }
-  summary.prescribed = model.supports.size();
-  const auto motions = summary.translations + summary.rotations + summary.scalars;
+  // supports take unknowns away only where some element needs them
+  std::set<int> needed;
+  for (const Model::Part& part : model.parts)
+    for (std::size_t i = 0; i < part.nodes.size(); ++i)
+      for (int c = 0; c < 6; ++c) {
+        const NodeNeed need = c < 3 ? NodeNeed::translation : NodeNeed::rotation;
+        if (static_cast<unsigned>(part.element->layout().needs[i]) & static_cast<unsigned>(need))
+          needed.insert(6 * part.nodes[i] + c);
+      }
+  std::set<int> held;
+  for (const Support& s : model.supports)
+    if (const int slot = 6 * s.node + s.component; needed.contains(slot)) held.insert(slot);
+  for (const int slot : held) ++(slot % 6 < 3 ? summary.translations : summary.rotations);
+  summary.prescribed = held.size();
+  const auto motions = summary.translations + summary.rotations + summary.scalars - summary.prescribed;
   summary.choices.emplace_back("motions less constraints",
                                std::to_string(static_cast<long>(motions) - static_cast<long>(summary.multipliers)));
   return summary;

@@ -27,7 +27,7 @@ Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm co
   std::size_t widest = 0;
   for (int p = begin; p < end; ++p) {
     const auto& slots = numbering.part_slots(p);
-    Share share{p, coo_i.size(), {}, rows.size(), {}, std::vector<double>(slots.size(), 1.0)};
+    Share share{p, coo_i.size(), {}, rows.size(), {}, std::vector<double>(slots.size(), 1.0), std::vector<char>(slots.size(), 1)};
     for (std::size_t i = 0; i < slots.size(); ++i) {
       const int row = numbering.equation(slots[i]);
       if (row < 0) continue;
@@ -60,6 +60,8 @@ Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm co
 
   const auto multipliers = static_cast<std::size_t>(numbering.slots() - numbering.motion_slots());
   scale_.assign(multipliers, 1.0);
+  released_.assign(multipliers, false);
+  released_values_.assign(multipliers, 0.0);
   if (size_ > 1) check_petsc(VecScatterCreateToAll(template_, scatter_.out(), everywhere_.out()));
 }
 
@@ -98,6 +100,25 @@ void Assembler::update_factors() {
     for (std::size_t i = 0; i < layout.multipliers.size(); ++i)
       share.factor[first + i] = scale_[static_cast<std::size_t>(numbering_.multiplier_begin(share.part)) + i];
   }
+}
+
+void Assembler::release(const std::vector<int>& multipliers, const std::vector<double>& values) {
+  any_released_ = !multipliers.empty();
+  std::fill(released_.begin(), released_.end(), false);
+  for (const int m : multipliers) {
+    released_[static_cast<std::size_t>(m)] = true;
+    released_values_[static_cast<std::size_t>(m)] = values[static_cast<std::size_t>(m)];
+  }
+  for (Share& share : shares_) {
+    const auto& slots = numbering_.part_slots(share.part);
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      share.kept[i] = slots[i] < numbering_.motion_slots() || !released(slots[i] - numbering_.motion_slots());
+  }
+}
+
+bool Assembler::released_equation(int equation) const {
+  const Unknown& u = numbering_.unknown(equation);
+  return u.multiplier && released(u.slot - numbering_.motion_slots());
 }
 
 void Assembler::choose_scale(const Configuration& configuration, Weights weights, double fixed) {
@@ -155,6 +176,10 @@ Magnitudes Assembler::residual(const Configuration& configuration, Vec r) {
     element.residual(view(share.part, configuration), std::span(local_r_).first(slots.size()));
     for (std::size_t e = 0; e < share.rows.size(); ++e) {
       const std::size_t i = share.rows[e];
+      if (!share.kept[i]) {
+        const int m = slots[i] - numbering_.motion_slots();
+        local_r_[i] = (released_value(m) - configuration.multipliers[static_cast<std::size_t>(m)]) / share.factor[i];
+      }
       row_values_[share.row_begin + e] = local_r_[i] * share.factor[i];
       double& size = largest[numbering_.unknown(numbering_.equation(slots[i])).measure];
       size = std::max(size, std::abs(local_r_[i]));
@@ -171,7 +196,7 @@ void Assembler::add_entries(const Share& share, std::span<const double> k) {
   const std::size_t n = share.factor.size();
   for (std::size_t e = 0; e < share.entries.size(); ++e) {
     const std::size_t at = share.entries[e];
-    coo_values_[share.coo_begin + e] = k[at] * share.factor[at / n] * share.factor[at % n];
+    coo_values_[share.coo_begin + e] = share.kept[at / n] ? k[at] * share.factor[at / n] * share.factor[at % n] : 0.0;
   }
 }
 
@@ -185,6 +210,10 @@ void Assembler::tangent(const Configuration& configuration, Weights weights) {
     add_entries(share, local_k_);
   }
   std::fill(coo_values_.begin() + static_cast<long>(diagonal_begin_), coo_values_.end(), 0.0);
+  for (PetscInt row = first_row_; any_released_ && row < end_row_; ++row)
+    if (released_equation(static_cast<int>(row)))
+      coo_values_[diagonal_begin_ + static_cast<std::size_t>(row - first_row_)] =
+          -scale_[static_cast<std::size_t>(numbering_.unknown(static_cast<int>(row)).slot - numbering_.motion_slots())];
   set_matrix_values();
 }
 
@@ -209,7 +238,8 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
       if (metric == Metric::dynamic) continue;
       for (std::size_t j = m0; j < n; ++j) local_k_[i * n + j] = local_k_[j * n + i];
     }
-    for (std::size_t e = 0; e < share.entries.size(); ++e) coo_values_[share.coo_begin + e] = local_k_[share.entries[e]];
+    for (std::size_t e = 0; e < share.entries.size(); ++e)
+      coo_values_[share.coo_begin + e] = share.kept[share.entries[e] / n] ? local_k_[share.entries[e]] : 0.0;
   }
   MPI_Allreduce(MPI_IN_PLACE, inertia.data(), static_cast<int>(motion), MPI_DOUBLE, MPI_SUM, comm_);
   double largest = 0;
@@ -217,7 +247,7 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
   const double extent = model_.extent();
   for (PetscInt row = first_row_; row < end_row_; ++row) {
     const Unknown& u = numbering_.unknown(static_cast<int>(row));
-    double d = 0;
+    double d = any_released_ && released_equation(static_cast<int>(row)) ? 1.0 : 0.0;
     if (!u.multiplier && !mass) d = u.part >= 0 ? 1e-12 : u.measure == Measure::force ? 1 / (extent * extent) : 1.0;
     if (!u.multiplier && mass && inertia[static_cast<std::size_t>(u.slot)] == 0) d = 1e-13 * (largest > 0 ? largest : 1.0);
     if (std::find(held.begin(), held.end(), static_cast<int>(row)) != held.end()) d = 1e8 * std::max(largest, 1.0);

@@ -41,6 +41,12 @@ class Assembler {
   /// condition number then does not grow as h → 0). A positive `fixed` is used for all instead.
   void choose_scale(const Configuration& configuration, Weights weights, double fixed);
 
+  /// Replaces the equations of these multipliers (ascending) by kλ = what `values` has for them; of all others as they are.
+  void release(const std::vector<int>& multipliers, const std::vector<double>& values);
+  bool released(int multiplier) const { return released_[static_cast<std::size_t>(multiplier)]; }
+  /// What the multiplier of a released constraint is to be.
+  double released_value(int multiplier) const { return released_values_[static_cast<std::size_t>(multiplier)]; }
+
   /// The scaled residual; returns the largest element contributions.
   Magnitudes residual(const Configuration& configuration, Vec r);
   /// The scaled tangent, in matrix().
@@ -78,9 +84,12 @@ class Assembler {
     std::size_t row_begin;
     std::vector<std::size_t> rows;  ///< local slots that have an equation
     std::vector<double> factor;     ///< k of the local slot, 1 but for multipliers
+    std::vector<char> kept;         ///< whether the local slot has its own equation, 0 for released constraints
   };
   void add_entries(const Share& share, std::span<const double> k);
   void set_matrix_values();
+  /// Whether an equation is a released constraint's.
+  bool released_equation(int equation) const;
   void update_factors();
 
   const Model& model_;
@@ -95,6 +104,9 @@ class Assembler {
   std::vector<double> coo_values_, row_values_;
   std::size_t diagonal_begin_ = 0;
   std::vector<double> scale_;
+  std::vector<bool> released_;
+  std::vector<double> released_values_;
+  bool any_released_ = false;
   std::vector<double> gathered_;
   // one element's buffers
   std::vector<NodeState> local_nodes_;

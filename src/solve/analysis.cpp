@@ -21,7 +21,8 @@ Workbench::Workbench(const Model& m, MPI_Comm comm)
       solver(assembler.matrix(), m.commands.analysis.solver.tag),
       newton(assembler, solver, m.commands.analysis.precision, m.commands.analysis.iterations),
       motion(m, numbering),
-      start(assembler, solver, motion) {
+      redundancy(assembler, motion),
+      start(assembler, solver, motion, redundancy) {
   assembler.penalty = m.commands.analysis.penalty.value_or(0.0);
 }
 
@@ -30,13 +31,13 @@ void Analysis::prescribe_step(double from, double to, std::span<double> y) const
   for (std::size_t i = 0; i < after.size(); ++i) y[after[i].slot] = after[i].u - before[i].u;
 }
 
-void Analysis::apply_initial_displacements(Configuration& c) const {
-  std::vector<double> y(bench_.motion.size(), 0.0);
-  for (const InitialValue& value : bench_.model.initial)
+void apply_initial_displacements(const Workbench& bench, Configuration& c) {
+  std::vector<double> y(bench.motion.size(), 0.0);
+  for (const InitialValue& value : bench.model.initial)
     if (!value.velocity) y[static_cast<std::size_t>(6 * value.node + value.component)] += value.value;
-  for (const auto& p : bench_.motion.prescribed(c.time)) y[p.slot] = p.u;
+  for (const auto& p : bench.motion.prescribed(c.time)) y[p.slot] = p.u;
   Configuration moved = c;
-  bench_.motion.move(c, y, moved);
+  bench.motion.move(c, y, moved);
   c = std::move(moved);
 }
 
@@ -82,6 +83,30 @@ void Analysis::unknowns_to_multipliers(std::span<const double> unknowns, Configu
         bench_.assembler.scale()[m] * unknowns[static_cast<std::size_t>(bench_.numbering.equation(static_cast<int>(motion + m)))];
 }
 
+NewtonReport Analysis::solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to) {
+  NewtonReport report;
+  int iterations = 0;
+  // where forces depend linearly on the multipliers once is enough
+  for (int pass = 0; pass < 10; ++pass) {
+    report = bench_.newton.solve(unknowns, weights, apply, to);
+    iterations += report.iterations;
+    if (!report.converged || !bench_.redundancy.active()) break;
+    if (const std::string conflict = bench_.redundancy.conflict(to); !conflict.empty()) {
+      report.converged = false;
+      report.conflict = true;
+      report.reason = conflict;
+      break;
+    }
+    if (!bench_.redundancy.share(to)) break;
+    const auto all = bench_.assembler.gather(unknowns);
+    std::vector<double> shared(all.begin(), all.end());
+    multipliers_to_unknowns(to, shared);
+    bench_.assembler.spread(shared, unknowns);
+  }
+  report.iterations = iterations;
+  return report;
+}
+
 std::unique_ptr<Analysis> make_analysis(Workbench& bench) {
   const deck::Tagged& type = bench.model.commands.analysis.type;
   if (type.is("DYNAMIC")) return std::make_unique<Transient>(bench);
@@ -112,6 +137,8 @@ std::string failure_text(Workbench& bench, const Configuration& tried, const New
   std::string text = fmt::format("step {}, t = {:.6g}: ", number, tried.time);
   if (const std::string element = explain_not_finite(bench.assembler, tried); !element.empty())
     text += element;
+  else if (report.conflict)
+    text += report.reason;
   else if (report.singular)
     text = explain_singular(bench.assembler, text + report.reason);
   else if (const std::string where = explain_residual(bench.assembler, tried, report); !where.empty())
@@ -155,6 +182,7 @@ class Runner {
 
   bool reach(double target) {
     int cuts = 0;
+    bool renewed = false;
     step_.locating = 0;
     locator_.new_target();
     while (now_.time < target) {
@@ -172,6 +200,11 @@ class Runner {
       size = outcome.step;
       if (outcome.report) report = std::move(*outcome.report);
       if (!report.converged && outcome.kind != Kind::drift) {
+        // other constraints may depend on the rest here than did at the start
+        if ((report.singular || report.conflict) && !renewed && bench_.redundancy.analyse(now_, rank_tolerance, true)) {
+          renewed = true;
+          continue;
+        }
         if (cuts == bench_.model.commands.analysis.cuts || now_.time + size / 2 == now_.time)
           throw SolutionFailure(failure_text(bench_, next_, report, step_.number + 1, cuts));
         ++cuts;

@@ -21,6 +21,7 @@ struct Workbench {
   LinearSolver solver;
   Newton newton;
   MotionSlots motion;
+  Redundancy redundancy;
   Start start;
 };
 
@@ -47,8 +48,6 @@ class Analysis {
  protected:
   /// Displacements of the prescribed slots between two times, written into a flat step.
   void prescribe_step(double from, double to, std::span<double> y) const;
-  /// Moves the reference configuration to the initial displacements and supports of the deck.
-  void apply_initial_displacements(Configuration& c) const;
   void apply_initial_velocities(Configuration& c) const;
   /// Fails a converged step in which a node turned so far that turns can no longer be counted.
   void refuse_half_turns(std::span<const double> y, NewtonReport& report) const;
@@ -56,8 +55,15 @@ class Analysis {
   void multipliers_to_unknowns(const Configuration& c, std::span<double> unknowns) const;
   void unknowns_to_multipliers(std::span<const double> unknowns, Configuration& c) const;
 
+  /// Newton's method from the unknowns given, with redundant constraints: these are seen to be closed, and their
+  /// multipliers made the least.
+  NewtonReport solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to);
+
   Workbench& bench_;
 };
+
+/// Moves the reference configuration to the initial displacements and supports of the deck.
+void apply_initial_displacements(const Workbench& bench, Configuration& c);
 
 /// The analysis that `.SAM` asks for.
 std::unique_ptr<Analysis> make_analysis(Workbench& bench);

@@ -61,8 +61,11 @@ std::string explain_singular(Assembler& assembler, const std::string& what) {
     if (!numbering.unknown(e).multiplier && std::abs(null[e]) > 0.1 * largest) moves = true;
   std::string names;
   int listed = 0;
+  // of reactions also the small ones: that of a hinge far away is no less undetermined than the tooth force it comes from
+  const int most = moves ? 6 : 12;
   for (const int e : order) {
-    if (std::abs(null[e]) < 0.1 * largest || listed == 6) break;
+    if (std::abs(null[e]) < (moves ? 0.1 : 1e-3) * largest || listed == most) break;
+    if (!moves && !numbering.unknown(e).multiplier) continue;
     names += fmt::format("{}{}", listed++ ? ", " : "", numbering.describe(e));
   }
   const auto deficient = (svd.singularValues().array() < 1e-12 * svd.singularValues()[0]).count();

@@ -5,7 +5,7 @@ namespace engrane {
 
 StartReport Kinematics::start(Configuration& c) {
   StartReport report;
-  apply_initial_displacements(c);
+  apply_initial_displacements(bench_, c);
   bench_.start.assemble(c, report);
   apply_initial_velocities(c);
   bench_.start.fit_velocities(c, Assembler::Metric::geometric, report);
@@ -34,6 +34,7 @@ NewtonReport Kinematics::attempt(const Configuration& from, double h, Configurat
     report.iterations = assembly.position_iterations;
   } catch (const SolutionFailure& failure) {
     report.converged = false;
+    report.conflict = true;
     report.reason = failure.what();
   }
   return report;

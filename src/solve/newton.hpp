@@ -22,6 +22,7 @@ struct NewtonRow {
 struct NewtonReport {
   bool converged = false;
   bool singular = false;
+  bool conflict = false;  ///< constraints could not be met that the solver took for consequences of the others
   int iterations = 0;
   std::string reason;  ///< why it did not converge, in words
   std::vector<NewtonRow> rows;

@@ -23,8 +23,8 @@ double largest(const std::vector<double>& v) {
 
 }  // namespace
 
-Start::Start(Assembler& assembler, LinearSolver& solver, const MotionSlots& motion)
-    : assembler_(assembler), solver_(solver), motion_(motion) {
+Start::Start(Assembler& assembler, LinearSolver& solver, const MotionSlots& motion, Redundancy& redundancy)
+    : assembler_(assembler), solver_(solver), motion_(motion), redundancy_(redundancy) {
   *right_.out() = assembler.new_vector();
   *solution_.out() = assembler.new_vector();
 }
@@ -64,10 +64,45 @@ void Start::verify_imposed(const Configuration& c, std::span<const double> wishe
 }
 
 void Start::assemble(Configuration& c, StartReport& report, bool initial) {
+  const double extent = assembler_.model().extent();
+  const std::vector<NodeState> begun = c.nodes;
+  if (initial) {
+    const Configuration given = c;
+    redundancy_.analyse(given);
+    try {
+      close(c, report, initial);
+    } catch (const SolutionFailure&) {
+      // where the parts do not quite fit, constraints that repeat one another look independent: look again less sharply
+      c = given;
+      if (!redundancy_.analyse(given, 1e-4, true)) throw;
+      close(c, report, initial);
+    }
+    // joints that repeat one another do so exactly only where the mechanism is closed
+    if (redundancy_.analyse(c)) close(c, report, initial);
+    report.redundant = redundancy_.mobility().redundant();
+    report.mobility = describe_mobility(assembler_, c, redundancy_.mobility());
+  } else {
+    close(c, report, initial);
+  }
+  std::vector<double> wished(motion_.size(), 0.0);
+  for (std::size_t i = 0; i < begun.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) wished[6 * i + k] = begun[i].x[static_cast<Eigen::Index>(k)];
+  if (initial) verify_imposed(c, wished, false);
+  for (std::size_t i = 1; i < c.nodes.size(); ++i) {
+    c.nodes[i].T.setIdentity();
+    const double move = (c.nodes[i].x - begun[i].x).norm();
+    const double turn = std::acos(std::clamp(((begun[i].R.transpose() * c.nodes[i].R).trace() - 1) / 2, -1.0, 1.0));
+    if (std::max(move / extent, turn) > std::max(report.largest_move / extent, report.largest_turn))
+      report.moved_most = fmt::format("node {}", assembler_.model().nodes[i].id);
+    report.largest_move = std::max(report.largest_move, move);
+    report.largest_turn = std::max(report.largest_turn, turn);
+  }
+}
+
+void Start::close(Configuration& c, StartReport& report, bool initial) {
   const Numbering& numbering = assembler_.numbering();
   const double extent = assembler_.model().extent();
   const auto motion_size = motion_.size();
-  const std::vector<NodeState> begun = c.nodes;
   const std::vector<int> held = initial ? imposed(false) : std::vector<int>{};
   std::vector<double> phi, rate, second;
   for (report.position_iterations = 0;; ++report.position_iterations) {
@@ -76,7 +111,7 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
     double open = 0;
     for (std::size_t e = 0; e < right.size(); ++e) {
       const Unknown& u = numbering.unknown(static_cast<int>(e));
-      if (!u.multiplier) continue;
+      if (!u.multiplier || assembler_.released(u.slot - static_cast<int>(motion_size))) continue;
       right[e] = phi[static_cast<std::size_t>(u.slot) - motion_size];
       open = std::max(open, std::abs(right[e]) / (u.measure == Measure::length ? extent : 1.0));
     }
@@ -98,19 +133,7 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
     c = std::move(moved);
     if (length < 4 * epsilon && open < 1e-11) break;  // closed as far as rounding lets it
   }
-  std::vector<double> wished(motion_size, 0.0);
-  for (std::size_t i = 0; i < begun.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) wished[6 * i + k] = begun[i].x[static_cast<Eigen::Index>(k)];
-  if (initial) verify_imposed(c, wished, false);
-  for (std::size_t i = 1; i < c.nodes.size(); ++i) {
-    c.nodes[i].T.setIdentity();
-    const double move = (c.nodes[i].x - begun[i].x).norm();
-    const double turn = std::acos(std::clamp(((begun[i].R.transpose() * c.nodes[i].R).trace() - 1) / 2, -1.0, 1.0));
-    if (std::max(move / extent, turn) > std::max(report.largest_move / extent, report.largest_turn))
-      report.moved_most = fmt::format("node {}", assembler_.model().nodes[i].id);
-    report.largest_move = std::max(report.largest_move, move);
-    report.largest_turn = std::max(report.largest_turn, turn);
-  }
+  if (const std::string conflict = redundancy_.conflict(c); !conflict.empty()) throw SolutionFailure(conflict);
 }
 
 std::string Start::explain_open(const std::vector<double>& phi) const {
@@ -146,7 +169,8 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
   std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
   for (std::size_t e = 0; e < right.size(); ++e) {
     const Unknown& u = numbering.unknown(static_cast<int>(e));
-    if (u.multiplier) right[e] = rate[static_cast<std::size_t>(u.slot) - motion_.size()];
+    if (u.multiplier && !assembler_.released(u.slot - numbering.motion_slots()))
+      right[e] = rate[static_cast<std::size_t>(u.slot) - motion_.size()];
   }
   const std::vector<double> wished = v;
   assembler_.projection(c, metric, initial ? imposed(true) : std::vector<int>{});
@@ -155,9 +179,15 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
   std::vector<double> delta(motion_.size(), 0.0);
   motion_.scatter(change, delta);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += delta[i];
+  motion_.set_velocities(v, c);
+  if (redundancy_.active()) {
+    const double asked = largest(rate);
+    assembler_.constraint_rates(c, phi, rate, second);
+    if (const std::string conflict = redundancy_.rate_conflict(c, rate, std::max(asked, largest(v))); !conflict.empty())
+      throw SolutionFailure(conflict);
+  }
   delta.resize(6 * c.nodes.size());  // scalars follow: their change says nothing
   report.largest_velocity_change = largest(delta);
-  motion_.set_velocities(v, c);
   if (initial) verify_imposed(c, wished, true);
 }
 
@@ -175,11 +205,21 @@ void Start::balance_accelerations(Configuration& c, int most_iterations) {
     std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
     for (std::size_t e = 0; e < right.size(); ++e) {
       const Unknown& u = numbering.unknown(static_cast<int>(e));
-      right[e] = u.multiplier ? second[static_cast<std::size_t>(u.slot) - motion_.size()] : -r[static_cast<std::size_t>(u.slot)];
+      const int m = u.slot - numbering.motion_slots();
+      if (!u.multiplier)
+        right[e] = -r[static_cast<std::size_t>(u.slot)];
+      else if (assembler_.released(m))
+        right[e] = assembler_.released_value(m) - c.multipliers[static_cast<std::size_t>(m)];
+      else
+        right[e] = second[static_cast<std::size_t>(m)];
     }
     const double size = largest(right);
     if (!std::isfinite(size)) throw SolutionFailure("the forces at the start are not finite");
-    if (size == 0 || (iteration > 1 && size >= 0.5 * before)) return;
+    if (size == 0 || (iteration > 1 && size >= 0.5 * before)) {
+      if (!redundancy_.share(c)) return;
+      before = std::numeric_limits<double>::infinity();
+      continue;
+    }
     before = size;
     assembler_.projection(c, Assembler::Metric::dynamic);
     if (!solve(right, change))
@@ -193,6 +233,7 @@ void Start::balance_accelerations(Configuration& c, int most_iterations) {
     }
     motion_.set_accelerations(a, c);
   }
+  redundancy_.share(c);
 }
 
 }  // namespace engrane

@@ -18,17 +18,16 @@ Statics::Statics(Workbench& bench)
 
 StartReport Statics::start(Configuration& c) {
   StartReport report;
-  apply_initial_displacements(c);
+  apply_initial_displacements(bench_, c);
   bench_.start.assemble(c, report);
   bench_.assembler.choose_scale(c, {1, 0, 0}, bench_.model.commands.analysis.scale.value_or(0));
   Configuration balanced = c;
   const NewtonReport newton = attempt(c, 0, balanced);
   if (!newton.converged) {
     std::string why = fmt::format("no equilibrium at the start, t = {:.6g}: {}", c.time, newton.reason);
-    if (newton.singular)
-      why = explain_singular(bench_.assembler, why);
-    else
-      why += "; " + explain_residual(bench_.assembler, balanced, newton);
+    if (newton.conflict) throw SolutionFailure(why);
+    if (newton.singular) throw SolutionFailure(explain_singular(bench_.assembler, why));
+    why += "; " + explain_residual(bench_.assembler, balanced, newton);
     throw SolutionFailure(why + ". Loads given without NF act in full from the start: ramp them with a function of time");
   }
   c = std::move(balanced);
@@ -63,7 +62,7 @@ NewtonReport Statics::balance(const Configuration& from, std::span<double> y, Co
   bench_.motion.gather(y, guess);
   multipliers_to_unknowns(to, guess);
   bench_.assembler.spread(guess, unknowns_);
-  NewtonReport report = bench_.newton.solve(unknowns_, {1, 0, 0}, apply, to);
+  NewtonReport report = solve(unknowns_, {1, 0, 0}, apply, to);
   refuse_half_turns(y, report);
   return report;
 }

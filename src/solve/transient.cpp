@@ -45,7 +45,7 @@ StartReport Transient::start(Configuration& c) {
   if (bench_.model.commands.analysis.start.is("STATIC")) {
     report = Statics(bench_).start(c);
   } else {
-    apply_initial_displacements(c);
+    apply_initial_displacements(bench_, c);
     bench_.start.assemble(c, report);
   }
   apply_initial_velocities(c);
@@ -147,7 +147,7 @@ NewtonReport Transient::attempt(const Configuration& from, double h, Configurati
     unknowns_to_multipliers(unknowns, c);
   };
   bench_.assembler.spread(guess, unknowns_);
-  NewtonReport report = bench_.newton.solve(unknowns_, weights, apply, to);
+  NewtonReport report = solve(unknowns_, weights, apply, to);
   refuse_half_turns(y, report);
   tried_step_ = h;
   return report;
