@@ -89,6 +89,7 @@ struct AngleCoordinate {
 struct HeightCoordinate {
   std::array<int, 2> ends;
   Vec3 normal, plane, point;  ///< reference: the normal; from A to a point of the plane; from B to its point
+  Vec3 mark;                  ///< where it is drawn: B's point, or the plane's when B is the ground
   static constexpr NodeNeed need = NodeNeed::both;
   static constexpr int history = 0;
   static constexpr const char* name = "HEIGHT";
@@ -123,7 +124,7 @@ struct HeightCoordinate {
     balance.moment(1, rotate_back(node[1].R, cross(at.arm, force)));
   }
   std::string drawing() const {
-    return fmt::format(R"("shape": "arrow", "node": {}, "center": {}, "axis": {})", ends[0] != 0 ? ends[0] : ends[1], json(plane),
+    return fmt::format(R"("shape": "arrow", "node": {}, "center": {}, "axis": {})", ends[1] != 0 ? ends[1] : ends[0], json(mark),
                        json(normal));
   }
 };
@@ -332,7 +333,9 @@ std::unique_ptr<Element> build(const StopData& data, BuildContext& context) {
     const Vec3 &at_a = context.nodes.at(data.nodes[0]), &at_b = context.nodes.at(data.nodes[1]);
     const Vec3 plane = data.on ? Vec3(to_vector(*data.on) - at_a) : Vec3(Vec3::Zero());
     const Vec3 point = data.at ? Vec3(to_vector(*data.at) - at_b) : Vec3(Vec3::Zero());
-    return std::make_unique<Stop<HeightCoordinate>>(id, HeightCoordinate{data.nodes, *normal, plane, point}, limits, law, tells);
+    const Vec3 mark = data.nodes[1] != 0 ? Vec3(at_b + point) : Vec3(at_a + plane);
+    return std::make_unique<Stop<HeightCoordinate>>(id, HeightCoordinate{data.nodes, *normal, plane, point, mark}, limits, law,
+                                                    tells);
   }
   if (!lacks(context, "ON", data.on.has_value(), "a distance", "NORMAL x y z is the plane that ON is a point of")) return nullptr;
   const auto ends = LineEnds::of(context, data.nodes, data.at, "NORMAL x y z is for a point above a plane");
