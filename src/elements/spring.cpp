@@ -12,8 +12,8 @@ namespace {
 /// Along the line of its ends, exact for any motion.
 class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
  public:
-  LineSpring(int id, const LineEnds& ends, double stiffness, double damping, double natural)
-      : TemplatedElement(id), ends_(ends), stiffness_(stiffness), damping_(damping), natural_(natural) {
+  LineSpring(int id, const LineEnds& ends, const SpringLaw& law, double natural)
+      : TemplatedElement(id), ends_(ends), law_(law), natural_(natural) {
     Layout layout;
     layout.nodes.assign(ends.nodes.begin(), ends.nodes.end());
     layout.needs = {NodeNeed::translation, NodeNeed::translation};
@@ -23,16 +23,15 @@ class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State&, Balance<T, 2>& balance) const {
     const auto reach = ends_.reach<T>(motion.node);
-    const T tension = stiffness_ * (reach.length - natural_) + damping_ * reach.rate;
+    const T tension = law_.elastic(T(reach.length - natural_)) + law_.viscous(reach.rate);
     ends_.pull(Vec3T<T>(reach.direction * tension), balance);
   }
 
   Energies energies(const State& state) const override {
     const auto reach = ends_.reach<double>(state.nodes);
-    const double stretch = reach.length - natural_;
     Energies e;
-    e.potential = 0.5 * stiffness_ * stretch * stretch;
-    e.dissipated = damping_ * reach.rate * reach.rate;
+    e.potential = law_.stored(reach.length - natural_);
+    e.dissipated = law_.viscous(reach.rate) * reach.rate;
     return e;
   }
 
@@ -52,7 +51,7 @@ class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
     values[0] = reach.length;
     values[1] = reach.length - natural_;
     values[2] = reach.rate;
-    values[3] = stiffness_ * (reach.length - natural_) + damping_ * reach.rate;
+    values[3] = law_.elastic(values[1]) + law_.viscous(reach.rate);
     values[4] = e.potential;
     values[5] = e.dissipated;
   }
@@ -63,7 +62,8 @@ class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
 
  private:
   LineEnds ends_;
-  double stiffness_, damping_, natural_;
+  SpringLaw law_;
+  double natural_;
 };
 
 /// Three springs in the global directions on the relative displacement: a support, or a joint's compliance.
@@ -137,20 +137,30 @@ bool check_values(const BuildContext& context, std::string_view keyword, const s
 }
 
 std::unique_ptr<Element> build(const SpringData& data, BuildContext& context) {
-  const auto& [nodes, k, c, length, at] = data;
+  const auto& nodes = data.nodes;
+  const auto &k = data.stiffness, &c = data.damping;
+  const auto& length = data.length;
+  const auto& at = data.at;
   const bool good = check_values(context, "K", k) && check_values(context, "C", c);
   if (!check_nodes(context, {nodes[0], nodes[1]}) || !good) return nullptr;
   const auto zero = [](double v) { return v == 0; };
-  if (std::all_of(k.begin(), k.end(), zero) && std::all_of(c.begin(), c.end(), zero)) {
+  const bool lawful = data.law.given() || data.damping_law != 0;
+  if (std::all_of(k.begin(), k.end(), zero) && std::all_of(c.begin(), c.end(), zero) && !lawful) {
     context.error("K", "a spring with neither stiffness nor damping does nothing", "K k and C c, or three values of each");
     return nullptr;
   }
   const int id = context.record.id;
   if (k.size() != 3 && c.size() != 3) {
     const auto ends = LineEnds::of(context, nodes, at, "K kx ky kz acts in the three global directions and needs no line");
-    if (!ends) return nullptr;
-    return std::make_unique<LineSpring>(id, *ends, k.empty() ? 0 : k[0], c.empty() ? 0 : c[0],
-                                        length.value_or(ends->reference_length(context)));
+    const auto law = SpringLaw::of(context, data, k.empty() ? 0 : k[0], c.empty() ? 0 : c[0]);
+    if (!ends || !law) return nullptr;
+    return std::make_unique<LineSpring>(id, *ends, *law, length.value_or(ends->reference_length(context)));
+  }
+  if (lawful) {
+    context.error(data.law.given() ? "LAW" : "CLAW",
+                  "a law of the elongation has no meaning for a spring in the global directions",
+                  "give one value of K or C, or none, for a spring along the line");
+    return nullptr;
   }
   if (k.size() == 1 || c.size() == 1) {
     context.error(k.size() == 1 ? "K" : "C", "one value beside three", "give K and C the same number of values, 1 or 3");
@@ -174,11 +184,13 @@ ElementType spring_type() {
   card.numbered()
       .chapter("Stiffeners, dampers, transfer functions")
       .describe(
-          "With one value of K or C it acts along the line of the two nodes, exactly for any motion; its natural length is "
+          "With one value of K or C, or with LAW or CLAW, it acts along the line of the two nodes, exactly for any motion; its "
+          "natural length is "
           "that of the reference configuration unless L0 says otherwise, and an end on the ground (node 0) is at the "
           "origin unless AT says otherwise. With three values it acts in the global directions on the displacement of b "
           "relative to a, as the flexible support of a bearing does.")
       .example("I 9 SPRING N 4 5  K 2.0D4  C 10  L0 0.25")
+      .example("I 9 SPRING N 4 5  LAW POLY 2.0D4 0 3.0D8  CLAW 2")
       .example("I 10 SPRING N 0 2  K 1D6 1D6 0");
   card.add("N", &SpringData::nodes, "the two nodes, a and b; 0 is the ground")
       .synonyms({"NODES", "NOEUDS"})
@@ -192,6 +204,7 @@ ElementType spring_type() {
       .values(1, 3)
       .unit(dimension::damping)
       .at_least(0);
+  add_spring_law(card, "elongation", "tension");
   card.add("L0", &SpringData::length, "natural length; default: the distance of the nodes").unit(dimension::length).at_least(0);
   card.add("AT", &SpringData::at, "end on the ground; default: the origin").unit(dimension::length);
   return element_type(card, build);

@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "model/registry.hpp"
+#include "elements/spring_law.hpp"
 
 namespace engrane {
 
-/// Card of a spring. `SPRING N a b [K k] [C c] [L0 l] [AT x y z]` along the line of two nodes, or
-/// `SPRING N a b [K kx ky kz] [C cx cy cz]` in the three global directions.
-struct SpringData {
+/// Card of a spring. `SPRING N a b [K k | LAW TABLE f | LAW POLY k1 k2 k3] [C c | CLAW f] [L0 l] [AT x y z]` along the line of
+/// two nodes, or `SPRING N a b [K kx ky kz] [C cx cy cz]` in the three global directions.
+struct SpringData : SpringLawData {
   std::array<int, 2> nodes{};
   std::vector<double> stiffness;            ///< one value or three
   std::vector<double> damping;              ///< one value or three

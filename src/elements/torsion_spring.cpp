@@ -13,9 +13,9 @@ namespace {
 
 class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
  public:
-  TorsionSpring(int id, const std::array<int, 2>& nodes, const Vec3& axis, const Vec3& center, double stiffness, double damping,
+  TorsionSpring(int id, const std::array<int, 2>& nodes, const Vec3& axis, const Vec3& center, const SpringLaw& law,
                 double angle0)
-      : TemplatedElement(id), triad_(axis), center_(center), stiffness_(stiffness), damping_(damping), angle0_(angle0) {
+      : TemplatedElement(id), triad_(axis), center_(center), law_(law), angle0_(angle0) {
     Layout layout;
     layout.nodes.assign(nodes.begin(), nodes.end());
     layout.needs = {NodeNeed::rotation, NodeNeed::rotation};
@@ -30,7 +30,7 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
     const AxisAngle<T> turn = axis_angle(triad_, a.R, b.R);
     const T angle = turn_count::total(turn.angle, state.history);
     const Vec3T<T> spin = rotate(b.R, b.W) - rotate(a.R, a.W);
-    const T torque = stiffness_ * (angle - angle0_) + damping_ * dot(turn.gradient, spin);
+    const T torque = law_.elastic(T(angle - angle0_)) + law_.viscous(T(dot(turn.gradient, spin)));
     const Vec3T<T> moment = turn.gradient * torque;
     balance.moment(0, rotate_back(a.R, Vec3T<T>(-moment)));
     balance.moment(1, rotate_back(b.R, moment));
@@ -41,10 +41,10 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
   }
 
   Energies energies(const State& state) const override {
-    const double stretch = angle(state) - angle0_, rate = speed(state);
+    const double rate = speed(state);
     Energies e;
-    e.potential = 0.5 * stiffness_ * stretch * stretch;
-    e.dissipated = damping_ * rate * rate;
+    e.potential = law_.stored(angle(state) - angle0_);
+    e.dissipated = law_.viscous(rate) * rate;
     return e;
   }
 
@@ -61,7 +61,7 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
     const Energies e = energies(state);
     values[0] = angle(state);
     values[1] = speed(state);
-    values[2] = -stiffness_ * (values[0] - angle0_) - damping_ * values[1];
+    values[2] = -law_.elastic(values[0] - angle0_) - law_.viscous(values[1]);
     values[3] = e.potential;
     values[4] = e.dissipated;
   }
@@ -84,19 +84,21 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
 
   AxisTriad triad_;
   Vec3 center_;
-  double stiffness_, damping_, angle0_;
+  SpringLaw law_;
+  double angle0_;
 };
 
 std::unique_ptr<Element> build(const TorsionSpringData& data, BuildContext& context) {
   const auto axis = unit_vector(context, "AXIS", data.axis);
   if (!check_nodes(context, {data.nodes[0], data.nodes[1]}) || !axis) return nullptr;
-  if (data.stiffness == 0 && data.damping == 0) {
+  const auto law = SpringLaw::of(context, data, data.stiffness, data.damping);
+  if (!law) return nullptr;
+  if (!law->acts()) {
     context.error("K", "a torsion spring with neither stiffness nor damping does nothing", "K k and C c, per radian");
     return nullptr;
   }
   const Vec3 center = context.nodes.at(data.nodes[0] != 0 ? data.nodes[0] : data.nodes[1]);
-  return std::make_unique<TorsionSpring>(context.record.id, data.nodes, *axis, center, data.stiffness, data.damping,
-                                         data.angle0 * degree);
+  return std::make_unique<TorsionSpring>(context.record.id, data.nodes, *axis, center, *law, data.angle0 * degree);
 }
 
 }  // namespace
@@ -108,7 +110,8 @@ ElementType torsion_spring_type() {
       .describe(
           "Acts on the turn of node b relative to node a about an axis that node a holds; the angle is counted in turns. "
           "It holds the nodes together in no other way: a HINGE or GEAR does.")
-      .example("I 5 TSPRING N 1 2  AXIS 0 0 1  K 1.7D4  C 0.076");
+      .example("I 5 TSPRING N 1 2  AXIS 0 0 1  K 1.7D4  C 0.076")
+      .example("I 5 TSPRING N 1 2  AXIS 0 0 1  LAW TABLE 3  ANGLE0 15");
   card.add("N", &TorsionSpringData::nodes, "the two nodes, a and b; 0 is the ground")
       .synonyms({"NODES", "NOEUDS"})
       .refers(deck::Reference::node)
@@ -118,6 +121,7 @@ ElementType torsion_spring_type() {
       .required();
   card.add("K", &TorsionSpringData::stiffness, "moment per radian").unit(dimension::torsional_stiffness).at_least(0);
   card.add("C", &TorsionSpringData::damping, "moment per radian and time").unit(dimension::torsional_damping).at_least(0);
+  add_spring_law(card, "angle in radians", "moment");
   card.add("ANGLE0", &TorsionSpringData::angle0, "angle at which the spring is relaxed").unit(dimension::angle);
   return element_type(card, build);
 }

@@ -3,12 +3,12 @@
 
 #include <array>
 
-#include "model/registry.hpp"
+#include "elements/spring_law.hpp"
 
 namespace engrane {
 
-/// Card of a torsion spring. `TSPRING N a b AXIS x y z [K k] [C c] [ANGLE0 deg]`
-struct TorsionSpringData {
+/// Card of a torsion spring. `TSPRING N a b AXIS x y z [K k | LAW TABLE f | LAW POLY k1 k2 k3] [C c | CLAW f] [ANGLE0 deg]`
+struct TorsionSpringData : SpringLawData {
   std::array<int, 2> nodes{};
   std::array<double, 3> axis{};
   double stiffness = 0;  ///< per radian

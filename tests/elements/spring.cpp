@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "suite.hpp"
 
 namespace engrane {
@@ -40,6 +42,55 @@ TEST(Spring, SuiteAlongTheLine) {
   run_suite(line({1, 2}, 40, 0));
   run_suite(line({1, 2}, 40, 3));
   run_suite(line({0, 2}, 40, 3));
+}
+
+FunctionMap waves() {
+  FunctionMap functions;
+  functions[1] = std::make_unique<Wave>(0.3, 0.7, 1.9, 0.4);
+  functions[2] = std::make_unique<Wave>(-0.1, 1.3, 0.8, 0.2);
+  return functions;
+}
+const FunctionMap functions = waves();
+
+TEST(Spring, SuiteOfLaws) {
+  for (const auto& [law, damping_law] : {std::pair<deck::Tagged, int>{{"POLY", {40, -7, 90}}, 0},
+                                         {{"POLY", {40}}, 2},
+                                         {{"TABLE", {1}}, 0},
+                                         {{"TABLE", {1}}, 2},
+                                         {{}, 2}}) {
+    Subject s;
+    s.name = "LAW " + law.tag + " CLAW " + std::to_string(damping_law);
+    s.nodes = places;
+    const auto make = [law = law, damping_law = damping_law](std::array<int, 2> ends, const Mat3& Q) {
+      SpringData data;
+      data.nodes = ends;
+      data.law = law;
+      data.damping_law = damping_law;
+      return build(spring_type(), data, turned(places, Q), {.functions = &functions});
+    };
+    s.build = [=](const Mat3& Q) { return make({1, 2}, Q); };
+    s.build_swapped = [=] { return make({2, 1}, Mat3::Identity()); };
+    s.step = 1e-4;
+    s.tolerance = 1e-7;
+    if (damping_law != 0) s.skip[Check::lagrange] = "a damper has no potential";
+    if (law.is("TABLE") || damping_law != 0)
+      for (const Check check : {Check::rigid, Check::zero}) s.skip[check] = "the function is not zero at zero";
+    run_suite(s);
+  }
+}
+
+TEST(Spring, LawsOfKnownValues) {
+  SpringData data;
+  data.nodes = {1, 2};
+  data.law = {"POLY", {10, 3, 2}};
+  data.length = 3;
+  const NodeMap nodes = {{1, Vec3::Zero()}, {2, {3, 4, 0}}};
+  auto spring = build(spring_type(), data, nodes);
+  EXPECT_NEAR(channel_of(*spring, StateBuffer(*spring, nodes), "FORCE"), 20 + 12 + 16, 1e-13);
+  EXPECT_NEAR(channel_of(*spring, StateBuffer(*spring, nodes), "SPRING_ENERGY"), 20 + 8 + 8, 1e-13);
+  data.law = {"TABLE", {1}};
+  spring = build(spring_type(), data, nodes, {.functions = &functions});
+  EXPECT_NEAR(channel_of(*spring, StateBuffer(*spring, nodes), "FORCE"), 0.3 + 0.7 * std::sin(1.9 * 2 + 0.4), 1e-14);
 }
 
 TEST(Spring, SuiteInGlobalDirections) {
@@ -109,6 +160,9 @@ TEST(Spring, FaultsOfTheCard) {
   data.damping = {1};
   EXPECT_EQ(message(data), "one value beside three");
   data.damping = {};
+  data.law = {"POLY", {1, 2}};
+  EXPECT_EQ(message(data), "a law of the elongation has no meaning for a spring in the global directions");
+  data.law = {};
   data.length = 1;
   EXPECT_EQ(message(data), "L0 has no meaning for a spring in the global directions");
   data.length.reset();

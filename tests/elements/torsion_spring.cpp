@@ -47,6 +47,29 @@ TEST(TorsionSpring, Suite) {
   run_suite(s);
 }
 
+TEST(TorsionSpring, SuiteOfLaws) {
+  FunctionMap functions;
+  functions[1] = std::make_unique<Wave>(0.3, 0.7, 1.9, 0.4);
+  for (const auto& [law, damping_law] :
+       {std::pair<deck::Tagged, int>{{"POLY", {40, -7, 90}}, 0}, {{"TABLE", {1}}, 0}, {{"POLY", {5, 0, 1}}, 1}}) {
+    Subject s = subject({1, 2}, 0, 0);
+    s.name = "LAW " + law.tag + " CLAW " + std::to_string(damping_law);
+    s.build = [&, nodes = s.nodes, law = law, damping_law = damping_law](const Mat3& Q) {
+      TorsionSpringData data;
+      data.nodes = {1, 2};
+      const Vec3 turned_axis = Q * axis;
+      data.axis = {turned_axis[0], turned_axis[1], turned_axis[2]};
+      data.law = law;
+      data.damping_law = damping_law;
+      return build(torsion_spring_type(), data, turned(nodes, Q), {.functions = &functions});
+    };
+    if (damping_law != 0) s.skip[Check::lagrange] = "a damper has no potential";
+    if (law.is("TABLE") || damping_law != 0)
+      for (const Check check : {Check::rigid, Check::zero}) s.skip[check] = "the function is not zero at zero";
+    run_suite(s);
+  }
+}
+
 TEST(TorsionSpring, Extremes) {
   for (const double stiffness : {1e-6, 1e15}) run_extreme(subject({1, 2}, stiffness, stiffness));
 }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/spring_law.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace engrane {
+
+std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping) {
+  SpringLaw law;
+  law.k1 = stiffness;
+  law.damping = damping;
+  if (data.law.given() && stiffness != 0) {
+    context.error("LAW", "K and LAW both give the spring's force", "give K or LAW; LAW POLY k1 k2 k3 starts with the stiffness");
+    return {};
+  }
+  if (data.damping_law != 0 && damping != 0) {
+    context.error("CLAW", "C and CLAW both give the damper's force", "give C or CLAW");
+    return {};
+  }
+  if (data.law.is("TABLE")) {
+    const double id = data.law.values[0];
+    if (id != std::floor(id) || !(id > 0 && id < 1e9)) {
+      context.error("LAW", fmt::format("{} is not the number of a function", number(id)), "LAW TABLE f, where .FCT declares f");
+      return {};
+    }
+    law.of_stretch = context.function(static_cast<int>(id), "LAW");
+    if (!law.of_stretch) return {};
+  } else if (data.law.given()) {
+    const std::vector<double>& k = data.law.values;
+    law.k1 = k[0];
+    if (k.size() > 1) law.k2 = k[1];
+    if (k.size() > 2) law.k3 = k[2];
+  }
+  if (data.damping_law != 0) {
+    law.of_rate = context.function(data.damping_law, "CLAW");
+    if (!law.of_rate) return {};
+  }
+  return law;
+}
+
+}  // namespace engrane

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The laws of springs and dampers, of an elongation or of an angle.
+#pragma once
+
+#include "elements/building.hpp"
+#include "model/function.hpp"
+
+namespace engrane {
+
+/// Keywords that SPRING and TSPRING share. Without `LAW` the spring is linear in K, without `CLAW` the damper in C.
+struct SpringLawData {
+  deck::Tagged law;     ///< TABLE f or POLY k1 [k2 [k3]]
+  int damping_law = 0;  ///< function of the rate
+};
+
+/// Tension of a spring and damper: f(e) + g(ė), e measured from where the spring is relaxed. The energy is ∫f from 0 to e.
+struct SpringLaw {
+  double k1 = 0, k2 = 0, k3 = 0;         ///< f = k1 e + k2 e² + k3 e³, unless `of_stretch` is given
+  const Function* of_stretch = nullptr;  ///< f
+  double damping = 0;                    ///< g = damping ė, unless `of_rate` is given
+  const Function* of_rate = nullptr;     ///< g
+
+  template <class T>
+  T elastic(const T& stretch) const {
+    if (of_stretch) return evaluate(*of_stretch, stretch);
+    if (k2 == 0 && k3 == 0) return k1 * stretch;
+    return stretch * (k1 + stretch * (k2 + stretch * k3));
+  }
+  template <class T>
+  T viscous(const T& rate) const {
+    return of_rate ? evaluate(*of_rate, rate) : damping * rate;
+  }
+  double stored(double stretch) const {
+    if (of_stretch) return of_stretch->integral(stretch);
+    return stretch * stretch * (k1 / 2 + stretch * (k2 / 3 + stretch * (k3 / 4)));
+  }
+
+  bool acts() const { return of_stretch || of_rate || k1 != 0 || k2 != 0 || k3 != 0 || damping != 0; }
+
+  /// The law of a card with one stiffness and one damping; an error, and none, when K and LAW or C and CLAW are both given.
+  static std::optional<SpringLaw> of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping);
+};
+
+/// Adds LAW and CLAW to a card; `stretch` is the word for e, and `force` for what it makes.
+template <class Data>
+void add_spring_law(deck::Card<Data>& card, const std::string& stretch, const std::string& force) {
+  card.add("LAW", &Data::law, "instead of K: " + force + " as a function of the " + stretch)
+      .synonyms({"LOI"})
+      .option({"TABLE", {"FONCTION", "FUNCTION"}, "function f of the " + stretch, 1, 1})
+      .option({"POLY", {"POLYNOME"}, "k1 e + k2 e2 + k3 e3 of the " + stretch + " e", 1, 3});
+  card.add("CLAW", &Data::damping_law, "instead of C: function of the rate of the " + stretch)
+      .synonyms({"LOI_C"})
+      .refers(deck::Reference::function)
+      .at_least(0);
+}
+
+}  // namespace engrane
