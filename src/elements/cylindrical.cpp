@@ -8,6 +8,7 @@ namespace {
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "cylindrical joint", PointRule::on_axis);
   if (!parts) return nullptr;
+  parts->is_bearing = true;
   parts->constraints = {{Measure::gap_2}, {Measure::gap_3}, {Measure::tilt_2}, {Measure::tilt_3}};
   if (!add_slide(data, context, *parts) || !add_turn(data, context, *parts)) return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));

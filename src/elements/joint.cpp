@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "elements/building.hpp"
 
@@ -134,6 +135,10 @@ void Joint::observe(const State& state, std::span<double> values) const {
   };
   write(force);
   if (parts_.has_moment) write(moment);
+  if (parts_.is_bearing) {
+    values[i++] = std::hypot(force.dot(axes[1]), force.dot(axes[2]));
+    if (parts_.has_moment) values[i++] = std::hypot(moment.dot(axes[1]), moment.dot(axes[2]));
+  }
   if (parts_.has_thrust) values[i++] = force.dot(pose.gap) / pose.gap.norm();
   if (!parts_.has_axis) values[i++] = force.norm();
   std::size_t row = parts_.constraints.size();
@@ -171,6 +176,10 @@ void Joint::name_channels() {
   };
   name("FORCE", dimension::force, "force of the joint on B");
   if (parts_.has_moment) name("MOMENT", dimension::moment, "moment of the joint on B at the joint point");
+  if (parts_.is_bearing) {
+    channels_.push_back({"RADIAL_FORCE", dimension::force, "size of the force on B across the axis"});
+    if (parts_.has_moment) channels_.push_back({"BENDING_MOMENT", dimension::moment, "size of the moment on B across the axis"});
+  }
   if (parts_.has_thrust) channels_.push_back({"THRUST", dimension::force, "force that pushes the ends apart"});
   if (!parts_.has_axis) channels_.push_back({"FORCE_SIZE", dimension::force, "size of the force of the joint on B"});
   for (const JointCoordinate& c : parts_.coordinates) {

@@ -36,6 +36,7 @@ struct JointParts {
   std::vector<JointCoordinate> coordinates;
   bool has_axis = true;       ///< reports reactions along e1, e2, e3 too
   bool drawn_axis = true;     ///< drawn with its axis e1
+  bool is_bearing = false;    ///< reports the sizes of force and moment across the axis
   bool has_thrust = false;    ///< reports the force along the gap
   bool has_moment = true;     ///< reports moments
   Vec3 point = Vec3::Zero();  ///< joint point, for pictures

@@ -9,6 +9,7 @@ std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "joint", PointRule::at_b);
   if (!parts) return nullptr;
   release_rotations(*parts, true);
+  parts->is_bearing = true;
   parts->constraints = {{Measure::gap_2}, {Measure::gap_3}};
   if (!add_slide(data, context, *parts)) return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));

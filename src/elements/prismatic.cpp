@@ -8,6 +8,7 @@ namespace {
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "prismatic joint", PointRule::at_b);
   if (!parts) return nullptr;
+  parts->is_bearing = true;
   parts->constraints = {{Measure::gap_2}, {Measure::gap_3}, {Measure::turn_1}, {Measure::turn_2}, {Measure::turn_3}};
   if (!add_slide(data, context, *parts)) return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));

@@ -15,6 +15,7 @@ std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
     return nullptr;
   }
   parts->frame.lead = data.pitch / (2 * std::numbers::pi);
+  parts->is_bearing = true;
   parts->constraints = {{Measure::gap_2}, {Measure::gap_3}, {Measure::tilt_2}, {Measure::tilt_3}, {Measure::screw}};
   if (!add_slide(data, context, *parts) || !add_turn(data, context, *parts)) return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));

@@ -63,6 +63,8 @@ TEST(Prismatic, ReactionsAreTheMultipliers) {
   EXPECT_NEAR(joint.channel("MOMENT_3"), 11, 1e-14);
   EXPECT_NEAR(joint.channel("FORCE_1"), 0, 1e-14);
   EXPECT_NEAR(joint.channel("MOMENT_X"), 5, 1e-14);
+  EXPECT_NEAR(joint.channel("RADIAL_FORCE"), std::hypot(2, 3), 1e-14);
+  EXPECT_NEAR(joint.channel("BENDING_MOMENT"), std::hypot(7, 11), 1e-14);
 }
 
 TEST(Prismatic, FaultsOfTheCard) {
