@@ -2,6 +2,7 @@
 // The turn of one node relative to another about an axis, counted in turns.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -31,11 +32,17 @@ struct AxisAngle {
 /// With e_i carried by A and B, θ = atan2(e3A·e2B − e2A·e3B, e2A·e2B + e3A·e3B); its gradient reduces to
 /// (e1A + e1B)/(1 + e1A·e1B).
 template <class T>
-AxisAngle<T> axis_angle(const AxisTriad& triad, const Mat3T<T>& R_a, const Mat3T<T>& R_b) {
-  const Vec3T<T> a1 = rotate(R_a, triad.e1), a2 = rotate(R_a, triad.e2), a3 = rotate(R_a, triad.e3);
-  const Vec3T<T> b1 = rotate(R_b, triad.e1), b2 = rotate(R_b, triad.e2), b3 = rotate(R_b, triad.e3);
+AxisAngle<T> axis_angle(const std::array<Vec3T<T>, 3>& a, const std::array<Vec3T<T>, 3>& b) {
   using std::atan2;
-  return {atan2(dot(a3, b2) - dot(a2, b3), dot(a2, b2) + dot(a3, b3)), Vec3T<T>((a1 + b1) * (T(1) / (T(1) + dot(a1, b1))))};
+  return {atan2(dot(a[2], b[1]) - dot(a[1], b[2]), dot(a[1], b[1]) + dot(a[2], b[2])),
+          Vec3T<T>((a[0] + b[0]) * (T(1) / (T(1) + dot(a[0], b[0]))))};
+}
+template <class T>
+AxisAngle<T> axis_angle(const AxisTriad& triad, const Mat3T<T>& R_a, const Mat3T<T>& R_b) {
+  const auto carried = [&triad](const Mat3T<T>& R) {
+    return std::array<Vec3T<T>, 3>{rotate(R, triad.e1), rotate(R, triad.e2), rotate(R, triad.e3)};
+  };
+  return axis_angle(carried(R_a), carried(R_b));
 }
 
 /// The turns of an angle across steps, from two history numbers: whole turns, and the last angle in (−π, π].

@@ -7,7 +7,7 @@
 
 #include "elements/axis_angle.hpp"
 #include "elements/building.hpp"
-#include "elements/drive.hpp"
+#include "elements/joint_card.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane {
@@ -155,38 +155,12 @@ class Hinge final : public TemplatedElement<Hinge, 2, 18> {
   std::vector<Named> channels_;
 };
 
-/// The joint point: AT, or where both nodes are, or where the one is that is not the ground.
-std::optional<Vec3> joint_point(const HingeData& data, const BuildContext& context) {
-  if (data.at) return to_vector(*data.at);
-  const auto [a, b] = data.nodes;
-  const Vec3 &at_a = context.nodes.at(a), &at_b = context.nodes.at(b);
-  if (a == 0) return at_b;
-  if (b == 0 || same_place(at_a, at_b)) return at_a;
-  context.error("N", fmt::format("nodes {} and {} of the hinge are {:.6g} apart", a, b, (at_b - at_a).norm()),
-                "put them in one place, or say where the joint is: AT x y z");
-  return {};
-}
-
-bool find_drive(const HingeData& data, const BuildContext& context, Drive& drive) {
-  if (!data.drive.given()) {
-    if (data.function == 0) return true;
-    context.error("NF", "NF without DRIVE", "DRIVE ANGLE NF f imposes the angle, DRIVE SPEED NF f the speed");
-    return false;
-  }
-  if (data.function == 0) {
-    context.error("DRIVE", "DRIVE needs a function of time", "NF f names a function of .FCT, in radians");
-    return false;
-  }
-  drive.rate_given = data.drive.is("SPEED");
-  return find_function(context, data.function, drive.function);
-}
-
 std::unique_ptr<Element> build(const HingeData& data, BuildContext& context) {
   const auto axis = unit_vector(context, "AXIS", data.axis);
   Drive drive;
-  const bool driven = find_drive(data, context, drive);
+  const bool driven = find_drive(context, {"DRIVE", "NF", "ANGLE", ", in radians"}, data.drive, data.function, drive);
   if (!check_nodes(context, {data.nodes[0], data.nodes[1]})) return nullptr;
-  const auto point = joint_point(data, context);
+  const auto point = joint_point(context, data.nodes, data.at, "hinge", PointRule::one_place);
   if (!axis || !driven || !point) return nullptr;
   const Hinge::Geometry geometry{data.nodes, *axis, *point, *point - context.nodes.at(data.nodes[0]),
                                  *point - context.nodes.at(data.nodes[1])};

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/prismatic.hpp"
+
+namespace engrane {
+
+namespace {
+
+std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+  auto parts = start_joint(data, context, "prismatic joint", PointRule::at_b);
+  if (!parts) return nullptr;
+  parts->is_bearing = true;
+  parts->constraints = {{Measure::gap_2}, {Measure::gap_3}, {Measure::turn_1}, {Measure::turn_2}, {Measure::turn_3}};
+  if (!add_slide(data, context, *parts)) return nullptr;
+  return std::make_unique<Joint>(context.record.id, std::move(*parts));
+}
+
+}  // namespace
+
+ElementType prismatic_type() {
+  JointCard card("PRISMATIC", {"PRISMATIQUE", "SLIDER", "GLISSIERE"},
+                 "Prismatic joint: node b slides along an axis held by node a");
+  card.numbered()
+      .chapter("Rigid kinematic joints")
+      .describe(
+          "Node b slides along the axis and does not turn from node a. The slide is 0 in the reference configuration. The nodes "
+          "may be anywhere; AT is the point at which moments are reported, without it node b.")
+      .example("I 3 PRISMATIC N 0 2  AXIS 1 0 0  K 1000 SLIDE0 0.1")
+      .example("I 4 PRISMATIC N 1 2  AXIS 0 0 1  DRIVE SPEED NF 1");
+  add_joint_nodes(card);
+  add_joint_axis(card);
+  add_joint_point(card);
+  add_slide_drive(card, "SLIDE");
+  add_slide_spring(card);
+  return element_type(card, build);
+}
+
+}  // namespace engrane

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/screw.hpp"
+
+#include <numbers>
+
+namespace engrane {
+
+namespace {
+
+std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+  auto parts = start_joint(data, context, "screw", PointRule::on_axis);
+  if (!parts) return nullptr;
+  if (data.drive.given() && data.turn.given()) {
+    context.error("TURN", "DRIVE and TURN on one screw", "a screw has one freedom: drive its slide or its turn");
+    return nullptr;
+  }
+  parts->frame.lead = data.pitch / (2 * std::numbers::pi);
+  parts->is_bearing = true;
+  parts->constraints = {{Measure::gap_2}, {Measure::gap_3}, {Measure::tilt_2}, {Measure::tilt_3}, {Measure::screw}};
+  if (!add_slide(data, context, *parts) || !add_turn(data, context, *parts)) return nullptr;
+  return std::make_unique<Joint>(context.record.id, std::move(*parts));
+}
+
+}  // namespace
+
+ElementType screw_type() {
+  JointCard card("SCREW", {"VIS"}, "Screw joint: node b turns about an axis held by node a and advances by a pitch per turn");
+  card.numbered()
+      .chapter("Rigid kinematic joints")
+      .describe(
+          "A cylindrical joint whose slide is PITCH times the turns: a positive pitch is a right-hand thread, b moves along the "
+          "axis as it turns about it by the right hand. One of slide and angle may be driven.")
+      .example("I 3 SCREW N 0 2  AXIS 0 0 1  PITCH 0.005  TURN SPEED NFT 1");
+  add_joint_nodes(card);
+  add_joint_axis(card);
+  add_joint_point(card);
+  card.add("PITCH", &JointData::pitch, "advance per turn; negative is a left-hand thread")
+      .synonyms({"PAS"})
+      .unit(dimension::length)
+      .required();
+  add_slide_drive(card, "SLIDE");
+  add_turn_drive(card);
+  add_slide_spring(card);
+  add_turn_spring(card);
+  return element_type(card, build);
+}
+
+}  // namespace engrane

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/universal.hpp"
+
+#include <fmt/format.h>
+
+#include "elements/building.hpp"
+
+namespace engrane {
+
+namespace {
+
+std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+  auto parts = start_joint(data, context, "universal joint", PointRule::one_place);
+  if (!parts) return nullptr;
+  const auto pin_b = unit_vector(context, "AXIS2", *data.second);
+  if (!pin_b) return nullptr;
+  const double together = parts->frame.e1.dot(*pin_b);
+  if (std::abs(together) > 1e-6) {
+    const Vec3 right = *pin_b - parts->frame.e1 * together;
+    context.error("AXIS2", fmt::format("the pins are at {:.6g} degrees", std::acos(together) / degree),
+                  right.norm() < 1e-6 ? "they must be perpendicular"
+                                      : fmt::format("they must be perpendicular; nearest: AXIS2 {} {} {}", number(right[0]),
+                                                    number(right[1]), number(right[2])));
+    return nullptr;
+  }
+  parts->frame.e2 = (*pin_b - parts->frame.e1 * together).normalized();
+  parts->frame.e3 = cross(parts->frame.e1, parts->frame.e2);
+  parts->constraints = {{Measure::gap_1}, {Measure::gap_2}, {Measure::gap_3}, {Measure::pins}};
+  const double relaxed = data.angle0 * degree;
+  parts->coordinates = {{Measure::pin_a, "ANGLE_1", "SPEED_1", data.turn_stiffness, data.turn_damping, relaxed},
+                        {Measure::pin_b, "ANGLE_2", "SPEED_2", data.turn_stiffness, data.turn_damping, relaxed}};
+  return std::make_unique<Joint>(context.record.id, std::move(*parts));
+}
+
+}  // namespace
+
+ElementType universal_type() {
+  JointCard card("UNIVERSAL", {"CARDAN"}, "Universal joint: two shafts joined by a cross of perpendicular pins");
+  card.numbered()
+      .chapter("Rigid kinematic joints")
+      .describe(
+          "AXIS is the pin held by node a, AXIS2 the pin held by node b, perpendicular to it. They meet in the joint point AT; "
+          "without it the nodes must be in one place, or one of them is the ground.")
+      .example("I 3 UNIVERSAL N 1 2  AXIS 0 1 0  AXIS2 0 0 1  AT 0.3 0 0");
+  add_joint_nodes(card);
+  card.add("AXIS", &JointData::axis, "pin held by a, in the reference configuration").synonyms({"AXE"}).required();
+  card.add("AXIS2", &JointData::second, "pin held by b").synonyms({"AXE2"}).required();
+  add_joint_point(card);
+  card.add("KT", &JointData::turn_stiffness, "torsion spring on either pin, moment per radian")
+      .unit(dimension::torsional_stiffness)
+      .at_least(0);
+  card.add("CT", &JointData::turn_damping, "torsion damper on either pin, moment per radian and time")
+      .unit(dimension::torsional_damping)
+      .at_least(0);
+  card.add("ANGLE0", &JointData::angle0, "angle of either pin at which its spring is relaxed").unit(dimension::angle);
+  return element_type(card, build);
+}
+
+}  // namespace engrane
