@@ -31,7 +31,7 @@ def deck(rate: float, steps: int) -> str:
 .FCT
  I 1 EXPR "{rate / 20!r}"
 .INI
- NOEUD 2 C 6 VELOCITY V {-rate / 20 + 0.01!r}
+ VIT NOEUD 2 C 6 V {-rate / 20 + 0.01!r}
 .SAM TYPE DYNAMIC RHO 0.9
 .SUB TF {4 * period!r} H {period / steps!r}
 .FIN 1
