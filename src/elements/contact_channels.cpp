@@ -20,19 +20,10 @@ void add_force_channels(std::vector<Named>& list, const std::array<const char*, 
     list.push_back({std::string("CONTACT_") + component, dimension::length, std::string("contact point, global ") + component});
 }
 
-BodyForces::BodyForces(const Element& element, const State& state) {
-  std::vector<double> r(static_cast<std::size_t>(element.layout().slots()));
-  element.residual(state, r);
-  for (std::size_t i = 0; i < 2; ++i) {  // the residual is what the element resists with
-    force[i] = -Vec3(r[6 * i], r[6 * i + 1], r[6 * i + 2]);
-    moment[i] = -(state.nodes[i].R * Vec3(r[6 * i + 3], r[6 * i + 4], r[6 * i + 5]));
-  }
-}
-
-void BodyForces::put(ChannelWriter& out, const Vec3& contact) const {
+void put_force_channels(ChannelWriter& out, const ContactReport& report, const Vec3& contact) {
   for (std::size_t i = 0; i < 2; ++i) {
-    out.put(force[i]);
-    out.put(moment[i]);
+    out.put(report.force[i]);
+    out.put(report.moment[i]);
   }
   out.put(contact);
 }

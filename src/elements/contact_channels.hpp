@@ -26,12 +26,7 @@ class ChannelWriter {
 
 /// Force and moment of the teeth on both bodies, global components, and the contact point; `bodies` are their names in help.
 void add_force_channels(std::vector<Named>& list, const std::array<const char*, 2>& bodies);
-/// Tooth forces and moments on the two bodies of an element from its residual, and the contact point.
-struct BodyForces {
-  std::array<Vec3, 2> force, moment;  ///< moments about the nodes, global components
-  BodyForces(const Element& element, const State& state);
-  void put(ChannelWriter& out, const Vec3& contact) const;
-};
+void put_force_channels(ChannelWriter& out, const ContactReport& report, const Vec3& contact);
 
 /// Power, sliding, friction and the state of the teeth, as far as the options of the contact give them.
 void add_contact_channels(std::vector<Named>& list, const ToothContact& contact);

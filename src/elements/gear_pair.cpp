@@ -20,7 +20,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-std::vector<Named> channel_list(const ToothContact& contact) {
+std::vector<Named> channel_list() {
   using namespace dimension;
   std::vector<Named> list{{"NORMAL_FORCE", force, "normal tooth force, positive where A drives"}};
   for (const char* wheel : {"A", "B"}) {
@@ -33,7 +33,6 @@ std::vector<Named> channel_list(const ToothContact& contact) {
   add_force_channels(list, {"wheel A", "wheel B"});
   list.push_back({"PSI_A", angle, "turn of wheel A relative to the pair's frame, whole turns included"});
   list.push_back({"PSI_B", angle, "turn of wheel B relative to the pair's frame, whole turns included"});
-  add_contact_channels(list, contact);
   return list;
 }
 
@@ -41,27 +40,15 @@ std::vector<Named> channel_list(const ToothContact& contact) {
 
 GearPair::GearPair(int id, std::array<int, 2> nodes, const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth,
                    const ContactOptions& options, double width)
-    : TemplatedElement(id),
+    : ToothedPair(id, nodes, ToothContact(contact_geometry(design, width), teeth, options),
+                  {{{"PSI_A", dimension::angle, "turn of wheel A relative to the pair's frame"},
+                    {"PSI_B", dimension::angle, "turn of wheel B relative to the pair's frame"}}},
+                  2, channel_list()),
       design_(design),
       frames_(frames),
       triad_{frames.mu, frames.xi},
       tooth_{tooth_axes(design.cone[0], design.helix[0]), mating_tooth_axes(design.cone[1], design.helix[1])},
-      radius_{design.radius(0), design.radius(1)},
-      contact_(contact_geometry(design, width), teeth, options),
-      channels_(channel_list(contact_)) {
-  Layout layout;
-  layout.nodes = {nodes[0], nodes[1]};
-  layout.needs = {NodeNeed::both, NodeNeed::both};
-  layout.scalars = {{"PSI_A", dimension::angle, "turn of wheel A relative to the pair's frame"},
-                    {"PSI_B", dimension::angle, "turn of wheel B relative to the pair's frame"}};
-  if (contact_.elastic()) layout.scalars.push_back({"U_M", dimension::length, "tooth deformation along the circumference"});
-  layout.multipliers = {{"TOOTH", dimension::length, "tooth contact, phi_1: its multiplier is the normal force"},
-                        {"MESH", dimension::length, "contact points along the circumference, phi_2"},
-                        {"TRIAD", dimension::angle, "tooth triads about the tooth, phi_3"}};
-  layout.history = 2;
-  layout.switches = contact_.switch_names();
-  set_layout(std::move(layout));
-}
+      radius_{design.radius(0), design.radius(1)} {}
 
 ContactGeometry contact_geometry(const GearDesign& design, double width) {
   ContactGeometry g;
@@ -84,11 +71,6 @@ ContactGeometry contact_geometry(const GearDesign& design, double width) {
   return g;
 }
 
-void GearPair::start(std::span<double> scalars, std::span<double> history) const {
-  std::fill(scalars.begin(), scalars.end(), 0.0);
-  std::fill(history.begin(), history.end(), 0.0);
-}
-
 void GearPair::commit(const State& state, std::span<double> scalars, std::span<double> history) const {
   for (std::size_t i = 0; i < 2; ++i) {
     const double turns = std::round(state.scalars[i] / turn);
@@ -107,7 +89,7 @@ ToothedSide<T> GearPair::wheel(std::size_t i, const Mat3T<T>& R, const T& psi) c
 }
 
 template <class T>
-void GearPair::evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const {
+void GearPair::mesh(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const {
   const T &psi_a = motion.scalar[0], &psi_b = motion.scalar[1];
   const ToothedSide<T> a = wheel(0, motion.node[0].R, psi_a), b = wheel(1, motion.node[1].R, psi_b);
   const double pitch = design_.normal_module / 2;
@@ -119,19 +101,9 @@ void GearPair::evaluate(const Motion<T, 2>& motion, const State& state, Balance<
   balance.scalar(1, contact_.cos_alpha() * design_.lever(1) * normal_force + dot(b.axle, loads.frame_moment[1]));
 }
 
-ContactReport GearPair::report(const State& state) const {
-  ContactReport report;
-  const auto m = motion<double>(state);
-  Balance<double, 2> balance(state);
-  evaluate(m, state, balance, &report);
-  return report;
-}
-
-Energies GearPair::energies(const State& state) const { return energies_of(report(state)); }
-
 void GearPair::observe(const State& state, std::span<double> values) const {
   ChannelWriter out(values);
-  const BodyForces on(*this, state);
+  const ContactReport on = report(state);
   out.put(state.multipliers[0]);
   std::array<Vec3, 2> point;
   std::array<double, 2> power{};  // that the teeth give to each wheel, in the pair's frame
@@ -147,14 +119,12 @@ void GearPair::observe(const State& state, std::span<double> values) const {
     out.put(torque);
     power[i] = torque * state.scalar_rates[i];
   }
-  on.put(out, 0.5 * (point[0] + point[1]));
+  put_force_channels(out, on, 0.5 * (point[0] + point[1]));
   for (std::size_t i = 0; i < 2; ++i) out.put(state.scalars[i] + turn * state.history[i]);
-  put_contact_channels(out, contact_, report(state), power, state.scalars);
+  put_contact_channels(out, contact_, on, power, state.scalars);
 }
 
-void GearPair::switches(const State& state, std::span<Switch> values) const {
-  if (!values.empty()) contact_.switches(report(state), state, values);
-}
+template class ToothedPair<GearPair>;
 
 std::vector<Derived> GearPair::derived() const {
   return gear_report(design_, frames_, contact_.law(), contact_.geometry().width);

@@ -7,8 +7,7 @@
 
 #include "elements/gear_card.hpp"
 #include "elements/gear_geometry.hpp"
-#include "elements/tooth_contact.hpp"
-#include "model/templated_element.hpp"
+#include "elements/toothed_pair.hpp"
 
 namespace engrane {
 
@@ -27,7 +26,7 @@ namespace engrane {
 ///
 /// and the separating force acts at the point midway between the contact points of A and B. Where the wheels are aligned
 /// this is the paper's; where supports bend, wheels may be exchanged and the pair stays in equilibrium by itself exactly.
-class GearPair final : public TemplatedElement<GearPair, 2, 18> {
+class GearPair final : public ToothedPair<GearPair> {
  public:
   /// `teeth.stiffness` 0: rigid teeth. `width`: face width.
   GearPair(int id, std::array<int, 2> nodes, const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth,
@@ -35,33 +34,21 @@ class GearPair final : public TemplatedElement<GearPair, 2, 18> {
 
   const GearDesign& design() const { return design_; }
   const PitchFrames& frames() const { return frames_; }
-  const ToothLaw& teeth() const { return contact_.law(); }
-  const ContactOptions& options() const { return contact_.options(); }
-  /// What the teeth tell besides their forces.
-  ContactReport report(const State& state) const;
 
-  void start(std::span<double> scalars, std::span<double> history) const override;
   void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
-  Energies energies(const State& state) const override;
-  const std::vector<Named>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override;
   std::vector<Derived> derived() const override;
   Drawing drawing() const override;
-  void switches(const State& state, std::span<Switch> values) const override;
 
  private:
-  friend class TemplatedElement<GearPair, 2, 18>;
+  friend class ToothedPair<GearPair>;
 
   /// From the wheel's rotation and turn ψ, by (4), (16) and (6) or (8).
   template <class T>
   ToothedSide<T> wheel(std::size_t i, const Mat3T<T>& R, const T& psi) const;
 
   template <class T>
-  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
-    evaluate(motion, state, balance, nullptr);
-  }
-  template <class T>
-  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const;
+  void mesh(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const;
 
   /// 2π (z_A n_A + z_B n_B), of the whole turns counted: the integers cancel before they are rounded.
   double counted_phase(std::span<const double> history) const;
@@ -71,9 +58,9 @@ class GearPair final : public TemplatedElement<GearPair, 2, 18> {
   std::array<Mat3, 2> triad_;     ///< columns μ, ξ in the reference configuration
   std::array<Mat3, 2> tooth_;     ///< Y_A, Y_B
   std::array<double, 2> radius_;  ///< r
-  ToothContact contact_;
-  std::vector<Named> channels_;
 };
+
+extern template class ToothedPair<GearPair>;
 
 /// What the contact needs of a pair's geometry. Involute relations, sliding along the profile and slices are of parallel axles
 /// only; for others their dimensions stay zero.

@@ -166,22 +166,32 @@ bool said_before(const GearData& data, const BuildContext& context) {
 
 }  // namespace
 
+void warn_about_undercut(const GearDesign& design, std::size_t wheel, const std::string& who, const BuildContext& context) {
+  const double z = virtual_teeth(design, wheel), least = least_teeth(design, wheel);
+  if (z >= least * (1 - 1e-9)) return;
+  const bool cone = std::abs(std::sin(design.cone[wheel])) > 1e-9;
+  context.diagnostics.warning(
+      context.record.where("Z"),
+      fmt::format("{} of {} teeth{} is undercut: its teeth are full from {:.0f}{} on", who, design.teeth[wheel],
+                  cone ? fmt::format(" ({:.3g} virtual)", z) : "", std::ceil(least * (1 - 1e-9)), cone ? " virtual" : ""),
+      "take more teeth, a larger ALPHA or HELIX; real wheels of so few teeth have profile shift, which is not part of the "
+      "model");
+}
+
+void warn_about_contact_ratio(double usable, const BuildContext& context) {
+  if (usable >= 1) return;
+  context.diagnostics.warning(context.record.where("Z"),
+                              fmt::format("contact ratio {:.3g}, undercut considered: at times no teeth would touch", usable),
+                              "take more teeth; the model passes the motion on all the same");
+}
+
 void warn_about_teeth(const GearDesign& design, const GearData& data, const BuildContext& context) {
   if (said_before(data, context)) return;
   const auto warn = [&](const char* keyword, std::string message, std::string cure) {
     context.diagnostics.warning(context.record.where(keyword), std::move(message), std::move(cure));
   };
-  for (const std::size_t i : wheels) {
-    if (is_ring(design, i)) continue;
-    const double z = virtual_teeth(design, i), least = least_teeth(design, i);
-    const bool cone = std::abs(std::sin(design.cone[i])) > 1e-9;
-    if (z < least * (1 - 1e-9))
-      warn("Z",
-           fmt::format("wheel {} of {} teeth{} is undercut: its teeth are full from {:.0f}{} on", name_of(i), design.teeth[i],
-                       cone ? fmt::format(" ({:.3g} virtual)", z) : "", std::ceil(least * (1 - 1e-9)), cone ? " virtual" : ""),
-           "take more teeth, a larger ALPHA or HELIX; real wheels of so few teeth have profile shift, which is not part of the "
-           "model");
-  }
+  for (const std::size_t i : wheels)
+    if (!is_ring(design, i)) warn_about_undercut(design, i, fmt::format("wheel {}", name_of(i)), context);
   const bool internal = design.parallel_kind() < 0;
   const auto clearance = internal_clearance(design);
   if (internal && !clearance)
@@ -195,9 +205,7 @@ void warn_about_teeth(const GearDesign& design, const GearData& data, const Buil
          fmt::format("the tips of pinion and ring gear strike each other: {} teeth differ too little from {}",
                      std::min(design.teeth[0], design.teeth[1]), std::max(design.teeth[0], design.teeth[1])),
          "take a larger difference, a larger ALPHA or stub teeth");
-  if (const auto ratio = usable_contact_ratio(design); ratio && *ratio < 1)
-    warn("Z", fmt::format("contact ratio {:.3g}, undercut considered: at times no teeth would touch", *ratio),
-         "take more teeth; the model passes the motion on all the same");
+  if (const auto ratio = usable_contact_ratio(design)) warn_about_contact_ratio(*ratio, context);
 }
 
 }  // namespace engrane

@@ -42,6 +42,11 @@ std::optional<InternalClearance> internal_clearance(const GearDesign& design);
 /// takes that part away. Nothing where contact_ratio() gives nothing.
 std::optional<double> usable_contact_ratio(const GearDesign& design);
 
+/// A wheel of too few teeth; `who` is its name in the message: "wheel A".
+void warn_about_undercut(const GearDesign& design, std::size_t wheel, const std::string& who, const BuildContext& context);
+/// Teeth that at times would not touch.
+void warn_about_contact_ratio(double usable, const BuildContext& context);
+
 /// Undercut, contact ratio below 1 and interference of internal pairs, each a warning with its cure. Of equal pairs in a deck
 /// only the first is spoken of.
 void warn_about_teeth(const GearDesign& design, const GearData& data, const BuildContext& context);

@@ -13,6 +13,7 @@
 #include "base/text.hpp"
 #include "elements/building.hpp"
 #include "elements/contact_channels.hpp"
+#include "elements/gear_report.hpp"
 
 namespace engrane {
 
@@ -20,7 +21,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-std::vector<Named> channel_list(const ToothContact& contact) {
+std::vector<Named> channel_list() {
   using namespace dimension;
   std::vector<Named> list{{"NORMAL_FORCE", force, "normal tooth force, positive where the pinion drives"},
                           {"TANGENTIAL_FORCE_A", force, "tooth force on the pinion along its positive sense of turning"},
@@ -31,7 +32,6 @@ std::vector<Named> channel_list(const ToothContact& contact) {
   add_force_channels(list, {"the pinion", "the rack"});
   list.push_back({"PSI_A", angle, "turn of the pinion relative to the pair's frame, whole turns included"});
   list.push_back({"TRAVEL", length, "travel of the rack relative to the pair's frame, along DIR"});
-  add_contact_channels(list, contact);
   return list;
 }
 
@@ -54,30 +54,13 @@ ContactGeometry contact_geometry(const RackPinion::Geometry& g, double width) {
 
 RackPinion::RackPinion(int id, std::array<int, 2> nodes, const Geometry& geometry, const ToothLaw& teeth,
                        const ContactOptions& options, double width)
-    : TemplatedElement(id),
+    : ToothedPair(id, nodes, ToothContact(contact_geometry(geometry, width), teeth, options),
+                  {{{"PSI_A", dimension::angle, "turn of the pinion relative to the pair's frame"},
+                    {"TRAVEL", dimension::length, "travel of the rack relative to the pair's frame"}}},
+                  1, channel_list()),
       geometry_(geometry),
       tooth_a_(tooth_axes(0, geometry.design.helix[0])),
-      tooth_b_(mating_tooth_axes(0, geometry.design.helix[1])),
-      contact_(contact_geometry(geometry, width), teeth, options),
-      channels_(channel_list(contact_)) {
-  Layout layout;
-  layout.nodes = {nodes[0], nodes[1]};
-  layout.needs = {NodeNeed::both, NodeNeed::both};
-  layout.scalars = {{"PSI_A", dimension::angle, "turn of the pinion relative to the pair's frame"},
-                    {"TRAVEL", dimension::length, "travel of the rack relative to the pair's frame"}};
-  if (contact_.elastic()) layout.scalars.push_back({"U_M", dimension::length, "tooth deformation along the circumference"});
-  layout.multipliers = {{"TOOTH", dimension::length, "tooth contact, phi_1: its multiplier is the normal force"},
-                        {"MESH", dimension::length, "contact points along the circumference, phi_2"},
-                        {"TRIAD", dimension::angle, "tooth triads about the tooth, phi_3"}};
-  layout.history = 1;
-  layout.switches = contact_.switch_names();
-  set_layout(std::move(layout));
-}
-
-void RackPinion::start(std::span<double> scalars, std::span<double> history) const {
-  std::fill(scalars.begin(), scalars.end(), 0.0);
-  std::fill(history.begin(), history.end(), 0.0);
-}
+      tooth_b_(mating_tooth_axes(0, geometry.design.helix[1])) {}
 
 void RackPinion::commit(const State& state, std::span<double> scalars, std::span<double> history) const {
   const double turns = std::round(state.scalars[0] / turn);
@@ -104,7 +87,7 @@ ToothedSide<T> RackPinion::rack(const Mat3T<T>& R, const T& travel) const {
 }
 
 template <class T>
-void RackPinion::evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const {
+void RackPinion::mesh(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const {
   const T &psi = motion.scalar[0], &travel = motion.scalar[1];
   const ToothedSide<T> a = pinion(motion.node[0].R, psi), b = rack(motion.node[1].R, travel);
   const double lever_a = geometry_.design.lever(0), lever_b = geometry_.sense * std::cos(geometry_.design.helix[1]);
@@ -116,19 +99,9 @@ void RackPinion::evaluate(const Motion<T, 2>& motion, const State& state, Balanc
   balance.scalar(1, contact_.cos_alpha() * lever_b * normal_force - geometry_.sense * dot(b.forward, loads.frame_force));
 }
 
-ContactReport RackPinion::report(const State& state) const {
-  ContactReport report;
-  const auto m = motion<double>(state);
-  Balance<double, 2> balance(state);
-  evaluate(m, state, balance, &report);
-  return report;
-}
-
-Energies RackPinion::energies(const State& state) const { return energies_of(report(state)); }
-
 void RackPinion::observe(const State& state, std::span<double> values) const {
   ChannelWriter out(values);
-  const BodyForces on(*this, state);
+  const ContactReport on = report(state);
   const NodeState &node_a = state.nodes[0], &node_b = state.nodes[1];
   const auto a = pinion(node_a.R, state.scalars[0]);
   const auto b = rack(node_b.R, state.scalars[1]);
@@ -140,16 +113,13 @@ void RackPinion::observe(const State& state, std::span<double> values) const {
   out.put(on.force[0].dot(a.axle));
   out.put(torque);
   out.put(thrust);
-  on.put(out, 0.5 * (node_a.x + a.arm + node_b.x + b.arm));
+  put_force_channels(out, on, 0.5 * (node_a.x + a.arm + node_b.x + b.arm));
   out.put(state.scalars[0] + turn * state.history[0]);
   out.put(state.scalars[1]);
-  put_contact_channels(out, contact_, report(state), {torque * state.scalar_rates[0], thrust * state.scalar_rates[1]},
-                       state.scalars);
+  put_contact_channels(out, contact_, on, {torque * state.scalar_rates[0], thrust * state.scalar_rates[1]}, state.scalars);
 }
 
-void RackPinion::switches(const State& state, std::span<Switch> values) const {
-  if (!values.empty()) contact_.switches(report(state), state, values);
-}
+template class ToothedPair<RackPinion>;
 
 std::vector<Derived> RackPinion::derived() const {
   using namespace dimension;
@@ -289,6 +259,12 @@ std::unique_ptr<Element> build_rack_pinion(const RackData& data, BuildContext& c
   owner.lever = {geometry->design.lever(0), 1};
   owner.parallel = std::abs(geometry->design.helix[0] + geometry->design.helix[1]) < 1e-9;
   owner.geometry = contact_geometry(*geometry, width);
+  warn_about_undercut(geometry->design, 0, "the pinion", context);
+  if (const ContactGeometry& g = owner.geometry; owner.parallel && g.recess > 0) {
+    // the rack's tips touch nothing beyond where the involute begins
+    const double involute = geometry->design.radius(0) * std::sin(g.transverse_pressure_angle);
+    warn_about_contact_ratio((std::min(g.approach, involute) + g.recess) / g.base_pitch, context);
+  }
   const auto teeth = read_teeth(data, owner, context);
   if (!teeth) return nullptr;
   return std::make_unique<RackPinion>(context.record.id, data.nodes, *geometry, teeth->law, teeth->options, width);

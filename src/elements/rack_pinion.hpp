@@ -8,7 +8,7 @@
 
 #include "elements/gear_geometry.hpp"
 #include "elements/teeth_card.hpp"
-#include "elements/tooth_contact.hpp"
+#include "elements/toothed_pair.hpp"
 
 namespace engrane {
 
@@ -31,7 +31,7 @@ const deck::Card<RackData>& rack_card();
 /// Own unknowns: ψ_A, the pinion's turn relative to the pair's frame; the travel of the rack relative to that frame, positive
 /// along `DIR`; u_m with elastic teeth. The rest, multipliers included, is the gear pair's with x_C^B = x_B + R_B(c − s ξ₃) and
 /// ξ fixed to the rack: φ₁ = −(r_A cosβ_A ψ_A + s cosβ_B) cosα_n + u_m cosα_n, s the travel along ξ₃.
-class RackPinion final : public TemplatedElement<RackPinion, 2, 18> {
+class RackPinion final : public ToothedPair<RackPinion> {
  public:
   struct Geometry {
     GearDesign design;   ///< wheel A the pinion; helix of B the rack's, its number of teeth and cone of no meaning
@@ -43,37 +43,27 @@ class RackPinion final : public TemplatedElement<RackPinion, 2, 18> {
              double width);
 
   const Geometry& geometry() const { return geometry_; }
-  const ToothLaw& teeth() const { return contact_.law(); }
-  ContactReport report(const State& state) const;
 
-  void start(std::span<double> scalars, std::span<double> history) const override;
   void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
-  Energies energies(const State& state) const override;
-  const std::vector<Named>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override;
   std::vector<Derived> derived() const override;
   Drawing drawing() const override;
-  void switches(const State& state, std::span<Switch> values) const override;
 
  private:
-  friend class TemplatedElement<RackPinion, 2, 18>;
+  friend class ToothedPair<RackPinion>;
 
   template <class T>
   ToothedSide<T> pinion(const Mat3T<T>& R, const T& psi) const;
   template <class T>
   ToothedSide<T> rack(const Mat3T<T>& R, const T& travel) const;
   template <class T>
-  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
-    evaluate(motion, state, balance, nullptr);
-  }
-  template <class T>
-  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const;
+  void mesh(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const;
 
   Geometry geometry_;
   Mat3 tooth_a_, tooth_b_;  ///< Y_A, Y_B
-  ToothContact contact_;
-  std::vector<Named> channels_;
 };
+
+extern template class ToothedPair<RackPinion>;
 
 ElementType rack_pinion_type();
 

@@ -95,10 +95,11 @@ struct ToothLoads {
 
 /// What a contact can be asked for besides its forces.
 struct ContactReport {
-  double approach = 0;          ///< u_m + x_err
-  double front = 0, back = 0;   ///< how far either flank is pressed in, middle of the face
-  double opening = 0;           ///< of the wheels, across the teeth
-  double stiffness_factor = 1;  ///< of the course over the mesh
+  std::array<Vec3, 2> force, moment;  ///< of the teeth on A and B, moments about the nodes, global components
+  double approach = 0;                ///< u_m + x_err
+  double front = 0, back = 0;         ///< how far either flank is pressed in, middle of the face
+  double opening = 0;                 ///< of the wheels, across the teeth
+  double stiffness_factor = 1;        ///< of the course over the mesh
   double potential = 0;
   double damping_power = 0, friction_power = 0, separation_power = 0;
   double sliding_speed = 0;    ///< at the pitch point
@@ -144,8 +145,6 @@ class ToothContact {
 
  private:
   bool limits_damping() const { return law_.mode == ToothLaw::Damping::contact && law_.damping > 0; }
-  template <class T>
-  struct Course;  // of the stiffness: factor and its derivative by ψ_A
   template <class T>
   void press(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap, const T& force_1,
              Balance<T, 2>& balance, ToothLoads<T>& loads, ContactReport* report) const;

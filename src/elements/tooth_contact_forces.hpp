@@ -41,6 +41,11 @@ T ToothContact::act(const Motion<T, 2>& motion, const ToothedSide<T>& a, const T
   for (std::size_t i = 0; i < 2; ++i) {
     const Vec3T<T> moment = loads.frame_moment[i] + loads.body_moment[i];
     balance.moment(static_cast<int>(i), -rotate_back(motion.node[i].R, moment));
+    if (!report) continue;
+    for (int k = 0; k < 3; ++k) {
+      report->force[i][k] = i == 0 ? value_of(force[k]) : -value_of(force[k]);
+      report->moment[i][k] = value_of(moment[k]);
+    }
   }
   return force_1;
 }
