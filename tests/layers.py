@@ -23,6 +23,7 @@ MACHINE_PATH = re.compile(r"(?<![\w.$}>-])/(?:work|root|home)/")
 FOREIGN = {
     "PkgConfig::PETSC": re.compile(r"petsc|slepc"),
     "MPI::MPI_CXX": re.compile(r"mpi\.h$"),
+    "KLU::KLU": re.compile(r"^klu\.h$"),
     "PkgConfig::HDF5": re.compile(r"hdf5|H5"),
     "CLI11::CLI11": re.compile(r"CLI/"),
 }

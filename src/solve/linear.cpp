@@ -8,7 +8,6 @@ namespace engrane {
 namespace {
 
 MatSolverType petsc_name(const std::string& package) {
-  if (package == "KLU") return MATSOLVERKLU;
   if (package == "UMFPACK") return MATSOLVERUMFPACK;
   if (package == "SUPERLU") return MATSOLVERSUPERLU;
   return MATSOLVERMUMPS;
@@ -22,6 +21,7 @@ LinearSolver::LinearSolver(Mat matrix, const std::string& package) : package_(pa
   int size = 1;
   MPI_Comm_size(comm, &size);
   if (size > 1) package_ = "MUMPS";
+  if (package_ == "KLU") klu_ = std::make_unique<Klu>(matrix);
   check_petsc(KSPCreate(comm, ksp_.out()));
   check_petsc(KSPSetOperators(ksp_, matrix, matrix));
   check_petsc(KSPSetType(ksp_, KSPPREONLY));
@@ -31,6 +31,11 @@ LinearSolver::LinearSolver(Mat matrix, const std::string& package) : package_(pa
 void LinearSolver::set_up() {
   PC pc = nullptr;
   check_petsc(KSPGetPC(ksp_, &pc));
+  if (klu_) {
+    klu_->serve(pc);
+    check_petsc(KSPSetFromOptions(ksp_));
+    return;
+  }
   check_petsc(PCSetType(pc, PCLU));
   check_petsc(PCFactorSetMatSolverType(pc, petsc_name(package_)));
   check_petsc(PCFactorSetUpMatSolverType(pc));
@@ -46,6 +51,7 @@ void LinearSolver::reset() {
   check_petsc(KSPGetPC(ksp_, &pc));
   check_petsc(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
   check_petsc(PCReset(pc));
+  if (klu_) klu_->forget();
   check_petsc(KSPSetOperators(ksp_, matrix, matrix));
   check_petsc(PetscObjectDereference(reinterpret_cast<PetscObject>(matrix)));
   set_up();
@@ -84,6 +90,7 @@ bool LinearSolver::enlarge() {
 }
 
 double LinearSolver::factor_bytes() const {
+  if (klu_) return klu_->bytes();
   MatInfo info{};
   if (package_ == "MUMPS") {
     PetscInt megabytes = 0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <string>
 
-#include "assembly/petsc.hpp"
+#include "solve/klu.hpp"
 
 namespace engrane {
 
@@ -30,6 +31,7 @@ class LinearSolver {
  private:
   Mat factor() const;
   void set_up();
+  std::unique_ptr<Klu> klu_;  ///< before ksp_, which uses it
   Owned<KSP> ksp_;
   std::string package_;
   int mumps_room_ = 50;  ///< ICNTL(14): per cent over the estimate

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// KLU keeps its pivots from one matrix to the next: the solutions must not show it.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <random>
+
+#include "solve/linear.hpp"
+
+namespace engrane {
+namespace {
+
+/// A sequential matrix whose pattern stays, with LinearSolver on it.
+class Fixture {
+ public:
+  explicit Fixture(const Eigen::MatrixXd& a, const std::string& package = "KLU") : n_(static_cast<int>(a.rows())) {
+    check_petsc(MatCreateSeqAIJ(PETSC_COMM_SELF, n_, n_, n_, nullptr, matrix_.out()));
+    check_petsc(MatCreateVecs(matrix_, right_.out(), solution_.out()));
+    set(a);
+    solver_ = std::make_unique<LinearSolver>(matrix_, package);
+  }
+
+  void set(const Eigen::MatrixXd& a) {
+    a_ = a;
+    for (int i = 0; i < n_; ++i)
+      for (int j = 0; j < n_; ++j) check_petsc(MatSetValue(matrix_, i, j, a(i, j), INSERT_VALUES));
+    check_petsc(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
+    check_petsc(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
+  }
+
+  bool solve(const Eigen::VectorXd& b) {
+    for (int i = 0; i < n_; ++i) check_petsc(VecSetValue(right_, i, b[i], INSERT_VALUES));
+    if (!solver_->solve(right_, solution_)) return false;
+    x.resize(n_);
+    for (int i = 0; i < n_; ++i) check_petsc(VecGetValues(solution_, 1, &i, &x[i]));
+    error = ((b - a_ * x).cwiseAbs().array() / (a_.cwiseAbs() * x.cwiseAbs() + b.cwiseAbs()).array()).maxCoeff();
+    return true;
+  }
+
+  Eigen::VectorXd x;
+  double error = 0;  ///< backward, largest over the rows
+
+ private:
+  int n_;
+  Eigen::MatrixXd a_;
+  Owned<Mat> matrix_;
+  Owned<Vec> right_, solution_;
+  std::unique_ptr<LinearSolver> solver_;
+};
+
+/// [M −Bᵀ; −B 0] with entries of very different sizes.
+Eigen::MatrixXd saddle_point(std::mt19937& random, int motions, int constraints) {
+  std::uniform_real_distribution<double> entry(-1, 1), decade(-3, 3);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(motions + constraints, motions + constraints);
+  for (int i = 0; i < motions; ++i) a(i, i) = std::pow(10, decade(random));
+  for (int i = motions; i < motions + constraints; ++i)
+    for (int j = 0; j < motions; ++j) a(i, j) = a(j, i) = entry(random);
+  return a;
+}
+
+TEST(Klu, AnyMatrixOfThePatternIsSolvedToRounding) {
+  std::mt19937 random(7);
+  Fixture f(saddle_point(random, 24, 9));
+  for (int k = 0; k < 50; ++k) {
+    f.set(saddle_point(random, 24, 9));
+    ASSERT_TRUE(f.solve(Eigen::VectorXd::Random(33)));
+    EXPECT_LT(f.error, 1e-13) << "matrix " << k;
+  }
+}
+
+TEST(Klu, PivotsThatVanishAreReplaced) {
+  Fixture f(Eigen::Matrix3d{{4, 1, 2}, {1, 5, 1}, {2, 1, 6}});
+  const Eigen::Vector3d b(1, 2, 3);
+  ASSERT_TRUE(f.solve(b));
+  for (const double pivot : {1e-9, 1e-17, 0.0}) {
+    f.set(Eigen::Matrix3d{{pivot, 1, 2}, {1, pivot, 1}, {2, 1, pivot}});
+    ASSERT_TRUE(f.solve(b));
+    EXPECT_LT(f.error, 1e-15) << "pivot " << pivot;
+  }
+}
+
+TEST(Klu, SingularIsSaidAndLeavesNothingBehind) {
+  const Eigen::Matrix3d good{{4, 1, 2}, {1, 5, 1}, {2, 1, 6}}, singular{{4, 1, 2}, {1, 5, 1}, {4, 1, 2}};
+  const Eigen::Vector3d b(1, 2, 3);
+  Fixture f(good);
+  ASSERT_TRUE(f.solve(b));
+  f.set(singular);
+  EXPECT_FALSE(f.solve(b));
+  f.set(good);
+  ASSERT_TRUE(f.solve(b));
+  EXPECT_LT((f.x - good.inverse() * b).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace engrane
