@@ -17,19 +17,25 @@ namespace {
 using namespace suite;
 using namespace gear_cases;
 
-/// The reference configuration with the normal force F between the teeth, and the multipliers of φ₂ and φ₃ that balance ψ.
-StateBuffer loaded(const Element& element, const Case& c, double F) {
-  StateBuffer state(element, {{1, c.x_a}, {2, c.x_b}});
+/// Gives the normal force F between the teeth, and the multipliers of φ₂ and φ₃ that balance ψ.
+void balance(const Element& element, StateBuffer& state, double F) {
   const auto rows = [&](const std::array<double, 3>& multipliers) {
     state.multipliers.assign(multipliers.begin(), multipliers.end());
     const auto r = residual_of(element, state);
     return Eigen::Vector2d(r[12], r[13]);
   };
+  const Eigen::Vector2d none = rows({F, 0, 0});
   Eigen::Matrix2d K;
-  K.col(0) = rows({0, 1, 0});
-  K.col(1) = rows({0, 0, 1});
-  const Eigen::Vector2d balanced = -K.partialPivLu().solve(rows({F, 0, 0}));
+  K.col(0) = rows({F, 1, 0}) - none;
+  K.col(1) = rows({F, 0, 1}) - none;
+  const Eigen::Vector2d balanced = -K.partialPivLu().solve(none);
   state.multipliers = {F, balanced[0], balanced[1]};
+}
+
+/// The reference configuration with the normal force F between the teeth, ψ balanced.
+StateBuffer loaded(const Element& element, const Case& c, double F) {
+  StateBuffer state(element, {{1, c.x_a}, {2, c.x_b}});
+  balance(element, state, F);
   return state;
 }
 
@@ -63,6 +69,41 @@ TEST(GearPairForces, TorqueAndRatio) {
       EXPECT_NEAR(l.b.torque, -F * l.design.lever(1) * ca, 1e-14 * 7) << c.name;
       EXPECT_NEAR(l.b.torque / l.a.torque, static_cast<double>(l.design.teeth[1]) / l.design.teeth[0], 1e-13) << c.name;
       EXPECT_NEAR(l.a.tangential * l.design.radius(0), l.a.torque, 1e-14 * 7) << c.name;
+    }
+}
+
+/// What one wheel gives the other gets, but for what friction and damping lose and the teeth store: turning wheels of every
+/// kind, loaded by their own deflection and its rate.
+TEST(GearPairForces, PowerIsLostToFrictionAndDampingAlone) {
+  constexpr double k = 30, c = 0.8, x = 0.05;
+  for (Case gear : all_cases())
+    for (const double extra : {-0.4, 0.0, 0.7}) {  // of B's speed, beyond the ratio: teeth that load and unload
+      gear.data.stiffness = k;
+      gear.data.damping = c;
+      gear.data.friction = {"CONST", {0.1}};
+      gear.data.friction_width = 0.05;
+      const auto element = gear.build(Mat3::Identity());
+      const auto& pair = dynamic_cast<const GearPair&>(*element);
+      const GearDesign& d = pair.design();
+      const std::array<double, 2> speed{3.0, -3.0 * d.teeth[0] / d.teeth[1] + extra};
+      const double rate = d.normal_module / 2 * (d.teeth[0] * speed[0] + d.teeth[1] * speed[1]);  // of phi_1 = 0
+      StateBuffer state(*element, {{1, gear.x_a}, {2, gear.x_b}});
+      const std::array<Vec3, 2> axle{Vec3(pair.frames().mu.col(0)), Vec3(pair.frames().xi.col(0))};
+      for (std::size_t i = 0; i < 2; ++i) {
+        state.nodes[i].W = speed[i] * axle[i];
+        state.scalar_rates[i] = speed[i];
+      }
+      state.scalars[2] = x;
+      state.scalar_rates[2] = rate;
+      const double force = residual_of(*element, state)[14] / std::cos(d.pressure_angle);  // balances u_m
+      balance(*element, state, force);
+      ASSERT_NEAR(residual_of(*element, state)[14], 0, 1e-12);
+
+      const double taken = channel_of(*element, state, "POWER_A") + channel_of(*element, state, "POWER_B");
+      const double lost = element->energies(state.view()).dissipated;
+      EXPECT_TRUE(lost > 0 || extra == 0) << gear.name;
+      EXPECT_NEAR(taken + lost + k * x * rate, 0, 1e-11 * std::abs(channel_of(*element, state, "POWER_A")))
+          << gear.name << ", B faster by " << extra;
     }
 }
 
