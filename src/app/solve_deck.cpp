@@ -17,6 +17,7 @@
 #include "output/checks.hpp"
 #include "output/listing.hpp"
 #include "output/progress.hpp"
+#include "user/routine.hpp"
 
 namespace engrane {
 
@@ -201,6 +202,19 @@ std::string default_prefix(const Options& options) {
   return std::filesystem::path(options.deck).stem().string();
 }
 
+/// What a user routine complained of last, on whichever rank; empty when none did. Collective.
+std::string user_failure(MPI_Comm comm, int rank, int ranks) {
+  std::string text = user::last_failure();
+  int teller = text.empty() ? ranks : rank;
+  MPI_Allreduce(MPI_IN_PLACE, &teller, 1, MPI_INT, MPI_MIN, comm);
+  if (teller == ranks) return {};
+  int size = static_cast<int>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT, teller, comm);
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), size, MPI_CHAR, teller, comm);
+  return text;
+}
+
 /// Has any rank been asked to stop? Collective, so that all stop at the same step.
 bool asked_to_stop(MPI_Comm comm, int ranks) {
   int stop = interrupted;
@@ -246,6 +260,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
         bench, *analysis,
         [&](const Configuration& c, const StepReport& step) {
           const auto watch = times.output();
+          user::forget_failures();  // those of attempts that were cut
           int stop = 0;
           if (rank == 0) try {
               recorder.observe(c, step);
@@ -267,6 +282,8 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   } catch (const SolutionFailure& e) {
     failure = e.what();
   }
+  if (const std::string routine = user_failure(comm, rank, ranks); !failure.empty() && !routine.empty())
+    failure += ". The user routine " + routine;
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {
     try {

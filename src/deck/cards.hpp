@@ -92,13 +92,16 @@ struct GravityCard {
 /// `.FCT I id NOM "…" TABLE t y t y … | SINUS … | RAMP … | STEP … | EXPR "…"`: a function of time or of another variable.
 struct FunctionCard {
   std::string name;
-  std::vector<double> table;     ///< abscissa and ordinate in turn
-  bool spline = false;           ///< join the table by a C² cubic spline instead of straight lines
-  std::optional<double> period;  ///< the table or spline repeats with this period
-  std::vector<double> sinus;     ///< amplitude, frequency [Hz], phase [degrees], mean
-  std::vector<double> ramp;      ///< t0 y0 t1 y1: constant, straight line, constant
-  std::vector<double> step;      ///< t0 y0 t1 y1: constant, C² polynomial, constant
-  std::string expression;        ///< of T (and PI)
+  std::vector<double> table;       ///< abscissa and ordinate in turn
+  bool spline = false;             ///< join the table by a C² cubic spline instead of straight lines
+  std::optional<double> period;    ///< the table or spline repeats with this period
+  std::vector<double> sinus;       ///< amplitude, frequency [Hz], phase [degrees], mean
+  std::vector<double> ramp;        ///< t0 y0 t1 y1: constant, straight line, constant
+  std::vector<double> step;        ///< t0 y0 t1 y1: constant, C² polynomial, constant
+  std::string expression;          ///< of T (and PI)
+  std::vector<std::string> user;   ///< library and routine of the user's
+  std::vector<double> parameters;  ///< of that routine
+  std::vector<double> scale;       ///< of that routine's arguments; 0 or missing: chosen by who uses it
 };
 
 /// `.INI DEP|VIT NOEUD n C c V value`: initial displacements and velocities, a wish unless IMPOSED.

@@ -132,7 +132,21 @@ Schema function_card() {
   card.add("EXPR", &FunctionCard::expression,
            "a formula of the time T, with PI and the functions of the deck's arithmetic (radians)")
       .synonyms({"EXPRESSION", "FORMULE"});
+  card.add("USER", &FunctionCard::user,
+           "library and name of a routine in Fortran or C: a function, or for LAW USER, STIFF USER and FRICTION USER a law")
+      .synonyms({"UTILISATEUR"})
+      .values(2, 2);
+  card.add("PARAM", &FunctionCard::parameters, "numbers that a USER routine is given")
+      .synonyms({"PARAMETRES", "PARAMETERS"})
+      .values(1, 10000);
+  card.add("SCALE", &FunctionCard::scale,
+           "over how much the arguments of a USER routine change its result, for derivatives by differences; 0: as the element "
+           "thinks fit, and 50 steps H for functions of time")
+      .synonyms({"ECHELLE"})
+      .values(1, 3)
+      .at_least(0);
   card.example(".FCT\n I 1 TABLE 0 0  1 1\n I 2 NOM \"swell\" SINUS 0.5 10. 90. 1.\n I 3 EXPR \"sin(2*PI*T)**2\"");
+  card.example(".FCT\n I 4 USER \"libmine.so\" \"hardening\" PARAM 2.0D4 3.0D8");
   return card.schema();
 }
 

@@ -396,16 +396,27 @@ const Schema* Catalogue::find(std::string_view name) const {
   return match_schema(commands, name).entry;
 }
 
+namespace {
+
+Deck read(TokenStream& tokens, const Catalogue& catalogue, const SourceMap& sources, Diagnostics& diagnostics) {
+  Deck deck = Reader(catalogue, tokens, diagnostics).run();
+  for (int file = 0; file < sources.size(); ++file)
+    deck.folders.push_back(std::filesystem::path(sources.path(file)).parent_path().string());
+  return deck;
+}
+
+}  // namespace
+
 Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics) {
   TokenStream tokens(sources, diagnostics);
   if (!tokens.open_file(path)) return {};
-  return Reader(catalogue, tokens, diagnostics).run();
+  return read(tokens, catalogue, sources, diagnostics);
 }
 
 Deck read_text(std::string name, std::string text, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics) {
   TokenStream tokens(sources, diagnostics);
   tokens.open_text(std::move(name), std::move(text));
-  return Reader(catalogue, tokens, diagnostics).run();
+  return read(tokens, catalogue, sources, diagnostics);
 }
 
 }  // namespace engrane::deck

@@ -24,6 +24,7 @@ struct Deck {
   /// Records about which an error was reported, apart: whoever builds a model from the good ones neither trips over them
   /// nor complains again. That something refers to their numbers is no fault of its own.
   std::vector<Record> faulty;
+  std::vector<std::string> folders;  ///< in which each file of the SourceMap stands; empty: the working directory
 };
 
 /// Reads a deck and everything it includes. All faults go to `diagnostics`; never throws on bad input.

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 
 #include "math/dual.hpp"
 #include "model/function.hpp"
+#include "user/routine.hpp"
 
 namespace engrane {
 
@@ -23,8 +25,9 @@ struct FrictionLaw {
   double stribeck_speed = 1;  ///< v_s
   double viscous = 0;         ///< c, per unit of speed
   const Function* of_speed = nullptr;
-  const Function* of_load = nullptr;  ///< a factor on μ, of the normal force; none: 1
-  double width = 0;                   ///< speed below which it is regularised; positive
+  const Function* of_load = nullptr;          ///< a factor on μ, of the normal force; none: 1
+  std::shared_ptr<const user::Routine> user;  ///< instead of all the above: μ of speed and normal force
+  double width = 0;                           ///< speed below which it is regularised; positive
 
   /// μ at a sliding speed, with derivatives; without the factor of the load.
   Function::Jet coefficient(double speed) const {
@@ -48,9 +51,15 @@ struct FrictionLaw {
     using std::sqrt;
     constexpr double at_rest = 1e-8;  // of the width: keeps the root differentiable and changes no digit
     const T speed = sqrt(speed_squared + at_rest * at_rest * width * width);
-    const Function::Jet c = coefficient(value_of(speed));
-    T factor = compose(speed, c.f, c.d1, c.d2);
-    if (of_load) factor *= evaluate(*of_load, load);
+    T factor;
+    if (user) {
+      const user::Results y = user->at({value_of(speed), value_of(load), 0});
+      factor = compose(speed, y[0], y[1], 0) + compose(load, 0, y[2], 0);
+    } else {
+      const Function::Jet c = coefficient(value_of(speed));
+      factor = compose(speed, c.f, c.d1, c.d2);
+      if (of_load) factor *= evaluate(*of_load, load);
+    }
     if (value_of(speed) >= width) return factor / speed;
     const T s = speed_squared * (1 / (width * width));
     return factor * ((T(15) - s * 10.0 + s * s * 3.0) * (0.125 / width));

@@ -62,6 +62,13 @@ double rounded_ramp_integral(double x, double width);
 /// The law between the approach x = u_m + x_err of the teeth and the force along the circumference. x > 0 presses the flanks
 /// on which A drives in the positive sense about its axle; x < −b the other ones.
 struct ToothLaw {
+  /// A flank pressed in, all over k_m, where the stiffness depends on the deflection: force f(τ, D) D of the deflection D, and
+  /// what it stores, ∫ f D dx; with derivatives by the depth and by τ.
+  struct Pressed {
+    double force = 0, by_depth = 0, by_phase = 0;
+    double energy = 0, energy_by_phase = 0, energy_by_phase_twice = 0;
+    user::Results factor{};  ///< as MeshStiffness::at()
+  };
   enum class Damping {
     always,  ///< c_m du_m/dt whether the teeth touch or not: the paper's law
     contact  ///< only while they touch, and never more than would make the flank pull
@@ -82,6 +89,9 @@ struct ToothLaw {
   Function::Jet flank(double x) const;
   /// Its integral from −∞.
   double flank_integral(double x) const;
+
+  /// A flank pressed in by `depth` where the course depends on the deflection (`course.loaded`; exponent 1).
+  Pressed pressed(double phase, double depth) const;
 
   /// [[x]] of (28) by both flanks.
   Function::Jet deflection(double x) const;

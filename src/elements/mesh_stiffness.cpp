@@ -55,10 +55,22 @@ Function::Jet MeshStiffness::at(double phase) const {
     }
     case Kind::table:
       return stretched(function->at(phase / turn), 1 / turn);
+    case Kind::user: {
+      const user::Results y = at(phase, 0);
+      return {y[0], y[1], y[2], 0};
+    }
     case Kind::square:
       return stretched(square_wave(phase / turn), 1 / turn);
   }
   return {1, 0, 0, 0};
+}
+
+user::Results MeshStiffness::at(double phase, double deflection) const {
+  const double cycle = phase / turn;
+  user::Results y = routine->at({cycle - std::floor(cycle), deflection, 0});
+  y[1] /= turn;
+  y[2] /= turn * turn;
+  return y;
 }
 
 double iso_mesh_stiffness(const IsoMesh& mesh) {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "model/function.hpp"
+#include "user/routine.hpp"
 
 namespace engrane {
 
@@ -21,17 +23,23 @@ struct MeshStiffness {
     constant,
     fourier,  ///< 1 + Σ a_n cos nτ + b_n sin nτ
     table,    ///< a function of τ/2π that repeats with 1
+    user,     ///< a routine of τ/2π and of the deflection
     square    ///< as many pairs as the contact ratio says, alternating between its two neighbours in whole numbers
   };
   Kind kind = Kind::constant;
   std::vector<double> coefficients;    ///< a₁ b₁ a₂ b₂ …
   const Function* function = nullptr;  ///< of the table
-  double contact_ratio = 1;            ///< of the square wave
-  double edge = 0.05;                  ///< over this part of a tooth pitch the square wave changes, C²
+  std::shared_ptr<const user::Routine> routine;
+  bool loaded = false;       ///< it depends on the deflection
+  double contact_ratio = 1;  ///< of the square wave
+  double edge = 0.05;        ///< over this part of a tooth pitch the square wave changes, C²
 
   bool varies() const { return kind != Kind::constant; }
   /// The factor and its derivatives with respect to τ.
   Function::Jet at(double phase) const;
+  /// Those of a routine where the teeth are pressed in by `deflection`: the factor, its first two derivatives by τ, and that by
+  /// the deflection.
+  user::Results at(double phase, double deflection) const;
 
  private:
   Function::Jet square_wave(double cycle) const;

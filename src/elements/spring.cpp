@@ -21,18 +21,15 @@ class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
   }
 
   template <class T>
-  void evaluate(const Motion<T, 2>& motion, const State&, Balance<T, 2>& balance) const {
+  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     const auto reach = ends_.reach<T>(motion.node);
-    const T tension = law_.elastic(T(reach.length - natural_)) + law_.viscous(reach.rate);
+    const T tension = law_.force(T(reach.length - natural_), reach.rate, state.time);
     ends_.pull(Vec3T<T>(reach.direction * tension), balance);
   }
 
   Energies energies(const State& state) const override {
     const auto reach = ends_.reach<double>(state.nodes);
-    Energies e;
-    e.potential = law_.stored(reach.length - natural_);
-    e.dissipated = law_.viscous(reach.rate) * reach.rate;
-    return e;
+    return law_.energies(reach.length - natural_, reach.rate, state.time);
   }
 
   const std::vector<Named>& channels() const override {
@@ -51,7 +48,7 @@ class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
     values[0] = reach.length;
     values[1] = reach.length - natural_;
     values[2] = reach.rate;
-    values[3] = law_.elastic(values[1]) + law_.viscous(reach.rate);
+    values[3] = law_.force(values[1], reach.rate, state.time);
     values[4] = e.potential;
     values[5] = e.dissipated;
   }
@@ -152,9 +149,12 @@ std::unique_ptr<Element> build(const SpringData& data, BuildContext& context) {
   const int id = context.record.id;
   if (k.size() != 3 && c.size() != 3) {
     const auto ends = LineEnds::of(context, nodes, at, "K kx ky kz acts in the three global directions and needs no line");
-    const auto law = SpringLaw::of(context, data, k.empty() ? 0 : k[0], c.empty() ? 0 : c[0]);
-    if (!ends || !law) return nullptr;
-    return std::make_unique<LineSpring>(id, *ends, *law, length.value_or(ends->reference_length(context)));
+    if (!ends) return nullptr;
+    const double start = ends->reference_length(context), natural = length.value_or(start);
+    const auto law = SpringLaw::of(context, data, k.empty() ? 0 : k[0], c.empty() ? 0 : c[0], start - natural,
+                                   0.01 * std::max(start, natural));
+    if (!law) return nullptr;
+    return std::make_unique<LineSpring>(id, *ends, *law, natural);
   }
   if (lawful) {
     context.error(data.law.given() ? "LAW" : "CLAW",
@@ -191,6 +191,7 @@ ElementType spring_type() {
           "relative to a, as the flexible support of a bearing does.")
       .example("I 9 SPRING N 4 5  K 2.0D4  C 10  L0 0.25")
       .example("I 9 SPRING N 4 5  LAW POLY 2.0D4 0 3.0D8  CLAW 2")
+      .example("I 9 SPRING N 4 5  LAW USER 3")
       .example("I 10 SPRING N 0 2  K 1D6 1D6 0");
   card.add("N", &SpringData::nodes, "the two nodes, a and b; 0 is the ground")
       .synonyms({"NODES", "NOEUDS"})

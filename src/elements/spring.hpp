@@ -9,8 +9,8 @@
 
 namespace engrane {
 
-/// Card of a spring. `SPRING N a b [K k | LAW TABLE f | LAW POLY k1 k2 k3] [C c | CLAW f] [L0 l] [AT x y z]` along the line of
-/// two nodes, or `SPRING N a b [K kx ky kz] [C cx cy cz]` in the three global directions.
+/// Card of a spring. `SPRING N a b [K k | LAW TABLE f | LAW POLY k1 k2 k3 | LAW USER f] [C c | CLAW f] [L0 l] [AT x y z]` along
+/// the line of two nodes, or `SPRING N a b [K kx ky kz] [C cx cy cz]` in the three global directions.
 struct SpringData : SpringLawData {
   std::array<int, 2> nodes{};
   std::vector<double> stiffness;            ///< one value or three

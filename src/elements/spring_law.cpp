@@ -5,9 +5,12 @@
 
 #include <cmath>
 
+#include "model/user_function.hpp"
+
 namespace engrane {
 
-std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping) {
+std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping,
+                                       double first, double scale) {
   SpringLaw law;
   law.k1 = stiffness;
   law.damping = damping;
@@ -27,6 +30,13 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
     }
     law.of_stretch = context.function(static_cast<int>(id), "LAW");
     if (!law.of_stretch) return {};
+  } else if (data.law.is("USER")) {
+    std::vector<user::Arguments> samples{{first, 0, 0}};
+    for (const double part : {-1.0, -0.313, 0.171, 0.477, 1.0})
+      samples.push_back({first + part * scale, 0.7 * (part + 0.1) * scale, 0});
+    law.user = user_routine(context, "LAW", data.law.values[0], user::Kind::force, {scale, scale, 1}, samples);
+    if (!law.user) return {};
+    law.user_stores_ = law.user->gives(3, samples[0]);
   } else if (data.law.given()) {
     const std::vector<double>& k = data.law.values;
     law.k1 = k[0];
@@ -38,6 +48,21 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
     if (!law.of_rate) return {};
   }
   return law;
+}
+
+Energies SpringLaw::energies(double stretch, double rate, double time) const {
+  Energies e;
+  e.dissipated = viscous(rate) * rate;
+  if (!user) {
+    e.potential = stored(stretch);
+    return e;
+  }
+  e.dissipated += user->at({stretch, rate, time})[0] * rate;
+  if (!user_stores_) return e;
+  const user::Results still = user->at({stretch, 0, time});
+  e.potential = still[3];
+  e.dissipated -= still[0] * rate;
+  return e;
 }
 
 }  // namespace engrane

@@ -2,24 +2,47 @@
 // The laws of springs and dampers, of an elongation or of an angle.
 #pragma once
 
+#include <memory>
+
 #include "elements/building.hpp"
 #include "model/function.hpp"
+#include "user/routine.hpp"
 
 namespace engrane {
 
 /// Keywords that SPRING and TSPRING share. Without `LAW` the spring is linear in K, without `CLAW` the damper in C.
 struct SpringLawData {
-  deck::Tagged law;     ///< TABLE f or POLY k1 [k2 [k3]]
+  deck::Tagged law;     ///< TABLE f, POLY k1 [k2 [k3]] or USER f
   int damping_law = 0;  ///< function of the rate
 };
 
-/// Tension of a spring and damper: f(e) + g(ė), e measured from where the spring is relaxed. The energy is ∫f from 0 to e.
+/// Tension of a spring and damper: f(e) + g(ė), e measured from where the spring is relaxed. The energy is ∫f from 0 to e. Or a
+/// routine of the user's, f(e, ė, t) + g(ė), with the energy that it says; without, all its work counts as lost.
 struct SpringLaw {
-  double k1 = 0, k2 = 0, k3 = 0;         ///< f = k1 e + k2 e² + k3 e³, unless `of_stretch` is given
-  const Function* of_stretch = nullptr;  ///< f
-  double damping = 0;                    ///< g = damping ė, unless `of_rate` is given
-  const Function* of_rate = nullptr;     ///< g
+  double k1 = 0, k2 = 0, k3 = 0;              ///< f = k1 e + k2 e² + k3 e³, unless `of_stretch` is given
+  const Function* of_stretch = nullptr;       ///< f
+  std::shared_ptr<const user::Routine> user;  ///< f of the elongation, its rate and the time
+  double damping = 0;                         ///< g = damping ė, unless `of_rate` is given
+  const Function* of_rate = nullptr;          ///< g
 
+  /// Spring and damper together.
+  template <class T>
+  T force(const T& stretch, const T& rate, double time) const {
+    if (!user) return elastic(stretch) + viscous(rate);
+    const user::Results y = user->at({value_of(stretch), value_of(rate), time});
+    return compose(stretch, y[0], y[1], 0) + compose(rate, 0, y[2], 0) + viscous(rate);
+  }
+  /// Energy stored and power lost.
+  Energies energies(double stretch, double rate, double time) const;
+
+  bool acts() const { return user || of_stretch || of_rate || k1 != 0 || k2 != 0 || k3 != 0 || damping != 0; }
+
+  /// The law of a card with one stiffness and one damping; an error, and none, when K and LAW or C and CLAW are both given.
+  /// `first` is the elongation at the start and `scale` over how much of it a law may change, for a USER law.
+  static std::optional<SpringLaw> of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping,
+                                     double first, double scale);
+
+ private:
   template <class T>
   T elastic(const T& stretch) const {
     if (of_stretch) return evaluate(*of_stretch, stretch);
@@ -35,10 +58,7 @@ struct SpringLaw {
     return stretch * stretch * (k1 / 2 + stretch * (k2 / 3 + stretch * (k3 / 4)));
   }
 
-  bool acts() const { return of_stretch || of_rate || k1 != 0 || k2 != 0 || k3 != 0 || damping != 0; }
-
-  /// The law of a card with one stiffness and one damping; an error, and none, when K and LAW or C and CLAW are both given.
-  static std::optional<SpringLaw> of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping);
+  bool user_stores_ = false;  ///< the routine gives the energy
 };
 
 /// Adds LAW and CLAW to a card; `stretch` is the word for e, and `force` for what it makes.
@@ -47,7 +67,8 @@ void add_spring_law(deck::Card<Data>& card, const std::string& stretch, const st
   card.add("LAW", &Data::law, "instead of K: " + force + " as a function of the " + stretch)
       .synonyms({"LOI"})
       .option({"TABLE", {"FONCTION", "FUNCTION"}, "function f of the " + stretch, 1, 1})
-      .option({"POLY", {"POLYNOME"}, "k1 e + k2 e2 + k3 e3 of the " + stretch + " e", 1, 3});
+      .option({"POLY", {"POLYNOME"}, "k1 e + k2 e2 + k3 e3 of the " + stretch + " e", 1, 3})
+      .option({"USER", {"UTILISATEUR"}, "f: routine f of .FCT, of the " + stretch + ", its rate and the time", 1, 1});
   card.add("CLAW", &Data::damping_law, "instead of C: function of the rate of the " + stretch)
       .synonyms({"LOI_C"})
       .refers(deck::Reference::function)

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "elements/building.hpp"
+#include "model/user_function.hpp"
 
 namespace engrane {
 
@@ -111,6 +112,41 @@ bool set_iso(ToothLaw& law, const TeethData& data, const TeethOwner& owner, cons
   return true;
 }
 
+/// A factor over one tooth pitch, and perhaps of the deflection, by a routine of the user's.
+bool set_user_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  MeshStiffness& course = law.course;
+  const double deflection = 1e-4 * owner.geometry.radius;
+  std::vector<user::Arguments> samples;
+  for (const double place : {0.0, 0.1173, 0.2871, 0.4619, 0.6337, 0.8211, 0.9503})
+    for (const double part : {0.0, 0.5, 1.0}) samples.push_back({place, part * deflection, 0});
+  course.kind = MeshStiffness::Kind::user;
+  course.routine = user_routine(context, "STIFF", data.course.values[0], user::Kind::mesh, {0.05, deflection, 1}, samples);
+  if (!course.routine) return false;
+  for (const user::Arguments& x : samples)
+    for (const double size : {0.1, 1.0, 10.0})
+      course.loaded = course.loaded || course.routine->at({x[0], size * deflection, 0})[0] != course.routine->at({x[0], 0, 0})[0];
+  const double begin = course.routine->at({0, 0, 0})[0], end = course.routine->at({1, 0, 0})[0];
+  if (!(std::abs(end - begin) <= 1e-9 * std::abs(begin))) {
+    context.error("STIFF",
+                  fmt::format("{} gives {} at the beginning of a tooth pitch (0) and {} at its end (1)",
+                              course.routine->source().label(), number(begin), number(end)),
+                  "the factor repeats with each tooth, so both are the same place");
+    return false;
+  }
+  if (!course.loaded) return true;
+  for (const auto& [keyword, given] : {std::pair<std::string_view, bool>{"RUNNING", data.running},
+                                       {"SLICES", data.slices > 1},
+                                       {"EXPONENT", !data.exponent.empty()}})
+    if (given) {
+      context.error(keyword,
+                    fmt::format("{} does not go with a stiffness that depends on the deflection ({})", keyword,
+                                course.routine->source().label()),
+                    fmt::format("leave {} out, or make the routine depend on the place in the pitch alone", keyword));
+      return false;
+    }
+  return true;
+}
+
 bool set_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   MeshStiffness& course = law.course;
   const std::vector<double>& values = data.course.values;
@@ -130,6 +166,8 @@ bool set_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, c
                     "it is a factor on KM over one tooth pitch, from 0 to 1: give it PERIOD 1");
       return false;
     }
+  } else if (data.course.is("USER")) {
+    if (!set_user_course(law, data, owner, context)) return false;
   } else if (data.course.is("SQUARE")) {
     course.kind = MeshStiffness::Kind::square;
     const ContactGeometry& g = owner.geometry;
@@ -256,6 +294,12 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
     law.kind = FrictionLaw::Kind::function;
     if (!named_function(context, "FRICTION", values[0], law.of_speed)) return false;
     if (values.size() > 1 && !named_function(context, "FRICTION", values[1], law.of_load)) return false;
+  } else if (data.friction.is("USER")) {
+    std::vector<user::Arguments> samples;
+    for (const double speed : {1.0, 0.1, 0.5, 2.0, 10.0, 1000.0})
+      for (const double load : {1.0, 100.0}) samples.push_back({speed * law.width, load, 0});
+    law.user = user_routine(context, "FRICTION", values[0], user::Kind::friction, {law.width, 1, 1}, samples);
+    if (!law.user) return false;
   } else {
     law.mu = values[0];
     if (data.friction.is("STRIBECK")) {

@@ -71,6 +71,11 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .option({"ISO", {}, "constant, computed by ISO 6336-1 (method B) from geometry, WIDTH and E instead of KM"})
       .option({"FOURIER", {}, "a1 b1 a2 b2 ...: KM (1 + sum of a_n cos n tau + b_n sin n tau), tau 2 pi per tooth", 2, 200})
       .option({"TABLE", {"FCT", "NF"}, "f: KM times function f of tau/(2 pi), repeating with 1", 1, 1})
+      .option({"USER",
+               {"UTILISATEUR"},
+               "f: KM times routine f of .FCT, of tau/(2 pi) from 0 to 1 and of the deflection of the teeth",
+               1,
+               1})
       .option({"SQUARE",
                {"CARRE"},
                "[eps [edge]]: pairs in contact, of contact ratio eps (geometry's when not given), changing over edge (0.05) of "
@@ -125,7 +130,8 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .synonyms({"FROTTEMENT"})
       .option({"CONST", {"COULOMB", "CONSTANT"}, "mu", 1, 1})
       .option({"STRIBECK", {}, "mu_s mu_k v_s [c]: mu_k + (mu_s - mu_k) exp(-(v/v_s)^2) + c v", 3, 4})
-      .option({"FCT", {"NF", "TABLE"}, "f [g]: function f of the sliding speed, times function g of the normal force", 1, 2});
+      .option({"FCT", {"NF", "TABLE"}, "f [g]: function f of the sliding speed, times function g of the normal force", 1, 2})
+      .option({"USER", {"UTILISATEUR"}, "f: routine f of .FCT, of the sliding speed and the normal force", 1, 1});
   c.add("VREG", &TeethData::friction_width,
         "sliding speed below which friction is regularised; 1e-3 r_A per time unit when not given")
       .synonyms({"V0"})

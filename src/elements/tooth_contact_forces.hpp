@@ -68,12 +68,25 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
     slope = compose(psi_a, z * f.d1, z * z * f.d2, z * z * z * f.d3);
   };
   T factor(1), factor_slope(0);
-  if (law_.course.varies()) course(0, factor, factor_slope);
+  if (law_.course.varies() && !law_.course.loaded) course(0, factor, factor_slope);
 
   T net(0), by_turn(0);  // ∂V/∂x, ∂V/∂ψ_A at constant x
   T front = x, back = -law_.backlash - x;
   double potential = 0;
-  if (!options_.running) {
+  if (law_.course.loaded) {  // V = k ∫ f(τ, |[[x]]|) [[x]] dx; never with `running`
+    const double tau = z * value_of(psi_a) + law_.mesh.phase;
+    const ToothLaw::Pressed f = law_.pressed(tau, value_of(front)), g = law_.pressed(tau, value_of(back));
+    const double by_phase = z * (f.by_phase - g.by_phase);
+    net = k * (compose(x, f.force - g.force, std::max(f.by_depth + g.by_depth, ToothLaw::least_slope), 0) +
+               compose(psi_a, 0, by_phase, 0));
+    by_turn = k * (compose(x, z * (f.energy_by_phase + g.energy_by_phase), by_phase, 0) +
+                   compose(psi_a, 0, z * z * (f.energy_by_phase_twice + g.energy_by_phase_twice), 0));
+    potential = k * (f.energy + g.energy);
+    const bool on_front = value_of(front) >= value_of(back);
+    const user::Results& here = (on_front ? f : g).factor;
+    const T& depth = on_front ? front : back;
+    factor = compose(psi_a, here[0], z * here[1], 0) + compose(depth, 0, here[3] * law_.flank(value_of(depth)).d1, 0);
+  } else if (!options_.running) {
     net = k * law_.elastic_deflection(x);
     const Function::Jet d = law_.deflection(value_of(x));
     const double energy = k * law_.deflection_integral(value_of(x));

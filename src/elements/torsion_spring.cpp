@@ -30,7 +30,7 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
     const AxisAngle<T> turn = axis_angle(triad_, a.R, b.R);
     const T angle = turn_count::total(turn.angle, state.history);
     const Vec3T<T> spin = rotate(b.R, b.W) - rotate(a.R, a.W);
-    const T torque = law_.elastic(T(angle - angle0_)) + law_.viscous(T(dot(turn.gradient, spin)));
+    const T torque = law_.force(T(angle - angle0_), T(dot(turn.gradient, spin)), state.time);
     const Vec3T<T> moment = turn.gradient * torque;
     balance.moment(0, rotate_back(a.R, Vec3T<T>(-moment)));
     balance.moment(1, rotate_back(b.R, moment));
@@ -40,13 +40,7 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
     turn_count::commit(turn(state).angle, state.history, history);
   }
 
-  Energies energies(const State& state) const override {
-    const double rate = speed(state);
-    Energies e;
-    e.potential = law_.stored(angle(state) - angle0_);
-    e.dissipated = law_.viscous(rate) * rate;
-    return e;
-  }
+  Energies energies(const State& state) const override { return law_.energies(angle(state) - angle0_, speed(state), state.time); }
 
   const std::vector<Named>& channels() const override {
     static const std::vector<Named> all = {{"ANGLE", dimension::angle, "turn of B from A about the axis, whole turns counted"},
@@ -61,7 +55,7 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
     const Energies e = energies(state);
     values[0] = angle(state);
     values[1] = speed(state);
-    values[2] = -law_.elastic(values[0] - angle0_) - law_.viscous(values[1]);
+    values[2] = -law_.force(values[0] - angle0_, values[1], state.time);
     values[3] = e.potential;
     values[4] = e.dissipated;
   }
@@ -91,7 +85,7 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
 std::unique_ptr<Element> build(const TorsionSpringData& data, BuildContext& context) {
   const auto axis = unit_vector(context, "AXIS", data.axis);
   if (!check_nodes(context, {data.nodes[0], data.nodes[1]}) || !axis) return nullptr;
-  const auto law = SpringLaw::of(context, data, data.stiffness, data.damping);
+  const auto law = SpringLaw::of(context, data, data.stiffness, data.damping, -data.angle0 * degree, 0.1);
   if (!law) return nullptr;
   if (!law->acts()) {
     context.error("K", "a torsion spring with neither stiffness nor damping does nothing", "K k and C c, per radian");

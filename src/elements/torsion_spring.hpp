@@ -7,7 +7,8 @@
 
 namespace engrane {
 
-/// Card of a torsion spring. `TSPRING N a b AXIS x y z [K k | LAW TABLE f | LAW POLY k1 k2 k3] [C c | CLAW f] [ANGLE0 deg]`
+/// Card of a torsion spring. `TSPRING N a b AXIS x y z [K k | LAW TABLE f | LAW POLY k1 k2 k3 | LAW USER f] [C c | CLAW f]
+/// [ANGLE0 deg]`
 struct TorsionSpringData : SpringLawData {
   std::array<int, 2> nodes{};
   std::array<double, 3> axis{};

@@ -9,6 +9,7 @@
 #include "model/groups.hpp"
 #include "model/model.hpp"
 #include "model/node_load.hpp"
+#include "model/user_function.hpp"
 
 namespace engrane {
 
@@ -53,7 +54,16 @@ class Builder {
   }
 
   void add_function(const deck::Record& record) {
-    if (auto function = make_function(record, diagnostics_))
+    FunctionSetting setting;
+    if (const int file = record.location.file; file >= 0 && file < static_cast<int>(deck_.folders.size()))
+      setting.folder = deck_.folders[static_cast<std::size_t>(file)];
+    for (const deck::Record& other : deck_.records)
+      if (const auto* stepping = other.get<deck::SteppingCard>()) {
+        setting.start = stepping->start;
+        setting.end = stepping->end;
+        setting.step = stepping->step;
+      }
+    if (auto function = make_function(record, diagnostics_, setting))
       model_.functions[record.id] = std::move(function);
     else
       model_.functions[record.id] = nullptr;  // known but wrong: its users are not to blame
@@ -97,7 +107,8 @@ class Builder {
   const Function* function(const deck::Record& record, int id) {
     if (id == 0) return nullptr;
     const auto it = model_.functions.find(id);
-    if (it != model_.functions.end()) return it->second.get();
+    if (it != model_.functions.end())
+      return is_function_of_one_variable(it->second.get(), record.where("NF"), diagnostics_) ? it->second.get() : nullptr;
     diagnostics_.error(record.where("NF"), fmt::format("function {} does not exist", id),
                        fmt::format("declare it with .FCT I {}", id));
     return nullptr;

@@ -10,6 +10,7 @@
 #include "math/expression.hpp"
 #include "math/spline.hpp"
 #include "model/function_integral.hpp"
+#include "model/user_function.hpp"
 
 namespace engrane {
 
@@ -91,27 +92,30 @@ class FormulaFunction final : public Function {
 /// Checks one record and builds its function.
 class Builder {
  public:
-  Builder(const deck::Record& record, Diagnostics& diagnostics)
-      : record_(record), card_(*record.get<deck::FunctionCard>()), diagnostics_(diagnostics) {}
+  Builder(const deck::Record& record, Diagnostics& diagnostics, const FunctionSetting& setting)
+      : record_(record), card_(*record.get<deck::FunctionCard>()), diagnostics_(diagnostics), setting_(setting) {}
 
   std::unique_ptr<Function> build() {
-    const std::vector<std::pair<std::string, bool>> forms{{"TABLE", !card_.table.empty()},
-                                                          {"SINUS", !card_.sinus.empty()},
-                                                          {"RAMP", !card_.ramp.empty()},
-                                                          {"STEP", !card_.step.empty()},
-                                                          {"EXPR", !card_.expression.empty()}};
+    const std::vector<std::pair<std::string, bool>> forms{{"TABLE", !card_.table.empty()},     {"SINUS", !card_.sinus.empty()},
+                                                          {"RAMP", !card_.ramp.empty()},       {"STEP", !card_.step.empty()},
+                                                          {"EXPR", !card_.expression.empty()}, {"USER", !card_.user.empty()}};
     std::vector<std::string> given;
     for (const auto& [name, is_given] : forms)
       if (is_given) given.push_back(name);
     if (given.size() != 1) {
       const std::string what = given.empty() ? " gives no values" : " is given by " + join(given) + " at once";
       return fail(given.empty() ? record_.location : record_.where(given[1]), "function " + std::to_string(record_.id) + what,
-                  "give exactly one of TABLE, SINUS, RAMP, STEP or EXPR");
+                  "give exactly one of TABLE, SINUS, RAMP, STEP, EXPR or USER");
     }
     if (given[0] != "TABLE") {
       if (card_.spline) return fail(record_.where("SPLINE"), "SPLINE joins the points of a TABLE; this function has none");
       if (card_.period) return fail(record_.where("PERIOD"), "PERIOD repeats a TABLE; this function has none");
     }
+    if (given[0] != "USER")
+      for (const char* keyword : {"PARAM", "SCALE"})
+        if (record_.given(keyword))
+          return fail(record_.where(keyword), std::string(keyword) + " is for a USER routine; this function has none");
+    if (given[0] == "USER") return make_user_function(record_, setting_, diagnostics_);
     if (given[0] == "TABLE") return table();
     if (given[0] == "SINUS") return sinus();
     if (given[0] == "EXPR") return formula();
@@ -195,12 +199,13 @@ class Builder {
   const deck::Record& record_;
   const deck::FunctionCard& card_;
   Diagnostics& diagnostics_;
+  const FunctionSetting& setting_;
 };
 
 }  // namespace
 
-std::unique_ptr<Function> make_function(const deck::Record& record, Diagnostics& diagnostics) {
-  return Builder(record, diagnostics).build();
+std::unique_ptr<Function> make_function(const deck::Record& record, Diagnostics& diagnostics, const FunctionSetting& setting) {
+  return Builder(record, diagnostics, setting).build();
 }
 
 }  // namespace engrane

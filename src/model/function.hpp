@@ -28,13 +28,20 @@ class Function {
   virtual double integral(double x) const = 0;
 };
 
+/// What a USER function must know of the deck besides its record.
+struct FunctionSetting {
+  std::string folder;                      ///< of the file the record stands in
+  double start = 0, end = 1, step = 0.01;  ///< of the run
+};
+
 /// Builds a function from its record (a FunctionCard); faults go to `diagnostics` and yield nullptr.
 ///
 /// TABLE joins its points by straight lines, with SPLINE by a natural cubic spline, and keeps its first and last ordinate
 /// outside them; with PERIOD either repeats. SINUS is
 /// mean + amplitude sin(2π frequency x + phase). RAMP and STEP lead from (t0, y0) to (t1, y1), by a straight line or by
 /// the polynomial of degree five that makes value, slope and curvature continuous, and are constant outside.
-std::unique_ptr<Function> make_function(const deck::Record& record, Diagnostics& diagnostics);
+std::unique_ptr<Function> make_function(const deck::Record& record, Diagnostics& diagnostics,
+                                        const FunctionSetting& setting = {});
 
 /// The function of a differentiated variable; `derivative` 1 or 2 gives f′ or f″ in the same arithmetic.
 template <class T>

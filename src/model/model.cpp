@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "model/user_function.hpp"
+
 namespace engrane {
 
 int Model::node_index(int id) const {
@@ -36,7 +38,8 @@ deck::Catalogue catalogue(const std::vector<ElementType>& types) {
 
 const Function* BuildContext::function(int id, std::string_view keyword) const {
   const auto it = functions.find(id);
-  if (it != functions.end()) return it->second.get();
+  if (it != functions.end())
+    return is_function_of_one_variable(it->second.get(), record.where(keyword), diagnostics) ? it->second.get() : nullptr;
   error(keyword, "function " + std::to_string(id) + " does not exist", "declare it with .FCT I " + std::to_string(id));
   return nullptr;
 }

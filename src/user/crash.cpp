@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "user/crash.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstddef>
+#include <cstring>
+
+namespace engrane::user {
+
+namespace {
+
+thread_local const char* volatile running_routine = nullptr;
+thread_local const char* volatile running_library = nullptr;
+
+constexpr int watched[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+struct sigaction before[4];
+
+void say(const char* text) {
+  const std::size_t length = std::strlen(text);
+  if (write(STDERR_FILENO, text, length) < 0) return;  // nothing else can be done here
+}
+
+void crashed(int signal) {
+  if (running_routine) {
+    say("engrane: the user routine ");
+    say(running_routine);
+    say(" of ");
+    say(running_library);
+    say(" crashed: compile it with -g (and -fcheck=all in Fortran, -fsanitize=address in C) to see where\n");
+    running_routine = nullptr;
+  }
+  for (std::size_t i = 0; i < 4; ++i)
+    if (watched[i] == signal) sigaction(signal, &before[i], nullptr);
+  // the instruction is tried again, and whoever handled the signal before handles it now
+}
+
+}  // namespace
+
+Running::Running(const char* routine, const char* library) noexcept {
+  running_library = library;
+  running_routine = routine;
+}
+
+Running::~Running() { running_routine = nullptr; }
+
+void watch_for_crashes() {
+  static const bool installed = [] {
+    struct sigaction action {};
+    action.sa_handler = crashed;
+    for (std::size_t i = 0; i < 4; ++i) sigaction(watched[i], &action, &before[i]);
+    return true;
+  }();
+  static_cast<void>(installed);
+}
+
+}  // namespace engrane::user

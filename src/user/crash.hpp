@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace engrane::user {
+
+/// Says while it lives which routine is running, so that a crash inside it can be told from one of ours.
+class Running {
+ public:
+  Running(const char* routine, const char* library) noexcept;
+  ~Running();
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+};
+
+/// From now on a crash inside a routine is reported with its name before whoever handled such signals so far handles it.
+void watch_for_crashes();
+
+}  // namespace engrane::user
