@@ -22,7 +22,7 @@ void fourier_mesh(const int* version, const int* kind, const double* x, const do
   }
 }
 
-/* Mesh stiffness that grows with the deflection as p[0] + p[1] d. */
+/* Mesh stiffness that grows with the deflection and varies over the pitch: (p[0] + p[1] d)(1 + p[2] cos 2 pi s). */
 void stiffening_mesh(const int* version, const int* kind, const double* x, const double* p, const int* n_p, double* y,
                      int* status) {
   (void)version;
@@ -30,13 +30,15 @@ void stiffening_mesh(const int* version, const int* kind, const double* x, const
     *status = ENGRANE_WRONG_KIND;
     return;
   }
-  if (*n_p != 2) {
+  if (*n_p != 3) {
     *status = ENGRANE_WRONG_PARAMETERS;
     return;
   }
-  y[0] = p[0] + p[1] * x[1];
-  y[1] = y[2] = 0;
-  y[3] = p[1];
+  const double w = 2 * acos(-1.0), grown = p[0] + p[1] * x[1];
+  y[0] = grown * (1 + p[2] * cos(w * x[0]));
+  y[1] = -grown * p[2] * w * sin(w * x[0]);
+  y[2] = -grown * p[2] * w * w * cos(w * x[0]);
+  y[3] = p[1] * (1 + p[2] * cos(w * x[0]));
 }
 
 /* Force law p[0] e + p[1] e^3 + p[2] v of a spring. No derivatives: engrane takes differences. */

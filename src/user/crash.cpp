@@ -11,9 +11,6 @@ namespace engrane::user {
 
 namespace {
 
-thread_local const char* volatile running_routine = nullptr;
-thread_local const char* volatile running_library = nullptr;
-
 constexpr int watched[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 struct sigaction before[4];
 
@@ -23,13 +20,13 @@ void say(const char* text) {
 }
 
 void crashed(int signal) {
-  if (running_routine) {
+  if (current_routine) {
     say("engrane: the user routine ");
-    say(running_routine);
+    say(current_routine);
     say(" of ");
-    say(running_library);
+    say(current_library);
     say(" crashed: compile it with -g (and -fcheck=all in Fortran, -fsanitize=address in C) to see where\n");
-    running_routine = nullptr;
+    current_routine = nullptr;
   }
   for (std::size_t i = 0; i < 4; ++i)
     if (watched[i] == signal) sigaction(signal, &before[i], nullptr);
@@ -37,13 +34,6 @@ void crashed(int signal) {
 }
 
 }  // namespace
-
-Running::Running(const char* routine, const char* library) noexcept {
-  running_library = library;
-  running_routine = routine;
-}
-
-Running::~Running() { running_routine = nullptr; }
 
 void watch_for_crashes() {
   static const bool installed = [] {

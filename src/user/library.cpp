@@ -108,7 +108,8 @@ engrane_routine* Library::routine(const std::string& name, Fault& fault) const {
   if (!near.empty()) fault.hint = "did you mean \"" + near + "\"? ";
   std::vector<std::string> shown(present.begin(),
                                  present.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(present.size(), 12)));
-  fault.hint += present.empty() ? "it has none at all" : "it has " + join(shown);
+  fault.hint += near.empty() ? "it has " : "It has ";
+  fault.hint += present.empty() ? "none at all" : join(shown);
   if (shown.size() < present.size()) fault.hint += " and more";
   return nullptr;
 }

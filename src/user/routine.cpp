@@ -18,6 +18,8 @@ namespace {
 
 constexpr double not_given = ENGRANE_NOT_GIVEN;
 
+}  // namespace
+
 /// One entry of y behind the value: a derivative of another entry by an argument, or not a derivative at all.
 struct Entry {
   const char* name;
@@ -31,6 +33,8 @@ struct Signature {
   std::vector<Entry> results;
   bool chain;  ///< entries 1, 2, … as far as they are by argument 0 and each of the one before are part of the answer
 };
+
+namespace {
 
 const Signature& signature(Kind kind) {
   static const Signature function{"function of one variable",
@@ -107,7 +111,7 @@ void forget_failures() {
 }
 
 Routine::Routine(std::shared_ptr<const Source> source, Kind kind, Arguments scale)
-    : source_(std::move(source)), kind_(kind), scale_(scale) {
+    : source_(std::move(source)), kind_(kind), signature_(&signature(kind)), scale_(scale) {
   for (std::size_t i = 0; i < source_->scale.size() && i < scale_.size(); ++i)
     if (source_->scale[i] > 0) scale_[i] = source_->scale[i];
 }
@@ -128,7 +132,7 @@ int Routine::call(const Arguments& x, Results& y) const noexcept {
 }
 
 bool Routine::complete(const Arguments& x, Results& y) const noexcept {
-  const auto& results = signature(kind_).results;
+  const auto& results = signature_->results;
   for (std::size_t i = 1; i < results.size(); ++i) {
     if (y[i] != not_given || results[i].of < 0) continue;
     const auto base = static_cast<std::size_t>(results[i].of);
@@ -139,7 +143,7 @@ bool Routine::complete(const Arguments& x, Results& y) const noexcept {
       moved[by] = x[by] + offset;
       return call(moved, step) == ENGRANE_FINE ? step[base] : nan;
     };
-    if (signature(kind_).chain && by == 0) {
+    if (signature_->chain && by == 0) {
       const double h = 1e-3 * scale_[0];
       const double a = value(-2 * h), b = value(-h), c = value(h), d = value(2 * h);
       double next[3] = {(a - 8 * b + 8 * c - d) / (12 * h), (-a + 16 * b - 30 * y[base] + 16 * c - d) / (12 * h * h),
@@ -171,7 +175,7 @@ Results Routine::at(const Arguments& x) const noexcept {
   if (!what) return y;
   try {
     remember(fmt::format("{} {} (at {})", source_->label(), status != ENGRANE_FINE ? status_words(status) : what,
-                         words(signature(kind_), x)));
+                         words((*signature_), x)));
   } catch (...) {  // without memory for the words the numbers still say that something is wrong
   }
   y.fill(nan);
@@ -184,7 +188,7 @@ bool Routine::gives(std::size_t i, const Arguments& x) const {
 }
 
 Fault Routine::check(const std::vector<Arguments>& samples) const {
-  const Signature& s = signature(kind_);
+  const Signature& s = *signature_;
   const std::string& file = source_->library->file();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Arguments& x = samples[i];
@@ -217,7 +221,7 @@ Fault Routine::check(const std::vector<Arguments>& samples) const {
 }
 
 Fault Routine::check_derivatives(const Arguments& x, const Results& y) const {
-  const Signature& s = signature(kind_);
+  const Signature& s = *signature_;
   for (std::size_t i = 1; i < s.results.size(); ++i) {
     std::size_t base = 0, by = s.results[i].by;
     double given = y[i];

@@ -28,6 +28,8 @@ struct Source {
   std::string label() const { return name + " of " + library->file(); }
 };
 
+struct Signature;  ///< arguments and results of a kind
+
 /// A routine used as one kind. It answers with the value and all derivatives: those the routine leaves alone come from central
 /// differences, of fourth order over ±2e-3 of the scale where derivatives are part of the answer (functions, the course of a
 /// mesh), of second order over 1e-5 of the scale or of the argument where only iterations use them.
@@ -56,6 +58,7 @@ class Routine {
 
   std::shared_ptr<const Source> source_;
   Kind kind_;
+  const Signature* signature_;
   Arguments scale_;
 };
 

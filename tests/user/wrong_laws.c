@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * User routines that are wrong, each in its own way: what engrane must say about them is in tests/errors/user. */
+ * User routines for tests. Most are wrong, each in its own way: what engrane must say about them is in tests/errors/user. */
 #include <math.h>
 
 #include "engrane_user.h"
@@ -64,6 +64,21 @@ ROUTINE(needs_two) {
 ROUTINE(open_pitch) {
   UNUSED;
   y[0] = 1 + 0.1 * x[0];
+}
+
+/* Nothing wrong, and no derivatives. */
+ROUTINE(only_value) {
+  UNUSED;
+  y[0] = sin(x[0]) + 0.5 * x[1] * x[1];
+}
+
+/* A friction law of speed and force. */
+ROUTINE(loaded_friction) {
+  UNUSED;
+  const double fall = exp(-x[0]), load = 1 / (1 + 0.1 * x[1]);
+  y[0] = (0.1 + 0.2 * fall) * load;
+  y[1] = -0.2 * fall * load;
+  y[2] = -0.1 * (0.1 + 0.2 * fall) * load * load;
 }
 
 /* A contact: right, though its derivative jumps at 0. */
