@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""User routines that fail in mid-run: what the user is told; and what missing derivatives cost."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+from runs import run
+
+BINARY = os.environ.get("ENGRANE", "")
+LIBRARIES = Path(os.environ.get("ENGRANE_USER_PATH", "."))
+
+pytestmark = pytest.mark.skipif(
+    not (LIBRARIES / "libwrong_laws.so").is_file(), reason="ENGRANE_USER_PATH has no libwrong_laws.so"
+)
+
+# A mass at unit speed on a spring that is good up to an elongation of 0.5, reached at t = 0.52.
+DECK = """.NOE
+ I 1 X 2 0 0
+.FCT
+ I 1 USER "wrong_laws" "{routine}" PARAM 0.5
+.MCE
+ I 1 SPRING N 0 1 LAW USER 1
+ I 2 INERTIA N 1 M 1
+.CLM
+ FIX NOEUD 1 C 2 3
+.INI
+ VIT NOEUD 1 C 1 V 1
+.SAM TYPE DYNAMIC
+.SUB TF 1 H 0.01
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize(
+    ("routine", "words"),
+    [
+        ("ends", "ends of libwrong_laws.so says that this is outside what it is good for (at elongation 0.5"),
+        (
+            "breaks",
+            "breaks of libwrong_laws.so gives a result that is not a finite number (at elongation 0.5",
+        ),
+    ],
+)
+def test_failure_names_the_routine(tmp_path: Path, routine: str, words: str, ranks: int) -> None:
+    (tmp_path / "deck.dat").write_text(DECK.format(routine=routine))
+    command = [BINARY, "deck.dat"]
+    if ranks > 1:
+        command = ["mpiexec", "-np", str(ranks), "--quiet", "--oversubscribe", "--bind-to", "none", *command]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 2, done.stderr
+    assert "step 53, t = 0.5" in done.stderr
+    assert "SPRING 1 gives a force or a slope of it that is not a finite number" in done.stderr
+    assert done.stderr.count(words) == 1, done.stderr
+
+
+def test_crash_names_the_routine(tmp_path: Path) -> None:
+    (tmp_path / "deck.dat").write_text(DECK.format(routine="crashes"))
+    done = subprocess.run([BINARY, "deck.dat"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.returncode != 0
+    assert "the user routine crashes of libwrong_laws.so crashed" in done.stderr
+
+
+LAWS = ("POLY 50 0 4D5 C 0.8", "USER 1", "USER 2")
+
+SPRINGS = """.NOE
+ I 1 X 3 0 0
+.FCT
+ I 1 USER "laws_fortran" "hardening" PARAM 50 4D5 0.8
+ I 2 USER "laws_c" "hardening_plain" PARAM 50 4D5 0.8
+.MCE
+ I 1 SPRING N 0 1 LAW {law} AT 1 0 0
+ I 2 INERTIA N 1 M 2
+.CLM
+ FIX NOEUD 1 C 2 3
+.INI
+ VIT NOEUD 1 C 1 V 30
+.SAM TYPE DYNAMIC RHO 1 PREC 1e-12
+.SUB TF 0.5 H 0.002
+.FIN 1
+"""
+
+
+def test_differences_cost_iterations_not_accuracy(tmp_path: Path) -> None:
+    """250 steps of a stiff oscillator: the law of the deck, the routine, and the routine without
+    derivatives."""
+    found = {law: run(SPRINGS.format(law=law), tmp_path, f"deck{i}") for i, law in enumerate(LAWS)}
+    given, routine, plain = (found[law] for law in LAWS)
+    iterations = {law: int(found[law]["run/ITERATIONS"].sum()) for law in LAWS}
+    print(iterations)
+    assert iterations[LAWS[0]] == iterations[LAWS[1]]
+    assert iterations[LAWS[1]] <= iterations[LAWS[2]] <= 1.1 * iterations[LAWS[1]]
+    for other in (routine, plain):
+        assert abs(other["1/FORCE"] - given["1/FORCE"]).max() < 1e-8 * abs(given["1/FORCE"]).max()
