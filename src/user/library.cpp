@@ -109,8 +109,10 @@ engrane_routine* Library::routine(const std::string& name, Fault& fault) const {
   std::vector<std::string> shown(present.begin(),
                                  present.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(present.size(), 12)));
   fault.hint += near.empty() ? "it has " : "It has ";
-  fault.hint += present.empty() ? "none at all" : join(shown);
-  if (shown.size() < present.size()) fault.hint += " and more";
+  if (shown.size() < present.size())
+    fault.hint += join(shown, ", ") + ", …";
+  else
+    fault.hint += present.empty() ? "none at all" : join(shown);
   return nullptr;
 }
 

@@ -105,7 +105,7 @@ ROUTINE(breaks) {
 ROUTINE(crashes) {
   UNUSED;
   if (x[0] > p[0]) {
-    volatile double* nowhere = 0;
+    volatile double* nowhere = (volatile double*)64;
     y[0] = *nowhere;
   }
   y[0] = x[0];
