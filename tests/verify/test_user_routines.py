@@ -51,7 +51,7 @@ def test_failure_names_the_routine(tmp_path: Path, routine: str, words: str, ran
         command = ["mpiexec", "-np", str(ranks), "--quiet", "--oversubscribe", "--bind-to", "none", *command]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.returncode == 2, done.stderr
-    assert "step 53, t = 0.5" in done.stderr
+    assert "engrane: step " in done.stderr and ", t = 0.52" in done.stderr
     assert "SPRING 1 gives a force or a slope of it that is not a finite number" in done.stderr
     assert done.stderr.count(words) == 1, done.stderr
 
@@ -91,6 +91,6 @@ def test_differences_cost_iterations_not_accuracy(tmp_path: Path) -> None:
     iterations = {law: int(found[law]["run/ITERATIONS"].sum()) for law in LAWS}
     print(iterations)
     assert iterations[LAWS[0]] == iterations[LAWS[1]]
-    assert iterations[LAWS[1]] <= iterations[LAWS[2]] <= 1.1 * iterations[LAWS[1]]
+    assert abs(iterations[LAWS[2]] - iterations[LAWS[1]]) <= 0.02 * iterations[LAWS[1]]
     for other in (routine, plain):
         assert abs(other["1/FORCE"] - given["1/FORCE"]).max() < 1e-8 * abs(given["1/FORCE"]).max()
