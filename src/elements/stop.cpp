@@ -265,31 +265,6 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
   std::vector<Named> channels_;
 };
 
-bool find_law(const StopData& data, const BuildContext& context, StopLaw& law) {
-  law.stiffness = data.stiffness;
-  law.exponent = data.exponent;
-  if (!data.damping.given()) return true;
-  const std::vector<double>& v = data.damping.values;
-  if (std::any_of(v.begin(), v.end(), [](double x) { return x < 0; })) {
-    context.error("DAMP", "damping must not be negative");
-    return false;
-  }
-  if (data.damping.is("REST")) {
-    if (!(v[0] > 0 && v[0] <= 1) || !(v[1] > 0)) {
-      context.error("DAMP",
-                    fmt::format("REST {} {}: no coefficient of restitution at a speed of impact", number(v[0]), number(v[1])),
-                    "REST e v with 0 < e <= 1 and v > 0: what arrives with v leaves with e v");
-      return false;
-    }
-    law.hunt = StopLaw::hunt_of_restitution(v[0], v[1]);
-  } else if (data.damping.is("HUNT")) {
-    law.hunt = v[0];
-  } else {
-    law.linear = v[0];
-  }
-  return true;
-}
-
 /// False, with an error, when a keyword is given that has no meaning for this kind of stop.
 bool lacks(const BuildContext& context, const char* keyword, bool given, const std::string& kind, const std::string& cure) {
   if (!given) return true;
@@ -298,8 +273,8 @@ bool lacks(const BuildContext& context, const char* keyword, bool given, const s
 }
 
 std::unique_ptr<Element> build(const StopData& data, BuildContext& context) {
-  StopLaw law;
-  if (!check_nodes(context, {data.nodes[0], data.nodes[1]}) || !find_law(data, context, law)) return nullptr;
+  StopLaw law{data.stiffness, data.exponent};
+  if (!check_nodes(context, {data.nodes[0], data.nodes[1]}) || !set_stop_damping(data.damping, context, law)) return nullptr;
   if (data.axis && data.normal) {
     context.error("NORMAL", "AXIS and NORMAL both say what is limited", "AXIS for an angle, NORMAL for the height above a plane");
     return nullptr;
@@ -345,6 +320,36 @@ std::unique_ptr<Element> build(const StopData& data, BuildContext& context) {
 
 }  // namespace
 
+bool set_stop_damping(const deck::Tagged& damping, const BuildContext& context, StopLaw& law) {
+  if (!damping.given()) return true;
+  const std::vector<double>& v = damping.values;
+  if (std::any_of(v.begin(), v.end(), [](double x) { return x < 0; })) {
+    context.error("DAMP", "damping must not be negative");
+    return false;
+  }
+  if (damping.is("REST")) {
+    if (!(v[0] > 0 && v[0] <= 1) || !(v[1] > 0)) {
+      context.error("DAMP",
+                    fmt::format("REST {} {}: no coefficient of restitution at a speed of impact", number(v[0]), number(v[1])),
+                    "REST e v with 0 < e <= 1 and v > 0: what arrives with v leaves with e v");
+      return false;
+    }
+    law.hunt = StopLaw::hunt_of_restitution(v[0], v[1]);
+  } else if (damping.is("HUNT")) {
+    law.hunt = v[0];
+  } else {
+    law.linear = v[0];
+  }
+  return true;
+}
+
+void add_stop_damping(deck::FieldBuilder field) {
+  field.synonyms({"AMOR"})
+      .option({"HUNT", {}, "Hunt and Crossley: the force is multiplied by 1 + d times the rate of penetration", 1, 1})
+      .option({"REST", {"RESTITUTION"}, "Hunt and Crossley with the d for which what arrives with v leaves with e v: e v", 2, 2})
+      .option({"LINEAR", {"LINEAIRE"}, "a damper beside the spring: c", 1, 1});
+}
+
 ElementType stop_type() {
   deck::Card<StopData> card("STOP", {"BUTEE"}, "Stop: one-sided contact on a distance, an angle or a height above a plane");
   card.numbered()
@@ -375,11 +380,7 @@ ElementType stop_type() {
   card.add("EXP", &StopData::exponent, "exponent of the penetration: 1 a spring, 1.5 Hertz's point contact")
       .synonyms({"EXPOSANT"})
       .at_least(1);
-  card.add("DAMP", &StopData::damping, "damping; none when not given")
-      .synonyms({"AMOR"})
-      .option({"HUNT", {}, "Hunt and Crossley: the force is multiplied by 1 + d times the rate of penetration", 1, 1})
-      .option({"REST", {"RESTITUTION"}, "Hunt and Crossley with the d for which what arrives with v leaves with e v: e v", 2, 2})
-      .option({"LINEAR", {"LINEAIRE"}, "a damper beside the spring: c", 1, 1});
+  add_stop_damping(card.add("DAMP", &StopData::damping, "damping; none when not given"));
   return element_type(card, build);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "elements/stop_law.hpp"
 #include "model/registry.hpp"
 
 namespace engrane {
@@ -20,6 +21,10 @@ struct StopData {
   double exponent = 1;
   deck::Tagged damping;  ///< HUNT d, REST e v or LINEAR c
 };
+
+/// The damping of a contact as a card gives it, DAMP; false, with an error, when it is none.
+bool set_stop_damping(const deck::Tagged& damping, const BuildContext& context, StopLaw& law);
+void add_stop_damping(deck::FieldBuilder field);
 
 /// STOP (BUTEE): holds a distance, an angle or the height above a plane within limits, by a contact that only pushes.
 ElementType stop_type();
