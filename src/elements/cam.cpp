@@ -346,14 +346,14 @@ std::unique_ptr<Element> build(const CamData& data, BuildContext& context) {
   }
   if (!curve) return nullptr;
   parts.profile = std::make_shared<CamProfile>(std::move(curve), motion ? parts.radius : 0.0, data.side.is("INSIDE"));
-  if (!check_design(context, plan, parts)) return nullptr;
-
   if (data.stiffness) {
     parts.law = StopLaw{*data.stiffness, data.exponent};
     if (!set_stop_damping(data.damping, context, *parts.law)) return nullptr;
     if (data.damping.is("REST"))
       parts.derived.push_back({"damping d of Hunt and Crossley", parts.law->hunt, Dimension{-1, 0, 1, 0}});
   }
+  if (!check_design(context, plan, parts)) return nullptr;
+
   const double size = motion ? *data.base : parts.profile->least([](const CamFoot& f) { return f.p.norm(); }).p.norm();
   if (!find_friction(data, context, size, parts)) return nullptr;
   return std::make_unique<Cam>(context.record.id, std::move(parts));

@@ -17,7 +17,7 @@ double difference(double a, double b) { return std::remainder(a - b, whole_turn)
 }  // namespace
 
 CamProfile::CamProfile(std::unique_ptr<CamCurve> curve, double inset, bool inside) : curve_(std::move(curve)), inset_(inset) {
-  const std::size_t n = std::clamp<std::size_t>(16 * curve_->pieces(), 720, 20000);
+  const std::size_t n = std::clamp<std::size_t>(4 * curve_->pieces(), 720, 20000);
   step_ = whole_turn / static_cast<double>(n);
   samples_.reserve(n);
   for (std::size_t k = 0; k < n; ++k) samples_.push_back(curve_->at(step_ * static_cast<double>(k)).p);
@@ -64,8 +64,8 @@ CamFoot CamProfile::nearest(const Vec2& q, std::optional<double> last) const {
   const auto counts = [&](std::size_t k) {
     return !last || std::abs(difference(step_ * static_cast<double>(k), *last)) <= whole_turn / 3;
   };
-  std::vector<double> distance(n);
-  for (std::size_t k = 0; k < n; ++k) distance[k] = (samples_[k] - q).norm();
+  std::vector<double> distance(n);  // squared
+  for (std::size_t k = 0; k < n; ++k) distance[k] = (samples_[k] - q).squaredNorm();
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < n; ++k)
     if (counts(k)) best = std::min(best, distance[k]);
@@ -81,7 +81,7 @@ CamFoot CamProfile::nearest(const Vec2& q, std::optional<double> last) const {
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
     if (!counts(k) || distance[k] > distance[before] || distance[k] >= distance[after]) continue;
-    if (distance[k] - best > (samples_[k] - samples_[after]).norm()) continue;
+    if (std::sqrt(distance[k]) - std::sqrt(best) > (samples_[k] - samples_[after]).norm()) continue;
     const CamFoot found = at(settle(k, slope));
     const double d = (found.p - q).norm();
     if (d < least) {

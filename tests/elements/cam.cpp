@@ -518,6 +518,15 @@ TEST(Cam, FaultsOfTheCard) {
               d.follower.values = {0.05};
             }).substr(0, 61),
             "a roller of radius 0.05 does not fit into the hollow of radiu");
+  // a contact that only pushes can live with either
+  EXPECT_NE(message(
+                [&](CamData& d) {
+                  table(bean)(d);
+                  d.follower.values = {0.05};
+                  d.stiffness = 1e6;
+                },
+                true),
+            "");
   EXPECT_EQ(message([&](CamData& d) {
               table(bean)(d);
               d.follower = {"FLAT", {}};
