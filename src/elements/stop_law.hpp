@@ -31,7 +31,8 @@ struct StopLaw {
   template <class T>
   T force(const T& pressed, const T& rate, double bridge) const {
     if (!(value_of(pressed) > 0)) {
-      if (bridge == 0 || value_of(pressed) == 0) return T(0);
+      // a linear one that just touches has a slope too
+      if (bridge == 0 || (value_of(pressed) == 0 && exponent != 1)) return T(0);
       return -(elastic(T(-pressed)) * bridge);
     }
     const T total = elastic(pressed) * (T(1) + hunt * rate) + linear * rate;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The valve train of decks/mechanisms/valve_train.dat as two ordinary differential equations: the rocker's angle and
-the valve's lift. The cam is known by the path of the roller's centre only, found from the rocker's law and searched by
-scipy; contacts are k d + c d', never less than zero. SI units."""
+"""The valve train of decks/mechanisms/valve_train.dat as two ordinary differential equations: the rocker's
+angle and the valve's lift. The cam is known by the path of the roller's centre only, found from the rocker's law
+and searched by scipy; contacts are k d + c d', never less than zero. SI units."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def rates(t: float, y: np.ndarray) -> np.ndarray:
 def start() -> np.ndarray:
     """At rest on the base circle, pressed together by the preload."""
     valve_press = PRELOAD / CONTACT
-    # moments of both contacts about the pivot, nearly level arms: found to rounding by iterating on the compression
+    # moments of both contacts about the pivot balance
     y = np.zeros(4)
     for _ in range(60):
         pad = PIVOT + (PAD_REFERENCE - PIVOT) * cmath.exp(-1j * y[0])
@@ -120,12 +120,19 @@ def start() -> np.ndarray:
 
 
 def simulate(times: np.ndarray, rtol: float = 1e-9) -> dict[str, np.ndarray]:
-    """Rocker angle, valve lift and both contact forces at the times, which begin after the cam has turned by PHASE - 1
-    degrees: before, nothing moves."""
+    """Rocker angle, valve lift and both contact forces at the times, which begin after the cam has turned by
+    PHASE - 1 degrees: before, nothing moves."""
     times = np.asarray(times, float)
     begin = math.radians(PHASE - 1) / SPEED
     done = solve_ivp(
-        rates, (begin, times[-1]), start(), method="DOP853", t_eval=times, rtol=rtol, atol=1e-12, max_step=2e-5
+        rates,
+        (begin, times[-1]),
+        start(),
+        method="DOP853",
+        t_eval=times,
+        rtol=rtol,
+        atol=1e-12,
+        max_step=2e-5,
     )
     assert done.success
     both = [forces(t, y) for t, y in zip(done.t, done.y.T, strict=True)]
