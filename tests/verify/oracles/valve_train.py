@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The valve train of decks/mechanisms/valve_train.dat as two ordinary differential equations: the rocker's
-angle and the valve's lift. The cam is known by the path of the roller's centre only, found from the rocker's law
-and searched by scipy; contacts are k d + c d', never less than zero. SI units."""
+angle and the valve's lift. The cam is known by the path of the roller's centre only, found from the rocker's
+law and searched by scipy; contacts are k d + c d', never less than zero. SI units."""
 
 from __future__ import annotations
 
@@ -102,7 +102,6 @@ def rates(t: float, y: np.ndarray) -> np.ndarray:
 
 def start() -> np.ndarray:
     """At rest on the base circle, pressed together by the preload."""
-    valve_press = PRELOAD / CONTACT
     # moments of both contacts about the pivot balance
     y = np.zeros(4)
     for _ in range(60):
@@ -115,7 +114,7 @@ def start() -> np.ndarray:
         # the gap must be −cam/k: move the rocker by the difference over its lever
         y[0] += (-cam / CONTACT - gap) / (normal * (-1j * (centre - PIVOT)).conjugate()).real
         pad = PIVOT + (PAD_REFERENCE - PIVOT) * cmath.exp(-1j * y[0])
-        y[1] = VALVE_REFERENCE - (pad.imag - PAD) - valve_press * (push / PRELOAD)
+        y[1] = VALVE_REFERENCE - (pad.imag - PAD) - push / CONTACT
     return y
 
 
