@@ -141,6 +141,14 @@ class Scene:
         elif kind == "axis":
             length, radius = self._axle(node, element, center, axis)
             self.items.append(Item(shapes.axle(center, axis, length, radius), STEEL, node))
+        elif kind == "plate":
+            outline = np.asarray(d["outline"], float)
+            thick = 0.2 * float(np.max(np.ptp(outline, axis=0)))
+            mesh = shapes.plate(outline, axis, thick, bool(d.get("hollow")))
+            self.items.append(Item(mesh, WHEEL_COLORS[node % len(WHEEL_COLORS)], node, smooth=False))
+        elif kind == "roller":
+            radius = float(d["radius"])
+            self.items.append(Item(shapes.roller(center, axis, radius, 1.5 * radius), STEEL, node))
         elif kind == "mass" and node in self.row:
             self.items.append(Item(shapes.ball(self.points[node], size * 0.016), DARK, node))
         elif kind == "arrow":

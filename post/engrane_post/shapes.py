@@ -163,6 +163,23 @@ def bearing(center: np.ndarray, axis: np.ndarray, radius: float, thick: float) -
     return pv.merge(parts).extract_surface(algorithm="dataset_surface")
 
 
+def plate(outline: np.ndarray, axis: np.ndarray, thick: float, hollow: bool) -> pv.PolyData:
+    """A plate cut along a closed outline (k x 3), or, `hollow`, the wall along it."""
+    lift = 0.5 * thick * unit(axis)
+    low, high = outline - lift, outline + lift
+    n = len(outline)
+    i, j = np.arange(n), (np.arange(n) + 1) % n
+    wall = quads(np.r_[low, high], np.column_stack([i, j, n + j, n + i]))
+    if hollow:
+        return wall
+    caps = [pv.PolyData(p, faces=np.r_[n, i]).triangulate() for p in (low, high)]
+    return pv.merge([wall, *caps])
+
+
+def roller(center: np.ndarray, axis: np.ndarray, radius: float, thick: float) -> pv.PolyData:
+    return pv.Cylinder(center=center, direction=unit(axis), radius=radius, height=thick, resolution=48)
+
+
 def arrow(center: np.ndarray, axis: np.ndarray, length: float) -> pv.PolyData:
     """Force: an arrow whose tip is at the point."""
     a = unit(axis)

@@ -284,7 +284,9 @@ std::unique_ptr<Element> build(const CamData& data, BuildContext& context) {
   parts.place = data.center ? to_vector(*data.center) : at_a;
   parts.center = parts.place - at_a;
   const Vec3 point = data.at ? to_vector(*data.at) : at_b;
+  parts.follower = point;
   parts.point = point - at_b;
+  parts.inside = data.side.is("INSIDE");
   parts.flat = data.follower.is("FLAT");
   if (data.follower.is("ROLLER")) {
     parts.radius = data.follower.values[0];
@@ -345,7 +347,7 @@ std::unique_ptr<Element> build(const CamData& data, BuildContext& context) {
     curve = table_curve(data, context);
   }
   if (!curve) return nullptr;
-  parts.profile = std::make_shared<CamProfile>(std::move(curve), motion ? parts.radius : 0.0, data.side.is("INSIDE"));
+  parts.profile = std::make_shared<CamProfile>(std::move(curve), motion ? parts.radius : 0.0, parts.inside);
   if (data.stiffness) {
     parts.law = StopLaw{*data.stiffness, data.exponent};
     if (!set_stop_damping(data.damping, context, *parts.law)) return nullptr;

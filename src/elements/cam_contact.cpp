@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "elements/building.hpp"
 
@@ -140,8 +142,21 @@ void Cam::observe(const State& state, std::span<double> values) const {
 Drawing Cam::drawing() const {
   const auto [a, b] = parts_.nodes;
   const Vec3 axis = parts_.axes.col(2);
-  return {
-      fmt::format(R"("shape": "axis", "node": {}, "center": {}, "axis": {})", a != 0 ? a : b, json(parts_.place), json(axis))};
+  const CamProfile& profile = *parts_.profile;
+  const auto round = [](const Vec3& v) { return fmt::format("[{:.7g}, {:.7g}, {:.7g}]", v[0], v[1], v[2]); };
+  std::string outline;
+  const std::size_t count = std::clamp<std::size_t>(2 * profile.curve().pieces(), 240, 2000);
+  for (std::size_t k = 0; k < count; ++k) {
+    const CamFoot foot = profile.at(2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count));
+    const Vec2 p = foot.p - profile.inset() * foot.n;
+    outline += (k > 0 ? ", " : "") + round(parts_.place + p[0] * parts_.axes.col(0) + p[1] * parts_.axes.col(1));
+  }
+  Drawing shapes{fmt::format(R"("shape": "plate", "node": {}, "axis": {}, "hollow": {}, "outline": [{}])", a, json(axis),
+                             parts_.inside, outline)};
+  if (!parts_.flat && parts_.radius > 0)
+    shapes.push_back(fmt::format(R"("shape": "roller", "node": {}, "center": {}, "axis": {}, "radius": {})", b,
+                                 json(parts_.follower), json(axis), parts_.radius));
+  return shapes;
 }
 
 }  // namespace engrane

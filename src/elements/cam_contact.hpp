@@ -23,13 +23,14 @@ struct CamGuide {
 /// What the element is made of.
 struct CamParts {
   std::array<int, 2> nodes{};
-  Mat3 axes = Mat3::Identity();  ///< columns: x and y of the cam's plane, and the cam's axis; held by A
-  Vec3 center = Vec3::Zero();    ///< from A to the centre
-  Vec3 place = Vec3::Zero();     ///< the centre itself, for pictures
-  Vec3 point = Vec3::Zero();     ///< from B to the follower's point
-  Vec3 face = Vec3::Zero();      ///< normal of a flat face, away from the cam, carried by B
+  Mat3 axes = Mat3::Identity();                        ///< columns: x and y of the cam's plane, and the cam's axis; held by A
+  Vec3 center = Vec3::Zero();                          ///< from A to the centre
+  Vec3 place = Vec3::Zero(), follower = Vec3::Zero();  ///< centre and follower's point themselves, for pictures
+  Vec3 point = Vec3::Zero();                           ///< from B to the follower's point
+  Vec3 face = Vec3::Zero();                            ///< normal of a flat face, away from the cam, carried by B
   bool flat = false;
-  double radius = 0;  ///< of a roller; 0 a knife edge
+  bool inside = false;  ///< the follower is within the profile
+  double radius = 0;    ///< of a roller; 0 a knife edge
   std::shared_ptr<const CamProfile> profile;
   std::optional<StopLaw> law;  ///< none: the follower is held to the profile
   std::optional<FrictionLaw> friction;

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from engrane_post import Results
 from engrane_post.gear_mesh import WheelShape, teeth_mesh
-from engrane_post.shapes import cells
+from engrane_post.shapes import cells, plate
 
 
 def scene(path: Path):
@@ -128,6 +128,16 @@ def test_bevel_teeth_share_the_apex(bevel: Path) -> None:
         axial, radial = w.shape.place(s, np.zeros(2))
         p = w.center + np.outer(axial, w.frame[:, 0]) + np.outer(radial, w.frame[:, 1])
         assert np.linalg.norm(np.cross(apex - p[0], p[1] - p[0])) < 1e-9
+
+
+def test_cam_plate() -> None:
+    # an L of 3 squares, one thick: caps of the polygon's area, also across its notch, and a wall round it
+    outline = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [1, 1, 0], [1, 2, 0], [0, 2, 0]], float)
+    wall = plate(outline, np.array([0, 0, 2.0]), 0.5, hollow=True)
+    whole = plate(outline, np.array([0, 0, 2.0]), 0.5, hollow=False)
+    assert wall.area == pytest.approx(8 * 0.5)
+    assert whole.area == pytest.approx(8 * 0.5 + 2 * 3)
+    assert np.ptp(whole.points, axis=0) == pytest.approx([2, 2, 0.5])
 
 
 def test_topology() -> None:
