@@ -103,6 +103,7 @@ Subject subject(const Kind& kind) {
            std::to_string(static_cast<int>(kind.profile)) + " of " + std::to_string(kind.ends[0]);
   s.nodes = places(kind);
   s.build = [=](const Mat3& Q) { return build(cam_type(), card(kind, Q), turned(places(kind), Q)); };
+  s.states = 40;
   s.length = 0.5;
   s.velocity = 0.5;
   s.force = 5;
@@ -166,7 +167,7 @@ TEST(Cam, Suite) {
         Kind{.follower = knife, .friction = {"CONST", {0.3}}},
         Kind{.follower = flat, .friction = {"STRIBECK", {0.3, 0.1, 0.4}}},
         Kind{.stiffness = 40, .exponent = 1.5, .damping = {"HUNT", {0.3}}},
-        Kind{.stiffness = 40, .damping = {"LINEAR", {2}}},
+        Kind{.stiffness = 40, .damping = {"LINEAR", {0.4}}},
         Kind{.profile = Profile::table, .stiffness = 40, .exponent = 1.5},
         Kind{.profile = Profile::arm, .stiffness = 40},
         Kind{.follower = flat, .stiffness = 40, .exponent = 1.5, .damping = {"HUNT", {0.3}}, .friction = {"CONST", {0.2}}},
