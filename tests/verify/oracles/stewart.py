@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A platform on six legs: their lengths for a stated path (inverse kinematics) and their forces by Newton's and
-Euler's equations. SI units; the data of decks/mechanisms/stewart_platform.dat."""
+"""A platform on six legs: their lengths for a stated path (inverse kinematics) and their forces by Newton's
+and Euler's equations. SI units; the data of decks/mechanisms/stewart_platform.dat."""
 
 from __future__ import annotations
 
@@ -40,5 +40,5 @@ def thrusts(t: float) -> np.ndarray:
     reach, arms = legs(t)
     n = reach / np.linalg.norm(reach, axis=1)[:, None]
     _, acceleration, _, spin_up = path(t)
-    load = np.r_[MASS * (acceleration + [0, 0, GRAVITY]), ROLL_INERTIA * spin_up, 0, 0]
+    load = np.r_[MASS * (acceleration + np.array([0, 0, GRAVITY])), ROLL_INERTIA * spin_up, 0, 0]
     return np.linalg.solve(np.concatenate([n, np.cross(arms, n)], axis=1).T, load)

@@ -13,7 +13,10 @@ UPPER = np.array([[0.12, 0.42, 0.5], [-0.13, 0.42, 0.48]])
 LOWER_BALL, UPPER_BALL = np.array([0.01, 0.7, 0.18]), np.array([-0.02, 0.66, 0.48])
 RACK, TIE = np.array([-0.14, 0.398, 0.263]), np.array([-0.13, 0.68, 0.24])
 WHEEL, MARK = np.array([0.0, 0.78, 0.32]), np.array([0.0, 1.78, 0.32])
-SEAT, TOWER = np.array([0.0, 0.55, 0.19]), np.array([0.0, 0.45, 0.6])  # of the spring, on the lower arm and the body
+SEAT, TOWER = (
+    np.array([0.0, 0.55, 0.19]),
+    np.array([0.0, 0.45, 0.6]),
+)  # of the spring, on the lower arm and the body
 STIFFNESS, NATURAL = 6e4, 0.5
 
 
@@ -47,8 +50,8 @@ def spring_length(travel: float) -> float:
 
 
 def state(travel: float) -> dict[str, float | np.ndarray]:
-    """Camber (positive: the top leans out) and turn about z (positive: the left wheel steers left) of the wheel in
-    radians, displacements, the spring's force, and the vertical force on the wheel that holds it."""
+    """Camber (positive: the top leans out) and turn about z (positive: to the left) of the wheel in radians,
+    displacements, the spring's force, and the vertical force on the wheel that holds it."""
     shift, turn = carrier(travel)
     spindle = turn.apply(MARK - WHEEL)
     h = 1e-3  # differences of fourth order: error h4 l'''''/30
