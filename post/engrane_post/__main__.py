@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`engrane plot | spectrum | orders | picture | animate` (python -m engrane_post)."""
+"""`engrane plot | spectrum | orders | picture | animate | inertia` (python -m engrane_post)."""
 
 from __future__ import annotations
 
@@ -11,8 +11,7 @@ from collections.abc import Sequence
 from .errors import UserError
 
 DESCRIPTION = (
-    "Shows the results of engrane. Every command takes a result by its file (run.h5), prefix (run) "
-    "or deck (run.dat)."
+    "Shows the results of engrane. A result is named by its file (run.h5), prefix (run) or deck (run.dat)."
 )
 EPILOG = """examples:
   engrane plot run --list                          all channels with units
@@ -21,15 +20,16 @@ EPILOG = """examples:
   engrane orders run 7/NORMAL_FORCE --map          order against speed, of a run-up
   engrane picture run --both -o run.png            the mechanism before and after
   engrane animate run --fps 20 -o run.gif          the mechanism in motion
+  engrane inertia part.stl --density 7850          mass, centre and tensor of a part for RIGID
   engrane figures                                  the founding paper's figures
-  engrane gallery                                  pictures of the gear trains in decks/trains
+  engrane gallery                                  pictures of gear trains and mechanisms
 
 engrane <command> --help tells more."""
 
 
 def parser() -> argparse.ArgumentParser:
     """The command line; each command's module adds its own words."""
-    from . import animate, figures, gallery, histories, lines, orders, picture
+    from . import animate, figures, gallery, histories, inertia, lines, orders, picture
 
     top = argparse.ArgumentParser(
         prog="engrane",
@@ -38,7 +38,7 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = top.add_subparsers(dest="command", required=True, metavar="command")
-    for module in (histories, lines, orders, picture, animate, figures, gallery):
+    for module in (histories, lines, orders, picture, animate, inertia, figures, gallery):
         module.add(commands)
     return top
 

@@ -96,7 +96,7 @@ def draw(result: Results, numbers: list[int], path: str, series: bool, args: arg
     stage = Stage(scene, plotter)
     title = args.title if args.title is not None else (result.title or result.name)
     sample = [result.frame(i) for i in numbers[:: max(1, len(numbers) // 40)]]
-    view.aim(plotter, scene, sample, args.view, args.zoom)
+    view.aim(plotter, scene, sample, args.view, args.zoom, args.up)
     plotter.enable_anti_aliasing("ssaa")
     if not series:
         plotter.open_gif(path, fps=args.fps, loop=0, subrectangles=False)

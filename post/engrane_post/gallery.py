@@ -21,11 +21,15 @@ EXAMPLES = """  engrane gallery                        all pictures, into docs/f
 
 @dataclass(frozen=True)
 class Shot:
-    """One picture: its deck below decks/trains and from where to look."""
+    """One picture: its deck below decks/trains or another folder, from where to look, and when (default: the
+    end)."""
 
     deck: str
     view: str
     zoom: float = 1.0
+    folder: str = "trains"
+    up: str | None = None
+    time: float | None = None
 
 
 SHOTS = (
@@ -42,6 +46,13 @@ SHOTS = (
     Shot("rack_steering", "0.1,-0.6,1", 1.05),
     Shot("wind_turbine", "1,0.55,0.6", 1.1),
     Shot("run_up_elastic", "0.45,0.4,1"),
+    Shot("four_bar", "0.25,0.15,1", 1.0, "mechanisms", "y", 0.3),
+    Shot("quick_return", "0.3,0.2,1", 1.0, "mechanisms", "y", 0.2),
+    Shot("slider_crank", "0.5,-0.7,1", 1.0, "mechanisms", "z", 0.1),
+    Shot("andrews_squeezer", "0.25,0.15,1", 1.0, "mechanisms", "y", 0.01),
+    Shot("stewart_platform", "1,-0.6,0.45", 1.0, "mechanisms", "z", 0.35),
+    Shot("double_wishbone", "1,0.35,0.25", 1.0, "mechanisms", "z", 0.25),
+    Shot("universal_differential", "0.4,1,0.6", 1.05, "mechanisms", "z", 0.6),
 )
 
 
@@ -50,7 +61,7 @@ def add(commands: argparse._SubParsersAction) -> None:
     p = options.subcommand(
         commands,
         "gallery",
-        "pictures of the gear trains in decks/trains",
+        "pictures of gear trains and mechanisms",
         "Runs the decks of docs/gallery.md whose results are missing or older than deck or "
         "program, and draws them.",
         EXAMPLES,
@@ -79,18 +90,18 @@ def run(args: argparse.Namespace) -> None:
     results.mkdir(parents=True, exist_ok=True)
     output.mkdir(parents=True, exist_ok=True)
     for shot in [known[n] for n in args.decks] or SHOTS:
-        draw(shot, result_of(shot.deck, results), output / f"{shot.deck}.png")
+        draw(shot, result_of(shot, results), output / f"{shot.deck}.png")
 
 
-def result_of(name: str, folder: Path) -> Path:
+def result_of(shot: Shot, folder: Path) -> Path:
     """The deck's result, computed anew when it is missing or old."""
-    deck = ROOT / "decks" / "trains" / f"{name}.dat"
+    deck = ROOT / "decks" / shot.folder / f"{shot.deck}.dat"
     program = Path(os.environ.get("ENGRANE") or ROOT / "build" / "bin" / "engrane")
     if not deck.is_file() or not program.is_file():
         raise UserError(
             f"The gallery needs engrane's source tree and program; there is no {deck} or no {program}."
         )
-    result = folder / f"{name}.h5"
+    result = folder / f"{shot.deck}.h5"
     made = [p.stat().st_mtime for p in (program, *deck.parent.glob("*.dat"))]
     if not result.is_file() or result.stat().st_mtime < max(made):
         print(f"running {deck.name}", flush=True)
@@ -108,7 +119,8 @@ def draw(shot: Shot, result: Path, path: Path) -> None:
     from .results import Results
 
     with Results(result) as r:
-        picture(r, [r.frame(-1)], str(path), SIZE, shot.view, shot.zoom, "", bare=True)
+        frame = r.frame(-1) if shot.time is None else r.frame_at(shot.time)
+        picture(r, [frame], str(path), SIZE, shot.view, shot.zoom, "", bare=True, upward=shot.up)
     with Image.open(path) as image:
         few = image.convert("RGB").quantize(
             256, method=Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE

@@ -49,6 +49,7 @@ def view_arguments(p: argparse.ArgumentParser) -> None:
         help="look from this side: front +z, back, right +x, left, top +y, bottom, or from the direction "
         "x,y,z (write --view=-1,0,1 when it starts with a minus; default: chosen to show the wheels)",
     )
+    p.add_argument("--up", choices=("x", "y", "z"), help="this axis points up (default: chosen)")
     p.add_argument("--zoom", type=float, default=1.0, help="above 1 comes nearer")
     p.add_argument("--size", default=None, metavar="WxH", help="pixels, such as 1600x1000")
     p.add_argument("--title", help="text above (default: the deck's title)")
@@ -94,7 +95,7 @@ def run(args: argparse.Namespace) -> None:
 def render(result: Results, frames: list[Frame], path: str, args: argparse.Namespace) -> None:
     """Draws the frames side by side, as the command line says."""
     title = args.title if args.title is not None else (result.title or result.name)
-    picture(result, frames, path, args.size, args.view, args.zoom, title)
+    picture(result, frames, path, args.size, args.view, args.zoom, title, upward=args.up)
 
 
 def picture(
@@ -106,6 +107,7 @@ def picture(
     zoom: float = 1.0,
     title: str = "",
     bare: bool = False,
+    upward: str | None = None,
 ) -> None:
     """Draws the frames side by side; `bare` leaves the time out and the background white."""
     from . import view
@@ -121,7 +123,7 @@ def picture(
         view.dress(plotter, title if i == 0 else "", "" if bare else view.caption(result, frame))
         if bare:
             plotter.set_background("white")
-        view.aim(plotter, scene, frames, view_from, zoom)
+        view.aim(plotter, scene, frames, view_from, zoom, upward)
         plotter.enable_anti_aliasing("ssaa")
     plotter.screenshot(path)
     plotter.close()

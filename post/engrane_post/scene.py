@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from . import shapes
+from . import linkage, shapes
 from .graphics import pv
 from .results import Element, Frame, Results
 from .wheels import collect
@@ -45,16 +45,25 @@ class Scene:
         self.points = {n: result.points[i] for n, i in self.row.items()}
         self.wheels = collect(result.elements)
         self.items: list[Item] = []
-        self.size = self._size()
+        self.carried: dict[int, tuple[int, np.ndarray]] = {}
+        joints = [j for j in (linkage.joint(self, e) for e in result.elements) if j]
+        self.size = self._size([place for j in joints for _, place in j.ends()])
+        self.link_slots: dict[int, int] = {}
+        self.bodies: dict[int, int] = {}
+        for element in result.elements:
+            if element.type.upper() == "RIGID":
+                first = self.bodies.get(element.nodes[0], element.nodes[0])
+                self.bodies.update({n: first for n in element.nodes if n})
         self._wheels()
-        drawn = set()
+        drawn = {j.element.id for j in joints}
+        own = {j.element.id for j in joints if j.kind != "pin"}
         for element in result.elements:
             if element.drawing:
                 drawn.add(element.id)
             for d in element.drawing:
-                if d.get("shape") != "wheel":
+                if d.get("shape") != "wheel" and element.id not in own:
                     self._shape(element, d)
-        self._carriers()
+        self._linkage(joints)
         self._cells(drawn)
         self._grounds()
 
@@ -77,13 +86,15 @@ class Scene:
             circle = reach * (np.outer(np.cos(turn), w.frame[:, 1]) + np.outer(np.sin(turn), w.frame[:, 2]))
             half = 0.5 * min(w.shape.width, w.shape.radius) * w.frame[:, 0]
             yield w.node, w.center + np.r_[circle - half, circle + half]
+        for node, place in self.carried.values():
+            yield node, place[None, :]
         for item in self.items:
             if item.remake is None and not item.wheel:
                 x = np.reshape(item.mesh.bounds, (3, 2))
                 yield item.node, np.array([[a, b, c] for a in x[0] for b in x[1] for c in x[2]])
 
-    def _size(self) -> float:
-        corners = self.corners([self.result.reference()])
+    def _size(self, places: list[np.ndarray]) -> float:
+        corners = np.concatenate([self.corners([self.result.reference()]), np.reshape(places, (-1, 3))])
         size = float(np.linalg.norm(np.ptp(corners, axis=0)))
         return size if size > 0 else 1.0
 
@@ -99,18 +110,19 @@ class Scene:
         return t
 
     def positions(self, frame: Frame) -> dict[int, np.ndarray]:
-        """Where the nodes are."""
-        return {n: self.points[n] + frame.displacement[i] for n, i in self.row.items()}
+        """Where the nodes are, and the points that bodies carry."""
+        out = {n: self.points[n] + frame.displacement[i] for n, i in self.row.items()}
+        for name, (node, place) in self.carried.items():
+            out[name] = (self.transform(node, frame) @ np.r_[place, 1.0])[:3]
+        return out
 
     def _wheels(self) -> None:
         """Wheels of one body have one colour."""
-        body: dict[int, int] = {}
-        for element in self.result.elements:
-            if element.type.upper() == "RIGID":
-                body.update({n: body.get(element.nodes[0], element.nodes[0]) for n in element.nodes if n})
         slots: dict[int, int] = {}
         for w in self.wheels:
-            color = WHEEL_COLORS[slots.setdefault(body.get(w.node, w.node), len(slots)) % len(WHEEL_COLORS)]
+            color = WHEEL_COLORS[
+                slots.setdefault(self.bodies.get(w.node, w.node), len(slots)) % len(WHEEL_COLORS)
+            ]
             for mesh, tint in shapes.wheel(w, color, MARK, DARK):
                 self.items.append(Item(mesh, tint, w.node, smooth=False, wheel=True))
 
@@ -131,7 +143,8 @@ class Scene:
         elif kind == "body" and nodes:
             known = [n for n in nodes if n in self.row]
             if len(known) > 1:
-                self._flexible(lambda p: shapes.star([p[n] for n in known], size * 0.009), BODY)
+                color = self._link_color(known[0])
+                self._flexible(lambda p: shapes.star([p[n] for n in known], size * 0.009), color)
             elif known:
                 self.items.append(
                     Item(shapes.box(self.points[known[0]], size * 0.03), BODY, known[0], smooth=False)
@@ -139,7 +152,7 @@ class Scene:
         elif kind == "rack":
             self._rack(element, d)
         elif kind == "axis":
-            length, radius = self._axle(node, element, center, axis)
+            length, radius = self.axle(node, element, center, axis)
             self.items.append(Item(shapes.axle(center, axis, length, radius), STEEL, node))
         elif kind == "plate":
             outline = np.asarray(d["outline"], float)
@@ -186,6 +199,10 @@ class Scene:
         known = [n for n in nodes if n in self.row]
         if not known:
             return None
+        if len(known) == 1 and "AT" in element.parameters:
+            anchor = np.asarray(element.parameters["AT"], float)
+            known.append(self._carried(0, anchor))
+            self.items.append(Item(linkage.foot(self, anchor), GROUND, smooth=False))
         axis = np.asarray(element.parameters.get("AXIS", [0, 0, 1]), float).ravel()[:3]
         axis = axis / (np.linalg.norm(axis) or 1.0) if len(axis) == 3 else np.array([0, 0, 1.0])
         if len(known) == 1:
@@ -196,9 +213,9 @@ class Scene:
             return lambda p: np.stack([p[a] - axis * 0.04 * self.size, p[b] + axis * 0.04 * self.size])
         return lambda p: np.stack([p[a], p[b]])
 
-    def _axle(self, node: int, element: Element, center: np.ndarray, axis: np.ndarray) -> tuple[float, float]:
+    def axle(self, node: int, element: Element, center: np.ndarray, axis: np.ndarray) -> tuple[float, float]:
         """Length and radius of a hinge's axis: through the wheel that sits on it, if any."""
-        radius, length = 0.008 * self.size, 0.12 * self.size
+        radius, length = 0.008 * self.size, (0.12 if self.wheels else 0.07) * self.size
         for w in self.wheels:
             near = np.linalg.norm(w.center - center) < 1e-3 * w.shape.radius
             if near and (w.node == node or w.node in element.nodes) and not w.shape.ring:
@@ -242,28 +259,49 @@ class Scene:
                 self.items.append(Item(mesh, color, node, smooth=False))
                 return
 
-    def _carriers(self) -> None:
-        """Arms from a body to the pins that it carries: hinges of two bodies, away from the first
-        one's node."""
-        for element in self.result.elements:
-            axes = [d for d in element.drawing if d.get("shape") == "axis" and "center" in d]
-            if element.type.upper() != "HINGE" or len(axes) != 1 or element.nodes[0] not in self.row:
-                continue
-            carrier, node = element.nodes[0], self.points[element.nodes[0]]
-            center, axis = (
-                np.asarray(axes[0]["center"], float),
-                shapes.unit(np.asarray(axes[0]["axis"], float)),
-            )
-            foot = center - axis * ((center - node) @ axis)
-            _, radius = self._axle(element.nodes[1], element, center, axis)
-            parts = []
-            if np.linalg.norm(foot - node) > radius:
-                parts.append(shapes.arm(node, foot, axis, 1.6 * radius))
-            if np.linalg.norm(center - foot) > radius:
-                parts.append(shapes.tube(np.stack([foot, center]), radius))
-            if parts:
-                mesh = pv.merge(parts).extract_surface(algorithm="dataset_surface")
-                self.items.append(Item(mesh, BODY, carrier, smooth=False))
+    def _linkage(self, joints: list[linkage.Joint]) -> None:
+        """Joints and the links between them. What lies on the ground is marked by its colour."""
+        for node, mesh in linkage.links(self, joints):
+            self.items.append(Item(mesh, self._link_color(node), node, smooth=False))
+        for j in joints:
+            own, other = (self._link_color(n) if n else GROUND for n in (j.a, j.b))
+            if j.kind in ("rail", "plate"):
+                base, rider = (linkage.rail if j.kind == "rail" else linkage.plate)(self, j)
+                self.items.append(Item(base, own if j.a == 0 else STEEL, j.a, smooth=False))
+                self.items.append(Item(rider, other, j.b, smooth=False))
+            elif j.kind == "cross":
+                for mesh, node in zip(linkage.cross(self, j), (j.a, j.b), strict=True):
+                    self.items.append(Item(mesh, STEEL, node))
+            elif j.kind == "ball":
+                self.items.append(Item(shapes.ball(j.place_a, 0.016 * self.size), STEEL, j.a or j.b))
+            elif j.kind == "rod":
+                self._rod(j)
+            if j.kind in ("ball", "cross", "rod", "weld"):
+                for node, place in j.ends():
+                    if node == 0:
+                        self.items.append(Item(linkage.foot(self, place), GROUND, smooth=False))
+
+    def _rod(self, j: linkage.Joint) -> None:
+        """A rod between points that its bodies carry, and balls at its ends."""
+        ends = [self._carried(node, place) for node, place in j.ends()]
+        self._flexible(lambda p: shapes.tube(np.stack([p[e] for e in ends]), 0.006 * self.size), STEEL)
+        for node, place in j.ends():
+            self.items.append(Item(shapes.ball(place, 0.011 * self.size), STEEL, node))
+
+    def _carried(self, node: int, place: np.ndarray) -> int:
+        """A name, among those of nodes, for a point that a body or the ground carries."""
+        name = -1 - len(self.carried)
+        self.carried[name] = (node, np.asarray(place, float))
+        self.points[name] = self.carried[name][1]
+        return name
+
+    def _link_color(self, node: int) -> str:
+        """Links of one body have one colour, where no wheels take the colours."""
+        if self.wheels:
+            return BODY
+        body = self.bodies.get(node, node)
+        slot = self.link_slots.setdefault(body, len(self.link_slots))
+        return linkage.LINK_COLORS[slot % len(linkage.LINK_COLORS)]
 
     def _cells(self, drawn: set[int]) -> None:
         """Cells of elements that bring no drawing (beams, membranes); surfaces and solids always."""
@@ -295,6 +333,8 @@ class Scene:
         for element in self.result.elements:
             if 0 not in element.nodes:
                 continue
+            if linkage.KINDS.get(element.type.upper(), "pin") != "pin":
+                continue
             for d in element.drawing:
                 if d.get("shape") != "axis":
                     continue
@@ -302,7 +342,7 @@ class Scene:
                 if any(np.linalg.norm(center - c) < 1e-6 * self.size for c in done):
                     continue
                 done.append(center)
-                length, radius = self._axle(int(d.get("node", 0)), element, center, axis)
+                length, radius = self.axle(int(d.get("node", 0)), element, center, axis)
                 unit = axis / (np.linalg.norm(axis) or 1.0)
                 self.items.append(
                     Item(

@@ -65,14 +65,23 @@ def eye_of(view: str) -> np.ndarray:
     return eye / length
 
 
-def aim(plotter: pv.Plotter, scene: Scene, frames: list[Frame], view: str | None, zoom: float = 1.0) -> None:
-    """Points the camera of the current view at everything the frames show."""
+def aim(
+    plotter: pv.Plotter,
+    scene: Scene,
+    frames: list[Frame],
+    view: str | None,
+    zoom: float = 1.0,
+    upward: str | None = None,
+) -> None:
+    """Points the camera of the current view at everything the frames show; `upward` is x, y or z."""
     eye, up = direction(scene, frames)
     if view:
         eye = eye_of(view)
         up = np.array([0, 1.0, 0]) if abs(eye[1]) < 0.75 else np.array([0, 0, 1.0])
-        up = up - eye * (up @ eye)
-        up = up / np.linalg.norm(up)
+    if upward and abs(eye["xyz".index(upward)]) < 0.999:
+        up = np.eye(3)["xyz".index(upward)]
+    up = up - eye * (up @ eye)
+    up = up / np.linalg.norm(up)
     corners = scene.corners(frames)
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
     side = np.cross(up, eye)

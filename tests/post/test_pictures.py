@@ -220,7 +220,7 @@ def test_gallery(command, tmp_path: Path, monkeypatch) -> None:
 
     page = (gallery.ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
     for shot in gallery.SHOTS:
-        assert (gallery.ROOT / "decks" / "trains" / f"{shot.deck}.dat").is_file()
+        assert (gallery.ROOT / "decks" / shot.folder / f"{shot.deck}.dat").is_file()
         assert f"figures/gallery/{shot.deck}.png" in page and f"decks/trains/{shot.deck}.dat" in page
         picture = gallery.ROOT / "docs" / "figures" / "gallery" / f"{shot.deck}.png"
         assert 5_000 < picture.stat().st_size < 150_000
@@ -283,3 +283,64 @@ def test_rack(tmp_path: Path, helix: float) -> None:
         middles = (x[0::2] + x[1::2]) / 2
         gap = (middles - radius * tooth) / pitch % 1
         assert gap == pytest.approx(0.5, abs=1e-6)
+
+
+def joints_model(path: Path) -> Path:
+    """A crank with a ball joint, a rod, a block on a rail, a pin in a slot, a spring to the ground."""
+
+    def joint(number: int, kind: str, nodes: list[int], drawing: list | None = None, **parameters) -> dict:
+        return dict(id=number, type=kind, nodes=nodes, parameters=parameters, drawing=drawing or [])
+
+    def axis(node: int, center: list, direction: list) -> list:
+        return [dict(shape="axis", node=node, center=center, axis=direction)]
+
+    elements = [
+        joint(1, "HINGE", [0, 1], axis(1, [0, 0, 0], [0, 0, 1]), AXIS=[0, 0, 1]),
+        joint(2, "SPHERICAL", [1, 2], AT=[0.2, 0, 0]),
+        joint(3, "DISTANCE", [0, 2], FROM=[0.6, 0.5, 0], TO=[0.6, 0, 0]),
+        joint(4, "PRISMATIC", [0, 3], axis(3, [1, 0, 0], [1, 0, 0]), AXIS=[1, 0, 0]),
+        joint(5, "POINT_PLANE", [0, 2], axis(2, [0.2, 0, 0], [0, 1, 0]), AXIS=[0, 1, 0], AT=[0.2, 0, 0]),
+        joint(6, "SPRING", [0, 3], [dict(shape="coil", points=[0, 3])], AT=[1.5, 0, 0.2]),
+    ]
+    times = np.linspace(0, 1, 3)
+    shift, turn = np.zeros((3, 3, 3)), np.zeros((3, 3, 3))
+    turn[:, 0, 2] = turn[:, 1, 2] = times  # the crank and node 2 turn about the origin
+    shift[:, 1, 0] = 0.4 * (np.cos(times) - 1)
+    shift[:, 1, 1] = 0.4 * np.sin(times)
+    shift[:, 2, 0] = -0.3 * times
+    places = {1: (0.0, 0.0, 0.0), 2: (0.4, 0.0, 0.0), 3: (1.0, 0.0, 0.0)}
+    return models.write(path, places, elements, times, shift, turn)
+
+
+def test_joints(tmp_path: Path) -> None:
+    s = scene(joints_model(tmp_path / "joints.h5"))
+    from engrane_post.scene import GROUND, SPRING
+
+    def reach(item, x: list[float]) -> float:
+        return float(np.linalg.norm(item.mesh.points - np.array(x), axis=1).min())
+
+    # the crank reaches from its node to the ball joint, and so does node 2's body from the other side
+    for node in (1, 2):
+        assert min(reach(i, [0.2, 0, 0]) for i in s.items if i.node == node) < 0.02 * s.size
+    # the rod is held at its own ends, not at the nodes, and follows the body that carries one of them
+    frame = s.result.frame(2)
+    (rod,) = [i for i in s.items if i.remake and i.color != SPRING]
+    moved = rod.remake(s.positions(frame))
+    end = np.array([0.6 * np.cos(1), 0.6 * np.sin(1), 0])
+    for x in ([0.6, 0.5, 0], end):
+        assert np.linalg.norm(moved.points - x, axis=1).min() < 0.01 * s.size
+    # the rail is as long as the block travels
+    rails = [i for i in s.items if i.color == GROUND and i.node == 0 and np.ptp(i.mesh.points[:, 0]) > 0.25]
+    assert any(i.mesh.bounds[0] < 0.7 and i.mesh.bounds[1] > 1.0 for i in rails)
+    # spring and rod stand on blocks
+    for x in ([1.5, 0, 0.2], [0.6, 0.5, 0]):
+        assert any(i.color == GROUND and np.linalg.norm(np.array(i.mesh.center) - x) < 1e-9 for i in s.items)
+    # bodies have colours of their own
+    assert len({i.color for i in s.items if i.node in (1, 2, 3)}) >= 3
+
+
+def test_joints_picture(tmp_path: Path, command) -> None:
+    path = joints_model(tmp_path / "joints.h5")
+    status, _, err = command("picture", path, "--view", "1,1,1", "--up", "z", "-o", tmp_path / "a.png")
+    assert (status, err) == (0, "")
+    assert (tmp_path / "a.png").stat().st_size > 5000

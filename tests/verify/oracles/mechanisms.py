@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Driven mechanisms in closed form, written in other ways than in their decks: circles that meet, and rates by
-the complex step. SI units; the data of decks/mechanisms."""
+"""Driven mechanisms in closed form, written in other ways than in their decks: circles that meet, and rates
+by the complex step. SI units; the data of decks/mechanisms."""
 
 from __future__ import annotations
 

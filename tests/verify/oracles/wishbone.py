@@ -12,7 +12,7 @@ LOWER = np.array([[0.15, 0.35, 0.2], [-0.15, 0.35, 0.22]])  # bearings of the lo
 UPPER = np.array([[0.12, 0.42, 0.5], [-0.13, 0.42, 0.48]])
 LOWER_BALL, UPPER_BALL = np.array([0.01, 0.7, 0.18]), np.array([-0.02, 0.66, 0.48])
 RACK, TIE = np.array([-0.14, 0.398, 0.263]), np.array([-0.13, 0.68, 0.24])
-WHEEL, MARK = np.array([0.0, 0.78, 0.32]), np.array([0.0, 1.78, 0.32])
+WHEEL, MARK = np.array([0.0, 0.78, 0.32]), np.array([0.0, 1.08, 0.32])
 SEAT, TOWER = (
     np.array([0.0, 0.55, 0.19]),
     np.array([0.0, 0.45, 0.6]),
@@ -54,6 +54,7 @@ def state(travel: float) -> dict[str, float | np.ndarray]:
     displacements, the spring's force, and the vertical force on the wheel that holds it."""
     shift, turn = carrier(travel)
     spindle = turn.apply(MARK - WHEEL)
+    along = spindle / np.linalg.norm(spindle)
     h = 1e-3  # differences of fourth order: error h4 l'''''/30
     slope = (
         spring_length(travel - 2 * h)
@@ -65,8 +66,8 @@ def state(travel: float) -> dict[str, float | np.ndarray]:
     return {
         "shift": shift,
         "mark": shift + spindle - (MARK - WHEEL),
-        "camber": -float(np.arcsin(spindle[2])),
-        "steer": float(np.arctan2(-spindle[0], spindle[1])),
+        "camber": -float(np.arcsin(along[2])),
+        "steer": float(np.arctan2(-along[0], along[1])),
         "spring": pull,
         "wheel_force": pull * slope,
     }
