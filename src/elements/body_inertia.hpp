@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "model/registry.hpp"
@@ -50,8 +49,17 @@ struct BodyInertia {
 std::vector<Named> body_channels(const BodyInertia& body);
 void observe_body(const BodyInertia& body, const NodeState& node, std::span<double> values);
 
-/// The tensor from one moment (the same about all axes), three principal ones (about the global axes) or six entries
-/// Jxx Jyy Jzz Jxy Jyz Jzx (the tensor's: Jxy = −∫xy dm). Errors and warnings at `J`.
-std::optional<Mat3> inertia_tensor(const BuildContext& context, const std::vector<double>& values);
+/// What a card says of the mass of one body, or of the parts that make up one body: entry i of each list is part i.
+struct BodyParts {
+  std::vector<double> mass;
+  std::vector<Vec3> centers;   ///< of mass, in the reference configuration
+  std::vector<double> tensor;  ///< 1, 3 or 6 values for each part, as `read_tensor` takes them
+  std::vector<double> axes;    ///< six numbers for each part, or for all: first axis of its tensor, side of the second
+  std::vector<double> about;   ///< three numbers for each part, or for all: the point of its tensor; default: its centre
+};
+
+/// The parts as one body, its offset counted from `node`: the masses' centre, and each tensor turned into the global axes
+/// and moved to it (Steiner). Empty, with an error at the keyword, when the parts are none.
+std::optional<BodyInertia> one_body(const BuildContext& context, const BodyParts& parts, const Vec3& node);
 
 }  // namespace engrane

@@ -149,11 +149,34 @@ class RigidBody final : public Element {
   std::vector<Named> channels_;
 };
 
+/// The centre of each part's mass: CG, or the master.
+std::optional<std::vector<Vec3>> centers(const RigidBodyData& data, std::size_t parts, const BuildContext& context,
+                                         const Vec3& origin) {
+  std::vector<Vec3> all(parts, origin);
+  if (data.centers.empty()) return all;
+  if (data.centers.size() != 3 * parts) {
+    context.error("CG", fmt::format("CG has {} values, M has {}", data.centers.size(), data.mass.size()),
+                  "three coordinates for each mass");
+    return {};
+  }
+  for (std::size_t i = 0; i < parts; ++i) all[i] = Eigen::Map<const Vec3>(data.centers.data() + 3 * i);
+  return all;
+}
+
 std::unique_ptr<Element> build(const RigidBodyData& data, BuildContext& context) {
-  const auto tensor = inertia_tensor(context, data.tensor);
-  if (!check_nodes(context, data.nodes) || !tensor) return nullptr;
+  if (!check_nodes(context, data.nodes)) return nullptr;
   const int master = data.nodes[0];
-  const bool heavy = data.mass > 0 || !tensor->isZero(0);
+  const Vec3 origin = context.nodes.at(master);
+  const std::vector<double> masses = data.mass.empty() ? std::vector<double>{0} : data.mass;
+  if (!data.centers.empty() && std::all_of(masses.begin(), masses.end(), [](double m) { return m == 0; })) {
+    context.error("CG", "CG without mass", "give M, or leave CG out");
+    return nullptr;
+  }
+  const auto places = centers(data, masses.size(), context, origin);
+  if (!places) return nullptr;
+  const auto inertia = one_body(context, {masses, *places, data.tensor, data.axes, data.about}, origin);
+  if (!inertia) return nullptr;
+  const bool heavy = inertia->mass > 0 || !inertia->tensor.isZero(0);
   if (heavy && master == 0) {
     context.error("N", "the first node carries the inertia, and the ground cannot", "name a node of the model first");
     return nullptr;
@@ -162,18 +185,10 @@ std::unique_ptr<Element> build(const RigidBodyData& data, BuildContext& context)
     context.error("N", "a rigid body of one node without inertia does nothing", "name its other nodes, or give M and J");
     return nullptr;
   }
-  if (data.center && !(data.mass > 0)) {
-    context.error("CG", "CG without mass", "give M, or leave CG out");
-    return nullptr;
-  }
-  const Vec3 origin = context.nodes.at(master);
   std::vector<Vec3> offsets;
   for (const int node : data.nodes) offsets.push_back(context.nodes.at(node) - origin);
   std::unique_ptr<CarriedBody> body;
-  if (heavy) {
-    const Vec3 offset = data.center ? Vec3(to_vector(*data.center) - origin) : Vec3(Vec3::Zero());
-    body = std::make_unique<CarriedBody>(context.record.id, master, BodyInertia{data.mass, offset, *tensor});
-  }
+  if (heavy) body = std::make_unique<CarriedBody>(context.record.id, master, *inertia);
   return std::make_unique<RigidBody>(context.record.id, data.nodes, offsets, std::move(body));
 }
 
@@ -187,18 +202,29 @@ ElementType rigid_body_type() {
           "The first node is the master; every other node is held to it, in position and orientation, where it is in the "
           "reference configuration. M, J and CG give the body inertia: J about the centre of mass, in axes that are the "
           "global ones in the reference configuration (1, 3 or 6 values as for INERTIA); the centre of mass is at the "
-          "master unless CG says otherwise. The ground (0) among the nodes welds the body to it.")
+          "master unless CG says otherwise; AXES gives J other axes, ABOUT another point. Several masses behind M are parts "
+          "of the body, and the other keywords have then as many values for each; it moves as their sum. `engrane inertia "
+          "part.stl` finds mass, centre and tensor from a mesh. The ground (0) among the nodes welds the body to it.")
       .example("I 2 RIGID N 4 3")
-      .example("I 3 RIGID N 10 11 12 13  M 2.5  J 0.1 0.2 0.25  CG 0.5 0 0");
+      .example("I 3 RIGID N 10 11 12 13  M 2.5  J 0.1 0.2 0.25  CG 0.5 0 0")
+      .example("I 4 RIGID N 20 21  M 2.5 0.4  CG 0 0 0  0.5 0 0  J 0.1 0.2 0.25  0.01 0.01 0.02")
+      .example("I 5 RIGID N 20 21  M 2.5  CG 0.5 0 0  J 0.1 0.8 0.9  AXES 0 1 0 0 0 1  ABOUT 0 0 0");
   card.add("N", &RigidBodyData::nodes, "the nodes, the master first")
       .synonyms({"NODES", "NOEUDS"})
       .refers(deck::Reference::node)
       .required();
-  card.add("M", &RigidBodyData::mass, "mass").synonyms({"MASS", "MASSE"}).unit(dimension::mass).at_least(0);
-  card.add("J", &RigidBodyData::tensor, "moments of inertia about the centre of mass: 1, 3 or 6 values")
-      .values(1, 6)
+  card.add("M", &RigidBodyData::mass, "mass; several values: of the parts of the body")
+      .synonyms({"MASS", "MASSE"})
+      .unit(dimension::mass)
+      .at_least(0);
+  card.add("J", &RigidBodyData::tensor, "moments of inertia about the centre of mass: 1, 3 or 6 values, of each part")
       .unit(dimension::inertia);
-  card.add("CG", &RigidBodyData::center, "centre of mass, in the reference configuration").unit(dimension::length);
+  card.add("CG", &RigidBodyData::centers, "centre of mass, in the reference configuration, of each part").unit(dimension::length);
+  card.add("AXES", &RigidBodyData::axes,
+           "first axis of J, and a direction on the side of its second; of each part or of all; default: global x and y");
+  card.add("ABOUT", &RigidBodyData::about,
+           "the point about which J is, in the reference configuration; of each part or of all; default: its centre of mass")
+      .unit(dimension::length);
   return element_type(card, build);
 }
 

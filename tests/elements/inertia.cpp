@@ -108,6 +108,12 @@ TEST(Inertia, FaultsOfTheCard) {
   EXPECT_EQ(faults(data), Count(0, 0)) << "a rotor given by its polar moment";
   data.tensor = {1, 1, 1, 2, 0, 0};
   EXPECT_EQ(faults(data), Count(1, 0)) << "negative principal moment";
+  data.tensor = {1, 2, 2};
+  data.offset = {2, 0, 0};
+  data.about = {0, 0, 0};
+  EXPECT_EQ(faults(data), Count(1, 0)) << "less than m a2 about the node";
+  data.tensor = {1, 5, 5};
+  EXPECT_EQ(faults(data), Count(0, 0));
 }
 
 }  // namespace
