@@ -51,7 +51,7 @@ class Joint:
 
 
 def joint(scene: Scene, element: Element) -> Joint | None:
-    """The joint that an element is, or None. Places that the deck leaves out are found as the program does."""
+    """The joint that an element is, or None. Places not given are found as the program does."""
     kind = KINDS.get(element.type.upper())
     if kind is None or len(element.nodes) != 2:
         return None
