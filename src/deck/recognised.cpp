@@ -18,12 +18,11 @@ const std::vector<Recognised>& recognised_commands() {
       {".PHP", "physical properties of cells (thickness, section)", "give them in the .MCE record and remove .PHP"},
       {".BPR", "the library of beam profiles", "give the section in the .MCE record and remove .BPR"},
       {".AEL", "materials and properties of cells", "give them in the .MCE record and remove .AEL"},
-      {".LIA", "linear relations between displacements", "use the joints of .MCE and remove .LIA"},
       {".ASE", "assembly of super-elements", "remove .ASE"},
       {".STO", "storage of super-elements", "remove .STO"},
       {".CLT", "thermal conditions", "remove .CLT"},
       {".CLM PRE", "pressure on faces of cells", "give the resulting forces with CHA and remove PRE"},
-      {".CLM LIA", "linear relations between displacements", "use the joints of .MCE and remove LIA"},
+      {".CLM LIA", "linear relations between displacements", "write it as a record of .LIA"},
       {".DES", "drawing", ""},
       {".ALG", "settings of the solution algorithms", ""},
   };

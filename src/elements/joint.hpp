@@ -85,6 +85,9 @@ class Joint final : public TemplatedElement<Joint, 2, 18> {
   void observe(const State& state, std::span<double> values) const override;
   Drawing drawing() const override;
 
+  /// For elements that act on the joint's coordinates (joint_coordinate.hpp).
+  const JointParts& parts() const { return parts_; }
+
  private:
   static double driven_origin(const JointCoordinate& c) { return c.drive.rate_given ? c.origin : 0; }
 

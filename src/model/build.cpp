@@ -217,10 +217,25 @@ class Builder {
     for (const ElementType& type : types_) {
       if (type.stage != stage || record.schema->name != type.schema.name) continue;
       if (!check_references(record, diagnostics_)) return;
+      const bool command = type.schema.name.front() == '.';
+      if (command && taken(record)) return;
       BuildContext context = context_of(record, diagnostics_);
       if (auto element = type.build(context))
-        model_.parts.push_back({std::move(element), type.schema.name, deck::record_json(record), record.location, {}});
+        model_.parts.push_back(
+            {std::move(element), type.schema.name.substr(command ? 1 : 0), deck::record_json(record), record.location, {}});
     }
+  }
+
+  /// Results name elements by their numbers, so those of .MCE and of commands such as .LIA must differ.
+  bool taken(const deck::Record& record) {
+    const auto same = [&](const deck::Record& other) {
+      return &other != &record && other.id == record.id && other.schema->command() == ".MCE";
+    };
+    const auto other = std::find_if(deck_.records.begin(), deck_.records.end(), same);
+    if (other == deck_.records.end()) return false;
+    diagnostics_.error(record.location, fmt::format("number {} is that of {} {}", record.id, other->schema->name, other->id),
+                       "results name elements by their numbers: give another");
+    return true;
   }
 
   BuildContext context_of(const deck::Record& record, Diagnostics& diagnostics) {

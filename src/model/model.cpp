@@ -32,7 +32,8 @@ double Model::extent() const {
 deck::Catalogue catalogue(const std::vector<ElementType>& types) {
   deck::Catalogue all;
   for (const deck::Schema& command : deck::general_commands()) all.commands.push_back(&command);
-  for (const ElementType& type : types) all.elements.push_back(&type.schema);
+  // an element whose name is a command has records of its own, outside .MCE
+  for (const ElementType& type : types) (type.schema.name.front() == '.' ? all.commands : all.elements).push_back(&type.schema);
   return all;
 }
 

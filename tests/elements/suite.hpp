@@ -137,6 +137,7 @@ struct BuildOptions {
   Diagnostics* diagnostics = nullptr;  ///< without it, any fault of the card fails the test
   std::function<double(int, const Vec3&)> wheel_inertia = [](int, const Vec3&) { return 0.0; };
   int id = 1;
+  const std::vector<deck::Record>* records = nullptr;  ///< of the other elements
 };
 
 /// Builds an element from its card's struct, as a deck would.
