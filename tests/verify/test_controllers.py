@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Controllers against ordinary differential equations written apart from them (oracles/controlled.py): accuracy, second
+order in the step, statics, drives. The program is taken from the variable ENGRANE."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from oracles import controlled as oracle
+from runs import run
+
+MASS = 2.0
+FORCE = -15.0
+END = 1.0
+
+
+def reference(t: float) -> float:
+    return oracle.quintic(t, 0.0, 0.0, 0.5, 0.3)
+
+
+def deck(controller: str, step: float, more: str = "", analysis: str = "TYPE DYNAMIC RHO 0.8") -> str:
+    """A mass on a slide under a constant force, with one controller."""
+    return f""".NOE
+ I 1 X 0 0 0
+.MCE
+ I 1 PRISMATIC N 0 1 AXIS 0 0 1
+ I 2 INERTIA N 1 M {MASS} J 1 1 1
+ I 3 CONTROLLER IN 1 OUT 1 {controller}
+ I 4 FORCE N 1 DIR 0 0 1 V {FORCE}
+{more}
+.FCT
+ I 1 STEP 0 0 0.5 0.3
+ I 2 TABLE 0 1 1 1
+.SAM {analysis}
+.SUB TF {END} H {step}
+.FIN 1
+"""
+
+
+def errors(controller: str, exact: np.ndarray, folder: Path, steps: tuple[int, ...], more: str = "") -> list[float]:
+    """Largest error of the slide at ten times, for each number of steps."""
+    found = []
+    for count in steps:
+        history = run(deck(controller, END / count, more), folder, f"steps_{count}")
+        at = np.searchsorted(history.t, np.linspace(0.1, END, 10) - 1e-9)
+        found.append(float(np.abs(history["1/SLIDE"][at] - exact).max()))
+    return found
+
+
+def order(errors: list[float]) -> float:
+    return math.log2(errors[-2] / errors[-1])
+
+
+TIMES = np.concatenate([np.linspace(0.1, END, 10)])
+
+
+@pytest.mark.parametrize(
+    ("keywords", "law"),
+    [
+        ("KP 400 KI 900 KD 30 TF 0.02", oracle.Pid(400, 900, 30, 0.02)),
+        ("KP 400 KI 900 KD 30 TF 0.02 LIMITS -5 24", oracle.Pid(400, 900, 30, 0.02, -5, 24)),
+    ],
+    ids=["free", "limited"],
+)
+def test_pid_has_second_order(keywords: str, law: oracle.Pid, tmp_path: Path) -> None:
+    exact = oracle.pid_mass(TIMES, law, reference, MASS, FORCE)
+    found = errors(f"NF 1 {keywords}", exact, tmp_path, (500, 1000, 2000))
+    print(found)
+    assert found[-1] < 2e-6
+    assert order(found) > 1.8
+
+
+def test_transfer_function_has_second_order(tmp_path: Path) -> None:
+    exact = oracle.lead_mass(TIMES, reference, MASS)
+    more = f" I 5 FORCE N 1 DIR 0 0 1 V {-FORCE}"  # the lead alone
+    found = errors("NF 1 NUM 800 2000 DEN 1 40", exact, tmp_path, (500, 1000, 2000), more)
+    print(found)
+    assert found[-1] < 2e-6
+    assert order(found) > 1.8
+
+
+def test_statics_find_the_steady_state(tmp_path: Path) -> None:
+    """The integral takes the load and leaves no error; the derivative rests."""
+    history = run(deck("REF 0.25 KP 400 KI 900 KD 30", 0.5, analysis="TYPE STATIC"), tmp_path)
+    assert history["1/SLIDE"][-1] == pytest.approx(0.25, abs=1e-12)
+    assert history["3/EFFORT"][-1] == pytest.approx(-FORCE, rel=1e-12)
+    assert history["3/STATE_1"][-1] == pytest.approx(-FORCE, rel=1e-10)
+    # without the integral the error holds the load: a transfer function of steady gain 50
+    history = run(deck("REF 0.25 NUM 800 2000 DEN 1 40", 0.5, analysis="TYPE STATIC"), tmp_path)
+    assert history["1/SLIDE"][-1] == pytest.approx(0.25 + FORCE / 50, rel=1e-12)
+
+
+def test_start_static_stays(tmp_path: Path) -> None:
+    """From the equilibrium that statics finds, nothing moves."""
+    text = deck("REF 0.25 KP 400 KI 900 KD 30", 0.01, analysis="TYPE DYNAMIC RHO 0.8 START STATIC")
+    history = run(text, tmp_path)
+    assert np.abs(history["1/SLIDE"] - 0.25).max() < 1e-10
+    assert np.abs(history["3/EFFORT"] + FORCE).max() < 1e-8
+
+
+@pytest.mark.parametrize("kind", ["SPEED", "POSITION"])
+def test_drives(kind: str, tmp_path: Path) -> None:
+    """The load does not move a drive; its force is m a less the load. SPEED: tau x'' + x' = KP (r - x), both poles at
+    -4. POSITION: (tau d/dt + 1)^2 x = 0.3 of a constant gain."""
+    t = np.linspace(0.1, END, 10)
+    if kind == "SPEED":
+        keywords, rate = "REF 0.3 KP 2 DRIVE SPEED TAU 0.125", 4.0
+    else:
+        # a reference that the law does not feed back: measured on another, held, slide
+        keywords, rate = "", 5.0
+    if kind == "POSITION":
+        text = deck("", 1e-3).replace("IN 1 OUT 1", "IN 6 OUT 1 REF 0.3 KP 1 DRIVE POSITION TAU 0.2")
+        text = text.replace(".FCT\n", " I 6 SENSOR N 0 7 DISPLACEMENT AXIS 1 0 0\n.NOE\n I 7 X 1 0 0\n.FCT\n")
+    else:
+        text = deck(keywords, 1e-3)
+    history = run(text, tmp_path)
+    at = np.searchsorted(history.t, t - 1e-9)
+    exact = 0.3 * (1 - (1 + rate * t) * np.exp(-rate * t))
+    acceleration = 0.3 * rate**2 * (1 - rate * t) * np.exp(-rate * t)
+    assert np.abs(history["1/SLIDE"][at] - exact).max() < 2e-6
+    assert np.abs(history["3/EFFORT"][at] - (MASS * acceleration - FORCE)).max() < 1e-3
+
+
+def test_initial_states(tmp_path: Path) -> None:
+    """I0 and STATES start the law: an integral that carries the load from the first instant."""
+    history = run(deck(f"REF 0 KP 400 KI 900 I0 {-FORCE}", 0.01), tmp_path)
+    assert np.abs(history["1/SLIDE"]).max() < 1e-12
+    history = run(deck(f"REF 0 NUM 900 DEN 1 0 STATES {-FORCE}", 0.01), tmp_path)
+    assert np.abs(history["1/SLIDE"]).max() < 1e-12
+
+
+def test_robot_arm(tmp_path: Path) -> None:
+    """The deck of the arm with coarser steps, against Lagrange's equations: second order through the limits too."""
+    text = (Path(__file__).parents[2] / "decks/mechanisms/robot_arm.dat").read_text()
+    body = text[: text.index(".CHK")]
+    t = np.linspace(0.1, 1.4, 14)
+    exact = oracle.robot_arm(t)["angles"]
+    found = []
+    for step in ("0.004", "0.002", "0.001"):
+        history = run(body.replace("H 0.001\n.", f"H {step}\n.").replace("TF 1.4 H 0.001", f"TF 1.4 H {step}"), tmp_path)
+        at = np.searchsorted(history.t, t - 1e-9)
+        angles = np.array([history[f"{joint}/ANGLE"][at] for joint in (1, 2, 3)])
+        found.append(float(np.abs(angles - exact).max()))
+    print(found)
+    assert found[-1] < 5e-5
+    assert order(found) > 1.7
