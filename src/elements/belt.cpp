@@ -18,7 +18,7 @@ namespace {
 /// Sizes that do not change.
 struct BeltShape {
   double r1 = 0, r2 = 0;
-  double side = 1;  ///< 1 open, -1 crossed: the sense in which the second pulley turns
+  double side = 1;                                 ///< 1 open, -1 crossed: the sense in which the second pulley turns
   double reach() const { return r1 - side * r2; }  ///< the free spans leave the line of centres by asin(reach/distance)
 
   /// Length of belt, but for a constant, that one span and half its wraps take up: L + reach β with L = sqrt(d² − reach²),
@@ -205,8 +205,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
   /// Tensions of the two spans; `pull` gives the force along the gradient of `roll` where the belt is rigid.
   template <class T, class Pull>
   std::array<T, 2> tensions(const Runs<T>& runs, Pull pull) const {
-    if (!law_.rigid())
-      return {tension(runs.stretch(0), runs.stretch_rate(0)), tension(runs.stretch(1), runs.stretch_rate(1))};
+    if (!law_.rigid()) return {tension(runs.stretch(0), runs.stretch_rate(0)), tension(runs.stretch(1), runs.stretch_rate(1))};
     const T half = T(pull()) * 0.5;
     return {T(law_.preload - half), T(law_.preload + half)};
   }
@@ -232,7 +231,8 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
       channels_.push_back({"STRETCH_2", dimension::length, "stretch of the second span beyond its preload"});
     }
     if (law_.friction)
-      channels_.push_back({"GRIP_USED", dimension::none, "difference of the tensions over the most that friction holds; 1 slips"});
+      channels_.push_back(
+          {"GRIP_USED", dimension::none, "difference of the tensions over the most that friction holds; 1 slips"});
   }
 
   JointFrame frame_;
@@ -255,9 +255,10 @@ std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {
     return nullptr;
   }
   if (distance <= least || distance <= std::max(shape.r1, shape.r2)) {
-    context.error("R", fmt::format("the pulleys are {:.6g} apart: no belt runs {} them", distance,
-                                   data.crossed ? "crossed between" : "between"),
-                  fmt::format("a distance of more than {:.6g} is needed", std::max({least, shape.r1, shape.r2})));
+    context.error(
+        "R",
+        fmt::format("the pulleys are {:.6g} apart: no belt runs {} them", distance, data.crossed ? "crossed between" : "between"),
+        fmt::format("a distance of more than {:.6g} is needed", std::max({least, shape.r1, shape.r2})));
     return nullptr;
   }
   if (data.stiffness && data.rigidity) {
@@ -289,7 +290,8 @@ ElementType belt_type() {
       .chapter("Flexible joints")
       .describe(
           "The pulleys are at the nodes, with radii R and parallel axes. The belt runs open, or CROSSED, which turns the second "
-          "pulley the other way. With K or EA the free spans are elastic, each pulls along its own tangent and a slack one does not "
+          "pulley the other way. With K or EA the free spans are elastic, each pulls along its own tangent and a slack one does "
+          "not "
           "push; the centre distance may change. Without them the belt only holds the ratio of the turns, each span pulling with "
           "PRELOAD and half the difference.")
       .example("I 5 BELT N 1 2  AXIS 0 0 1  R 0.05 0.12  EA 2D5  PRELOAD 300  C 40  MU 0.4")
@@ -299,7 +301,10 @@ ElementType belt_type() {
       .refers(deck::Reference::node)
       .required();
   card.add("AXIS", &BeltData::axis, "axis of the pulleys, in the reference configuration").synonyms({"AXE"}).required();
-  card.add("R", &BeltData::radii, "radii of the pulleys, to the middle of the belt").unit(dimension::length).positive().required();
+  card.add("R", &BeltData::radii, "radii of the pulleys, to the middle of the belt")
+      .unit(dimension::length)
+      .positive()
+      .required();
   card.add("CROSSED", &BeltData::crossed, "the belt is crossed").synonyms({"CROISEE"});
   card.add("K", &BeltData::stiffness, "stiffness of one free span").unit(dimension::stiffness).positive();
   card.add("EA", &BeltData::rigidity, "force per strain; the stiffness of a span is EA over its length")

@@ -78,8 +78,8 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
     if (output_law_.kind == ControllerOutput::Kind::speed)
       balance.scalar(law_.order(), lag * motion.scalar_acceleration[p] + motion.scalar_rate[p] - limited);
     else
-      balance.scalar(law_.order(), lag * lag * motion.scalar_acceleration[p] + 2 * lag * motion.scalar_rate[p] +
-                                       motion.scalar[p] - limited);
+      balance.scalar(law_.order(),
+                     lag * lag * motion.scalar_acceleration[p] + 2 * lag * motion.scalar_rate[p] + motion.scalar[p] - limited);
     output_.act(out, balance.constraint(0, out.measured.value - motion.scalar[p]), motion.node, balance);
   }
 
@@ -171,8 +171,7 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
   }
   double effort(const State& state) const {
     if (output_law_.kind == ControllerOutput::Kind::effort) return limit(command(state));
-    const double open =
-        output_.read<double>(state.nodes, state).measured.value - state.scalars[at(law_.order())];
+    const double open = output_.read<double>(state.nodes, state).measured.value - state.scalars[at(law_.order())];
     return state.multipliers[0] - state.penalty * open;
   }
 
@@ -191,9 +190,9 @@ std::optional<ControllerInput> read_input(const ControllerData& data, const Buil
   if (!find_function(context, data.function, input.function) || !coordinate) return {};
   input.coordinate = *coordinate;
   input.speed = data.quantity.is("SPEED");
+  const double unit = coordinate->is_angle() && !input.speed ? degree : 1;
   // a function alone is the reference itself
-  const bool alone = data.function != 0 && !context.record.given("REF");
-  input.reference = alone ? 1 : data.reference * (coordinate->is_angle() && !input.speed ? degree : 1);
+  input.reference = data.reference ? *data.reference * unit : data.function != 0 ? 1 : 0;
   return input;
 }
 
@@ -210,7 +209,8 @@ std::optional<ControllerOutput> read_output(const ControllerData& data, const Bu
     output.kind = data.drive.is("SPEED") ? ControllerOutput::Kind::speed : ControllerOutput::Kind::position;
     output.lag = *data.lag;
   } else if (data.lag) {
-    context.error("TAU", "TAU without DRIVE", "a force or torque follows the command at once; DRIVE SPEED TAU t imposes a motion");
+    context.error("TAU", "TAU without DRIVE",
+                  "a force or torque follows the command at once; DRIVE SPEED TAU t imposes a motion");
     return {};
   }
   if (!data.limits.empty()) {
@@ -227,10 +227,9 @@ std::optional<ControllerOutput> read_output(const ControllerData& data, const Bu
 
 /// Is the card one law, and a whole one?
 bool check_law(const ControllerData& data, const BuildContext& context) {
-  const auto& given = context.record;
-  const bool transfer = given.given("NUM") || given.given("DEN");
+  const bool transfer = !data.numerator.empty() || !data.denominator.empty();
   for (const char* keyword : {"KP", "KI", "KD", "TF", "I0", "TT"})
-    if (transfer && given.given(keyword)) {
+    if (transfer && context.record.given(keyword)) {
       context.error(keyword, fmt::format("{} belongs to a PID law, and NUM and DEN give a transfer function", keyword),
                     "keep one of the two");
       return false;
@@ -327,9 +326,11 @@ ElementType controller_type() {
   card.numbered()
       .chapter("Control and computation elements")
       .describe(
-          "It measures the coordinate of a joint or SENSOR (IN), compares it with the reference and acts along the coordinate of a "
+          "It measures the coordinate of a joint or SENSOR (IN), compares it with the reference and acts along the coordinate of "
+          "a "
           "joint or SENSOR (OUT): with a force or torque, or, with DRIVE, by imposing its motion. The reference is REF times the "
-          "function NF, or the function alone (radians). The law is KP e + KI (integral of e) + KD (derivative of e), the derivative "
+          "function NF, or the function alone (radians). The law is KP e + KI (integral of e) + KD (derivative of e), the "
+          "derivative "
           "through a filter of time constant TF; or the transfer function NUM/DEN, coefficients from the highest power down.")
       .example("I 9 CONTROLLER IN 3  NF 1  KP 200  KI 50  KD 12  TF 2D-3  OUT 3  LIMITS -80 80")
       .example("I 9 CONTROLLER IN 20  REF 0.5  NUM 40 8  DEN 1 30  OUT 20")
@@ -344,8 +345,10 @@ ElementType controller_type() {
       .synonyms({"GRANDEUR"})
       .option({"VALUE", {"VALEUR"}, "the coordinate itself"})
       .option({"SPEED", {"VITESSE"}, "its rate"});
-  card.add("REF", &ControllerData::reference, "reference; degrees for an angle, radians per time for its rate").synonyms({"REFERENCE"});
-  card.add("NF", &ControllerData::function, "function of time that multiplies REF; alone it is the reference, in radians for an angle")
+  card.add("REF", &ControllerData::reference, "reference; degrees for an angle, radians per time for its rate")
+      .synonyms({"REFERENCE"});
+  card.add("NF", &ControllerData::function,
+           "function of time that multiplies REF; alone it is the reference, in radians for an angle")
       .refers(deck::Reference::function)
       .at_least(0);
   card.add("KP", &ControllerData::proportional, "gain of the error");
@@ -371,7 +374,9 @@ ElementType controller_type() {
       .synonyms({"MOTEUR"})
       .option({"SPEED", {"VITESSE"}, "the command is the speed"})
       .option({"POSITION", {}, "the command is the position"});
-  card.add("TAU", &ControllerData::lag, "time constant with which the drive follows the command").unit(dimension::time).positive();
+  card.add("TAU", &ControllerData::lag, "time constant with which the drive follows the command")
+      .unit(dimension::time)
+      .positive();
   return element_type(card, build);
 }
 

@@ -14,9 +14,9 @@ namespace engrane {
 struct ControllerData {
   int input = 0;
   std::string coordinate;
-  deck::Tagged quantity;    ///< VALUE or SPEED
-  double reference = 0;     ///< degrees where the input is an angle; 1 radian where a function is given alone
-  int function = 0;         ///< multiplies the reference
+  deck::Tagged quantity;            ///< VALUE or SPEED
+  std::optional<double> reference;  ///< degrees where the input is an angle; with a function alone: 1 radian
+  int function = 0;                 ///< multiplies the reference
   double proportional = 0, integral = 0, derivative = 0;
   std::optional<double> filter, integral_start, tracking;
   std::vector<double> numerator, denominator, states;

@@ -29,8 +29,8 @@ class Coupling final : public TemplatedElement<Coupling, 4, 25> {
   void evaluate(const Motion<T, 4>& motion, const State& state, Balance<T, 4>& balance) const {
     const auto first = first_.read<T>(motion.node, state), second = second_.read<T>(motion.node, state);
     const T apart = second.measured.value - law_.ratio * first.measured.value - law_.offset;
-    const T effort = law_.elastic() ? T(-law_.k() * apart - law_.c() * (second.rate - law_.ratio * first.rate))
-                                    : balance.constraint(0, apart);
+    const T effort =
+        law_.elastic() ? T(-law_.k() * apart - law_.c() * (second.rate - law_.ratio * first.rate)) : balance.constraint(0, apart);
     second_.act(second, effort, motion.node, balance);
     first_.act(first, T(-law_.ratio * effort), motion.node, balance);
   }
@@ -66,8 +66,8 @@ class Coupling final : public TemplatedElement<Coupling, 4, 25> {
   Coupling(int id, const Coordinate& first, const Coordinate& second, const Law& law, Layout layout)
       : TemplatedElement(id), law_(law), first_(first, layout), second_(second, layout) {
     if (!law.elastic())
-      layout.multipliers = {{"EFFORT_2", second.dimension(), second.is_angle() ? "moment along the second coordinate"
-                                                                               : "force along the second coordinate"}};
+      layout.multipliers = {{"EFFORT_2", second.dimension(),
+                             second.is_angle() ? "moment along the second coordinate" : "force along the second coordinate"}};
     set_layout(std::move(layout));
     channels_ = {{"COORDINATE_1", first.dimension(), "the first coordinate"},
                  {"COORDINATE_2", second.dimension(), "the second coordinate"},
@@ -81,8 +81,8 @@ class Coupling final : public TemplatedElement<Coupling, 4, 25> {
   };
   Apart apart(const State& state) const {
     const auto first = first_.read<double>(state.nodes, state), second = second_.read<double>(state.nodes, state);
-    return {first.measured.value, second.measured.value,
-            second.measured.value - law_.ratio * first.measured.value - law_.offset, second.rate - law_.ratio * first.rate};
+    return {first.measured.value, second.measured.value, second.measured.value - law_.ratio * first.measured.value - law_.offset,
+            second.rate - law_.ratio * first.rate};
   }
 
   Law law_;
@@ -111,8 +111,10 @@ ElementType coupling_type() {
   card.numbered()
       .chapter("Special boundary conditions and multi-point constraints")
       .describe(
-          "q2 = RATIO q1 + OFFSET, where q1 and q2 are coordinates of the joints named by JOINTS: angles in radians, slides in the "
-          "deck's length. So the RATIO of a slide to an angle is the advance per radian. The relation is exact; with K or C it is "
+          "q2 = RATIO q1 + OFFSET, where q1 and q2 are coordinates of the joints named by JOINTS: angles in radians, slides in "
+          "the "
+          "deck's length. So the RATIO of a slide to an angle is the advance per radian. The relation is exact; with K or C it "
+          "is "
           "elastic. A joint with several coordinates takes its first unless FIRST or SECOND names another.")
       .example("I 7 COUPLING JOINTS 3 5  RATIO -2.5")
       .example("I 8 COUPLING JOINTS 3 6  RATIO (0.005/(2*PI))  SECOND SLIDE  K 1D7  C 200");
@@ -121,7 +123,8 @@ ElementType coupling_type() {
       .refers(deck::Reference::element)
       .required();
   card.add("RATIO", &CouplingData::ratio, "of the second coordinate to the first").synonyms({"RAPPORT"}).required();
-  card.add("OFFSET", &CouplingData::offset, "second coordinate where the first is 0; degrees for an angle").synonyms({"DECALAGE"});
+  card.add("OFFSET", &CouplingData::offset, "second coordinate where the first is 0; degrees for an angle")
+      .synonyms({"DECALAGE"});
   card.add("FIRST", &CouplingData::first, "coordinate of the first joint, as its channel is named").synonyms({"PREMIER"});
   card.add("SECOND", &CouplingData::second, "coordinate of the second joint").synonyms({"DEUXIEME"});
   card.add("K", &CouplingData::stiffness, "stiffness on the second coordinate: per length, or per radian").at_least(0);

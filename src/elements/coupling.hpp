@@ -11,10 +11,10 @@ namespace engrane {
 
 /// Card of a coupling. `COUPLING JOINTS i j RATIO r [OFFSET o] [FIRST name] [SECOND name] [K k C c]`
 struct CouplingData {
-  std::array<int, 2> joints{};  ///< element ids
-  double ratio = 1;             ///< of the second coordinate to the first, radians for angles
-  double offset = 0;            ///< of the second coordinate, degrees for an angle
-  std::string first, second;    ///< names of the coordinates; empty: the first of the joint
+  std::array<int, 2> joints{};               ///< element ids
+  double ratio = 1;                          ///< of the second coordinate to the first, radians for angles
+  double offset = 0;                         ///< of the second coordinate, degrees for an angle
+  std::string first, second;                 ///< names of the coordinates; empty: the first of the joint
   std::optional<double> stiffness, damping;  ///< on the second coordinate; without both the relation is exact
 };
 

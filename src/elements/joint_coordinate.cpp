@@ -6,8 +6,6 @@
 
 #include <algorithm>
 
-#include "elements/building.hpp"
-#include "elements/hinge.hpp"
 #include "elements/joint_card.hpp"
 #include "elements/sensor.hpp"
 
@@ -42,9 +40,22 @@ namespace {
 
 std::vector<Coordinate> coordinates_of(const JointParts& parts) {
   std::vector<Coordinate> all;
-  for (const JointCoordinate& c : parts.coordinates)
-    all.push_back({c.name, parts.nodes, parts.frame, c.measure, parts.point});
+  for (const JointCoordinate& c : parts.coordinates) all.push_back({c.name, parts.nodes, parts.frame, c.measure, parts.point});
   return all;
+}
+
+/// HINGE is an element of its own kind: its angle from its card.
+Coordinate hinge_angle(const deck::Record& record) {
+  const auto numbers = [&record](std::string_view keyword) { return record.schema->find(keyword)->load(record.data).numbers; };
+  const auto nodes = numbers("N"), axis = numbers("AXIS");
+  const AxisTriad triad(Vec3(axis[0], axis[1], axis[2]).normalized());
+  Coordinate c;
+  c.name = "ANGLE";
+  c.nodes = {static_cast<int>(nodes[0]), static_cast<int>(nodes[1])};
+  c.frame.e1 = triad.e1;
+  c.frame.e2 = triad.e2;
+  c.frame.e3 = triad.e3;
+  return c;
 }
 
 /// The coordinates of the element that a record describes. Its own faults are its own to report: `faulty` then.
@@ -56,24 +67,12 @@ std::vector<Coordinate> coordinates_of(const BuildContext& context, const deck::
     faulty = !coordinate;
     return coordinate ? std::vector{*coordinate} : std::vector<Coordinate>{};
   }
-  if (const auto* hinge = record.get<HingeData>()) {
-    const auto axis = unit_vector(other, "AXIS", hinge->axis);
-    faulty = !axis;
-    if (!axis) return {};
-    const AxisTriad triad(*axis);
-    Coordinate c;
-    c.name = "ANGLE";
-    c.nodes = hinge->nodes;
-    c.frame.e1 = triad.e1;
-    c.frame.e2 = triad.e2;
-    c.frame.e3 = triad.e3;
-    return {c};
-  }
   for (const ElementType& type : element_types()) {
     if (type.schema.name != record.schema->name) continue;
     const auto element = type.build(other);
     faulty = !element;
     if (const auto* joint = dynamic_cast<const Joint*>(element.get())) return coordinates_of(joint->parts());
+    if (element && record.schema->name == "HINGE") return {hinge_angle(record)};
   }
   return {};
 }

@@ -16,18 +16,20 @@
 namespace engrane {
 
 struct Coordinate {
-  std::string name;             ///< channel of its element: ANGLE, SLIDE
-  std::array<int, 2> nodes{};   ///< a and b
+  std::string name;            ///< channel of its element: ANGLE, SLIDE
+  std::array<int, 2> nodes{};  ///< a and b
   JointFrame frame;
   Measure what = Measure::angle;
-  Vec3 point = Vec3::Zero();    ///< for pictures
+  Vec3 point = Vec3::Zero();  ///< for pictures
 
   bool is_angle() const { return what == Measure::angle || what == Measure::pin_a || what == Measure::pin_b; }
   Dimension dimension() const { return is_angle() ? dimension::angle : dimension::length; }
   Dimension rate_dimension() const { return is_angle() ? dimension::angular_velocity : dimension::velocity; }
   Dimension effort_dimension() const { return is_angle() ? dimension::moment : dimension::force; }
   int history() const { return is_angle() ? turn_count::history : 0; }
-  NodeNeed need(std::size_t end) const { return (end == 0 ? frame.turns_a : frame.turns_b) ? NodeNeed::both : NodeNeed::translation; }
+  NodeNeed need(std::size_t end) const {
+    return (end == 0 ? frame.turns_a : frame.turns_b) ? NodeNeed::both : NodeNeed::translation;
+  }
 
   /// Value with its gradient and rate. `committed` is the piece of the element's history that counts its turns.
   template <class T, class Node>

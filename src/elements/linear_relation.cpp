@@ -187,7 +187,8 @@ ElementType linear_relation_type() {
       .describe(
           "The sum of A times the displacements (C 1 to 3) or rotations (C 4 to 6) is V, times the function NF of time: "
           "`NOEUD 3 4 C 1 1 A 2. -1.` means 2 u3 - u4 = 0. A rotation is the turn about a global axis, in radians, whole turns "
-          "counted; it is what one expects of nodes that turn about that axis, as in a HINGE. The number must differ from those of "
+          "counted; it is what one expects of nodes that turn about that axis, as in a HINGE. The number must differ from those "
+          "of "
           "the elements of `.MCE`: results name it by it.")
       .example(".LIA\n I 1 NOEUD 3 4 C 1 1 A 2. -1.\n I 2 NOEUD 5 6 C 6 6 A 1. 3.  V 0.1 NF 2");
   card.add("NOEUD", &LinearRelationData::nodes, "the node of each term")
@@ -202,7 +203,9 @@ ElementType linear_relation_type() {
       .required();
   card.add("A", &LinearRelationData::coefficients, "the coefficient of each term").synonyms({"COEFFICIENTS"}).required();
   card.add("V", &LinearRelationData::value, "value of the sum; rotations in radians").synonyms({"VAL"});
-  card.add("NF", &LinearRelationData::function, "function of time that multiplies V").refers(deck::Reference::function).at_least(0);
+  card.add("NF", &LinearRelationData::function, "function of time that multiplies V")
+      .refers(deck::Reference::function)
+      .at_least(0);
   return element_type(card, build);
 }
 

@@ -139,8 +139,8 @@ TEST(ControlLaw, IsItsTransferFunction) {
 
 /// Steady at the start: with the reference of the start and any constant measured value, no state moves.
 TEST(ControlLaw, StartsSteady) {
-  for (const ControlLaw& law : {ControlLaw::pid({7, 0, 2, 0.3, 0}, 0.4, true),
-                                ControlLaw::transfer_function({2, 1, 5}, {0.5, 2, 3, 4}, 0.4, true, {})}) {
+  for (const ControlLaw& law :
+       {ControlLaw::pid({7, 0, 2, 0.3, 0}, 0.4, true), ControlLaw::transfer_function({2, 1, 5}, {0.5, 2, 3, 4}, 0.4, true, {})}) {
     EXPECT_LT((law.A * law.start + law.b_r * 0.4).norm(), 1e-12);
     EXPECT_EQ(law.b_m.norm(), 0);
   }

@@ -27,7 +27,9 @@ Subject subject(const std::string& name, const LinearRelationData& data) {
   Subject s;
   s.name = name;
   s.nodes = places;
-  s.build = [=](const Mat3& Q) { return build(linear_relation_type(), data, turned(places, Q), {.functions = &joint_functions()}); };
+  s.build = [=](const Mat3& Q) {
+    return build(linear_relation_type(), data, turned(places, Q), {.functions = &joint_functions()});
+  };
   s.force = 5;
   s.step = 3e-4;
   s.tolerance = 1e-7;

@@ -182,7 +182,7 @@ std::unique_ptr<Element> build_record(const ElementType& type, std::any data, co
   record.data = std::move(data);
   Diagnostics own;
   Diagnostics& diagnostics = options.diagnostics ? *options.diagnostics : own;
-  BuildContext context{nodes, options.functions ? *options.functions : none, diagnostics, record, options.wheel_inertia,
+  BuildContext context{nodes,          options.functions ? *options.functions : none, diagnostics, record, options.wheel_inertia,
                        options.records};
   auto element = type.build(context);
   for (const Diagnostic& d : own.all())

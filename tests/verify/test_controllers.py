@@ -51,35 +51,41 @@ def errors(controller: str, exact: np.ndarray, folder: Path, steps: tuple[int, .
 
 
 def order(errors: list[float]) -> float:
-    return math.log2(errors[-2] / errors[-1])
+    """Over all halvings of the step."""
+    return math.log2(errors[0] / errors[-1]) / (len(errors) - 1)
 
 
-TIMES = np.concatenate([np.linspace(0.1, END, 10)])
+TIMES = np.linspace(0.1, END, 10)
 
 
 @pytest.mark.parametrize(
-    ("keywords", "law"),
-    [
-        ("KP 400 KI 900 KD 30 TF 0.02", oracle.Pid(400, 900, 30, 0.02)),
-        ("KP 400 KI 900 KD 30 TF 0.02 LIMITS -5 24", oracle.Pid(400, 900, 30, 0.02, -5, 24)),
-    ],
+    ("limits", "steps", "least"),
+    [((-math.inf, math.inf), (500, 1000), 1.95), ((-5, 24), (700, 1400, 2800), 1.6)],
     ids=["free", "limited"],
 )
-def test_pid_has_second_order(keywords: str, law: oracle.Pid, tmp_path: Path) -> None:
+def test_pid_has_second_order(
+    limits: tuple[float, float], steps: tuple[int, ...], least: float, tmp_path: Path
+) -> None:
+    """Free: errors 5.5e-6, 1.4e-6. Limited, both limits are met and left: the kinks fall anywhere in a step, so the
+    error falls unevenly, 1.42e-5, 4.5e-6, 1.36e-6 and 3.5e-7 with 5600 steps."""
+    law = oracle.Pid(400, 900, 30, 0.02, *limits)
     exact = oracle.pid_mass(TIMES, law, reference, MASS, FORCE)
-    found = errors(f"NF 1 {keywords}", exact, tmp_path, (500, 1000, 2000))
+    keywords = "NF 1 KP 400 KI 900 KD 30 TF 0.02"
+    if math.isfinite(limits[0]):
+        keywords += f" LIMITS {limits[0]} {limits[1]}"
+    found = errors(keywords, exact, tmp_path, steps)
     print(found)
     assert found[-1] < 2e-6
-    assert order(found) > 1.8
+    assert order(found) > least
 
 
 def test_transfer_function_has_second_order(tmp_path: Path) -> None:
     exact = oracle.lead_mass(TIMES, reference, MASS)
     more = f" I 5 FORCE N 1 DIR 0 0 1 V {-FORCE}"  # the lead alone
-    found = errors("NF 1 NUM 800 2000 DEN 1 40", exact, tmp_path, (500, 1000, 2000), more)
+    found = errors("NF 1 NUM 800 2000 DEN 1 40", exact, tmp_path, (500, 1000), more)
     print(found)
     assert found[-1] < 2e-6
-    assert order(found) > 1.8
+    assert order(found) > 1.95
 
 
 def test_statics_find_the_steady_state(tmp_path: Path) -> None:
@@ -107,15 +113,11 @@ def test_drives(kind: str, tmp_path: Path) -> None:
     -4. POSITION: (tau d/dt + 1)^2 x = 0.3 of a constant gain."""
     t = np.linspace(0.1, END, 10)
     if kind == "SPEED":
-        keywords, rate = "REF 0.3 KP 2 DRIVE SPEED TAU 0.125", 4.0
+        rate, text = 4.0, deck("REF 0.3 KP 2 DRIVE SPEED TAU 0.125", 1e-3)
     else:
-        # a reference that the law does not feed back: measured on another, held, slide
-        keywords, rate = "", 5.0
-    if kind == "POSITION":
-        text = deck("", 1e-3).replace("IN 1 OUT 1", "IN 6 OUT 1 REF 0.3 KP 1 DRIVE POSITION TAU 0.2")
-        text = text.replace(".FCT\n", " I 6 SENSOR N 0 7 DISPLACEMENT AXIS 1 0 0\n.NOE\n I 7 X 1 0 0\n.FCT\n")
-    else:
-        text = deck(keywords, 1e-3)
+        # measured on a node that is held: the command does not come back to the reference
+        held = " I 6 SENSOR N 7 DISPLACEMENT AXIS 1 0 0\n.NOE\n I 7 X 1 0 0\n.CLM\n FIX NOEUD 7 C 1 2 3"
+        rate, text = 5.0, deck("REF 0.3 KP 1 DRIVE POSITION TAU 0.2", 1e-3, held).replace("IN 1 OUT", "IN 6 OUT")
     history = run(text, tmp_path)
     at = np.searchsorted(history.t, t - 1e-9)
     exact = 0.3 * (1 - (1 + rate * t) * np.exp(-rate * t))
