@@ -8,8 +8,7 @@
 #include <numbers>
 
 #include "elements/building.hpp"
-#include "elements/joint_measures.hpp"
-#include "model/templated_element.hpp"
+#include "elements/joint_coordinate.hpp"
 
 namespace engrane {
 
@@ -276,9 +275,7 @@ std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {
     return nullptr;
   }
   JointFrame frame;
-  frame.e1 = *axis;
-  frame.e2 = across / distance;
-  frame.e3 = cross(frame.e1, frame.e2);
+  set_axes(frame, *axis, across / distance);
   return std::make_unique<Belt>(context.record.id, data.nodes, frame, shape, law, distance);
 }
 

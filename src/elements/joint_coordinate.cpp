@@ -52,9 +52,7 @@ Coordinate hinge_angle(const deck::Record& record) {
   Coordinate c;
   c.name = "ANGLE";
   c.nodes = {static_cast<int>(nodes[0]), static_cast<int>(nodes[1])};
-  c.frame.e1 = triad.e1;
-  c.frame.e2 = triad.e2;
-  c.frame.e3 = triad.e3;
+  set_axes(c.frame, triad.e1, triad.e2);
   return c;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,13 @@
 #include "model/templated_element.hpp"
 
 namespace engrane {
+
+/// The axes that both nodes carry, from two perpendicular unit vectors.
+inline void set_axes(JointFrame& frame, const Vec3& first, const Vec3& second) {
+  frame.e1 = first;
+  frame.e2 = second;
+  frame.e3 = cross(first, second);
+}
 
 struct Coordinate {
   std::string name;            ///< channel of its element: ANGLE, SLIDE
@@ -32,18 +40,17 @@ struct Coordinate {
   }
 
   /// Value with its gradient and rate. `committed` is the piece of the element's history that counts its turns.
-  template <class T, class Node>
+  template <class T>
   struct Reading {
     JointPose<T> pose;
     Measured<T> measured;
     T rate;
   };
   template <class T, class Node>
-  Reading<T, Node> read(const Node& a, const Node& b, std::span<const double> committed) const {
+  Reading<T> read(const Node& a, const Node& b, std::span<const double> committed) const {
     const JointPose<T> pose(frame, a, b);
-    double turns = 0;
-    if (is_angle()) turns = turn_count::turns(value_of(measure(what, frame, pose, 0).value), committed);
-    const Measured<T> m = measure(what, frame, pose, turns);
+    Measured<T> m = measure(what, frame, pose, 0);
+    if (is_angle()) m.value += 2 * std::numbers::pi * turn_count::turns(value_of(m.value), committed);
     const auto spin = [](bool turning, const Node& node) {
       return turning ? Vec3T<T>(rotate(node.R, node.W)) : Vec3T<T>(T(0), T(0), T(0));
     };
@@ -55,7 +62,7 @@ struct Coordinate {
   /// Acts on the ends, nodes `ia` and `ib` of the element, with an effort along the coordinate: a force on a length, a moment
   /// on an angle, positive where it makes the coordinate grow. Nothing is left over for the ground.
   template <class T, class Node, int Nodes>
-  void act(const Reading<T, Node>& reading, const T& effort, const Node& a, const Node& b, int ia, int ib,
+  void act(const Reading<T>& reading, const T& effort, const Node& a, const Node& b, int ia, int ib,
            Balance<T, Nodes>& balance) const {
     const Vec3T<T> force = reading.measured.force * effort, moment = reading.measured.moment * effort;
     const JointPose<T>& pose = reading.pose;

@@ -133,7 +133,7 @@ std::unique_ptr<Element> build(const LinearRelationData& data, BuildContext& con
   const std::size_t count = data.nodes.size();
   const auto fits = [&](std::string_view keyword, std::size_t given) {
     if (given == count) return true;
-    context.error(keyword, fmt::format("{} values of {} for {} nodes", given, keyword, count),
+    context.error(keyword, fmt::format("NOEUD names {} terms, {} gives {}", count, keyword, given),
                   "give each term its node, component and coefficient; a node may be named again");
     return false;
   };

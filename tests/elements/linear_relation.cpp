@@ -83,7 +83,7 @@ TEST(LinearRelation, FaultsOfTheCard) {
     EXPECT_EQ(build(linear_relation_type(), data, places, {.diagnostics = &diagnostics}), nullptr);
     return diagnostics.all().empty() ? std::string() : diagnostics.all().front().message;
   };
-  EXPECT_EQ(message(relation({1, 2}, {1}, {1, 1})), "1 values of C for 2 nodes");
+  EXPECT_EQ(message(relation({1, 2}, {1}, {1, 1})), "NOEUD names 2 terms, C gives 1");
   EXPECT_EQ(message(relation({1, 2}, {1, 1}, {1, 0})), "the coefficient of node 2 is 0");
   EXPECT_EQ(message(relation({1, 1}, {1, 1}, {1, 2})), "component 1 of node 1 is named twice");
 }

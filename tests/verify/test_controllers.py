@@ -40,7 +40,9 @@ def deck(controller: str, step: float, more: str = "", analysis: str = "TYPE DYN
 """
 
 
-def errors(controller: str, exact: np.ndarray, folder: Path, steps: tuple[int, ...], more: str = "") -> list[float]:
+def errors(
+    controller: str, exact: np.ndarray, folder: Path, steps: tuple[int, ...], more: str = ""
+) -> list[float]:
     """Largest error of the slide at ten times, for each number of steps."""
     found = []
     for count in steps:
@@ -117,7 +119,10 @@ def test_drives(kind: str, tmp_path: Path) -> None:
     else:
         # measured on a node that is held: the command does not come back to the reference
         held = " I 6 SENSOR N 7 DISPLACEMENT AXIS 1 0 0\n.NOE\n I 7 X 1 0 0\n.CLM\n FIX NOEUD 7 C 1 2 3"
-        rate, text = 5.0, deck("REF 0.3 KP 1 DRIVE POSITION TAU 0.2", 1e-3, held).replace("IN 1 OUT", "IN 6 OUT")
+        rate, text = (
+            5.0,
+            deck("REF 0.3 KP 1 DRIVE POSITION TAU 0.2", 1e-3, held).replace("IN 1 OUT", "IN 6 OUT"),
+        )
     history = run(text, tmp_path)
     at = np.searchsorted(history.t, t - 1e-9)
     exact = 0.3 * (1 - (1 + rate * t) * np.exp(-rate * t))
@@ -142,7 +147,9 @@ def test_robot_arm(tmp_path: Path) -> None:
     exact = oracle.robot_arm(t)["angles"]
     found = []
     for step in ("0.004", "0.002", "0.001"):
-        history = run(body.replace("H 0.001\n.", f"H {step}\n.").replace("TF 1.4 H 0.001", f"TF 1.4 H {step}"), tmp_path)
+        history = run(
+            body.replace("H 0.001\n.", f"H {step}\n.").replace("TF 1.4 H 0.001", f"TF 1.4 H {step}"), tmp_path
+        )
         at = np.searchsorted(history.t, t - 1e-9)
         angles = np.array([history[f"{joint}/ANGLE"][at] for joint in (1, 2, 3)])
         found.append(float(np.abs(angles - exact).max()))

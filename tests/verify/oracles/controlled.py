@@ -50,7 +50,9 @@ def solve(rhs: Callable, start: list[float], t: np.ndarray, longest: float = mat
     return done.y
 
 
-def pid_mass(t: np.ndarray, law: Pid, reference: Callable[[float], float], mass: float, force: float) -> np.ndarray:
+def pid_mass(
+    t: np.ndarray, law: Pid, reference: Callable[[float], float], mass: float, force: float
+) -> np.ndarray:
     """Position of a mass under a constant force, from rest at 0; the integral starts from 0."""
 
     def rhs(time: float, y: np.ndarray) -> list[float]:
