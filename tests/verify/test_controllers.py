@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Controllers against ordinary differential equations written apart from them (oracles/controlled.py): accuracy, second
-order in the step, statics, drives. The program is taken from the variable ENGRANE."""
+"""Controllers against ordinary differential equations written apart from them (oracles/controlled.py):
+accuracy, second order in the step, statics, drives. The program is taken from the variable ENGRANE."""
 
 from __future__ import annotations
 
@@ -68,8 +68,8 @@ TIMES = np.linspace(0.1, END, 10)
 def test_pid_has_second_order(
     limits: tuple[float, float], steps: tuple[int, ...], least: float, tmp_path: Path
 ) -> None:
-    """Free: errors 5.5e-6, 1.4e-6. Limited, both limits are met and left: the kinks fall anywhere in a step, so the
-    error falls unevenly, 1.42e-5, 4.5e-6, 1.36e-6 and 3.5e-7 with 5600 steps."""
+    """Free: errors 5.5e-6, 1.4e-6. Limited, both limits are met and left: the kinks fall anywhere in a
+    step, so the error falls unevenly, 1.42e-5, 4.5e-6, 1.36e-6 and 3.5e-7 with 5600 steps."""
     law = oracle.Pid(400, 900, 30, 0.02, *limits)
     exact = oracle.pid_mass(TIMES, law, reference, MASS, FORCE)
     keywords = "NF 1 KP 400 KI 900 KD 30 TF 0.02"
@@ -111,8 +111,8 @@ def test_start_static_stays(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("kind", ["SPEED", "POSITION"])
 def test_drives(kind: str, tmp_path: Path) -> None:
-    """The load does not move a drive; its force is m a less the load. SPEED: tau x'' + x' = KP (r - x), both poles at
-    -4. POSITION: (tau d/dt + 1)^2 x = 0.3 of a constant gain."""
+    """The load does not move a drive; its force is m a less the load. SPEED: tau x'' + x' = KP (r - x),
+    both poles at -4. POSITION: (tau d/dt + 1)^2 x = 0.3 of a constant gain."""
     t = np.linspace(0.1, END, 10)
     if kind == "SPEED":
         rate, text = 4.0, deck("REF 0.3 KP 2 DRIVE SPEED TAU 0.125", 1e-3)
@@ -140,7 +140,8 @@ def test_initial_states(tmp_path: Path) -> None:
 
 
 def test_robot_arm(tmp_path: Path) -> None:
-    """The deck of the arm with coarser steps, against Lagrange's equations: second order through the limits too."""
+    """The deck of the arm with coarser steps, against Lagrange's equations: second order through the
+    limits too."""
     text = (Path(__file__).parents[2] / "decks/mechanisms/robot_arm.dat").read_text()
     body = text[: text.index(".CHK")]
     t = np.linspace(0.1, 1.4, 14)

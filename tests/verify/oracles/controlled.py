@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Controlled mechanisms as ordinary differential equations in minimal coordinates (rtol 1e-11). SI units.
+"""Controlled mechanisms as ordinary differential equations in minimal coordinates (rtol 1e-11). SI
+units.
 
-The laws are written out here in their textbook form: e = r - m, u = KP e + I + D with dI/dt = KI e + (limited(u) -
-u)/TT and the derivative D = (KD e - w)/TF, dw/dt = (KD e - w)/TF (Astrom and Hagglund, Advanced PID Control, 2006,
-sections 3.4 and 3.5)."""
+The laws are written out here in their textbook form: e = r - m, u = KP e + I + D with dI/dt = KI e +
+(limited(u) - u)/TT and the derivative D = (KD e - w)/TF, dw/dt = (KD e - w)/TF (Astrom and Hagglund,
+Advanced PID Control, 2006, sections 3.4 and 3.5)."""
 
 from __future__ import annotations
 
@@ -63,8 +64,8 @@ def pid_mass(
 
 
 def lead_mass(t: np.ndarray, reference: Callable[[float], float], mass: float) -> np.ndarray:
-    """Position of a mass under u = (800 s + 2000)/(s + 40) e, steady at the start: u = 800 e - x, dx/dt = 30000 e -
-    40 x."""
+    """Position of a mass under u = (800 s + 2000)/(s + 40) e, steady at the start: u = 800 e - x, dx/dt
+    = 30000 e - 40 x."""
 
     def rhs(time: float, y: np.ndarray) -> list[float]:
         e = reference(time) - y[0]
@@ -75,8 +76,9 @@ def lead_mass(t: np.ndarray, reference: Callable[[float], float], mass: float) -
 
 @dataclasses.dataclass
 class Arm:
-    """Three-axis arm: a turret that turns about the vertical, two axisymmetric links that rise from it in its plane, a
-    point mass at the tip. Angles: of the turret, of the first link above the horizontal, of the second from the first."""
+    """Three-axis arm: a turret that turns about the vertical, two axisymmetric links that rise from it
+    in its plane, a point mass at the tip. Angles: of the turret, of the first link above the
+    horizontal, of the second from the first."""
 
     turret: float = 2.0  # inertia about the vertical
     length: tuple[float, float] = (0.6, 0.5)
@@ -156,8 +158,8 @@ def arm_reference(t: float) -> np.ndarray:
 
 
 def robot_arm(t: np.ndarray, arm: Arm | None = None) -> dict[str, np.ndarray]:
-    """Angles (3 x n) and torques (3 x n) of the arm under three PIDs, from the equilibrium at t = 0, where the integrals
-    carry the weight."""
+    """Angles (3 x n) and torques (3 x n) of the arm under three PIDs, from the equilibrium at t = 0,
+    where the integrals carry the weight."""
     arm = arm or Arm()
 
     def parts(time: float, y: np.ndarray) -> tuple[np.ndarray, list[float]]:
