@@ -49,7 +49,7 @@ void RecordReader::read(Record& record, const RecordKeys& keys, const std::vecto
 /// `FIX NOEUD 1 C 1 NOEUD 2 C 3`: the second NOEUD begins another FIX.
 bool RecordReader::begins_next(const Reading& reading) {
   const Token& token = tokens_.peek();
-  if (!token.is_word() || !reading.past_leads) return false;
+  if (!token.is_word() || !reading.past_leads || reading.schema.numbered) return false;
   const Match<Field> match = match_field(reading.schema, token.text);
   if (!match.entry || !match.entry->leads) return false;
   return std::any_of(reading.schema.fields.begin(), reading.schema.fields.end(),
@@ -98,8 +98,13 @@ void RecordReader::read_field(Reading& reading, const Field& field, const Token*
   const Location start = keyword ? keyword->where : tokens_.peek().where;
   FieldReading result = values_.read(field, reading.schema, reading.keys, start);
   if (!field.leads) reading.past_leads = true;
+  if (appends(reading, field)) {
+    const std::vector<double> before = field.load(reading.record.data).numbers;
+    result.values.numbers.insert(result.values.numbers.begin(), before.begin(), before.end());
+  } else if (given_twice(reading, field, result.values.numbers.size(), start)) {
+    return;
+  }
   const std::size_t count = result.values.numbers.size();
-  if (given_twice(reading, field, count, start)) return;
   reading.given[field.keyword] = start;
   reading.counts[field.keyword] = count;
   Record& record = reading.record;
@@ -109,6 +114,13 @@ void RecordReader::read_field(Reading& reading, const Field& field, const Token*
     record.faulty = true;
   else
     field.store(record.data, result.values);
+}
+
+/// `NOEUD 3 C 1 A 2. NOEUD 4 C 1 A -1.` in a numbered record: term after term, each list goes on.
+bool RecordReader::appends(const Reading& reading, const Field& field) const {
+  const auto leads = [](const Field& other) { return other.leads; };
+  return reading.schema.numbered && reading.given.contains(field.keyword) && field.max_values == detail::any_number &&
+         std::any_of(reading.schema.fields.begin(), reading.schema.fields.end(), leads);
 }
 
 /// Also `X 0 1 2 Y 3`, which gives the second coordinate twice.

@@ -46,6 +46,7 @@ class RecordReader {
   void read_item(Reading& reading);
   const Field* positional_field(const Reading& reading, const Token& token) const;
   void read_field(Reading& reading, const Field& field, const Token* keyword);
+  bool appends(const Reading& reading, const Field& field) const;
   bool given_twice(Reading& reading, const Field& field, std::size_t count, const Location& where);
   void unknown_item(Reading& reading);
   void unknown_word(Reading& reading, const Token& token);

@@ -62,7 +62,7 @@ struct Field {
   Reference reference = Reference::nothing;
   bool required = false;
   bool positional = false;  ///< its values may come without the keyword: the first field not yet given takes them
-  bool leads = false;       ///< given again behind other keywords it starts the next record (NOEUD, GROUP, ELEMENT)
+  bool leads = false;       ///< given again it starts the next record (NOEUD, GROUP); in a numbered one the lists go on
   bool heading = false;     ///< may stand before the first record of the command and then holds for all of them
   std::string whole;        ///< the keyword whose array this field is one entry of (Y and Z of X); empty otherwise
   int part = 0;             ///< which entry, from 0
