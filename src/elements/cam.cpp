@@ -10,7 +10,7 @@
 #include "elements/building.hpp"
 #include "elements/cam_contact.hpp"
 #include "elements/cam_design.hpp"
-#include "elements/stop.hpp"
+#include "elements/stop_range.hpp"
 
 namespace engrane {
 
@@ -350,7 +350,7 @@ std::unique_ptr<Element> build(const CamData& data, BuildContext& context) {
   parts.profile = std::make_shared<CamProfile>(std::move(curve), motion ? parts.radius : 0.0, parts.inside);
   if (data.stiffness) {
     parts.law = StopLaw{*data.stiffness, data.exponent};
-    if (!set_stop_damping(data.damping, context, *parts.law)) return nullptr;
+    if (!set_stop_damping(data.damping, context, "DAMP", *parts.law)) return nullptr;
     if (data.damping.is("REST"))
       parts.derived.push_back({"damping d of Hunt and Crossley", parts.law->hunt, Dimension{-1, 0, 1, 0}});
   }
@@ -427,7 +427,7 @@ ElementType cam_type() {
       .synonyms({"RAIDEUR"})
       .positive();
   card.add("EXP", &CamData::exponent, "exponent of the penetration").synonyms({"EXPOSANT"}).at_least(1);
-  add_stop_damping(card.add("DAMP", &CamData::damping, "damping of the contact; none when not given"));
+  add_stop_damping(card.add("DAMP", &CamData::damping, "damping of the contact; none when not given").synonyms({"AMOR"}));
   card.add("FRICTION", &CamData::friction, "friction of a knife edge or a flat face")
       .synonyms({"FROTTEMENT"})
       .option({"CONST", {"COULOMB", "CONSTANT"}, "mu", 1, 1})

@@ -5,12 +5,18 @@ namespace engrane {
 
 namespace {
 
+const FrictionWords friction_words{"radius of the shaft; default 0: turning does not rub", "",
+                                   "distance of the two bushes that carry bending moments; default: these press nothing", false,
+                                   false};
+
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "cylindrical joint", PointRule::on_axis);
   if (!parts) return nullptr;
   parts->is_bearing = true;
   parts->constraints = {{Measure::gap_2}, {Measure::gap_3}, {Measure::tilt_2}, {Measure::tilt_3}};
-  if (!add_slide(data, context, *parts) || !add_turn(data, context, *parts)) return nullptr;
+  if (!add_slide(data, context, *parts) || !add_turn(data, context, *parts) ||
+      !add_friction(data, context, *parts, Rubbing::sleeve, friction_words))
+    return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
 
@@ -29,10 +35,9 @@ ElementType cylindrical_type() {
   add_joint_nodes(card);
   add_joint_axis(card);
   add_joint_point(card);
-  add_slide_drive(card, "SLIDE");
-  add_turn_drive(card);
-  add_slide_spring(card);
-  add_turn_spring(card);
+  add_coordinate<0>(card, words::slide);
+  add_coordinate<2>(card, words::turn);
+  add_joint_friction(card, friction_words);
   return element_type(card, build);
 }
 

@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "elements/drive.hpp"
+#include "elements/joint_friction.hpp"
 #include "elements/joint_measures.hpp"
+#include "elements/spring_law.hpp"
+#include "elements/stop_range.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane {
@@ -17,15 +20,32 @@ struct JointConstraint {
   double value = 0;
 };
 
-/// A measure left free: it is observed, and may have a spring, a damper and a drive.
+/// The channels of a free coordinate.
+struct CoordinateNames {
+  std::string value, rate;                      ///< SLIDE, SLIDE_SPEED
+  std::string spring, drive, power, stop, gap;  ///< SLIDE_SPRING and so on
+
+  static CoordinateNames of(const std::string& value, const std::string& rate) {
+    return {value, rate, value + "_SPRING", value + "_DRIVE", value + "_POWER", value + "_STOP", value + "_GAP"};
+  }
+};
+
+/// A measure left free: it is observed, and may have a spring, a damper, a drive and stops.
 struct JointCoordinate {
   Measure measure;
-  std::string name, rate_name;  ///< channels: SLIDE, SLIDE_SPEED
-  double stiffness = 0, damping = 0, relaxed = 0;
+  CoordinateNames names;
+  SpringLaw law = {};
+  double relaxed = 0;  ///< where the spring is
   Drive drive = {};
   double origin = 0;  ///< value at t = 0 when the drive gives the rate
+  StopRange stop = {};
 
-  bool sprung() const { return stiffness > 0 || damping > 0; }
+  bool sprung() const { return law.acts(); }
+  /// Force or torque of spring and damper.
+  template <class T>
+  T spring(const T& value, const T& rate) const {
+    return -law.elastic(T(value - relaxed)) - law.viscous(rate);
+  }
 };
 
 /// What a kind of joint is made of.
@@ -34,12 +54,16 @@ struct JointParts {
   std::array<int, 2> nodes{};
   std::vector<JointConstraint> constraints;
   std::vector<JointCoordinate> coordinates;
-  bool has_axis = true;       ///< reports reactions along e1, e2, e3 too
-  bool drawn_axis = true;     ///< drawn with its axis e1
-  bool is_bearing = false;    ///< reports the sizes of force and moment across the axis
-  bool has_thrust = false;    ///< reports the force along the gap
-  bool has_moment = true;     ///< reports moments
-  Vec3 point = Vec3::Zero();  ///< joint point, for pictures
+  std::vector<JointFriction> friction;
+  bool has_axis = true;        ///< reports reactions along e1, e2, e3 too
+  bool drawn_axis = true;      ///< drawn with its axis e1
+  bool is_bearing = false;     ///< reports the sizes of force and moment across the axis
+  bool has_axial = false;      ///< reports the force along the axis by that name
+  bool has_thrust = false;     ///< reports the force along the gap
+  bool has_bend = false;       ///< reports the angle between the axes e1 of A and B
+  bool has_moment = true;      ///< reports moments
+  std::string normal_channel;  ///< name under which the first multiplier is reported, if any
+  Vec3 point = Vec3::Zero();   ///< joint point, for pictures
 };
 
 /// Any joint between two nodes that is a list of constraints and free coordinates (joint_measures.hpp). The multipliers
@@ -47,39 +71,13 @@ struct JointParts {
 class Joint final : public TemplatedElement<Joint, 2, 18> {
  public:
   Joint(int id, JointParts parts);
+  ~Joint() override;  // where the class is compiled, and nowhere else: it is large
 
   template <class T>
-  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
-    const auto& a = motion.node[0];
-    const auto& b = motion.node[1];
-    const JointFrame& frame = parts_.frame;
-    const JointPose<T> pose(frame, a, b);
-    Vec3T<T> force(T(0), T(0), T(0)), moment(T(0), T(0), T(0));
-    const auto add = [&](const Measured<T>& m, const T& amount) {
-      force += m.force * amount;
-      moment += m.moment * amount;
-    };
-
-    int row = 0;
-    for (const JointConstraint& c : parts_.constraints) {
-      const Measured<T> m = measured(c.measure, pose, state);
-      add(m, balance.constraint(row++, m.value - c.value));
-    }
-    for (const JointCoordinate& c : parts_.coordinates) {
-      if (!c.sprung() && !c.drive.given()) continue;
-      const Measured<T> m = measured(c.measure, pose, state);
-      if (c.drive.given()) add(m, balance.constraint(row++, m.value - c.drive.coordinate(motion.time) - driven_origin(c)));
-      if (c.sprung()) add(m, T(-c.stiffness * (m.value - c.relaxed) - c.damping * rate(m, pose, a, b)));
-    }
-
-    balance.force(0, force);
-    balance.force(1, Vec3T<T>(-force));
-    // A's lever reaches to B's point, gap or no gap, so that the sum of moments is zero
-    if (frame.turns_a) balance.moment(0, rotate_back(a.R, Vec3T<T>(cross(Vec3T<T>(pose.gap + pose.arm_a), force) + moment)));
-    if (frame.turns_b) balance.moment(1, rotate_back(b.R, Vec3T<T>(-cross(pose.arm_b, force) - moment)));
-  }
+  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const;
 
   void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
+  void switches(const State& state, std::span<Switch> values) const override;
   Energies energies(const State& state) const override;
   const std::vector<Named>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override;
@@ -89,38 +87,33 @@ class Joint final : public TemplatedElement<Joint, 2, 18> {
   const JointParts& parts() const { return parts_; }
 
  private:
+  /// Friction of each pair of surfaces, for channels.
+  using Report = std::vector<JointRub<double>>;
+
+  template <class T>
+  void act(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, Report* report) const;
+
   static double driven_origin(const JointCoordinate& c) { return c.drive.rate_given ? c.origin : 0; }
 
   /// Entry of an angle's turn count in the history, or -1.
   int counted(Measure what) const;
 
   template <class T>
-  Measured<T> measured(Measure what, const JointPose<T>& pose, const State& state) const {
-    const int at = counted(what);
-    if (at < 0) return measure(what, parts_.frame, pose, 0);
-    const auto committed = state.history.subspan(static_cast<std::size_t>(at), turn_count::history);
-    const double angle = value_of(measure(what == Measure::screw ? Measure::angle : what, parts_.frame, pose, 0).value);
-    return measure(what, parts_.frame, pose, turn_count::turns(angle, committed));
-  }
-
-  /// Rate of a measure from the velocities of the nodes, by its gradient.
+  Measured<T> measured(Measure what, const JointPose<T>& pose, const State& state) const;
   template <class T, class Node>
-  T rate(const Measured<T>& m, const JointPose<T>& pose, const Node& a, const Node& b) const {
-    const auto spin = [](bool turns, const Node& node) {
-      return turns ? Vec3T<T>(rotate(node.R, node.W)) : Vec3T<T>(T(0), T(0), T(0));
-    };
-    const Vec3T<T> spin_a = spin(parts_.frame.turns_a, a), spin_b = spin(parts_.frame.turns_b, b);
-    const Vec3T<T> slip = b.v + cross(spin_b, pose.arm_b) - a.v - cross(spin_a, Vec3T<T>(pose.arm_a + pose.gap));
-    return dot(m.force, slip) + dot(m.moment, Vec3T<T>(spin_b - spin_a));
-  }
+  JointRates<T> rates_of(const JointPose<T>& pose, const Node& a, const Node& b) const;
 
   struct Observed {
     double value, rate;
   };
   Observed observed(const JointCoordinate& c, const State& state) const;
+  Report rubbed(const State& state) const;
   void name_channels();
 
   JointParts parts_;
+  bool moves_ = false;           ///< something acts along or against the free motion
+  bool has_rates_ = false;       ///< and depends on its speed
+  bool whole_b_ = false;         ///< what acts looks at B's second or third axis
   std::vector<Measure> angles_;  ///< counted in turns, in the order of the history
   std::vector<Named> channels_;
 };

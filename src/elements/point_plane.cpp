@@ -5,11 +5,16 @@ namespace engrane {
 
 namespace {
 
+const FrictionWords friction_words{"", "", "", false, false};
+
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "joint", PointRule::at_b);
   if (!parts) return nullptr;
   release_rotations(*parts, true);
   parts->constraints = {{Measure::gap_1}};
+  if (!find_plane_axes(data, context, *parts) || !add_slides(data, context, *parts) ||
+      !add_friction(data, context, *parts, Rubbing::face, friction_words))
+    return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
 
@@ -28,6 +33,8 @@ ElementType point_plane_type() {
       .synonyms({"AXE", "NORMAL"})
       .required();
   add_joint_point(card);
+  add_plane_slides(card);
+  add_joint_friction(card, friction_words);
   return element_type(card, build);
 }
 

@@ -5,12 +5,16 @@ namespace engrane {
 
 namespace {
 
+const FrictionWords friction_words{
+    "lever at which a key or two rails hold the slider from turning; default: their friction is left out", "",
+    "distance of the two shoes that carry bending moments; default: these press nothing", false, false};
+
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "prismatic joint", PointRule::at_b);
   if (!parts) return nullptr;
   parts->is_bearing = true;
   parts->constraints = {{Measure::gap_2}, {Measure::gap_3}, {Measure::turn_1}, {Measure::turn_2}, {Measure::turn_3}};
-  if (!add_slide(data, context, *parts)) return nullptr;
+  if (!add_slide(data, context, *parts) || !add_friction(data, context, *parts, Rubbing::guide, friction_words)) return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
 
@@ -29,8 +33,8 @@ ElementType prismatic_type() {
   add_joint_nodes(card);
   add_joint_axis(card);
   add_joint_point(card);
-  add_slide_drive(card, "SLIDE");
-  add_slide_spring(card);
+  add_coordinate<0>(card, words::slide);
+  add_joint_friction(card, friction_words);
   return element_type(card, build);
 }
 

@@ -10,31 +10,34 @@
 namespace engrane {
 
 std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping,
-                                       double first, double scale) {
+                                       double first, double scale, const std::string& suffix) {
   SpringLaw law;
   law.k1 = stiffness;
   law.damping = damping;
   if (data.law.given() && stiffness != 0) {
-    context.error("LAW", "K and LAW both give the spring's force", "give K or LAW; LAW POLY k1 k2 k3 starts with the stiffness");
+    context.error("LAW" + suffix, fmt::format("K{0} and LAW{0} both give the spring's force", suffix),
+                  fmt::format("give K{0} or LAW{0}; LAW{0} POLY k1 k2 k3 starts with the stiffness", suffix));
     return {};
   }
   if (data.damping_law != 0 && damping != 0) {
-    context.error("CLAW", "C and CLAW both give the damper's force", "give C or CLAW");
+    context.error("CLAW" + suffix, fmt::format("C{0} and CLAW{0} both give the damper's force", suffix),
+                  fmt::format("give C{0} or CLAW{0}", suffix));
     return {};
   }
   if (data.law.is("TABLE")) {
     const double id = data.law.values[0];
     if (id != std::floor(id) || !(id > 0 && id < 1e9)) {
-      context.error("LAW", fmt::format("{} is not the number of a function", number(id)), "LAW TABLE f, where .FCT declares f");
+      context.error("LAW" + suffix, fmt::format("{} is not the number of a function", number(id)),
+                    fmt::format("LAW{} TABLE f, where .FCT declares f", suffix));
       return {};
     }
-    law.of_stretch = context.function(static_cast<int>(id), "LAW");
+    law.of_stretch = context.function(static_cast<int>(id), "LAW" + suffix);
     if (!law.of_stretch) return {};
   } else if (data.law.is("USER")) {
     std::vector<user::Arguments> samples{{first, 0, 0}};
     for (const double part : {-1.0, -0.313, 0.171, 0.477, 1.0})
       samples.push_back({first + part * scale, 0.7 * (part + 0.1) * scale, 0});
-    law.user = user_routine(context, "LAW", data.law.values[0], user::Kind::force, {scale, scale, 1}, samples);
+    law.user = user_routine(context, "LAW" + suffix, data.law.values[0], user::Kind::force, {scale, scale, 1}, samples);
     if (!law.user) return {};
     law.user_stores_ = law.user->gives(3, samples[0]);
   } else if (data.law.given()) {
@@ -44,7 +47,7 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
     if (k.size() > 2) law.k3 = k[2];
   }
   if (data.damping_law != 0) {
-    law.of_rate = context.function(data.damping_law, "CLAW");
+    law.of_rate = context.function(data.damping_law, "CLAW" + suffix);
     if (!law.of_rate) return {};
   }
   return law;

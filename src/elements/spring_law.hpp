@@ -38,9 +38,10 @@ struct SpringLaw {
   bool acts() const { return user || of_stretch || of_rate || k1 != 0 || k2 != 0 || k3 != 0 || damping != 0; }
 
   /// The law of a card with one stiffness and one damping; an error, and none, when K and LAW or C and CLAW are both given.
-  /// `first` is the elongation at the start and `scale` over how much of it a law may change, for a USER law.
+  /// `first` is the elongation at the start and `scale` over how much of it a law may change, for a USER law; `suffix` stands
+  /// behind the keywords.
   static std::optional<SpringLaw> of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping,
-                                     double first, double scale);
+                                     double first, double scale, const std::string& suffix = {});
 
  private:
   template <class T>
@@ -61,18 +62,25 @@ struct SpringLaw {
   bool user_stores_ = false;  ///< the routine gives the energy
 };
 
-/// Adds LAW and CLAW to a card; `stretch` is the word for e, and `force` for what it makes.
-template <class Data>
-void add_spring_law(deck::Card<Data>& card, const std::string& stretch, const std::string& force) {
-  card.add("LAW", &Data::law, "instead of K: " + force + " as a function of the " + stretch)
-      .synonyms({"LOI"})
+/// Adds LAW and CLAW to a card, `suffix` behind them; `stretch` is the word for e, and `force` for what it makes. `Data` is the
+/// card's struct or a base of it.
+template <class Data, class Whole>
+void add_spring_law(deck::Card<Whole>& card, const std::string& stretch, const std::string& force, const std::string& suffix) {
+  deck::Tagged Data::*law = &SpringLawData::law;
+  int Data::*damping_law = &SpringLawData::damping_law;
+  card.add("LAW" + suffix, law, "instead of K" + suffix + ": " + force + " as a function of the " + stretch)
+      .synonyms({"LOI" + suffix})
       .option({"TABLE", {"FONCTION", "FUNCTION"}, "function f of the " + stretch, 1, 1})
       .option({"POLY", {"POLYNOME"}, "k1 e + k2 e2 + k3 e3 of the " + stretch + " e", 1, 3})
       .option({"USER", {"UTILISATEUR"}, "f: routine f of .FCT, of the " + stretch + ", its rate and the time", 1, 1});
-  card.add("CLAW", &Data::damping_law, "instead of C: function of the rate of the " + stretch)
-      .synonyms({"LOI_C"})
+  card.add("CLAW" + suffix, damping_law, "instead of C" + suffix + ": function of the rate of the " + stretch)
+      .synonyms({"LOI_C" + suffix})
       .refers(deck::Reference::function)
       .at_least(0);
+}
+template <class Data>
+void add_spring_law(deck::Card<Data>& card, const std::string& stretch, const std::string& force) {
+  add_spring_law<Data, Data>(card, stretch, force, "");
 }
 
 }  // namespace engrane

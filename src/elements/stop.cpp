@@ -3,12 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "elements/axis_angle.hpp"
 #include "elements/line.hpp"
-#include "elements/stop_law.hpp"
 
 namespace engrane {
 
@@ -129,23 +125,13 @@ struct HeightCoordinate {
   }
 };
 
-/// One end of the coordinate's range. `sign` 1: the lower, which pushes the coordinate up.
-struct Limit {
-  double place = 0, sign = 1;
-  template <class T>
-  T pressed(const T& coordinate) const {
-    return sign * (place - coordinate);
-  }
-};
-
 template <class Coordinate>
 class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
  public:
-  Stop(int id, const Coordinate& coordinate, std::vector<Limit> limits, const StopLaw& law, bool tells_damping)
+  Stop(int id, const Coordinate& coordinate, StopRange range, bool tells_damping)
       : TemplatedElement<Stop<Coordinate>, 2, 12>(id),
         coordinate_(coordinate),
-        limits_(std::move(limits)),
-        law_(law),
+        range_(std::move(range)),
         tells_damping_(tells_damping) {
     Layout layout;
     layout.nodes.assign(coordinate.nodes().begin(), coordinate.nodes().end());
@@ -153,11 +139,7 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
     if constexpr (std::is_same_v<Coordinate, HeightCoordinate>)
       if (coordinate.point.isZero(0)) layout.needs[1] = NodeNeed::translation;
     layout.history = Coordinate::history;
-    for (const Limit& limit : limits_) {
-      const std::string stop = limit.sign > 0 ? "lower stop" : "upper stop";
-      layout.switches.push_back({stop + " touches", stop + " parts"});
-      if (law.damped()) layout.switches.push_back({stop + " presses again", stop + " presses no more"});
-    }
+    range_.name_switches(layout.switches, "");
     this->set_layout(std::move(layout));
     channels_ = {{Coordinate::name, Coordinate::measure, Coordinate::help},
                  {"SPEED", Coordinate::rate_measure, "its rate"},
@@ -171,7 +153,7 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     const auto at = coordinate_.template at<T>(motion.node, state.history);
-    coordinate_.template resist<T>(at, motion.node, T(-push(at.value, at.rate, balance.bridge())), balance);
+    coordinate_.template resist<T>(at, motion.node, T(-range_.push(at.value, at.rate, balance.bridge())), balance);
   }
 
   void commit(const State& state, std::span<double>, std::span<double> history) const override {
@@ -181,27 +163,15 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
 
   void switches(const State& state, std::span<Switch> values) const override {
     const auto at = coordinate_.template at<double>(this->template motion<double>(state).node, state.history);
-    const double second = this->second(state);
-    std::size_t next = 0;
-    for (const Limit& limit : limits_) {
-      const double pressed = limit.pressed(at.value), rate = -limit.sign * at.rate, growth = -limit.sign * second;
-      values[next++] = {pressed, rate, std::abs(limit.place) + std::abs(at.value) + std::numeric_limits<double>::min()};
-      if (!law_.damped()) continue;
-      values[next++] = pressed > 0 ? Switch{law_.pressure(pressed, rate), law_.pressure_rate(pressed, rate, growth),
-                                            law_.pressure_size(pressed, rate)}
-                                   : Switch{};
-    }
+    const auto nodes = along_motion(state);
+    range_.switches(at.value, at.rate, coordinate_.template at<Taylor>(nodes, state.history).value.d2, values);
   }
 
   Energies energies(const State& state) const override {
     const auto at = coordinate_.template at<double>(this->template motion<double>(state).node, state.history);
     Energies e;
-    for (const Limit& limit : limits_) {
-      const double pressed = limit.pressed(at.value), rate = -limit.sign * at.rate;
-      if (!(pressed > 0)) continue;
-      e.potential += law_.stored(pressed);
-      e.dissipated += (law_.force(pressed, rate, 0) - law_.elastic(pressed)) * rate;
-    }
+    e.potential = range_.stored(at.value);
+    e.dissipated = range_.lost(at.value, at.rate);
     return e;
   }
 
@@ -212,23 +182,22 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
     const Energies e = energies(state);
     values[0] = at.value;
     values[1] = at.rate;
-    values[2] = std::numeric_limits<double>::infinity();
-    for (const Limit& limit : limits_) values[2] = std::min(values[2], -limit.pressed(at.value));
-    values[3] = push(at.value, at.rate, 0);
+    values[2] = range_.gap(at.value);
+    values[3] = range_.push(at.value, at.rate, 0);
     values[4] = e.potential;
     values[5] = e.dissipated;
   }
 
   std::vector<Derived> derived() const override {
     std::vector<Derived> list;
-    for (const Limit& limit : limits_)
+    for (const StopLimit& limit : range_.limits)
       list.push_back({limit.sign > 0 ? "lower limit" : "upper limit", limit.place, Coordinate::measure});
     if (tells_damping_) {
       Dimension d = Coordinate::rate_measure;
       d.length = static_cast<signed char>(-d.length);
       d.time = static_cast<signed char>(-d.time);
       d.angle = static_cast<signed char>(-d.angle);
-      list.push_back({"damping d of Hunt and Crossley", law_.hunt, d});
+      list.push_back({"damping d of Hunt and Crossley", range_.law.hunt, d});
     }
     return list;
   }
@@ -236,31 +205,8 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
   Drawing drawing() const override { return {coordinate_.drawing()}; }
 
  private:
-  /// Generalised force of the contact on the coordinate.
-  template <class T>
-  T push(const T& value, const T& rate, double bridge) const {
-    T sum(0);
-    for (const Limit& limit : limits_) sum += limit.sign * law_.force(T(limit.pressed(value)), T(-limit.sign * rate), bridge);
-    return sum;
-  }
-
-  /// Second time derivative of the coordinate along the motion.
-  double second(const State& state) const {
-    Nodes<Taylor> node;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const NodeState& s = state.nodes[i];
-      const Mat3 W = skew(s.W), first = s.R * W, twice = s.R * (skew(s.A) + W * W);
-      for (int a = 0; a < 3; ++a) {
-        node[i].x[a] = {s.x[a], s.v[a], s.a[a]};
-        for (int b = 0; b < 3; ++b) node[i].R(a, b) = {s.R(a, b), first(a, b), twice(a, b)};
-      }
-    }
-    return coordinate_.template at<Taylor>(node, state.history).value.d2;
-  }
-
   Coordinate coordinate_;
-  std::vector<Limit> limits_;
-  StopLaw law_;
+  StopRange range_;
   bool tells_damping_;
   std::vector<Named> channels_;
 };
@@ -273,23 +219,16 @@ bool lacks(const BuildContext& context, const char* keyword, bool given, const s
 }
 
 std::unique_ptr<Element> build(const StopData& data, BuildContext& context) {
-  StopLaw law{data.stiffness, data.exponent};
-  if (!check_nodes(context, {data.nodes[0], data.nodes[1]}) || !set_stop_damping(data.damping, context, law)) return nullptr;
+  if (!check_nodes(context, {data.nodes[0], data.nodes[1]})) return nullptr;
   if (data.axis && data.normal) {
     context.error("NORMAL", "AXIS and NORMAL both say what is limited", "AXIS for an angle, NORMAL for the height above a plane");
     return nullptr;
   }
-  const double unit = data.axis ? degree : 1;
-  std::vector<Limit> limits;
-  if (data.lower) limits.push_back({unit * *data.lower, 1});
-  if (data.upper) limits.push_back({unit * *data.upper, -1});
-  if (limits.empty() && data.normal) limits.push_back({0, 1});
-  if (limits.empty()) {
+  auto range = StopRange::of(context, data, {}, data.axis ? degree : 1);
+  if (!range) return nullptr;
+  if (!range->given() && data.normal) range->limits.push_back({0, 1});
+  if (!range->given()) {
     context.error("N", "a stop without limits", "MIN s, MAX s or both");
-    return nullptr;
-  }
-  if (data.lower && data.upper && *data.lower > *data.upper) {
-    context.error("MAX", fmt::format("MAX {} is below MIN {}", number(*data.upper), number(*data.lower)));
     return nullptr;
   }
   const int id = context.record.id;
@@ -300,7 +239,7 @@ std::unique_ptr<Element> build(const StopData& data, BuildContext& context) {
         !lacks(context, "ON", data.on.has_value(), "an angle", "leave it out"))
       return nullptr;
     const Vec3 center = context.nodes.at(data.nodes[0] != 0 ? data.nodes[0] : data.nodes[1]);
-    return std::make_unique<Stop<AngleCoordinate>>(id, AngleCoordinate{data.nodes, AxisTriad(*axis), center}, limits, law, tells);
+    return std::make_unique<Stop<AngleCoordinate>>(id, AngleCoordinate{data.nodes, AxisTriad(*axis), center}, *range, tells);
   }
   if (data.normal) {
     const auto normal = unit_vector(context, "NORMAL", *data.normal);
@@ -309,46 +248,15 @@ std::unique_ptr<Element> build(const StopData& data, BuildContext& context) {
     const Vec3 plane = data.on ? Vec3(to_vector(*data.on) - at_a) : Vec3(Vec3::Zero());
     const Vec3 point = data.at ? Vec3(to_vector(*data.at) - at_b) : Vec3(Vec3::Zero());
     const Vec3 mark = data.nodes[1] != 0 ? Vec3(at_b + point) : Vec3(at_a + plane);
-    return std::make_unique<Stop<HeightCoordinate>>(id, HeightCoordinate{data.nodes, *normal, plane, point, mark}, limits, law,
-                                                    tells);
+    return std::make_unique<Stop<HeightCoordinate>>(id, HeightCoordinate{data.nodes, *normal, plane, point, mark}, *range, tells);
   }
   if (!lacks(context, "ON", data.on.has_value(), "a distance", "NORMAL x y z is the plane that ON is a point of")) return nullptr;
   const auto ends = LineEnds::of(context, data.nodes, data.at, "NORMAL x y z is for a point above a plane");
   if (!ends) return nullptr;
-  return std::make_unique<Stop<DistanceCoordinate>>(id, DistanceCoordinate{*ends}, limits, law, tells);
+  return std::make_unique<Stop<DistanceCoordinate>>(id, DistanceCoordinate{*ends}, *range, tells);
 }
 
 }  // namespace
-
-bool set_stop_damping(const deck::Tagged& damping, const BuildContext& context, StopLaw& law) {
-  if (!damping.given()) return true;
-  const std::vector<double>& v = damping.values;
-  if (std::any_of(v.begin(), v.end(), [](double x) { return x < 0; })) {
-    context.error("DAMP", "damping must not be negative");
-    return false;
-  }
-  if (damping.is("REST")) {
-    if (!(v[0] > 0 && v[0] <= 1) || !(v[1] > 0)) {
-      context.error("DAMP",
-                    fmt::format("REST {} {}: no coefficient of restitution at a speed of impact", number(v[0]), number(v[1])),
-                    "REST e v with 0 < e <= 1 and v > 0: what arrives with v leaves with e v");
-      return false;
-    }
-    law.hunt = StopLaw::hunt_of_restitution(v[0], v[1]);
-  } else if (damping.is("HUNT")) {
-    law.hunt = v[0];
-  } else {
-    law.linear = v[0];
-  }
-  return true;
-}
-
-void add_stop_damping(deck::FieldBuilder field) {
-  field.synonyms({"AMOR"})
-      .option({"HUNT", {}, "Hunt and Crossley: the force is multiplied by 1 + d times the rate of penetration", 1, 1})
-      .option({"REST", {"RESTITUTION"}, "Hunt and Crossley with the d for which what arrives with v leaves with e v: e v", 2, 2})
-      .option({"LINEAR", {"LINEAIRE"}, "a damper beside the spring: c", 1, 1});
-}
 
 ElementType stop_type() {
   deck::Card<StopData> card("STOP", {"BUTEE"}, "Stop: one-sided contact on a distance, an angle or a height above a plane");
@@ -380,7 +288,7 @@ ElementType stop_type() {
   card.add("EXP", &StopData::exponent, "exponent of the penetration: 1 a spring, 1.5 Hertz's point contact")
       .synonyms({"EXPOSANT"})
       .at_least(1);
-  add_stop_damping(card.add("DAMP", &StopData::damping, "damping; none when not given"));
+  add_stop_damping(card.add("DAMP", &StopData::damping, "damping; none when not given").synonyms({"AMOR"}));
   return element_type(card, build);
 }
 

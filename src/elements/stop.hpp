@@ -4,27 +4,18 @@
 #include <array>
 #include <optional>
 
-#include "elements/stop_law.hpp"
-#include "model/registry.hpp"
+#include "elements/stop_range.hpp"
 
 namespace engrane {
 
 /// Card of a stop. `STOP N a b (nothing | AXIS x y z | NORMAL x y z [ON x y z] [AT x y z]) [MIN s] [MAX s] K k [EXP n] [DAMP ..]`
-struct StopData {
+struct StopData : StopRangeData {  // an angle's limits in degrees
   std::array<int, 2> nodes{};
   std::optional<std::array<double, 3>> axis;    ///< the coordinate is an angle about it
   std::optional<std::array<double, 3>> normal;  ///< the coordinate is a distance from a plane
   std::optional<std::array<double, 3>> on;      ///< a point of the plane; default: node A
   std::optional<std::array<double, 3>> at;      ///< the point held off the plane, or the ground's end of a distance
-  std::optional<double> lower, upper;           ///< limits of the coordinate; an angle's in degrees
-  double stiffness = 0;
-  double exponent = 1;
-  deck::Tagged damping;  ///< HUNT d, REST e v or LINEAR c
 };
-
-/// The damping of a contact as a card gives it, DAMP; false, with an error, when it is none.
-bool set_stop_damping(const deck::Tagged& damping, const BuildContext& context, StopLaw& law);
-void add_stop_damping(deck::FieldBuilder field);
 
 /// STOP (BUTEE): holds a distance, an angle or the height above a plane within limits, by a contact that only pushes.
 ElementType stop_type();

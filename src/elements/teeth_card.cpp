@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "elements/building.hpp"
+#include "elements/friction_card.hpp"
 #include "model/user_function.hpp"
 
 namespace engrane {
@@ -26,16 +27,6 @@ bool repeats(const Function& function, double period) {
     change = std::max(change, std::abs(function.at(x + period).f - f));
   }
   return change <= 1e-9 * size;
-}
-
-/// The function whose number is among the values of a choice; false, with an error, when there is none.
-bool named_function(const BuildContext& context, std::string_view keyword, double id, const Function*& function) {
-  if (id != std::floor(id) || std::abs(id) > 1e9) {
-    context.error(keyword, fmt::format("{} {}: not the number of a function", keyword, number(id)));
-    return false;
-  }
-  function = context.function(static_cast<int>(id), keyword);
-  return function != nullptr;
 }
 
 bool set_error(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
@@ -289,31 +280,7 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
   ToothFriction friction;
   FrictionLaw& law = friction.law;
   law.width = data.friction_width.value_or(1e-3 * owner.geometry.radius);
-  const std::vector<double>& values = data.friction.values;
-  if (data.friction.is("FCT")) {
-    law.kind = FrictionLaw::Kind::function;
-    if (!named_function(context, "FRICTION", values[0], law.of_speed)) return false;
-    if (values.size() > 1 && !named_function(context, "FRICTION", values[1], law.of_load)) return false;
-  } else if (data.friction.is("USER")) {
-    std::vector<user::Arguments> samples;
-    for (const double speed : {1.0, 0.1, 0.5, 2.0, 10.0, 1000.0})
-      for (const double load : {1.0, 100.0}) samples.push_back({speed * law.width, load, 0});
-    law.user = user_routine(context, "FRICTION", values[0], user::Kind::friction, {law.width, 1, 1}, samples);
-    if (!law.user) return false;
-  } else {
-    law.mu = values[0];
-    if (data.friction.is("STRIBECK")) {
-      law.kind = FrictionLaw::Kind::stribeck;
-      law.kinetic = values[1];
-      law.stribeck_speed = values[2];
-      law.viscous = values.size() > 3 ? values[3] : 0;
-    }
-    const bool negative = std::any_of(values.begin(), values.end(), [](double v) { return v < 0; });
-    if (negative || (law.kind == FrictionLaw::Kind::stribeck && law.stribeck_speed == 0)) {
-      context.error("FRICTION", "friction coefficients are not negative, and the Stribeck speed is positive");
-      return false;
-    }
-  }
+  if (!read_friction(context, data.friction, law)) return false;
   friction.rolling = data.rolling;
   friction.profile = data.sliding.is("PROFILE");
   const ContactGeometry& g = owner.geometry;

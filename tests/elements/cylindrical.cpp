@@ -16,44 +16,51 @@ TEST(Cylindrical, Suite) {
 
 TEST(Cylindrical, SuiteWithSlideSpring) {
   JointData data = joint_data(2, 1);
-  data.stiffness = 12;
+  data.slide().stiffness = 12;
   run_suite(joint_subject("spring", cylindrical_type, data));
-  data.damping = 3;
+  data.slide().damping = 3;
   run_suite(damped(joint_subject("spring and damper", cylindrical_type, data)));
 }
 
 TEST(Cylindrical, SuiteWithDrivenSlide) {
   for (const char* kind : {"SLIDE", "SPEED"}) {
     JointData data = joint_data(1, 2);
-    data.drive.tag = kind;
-    data.function = 1;
+    data.slide().drive.tag = kind;
+    data.slide().function = 1;
     run_suite(driven(joint_subject(std::string("driven in ") + kind, cylindrical_type, data)));
   }
 }
 
 TEST(Cylindrical, SuiteWithTorsionSpring) {
   JointData data = joint_data(2, 1);
-  data.turn_stiffness = 7;
+  data.turn().stiffness = 7;
   run_suite(joint_subject("spring", cylindrical_type, data));
-  data.turn_damping = 2;
+  data.turn().damping = 2;
   run_suite(damped(joint_subject("spring and damper", cylindrical_type, data)));
 }
 
 TEST(Cylindrical, SuiteWithDrivenTurn) {
   for (const char* kind : {"ANGLE", "SPEED"}) {
     JointData data = joint_data(1, 2);
-    data.turn.tag = kind;
-    data.turn_function = 1;
+    data.turn().drive.tag = kind;
+    data.turn().function = 1;
     run_suite(driven(joint_subject(std::string("driven in ") + kind, cylindrical_type, data)));
   }
 }
+
+TEST(Cylindrical, SuiteWithAllOptions) {
+  run_coordinate(cylindrical_type, joint_data(1, 2), slide_of, "SLIDE", false);
+  run_coordinate(cylindrical_type, joint_data(1, 2), turn_of, "ANGLE", true);
+}
+
+TEST(Cylindrical, SuiteWithFriction) { run_friction(cylindrical_type, joint_data(1, 2)); }
 
 TEST(Cylindrical, Extremes) { run_joint_extremes(cylindrical_type, joint_data(1, 2)); }
 
 TEST(Cylindrical, SlideAndTurnsAreFree) {
   JointData data;
   data.axis = {0, 3, 0};
-  data.turn_stiffness = 2;
+  data.turn().stiffness = 2;
   JointAtOrigin joint(cylindrical_type, data);
   for (int third = 1; third <= 3000; ++third) {
     joint.put({0, 0.001 * third, 0}, {0, 2 * std::numbers::pi * (third % 3) / 3, 0});

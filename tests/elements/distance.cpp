@@ -30,11 +30,13 @@ TEST(Distance, Suite) {
 TEST(Distance, SuiteWithDrive) {
   for (const char* kind : {"LENGTH", "SPEED"}) {
     JointData data = rod(1, 2);
-    data.drive.tag = kind;
-    data.function = 1;
+    data.slide().drive.tag = kind;
+    data.slide().function = 1;
     run_suite(driven(joint_subject(std::string("driven in ") + kind, distance_type, data)));
   }
 }
+
+TEST(Distance, SuiteWithAllOptions) { run_coordinate(distance_type, rod(1, 2), slide_of, "LENGTH", false); }
 
 TEST(Distance, Extremes) { run_joint_extremes(distance_type, rod(1, 2)); }
 
@@ -50,6 +52,24 @@ TEST(Distance, PushesAlongItself) {
   EXPECT_NEAR(channel_of(*joint, state, "FORCE_Y"), 6, 1e-14);
   EXPECT_NEAR(channel_of(*joint, state, "FORCE_Z"), 8, 1e-14);
   EXPECT_NEAR(channel_of(*joint, state, "THRUST"), 10, 1e-14);
+}
+
+TEST(Distance, IsFreeButForSpringAndStops) {
+  JointData data;
+  data.nodes = {0, 1};
+  data.from = {{0, 0, 0}};
+  data.slide().stiffness = 10;
+  data.slide().upper = 5.5;
+  data.slide().stop_stiffness = 100;
+  const NodeMap nodes = {{0, Vec3::Zero()}, {1, {0, 3, 4}}};
+  const auto joint = build(distance_type(), data, nodes);
+  StateBuffer state(*joint, nodes);
+  EXPECT_TRUE(joint->layout().multipliers.empty());
+  EXPECT_NEAR(channel_of(*joint, state, "THRUST"), 0, 1e-14);
+  state.nodes[1].x *= 1.2;
+  EXPECT_NEAR(channel_of(*joint, state, "LENGTH_SPRING"), -10, 1e-13);
+  EXPECT_NEAR(channel_of(*joint, state, "LENGTH_STOP"), -50, 1e-12);
+  EXPECT_NEAR(channel_of(*joint, state, "THRUST"), -60, 1e-12);
 }
 
 TEST(Distance, FaultsOfTheCard) {

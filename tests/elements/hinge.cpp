@@ -7,122 +7,64 @@
 #include <numbers>
 
 #include "elements/axis_angle.hpp"
+#include "joint_cases.hpp"
 #include "math/rotation.hpp"
-#include "suite.hpp"
 
 namespace engrane {
 namespace {
 
 using namespace suite;
 
-std::array<double, 3> components(const Vec3& v) { return {v[0], v[1], v[2]}; }
-
-const Vec3 axis(0.3, -0.5, 0.7), point(0.4, 0.1, -0.2);
-
-FunctionMap waves() {
-  FunctionMap functions;
-  functions[1] = std::make_unique<Wave>(0.3, 0.7, 1.9, 0.4);
-  return functions;
-}
-
-const FunctionMap functions = waves();
-
-/// Nodes apart, so that both offsets are in play.
-Subject subject(std::string name, const HingeData& wished) {
-  Subject s;
-  s.name = std::move(name);
-  s.nodes = {{0, Vec3::Zero()}, {1, {1, 0.2, -0.3}}, {2, {-0.5, 0.4, 0.8}}};
-  s.build = [=](const Mat3& Q) {
-    HingeData data = wished;
-    data.axis = components(Q * axis);
-    data.at = components(Q * point);
-    return build(hinge_type(), data, turned(s.nodes, Q), {.functions = &functions});
-  };
-  s.force = 5;
-  s.own_axes = true;  // its second and third
-  return s;
-}
-
-HingeData plain(int a, int b) {
-  HingeData data;
-  data.nodes = {a, b};
-  return data;
-}
+const Vec3 axis(0.3, -0.5, 0.7);
 
 TEST(Hinge, Suite) {
-  run_suite(subject("joint", plain(1, 2)));
-  run_suite(subject("on the ground", plain(0, 2)));
+  run_suite(joint_subject("joint", hinge_type, joint_data(1, 2)));
+  run_suite(joint_subject("a on the ground", hinge_type, joint_data(0, 2)));
+  run_suite(joint_subject("b on the ground", hinge_type, joint_data(2, 0)));
 }
 
 TEST(Hinge, SuiteWithDrive) {
   for (const char* kind : {"ANGLE", "SPEED"}) {
-    HingeData data = plain(1, 2);
-    data.drive.tag = kind;
-    data.function = 1;
-    Subject s = subject(std::string("driven in ") + kind, data);
-    s.skip[Check::zero] = "the function is not zero at t = 0";
-    s.skip[Check::rigid] = "the function is not zero at t = 0";
-    run_suite(s);
+    JointData data = joint_data(1, 2);
+    data.turn().drive.tag = kind;
+    data.turn().function = 1;
+    run_suite(driven(joint_subject(std::string("driven in ") + kind, hinge_type, data)));
   }
 }
 
 TEST(Hinge, SuiteWithSpring) {
-  HingeData data = plain(2, 1);
-  data.stiffness = 12;
-  run_suite(subject("spring", data));
-
-  data.damping = 3;
-  Subject s = subject("spring and damper", data);
-  s.skip[Check::lagrange] = "a damper has no potential";
-  run_suite(s);
+  JointData data = joint_data(2, 1);
+  data.turn().stiffness = 12;
+  run_suite(joint_subject("spring", hinge_type, data));
+  data.turn().damping = 3;
+  run_suite(damped(joint_subject("spring and damper", hinge_type, data)));
 }
 
-TEST(Hinge, Extremes) {
-  for (const double stiffness : {1e-6, 1e15}) {
-    for (const double length : {1e-9, 1e6}) {
-      Subject s;
-      s.name = "stiffness " + std::to_string(stiffness) + " length " + std::to_string(length);
-      s.nodes = {{0, Vec3::Zero()}, {1, Vec3(length, 0, 0)}, {2, Vec3(0, length, 0)}};
-      s.length = length;
-      s.velocity = length;
-      s.build = [=](const Mat3&) {
-        HingeData data = plain(1, 2);
-        data.axis = components(axis * length);
-        data.at = components(point * length);
-        data.stiffness = stiffness;
-        data.damping = stiffness;
-        data.drive.tag = "SPEED";
-        data.function = 1;
-        return build(hinge_type(), data, s.nodes, {.functions = &functions});
-      };
-      run_extreme(s);
-    }
-  }
-}
+TEST(Hinge, SuiteWithAllOptions) { run_coordinate(hinge_type, joint_data(1, 2), turn_of, "ANGLE", true); }
+
+TEST(Hinge, SuiteWithFriction) { run_friction(hinge_type, joint_data(1, 2)); }
+
+TEST(Hinge, Extremes) { run_joint_extremes(hinge_type, joint_data(1, 2)); }
 
 TEST(Hinge, CountsAMillionTurns) {
-  HingeData data = plain(0, 1);
+  JointData data;
   data.axis = components(axis);
-  data.stiffness = 2;
-  const NodeMap nodes = {{0, Vec3::Zero()}, {1, point}};
-  const auto hinge = build(hinge_type(), data, nodes);
-  StateBuffer state(*hinge, nodes);
+  data.turn().stiffness = 2;
+  JointAtOrigin joint(hinge_type, data);
+  StateBuffer& state = joint.state;
   const Vec3 e = axis.normalized();
   // the angle is given exactly at every step, as turns + part
   const int parts = 3;
   for (int turn = 0; turn < 1000000; ++turn)
     for (int part = 0; part < parts; ++part) {
       state.turn(1, rotation_exp(2 * std::numbers::pi * part / parts * e), Vec3::Zero());
-      std::vector<double> history = state.history;
-      hinge->commit(state.view(), {}, history);
-      state.history = history;
+      joint.accept();
     }
   state.turn(1, rotation_exp(0.25 * e), Vec3::Zero());
-  EXPECT_NEAR(channel_of(*hinge, state, "ANGLE"), 2e6 * std::numbers::pi + 0.25, 1e-9);
-  std::vector<double> history(2);
-  hinge->commit(state.view(), {}, history);
-  EXPECT_EQ(history[0], 1e6);
-  EXPECT_NEAR(history[1], 0.25, 1e-15);
+  EXPECT_NEAR(joint.channel("ANGLE"), 2e6 * std::numbers::pi + 0.25, 1e-9);
+  joint.accept();
+  EXPECT_EQ(state.history[0], 1e6);
+  EXPECT_NEAR(state.history[1], 0.25, 1e-15);
 }
 
 TEST(Hinge, GradientOfTheAngleIsTheSumOfAxes) {
@@ -145,7 +87,8 @@ TEST(Hinge, GradientOfTheAngleIsTheSumOfAxes) {
 
 TEST(Hinge, ReactionOfAHangingWeight) {
   // what the joint does to node 2, by its channels, from multipliers set by hand in joint axes
-  HingeData data = plain(0, 1);
+  JointData data;
+  data.nodes = {0, 1};
   data.axis = {0, 0, 1};
   data.at = {{0, 0, 0}};
   const NodeMap nodes = {{0, Vec3::Zero()}, {1, {2, 0, 0}}};
@@ -160,27 +103,46 @@ TEST(Hinge, ReactionOfAHangingWeight) {
   EXPECT_NEAR(r[6 + 4], -14, 1e-14) << "7 along z at the joint turns the node, 2 along x from it, about +y";
 }
 
-TEST(Hinge, FaultsOfTheCard) {
-  const NodeMap nodes = {{0, Vec3::Zero()}, {1, {1, 0, 0}}, {2, {1, 3, 4}}};
-  const auto message = [&](const HingeData& data) {
-    Diagnostics diagnostics;
-    EXPECT_EQ(build(hinge_type(), data, nodes, {.functions = &functions, .diagnostics = &diagnostics}), nullptr);
-    return diagnostics.all().empty() ? std::string() : diagnostics.all().front().message;
-  };
-  HingeData data = plain(1, 2);
+TEST(Hinge, FrictionOfBushesAndCollar) {
+  JointData data;
   data.axis = {0, 0, 1};
-  EXPECT_EQ(message(data), "nodes 1 and 2 of the hinge are 5 apart");
+  data.friction = {"CONST", {0.2}};
+  data.friction_width = 1e-3;
+  data.radius = 0.05;
+  data.collar = 0.08;
+  data.bearing_length = 0.4;
+  JointAtOrigin joint(hinge_type, data);
+  joint.put(Vec3::Zero(), {0, 0, 0.7});
+  joint.move(Vec3::Zero(), {0, 0, -2});
+  // e1 = z; in the plane of e2 the force 10 and, about e3, the moment 3: bushes carry 5 + 3/0.4 and 5 − 3/0.4
+  joint.state.multipliers = {7, 10, 0, 0, 3};
+  EXPECT_NEAR(joint.channel("PRESSING_FORCE"), 2 * 7.5 + 7, 1e-13);
+  const double moment = 0.2 * (0.05 * 15 + 0.08 * 7);
+  EXPECT_NEAR(joint.channel("FRICTION_MOMENT"), moment, 1e-13);
+  EXPECT_NEAR(joint.channel("MOMENT_Z"), moment, 1e-13) << "against the spin";
+  EXPECT_NEAR(joint.channel("FRICTION_POWER"), 2 * moment, 1e-13);
+  // regularised: p(x) = x (15 − 10 x² + 3 x⁴)/8 with x = 0.05·0.004/1e-3 at the bushes, 0.32 at the collar
+  joint.move(Vec3::Zero(), {0, 0, 0.004});
+  const auto p = [](double x) { return x * (15 - 10 * x * x + 3 * x * x * x * x) / 8; };
+  EXPECT_NEAR(joint.channel("FRICTION_MOMENT"), 0.2 * (0.05 * 15 * p(0.2) + 0.08 * 7 * p(0.32)), 1e-13);
+}
+
+TEST(Hinge, FaultsOfTheCard) {
+  JointData data;
+  data.nodes = {1, 2};
+  data.axis = {0, 0, 1};
+  EXPECT_EQ(joint_fault(hinge_type, data), "nodes 1 and 2 of the hinge are 5 apart");
   data.nodes = {1, 1};
-  EXPECT_EQ(message(data), "node 1 is named twice");
+  EXPECT_EQ(joint_fault(hinge_type, data), "node 1 is named twice");
   data.nodes = {0, 1};
-  data.function = 1;
-  EXPECT_EQ(message(data), "NF without DRIVE");
-  data.function = 0;
-  data.drive.tag = "ANGLE";
-  EXPECT_EQ(message(data), "DRIVE needs a function of time");
-  data.drive.tag = "";
+  data.turn().function = 1;
+  EXPECT_EQ(joint_fault(hinge_type, data), "NF without DRIVE");
+  data.turn().function = 0;
+  data.turn().drive.tag = "ANGLE";
+  EXPECT_EQ(joint_fault(hinge_type, data), "DRIVE needs a function of time");
+  data.turn().drive.tag = "";
   data.axis = {0, 0, 0};
-  EXPECT_EQ(message(data), "AXIS 0 0 0 is not a direction");
+  EXPECT_EQ(joint_fault(hinge_type, data), "AXIS 0 0 0 is not a direction");
 }
 
 }  // namespace

@@ -36,6 +36,19 @@ inline JointData joint_data(int a, int b) {
   return data;
 }
 
+/// Turns B's rotation from A back to at most `largest`: joints have no meaning with axes reversed, and half a turn from what was
+/// last accepted is the next turn.
+inline void keep_near(StateBuffer& state, double largest) {
+  const Mat3 apart = state.nodes[0].R.transpose() * state.nodes[1].R;
+  const Eigen::AngleAxisd turn(apart);
+  if (turn.angle() <= largest) return;
+  const std::size_t moved = state.is_ground(1) ? 0 : 1;
+  const Mat3 kept = Eigen::AngleAxisd(largest, turn.axis()).toRotationMatrix();
+  const Mat3 R = moved == 1 ? Mat3(state.nodes[0].R * kept) : Mat3(state.nodes[1].R * kept.transpose());
+  const Vec3 y = state.y[moved];
+  state.turn(moved, R * rotation_exp(y).transpose(), y);
+}
+
 inline Subject joint_subject(const std::string& name, ElementType (*type)(), const JointData& wished) {
   Subject s;
   s.name = name;
@@ -43,11 +56,13 @@ inline Subject joint_subject(const std::string& name, ElementType (*type)(), con
   s.build = [=](const Mat3& Q) {
     JointData data = wished;
     data.axis = components(Q * Vec3(data.axis.data()));
-    for (auto* direction : {&data.second, &data.at, &data.from, &data.to})
+    for (auto* direction : {&data.second, &data.at, &data.from, &data.to, &data.on})
       if (*direction) *direction = components(Q * Vec3((*direction)->data()));
     return build(type(), data, turned(s.nodes, Q), {.functions = &joint_functions()});
   };
   s.force = 5;
+  s.states = name == "joint" ? 40 : 10;
+  s.adjust = [](StateBuffer& state, Random&) { keep_near(state, 2); };
   s.own_axes = true;
   return s;
 }
@@ -64,6 +79,114 @@ inline Subject driven(Subject s) {
   return s;
 }
 
+/// The free coordinate of a card that a test speaks of.
+using Coordinate = CoordinateData& (*)(JointData&);
+inline CoordinateData& slide_of(JointData& data) { return data.slide(); }
+inline CoordinateData& slide_b_of(JointData& data) { return data.slide_b(); }
+inline CoordinateData& turn_of(JointData& data) { return data.turn(); }
+inline CoordinateData& turn_b_of(JointData& data) { return data.turn_b(); }
+
+/// Values and rates of the switches against differences along the motion.
+inline void check_switches(const Subject& subject) {
+  SCOPED_TRACE(subject.name);
+  const auto element = subject.build(Mat3::Identity());
+  ASSERT_NE(element, nullptr);
+  Random random(11);
+  const std::size_t count = element->layout().switches.size();
+  ASSERT_GT(count, 0U);
+  for (int i = 0; i < 10; ++i) {
+    const StateBuffer state = random_state(subject, *element, random);
+    const auto at = [&](double t) {
+      std::vector<Switch> values(count);
+      element->switches(state.after(t).view(), values);
+      return values;
+    };
+    const double h = 1e-5;
+    const auto now = at(0), plus = at(h), minus = at(-h);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (now[k].size == 0 || plus[k].size == 0 || minus[k].size == 0) continue;
+      const double rate = (plus[k].value - minus[k].value) / (2 * h);
+      EXPECT_NEAR(now[k].rate, rate, 1e-6 * (std::abs(rate) + now[k].size)) << element->layout().switches[k].rises;
+    }
+  }
+}
+
+/// Drives, springs by every law, and stops of one free coordinate; `drives` names the options of its drive.
+inline void run_coordinate(ElementType (*type)(), const JointData& plain, Coordinate of, const std::string& itself, bool turns,
+                           double largest = 2) {
+  const auto joint_subject = [=](const std::string& name, ElementType (*of_type)(), const JointData& data) {
+    Subject s = suite::joint_subject(name, of_type, data);
+    s.adjust = [=](StateBuffer& state, Random&) { keep_near(state, largest); };
+    return s;
+  };
+  for (const std::string& kind : {itself, std::string("SPEED")}) {
+    JointData data = plain;
+    of(data).drive.tag = kind;
+    of(data).function = 1;
+    run_suite(driven(joint_subject("driven in " + kind, type, data)));
+  }
+  {
+    JointData data = plain;
+    of(data).stiffness = 12;
+    of(data).relaxed = turns ? 20 : 0.3;
+    Subject s = joint_subject("spring", type, data);
+    s.skip[Check::zero] = s.skip[Check::rigid] = "the spring is not relaxed in the reference configuration";
+    run_suite(s);
+    of(data).relaxed = 0;
+    of(data).damping = 3;
+    run_suite(damped(joint_subject("spring and damper", type, data)));
+  }
+  {
+    JointData data = plain;
+    of(data).law = {"POLY", {3, 0.7, 2}};
+    run_suite(joint_subject("polynomial", type, data));
+    of(data).damping_law = 1;
+    Subject s = driven(damped(joint_subject("polynomial and law of damping", type, data)));
+    run_suite(s);
+  }
+  for (const double exponent : {1.0, 1.5}) {
+    JointData data = plain;
+    of(data).lower = of(data).upper = turns ? 20 : 0.2;  // pressed on one side or the other
+    of(data).stop_stiffness = 9;
+    of(data).stop_exponent = exponent;
+    Subject s = joint_subject("stops", type, data);
+    s.skip[Check::zero] = s.skip[Check::rigid] = "the reference configuration presses on a stop";
+    run_suite(s);
+    of(data).stop_damping = {"HUNT", {0.1}};
+    s = damped(joint_subject("stops of Hunt and Crossley", type, data));
+    s.skip[Check::zero] = s.skip[Check::rigid] = "the reference configuration presses on a stop";
+    run_suite(s);
+    check_switches(s);
+  }
+}
+
+/// Friction by every law, below and above the speed at which it is regularised. Sums, objectivity, tangent and power are the
+/// suite's; here that the power is lost, and no more than there is friction.
+inline void run_friction(ElementType (*type)(), const JointData& plain, bool has_radius = true) {
+  const deck::Tagged laws[] = {{"CONST", {0.3}}, {"STRIBECK", {0.4, 0.25, 0.8, 0.05}}, {"FCT", {1}}};
+  for (const deck::Tagged& law : laws)
+    for (const double width : {0.02, 20.0}) {
+      JointData data = plain;
+      data.friction = law;
+      data.friction_width = width;
+      if (has_radius) data.radius = 0.4;
+      data.collar = 0.3;
+      data.bearing_length = 0.9;
+      data.preload = 0.6;
+      Subject s = joint_subject("friction " + law.tag + " of width " + std::to_string(width), type, data);
+      s.skip[Check::ideal] = "friction follows the size of the reaction";
+      s.skip[Check::lagrange] = "friction has no potential";
+      run_suite(s);
+      if (law.tag == "FCT") continue;  // a wave: may be negative
+      const auto element = s.build(Mat3::Identity());
+      Random random(5);
+      for (int i = 0; i < 40; ++i) {
+        const StateBuffer state = random_state(s, *element, random);
+        EXPECT_GT(element->energies(state.view()).dissipated, 0) << s.name;
+      }
+    }
+}
+
 /// Long and short, with any stiffness, through 1e6 turns.
 inline void run_joint_extremes(ElementType (*type)(), const JointData& wished) {
   for (const double stiffness : {1e-6, 1e15})
@@ -74,9 +197,9 @@ inline void run_joint_extremes(ElementType (*type)(), const JointData& wished) {
       s.length = s.velocity = length;
       s.build = [=](const Mat3&) {
         JointData data = wished;
-        data.stiffness = data.damping = data.turn_stiffness = data.turn_damping = stiffness;
+        data.slide().stiffness = data.slide().damping = data.turn().stiffness = data.turn().damping = stiffness;
         data.pitch *= length;
-        for (auto* place : {&data.at, &data.from, &data.to})
+        for (auto* place : {&data.at, &data.from, &data.to, &data.on})
           if (*place) *place = components(Vec3((*place)->data()) * length);
         return build(type(), data, s.nodes, {.functions = &joint_functions()});
       };
@@ -105,6 +228,11 @@ struct JointAtOrigin {
   void put(const Vec3& x, const Vec3& turn) {
     state.nodes[1].x = x;
     state.turn(1, rotation_exp(turn), Vec3::Zero());
+  }
+  /// Velocity and spin of node 1, global; call it after put().
+  void move(const Vec3& velocity, const Vec3& spin) {
+    state.nodes[1].v = velocity;
+    state.nodes[1].W = state.nodes[1].R.transpose() * spin;
   }
   /// Values of the constraints.
   std::vector<double> gaps() const {

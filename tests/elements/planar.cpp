@@ -16,17 +16,17 @@ TEST(Planar, Suite) {
 
 TEST(Planar, SuiteWithTorsionSpring) {
   JointData data = joint_data(2, 1);
-  data.turn_stiffness = 7;
+  data.turn().stiffness = 7;
   run_suite(joint_subject("spring", planar_type, data));
-  data.turn_damping = 2;
+  data.turn().damping = 2;
   run_suite(damped(joint_subject("spring and damper", planar_type, data)));
 }
 
 TEST(Planar, SuiteWithDrivenTurn) {
   for (const char* kind : {"ANGLE", "SPEED"}) {
     JointData data = joint_data(1, 2);
-    data.turn.tag = kind;
-    data.turn_function = 1;
+    data.turn().drive.tag = kind;
+    data.turn().function = 1;
     run_suite(driven(joint_subject(std::string("driven in ") + kind, planar_type, data)));
   }
 }
@@ -34,11 +34,21 @@ TEST(Planar, SuiteWithDrivenTurn) {
 TEST(Planar, SuiteWithSprings) {
   JointData data = joint_data(2, 1);
   data.second = {{1, 0.5, 2}};
-  data.stiffness = 12;
+  data.both_stiffness = 12;
   run_suite(joint_subject("springs", planar_type, data));
-  data.damping = 3;
+  data.both_damping = 3;
   run_suite(damped(joint_subject("springs and dampers", planar_type, data)));
 }
+
+TEST(Planar, SuiteWithAllOptions) {
+  JointData data = joint_data(1, 2);
+  data.second = {{1, 0.5, 2}};
+  run_coordinate(planar_type, data, slide_of, "SLIDE", false);
+  run_coordinate(planar_type, data, slide_b_of, "SLIDE", false);
+  run_coordinate(planar_type, data, turn_of, "ANGLE", true);
+}
+
+TEST(Planar, SuiteWithFriction) { run_friction(planar_type, joint_data(1, 2)); }
 
 TEST(Planar, Extremes) { run_joint_extremes(planar_type, joint_data(1, 2)); }
 
@@ -46,7 +56,7 @@ TEST(Planar, SlidesAndTurns) {
   JointData data;
   data.axis = {0, 0, 1};
   data.second = {{0, 2, 5}};  // only its part in the plane counts
-  data.stiffness = 10;
+  data.both_stiffness = 10;
   JointAtOrigin joint(planar_type, data);
   joint.put({3, 4, 0}, {0, 0, 2.5});
   for (const double gap : joint.gaps()) EXPECT_NEAR(gap, 0, 1e-15);
@@ -59,8 +69,25 @@ TEST(Planar, SlidesAndTurns) {
   EXPECT_NEAR(joint.channel("FORCE_1"), 6, 1e-14);
 }
 
+TEST(Planar, FrictionOfSlidingAndSpinning) {
+  JointData data;
+  data.axis = {0, 0, 1};
+  data.friction = {"CONST", {0.5}};
+  data.friction_width = 1e-3;
+  data.radius = 2;
+  JointAtOrigin joint(planar_type, data);
+  joint.move({1, 2, 0}, {0, 0, 1});  // sliding velocity (1, 2) and, at radius 2, 2: size 3
+  joint.state.multipliers = {12, 0, 0};
+  EXPECT_NEAR(joint.channel("FORCE_X"), -6.0 / 3, 1e-13);
+  EXPECT_NEAR(joint.channel("FORCE_Y"), -12.0 / 3, 1e-13);
+  EXPECT_NEAR(joint.channel("MOMENT_Z"), -6 * 2 * 2.0 / 3, 1e-13);
+  EXPECT_NEAR(joint.channel("FRICTION_POWER"), 18, 1e-12);
+}
+
 TEST(Planar, FaultsOfTheCard) {
   JointData data = joint_data(1, 2);
+  data.both_stiffness = data.slide().stiffness = 2;
+  EXPECT_EQ(joint_fault(planar_type, data), "K gives both slides, and K2 or its law one of them");
   data.second = data.axis;
   EXPECT_EQ(joint_fault(planar_type, data), "DIR is along the normal AXIS");
 }

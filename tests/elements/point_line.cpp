@@ -16,20 +16,24 @@ TEST(PointLine, Suite) {
 
 TEST(PointLine, SuiteWithSlideSpring) {
   JointData data = joint_data(2, 1);
-  data.stiffness = 12;
+  data.slide().stiffness = 12;
   run_suite(joint_subject("spring", point_line_type, data));
-  data.damping = 3;
+  data.slide().damping = 3;
   run_suite(damped(joint_subject("spring and damper", point_line_type, data)));
 }
 
 TEST(PointLine, SuiteWithDrivenSlide) {
   for (const char* kind : {"SLIDE", "SPEED"}) {
     JointData data = joint_data(1, 2);
-    data.drive.tag = kind;
-    data.function = 1;
+    data.slide().drive.tag = kind;
+    data.slide().function = 1;
     run_suite(driven(joint_subject(std::string("driven in ") + kind, point_line_type, data)));
   }
 }
+
+TEST(PointLine, SuiteWithAllOptions) { run_coordinate(point_line_type, joint_data(1, 2), slide_of, "SLIDE", false); }
+
+TEST(PointLine, SuiteWithFriction) { run_friction(point_line_type, joint_data(1, 2)); }
 
 TEST(PointLine, Extremes) { run_joint_extremes(point_line_type, joint_data(1, 2)); }
 

@@ -14,6 +14,15 @@ TEST(PointPlane, Suite) {
   run_suite(joint_subject("b on the ground", point_plane_type, joint_data(2, 0)));
 }
 
+TEST(PointPlane, SuiteWithAllOptions) {
+  JointData data = joint_data(1, 2);
+  data.second = {{1, 0.5, 2}};
+  run_coordinate(point_plane_type, data, slide_of, "SLIDE", false);
+  run_coordinate(point_plane_type, data, slide_b_of, "SLIDE", false);
+}
+
+TEST(PointPlane, SuiteWithFriction) { run_friction(point_plane_type, joint_data(1, 2)); }
+
 TEST(PointPlane, Extremes) { run_joint_extremes(point_plane_type, joint_data(1, 2)); }
 
 TEST(PointPlane, AsksForNoRotationOfB) {

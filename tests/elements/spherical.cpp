@@ -14,6 +14,24 @@ TEST(Spherical, Suite) {
   run_suite(joint_subject("b on the ground", spherical_type, joint_data(2, 0)));
 }
 
+TEST(Spherical, SuiteWithFriction) { run_friction(spherical_type, joint_data(1, 2)); }
+
+TEST(Spherical, FrictionAgainstTheSpin) {
+  JointData data;
+  data.friction = {"CONST", {0.2}};
+  data.friction_width = 1e-3;
+  data.radius = 0.1;
+  JointAtOrigin joint(spherical_type, data);
+  joint.put(Vec3::Zero(), {1, 2, 3});
+  joint.move(Vec3::Zero(), {6, -2, 3});
+  joint.state.multipliers = {1, 2, -2};
+  const auto r = residual_of(*joint.joint, joint.state);
+  const Vec3 moment = -joint.state.nodes[1].R * Vec3(r[9], r[10], r[11]);
+  EXPECT_NEAR((moment - Vec3(-6, 2, -3) / 7 * 0.2 * 0.1 * 3).norm(), 0, 1e-15);
+  EXPECT_NEAR(joint.channel("FRICTION_MOMENT"), 0.06, 1e-15);
+  EXPECT_NEAR(joint.channel("FRICTION_POWER"), 0.42, 1e-14);
+}
+
 TEST(Spherical, Extremes) { run_joint_extremes(spherical_type, joint_data(1, 2)); }
 
 TEST(Spherical, AsksForNoRotationItDoesNotNeed) {

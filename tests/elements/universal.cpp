@@ -22,11 +22,18 @@ TEST(Universal, Suite) {
 
 TEST(Universal, SuiteWithSprings) {
   JointData data = pins(2, 1);
-  data.turn_stiffness = 7;
+  data.turn().stiffness = 7;
   run_suite(joint_subject("springs", universal_type, data));
-  data.turn_damping = 2;
+  data.turn().damping = 2;
   run_suite(damped(joint_subject("springs and dampers", universal_type, data)));
 }
+
+TEST(Universal, SuiteWithAllOptions) {
+  run_coordinate(universal_type, pins(1, 2), turn_of, "ANGLE", true, 1);
+  run_coordinate(universal_type, pins(1, 2), turn_b_of, "ANGLE", true, 1);
+}
+
+TEST(Universal, SuiteWithFriction) { run_friction(universal_type, pins(1, 2)); }
 
 TEST(Universal, Extremes) { run_joint_extremes(universal_type, pins(1, 2)); }
 
@@ -41,6 +48,49 @@ TEST(Universal, PinsOneAfterTheOther) {
   for (const double gap : joint.gaps()) EXPECT_NEAR(gap, 0, 1e-15);
   EXPECT_NEAR(joint.channel("ANGLE_1"), alpha, 1e-14);
   EXPECT_NEAR(joint.channel("ANGLE_2"), beta, 1e-14);
+}
+
+TEST(Universal, PinsThroughManyTurns) {
+  // shaft A turns a thousand times while B, bent from it by 45 degrees, follows: the pins swing and nothing is lost
+  JointData data;
+  data.axis = {0, 0, 1};
+  data.second = {{0, 1, 0}};
+  data.nodes = {1, 2};
+  data.at = {{0, 0, 0}};
+  const NodeMap nodes = {{0, Vec3::Zero()}, {1, Vec3::Zero()}, {2, Vec3::Zero()}};
+  const auto joint = build(universal_type(), data, nodes);
+  StateBuffer state(*joint, nodes);
+  const double beta = std::numbers::pi / 4;
+  const Vec3 shaft(std::cos(beta), 0, -std::sin(beta));
+  for (int i = 0; i <= 12000; ++i) {
+    const double theta = std::numbers::pi / 6 * i;
+    state.turn(0, rotation_exp({theta, 0, 0}), Vec3::Zero());
+    state.turn(1, rotation_exp(std::atan2(std::sin(theta), std::cos(theta) * std::cos(beta)) * shaft), Vec3::Zero());
+    ASSERT_NEAR(residual_of(*joint, state).back(), 0, 1e-11) << i;
+    joint->commit(state.view(), {}, state.history);
+    ASSERT_LE(std::abs(channel_of(*joint, state, "ANGLE_1")), beta + 1e-9) << i;
+    ASSERT_LE(std::abs(channel_of(*joint, state, "ANGLE_2")), 2 * beta + 1e-9) << i;  // from where it starts, bent
+  }
+}
+
+TEST(Universal, FrictionOfThePins) {
+  // a torque T across the pins presses their bearings, L apart, with 2 T/L
+  JointData data;
+  data.axis = {1, 0, 0};
+  data.second = {{0, 1, 0}};
+  data.friction = {"CONST", {0.1}};
+  data.friction_width = 1e-4;
+  data.radius = 0.02;
+  data.bearing_length = 0.08;
+  JointAtOrigin joint(universal_type, data);
+  joint.move(Vec3::Zero(), {2, -3, 0});
+  joint.state.multipliers = {0, 0, 0, 40};
+  EXPECT_NEAR(joint.channel("PRESSING_FORCE_1"), 2 * 40 / 0.08, 1e-10);
+  EXPECT_NEAR(joint.channel("FRICTION_MOMENT_1"), 0.1 * 0.02 * 1000, 1e-12);
+  EXPECT_NEAR(joint.channel("FRICTION_POWER_1"), 2 * 2, 1e-12);
+  EXPECT_NEAR(joint.channel("FRICTION_POWER_2"), 2 * 3, 1e-12);
+  EXPECT_NEAR(joint.channel("MOMENT_1"), -2, 1e-12);
+  EXPECT_NEAR(joint.channel("MOMENT_2"), 2, 1e-12);
 }
 
 TEST(Universal, SpeedsOfBentShafts) {
