@@ -33,7 +33,7 @@ TEST(Universal, SuiteWithAllOptions) {
   run_coordinate(universal_type, pins(1, 2), turn_b_of, "ANGLE", true, 1);
 }
 
-TEST(Universal, SuiteWithFriction) { run_friction(universal_type, pins(1, 2)); }
+TEST(Universal, SuiteWithFriction) { run_friction(universal_type, pins(1, 2), true, 1); }
 
 TEST(Universal, Extremes) { run_joint_extremes(universal_type, pins(1, 2)); }
 
