@@ -7,7 +7,8 @@
 
 namespace engrane {
 
-/// Reads CONST, STRIBECK, FCT or USER into a law whose width is known; false, with an error at FRICTION, when the numbers make none.
+/// Reads CONST, STRIBECK, FCT or USER into a law whose width is known; false, with an error at FRICTION, when the numbers make
+/// none.
 bool read_friction(const BuildContext& context, const deck::Tagged& given, FrictionLaw& law);
 
 /// The function that a number of a card names; false, with an error at the keyword, when it does not exist.

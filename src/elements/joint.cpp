@@ -144,7 +144,7 @@ void Joint::act(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& b
       if (c.drive.given()) add(m, balance.constraint(row++, m.value - c.drive.coordinate(motion.time) - driven_origin(c)));
       if (!c.sprung() && !c.stop.given()) continue;
       const T speed = rate_of(m, rates);
-      if (c.sprung()) add(m, c.spring(m.value, speed));
+      if (c.sprung()) add(m, c.spring(m.value, speed, state.time));
       if (c.stop.given()) add(m, c.stop.push(m.value, speed, balance.bridge()));
     }
     for (const JointFriction& f : parts_.friction) {
@@ -253,8 +253,9 @@ Energies Joint::energies(const State& state) const {
   std::size_t row = parts_.constraints.size();
   for (const JointCoordinate& c : parts_.coordinates) {
     const Observed o = observed(c, state);
-    e.potential += c.law.stored(o.value - c.relaxed) + c.stop.stored(o.value);
-    e.dissipated += c.law.viscous(o.rate) * o.rate + c.stop.lost(o.value, o.rate);
+    const Energies spring = c.law.energies(o.value - c.relaxed, o.rate, state.time);
+    e.potential += spring.potential + c.stop.stored(o.value);
+    e.dissipated += spring.dissipated + c.stop.lost(o.value, o.rate);
     if (c.drive.given()) e.external += state.multipliers[row++] * c.drive.rate(state.time);
   }
   for (const JointRub<double>& r : rubbed(state)) e.dissipated += r.power;
@@ -295,7 +296,7 @@ void Joint::observe(const State& state, std::span<double> values) const {
   std::size_t row = parts_.constraints.size();
   for (const JointCoordinate& c : parts_.coordinates) {
     const Observed o = observed(c, state);
-    if (c.sprung()) values[i++] = c.spring(o.value, o.rate);
+    if (c.sprung()) values[i++] = c.spring(o.value, o.rate, state.time);
     if (c.drive.given()) {
       const double effort = state.multipliers[row++];
       values[i++] = effort;

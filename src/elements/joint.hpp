@@ -43,8 +43,8 @@ struct JointCoordinate {
   bool sprung() const { return law.acts(); }
   /// Force or torque of spring and damper.
   template <class T>
-  T spring(const T& value, const T& rate) const {
-    return -law.elastic(T(value - relaxed)) - law.viscous(rate);
+  T spring(const T& value, const T& rate, double time) const {
+    return -law.force(T(value - relaxed), rate, time);
   }
 };
 

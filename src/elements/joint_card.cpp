@@ -202,7 +202,8 @@ bool find_stop(const BuildContext& context, const CoordinateData& data, const Co
 std::optional<JointCoordinate> find_coordinate(const BuildContext& context, const CoordinateData& data,
                                                const CoordinateWords& words, Measure measure, const CoordinateNames& names) {
   JointCoordinate c{measure, names};
-  const auto law = SpringLaw::of(context, data, data.stiffness, data.damping, words.suffix);
+  const auto law =
+      SpringLaw::of(context, data, data.stiffness, data.damping, -data.relaxed * (words.turns ? degree : 1), 0.1, words.suffix);
   if (!law || !find_drive(context, data, words, c.drive) || !find_stop(context, data, words, c.stop)) return {};
   c.law = *law;
   c.relaxed = data.relaxed * (words.turns ? degree : 1);
@@ -292,7 +293,6 @@ bool add_friction(const JointData& data, const BuildContext& context, JointParts
   }
   JointFriction f;
   f.kind = kind;
-  if (!read_friction(context, data.friction, f.law)) return false;
   if (!data.friction_width) {
     context.error("FRICTION", "friction needs VREG, the sliding speed below which it is regularised",
                   "VREG v, well below the speeds of interest: what ought to rest creeps by up to v");
@@ -303,6 +303,7 @@ bool add_friction(const JointData& data, const BuildContext& context, JointParts
     return false;
   }
   f.law.width = *data.friction_width;
+  if (!read_friction(context, data.friction, f.law)) return false;
   if (!words.radius.empty()) f.radius = data.radius;
   f.collar = data.collar;
   f.length = data.bearing_length;
