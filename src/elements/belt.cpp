@@ -275,7 +275,7 @@ std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {
     return nullptr;
   }
   JointFrame frame;
-  set_axes(frame, *axis, across / distance);
+  frame.set_axes(*axis, across / distance);
   return std::make_unique<Belt>(context.record.id, data.nodes, frame, shape, law, distance);
 }
 

@@ -10,6 +10,7 @@
 #include "elements/building.hpp"
 #include "elements/cam_contact.hpp"
 #include "elements/cam_design.hpp"
+#include "elements/friction_card.hpp"
 #include "elements/stop_range.hpp"
 
 namespace engrane {
@@ -193,27 +194,7 @@ bool find_friction(const CamData& data, const BuildContext& context, double size
   }
   FrictionLaw law;
   law.width = data.friction_width.value_or(1e-3 * size);
-  const std::vector<double>& v = data.friction.values;
-  if (data.friction.is("FCT")) {
-    law.kind = FrictionLaw::Kind::function;
-    const Function** functions[] = {&law.of_speed, &law.of_load};
-    for (std::size_t k = 0; k < v.size(); ++k) {
-      *functions[k] = context.function(static_cast<int>(v[k]), "FRICTION");
-      if (!*functions[k]) return false;
-    }
-  } else {
-    law.mu = v[0];
-    if (data.friction.is("STRIBECK")) {
-      law.kind = FrictionLaw::Kind::stribeck;
-      law.kinetic = v[1];
-      law.stribeck_speed = v[2];
-      law.viscous = v.size() > 3 ? v[3] : 0;
-    }
-    if (std::any_of(v.begin(), v.end(), [](double x) { return x < 0; }) || law.stribeck_speed == 0) {
-      context.error("FRICTION", "friction coefficients are not negative, and the Stribeck speed is positive");
-      return false;
-    }
-  }
+  if (!read_friction(context, data.friction, law)) return false;
   parts.friction = law;
   return true;
 }
@@ -428,11 +409,7 @@ ElementType cam_type() {
       .positive();
   card.add("EXP", &CamData::exponent, "exponent of the penetration").synonyms({"EXPOSANT"}).at_least(1);
   add_stop_damping(card.add("DAMP", &CamData::damping, "damping of the contact; none when not given").synonyms({"AMOR"}));
-  card.add("FRICTION", &CamData::friction, "friction of a knife edge or a flat face")
-      .synonyms({"FROTTEMENT"})
-      .option({"CONST", {"COULOMB", "CONSTANT"}, "mu", 1, 1})
-      .option({"STRIBECK", {}, "mu_s mu_k v_s [c]: mu_k + (mu_s - mu_k) exp(-(v/v_s)^2) + c v", 3, 4})
-      .option({"FCT", {"NF"}, "f [g]: function f of the sliding speed, times function g of the normal force", 1, 2});
+  add_friction_options(card.add("FRICTION", &CamData::friction, "friction of a knife edge or a flat face"));
   card.add("VREG", &CamData::friction_width,
            "sliding speed below which friction is regularised; 1e-3 of the least radius per time unit when not given")
       .synonyms({"V0"})

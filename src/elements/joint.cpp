@@ -14,8 +14,6 @@ namespace engrane {
 
 namespace {
 
-bool is_angle(Measure m) { return m == Measure::angle || m == Measure::pin_a || m == Measure::pin_b || m == Measure::azimuth; }
-
 /// Does the measure look at B's second or third axis?
 bool looks_across_b(Measure m) {
   switch (m) {
@@ -183,7 +181,7 @@ Joint::Joint(int id, JointParts parts) : TemplatedElement(id), parts_(std::move(
                   parts_.frame.turns_b ? NodeNeed::both : NodeNeed::translation};
   const auto count = [this](Measure m) {
     if (m == Measure::screw) m = Measure::angle;
-    if (is_angle(m) && std::find(angles_.begin(), angles_.end(), m) == angles_.end()) angles_.push_back(m);
+    if (is_turn(m) && std::find(angles_.begin(), angles_.end(), m) == angles_.end()) angles_.push_back(m);
   };
   for (const JointConstraint& c : parts_.constraints) {
     layout.multipliers.push_back(multiplier(c.measure));

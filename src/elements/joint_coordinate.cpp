@@ -13,7 +13,7 @@ namespace engrane {
 
 void Coordinate::commit(const NodeState& a, const NodeState& b, std::span<const double> committed, std::span<double> next) const {
   if (!is_angle()) return;
-  turn_count::commit(measure(what, frame, JointPose<double>(frame, a, b), 0).value, committed, next);
+  turn_count::commit(measure(what, frame, JointPose<double>(frame, a, b)).value, committed, next);
 }
 
 PlacedCoordinate::PlacedCoordinate(Coordinate wanted, Layout& layout)
@@ -40,20 +40,9 @@ namespace {
 
 std::vector<Coordinate> coordinates_of(const JointParts& parts) {
   std::vector<Coordinate> all;
-  for (const JointCoordinate& c : parts.coordinates) all.push_back({c.name, parts.nodes, parts.frame, c.measure, parts.point});
+  for (const JointCoordinate& c : parts.coordinates)
+    all.push_back({c.names.value, parts.nodes, parts.frame, c.measure, parts.point});
   return all;
-}
-
-/// HINGE is an element of its own kind: its angle from its card.
-Coordinate hinge_angle(const deck::Record& record) {
-  const auto numbers = [&record](std::string_view keyword) { return record.schema->find(keyword)->load(record.data).numbers; };
-  const auto nodes = numbers("N"), axis = numbers("AXIS");
-  const AxisTriad triad(Vec3(axis[0], axis[1], axis[2]).normalized());
-  Coordinate c;
-  c.name = "ANGLE";
-  c.nodes = {static_cast<int>(nodes[0]), static_cast<int>(nodes[1])};
-  set_axes(c.frame, triad.e1, triad.e2);
-  return c;
 }
 
 /// The coordinates of the element that a record describes. Its own faults are its own to report: `faulty` then.
@@ -70,7 +59,6 @@ std::vector<Coordinate> coordinates_of(const BuildContext& context, const deck::
     const auto element = type.build(other);
     faulty = !element;
     if (const auto* joint = dynamic_cast<const Joint*>(element.get())) return coordinates_of(joint->parts());
-    if (element && record.schema->name == "HINGE") return {hinge_angle(record)};
   }
   return {};
 }

@@ -16,13 +16,6 @@
 
 namespace engrane {
 
-/// The axes that both nodes carry, from two perpendicular unit vectors.
-inline void set_axes(JointFrame& frame, const Vec3& first, const Vec3& second) {
-  frame.e1 = first;
-  frame.e2 = second;
-  frame.e3 = cross(first, second);
-}
-
 struct Coordinate {
   std::string name;            ///< channel of its element: ANGLE, SLIDE
   std::array<int, 2> nodes{};  ///< a and b
@@ -30,7 +23,7 @@ struct Coordinate {
   Measure what = Measure::angle;
   Vec3 point = Vec3::Zero();  ///< for pictures
 
-  bool is_angle() const { return what == Measure::angle || what == Measure::pin_a || what == Measure::pin_b; }
+  bool is_angle() const { return is_turn(what); }
   Dimension dimension() const { return is_angle() ? dimension::angle : dimension::length; }
   Dimension rate_dimension() const { return is_angle() ? dimension::angular_velocity : dimension::velocity; }
   Dimension effort_dimension() const { return is_angle() ? dimension::moment : dimension::force; }
@@ -49,7 +42,7 @@ struct Coordinate {
   template <class T, class Node>
   Reading<T> read(const Node& a, const Node& b, std::span<const double> committed) const {
     const JointPose<T> pose(frame, a, b);
-    Measured<T> m = measure(what, frame, pose, 0);
+    Measured<T> m = measure(what, frame, pose);
     if (is_angle()) m.value += 2 * std::numbers::pi * turn_count::turns(value_of(m.value), committed);
     const auto spin = [](bool turning, const Node& node) {
       return turning ? Vec3T<T>(rotate(node.R, node.W)) : Vec3T<T>(T(0), T(0), T(0));

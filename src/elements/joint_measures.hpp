@@ -31,6 +31,11 @@ enum class Measure {
   azimuth,   ///< atan2(e3·d, e2·d): turn of B's point round that axis
 };
 
+/// An angle that counts its whole turns.
+inline bool is_turn(Measure m) {
+  return m == Measure::angle || m == Measure::pin_a || m == Measure::pin_b || m == Measure::azimuth;
+}
+
 /// The joint axes and the joint point on each node, in the reference configuration.
 struct JointFrame {
   Vec3 e1 = Vec3::UnitX(), e2 = Vec3::UnitY(), e3 = Vec3::UnitZ();  ///< on A

@@ -97,7 +97,7 @@ std::optional<Coordinate> sensor_coordinate(const SensorData& data, const BuildC
   const auto axis = unit_vector(context, "AXIS", *data.axis);
   if (!axis) return {};
   const AxisTriad triad(*axis);
-  set_axes(c.frame, triad.e1, triad.e2);
+  c.frame.set_axes(triad.e1, triad.e2);
   c.point = at_b;
   if (data.kind.is("ANGLE")) {
     c.name = "ANGLE";

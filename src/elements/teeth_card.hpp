@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "elements/friction_card.hpp"
 #include "elements/tooth_contact.hpp"
 #include "model/registry.hpp"
 
@@ -126,12 +127,7 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .refers(deck::Reference::function);
   c.add("PITCHB", &TeethData::pitch_b, "the same of wheel B").synonyms({"PAS_B"}).refers(deck::Reference::function);
   c.add("PHASE", &TeethData::phase, "mesh phase at the start, 360 per tooth; follows from the train when not given").unit(angle);
-  c.add("FRICTION", &TeethData::friction, "sliding friction between the flanks")
-      .synonyms({"FROTTEMENT"})
-      .option({"CONST", {"COULOMB", "CONSTANT"}, "mu", 1, 1})
-      .option({"STRIBECK", {}, "mu_s mu_k v_s [c]: mu_k + (mu_s - mu_k) exp(-(v/v_s)^2) + c v", 3, 4})
-      .option({"FCT", {"NF", "TABLE"}, "f [g]: function f of the sliding speed, times function g of the normal force", 1, 2})
-      .option({"USER", {"UTILISATEUR"}, "f: routine f of .FCT, of the sliding speed and the normal force", 1, 1});
+  add_friction_options(c.add("FRICTION", &TeethData::friction, "sliding friction between the flanks"));
   c.add("VREG", &TeethData::friction_width,
         "sliding speed below which friction is regularised; 1e-3 r_A per time unit when not given")
       .synonyms({"V0"})
