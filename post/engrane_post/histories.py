@@ -60,7 +60,8 @@ def legend_text(result: Results, channel: Channel, several_files: bool, several_
     """Only what tells the curves apart."""
     parts = [result.name] if several_files else []
     if several_channels:
-        parts.append(f"{channel.owner}: {channel.label}" if channel.owner and channel.label else channel.name)
+        what = f"{channel.owner}: {channel.label}" if channel.owner and channel.label else channel.name
+        parts.append(what + channel.remark)
     return ", ".join(parts)
 
 

@@ -96,7 +96,7 @@ def print_list(result: Results) -> None:
         if c.owner != owner:
             owner = c.owner
             print(f"  {owner}")
-        print(f"    {c.name:<{width}}  {c.unit:<{units}}  {c.label}".rstrip())
+        print(f"    {c.name:<{width}}  {c.unit:<{units}}  {c.label}{c.remark}".rstrip())
 
 
 def finite(

@@ -27,19 +27,25 @@ AXIS_WIDTH = 36  # characters along the shortest diagram
 
 @dataclass(frozen=True)
 class Channel:
-    """One history: its full name (`element/7/NORMAL_FORCE`), a few words, its unit and the owner's type and
-    name."""
+    """One history: its full name (`element/7/NORMAL_FORCE`), a few words, its unit, the owner's type and
+    name, and whether its values are the only ones that balance the loads."""
 
     name: str
     label: str
     unit: str
     owner: str = ""
+    unique: bool = True
 
     @property
     def axis_label(self) -> str:
         """Text for a plot's axis: the label with the unit in brackets, broken so that neither is cut off."""
-        text = f"{self.label or self.name} {bracketed(self.unit)}".strip()
+        text = f"{self.label or self.name} {bracketed(self.unit)}{self.remark}".strip()
         return "\n".join(textwrap.wrap(text, AXIS_WIDTH))
+
+    @property
+    def remark(self) -> str:
+        """` (not unique)` for a reaction that redundant constraints leave undetermined."""
+        return "" if self.unique else " (not unique)"
 
 
 @dataclass(frozen=True)
@@ -237,7 +243,7 @@ class Results:
         if isinstance(data, h5py.Dataset) and data.ndim == 1:
             label = text(data.attrs["label"]) if "label" in data.attrs else ""
             unit = text(data.attrs["unit"]) if "unit" in data.attrs else ""
-            out[name] = Channel(name, label, unit, owner)
+            out[name] = Channel(name, label, unit, owner, bool(data.attrs.get("unique", 1)))
 
     def find_channels(self, wanted: str) -> list[Channel]:
         """Channels meant by a name as a user types it; a pattern such as `element/*/NORMAL_FORCE` may give

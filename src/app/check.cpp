@@ -17,17 +17,22 @@ int print_model(const Model& model, std::ostream& out) {
   out << describe_analysis(model) << "\n\n" << listing_built(summarize(model, bench.numbering)) << describe_geometry(model);
   if (!model.commands.checks.empty()) out << fmt::format("\n  {} checks (.CHK) will be made\n", model.commands.checks.size());
   Configuration c = bench.numbering.reference_configuration(model.commands.stepping.start);
+  StartReport report;
   try {
     apply_initial_displacements(bench, c);
-    StartReport report;
     bench.start.assemble(c, report);
-    // drives may agree on the place and not on the speed
-    bench.start.fit_velocities(c, Assembler::Metric::geometric, report, false);
+    const bool moves = !model.commands.analysis.type.is("STATIC");
+    if (moves) apply_initial_velocities(bench, c);
+    // drives may agree on the place and not on the speed; supports move nodes only where there is motion
+    bench.start.fit_velocities(c, Assembler::Metric::geometric, report, moves);
+    if (!moves) report.velocities_fitted = false;
   } catch (const SolutionFailure& failure) {
     out << "\n  " << failure.what() << '\n';
     return exit_status::solution_failed;
   }
-  out << '\n' << describe_mobility(bench.assembler, c, bench.redundancy.mobility());
+  out << "\nThe start\n"
+      << describe_start(model, report) << '\n'
+      << describe_mobility(bench.assembler, c, bench.redundancy.mobility());
   return exit_status::fine;
 }
 

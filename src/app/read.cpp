@@ -5,6 +5,8 @@
 
 #include <filesystem>
 
+#include "app/plausibility.hpp"
+
 namespace engrane {
 
 namespace {
@@ -67,6 +69,7 @@ Reading read_deck(const std::string& path) {
   reading.model = build_model(reading.deck, element_types(), building);
   if (syntax_good) check_targets(reading.deck, reading.model, building);
   if (!building.has_errors()) warn_of_undamped_constraints(reading.deck, reading.model, building);
+  if (syntax_good && !building.has_errors()) warn_of_unit_slips(reading.deck, reading.model, building);
   // a record that could not be read leaves a hole: what the model then misses is an echo, not a fault of its own. But
   // what is wrong with records that were read is wrong all the same
   for (const Diagnostic& d : building.all()) {

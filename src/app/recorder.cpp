@@ -39,17 +39,15 @@ std::vector<Named> node_channels(bool moves, bool supported) {
   return c;
 }
 
-/// A static run has no speed and so no power: it keeps no balance.
 std::vector<Named> run_channels(bool moves) {
   std::vector<Named> channels{{"STEP", dimension::time, "time step"},
                               {"ITERATIONS", dimension::none, "Newton iterations of the step"},
                               {"EVENTS", dimension::none, "events met since the start: teeth that begin or cease to touch"},
                               {"POTENTIAL_ENERGY", dimension::energy, "potential energy"}};
-  if (moves)
-    channels.insert(channels.end(), {{"KINETIC_ENERGY", dimension::energy, "kinetic energy"},
-                                     {"EXTERNAL_WORK", dimension::energy, "work of applied forces and drives"},
-                                     {"DISSIPATED_ENERGY", dimension::energy, "energy lost to damping"},
-                                     {"ENERGY_ERROR", dimension::energy, "what the energy balance fails to close by"}});
+  if (moves) channels.push_back({"KINETIC_ENERGY", dimension::energy, "kinetic energy"});
+  channels.push_back({"EXTERNAL_WORK", dimension::energy, "work of applied forces and drives"});
+  if (moves) channels.push_back({"DISSIPATED_ENERGY", dimension::energy, "energy lost to damping"});
+  channels.push_back({"ENERGY_ERROR", dimension::energy, "what the energy balance fails to close by"});
   return channels;
 }
 
@@ -143,7 +141,8 @@ void Recorder::observe(const Configuration& c, const StepReport& step) {
     while (frame_step_ > 0 && next_frame_ <= c.time + early) next_frame_ += frame_step_;
   }
 
-  find_reactions(c);
+  reactions_ = reactions_at(c);
+  if (bench_.redundancy.active() && (last || (step.number & (step.number - 1)) == 0)) find_not_unique(c);
   observe_elements(c, step);
   observe_nodes(c);
   if (frame_due_) fill_fields(c);
@@ -170,6 +169,8 @@ void Recorder::observe_elements(const Configuration& c, const StepReport& step) 
   energies_.potential = sum.potential;
   if (step.number == 0) {
     energies_.initial = sum.kinetic + sum.potential;
+  } else if (!moves_) {
+    energies_.external_work += static_work(before_, c);
   } else {
     const double half = 0.5 * (c.time - last_time_);
     energies_.external_work += half * (external_power_ + sum.external);
@@ -185,16 +186,90 @@ void Recorder::observe_elements(const Configuration& c, const StepReport& step) 
   events_ += static_cast<double>(step.events.size());
   run[2] = events_;
   run[3] = energies_.potential;
-  if (!moves_) return;
-  run[4] = energies_.kinetic;
-  run[5] = energies_.external_work;
-  run[6] = energies_.dissipated;
-  run[7] = energies_.error();
+  if (moves_) {
+    run[4] = energies_.kinetic;
+    run[5] = energies_.external_work;
+    run[6] = energies_.dissipated;
+    run[7] = energies_.error();
+  } else {
+    run[4] = energies_.external_work;
+    run[5] = energies_.error();
+    before_ = c;
+  }
 }
 
-void Recorder::find_reactions(const Configuration& c) {
-  reactions_.clear();
-  if (supported_.empty()) return;
+double Recorder::static_work(const Configuration& from, const Configuration& to) {
+  const double time = to.time - from.time;
+  if (!(time > 0)) return 0;
+  double work = 0;
+  for (const Configuration* end : {&from, &to}) {
+    Configuration c = *end;
+    for (std::size_t i = 0; i < c.nodes.size(); ++i) {
+      c.nodes[i].v = (to.nodes[i].x - from.nodes[i].x) / time;
+      // the rotation vector between the two is the same in the axes of either
+      c.nodes[i].W = rotation_log(from.nodes[i].R.transpose() * to.nodes[i].R) / time;
+    }
+    for (std::size_t i = 0; i < c.scalars.size(); ++i) c.scalar_rates[i] = (to.scalars[i] - from.scalars[i]) / time;
+    const auto& parts = reading_.model.parts;
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      work += 0.5 * time * parts[p].element->energies(bench_.assembler.view(static_cast<int>(p), c)).external;
+    // reactions are those of the equilibrium, which has no dampers
+    for (const Reaction& reaction : reactions_at(*end)) {
+      const NodeState& node = c.nodes[static_cast<std::size_t>(reaction.node)];
+      work += 0.5 * time * (reaction.force.dot(node.v) + reaction.torque.dot(node.R * node.W));
+    }
+  }
+  return work;
+}
+
+std::vector<double> Recorder::reaction_values(const Configuration& c) {
+  std::vector<double> values(values_.size(), 0.0);
+  const auto& parts = reading_.model.parts;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Element& element = *parts[p].element;
+    if (element.layout().multipliers.empty()) continue;
+    element.observe(bench_.assembler.view(static_cast<int>(p), c),
+                    std::span(values).subspan(static_cast<std::size_t>(channel_begin_[p]), element.channels().size()));
+  }
+  const std::vector<Reaction> reactions = reactions_at(c);
+  auto at = static_cast<std::size_t>(node_begin_);
+  const std::size_t plain = node_channels(moves_, false).size();
+  for (const int index : observed_nodes_) {
+    const auto found = std::find_if(reactions.begin(), reactions.end(), [index](const Reaction& r) { return r.node == index; });
+    at += plain;
+    if (found == reactions.end()) continue;
+    for (const Vec3* part : {&found->force, &found->torque})
+      for (Eigen::Index k = 0; k < 3; ++k) values[at++] = (*part)[k];
+  }
+  return values;
+}
+
+void Recorder::find_not_unique(const Configuration& c) {
+  const Eigen::MatrixXd null = bench_.redundancy.undetermined(c);
+  if (null.cols() == 0) return;
+  double size = 0;
+  for (const double multiplier : c.multipliers) size = std::max(size, std::abs(multiplier));
+  if (size == 0) size = 1;
+  const std::vector<double> values = reaction_values(c);
+  std::set<int> found(not_unique_.begin(), not_unique_.end());
+  // two combinations, so that what one leaves alone by chance the other changes
+  for (const double seed : {0.7, 1.9}) {
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(null.rows());
+    for (Eigen::Index j = 0; j < null.cols(); ++j)
+      change += std::cos(seed + 2.3 * static_cast<double>(j)) * null.col(j) / null.col(j).lpNorm<Eigen::Infinity>();
+    change *= size / std::max(change.lpNorm<Eigen::Infinity>(), 1e-300);
+    Configuration other = c;
+    for (std::size_t m = 0; m < other.multipliers.size(); ++m) other.multipliers[m] += change[static_cast<Eigen::Index>(m)];
+    const std::vector<double> changed = reaction_values(other);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (std::abs(changed[i] - values[i]) > 1e-7 * (size + std::abs(values[i]))) found.insert(static_cast<int>(i));
+  }
+  not_unique_.assign(found.begin(), found.end());
+}
+
+std::vector<Recorder::Reaction> Recorder::reactions_at(const Configuration& c) {
+  std::vector<Reaction> reactions;
+  if (supported_.empty()) return reactions;
   const std::vector<double> residual = bench_.assembler.slot_residual(c);
   for (const int node : supported_) {
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
@@ -202,8 +277,9 @@ void Recorder::find_reactions(const Configuration& c) {
       const int slot = 6 * node + i;
       if (bench_.numbering.equation(slot) < 0) (i < 3 ? force : moment)[i % 3] = residual[static_cast<std::size_t>(slot)];
     }
-    reactions_.push_back({node, force, c.nodes[static_cast<std::size_t>(node)].R * moment});
+    reactions.push_back({node, force, c.nodes[static_cast<std::size_t>(node)].R * moment});
   }
+  return reactions;
 }
 
 void Recorder::observe_nodes(const Configuration& c) {

@@ -37,6 +37,10 @@ class Recorder {
   const std::vector<double>& values() const { return values_; }
   const EnergyBalance& energies() const { return energies_; }
 
+  /// Channels, index into values(), that redundant constraints leave undetermined: looked for at the start, after 1, 2, 4, …
+  /// steps and at the end, since what is undetermined in one position may show in other components in the next.
+  const std::vector<int>& not_unique() const { return not_unique_; }
+
   bool sample_due() const { return sample_due_; }
   bool frame_due() const { return frame_due_; }
   /// Fields of the last observed configuration; the spans live until the next observe().
@@ -52,7 +56,12 @@ class Recorder {
  private:
   void observe_elements(const Configuration& c, const StepReport& step);
   void observe_nodes(const Configuration& c);
-  void find_reactions(const Configuration& c);
+  std::vector<Reaction> reactions_at(const Configuration& c);
+  void find_not_unique(const Configuration& c);
+  /// Values of elements' channels and of nodes' reactions, zero in between.
+  std::vector<double> reaction_values(const Configuration& c);
+  /// Work of loads and supports between two equilibria, by the trapezoidal rule along the straight way between them.
+  double static_work(const Configuration& from, const Configuration& to);
   void fill_fields(const Configuration& c);
 
   const Reading& reading_;
@@ -64,6 +73,8 @@ class Recorder {
   int node_begin_ = 0, run_begin_ = 0;
   std::vector<double> values_;
   EnergyBalance energies_;
+  std::vector<int> not_unique_;
+  Configuration before_;  ///< of a static run: the last equilibrium
   double events_ = 0;
   double external_power_ = 0, dissipated_power_ = 0, last_time_ = 0;
   std::vector<int> supported_;

@@ -64,17 +64,10 @@ class Writer {
     listing_.write(listing_section("Start"));
   }
 
-  void started(const StartReport& start, const UnitSystem& units) {
-    if (start.position_iterations == 0)
-      listing_.write("  the mechanism closes as given\n");
-    else
-      listing_.write(fmt::format("  assembled in {} iterations; moved most: {}, by {:.4g} {} and {:.4g} deg\n",
-                                 start.position_iterations, start.moved_most, start.largest_move, units.label(dimension::length),
-                                 start.largest_turn * 57.295779513082320877));
-    if (start.largest_velocity_change > 0)
-      listing_.write(
-          fmt::format("  initial velocities changed by up to {:.4g} to fit joints and drives\n", start.largest_velocity_change));
+  void started(const StartReport& start) {
+    listing_.write(describe_start(reading_.model, start));
     listing_.write(start.mobility);
+    for (const std::string& remark : start.remarks) progress_.note("engrane: assembly: " + remark);
     if (start.redundant > 0)
       progress_.note(
           fmt::format("engrane: {} redundant constraint{}: how some reactions share a load is not unique (see the listing)",
@@ -85,6 +78,10 @@ class Writer {
   void step(const Configuration& c, const StepReport& step, const Numbering& numbering) {
     const bool last = c.time >= reading_.model.commands.stepping.end;
     checks_.observe(c.time, recorder_.values(), step.regular);
+    if (recorder_.not_unique().size() != marked_) {
+      marked_ = recorder_.not_unique().size();
+      results_.mark_not_unique(recorder_.not_unique());
+    }
     if (recorder_.sample_due()) results_.sample(c.time, recorder_.values());
     if (recorder_.frame_due()) {
       results_.frame(c.time, recorder_.frame());
@@ -107,16 +104,18 @@ class Writer {
   int finish(RunStatus status, const std::string& failure, const TimeSplit& times) {
     progress_.finish();
     const UnitSystem& units = reading_.model.units;
-    if (!reading_.model.commands.analysis.type.is("STATIC")) {
-      listing_.write(listing_section("Energies"));
-      listing_.write(listing_energies(thinned_energies(), units));
-    }
+    listing_.write(listing_section("Energies"));
+    listing_.write(listing_energies(thinned_energies(), units));
     std::vector<ReactionRow> reactions;
     for (const Recorder::Reaction& r : recorder_.reactions())
       reactions.push_back({reading_.model.nodes[static_cast<std::size_t>(r.node)].id, r.force, r.torque});
     if (!reactions.empty()) {
       listing_.write(listing_section("Reactions at the end"));
       listing_.write(listing_reactions(reactions, units));
+    }
+    if (marked_ > 0) {
+      listing_.write(listing_section("Not unique"));
+      listing_.write(listing_not_unique(recorder_.groups(), recorder_.not_unique()));
     }
     if (event_count_ > 0) {
       listing_.write(listing_section("Events"));
@@ -194,6 +193,7 @@ class Writer {
   Progress progress_;
   std::vector<EnergyRow> energies_;
   std::string events_;
+  std::size_t marked_ = 0;  ///< channels marked as not unique so far
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;
 };
 
@@ -277,7 +277,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
           return stop == 0;
         },
         [&](const StartReport& start) {
-          if (rank == 0) writer->started(start, reading.model.units);
+          if (rank == 0) writer->started(start);
         });
   } catch (const SolutionFailure& e) {
     failure = e.what();

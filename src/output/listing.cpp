@@ -130,6 +130,26 @@ std::string listing_reactions(std::span<const ReactionRow> rows, const UnitSyste
   return table.text();
 }
 
+std::string listing_not_unique(const std::vector<ChannelGroup>& groups, std::span<const int> channels) {
+  std::string out =
+      "  Redundant constraints leave the share of a load between these open. The least were given; a real machine's follow from "
+      "its\n"
+      "  clearances and compliances. In the results they have the attribute unique = 0.\n\n";
+  int first = 0;
+  for (const ChannelGroup& group : groups) {
+    std::string names;
+    for (const int channel : channels)
+      if (channel >= first && channel < first + static_cast<int>(group.channels.size()))
+        names += " " + group.channels[static_cast<std::size_t>(channel - first)].name;
+    first += static_cast<int>(group.channels.size());
+    if (names.empty()) continue;
+    const auto type = group.attributes.find("type");
+    const std::string id = group.path.substr(group.path.find('/') + 1);
+    out += fmt::format("  {:<20}{}\n", type == group.attributes.end() ? "node " + id : type->second + " " + id, names);
+  }
+  return out;
+}
+
 std::string listing_checks(std::span<const CheckResult> checks) {
   if (checks.empty()) return "";
   Table table({{"check", Align::left},

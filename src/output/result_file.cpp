@@ -201,6 +201,11 @@ void ResultFile::append_frame(const Batch::Frame& frame) {
   grow(frame_time_, time);
 }
 
+void ResultFile::mark_not_unique(std::span<const int> channels) {
+  for (const int channel : channels)
+    if (not_unique_.insert(channel).second) at(channels_[static_cast<std::size_t>(channel)].set).attribute("unique", 0);
+}
+
 void ResultFile::write_checks(std::span<const CheckResult> checks) {
   struct Row {
     const char* text;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,6 +52,8 @@ class ResultFile {
   ResultFile(const std::string& path, const ResultsLayout& layout, std::string shown_as);
 
   void append(const Batch& batch);
+  /// Writes the attribute `unique` = 0 on these channels, but for those that have it.
+  void mark_not_unique(std::span<const int> channels);
   void write_checks(std::span<const CheckResult> checks);
   void set_status(const std::string& status);
   /// Hands everything to the operating system: from here on the file opens with all that was appended.
@@ -80,6 +83,7 @@ class ResultFile {
   hdf5::Handle file_;
   Growing time_;
   std::vector<Growing> channels_;
+  std::set<int> not_unique_;
   Growing frame_time_;
   std::vector<hdf5::Handle> field_groups_;
 };

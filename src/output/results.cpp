@@ -105,6 +105,7 @@ void Results::write_batch() {
   if (gathered_->empty()) return;
   spare_->append(*last_);
   spare_->append(*gathered_);
+  spare_->mark_not_unique(not_unique_);
   spare_->flush();
   exchange_names(path_, spare_path());
   std::swap(shown_, spare_);
@@ -130,6 +131,7 @@ void Results::finish(RunStatus status) {
     spare_->append(*last_);
     spare_->append(*gathered_);
     for (const Batch::Frame& frame : gathered_->frames) frame_times_.push_back(frame.time);
+    spare_->mark_not_unique(not_unique_);
     spare_->write_checks(checks_);
     spare_->set_status(complete ? "complete" : "failed");
     spare_->close();

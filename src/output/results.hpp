@@ -45,6 +45,9 @@ class Results {
   void sample(double time, std::span<const double> values);
   /// Fields at one time.
   void frame(double time, const FrameValues& values);
+  /// Channels whose values are one choice of many, places in the layout's order: their datasets get `unique` = 0 with the
+  /// next batch. Those named before may be named again.
+  void mark_not_unique(std::vector<int> channels) { not_unique_ = std::move(channels); }
   /// What finish() stores as `/checks`.
   void checks(std::vector<CheckResult> results) { checks_ = std::move(results); }
   /// Writes what was gathered now: before a long pause, or on a signal.
@@ -83,6 +86,7 @@ class Results {
   std::vector<double> frame_times_;  ///< of all frames in `shown_`
   std::size_t indexed_frames_ = 0;
   std::vector<CheckResult> checks_;
+  std::vector<int> not_unique_;
   Clock::time_point written_ = Clock::now();
   Clock::time_point index_due_ = Clock::now();
   bool over_ = false;  ///< finished, or writing has failed

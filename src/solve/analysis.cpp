@@ -41,9 +41,9 @@ void apply_initial_displacements(const Workbench& bench, Configuration& c) {
   c = std::move(moved);
 }
 
-void Analysis::apply_initial_velocities(Configuration& c) const {
-  std::vector<double> v = bench_.motion.velocities(c);
-  for (const InitialValue& value : bench_.model.initial) {
+void apply_initial_velocities(const Workbench& bench, Configuration& c) {
+  std::vector<double> v = bench.motion.velocities(c);
+  for (const InitialValue& value : bench.model.initial) {
     if (!value.velocity) continue;
     if (value.component < 3) {
       v[static_cast<std::size_t>(6 * value.node + value.component)] = value.value;
@@ -54,7 +54,7 @@ void Analysis::apply_initial_velocities(Configuration& c) const {
       for (int i = 0; i < 3; ++i) v[static_cast<std::size_t>(6 * value.node + 3 + i)] += spin[i];
     }
   }
-  bench_.motion.set_velocities(v, c);
+  bench.motion.set_velocities(v, c);
 }
 
 void Analysis::refuse_half_turns(std::span<const double> y, NewtonReport& report) const {
@@ -63,8 +63,11 @@ void Analysis::refuse_half_turns(std::span<const double> y, NewtonReport& report
     const double turn = Vec3(y[6 * i + 3], y[6 * i + 4], y[6 * i + 5]).norm();
     if (turn < std::numbers::pi) continue;
     report.converged = false;
-    report.reason = fmt::format("node {} turned by {:.0f} degrees in one step; half a turn is the most that can be followed",
-                                bench_.model.nodes[i].id, turn * 180 / std::numbers::pi);
+    report.reason = fmt::format(
+        "node {} turned by {:.4g} degrees in one step; half a turn is the most that can be followed: take a smaller step H, at "
+        "most "
+        "{:.2g} of this one, or see whether a speed is given in the wrong unit",
+        bench_.model.nodes[i].id, turn * 180 / std::numbers::pi, 0.9 * std::numbers::pi / turn);
     return;
   }
 }

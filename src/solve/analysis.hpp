@@ -48,7 +48,6 @@ class Analysis {
  protected:
   /// Displacements of the prescribed slots between two times, written into a flat step.
   void prescribe_step(double from, double to, std::span<double> y) const;
-  void apply_initial_velocities(Configuration& c) const;
   /// Fails a converged step in which a node turned so far that turns can no longer be counted.
   void refuse_half_turns(std::span<const double> y, NewtonReport& report) const;
   /// Multipliers of `c` in the scaled unknowns of the solver, and back.
@@ -64,6 +63,8 @@ class Analysis {
 
 /// Moves the reference configuration to the initial displacements and supports of the deck.
 void apply_initial_displacements(const Workbench& bench, Configuration& c);
+/// Gives it the initial velocities of the deck.
+void apply_initial_velocities(const Workbench& bench, Configuration& c);
 
 /// The analysis that `.SAM` asks for.
 std::unique_ptr<Analysis> make_analysis(Workbench& bench);

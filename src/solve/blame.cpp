@@ -41,6 +41,35 @@ Eigen::MatrixXd dense_copy(Assembler& assembler, Eigen::VectorXd& column_scale) 
   return dense;
 }
 
+/// What to do about a motion that nothing resists; `order`: equations, those that move most first.
+std::string advice(const Assembler& assembler, const std::vector<int>& order, const Eigen::VectorXd& null) {
+  const Model& model = assembler.model();
+  const double largest = std::abs(null[order[0]]);
+  if (model.commands.analysis.type.is("STATIC"))
+    return ". Statics needs something that holds every motion: a support (.CLM FIX), a joint, a spring or a drive; what is to "
+           "move freely needs TYPE DYNAMIC";
+  std::string nodes;
+  int last = -1;
+  for (const int e : order) {
+    if (std::abs(null[e]) < 0.1 * largest) break;
+    const Unknown& u = assembler.numbering().unknown(e);
+    if (u.multiplier || u.node < 0 || u.node == last) continue;
+    bool inert = false;
+    for (const Model::Part& part : model.parts)
+      if (part.type == "INERTIA" || part.type == "RIGID")
+        inert = inert || std::find(part.nodes.begin(), part.nodes.end(), u.node) != part.nodes.end();
+    if (inert) continue;
+    last = u.node;
+    nodes += fmt::format("{}node {}", nodes.empty() ? "" : ", ", model.nodes[static_cast<std::size_t>(u.node)].id);
+  }
+  if (nodes.empty())
+    return ". A body that may turn needs a moment of inertia about every axis that it can turn about (INERTIA ... J), or "
+           "something "
+           "that holds it";
+  return ". No inertia acts on " + nodes +
+         ": give it a mass (INERTIA), make it part of a body (RIGID), or hold it by a support or spring";
+}
+
 }  // namespace
 
 std::string explain_singular(Assembler& assembler, const std::string& what) {
@@ -70,7 +99,7 @@ std::string explain_singular(Assembler& assembler, const std::string& what) {
   }
   const auto deficient = (svd.singularValues().array() < 1e-12 * svd.singularValues()[0]).count();
   const std::string more = deficient > 1 ? fmt::format(" (one of {} such)", deficient) : "";
-  return moves ? fmt::format("{}: nothing resists a motion of {}{}", what, names, more)
+  return moves ? fmt::format("{}: nothing resists a motion of {}{}{}", what, names, more, advice(assembler, order, null))
                : fmt::format("{}: the reactions {} are not determined{}", what, names, more);
 }
 

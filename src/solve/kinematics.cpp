@@ -7,9 +7,9 @@ StartReport Kinematics::start(Configuration& c) {
   StartReport report;
   apply_initial_displacements(bench_, c);
   bench_.start.assemble(c, report);
-  apply_initial_velocities(c);
+  apply_initial_velocities(bench_, c);
   bench_.start.fit_velocities(c, Assembler::Metric::geometric, report);
-  bench_.start.balance_accelerations(c);
+  bench_.start.balance_accelerations(c, 12, &report);
   return report;
 }
 

@@ -3,157 +3,21 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
-#include <Eigen/SparseQR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
+#include "solve/constraint_factors.hpp"
+#include "solve/cure.hpp"
+
 namespace engrane {
 
 namespace {
 
-using Sparse = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
-
-/// Whether the columns are those of B (gradients of the constraints) or of the forces that multipliers make, which differ
-/// where a force follows the size of a multiplier (the separating force of gears).
-enum class Columns { gradients, forces };
-
-/// Sizes that make translations and rotations comparable.
-double size_of(const Unknown& u, double extent) {
-  return u.measure == Measure::force || u.measure == Measure::length ? extent : 1.0;
-}
-
-/// One column per multiplier, one row per free motion; rows times the size of their motion, columns of length 1, and
-/// their QR.
-class Factors {
- public:
-  Factors(Assembler& assembler, const Configuration& configuration, Columns kind, double tolerance) {
-    const Numbering& numbering = assembler.numbering();
-    const double extent = assembler.model().extent();
-    const auto motion = static_cast<std::size_t>(numbering.motion_slots());
-    row_of_.assign(motion, -1);
-    for (int e = 0; e < numbering.equations(); ++e) {
-      const Unknown& u = numbering.unknown(e);
-      if (u.multiplier) continue;
-      row_of_[static_cast<std::size_t>(u.slot)] = static_cast<int>(row_size_.size());
-      row_size_.push_back(size_of(u, extent));
-      slot_.push_back(static_cast<std::size_t>(u.slot));
-    }
-    const auto columns = static_cast<Eigen::Index>(numbering.slots() - numbering.motion_slots());
-    std::vector<Eigen::Triplet<double>> entries;
-    std::vector<double> r, k;
-    const auto& parts = assembler.model().parts;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-      const std::size_t count = parts[p].element->layout().multipliers.size();
-      if (count == 0) continue;
-      const auto& slots = numbering.part_slots(static_cast<int>(p));
-      const std::size_t n = slots.size(), first = n - count;
-      r.assign(n, 0);
-      k.assign(n * n, 0);
-      parts[p].element->tangent(assembler.view(static_cast<int>(p), configuration), {1, 0, 0}, r, k);
-      for (std::size_t m = first; m < n; ++m)
-        for (std::size_t i = 0; i < first; ++i) {
-          const int row = row_of_[static_cast<std::size_t>(slots[i])];
-          const double value = kind == Columns::gradients ? -k[m * n + i] : k[i * n + m];
-          if (row < 0 || value == 0) continue;
-          entries.emplace_back(row, slots[m] - numbering.motion_slots(), value * row_size_[static_cast<std::size_t>(row)]);
-        }
-    }
-    Sparse matrix(static_cast<Eigen::Index>(row_size_.size()), columns);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    length_ = Vector::Ones(columns);
-    for (Eigen::Index m = 0; m < columns; ++m) {
-      const double length = matrix.col(m).norm();
-      if (!(length > 0)) continue;
-      length_[m] = length;
-      matrix.col(m) /= length;
-    }
-    matrix.makeCompressed();
-    if (matrix.rows() == 0 || columns == 0 || matrix.nonZeros() == 0) return;
-    qr_.setPivotThreshold(tolerance);
-    qr_.compute(matrix);
-    rank_ = qr_.rank();
-  }
-
-  Eigen::Index rank() const { return rank_; }
-  Eigen::Index rows() const { return static_cast<Eigen::Index>(row_size_.size()); }
-  Eigen::Index columns() const { return length_.size(); }
-  Eigen::Index deficiency() const { return columns() - rank_; }
-  /// The multiplier at a place of the pivoted order: the first rank() are independent.
-  int pivot(Eigen::Index place) const { return rank_ == 0 ? static_cast<int>(place) : qr_.colsPermutation().indices()[place]; }
-
-  /// A basis of the multipliers that make no force, one column for each dependent one.
-  Eigen::MatrixXd null_multipliers(bool scaled_back) const {
-    const Eigen::Index d = deficiency();
-    Eigen::MatrixXd null = Eigen::MatrixXd::Zero(columns(), d);
-    Eigen::MatrixXd weights(rank_, d);
-    if (rank_ > 0) {
-      const Sparse r = qr_.matrixR();
-      weights = Eigen::MatrixXd(r.topRows(rank_).rightCols(d));
-      const Sparse square = r.topLeftCorner(rank_, rank_);
-      square.triangularView<Eigen::Upper>().solveInPlace(weights);
-    }
-    for (Eigen::Index j = 0; j < d; ++j) {
-      for (Eigen::Index i = 0; i < rank_; ++i) null(pivot(i), j) = -weights(i, j);
-      null(pivot(rank_ + j), j) = 1;
-    }
-    if (scaled_back) null.array().colwise() /= length_.array();
-    return null;
-  }
-
-  /// The part of `wish` (scaled, one entry per row) that closes no constraint: a possible motion.
-  Vector possible_motion(const Vector& wish) const {
-    if (rank_ == 0) return wish;
-    Vector y = qr_.matrixQ().transpose() * wish;
-    y.head(rank_).setZero();
-    return qr_.matrixQ() * y;
-  }
-
-  /// The least (scaled) motion that closes the independent constraints, to first order.
-  Vector closing_motion(const std::vector<double>& phi) const {
-    Vector y = Vector::Zero(rows());
-    if (rank_ == 0) return y;
-    Vector right(rank_);
-    for (Eigen::Index i = 0; i < rank_; ++i) right[i] = -phi[static_cast<std::size_t>(pivot(i))] / length_[pivot(i)];
-    const Sparse square = Sparse(qr_.matrixR()).topLeftCorner(rank_, rank_);
-    const Sparse lower = square.transpose();
-    lower.triangularView<Eigen::Lower>().solveInPlace(right);
-    y.head(rank_) = right;
-    return qr_.matrixQ() * y;
-  }
-
-  /// `motion` slots of a scaled motion.
-  void to_slots(const Vector& motion, std::vector<double>& y) const {
-    for (std::size_t i = 0; i < slot_.size(); ++i) y[slot_[i]] = motion[static_cast<Eigen::Index>(i)] * row_size_[i];
-  }
-
- private:
-  std::vector<int> row_of_;        ///< of a motion slot; -1 when it is not free
-  std::vector<std::size_t> slot_;  ///< of a row
-  std::vector<double> row_size_;
-  Vector length_;
-  Eigen::SparseQR<Sparse, Eigen::COLAMDOrdering<int>> qr_;
-  Eigen::Index rank_ = 0;
-};
-
-/// Tangents are taken per increment of the rotation itself, not of a step's rotation vector.
-Configuration outside_of_steps(Configuration c) {
-  for (NodeState& node : c.nodes) node.T.setIdentity();
-  return c;
-}
-
-const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier) {
-  return numbering.unknown(numbering.equation(numbering.motion_slots() + multiplier));
-}
-
-double relative_open(const Assembler& assembler, int multiplier, double phi) {
-  return std::abs(phi) / size_of(multiplier_unknown(assembler.numbering(), multiplier), assembler.model().extent());
-}
+using Factors = ConstraintFactors;
+using Columns = ConstraintColumns;
 
 /// A little along a possible motion, closed again. False when it does not close: then the motion is only one of first order.
 bool move_along(Assembler& assembler, const MotionSlots& motion, const Factors& here, Configuration& c, double tolerance) {
@@ -276,7 +140,7 @@ std::string names(Assembler& assembler, const Configuration& c, const std::vecto
 
 std::string counted(int number, const char* what) { return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s"); }
 
-constexpr const char* cure =
+constexpr const char* usual_cure =
     "leave one of these directions free in one of the joints, or give it a stiffness instead (KM for teeth)";
 
 }  // namespace
@@ -293,7 +157,8 @@ Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const
     found.dependent.clear();
     for (Eigen::Index i = factors.rank(); i < factors.columns(); ++i) found.dependent.push_back(factors.pivot(i));
     std::sort(found.dependent.begin(), found.dependent.end());
-    found.groups = group(factors.null_multipliers(false));
+    found.null = factors.null_multipliers(false);
+    found.groups = group(found.null);
   };
   if (here.deficiency() == 0) return found;
   std::vector<double> phi, rate, second;
@@ -340,7 +205,8 @@ std::string describe_mobility(Assembler& assembler, const Configuration& configu
   text +=
       "  They agree with one another. The motion and the sums of forces are determined; how these reactions share a load is not "
       "unique: the least ones are given.\n";
-  return text + "  For reactions of a real machine " + cure + ".\n";
+  const std::string cure = suggest_cure(assembler, mobility.null);
+  return text + fmt::format("  For reactions of a real machine {}.\n", cure.empty() ? usual_cure : cure);
 }
 
 bool Redundancy::analyse(const Configuration& c, double tolerance, bool whatever_size) {
@@ -368,9 +234,23 @@ std::string Redundancy::conflict(const Configuration& c) {
                          numbering.describe(numbering.equation(u.slot)), std::abs(open),
                          assembler_.model().units.label(length ? dimension::length : dimension::angle),
                          counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members),
-                         "make the places and axes agree, or free that direction in one of the joints");
+                         "make the places and axes agree" + cure_of(one));
     }
   return {};
+}
+
+std::string Redundancy::cure_of(const RedundantGroup& one) const {
+  Eigen::MatrixXd null(mobility_.null.rows(), one.redundant);
+  Eigen::Index count = 0;
+  // a combination belongs to the group that its largest part belongs to
+  for (Eigen::Index j = 0; j < mobility_.null.cols() && count < one.redundant; ++j) {
+    Eigen::Index largest = 0;
+    mobility_.null.col(j).cwiseAbs().maxCoeff(&largest);
+    if (std::find(one.members.begin(), one.members.end(), static_cast<int>(largest)) != one.members.end())
+      null.col(count++) = mobility_.null.col(j);
+  }
+  const std::string cure = count == one.redundant ? suggest_cure(assembler_, null) : "";
+  return cure.empty() ? ", or free that direction in one of the joints" : ", or " + cure;
 }
 
 std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<double>& rate, double speed) {
@@ -385,6 +265,11 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
                          counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members));
     }
   return {};
+}
+
+Eigen::MatrixXd Redundancy::undetermined(const Configuration& c) {
+  const Factors factors(assembler_, outside_of_steps(c), Columns::forces, rank_tolerance);
+  return factors.null_multipliers(true);
 }
 
 bool Redundancy::share(Configuration& c) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Dense>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct Mobility {
   int motions = 0, constraints = 0, rank = 0;
   std::vector<int> dependent;  ///< multipliers whose constraints follow from the others
   std::vector<RedundantGroup> groups;
+  Eigen::MatrixXd null;  ///< combinations of multipliers that make no force, one column for each redundant constraint
   /// Independent constraints that are dependent in just the present position, for instance bars in line; 0 in most.
   int lost_here = 0;
 
@@ -38,9 +40,9 @@ constexpr double consistent = 1e-8;
 /// Larger models are analysed only when their matrix turns singular.
 constexpr int most_analysed = 2000;
 
-/// Finds dependent constraints by a rank-revealing sparse QR of Bᵀ (Eigen's SparseQR; Davis 2011), rows scaled by the extent
-/// and columns to length 1. Where there is a motion left, the rank counts that a position a little along it shows, or a
-/// mechanism in a dead point would lose a constraint for good. Not collective: every rank finds the same.
+/// Finds dependent constraints by a rank-revealing QR of Bᵀ (ConstraintFactors). Where there is a motion left, the rank counts
+/// that a position a little along it shows, or a mechanism in a dead point would lose a constraint for good. Not collective:
+/// every rank finds the same.
 Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const Configuration& configuration, double tolerance);
 
 /// "2 redundant constraints among HINGE 3 (moment about y), HINGE 12 (force along z)"; one line for each group.
@@ -71,7 +73,14 @@ class Redundancy {
   /// found anew with the released multipliers as they are now.
   bool share(Configuration& c);
 
+  /// Forces and moments that could be added to the multipliers of `c` without any effect on what moves, one column each:
+  /// reactions that these change are not unique.
+  Eigen::MatrixXd undetermined(const Configuration& c);
+
  private:
+  /// ", or make HINGE 3 a SPHERICAL" for a message about constraints that conflict.
+  std::string cure_of(const RedundantGroup& one) const;
+
   Assembler& assembler_;
   const MotionSlots& motion_;
   Mobility mobility_;

@@ -48,9 +48,9 @@ StartReport Transient::start(Configuration& c) {
     apply_initial_displacements(bench_, c);
     bench_.start.assemble(c, report);
   }
-  apply_initial_velocities(c);
+  apply_initial_velocities(bench_, c);
   bench_.start.fit_velocities(c, Assembler::Metric::mass, report);
-  bench_.start.balance_accelerations(c);
+  bench_.start.balance_accelerations(c, 12, &report);
   const double h = bench_.model.commands.stepping.step;
   start_algorithmic_accelerations(c, h, h);
   return report;

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace engrane {
+
+namespace {
+
+constexpr double earth = 9.81;  // m/s²
+
+/// Mass that an element gives to the translation of its first node, from its residual under a unit acceleration.
+double mass_of(const Model& model, const Model::Part& part) {
+  const Layout& layout = part.element->layout();
+  const auto n = static_cast<std::size_t>(layout.slots());
+  std::vector<NodeState> nodes(part.nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].x = model.nodes[static_cast<std::size_t>(part.nodes[i])].x;
+  std::vector<double> scalars(layout.scalars.size(), 0), history(static_cast<std::size_t>(layout.history), 0), r(n, 0),
+      still(n, 0);
+  part.element->start(scalars, history);
+  const std::vector<double> rates(scalars.size(), 0), multipliers(layout.multipliers.size(), 0);
+  State state;
+  state.nodes = nodes;
+  state.scalars = scalars;
+  state.scalar_rates = state.scalar_accelerations = rates;
+  state.multipliers = multipliers;
+  state.history = history;
+  part.element->residual(state, still);
+  nodes[0].a = Vec3::UnitX();
+  part.element->residual(state, r);
+  return r[0] - still[0];
+}
+
+/// A body whose radius of gyration has nothing to do with the size of the mechanism.
+void look_at_bodies(const Model& model, Diagnostics& diagnostics) {
+  constexpr double too_large = 50, too_small = 2000;
+  if (model.nodes.size() < 3) return;  // a single point has no size
+  const double extent = model.extent();
+  for (const Model::Part& part : model.parts) {
+    if (part.type != "INERTIA" && part.type != "RIGID") continue;
+    if (part.nodes.empty() || part.nodes[0] == 0) continue;
+    const double mass = mass_of(model, part);
+    const double moment = part.element->inertia_at(model.nodes[static_cast<std::size_t>(part.nodes[0])].id).diagonal().maxCoeff();
+    if (!(mass > 0) || !(moment > 0)) continue;
+    const double radius = std::sqrt(moment / mass);
+    if (radius < too_large * extent && radius * too_small > extent) continue;
+    const std::string unit = model.units.label(dimension::length);
+    diagnostics.warning(
+        part.location,
+        fmt::format("the radius of gyration sqrt(J/M) of {} {} is {:.3g} {}, {} the largest distance between nodes, {:.3g} {}",
+                    part.type, part.element->id(), radius, unit,
+                    radius > extent ? fmt::format("{:.3g} times", radius / extent) : fmt::format("1/{:.3g} of", extent / radius),
+                    extent, unit),
+        "are J, M and the coordinates in the same units? A moment of inertia in kg mm2 is 1e-6 of one in kg m2");
+  }
+}
+
+/// One node that lies 300 times as far away as all others are apart.
+void look_at_nodes(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  constexpr double far = 300;
+  const std::size_t count = model.nodes.size() - 1;
+  if (count < 3) return;
+  // the median does not follow a stray
+  Vec3 middle;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> x;
+    for (std::size_t i = 1; i <= count; ++i) x.push_back(model.nodes[i].x[k]);
+    std::nth_element(x.begin(), x.begin() + static_cast<long>(count / 2), x.end());
+    middle[k] = x[count / 2];
+  }
+  std::vector<std::pair<double, std::size_t>> away;
+  for (std::size_t i = 1; i <= count; ++i) away.emplace_back((model.nodes[i].x - middle).norm(), i);
+  std::sort(away.begin(), away.end());
+  const auto [farthest, stray] = away[count - 1];
+  const double others = away[count - 2].first;
+  if (!(others > 0) || farthest < far * others) return;
+  const int id = model.nodes[stray].id;
+  for (const deck::Record& record : deck.records)
+    if (record.get<deck::NodeCard>() && record.id == id)
+      diagnostics.warning(record.location,
+                          fmt::format("node {} is {:.4g} {} away from the others, which are within {:.4g}", id, farthest,
+                                      model.units.label(dimension::length), others),
+                          "are its coordinates in the same unit of length?");
+}
+
+/// Gravity of 9.81 in a model in millimetres, or of 9810 in one in metres.
+void look_at_gravity(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  constexpr double tolerance = 0.03, large = 300, small = 1;
+  const auto is = [](double value, double expected) { return std::abs(value - expected) < tolerance * expected; };
+  for (const deck::Record& record : deck.records) {
+    const auto* card = record.get<deck::GravityCard>();
+    if (!card) continue;
+    const auto& v = card->acceleration;
+    const double g = Vec3(v[0], v[1], v[2]).norm();
+    const UnitSystem& units = model.units;
+    if (units.given) {
+      const double si = g * units.length / (units.time * units.time);
+      for (const double slip : {1e-3, 1e3})
+        if (is(si, earth * slip))
+          diagnostics.warning(record.location,
+                              fmt::format("gravity of {:.5g} {} is {} of the earth's", g, units.label(dimension::acceleration),
+                                          slip < 1 ? "a thousandth" : "a thousand times that"),
+                              fmt::format("in the units of .UNIT it is {:.5g}", earth * units.time * units.time / units.length));
+    } else if (model.nodes.size() > 2) {
+      const double extent = model.extent();
+      if (is(g, earth) && extent > large)
+        diagnostics.warning(
+            record.location,
+            fmt::format("gravity of {:.5g} is in metres, and the nodes are up to {:.5g} apart: millimetres?", g, extent),
+            "with lengths in millimetres gravity is 9810; .UNIT says what the numbers are");
+      if (is(g, 1000 * earth) && extent < small)
+        diagnostics.warning(
+            record.location,
+            fmt::format("gravity of {:.5g} is in millimetres, and the nodes are only {:.5g} apart: metres?", g, extent),
+            "with lengths in metres gravity is 9.81; .UNIT says what the numbers are");
+    }
+  }
+}
+
+}  // namespace
+
+void warn_of_unit_slips(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  look_at_bodies(model, diagnostics);
+  look_at_nodes(deck, model, diagnostics);
+  look_at_gravity(deck, model, diagnostics);
+}
+
+}  // namespace engrane
