@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace engrane {
@@ -36,10 +37,9 @@ double mass_of(const Model& model, const Model::Part& part) {
 }
 
 /// A body whose radius of gyration has nothing to do with the size of the mechanism.
-void look_at_bodies(const Model& model, Diagnostics& diagnostics) {
+void look_at_bodies(const Model& model, double extent, Diagnostics& diagnostics) {
   constexpr double too_large = 50, too_small = 2000;
   if (model.nodes.size() < 3) return;  // a single point has no size
-  const double extent = model.extent();
   for (const Model::Part& part : model.parts) {
     if (part.type != "INERTIA" && part.type != "RIGID") continue;
     if (part.nodes.empty() || part.nodes[0] == 0) continue;
@@ -51,19 +51,17 @@ void look_at_bodies(const Model& model, Diagnostics& diagnostics) {
     const std::string unit = model.units.label(dimension::length);
     diagnostics.warning(
         part.location,
-        fmt::format("the radius of gyration sqrt(J/M) of {} {} is {:.3g} {}, {} the largest distance between nodes, {:.3g} {}",
-                    part.type, part.element->id(), radius, unit,
+        fmt::format("the radius of gyration sqrt(J/M) of {} {} is {:.3g} {}, {} the size of the mechanism, {:.3g} {}", part.type,
+                    part.element->id(), radius, unit,
                     radius > extent ? fmt::format("{:.3g} times", radius / extent) : fmt::format("1/{:.3g} of", extent / radius),
                     extent, unit),
         "are J, M and the coordinates in the same units? A moment of inertia in kg mm2 is 1e-6 of one in kg m2");
   }
 }
 
-/// One node that lies 300 times as far away as all others are apart.
-void look_at_nodes(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
-  constexpr double far = 300;
+/// How far nodes are from the middle of all; the two farthest last.
+std::vector<std::pair<double, std::size_t>> distances(const Model& model) {
   const std::size_t count = model.nodes.size() - 1;
-  if (count < 3) return;
   // the median does not follow a stray
   Vec3 middle;
   for (int k = 0; k < 3; ++k) {
@@ -75,9 +73,17 @@ void look_at_nodes(const deck::Deck& deck, const Model& model, Diagnostics& diag
   std::vector<std::pair<double, std::size_t>> away;
   for (std::size_t i = 1; i <= count; ++i) away.emplace_back((model.nodes[i].x - middle).norm(), i);
   std::sort(away.begin(), away.end());
-  const auto [farthest, stray] = away[count - 1];
-  const double others = away[count - 2].first;
-  if (!(others > 0) || farthest < far * others) return;
+  return away;
+}
+
+/// Warns of a node that lies 300 times as far away as all others are apart; returns the size of the mechanism without it.
+double look_at_nodes(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  constexpr double far = 300;
+  if (model.nodes.size() < 4) return model.extent();
+  const auto away = distances(model);
+  const auto [farthest, stray] = away[away.size() - 1];
+  const double others = away[away.size() - 2].first;
+  if (!(others > 0) || farthest < far * others) return model.extent();
   const int id = model.nodes[stray].id;
   for (const deck::Record& record : deck.records)
     if (record.get<deck::NodeCard>() && record.id == id)
@@ -85,10 +91,11 @@ void look_at_nodes(const deck::Deck& deck, const Model& model, Diagnostics& diag
                           fmt::format("node {} is {:.4g} {} away from the others, which are within {:.4g}", id, farthest,
                                       model.units.label(dimension::length), others),
                           "are its coordinates in the same unit of length?");
+  return 2 * others;
 }
 
 /// Gravity of 9.81 in a model in millimetres, or of 9810 in one in metres.
-void look_at_gravity(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
+void look_at_gravity(const deck::Deck& deck, const Model& model, double extent, Diagnostics& diagnostics) {
   constexpr double tolerance = 0.03, large = 300, small = 1;
   const auto is = [](double value, double expected) { return std::abs(value - expected) < tolerance * expected; };
   for (const deck::Record& record : deck.records) {
@@ -106,7 +113,6 @@ void look_at_gravity(const deck::Deck& deck, const Model& model, Diagnostics& di
                                           slip < 1 ? "a thousandth" : "a thousand times that"),
                               fmt::format("in the units of .UNIT it is {:.5g}", earth * units.time * units.time / units.length));
     } else if (model.nodes.size() > 2) {
-      const double extent = model.extent();
       if (is(g, earth) && extent > large)
         diagnostics.warning(
             record.location,
@@ -124,9 +130,9 @@ void look_at_gravity(const deck::Deck& deck, const Model& model, Diagnostics& di
 }  // namespace
 
 void warn_of_unit_slips(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
-  look_at_bodies(model, diagnostics);
-  look_at_nodes(deck, model, diagnostics);
-  look_at_gravity(deck, model, diagnostics);
+  const double extent = look_at_nodes(deck, model, diagnostics);
+  look_at_bodies(model, extent, diagnostics);
+  look_at_gravity(deck, model, extent, diagnostics);
 }
 
 }  // namespace engrane

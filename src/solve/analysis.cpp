@@ -138,18 +138,18 @@ void commit(Workbench& bench, Configuration& c) {
 
 std::string failure_text(Workbench& bench, const Configuration& tried, const NewtonReport& report, int number, int cuts) {
   std::string text = fmt::format("step {}, t = {:.6g}: ", number, tried.time);
+  const std::string cut = cuts == 0 ? "" : fmt::format("; the step was cut {} time{}", cuts, cuts == 1 ? "" : "s");
   if (const std::string element = explain_not_finite(bench.assembler, tried); !element.empty())
     text += element;
   else if (report.conflict)
     text += report.reason;
   else if (report.singular)
-    text = explain_singular(bench.assembler, text + report.reason);
+    return explain_singular(bench.assembler, text + report.reason + cut);  // with advice at its end
   else if (const std::string where = explain_residual(bench.assembler, tried, report); !where.empty())
     text += report.reason + "; " + where;
   else
     text += report.reason;
-  if (cuts > 0) text += fmt::format("; the step was cut {} time{}", cuts, cuts == 1 ? "" : "s");
-  return text;
+  return text + cut;
 }
 
 /// One run: the present configuration and the ways it goes on from there.

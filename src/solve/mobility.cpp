@@ -218,6 +218,14 @@ bool Redundancy::analyse(const Configuration& c, double tolerance, bool whatever
   return before != mobility_.dependent;
 }
 
+bool Redundancy::one_is_driven(const RedundantGroup& one) const {
+  return std::any_of(one.members.begin(), one.members.end(), [&](int m) {
+    const Unknown& u = multiplier_unknown(assembler_.numbering(), m);
+    const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(u.part)];
+    return part.element->layout().multipliers[static_cast<std::size_t>(u.item)].name.find("DRIVE") != std::string::npos;
+  });
+}
+
 std::string Redundancy::conflict(const Configuration& c) {
   if (!active()) return {};
   std::vector<double> phi, rate, second;
@@ -230,11 +238,15 @@ std::string Redundancy::conflict(const Configuration& c) {
       if (relative_open(assembler_, m, open) <= consistent) continue;
       const Unknown& u = multiplier_unknown(numbering, m);
       const bool length = u.measure == Measure::length;
-      return fmt::format("conflicting constraints: {} stays open by {:.3g} {} when the others are closed; {} among {}: {}",
-                         numbering.describe(numbering.equation(u.slot)), std::abs(open),
-                         assembler_.model().units.label(length ? dimension::length : dimension::angle),
-                         counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members),
-                         "make the places and axes agree" + cure_of(one));
+      return fmt::format(
+          "conflicting constraints: {} stays open by {:.3g} {} when the others are closed; {} among {}: {}",
+          numbering.describe(numbering.equation(u.slot)), std::abs(open),
+          assembler_.model().units.label(length ? dimension::length : dimension::angle),
+          counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members),
+          (one_is_driven(one)
+               ? "the joints leave a drive no freedom, or two drives disagree: see whether a place or an axis is wrong"
+               : "make the places and axes agree") +
+              cure_of(one));
     }
   return {};
 }
@@ -260,9 +272,15 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
       if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
       const double open = relative_open(assembler_, m, rate[static_cast<std::size_t>(m)]);
       if (open <= 1e-8 * speed) continue;
-      return fmt::format("conflicting constraints: {} asks for a speed that the others forbid; {} among {}",
-                         numbering.describe(numbering.equation(multiplier_unknown(numbering, m).slot)),
-                         counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members));
+      const Unknown& u = multiplier_unknown(numbering, m);
+      const bool length = u.measure == Measure::length;
+      return fmt::format(
+          "conflicting constraints: {} asks for a speed that the others forbid, by {:.4g} {}; {} among {}: make the speeds of "
+          "drives "
+          "fit one another{}",
+          numbering.describe(numbering.equation(u.slot)), std::abs(rate[static_cast<std::size_t>(m)]),
+          assembler_.model().units.label(length ? dimension::velocity : dimension::angular_velocity),
+          counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members), cure_of(one));
     }
   return {};
 }

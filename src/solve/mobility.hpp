@@ -80,6 +80,7 @@ class Redundancy {
  private:
   /// ", or make HINGE 3 a SPHERICAL" for a message about constraints that conflict.
   std::string cure_of(const RedundantGroup& one) const;
+  bool one_is_driven(const RedundantGroup& one) const;
 
   Assembler& assembler_;
   const MotionSlots& motion_;

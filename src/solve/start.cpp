@@ -56,6 +56,23 @@ void note_accelerations(const Assembler& assembler, const Configuration& c, int 
   }
 }
 
+/// Counts turns on the way to drives that begin more than half a turn away from where the parts are put.
+void remember_turns(Assembler& assembler, Configuration& c) {
+  const auto& parts = assembler.model().parts;
+  std::vector<double> history = c.history, scalars = c.scalars;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Layout& layout = parts[p].element->layout();
+    if (layout.history == 0) continue;
+    const int part = static_cast<int>(p);
+    const auto begin = static_cast<std::size_t>(assembler.numbering().history_begin(part));
+    const auto own = static_cast<std::size_t>(assembler.numbering().scalar_begin(part));
+    parts[p].element->commit(assembler.view(part, c), std::span(scalars).subspan(own, layout.scalars.size()),
+                             std::span(history).subspan(begin, static_cast<std::size_t>(layout.history)));
+  }
+  c.history = std::move(history);
+  c.scalars = std::move(scalars);
+}
+
 /// Angle of the rotation that leads from one to the other.
 double angle_between(const Mat3& a, const Mat3& b) { return rotation_log(Mat3(a.transpose() * b)).norm(); }
 
@@ -90,14 +107,28 @@ void Start::verify_imposed(const Configuration& c, std::span<const double> wishe
     const Unknown& u = assembler_.numbering().unknown(e);
     const auto slot = static_cast<std::size_t>(u.slot);
     const NodeState& node = c.nodes[static_cast<std::size_t>(u.node)];
-    // a displacement is compared where the node stands; turns are left to the joints' own angles
-    const double is = velocity ? v[slot] : u.item < 3 ? node.x[u.item] : wished[slot];
-    const double size = velocity ? largest(v) : assembler_.model().extent();
-    if (std::abs(is - wished[slot]) <= 1e-6 * size) continue;
-    throw SolutionFailure(
-        fmt::format("the initial {} of {} is imposed, but the joints do not allow it: they make it {:.6g} "
-                    "instead of {:.6g}. Without IMPOSED it is a wish, which they may change",
-                    velocity ? "velocity" : "position", assembler_.numbering().describe(e), is, wished[slot]));
+    double off = 0, size = 0;
+    Dimension unit = dimension::length;
+    if (velocity) {
+      off = v[slot] - wished[slot];
+      size = largest(v);
+      unit = u.item < 3 ? dimension::velocity : dimension::angular_velocity;
+    } else if (u.item < 3) {
+      off = node.x[u.item] - wished[slot];
+      size = assembler_.model().extent();
+    } else {
+      // what was held is the component of the turn from where the deck put the node
+      const std::size_t first = slot - static_cast<std::size_t>(u.item - 3);
+      const Mat3 put = rotation_exp(Vec3(wished[first], wished[first + 1], wished[first + 2]));
+      off = rotation_log(put.transpose() * node.R)[u.item - 3] * 57.295779513082320877;
+      size = 57.3;
+    }
+    if (std::abs(off) <= 1e-6 * size) continue;
+    throw SolutionFailure(fmt::format(
+        "the initial {} of {} is imposed, but joints, drives or supports do not allow it: they change it by {:.4g} {}. Without "
+        "IMPOSED it is a wish, which they may change",
+        velocity ? "velocity" : "position", assembler_.numbering().describe(e), off,
+        !velocity && u.item >= 3 ? "deg" : assembler_.model().units.label(unit)));
   }
 }
 
@@ -135,8 +166,13 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
     return;
   }
   std::vector<double> wished(motion_.size(), 0.0);
-  for (std::size_t i = 0; i < given.nodes.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) wished[6 * i + k] = given.nodes[i].x[static_cast<Eigen::Index>(k)];
+  for (std::size_t i = 0; i < given.nodes.size(); ++i) {
+    const Vec3 turn = rotation_log(given.nodes[i].R);
+    for (std::size_t k = 0; k < 3; ++k) {
+      wished[6 * i + k] = given.nodes[i].x[static_cast<Eigen::Index>(k)];
+      wished[6 * i + 3 + k] = turn[static_cast<Eigen::Index>(k)];
+    }
+  }
   verify_imposed(c, wished, false);
   note_moved(given.nodes, c, report);
 }
@@ -268,6 +304,7 @@ int Start::follow(Configuration& c, std::span<const int> held) {
       continue;
     }
     c = std::move(tried);
+    remember_turns(assembler_, c);
     if (next == 1) return steps;
     done = next;
     if (closing.iterations < 5) part *= 1.5;

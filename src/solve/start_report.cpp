@@ -32,9 +32,10 @@ std::string positions(const Model& model, const StartReport& report) {
   if (report.opened.size() > most_rows) text += fmt::format("     and {} more\n", report.opened.size() - most_rows);
   for (std::size_t i = 0; i < report.moved.size() && i < most_rows; ++i) {
     const StartReport::Moved& m = report.moved[i];
-    text += fmt::format("     {:<22}{} {:.4g} {}, turned by {:.4g} deg\n",
-                        fmt::format("node {}", model.nodes[static_cast<std::size_t>(m.node)].id),
-                        i == 0 ? "moved by   " : "           ", m.move, unit, m.turn * degrees);
+    text +=
+        fmt::format("     {:<22}{} {:.4g} {}, turned by {:.4g} deg\n",
+                    fmt::format("node {}", model.nodes[static_cast<std::size_t>(m.node)].id),
+                    i == 0 ? "moved by   " : "           ", m.move < 1e-12 * model.extent() ? 0 : m.move, unit, m.turn * degrees);
   }
   if (report.moved.size() > most_rows) text += fmt::format("     and {} more\n", report.moved.size() - most_rows);
   for (const std::string& remark : report.remarks) text += "     warning: " + remark + "\n";

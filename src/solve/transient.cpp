@@ -123,6 +123,8 @@ NewtonReport Transient::attempt(const Configuration& from, double h, Configurati
   for (std::size_t slot = 0; slot < n; ++slot)
     if (bench_.numbering.equation(static_cast<int>(slot)) < 0) y[slot] = 0;
   prescribe_step(from.time, to.time, y);
+  // Newton's iteration finds no drive's angle more than half a turn away, and would not say why
+  if (NewtonReport foreseen{.converged = true}; refuse_half_turns(y, foreseen), !foreseen.converged) return foreseen;
   const auto prescribed = bench_.motion.prescribed(to.time);
 
   std::vector<double> guess(static_cast<std::size_t>(bench_.numbering.equations()), 0.0);

@@ -2,16 +2,19 @@
 """`run.py engrane folder [--update]`: does every wrong deck give exactly the message beside it?
 
 Each `x.dat` of the folder that has an `x.err` is checked, in that folder, by `engrane check x.dat`.
-The program must end with status 1 and write `x.err` to stderr. Decks without an `.err` are parts that
-others read by INPUT. `--update` writes the messages afresh, for every deck of the folder that is not
+The program must end with status 1 and write `x.err` to stderr. A deck that says `! test: run 2` is run
+instead, in a folder of its own, and must end with that status: models that read well and cannot be
+solved (2), or deserve a warning (0). `! test: check 0` is for warnings that come before any run. Decks without an `.err` are parts that others read by INPUT. `--update` writes the messages afresh, for every deck of the folder that is not
 such a part: read the difference before you commit it.
 """
 
 import argparse
 import difflib
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 parser = argparse.ArgumentParser(description="compares the messages about wrong decks with the expected ones")
@@ -35,12 +38,18 @@ for deck in decks:
         if deck.name not in parts:
             failures.append(f"{deck}: no {expected_file.name} beside it")
         continue
-    command = [binary, "check", deck.name]
-    run = subprocess.run(command, cwd=deck.parent, capture_output=True, timeout=60, check=False)
+    wish = re.search(r"(?m)^\s*!\s*test:\s*(check|run)\s+(\d)", deck.read_bytes().decode("latin-1"))
+    task, status = (wish.group(1), int(wish.group(2))) if wish else ("check", 1)
+    with tempfile.TemporaryDirectory() as folder:
+        place = deck.parent
+        if task == "run":
+            place = Path(shutil.copy(deck, folder)).parent
+        command = [binary, *(["check"] if task == "check" else ["-q"]), deck.name]
+        run = subprocess.run(command, cwd=place, capture_output=True, timeout=60, check=False)
     messages = run.stderr.decode("utf-8", errors="replace")
     checked += 1
-    if run.returncode != 1:
-        failures.append(f"{deck}: exit status {run.returncode} instead of 1\n{messages}")
+    if run.returncode != status:
+        failures.append(f"{deck}: exit status {run.returncode} instead of {status}\n{messages}")
         continue
     if arguments.update:
         expected_file.write_text(messages, encoding="utf-8", newline="\n")

@@ -4,8 +4,10 @@
 import os
 import re
 import subprocess
+import sys
 from pathlib import Path
 
+import h5py
 import pytest
 
 BINARY = os.environ["ENGRANE"]
@@ -17,6 +19,23 @@ DOOR = """
  I 1 INERTIA N 1 M 20 J 8 4 4
  I 2 HINGE N 0 1 AXIS 0 0 1 AT 0 0 0.2
  I 3 HINGE N 0 1 AXIS 0 0 1 AT 0 0 1.8
+.SAM TYPE DYNAMIC
+.SUB TF 0.1 H 0.01
+"""
+
+FLAT_LOOP = """
+.NOE
+ I 1 X 0 0 0
+ I 2 X 0 1 0
+ I 3 X 2 0 0
+.MCE
+ I 1 INERTIA N 1 M 1 J 1
+ I 2 INERTIA N 2 M 1 J 1
+ I 3 INERTIA N 3 M 1 J 1
+ I 11 HINGE N 0 1 AXIS 0 0 1
+ I 12 HINGE N 1 2 AXIS 0 0 1 AT 0 1 0
+ I 13 HINGE N 0 3 AXIS 0 0 1
+ I 14 HINGE N 2 3 AXIS 0 0 1 AT 2.5 1 0
 .SAM TYPE DYNAMIC
 .SUB TF 0.1 H 0.01
 """
@@ -85,6 +104,87 @@ def test_run_says_that_reactions_are_not_unique(tmp_path):
     assert "5 redundant constraints" in ended.stderr and "not unique" in ended.stderr
     listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
     assert "HINGE 3 (force along z)" in listing and "not unique" in listing
+
+
+def not_unique(folder: Path) -> dict[str, bool]:
+    found = {}
+
+    def keep(name, item):
+        if isinstance(item, h5py.Dataset) and name.startswith("history/"):
+            found[name.removeprefix("history/")] = item.attrs.get("unique", 1) == 0
+
+    with h5py.File(folder / "deck.h5") as file:
+        file.visititems(keep)
+    return found
+
+
+def test_reactions_that_are_not_unique_are_marked(tmp_path):
+    assert engrane(DOOR, tmp_path, "-q").returncode == 0
+    marked = not_unique(tmp_path)
+    for hinge in (2, 3):
+        for channel in ("FORCE_X", "FORCE_Y", "FORCE_Z", "MOMENT_X", "MOMENT_Y", "AXIAL_FORCE"):
+            assert marked[f"element/{hinge}/{channel}"], channel
+        for channel in ("ANGLE", "SPEED", "MOMENT_Z"):
+            assert not marked[f"element/{hinge}/{channel}"], channel
+    for name, mark in marked.items():
+        assert not mark or name.startswith(("element/2/", "element/3/")), name
+    listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    assert re.search(r"Not unique\n=+\n(.*\n)+.*HINGE 2 .*FORCE_Z", listing)
+
+
+def test_supports_that_share_a_load_are_marked(tmp_path):
+    # a rod between two held nodes, loaded along itself
+    deck = """
+.NOE
+ I 1 X 0 0 0
+ I 2 X 1 0 0
+ I 3 X 2 0 0
+.MCE
+ I 1 DISTANCE N 1 2
+ I 2 DISTANCE N 2 3
+ I 3 FORCE N 2 DIR 1 0 0 V 10
+.CLM
+ FIX NOEUD 1 C 1 2 3
+ FIX NOEUD 3 C 1 2 3
+ FIX NOEUD 2 C 2 3
+.SAM TYPE STATIC
+.SUB TF 1 H 0.5
+"""
+    ended = engrane(deck, tmp_path, "-q")
+    assert ended.returncode == 0, ended.stderr
+    marked = not_unique(tmp_path)
+    assert marked["node/1/FX"] and marked["node/3/FX"] and marked["element/1/THRUST"]
+    assert not marked["node/1/FY"] and not marked["node/2/FY"] and not marked["node/2/UX"]
+
+
+def test_plots_tell_what_is_not_unique(tmp_path):
+    assert engrane(DOOR, tmp_path, "-q").returncode == 0
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2] / "post")}
+    listed = subprocess.run(
+        [sys.executable, "-m", "engrane_post", "plot", "deck", "--list"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        env=environment,
+        timeout=120,
+        check=True,
+    ).stdout
+    lines = {line.split()[0]: line for line in listed.splitlines() if line.startswith("    ")}
+    assert lines["element/2/FORCE_Z"].endswith("(not unique)")
+    assert "unique" not in lines["element/2/ANGLE"]
+
+
+def test_suggested_cure_leaves_nothing_redundant(tmp_path):
+    for deck in (DOOR, FLAT_LOOP):
+        before = engrane(deck, tmp_path, "check").stdout
+        freedom = re.search(r"(\d+) degrees? of freedom", before).group(1)
+        changes = re.findall(r"make HINGE (\d+) a ([A-Z_]+) \(releases", before)
+        assert changes, before
+        for hinge, kind in changes:
+            deck = re.sub(rf"I {hinge} HINGE", f"I {hinge} {kind}", deck)
+        after = engrane(deck, tmp_path, "check").stdout
+        assert re.search(r"(\d+) degrees? of freedom", after).group(1) == freedom, changes
+        assert "redundant" not in after, after
 
 
 def test_one_hinge_is_not_redundant(tmp_path):

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The start: assembly, branches, initial values as wishes and as musts, and loops that do not close."""
+
+import os
+import re
+import subprocess
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+BINARY = os.environ["ENGRANE"]
+
+# Crank 0.3 at the origin, rocker 0.5 on (1, 0) that stands up, rod between their ends.
+FOUR_BAR = """
+.UNIT SI
+.NOE
+ I 1 X 0 0 0
+ I 2 X 1 0 0
+.MCE
+ I 1 INERTIA N 1 M 1 J 0.01
+ I 2 INERTIA N 2 M 1 J 0.02
+ I 11 HINGE N 0 1 AXIS 0 0 1 {crank}
+ I 12 HINGE N 0 2 AXIS 0 0 1
+ I 13 DISTANCE N 1 2 FROM 0.3 0 0 TO 1 0.5 0
+.FCT
+ I 1 EXPR "{angle}+T"
+.INI
+{initial}
+.SAM TYPE {kind}
+.SUB TF 0.01 H 0.01
+"""
+DRIVE = "DRIVE ANGLE NF 1"
+
+
+def engrane(deck: str, folder: Path, *words: str) -> subprocess.CompletedProcess:
+    (folder / "deck.dat").write_text(deck, encoding="utf-8")
+    return subprocess.run(
+        [BINARY, *words, "deck.dat"], cwd=folder, capture_output=True, text=True, timeout=120, check=False
+    )
+
+
+def four_bar(crank: str = DRIVE, angle: float = 0, initial: str = "", kind: str = "KINEMATIC") -> str:
+    return FOUR_BAR.format(crank=crank, angle=angle, initial=initial, kind=kind)
+
+
+def rocker_angles(crank: float) -> tuple[float, float]:
+    """Both turns of the rocker, degrees from upright, by the law of cosines."""
+    rod, rocker = np.hypot(0.7, 0.5), 0.5
+    end = np.array([0.3 * np.cos(crank), 0.3 * np.sin(crank)])
+    away = end - [1, 0]
+    distance = np.hypot(*away)
+    middle = np.arctan2(away[1], away[0])
+    half = np.arccos((distance**2 + rocker**2 - rod**2) / (2 * distance * rocker))
+    # from the line to the crank's end the upright rocker lies clockwise
+    turn = [(np.degrees(middle + s * half) - 90 + 180) % 360 - 180 for s in (-1, 1)]
+    return turn[0], turn[1]
+
+
+def last(folder: Path, channel: str) -> float:
+    with h5py.File(folder / "deck.h5") as file:
+        return file[f"history/{channel}"][0]
+
+
+def same_angle(a: float, b: float) -> bool:
+    return abs((a - b + 180) % 360 - 180) < 1e-7
+
+
+def test_rocker_stays_on_the_side_of_the_sketch(tmp_path):
+    # the crank's drive begins 100 degrees from the sketch
+    ended = engrane(four_bar(angle=np.radians(100)), tmp_path, "-q")
+    assert ended.returncode == 0, ended.stderr
+    assert same_angle(np.degrees(last(tmp_path, "element/12/ANGLE")), rocker_angles(np.radians(100))[0])
+    listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    assert re.search(r"1\. positions: closed in \d+ iterations", listing)
+    assert re.search(r"HINGE 11 +was open by 100 deg", listing)
+    assert re.search(r"node 1 +moved by +0 m, turned by 100 deg", listing)
+    assert "2. velocities: changed by up to" in listing and "HINGE 11 (DRIVE_TORQUE)" in listing
+    assert re.search(r"3\. accelerations and multipliers: \d iterations?", listing)
+    assert "branch" not in listing
+
+
+def test_drive_that_begins_beyond_half_a_turn(tmp_path):
+    # 230 degrees and a whole turn from the sketch: turns are counted on the way
+    start = np.radians(230) + 2 * np.pi
+    ended = engrane(four_bar(angle=start), tmp_path, "-q")
+    assert ended.returncode == 0, ended.stderr
+    assert last(tmp_path, "element/11/ANGLE") == pytest.approx(start, rel=1e-12)
+    assert same_angle(np.degrees(last(tmp_path, "element/12/ANGLE")), rocker_angles(start)[0])
+    assert "little by little" in (tmp_path / "deck.lst").read_text(encoding="utf-8")
+
+
+def test_wish_chooses_the_branch(tmp_path):
+    up, down = rocker_angles(0.0)
+    assert abs(up) < 1e-9
+    ended = engrane(four_bar(initial=f" DEP NOEUD 2 C 6 V {down + 25}"), tmp_path, "-q")
+    assert ended.returncode == 0, ended.stderr
+    assert same_angle(np.degrees(last(tmp_path, "element/12/ANGLE")), down)
+
+
+def test_imposed_position_holds_and_others_give_way(tmp_path):
+    ended = engrane(four_bar(crank="", initial=" DEP NOEUD 1 C 6 V 40 IMPOSED", kind="DYNAMIC"), tmp_path, "-q")
+    assert ended.returncode == 0, ended.stderr
+    assert same_angle(np.degrees(last(tmp_path, "element/11/ANGLE")), 40)
+    assert same_angle(np.degrees(last(tmp_path, "element/12/ANGLE")), rocker_angles(np.radians(40))[0])
+
+
+def test_wished_position_gives_way(tmp_path):
+    ended = engrane(four_bar(crank="", initial=" DEP NOEUD 1 C 6 V 40", kind="DYNAMIC"), tmp_path, "-q")
+    assert ended.returncode == 0, ended.stderr
+    crank = np.degrees(last(tmp_path, "element/11/ANGLE"))
+    assert 0.1 < abs(crank - 40) < 5, "mostly the rocker moves: it stands across the rod, the crank nearly along it"
+    assert same_angle(np.degrees(last(tmp_path, "element/12/ANGLE")), rocker_angles(np.radians(crank))[0])
+
+
+def test_imposed_rotation_against_a_drive(tmp_path):
+    ended = engrane(four_bar(initial=" DEP NOEUD 1 C 6 V 40 IMPOSED"), tmp_path, "-q")
+    assert ended.returncode == 2
+    assert "imposed" in ended.stderr and "node 1 (rz)" in ended.stderr and "wish" in ended.stderr
+
+
+@pytest.mark.parametrize(("word", "status"), [("", 0), ("IMPOSED", 2)])
+def test_velocity_as_wish_and_as_must(tmp_path, word, status):
+    deck = four_bar(initial=f" VIT NOEUD 1 C 6 V 7 {word}")
+    ended = engrane(deck, tmp_path, "-q")
+    assert ended.returncode == status, ended.stderr
+    if status == 0:
+        assert last(tmp_path, "element/11/SPEED") == pytest.approx(1, rel=1e-9), "the drive's"
+    else:
+        assert "initial velocity of node 1 (rz) is imposed" in ended.stderr
+
+
+def test_imposed_velocity_moves_the_rest(tmp_path):
+    ended = engrane(four_bar(crank="", initial=" VIT NOEUD 1 C 6 V 2 IMPOSED", kind="DYNAMIC"), tmp_path, "-q")
+    assert ended.returncode == 0, ended.stderr
+    assert last(tmp_path, "element/11/SPEED") == pytest.approx(2, rel=1e-9)
+    # the rod (0.7, 0.5) forbids relative speeds along it: 2*0.3*0.5 = -w*0.5*0.7
+    assert last(tmp_path, "element/12/SPEED") == pytest.approx(-0.3 / 0.35, rel=1e-9)
+
+
+@pytest.mark.parametrize("words", [("-q",), ("check",)])
+def test_open_loop_is_named_with_its_gap(tmp_path, words):
+    # crank 0.2, rocker 0.3 and ground 1 in line reach 1.5; the rod is to be 1.7
+    deck = FOUR_BAR.format(crank="", angle=1.7, initial="", kind="DYNAMIC").replace(
+        "FROM 0.3 0 0 TO 1 0.5 0", "FROM 0 0.2 0 TO 1 0.3 0 DRIVE LENGTH NF 1"
+    )
+    ended = engrane(deck, tmp_path, *words)
+    said = ended.stdout + ended.stderr
+    assert ended.returncode == 2
+    assert "with all joints closed the drive of DISTANCE 13 is short by 0.2 m" in said
+    assert "node 1 - HINGE 11 - ground - HINGE 12 - node 2 - DISTANCE 13 - node 1" in said
+
+
+def test_gap_of_a_joint_in_a_loop(tmp_path):
+    # two rods of sqrt(0.26) from nodes held 1.3 apart: 1.3 - 2 sqrt(0.26) = 0.2802 are missing where they meet
+    deck = """
+.UNIT SI
+.NOE
+ I 1 X 0 0 0
+ I 2 X 1 0 0
+ I 3 X 0.5 0.1 0
+.MCE
+ I 1 DISTANCE N 1 3
+ I 2 DISTANCE N 2 3
+ I 3 INERTIA N 3 M 1
+.CLM
+ FIX NOEUD 1 C 1 2 3
+ DEP NOEUD 2 C 1 V 0.3
+ FIX NOEUD 2 C 2 3
+.SAM TYPE DYNAMIC
+.SUB TF 1 H 0.1
+"""
+    ended = engrane(deck, tmp_path, "-q")
+    assert ended.returncode == 2
+    assert re.search(r"with all other joints closed DISTANCE [12] stays open by 0\.2802 m", ended.stderr)
+    assert "support" in ended.stderr and "DISTANCE 1" in ended.stderr and "DISTANCE 2" in ended.stderr
+
+
+def test_flip_is_said(tmp_path):
+    # The drive begins 60 degrees farther than crank and rod in line, where this crank (0.7) cannot pass with the rocker
+    # standing up: the loop can only be closed by folding it the other way.
+    deck = four_bar(angle=0).replace("FROM 0.3 0 0 TO 1 0.5 0", "FROM 0.3 0 0 TO 1 0.5 0")
+    ended = engrane(deck, tmp_path, "-q")
+    assert ended.returncode == 0 and "branch" not in ended.stderr
