@@ -218,14 +218,6 @@ bool Redundancy::analyse(const Configuration& c, double tolerance, bool whatever
   return before != mobility_.dependent;
 }
 
-bool Redundancy::one_is_driven(const RedundantGroup& one) const {
-  return std::any_of(one.members.begin(), one.members.end(), [&](int m) {
-    const Unknown& u = multiplier_unknown(assembler_.numbering(), m);
-    const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(u.part)];
-    return part.element->layout().multipliers[static_cast<std::size_t>(u.item)].name.find("DRIVE") != std::string::npos;
-  });
-}
-
 std::string Redundancy::conflict(const Configuration& c) {
   if (!active()) return {};
   std::vector<double> phi, rate, second;
@@ -238,20 +230,27 @@ std::string Redundancy::conflict(const Configuration& c) {
       if (relative_open(assembler_, m, open) <= consistent) continue;
       const Unknown& u = multiplier_unknown(numbering, m);
       const bool length = u.measure == Measure::length;
-      return fmt::format(
-          "conflicting constraints: {} stays open by {:.3g} {} when the others are closed; {} among {}: {}",
-          numbering.describe(numbering.equation(u.slot)), std::abs(open),
-          assembler_.model().units.label(length ? dimension::length : dimension::angle),
-          counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members),
-          (one_is_driven(one)
-               ? "the joints leave a drive no freedom, or two drives disagree: see whether a place or an axis is wrong"
-               : "make the places and axes agree") +
-              cure_of(one));
+      return fmt::format("conflicting constraints: {} stays open by {:.3g} {} when the others are closed; {} among {}: {}",
+                         numbering.describe(numbering.equation(u.slot)), std::abs(open),
+                         assembler_.model().units.label(length ? dimension::length : dimension::angle),
+                         counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members),
+                         cure_of(one));
     }
   return {};
 }
 
 std::string Redundancy::cure_of(const RedundantGroup& one) const {
+  // of drives the last in the deck: it is the one that was added to what moved before
+  for (auto m = one.members.rbegin(); m != one.members.rend(); ++m) {
+    const Unknown& u = multiplier_unknown(assembler_.numbering(), *m);
+    const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(u.part)];
+    if (part.element->layout().multipliers[static_cast<std::size_t>(u.item)].name.find("DRIVE") == std::string::npos) continue;
+    return fmt::format(
+        "the joints leave a drive no freedom, or drives disagree: see whether a place, an axis or a drive's function is wrong, "
+        "or "
+        "leave out the drive of {} {}",
+        part.type, part.element->id());
+  }
   Eigen::MatrixXd null(mobility_.null.rows(), one.redundant);
   Eigen::Index count = 0;
   // a combination belongs to the group that its largest part belongs to
@@ -262,7 +261,7 @@ std::string Redundancy::cure_of(const RedundantGroup& one) const {
       null.col(count++) = mobility_.null.col(j);
   }
   const std::string cure = count == one.redundant ? suggest_cure(assembler_, null) : "";
-  return cure.empty() ? ", or free that direction in one of the joints" : ", or " + cure;
+  return "make the places and axes agree, or " + (cure.empty() ? "free that direction in one of the joints" : cure);
 }
 
 std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<double>& rate, double speed) {
@@ -274,13 +273,11 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
       if (open <= 1e-8 * speed) continue;
       const Unknown& u = multiplier_unknown(numbering, m);
       const bool length = u.measure == Measure::length;
-      return fmt::format(
-          "conflicting constraints: {} asks for a speed that the others forbid, by {:.4g} {}; {} among {}: make the speeds of "
-          "drives "
-          "fit one another{}",
-          numbering.describe(numbering.equation(u.slot)), std::abs(rate[static_cast<std::size_t>(m)]),
-          assembler_.model().units.label(length ? dimension::velocity : dimension::angular_velocity),
-          counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members), cure_of(one));
+      return fmt::format("conflicting constraints: {} asks for a speed that the others forbid, by {:.4g} {}; {} among {}: {}",
+                         numbering.describe(numbering.equation(u.slot)), std::abs(rate[static_cast<std::size_t>(m)]),
+                         assembler_.model().units.label(length ? dimension::velocity : dimension::angular_velocity),
+                         counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members),
+                         cure_of(one));
     }
   return {};
 }

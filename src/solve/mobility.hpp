@@ -78,9 +78,8 @@ class Redundancy {
   Eigen::MatrixXd undetermined(const Configuration& c);
 
  private:
-  /// ", or make HINGE 3 a SPHERICAL" for a message about constraints that conflict.
+  /// "make the places and axes agree, or make HINGE 3 a SPHERICAL": the end of a message about constraints that conflict.
   std::string cure_of(const RedundantGroup& one) const;
-  bool one_is_driven(const RedundantGroup& one) const;
 
   Assembler& assembler_;
   const MotionSlots& motion_;

@@ -124,7 +124,9 @@ NewtonReport Transient::attempt(const Configuration& from, double h, Configurati
     if (bench_.numbering.equation(static_cast<int>(slot)) < 0) y[slot] = 0;
   prescribe_step(from.time, to.time, y);
   // Newton's iteration finds no drive's angle more than half a turn away, and would not say why
-  if (NewtonReport foreseen{.converged = true}; refuse_half_turns(y, foreseen), !foreseen.converged) return foreseen;
+  std::vector<double> coasting(n);
+  for (std::size_t i = 0; i < n; ++i) coasting[i] = h * v0[i];
+  if (NewtonReport foreseen{.converged = true}; refuse_half_turns(coasting, foreseen), !foreseen.converged) return foreseen;
   const auto prescribed = bench_.motion.prescribed(to.time);
 
   std::vector<double> guess(static_cast<std::size_t>(bench_.numbering.equations()), 0.0);
