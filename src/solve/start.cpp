@@ -268,11 +268,7 @@ Start::Closing Start::close_initial(Configuration& c, StartReport& report) {
     report.path_steps = steps;
     direct.closed = true;
     c = std::move(followed);
-  } else if (steps == 0) {
-    report.remarks.push_back(
-        "this position is not reached by closing the gaps little by little from the positions given: the mechanism may be "
-        "assembled on another branch than they suggest; begin nearer to it (.INI DEP) if so");
-  } else if (const Distance apart = distance(followed, c); apart.size > another) {
+  } else if (const Distance apart = distance(followed, c); steps > 0 && apart.size > another) {
     const bool nearer = distance(given, followed).size < distance(given, c).size;
     report.remarks.push_back(fmt::format(
         "there are two ways to assemble the mechanism near the positions given, apart by most at {}; the {} was taken. Begin "
@@ -284,6 +280,10 @@ Start::Closing Start::close_initial(Configuration& c, StartReport& report) {
     }
   }
   remark_on_branch(given, c, held, report);
+  if (steps == 0 && report.remarks.empty())
+    report.remarks.push_back(
+        "this position is not reached by closing the gaps little by little from the positions given: the mechanism may be "
+        "assembled on another branch than they suggest; begin nearer to it (.INI DEP) if so");
   return direct;
 }
 

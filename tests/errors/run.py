@@ -4,8 +4,9 @@
 Each `x.dat` of the folder that has an `x.err` is checked, in that folder, by `engrane check x.dat`.
 The program must end with status 1 and write `x.err` to stderr. A deck that says `! test: run 2` is run
 instead, in a folder of its own, and must end with that status: models that read well and cannot be
-solved (2), or deserve a warning (0). `! test: check 0` is for warnings that come before any run. Decks without an `.err` are parts that others read by INPUT. `--update` writes the messages afresh, for every deck of the folder that is not
-such a part: read the difference before you commit it.
+solved (2), or deserve a warning (0). `! test: check 0` is for warnings that come before any run. Decks
+without an `.err` are parts that others read by INPUT. `--update` writes the messages afresh, for every
+deck of the folder that is not such a part: read the difference before you commit it.
 """
 
 import argparse

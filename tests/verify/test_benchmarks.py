@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rigid benchmarks of the IFToMM library and classics, at stated steps and with the order of convergence.
 
-The numbers are the library's; those of the heavy top and of the free body are checked here once more by integrating
-Euler's equations with scipy, which shares nothing with the program. docs/verification.md has them in one table.
+The numbers are the library's; those of the heavy top and of the free body are checked here once more by
+integrating Euler's equations with scipy, which shares nothing with the program. docs/verification.md has them
+in one table.
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -17,8 +19,8 @@ from scipy.spatial.transform import Rotation
 
 
 def four_bars(n: int, h: float, end: float, x: float) -> str:
-    """2 n + 1 slender links of 1 m and 1 kg in a plane: n + 1 arms on the ground, n bars that join their ends. Pins in
-    a plane are points on lines across it, and no constraint repeats another."""
+    """2 n + 1 slender links of 1 m and 1 kg in a plane: n + 1 arms on the ground, n bars that join their ends.
+    Pins in a plane are points on lines across it, and no constraint repeats another."""
     nodes, masses, joints, speeds = [], [], [], []
     for i in range(n + 1):
         nodes.append(f" I {1 + i} X {i} 0 0")
@@ -43,7 +45,7 @@ def four_bars(n: int, h: float, end: float, x: float) -> str:
 
 
 def orders(errors: list[float]) -> list[float]:
-    return [float(np.log2(a / b)) for a, b in zip(errors, errors[1:], strict=False)]
+    return [float(np.log2(a / b)) for a, b in pairwise(errors)]
 
 
 # IFToMM A02: B0 at the end; each error a little above what is measured at the finer step.
@@ -115,7 +117,7 @@ def spin_up(inertia: np.ndarray, moment, w0, end: float):
 
 
 def test_heavy_top(tmp_path):
-    """Order 2 in position, rotation, velocity, angular velocity and multiplier (the force at the tip), rho = 0.8."""
+    """Order 2 in position, rotation, velocity, angular velocity and multiplier (force at the tip), rho = 0.8."""
     w0 = np.array([0, 150, -4.61538])
     turn, w, dw = spin_up(J_TIP, lambda r: np.cross(ARM, MASS * r.inv().apply(G)), w0, 1.0)
     centre, spin = turn.apply(ARM), turn.apply(w)

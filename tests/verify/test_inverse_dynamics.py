@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""KINEMATIC runs: velocities, accelerations and the efforts that drives need, against closed forms; and the balance of
-work and energy of kinematic and static runs."""
+"""KINEMATIC runs: velocities, accelerations and the efforts that drives need, against closed forms; and the
+balance of work and energy of kinematic and static runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ M_ROD, J_ROD, M_SLIDER, J_CRANK, G = 2.0, 0.07, 3.0, 0.05, 9.81
 
 
 def slider_crank(h: float) -> str:
-    """In the plane; crank angle a = t + 0.75 t2, rod with its mass in the middle, gravity across the slide."""
+    """In the plane; crank angle a = t + 0.75 t2, mass of the rod in its middle, gravity across the slide."""
     return f"""
 .NOE
  I 1 X 0 0 0
@@ -123,7 +123,7 @@ def test_two_link_arm(tmp_path):
 
 
 def test_work_of_a_kinematic_run(tmp_path):
-    """The drive's work is the energy gained, but for the trapezoidal rule's error, which falls as the step's square."""
+    """The drive's work is the energy gained, but for the error of the trapezoidal rule: second order."""
     errors = []
     for h in (0.02, 0.01):
         r = run(slider_crank(h), tmp_path)

@@ -100,7 +100,9 @@ def test_wish_chooses_the_branch(tmp_path):
 
 
 def test_imposed_position_holds_and_others_give_way(tmp_path):
-    ended = engrane(four_bar(crank="", initial=" DEP NOEUD 1 C 6 V 40 IMPOSED", kind="DYNAMIC"), tmp_path, "-q")
+    ended = engrane(
+        four_bar(crank="", initial=" DEP NOEUD 1 C 6 V 40 IMPOSED", kind="DYNAMIC"), tmp_path, "-q"
+    )
     assert ended.returncode == 0, ended.stderr
     assert same_angle(np.degrees(last(tmp_path, "element/11/ANGLE")), 40)
     assert same_angle(np.degrees(last(tmp_path, "element/12/ANGLE")), rocker_angles(np.radians(40))[0])
@@ -110,7 +112,9 @@ def test_wished_position_gives_way(tmp_path):
     ended = engrane(four_bar(crank="", initial=" DEP NOEUD 1 C 6 V 40", kind="DYNAMIC"), tmp_path, "-q")
     assert ended.returncode == 0, ended.stderr
     crank = np.degrees(last(tmp_path, "element/11/ANGLE"))
-    assert 0.1 < abs(crank - 40) < 5, "mostly the rocker moves: it stands across the rod, the crank nearly along it"
+    assert 0.1 < abs(crank - 40) < 5, (
+        "mostly the rocker moves: it stands across the rod, the crank nearly along it"
+    )
     assert same_angle(np.degrees(last(tmp_path, "element/12/ANGLE")), rocker_angles(np.radians(crank))[0])
 
 
@@ -132,7 +136,9 @@ def test_velocity_as_wish_and_as_must(tmp_path, word, status):
 
 
 def test_imposed_velocity_moves_the_rest(tmp_path):
-    ended = engrane(four_bar(crank="", initial=" VIT NOEUD 1 C 6 V 2 IMPOSED", kind="DYNAMIC"), tmp_path, "-q")
+    ended = engrane(
+        four_bar(crank="", initial=" VIT NOEUD 1 C 6 V 2 IMPOSED", kind="DYNAMIC"), tmp_path, "-q"
+    )
     assert ended.returncode == 0, ended.stderr
     assert last(tmp_path, "element/11/SPEED") == pytest.approx(2, rel=1e-9)
     # the rod (0.7, 0.5) forbids relative speeds along it: 2*0.3*0.5 = -w*0.5*0.7
@@ -153,7 +159,7 @@ def test_open_loop_is_named_with_its_gap(tmp_path, words):
 
 
 def test_gap_of_a_joint_in_a_loop(tmp_path):
-    # two rods of sqrt(0.26) from nodes held 1.3 apart: 1.3 - 2 sqrt(0.26) = 0.2802 are missing where they meet
+    # two rods of sqrt(0.26) from nodes held 1.3 apart: 1.3 - 2 sqrt(0.26) = 0.2802 are missing
     deck = """
 .UNIT SI
 .NOE
@@ -177,9 +183,28 @@ def test_gap_of_a_joint_in_a_loop(tmp_path):
     assert "support" in ended.stderr and "DISTANCE 1" in ended.stderr and "DISTANCE 2" in ended.stderr
 
 
+def side_of_rod(crank: float, rocker: float) -> float:
+    """Cross product of rod and rocker; turns in radians from the reference."""
+    end = 0.3 * np.array([np.cos(crank), np.sin(crank)])
+    arm = 0.5 * np.array([-np.sin(rocker), np.cos(rocker)])
+    rod = np.array([1, 0]) + arm - end
+    return rod[0] * arm[1] - rod[1] * arm[0]
+
+
 def test_flip_is_said(tmp_path):
-    # The drive begins 60 degrees farther than crank and rod in line, where this crank (0.7) cannot pass with the rocker
-    # standing up: the loop can only be closed by folding it the other way.
-    deck = four_bar(angle=0).replace("FROM 0.3 0 0 TO 1 0.5 0", "FROM 0.3 0 0 TO 1 0.5 0")
-    ended = engrane(deck, tmp_path, "-q")
-    assert ended.returncode == 0 and "branch" not in ended.stderr
+    wishes = " DEP NOEUD 1 C 6 V -110.1\n DEP NOEUD 2 C 6 V 99.8"
+    ended = engrane(four_bar(angle=-3.07, initial=wishes), tmp_path, "-q")
+    assert ended.returncode == 0
+    turns = last(tmp_path, "element/11/ANGLE"), last(tmp_path, "element/12/ANGLE")
+    assert side_of_rod(*turns) * side_of_rod(*np.radians([-110.1, 99.8])) < 0, "it did flip"
+    assert "branch flip" in ended.stderr and ".INI DEP" in ended.stderr
+    assert "branch flip" in (tmp_path / "deck.lst").read_text(encoding="utf-8")
+
+
+def test_no_flip_is_said_of_a_long_way_on_one_side(tmp_path):
+    for degrees in (-170, -120, -60, 60, 120, 170):
+        ended = engrane(four_bar(angle=np.radians(degrees)), tmp_path, "-q")
+        assert ended.returncode == 0
+        turns = last(tmp_path, "element/11/ANGLE"), last(tmp_path, "element/12/ANGLE")
+        assert side_of_rod(*turns) * side_of_rod(0, 0) > 0
+        assert "branch" not in ended.stderr
