@@ -19,7 +19,7 @@ from scipy.spatial.transform import Rotation
 
 
 def four_bars(n: int, h: float, end: float, x: float) -> str:
-    """2 n + 1 slender links of 1 m and 1 kg in a plane: n + 1 arms on the ground, n bars that join their ends.
+    """2 n + 1 slender links of 1 m and 1 kg in a plane: n + 1 arms on the ground, n bars between their ends.
     Pins in a plane are points on lines across it, and no constraint repeats another."""
     nodes, masses, joints, speeds = [], [], [], []
     for i in range(n + 1):
@@ -117,7 +117,7 @@ def spin_up(inertia: np.ndarray, moment, w0, end: float):
 
 
 def test_heavy_top(tmp_path):
-    """Order 2 in position, rotation, velocity, angular velocity and multiplier (force at the tip), rho = 0.8."""
+    """Order 2 in position, rotation, velocity, angular velocity and multiplier (force at the tip)."""
     w0 = np.array([0, 150, -4.61538])
     turn, w, dw = spin_up(J_TIP, lambda r: np.cross(ARM, MASS * r.inv().apply(G)), w0, 1.0)
     centre, spin = turn.apply(ARM), turn.apply(w)
