@@ -31,6 +31,17 @@ for deck in decks:
     for name in re.findall(r'(?im)^\s*INPUT\s+"([^"]+)"', deck.read_bytes().decode("latin-1")):
         parts.add(name if name.endswith(".dat") else name + ".dat")
 
+NUMBER = re.compile(r"(?<![\w.])-?\d+\.?\d*(?:e[+-]?\d+)?(?!\w)")
+
+
+def same_but_for_rounding(one: str, other: str) -> bool:
+    """Times and gaps of a solution that failed depend on the last digits of what the solver did."""
+    if NUMBER.split(one) != NUMBER.split(other):
+        return False
+    pairs = zip(NUMBER.findall(one), NUMBER.findall(other), strict=True)
+    return all(abs(float(a) - float(b)) <= 0.02 * abs(float(b)) for a, b in pairs)
+
+
 checked = 0
 failures = []
 for deck in decks:
@@ -56,7 +67,7 @@ for deck in decks:
         expected_file.write_text(messages, encoding="utf-8", newline="\n")
         continue
     expected = expected_file.read_text(encoding="utf-8")
-    if messages != expected:
+    if messages != expected and not (task == "run" and same_but_for_rounding(messages, expected)):
         lines = difflib.unified_diff(
             expected.splitlines(), messages.splitlines(), expected_file.name, "engrane check", lineterm=""
         )
