@@ -182,7 +182,8 @@ def test_suggested_cure_leaves_nothing_redundant(tmp_path):
         assert changes, before
         for hinge, kind in changes:
             axis = r"\2" if kind != "SPHERICAL" else " "  # a ball has none
-            deck = re.sub(rf"I {hinge} HINGE N (\d+ \d+)( AXIS 0 0 1)?", rf"I {hinge} {kind} N \1{axis}", deck)
+            was = rf"I {hinge} HINGE N (\d+ \d+)( AXIS 0 0 1)?"
+            deck = re.sub(was, rf"I {hinge} {kind} N \1{axis}", deck)
         after = engrane(deck, tmp_path, "check").stdout
         assert re.search(r"(\d+) degrees? of freedom", after).group(1) == freedom, changes
         assert "redundant" not in after, after
