@@ -178,7 +178,7 @@ def test_work_of_a_drive_and_of_a_support_in_statics(tmp_path):
  I 2 HINGE N 0 1 AXIS 0 0 1 K 50
  I 3 SPRING N 2 3 K 10
 .FCT
- I 1 EXPR "0.5*T"
+ I 1 TABLE 0 0  0.5 0.1  1 0.5
 .CLM
  FIX NOEUD 2 C 1 2 3
  DEP NOEUD 3 C 1 V 0.4 NF 1
@@ -189,5 +189,5 @@ def test_work_of_a_drive_and_of_a_support_in_statics(tmp_path):
         tmp_path,
     )
     work = 0.5 * 50 * 0.5**2 + 0.5 * 10 * 0.2**2
-    assert r["run/EXTERNAL_WORK"][-1] == pytest.approx(work, rel=1e-10)
-    assert abs(r["run/ENERGY_ERROR"][-1]) < 1e-10
+    assert r["run/EXTERNAL_WORK"][-1] == pytest.approx(work, rel=1e-7)
+    assert abs(r["run/ENERGY_ERROR"][-1]) < 1e-7 * work
