@@ -97,7 +97,7 @@ class TemplatedElement : public Element {
     for (std::size_t i = 0; i < layout_.multipliers.size(); ++i) r[m0 + i] = -balance.constraint_at(static_cast<int>(i));
   }
 
-  void tangent(const State& state, Weights w, std::span<double> r, std::span<double> k) const final {
+  void tangent(const State& state, Weights w, std::span<double> r, std::span<double> k) const override {
     using D = Dual<Lanes>;
     auto m = motion<D>(state);
     Balance<D, Nodes> balance(state);
@@ -198,29 +198,43 @@ class TemplatedElement : public Element {
     return m;
   }
 
- private:
-  const Derived& self() const { return static_cast<const Derived&>(*this); }
+  /// Lanes `lane` to `lane` + 2 move the node along the global axes, or turn it about its own.
+  template <class Node>
+  static void seed_translation(Node& node, Weights w, std::size_t lane) {
+    for (int c = 0; c < 3; ++c, ++lane) {
+      node.x[c].d[lane] = w.q;
+      node.v[c].d[lane] = w.v;
+      node.a[c].d[lane] = w.a;
+    }
+  }
+  template <class Node>
+  static void seed_rotation(Node& node, const NodeState& s, Weights w, std::size_t lane) {
+    for (int c = 0; c < 3; ++c, ++lane) {
+      const Mat3 dR = s.R * skew(s.T.col(c) * w.q);
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) node.R(a, b).d[lane] = dR(a, b);
+      node.W[c].d[lane] = w.v;
+      node.A[c].d[lane] = w.a;
+    }
+  }
   bool needs(std::size_t node, NodeNeed need) const {
     return (static_cast<unsigned>(layout_.needs[node]) & static_cast<unsigned>(need)) != 0;
   }
 
+ private:
+  const Derived& self() const { return static_cast<const Derived&>(*this); }
+
   template <class Node>
   void seed_node(Node& node, const NodeState& s, std::size_t i, Weights w, std::size_t& lane) const {
     if (layout_.nodes[i] == 0) return;
-    if (needs(i, NodeNeed::translation))
-      for (int c = 0; c < 3; ++c, ++lane) {
-        node.x[c].d[lane] = w.q;
-        node.v[c].d[lane] = w.v;
-        node.a[c].d[lane] = w.a;
-      }
-    if (needs(i, NodeNeed::rotation))
-      for (int c = 0; c < 3; ++c, ++lane) {
-        const Mat3 dR = s.R * skew(s.T.col(c) * w.q);
-        for (int a = 0; a < 3; ++a)
-          for (int b = 0; b < 3; ++b) node.R(a, b).d[lane] = dR(a, b);
-        node.W[c].d[lane] = w.v;
-        node.A[c].d[lane] = w.a;
-      }
+    if (needs(i, NodeNeed::translation)) {
+      seed_translation(node, w, lane);
+      lane += 3;
+    }
+    if (needs(i, NodeNeed::rotation)) {
+      seed_rotation(node, s, w, lane);
+      lane += 3;
+    }
   }
 
   Layout layout_;

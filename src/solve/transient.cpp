@@ -126,7 +126,10 @@ NewtonReport Transient::attempt(const Configuration& from, double h, Configurati
   // Newton's iteration finds no drive's angle more than half a turn away, and would not say why
   std::vector<double> coasting(n);
   for (std::size_t i = 0; i < n; ++i) coasting[i] = h * v0[i];
-  if (NewtonReport foreseen{.converged = true}; refuse_half_turns(coasting, foreseen), !foreseen.converged) return foreseen;
+  NewtonReport foreseen;
+  foreseen.converged = true;
+  refuse_half_turns(coasting, foreseen);
+  if (!foreseen.converged) return foreseen;
   const auto prescribed = bench_.motion.prescribed(to.time);
 
   std::vector<double> guess(static_cast<std::size_t>(bench_.numbering.equations()), 0.0);
