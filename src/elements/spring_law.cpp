@@ -9,6 +9,25 @@
 
 namespace engrane {
 
+namespace {
+
+/// The formula of D and V that a keyword names; nullptr with an error when it is none.
+const Expression* find_formula(const BuildContext& context, const std::string& keyword, int id) {
+  const auto it = context.functions.find(id);
+  if (it == context.functions.end()) {
+    context.error(keyword, fmt::format("function {} does not exist", id),
+                  fmt::format("declare it with .FCT I {} EXPR \"...\", a formula of D, V and T", id));
+    return nullptr;
+  }
+  if (!it->second) return nullptr;  // what is wrong with it was said already
+  if (!it->second->law())
+    context.error(keyword, fmt::format("function {} is no formula of D or V", id),
+                  "LAW TABLE takes a function of one variable, LAW EXPR a formula such as \"2E4*D*(1 + 0.3*V)\"");
+  return it->second->law();
+}
+
+}  // namespace
+
 std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping,
                                        double first, double scale, const std::string& suffix) {
   SpringLaw law;
@@ -24,15 +43,22 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
                   fmt::format("give C{0} or CLAW{0}", suffix));
     return {};
   }
-  if (data.law.is("TABLE")) {
+  if (data.law.is("TABLE") || data.law.is("EXPR")) {
     const double id = data.law.values[0];
     if (id != std::floor(id) || !(id > 0 && id < 1e9)) {
       context.error("LAW" + suffix, fmt::format("{} is not the number of a function", number(id)),
-                    fmt::format("LAW{} TABLE f, where .FCT declares f", suffix));
+                    fmt::format("LAW{} {} f, where .FCT declares f", suffix, data.law.tag));
       return {};
     }
-    law.of_stretch = context.function(static_cast<int>(id), "LAW" + suffix);
-    if (!law.of_stretch) return {};
+    if (data.law.is("EXPR")) {
+      law.formula = find_formula(context, "LAW" + suffix, static_cast<int>(id));
+      if (!law.formula) return {};
+      if (!law.formula->uses_time())
+        law.of_formula_ = std::make_shared<PanelIntegral>([f = law.formula](double e) { return f->law(e, 0, 0).value; });
+    } else {
+      law.of_stretch = context.function(static_cast<int>(id), "LAW" + suffix);
+      if (!law.of_stretch) return {};
+    }
   } else if (data.law.is("USER")) {
     std::vector<user::Arguments> samples{{first, 0, 0}};
     for (const double part : {-1.0, -0.313, 0.171, 0.477, 1.0})
@@ -56,6 +82,13 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
 Energies SpringLaw::energies(double stretch, double rate, double time) const {
   Energies e;
   e.dissipated = viscous(rate) * rate;
+  if (formula) {
+    e.dissipated += formula->law(stretch, rate, time).value * rate;
+    if (!of_formula_) return e;
+    e.potential = (*of_formula_)(stretch);
+    e.dissipated -= formula->law(stretch, 0, time).value * rate;
+    return e;
+  }
   if (!user) {
     e.potential = stored(stretch);
     return e;

@@ -6,28 +6,35 @@
 
 #include "elements/building.hpp"
 #include "model/function.hpp"
+#include "model/function_integral.hpp"
 #include "user/routine.hpp"
 
 namespace engrane {
 
 /// Keywords that SPRING and TSPRING share. Without `LAW` the spring is linear in K, without `CLAW` the damper in C.
 struct SpringLawData {
-  deck::Tagged law;     ///< TABLE f, POLY k1 [k2 [k3]] or USER f
+  deck::Tagged law;     ///< TABLE f, POLY k1 [k2 [k3]], EXPR f or USER f
   int damping_law = 0;  ///< function of the rate
 };
 
 /// Tension of a spring and damper: f(e) + g(ė), e measured from where the spring is relaxed. The energy is ∫f from 0 to e. Or a
-/// routine of the user's, f(e, ė, t) + g(ė), with the energy that it says; without, all its work counts as lost.
+/// routine of the user's or a formula, f(e, ė, t) + g(ė). A routine's energy is what it says, a formula's ∫f(e, 0) where it does
+/// not depend on time; without energy all the work counts as lost.
 struct SpringLaw {
   double k1 = 0, k2 = 0, k3 = 0;              ///< f = k1 e + k2 e² + k3 e³, unless `of_stretch` is given
   const Function* of_stretch = nullptr;       ///< f
-  std::shared_ptr<const user::Routine> user;  ///< f of the elongation, its rate and the time
+  const Expression* formula = nullptr;        ///< f of the elongation, its rate and the time
+  std::shared_ptr<const user::Routine> user;  ///< the same
   double damping = 0;                         ///< g = damping ė, unless `of_rate` is given
   const Function* of_rate = nullptr;          ///< g
 
   /// Spring and damper together.
   template <class T>
   T force(const T& stretch, const T& rate, double time) const {
+    if (formula) {
+      const Expression::Law y = formula->law(value_of(stretch), value_of(rate), time);
+      return compose(stretch, y.value, y.by_elongation, 0) + compose(rate, 0, y.by_rate, 0) + viscous(rate);
+    }
     if (!user) return elastic(stretch) + viscous(rate);
     const user::Results y = user->at({value_of(stretch), value_of(rate), time});
     return compose(stretch, y[0], y[1], 0) + compose(rate, 0, y[2], 0) + viscous(rate);
@@ -35,7 +42,7 @@ struct SpringLaw {
   /// Energy stored and power lost.
   Energies energies(double stretch, double rate, double time) const;
 
-  bool acts() const { return user || of_stretch || of_rate || k1 != 0 || k2 != 0 || k3 != 0 || damping != 0; }
+  bool acts() const { return user || formula || of_stretch || of_rate || k1 != 0 || k2 != 0 || k3 != 0 || damping != 0; }
 
   /// The law of a card with one stiffness and one damping; an error, and none, when K and LAW or C and CLAW are both given.
   /// `first` is the elongation at the start and `scale` over how much of it a law may change, for a USER law; `suffix` stands
@@ -59,7 +66,8 @@ struct SpringLaw {
     return stretch * stretch * (k1 / 2 + stretch * (k2 / 3 + stretch * (k3 / 4)));
   }
 
-  bool user_stores_ = false;  ///< the routine gives the energy
+  bool user_stores_ = false;                         ///< the routine gives the energy
+  std::shared_ptr<const PanelIntegral> of_formula_;  ///< ∫f(e, 0) of a formula without time
 };
 
 /// Adds LAW and CLAW to a card, `suffix` behind them; `stretch` is the word for e, and `force` for what it makes. `Data` is the
@@ -72,6 +80,7 @@ void add_spring_law(deck::Card<Whole>& card, const std::string& stretch, const s
       .synonyms({"LOI" + suffix})
       .option({"TABLE", {"FONCTION", "FUNCTION"}, "function f of the " + stretch, 1, 1})
       .option({"POLY", {"POLYNOME"}, "k1 e + k2 e2 + k3 e3 of the " + stretch + " e", 1, 3})
+      .option({"EXPR", {"FORMULE"}, "f: formula f of .FCT, of the " + stretch + " D, its rate V and the time T", 1, 1})
       .option({"USER", {"UTILISATEUR"}, "f: routine f of .FCT, of the " + stretch + ", its rate and the time", 1, 1});
   card.add("CLAW" + suffix, damping_law, "instead of C" + suffix + ": function of the rate of the " + stretch)
       .synonyms({"LOI_C" + suffix})

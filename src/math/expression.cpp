@@ -241,16 +241,17 @@ Series apply(Code code, const Series& a, const Series& b) {
   }
 }
 
-/// Runs a program on doubles or series. The parser has checked that the stack suffices.
+/// Runs a program on doubles or series; variables in the order of Instruction::number. The parser has checked that the stack
+/// suffices.
 template <class T>
-T run(const std::vector<Expression::Instruction>& program, const T& x) {
+T run(const std::vector<Expression::Instruction>& program, const std::array<T, 3>& variables) {
   std::array<T, most_waiting> stack;
   std::size_t top = 0;
   for (const Expression::Instruction& i : program) {
     if (i.code == Code::number) {
       stack[top++] = T{i.number};
     } else if (i.code == Code::variable) {
-      stack[top++] = x;
+      stack[top++] = variables[static_cast<std::size_t>(i.number)];
     } else if (unary(i.code)) {
       stack[top - 1] = apply(i.code, stack[top - 1]);
     } else {
@@ -282,7 +283,8 @@ class Parser {
   }
 
   std::vector<Expression::Instruction> take_program() { return std::move(program_); }
-  bool uses_variable() const { return variable_ != 0; }
+  bool uses_time() const { return variable_ != 0; }
+  bool uses_law() const { return law_; }
 
  private:
   bool good() const { return fault_.message.empty(); }
@@ -457,11 +459,17 @@ class Parser {
       variable_ = variable;
       return push({Code::variable, 0});
     }
+    const bool elongation = same_word(word, "D");
+    if (variable_allowed_ && (elongation || same_word(word, "V"))) {
+      law_ = true;
+      return push({Code::variable, elongation ? 1.0 : 2.0});
+    }
     std::vector<std::string> known{"PI"};
     for (const Named& f : functions) known.emplace_back(f.name);
     const std::string near = nearest(word, known);
     std::string hint = near.empty() ? "" : "did you mean " + near + "?";
-    if (hint.empty()) hint = variable_allowed_ ? "the variable is called T or X" : "known are " + join(known);
+    if (hint.empty())
+      hint = variable_allowed_ ? "the variable is called T or X; D and V are those of a law" : "known are " + join(known);
     fault("`" + std::string(word) + "` is not known here", std::move(hint), start, word.size());
   }
 
@@ -490,6 +498,7 @@ class Parser {
   int depth_ = 0;
   std::size_t waiting_ = 0;
   char variable_ = 0;
+  bool law_ = false;
   std::vector<Expression::Instruction> program_;
   Expression::Fault fault_;
 };
@@ -502,16 +511,24 @@ Expression::Parsed Expression::parse(std::string_view text, bool variable_allowe
   parsed.fault = parser.run();
   if (parsed.good()) {
     parsed.expression.program_ = parser.take_program();
-    parsed.expression.constant_ = !parser.uses_variable();
+    parsed.expression.uses_time_ = parser.uses_time();
+    parsed.expression.uses_law_ = parser.uses_law();
+    parsed.expression.constant_ = !parser.uses_time() && !parser.uses_law();
   }
   return parsed;
 }
 
-double Expression::value(double x) const { return run<double>(program_, x); }
+double Expression::value(double x) const { return run<double>(program_, {x, 0, 0}); }
 
 Jet Expression::at(double x) const {
-  const Series s = run(program_, Series{x, 1, 0, 0});
+  const Series s = run<Series>(program_, {Series{x, 1, 0, 0}, Series{0}, Series{0}});
   return {s.c0, s.c1, 2 * s.c2, 6 * s.c3};
+}
+
+Expression::Law Expression::law(double elongation, double rate, double time) const {
+  const Series along_d = run<Series>(program_, {Series{time}, Series{elongation, 1, 0, 0}, Series{rate}});
+  const Series along_v = run<Series>(program_, {Series{time}, Series{elongation}, Series{rate, 1, 0, 0}});
+  return {along_d.c0, along_d.c1, along_v.c1};
 }
 
 }  // namespace engrane

@@ -10,7 +10,8 @@
 
 namespace engrane {
 
-/// A formula of at most one variable, such as `2*sin(PI*T)**2 + max(0, T - 1)`.
+/// A formula of one variable, such as `2*sin(PI*T)**2 + max(0, T - 1)`, or a law: a formula of an elongation D, its rate V and
+/// the time T, such as `2E4*D*(1 + 0.3*V)`.
 ///
 /// Grammar, as in Fortran: `+ - * / **` and `( )`, a sign before any operand (`-2**2` is -4, `2**-1` is 0.5), `**` from
 /// the right, numbers with E or D exponents, PI, and sin cos tan asin acos atan (radians), atan2(y, x), sqrt, exp, log,
@@ -30,13 +31,21 @@ class Expression {
   struct Parsed;
 
   /// Reads the whole text. A constant part that is not a finite number (`1/0`, `sqrt(-1)`) is a fault at its operator.
-  /// With `variable_allowed` false, T and X are unknown names: constant arithmetic.
+  /// With `variable_allowed` false, the variables are unknown names: constant arithmetic.
   static Parsed parse(std::string_view text, bool variable_allowed = true);
 
   double value(double x) const;
   Jet at(double x) const;
   /// Does the text not use the variable?
   bool constant() const { return constant_; }
+
+  /// Does the text use D or V, or the time T? A formula without D and V is no law.
+  bool is_law() const { return uses_law_; }
+  bool uses_time() const { return uses_time_; }
+  struct Law {
+    double value = 0, by_elongation = 0, by_rate = 0;
+  };
+  Law law(double elongation, double rate, double time) const;
 
   /// One step of the formula in postfix order; operands are on a stack.
   struct Instruction {
@@ -64,12 +73,12 @@ class Expression {
       maximum
     };
     Code code = Code::number;
-    double number = 0;
+    double number = 0;  ///< of a variable: 0 for T or X, 1 for D, 2 for V
   };
 
  private:
   std::vector<Instruction> program_;
-  bool constant_ = true;
+  bool constant_ = true, uses_law_ = false, uses_time_ = false;
 };
 
 /// A formula, or why there is none.

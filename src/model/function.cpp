@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "math/expression.hpp"
 #include "math/spline.hpp"
 #include "model/function_integral.hpp"
 #include "model/user_function.hpp"
@@ -83,6 +82,7 @@ class FormulaFunction final : public Function {
       : formula_(std::move(formula)), integral_([this](double x) { return formula_.value(x); }) {}
   Jet at(double x) const override { return formula_.at(x); }
   double integral(double x) const override { return integral_(x); }
+  const Expression* law() const override { return formula_.is_law() ? &formula_ : nullptr; }
 
  private:
   Expression formula_;

@@ -6,6 +6,7 @@
 
 #include "deck/cards.hpp"
 #include "math/dual.hpp"
+#include "math/expression.hpp"
 #include "math/jet.hpp"
 #include "math/taylor.hpp"
 
@@ -26,6 +27,8 @@ class Function {
   /// ∫ from 0 to x: what a drive in speed turns into an angle. Exact for every form but a formula, whose integral is good
   /// to about 1e-13 of ∫|f|.
   virtual double integral(double x) const = 0;
+  /// The formula of a law, if this is one and no function of one variable.
+  virtual const Expression* law() const { return nullptr; }
 };
 
 /// What a USER function must know of the deck besides its record.

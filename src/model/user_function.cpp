@@ -59,6 +59,11 @@ std::unique_ptr<Function> make_user_function(const deck::Record& record, const F
 }
 
 bool is_function_of_one_variable(const Function* function, Location where, Diagnostics& diagnostics) {
+  if (function && function->law()) {
+    diagnostics.error(where, "a formula of D and V is no function of one variable",
+                      "it is a law: LAW EXPR f in a spring; a function's variable is T");
+    return false;
+  }
   const auto* user = dynamic_cast<const UserFunction*>(function);
   return !user || user->check(where, diagnostics);
 }

@@ -41,7 +41,7 @@ std::unique_ptr<Function> make_user_function(const deck::Record& record, const F
                                              Diagnostics& diagnostics);
 
 /// Is a function that a keyword names fit to be one of one variable? False, with an error at `where`, when it is a routine of
-/// another kind. nullptr is fit: what is wrong with it was said already.
+/// another kind or a law. nullptr is fit: what is wrong with it was said already.
 bool is_function_of_one_variable(const Function* function, Location where, Diagnostics& diagnostics);
 
 /// The routine of a `.FCT USER` that a keyword names, used as a law of some kind: `scale` and `samples` as

@@ -48,6 +48,15 @@ FunctionMap waves() {
   FunctionMap functions;
   functions[1] = std::make_unique<Wave>(0.3, 0.7, 1.9, 0.4);
   functions[2] = std::make_unique<Wave>(-0.1, 1.3, 0.8, 0.2);
+  int next = 3;
+  for (const char* text : {"40*D + 90*D**3", "40*D*(1 + 0.3*V) + 2*abs(D)*V**3", "40*D*cos(T) + V"}) {
+    deck::FunctionCard card;
+    card.expression = text;
+    deck::Record record;
+    record.data = std::move(card);
+    Diagnostics diagnostics;
+    functions[next++] = make_function(record, diagnostics);
+  }
   return functions;
 }
 const FunctionMap functions = waves();
@@ -75,6 +84,26 @@ TEST(Spring, SuiteOfLaws) {
     if (damping_law != 0) s.skip[Check::lagrange] = "a damper has no potential";
     if (law.is("TABLE") || damping_law != 0)
       for (const Check check : {Check::rigid, Check::zero}) s.skip[check] = "the function is not zero at zero";
+    run_suite(s);
+  }
+}
+
+TEST(Spring, SuiteOfFormulas) {
+  for (const int f : {3, 4, 5}) {
+    Subject s;
+    s.name = "LAW EXPR " + std::to_string(f);
+    s.nodes = places;
+    const auto make = [f](std::array<int, 2> ends, const Mat3& Q) {
+      SpringData data;
+      data.nodes = ends;
+      data.law = {"EXPR", {static_cast<double>(f)}};
+      return build(spring_type(), data, turned(places, Q), {.functions = &functions});
+    };
+    s.build = [=](const Mat3& Q) { return make({1, 2}, Q); };
+    s.build_swapped = [=] { return make({2, 1}, Mat3::Identity()); };
+    s.step = 1e-4;
+    s.tolerance = 1e-7;
+    if (f > 3) s.skip[Check::lagrange] = "it depends on the rate or the time";
     run_suite(s);
   }
 }

@@ -133,6 +133,20 @@ TEST(Expression, CornersTakeTheRight) {
   EXPECT_EQ(formula("max(0, T**3)").at(0).d3, 6);
 }
 
+TEST(Expression, LawsOfElongationRateAndTime) {
+  const Expression f = formula("3*D**2*V + sin(T)*d - v**3");
+  EXPECT_TRUE(f.is_law());
+  EXPECT_TRUE(f.uses_time());
+  const Expression::Law y = f.law(0.4, -0.7, 0.2);
+  EXPECT_NEAR(y.value, 3 * 0.16 * -0.7 + std::sin(0.2) * 0.4 + 0.343, 1e-15);
+  EXPECT_NEAR(y.by_elongation, 6 * 0.4 * -0.7 + std::sin(0.2), 1e-15);
+  EXPECT_NEAR(y.by_rate, 3 * 0.16 - 3 * 0.49, 1e-15);
+  EXPECT_FALSE(formula("2*T").is_law());
+  EXPECT_FALSE(formula("2*D").uses_time());
+  EXPECT_FALSE(formula("2*V").constant());
+  EXPECT_FALSE(fault("2*D", false).message.empty());
+}
+
 TEST(Expression, OutsideItsDomainNotANumber) {
   EXPECT_TRUE(std::isnan(formula("sqrt(T)").value(-1)));
   EXPECT_TRUE(std::isnan(formula("log(T)").at(-1).f));
