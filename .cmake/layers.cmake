@@ -39,7 +39,8 @@ function(engrane_precompiled target)
       ${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <functional> <map> <memory>
       <optional> <span> <string> <vector>)
   elseif(target STREQUAL "element_tests")
-    target_precompile_headers(${target} PRIVATE <gtest/gtest.h> "model/templated_element.hpp" "elements/suite.hpp")
+    target_precompile_headers(${target} PRIVATE <gtest/gtest.h> ${PROJECT_SOURCE_DIR}/src/model/templated_element.hpp
+                                                ${PROJECT_SOURCE_DIR}/tests/elements/suite.hpp)
   else()
     target_precompile_headers(${target} REUSE_FROM engrane_base)
   endif()
