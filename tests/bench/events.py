@@ -32,7 +32,7 @@ def run(binary: Path, folder: Path, name: str, events: str, step: float, end: fl
     """The results, and the processor time in seconds."""
     text = (DECKS / f"spur_transmission_{name}.dat").read_text(encoding="utf-8")
     text = text[: re.search(r"^\.FIN", text, re.MULTILINE).start()]
-    text = text.replace("START STATIC", f"START STATIC SOLVER KLU EVENTS {events}")
+    text = text.replace("START STATIC", f"START STATIC EVENTS {events}")
     deck = folder / "run.dat"
     deck.write_text(f"{text}.DEL.CHK\n.DEL.SUB\n.SUB TF {end:g} H {step:g}\n.FIN 1\n", encoding="utf-8")
     process = subprocess.Popen([binary, "-q", deck, "-o", folder / "run"])
