@@ -45,5 +45,7 @@ function(engrane_precompiled target)
     target_precompile_headers(${target} REUSE_FROM engrane_base)
   endif()
   # GCC 12 believes in overruns of std::string where <string> is precompiled; the sanitizers look for real ones
-  target_compile_options(${target} PRIVATE "$<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overread;-Wno-stringop-overflow>")
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict -Wno-stringop-overread -Wno-stringop-overflow)
+  endif()
 endfunction()
