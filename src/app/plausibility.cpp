@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "model/element_at_rest.hpp"
+
 namespace engrane {
 
 namespace {
@@ -16,24 +18,13 @@ constexpr double earth = 9.81;  // m/s²
 
 /// Mass that an element gives to the translation of its first node, from its residual under a unit acceleration.
 double mass_of(const Model& model, const Model::Part& part) {
-  const Layout& layout = part.element->layout();
-  const auto n = static_cast<std::size_t>(layout.slots());
-  std::vector<NodeState> nodes(part.nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].x = model.nodes[static_cast<std::size_t>(part.nodes[i])].x;
-  std::vector<double> scalars(layout.scalars.size(), 0), history(static_cast<std::size_t>(layout.history), 0), r(n, 0),
-      still(n, 0);
-  part.element->start(scalars, history);
-  const std::vector<double> rates(scalars.size(), 0), multipliers(layout.multipliers.size(), 0);
-  State state;
-  state.nodes = nodes;
-  state.scalars = scalars;
-  state.scalar_rates = state.scalar_accelerations = rates;
-  state.multipliers = multipliers;
-  state.history = history;
-  part.element->residual(state, still);
-  nodes[0].a = Vec3::UnitX();
-  part.element->residual(state, r);
-  return r[0] - still[0];
+  ElementAtRest body(model, part);
+  const auto n = static_cast<std::size_t>(part.element->layout().slots());
+  std::vector<double> still(n), moved(n);
+  part.element->residual(body.view(), still);
+  body.nodes[0].a = Vec3::UnitX();
+  part.element->residual(body.view(), moved);
+  return moved[0] - still[0];
 }
 
 /// A body whose radius of gyration has nothing to do with the size of the mechanism.

@@ -93,6 +93,21 @@ State Assembler::view(int part, const Configuration& c) {
   return s;
 }
 
+void Assembler::commit(Configuration& configuration) {
+  std::vector<double> history = configuration.history;
+  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
+    const Layout& layout = model_.parts[p].element->layout();
+    if (layout.history == 0) continue;
+    const int part = static_cast<int>(p);
+    model_.parts[p].element->commit(
+        view(part, configuration),
+        std::span(configuration.scalars).subspan(static_cast<std::size_t>(numbering_.scalar_begin(part)), layout.scalars.size()),
+        std::span(history).subspan(static_cast<std::size_t>(numbering_.history_begin(part)),
+                                   static_cast<std::size_t>(layout.history)));
+  }
+  configuration.history = std::move(history);
+}
+
 void Assembler::update_factors() {
   for (Share& share : shares_) {
     const Layout& layout = model_.parts[static_cast<std::size_t>(share.part)].element->layout();

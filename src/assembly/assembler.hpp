@@ -76,6 +76,9 @@ class Assembler {
   /// State of one element, copied from the configuration into buffers of this object; valid until the next call.
   State view(int part, const Configuration& configuration);
 
+  /// Lets every element keep what it remembers of an accepted configuration, such as whole turns.
+  void commit(Configuration& configuration);
+
  private:
   struct Share {
     int part;

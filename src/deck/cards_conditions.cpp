@@ -131,8 +131,7 @@ Schema function_card() {
       .values(4, 4);
   card.add("EXPR", &FunctionCard::expression,
            "a formula of the time T, with PI and the functions of the deck's arithmetic (radians); for LAW EXPR of an elongation "
-           "D, its "
-           "rate V and the time T")
+           "D, its rate V and the time T")
       .synonyms({"EXPRESSION", "FORMULE"});
   card.add("USER", &FunctionCard::user,
            "library and name of a routine in Fortran or C: a function, or for LAW USER, STIFF USER and FRICTION USER a law")

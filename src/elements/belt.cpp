@@ -288,9 +288,8 @@ ElementType belt_type() {
       .describe(
           "The pulleys are at the nodes, with radii R and parallel axes. The belt runs open, or CROSSED, which turns the second "
           "pulley the other way. With K or EA the free spans are elastic, each pulls along its own tangent and a slack one does "
-          "not "
-          "push; the centre distance may change. Without them the belt only holds the ratio of the turns, each span pulling with "
-          "PRELOAD and half the difference.")
+          "not push; the centre distance may change. Without them the belt only holds the ratio of the turns, each span pulling "
+          "with PRELOAD and half the difference.")
       .example("I 5 BELT N 1 2  AXIS 0 0 1  R 0.05 0.12  EA 2D5  PRELOAD 300  C 40  MU 0.4")
       .example("I 6 BELT N 1 2  AXIS 0 0 1  R 0.05 0.12  CROSSED");
   card.add("N", &BeltData::nodes, "the two pulleys, a and b; 0 is the ground")

@@ -352,9 +352,8 @@ ElementType cam_type() {
           "Body a carries the profile, in the plane across AXIS through CENTER; body b carries the follower's point AT. The "
           "profile is a closed smooth curve through a TABLE of points or POLAR radii, or the one that gives the follower a "
           "MOTION when the cam turns: segments of cam angle with the lift at their ends, equal lifts a dwell, on the base circle "
-          "BASE. "
-          "Without K the follower is held to the profile (a groove, a second cam); with K it rests on it as a STOP does, and "
-          "may leave it. The contact acts in the plane of the cam; along the axis the follower is free.")
+          "BASE. Without K the follower is held to the profile (a groove, a second cam); with K it rests on it as a STOP does, "
+          "and may leave it. The contact acts in the plane of the cam; along the axis the follower is free.")
       .example(
           "I 5 CAM N 1 2  AXIS 0 0 1  BASE 0.03  MOTION 90 0.01 60 0.01 90 0 120 0  LAW CYCLOIDAL  $\n"
           "      FOLLOWER ROLLER 0.008  DIRECTION 0 1 0")
@@ -364,8 +363,7 @@ ElementType cam_type() {
           "      FOLLOWER ROLLER 0.008  PIVOT 0.1 0 0  K 1D8 EXP 1.11  DAMP HUNT 0.3")
       .example(
           "I 7 CAM N 1 4  AXIS 0 0 1  ZERO 1 0 0  POLAR 0 0.04 45 0.038 90 0.034 135 0.031 180 0.03 225 0.031 270 0.034 315 "
-          "0.038  $\n"
-          "      FOLLOWER FLAT  DIRECTION 0 1 0  FRICTION CONST 0.1");
+          "0.038  $\n      FOLLOWER FLAT  DIRECTION 0 1 0  FRICTION CONST 0.1");
   card.add("N", &CamData::nodes, "cam body a and follower body b; 0 is the ground")
       .synonyms({"NODES", "NOEUDS"})
       .refers(deck::Reference::node)

@@ -52,9 +52,8 @@ ElementType constant_velocity_type() {
       .chapter("Rigid kinematic joints")
       .describe(
           "AXIS is the direction of a's shaft, AXIS2 that of b's, both along the drive line; without AXIS2 the shafts are in "
-          "line "
-          "in the reference configuration. They meet in the joint point AT; without it the nodes must be in one place, or one "
-          "of them is the ground.")
+          "line in the reference configuration. They meet in the joint point AT; without it the nodes must be in one place, or "
+          "one of them is the ground.")
       .example("I 3 CONSTANT_VELOCITY N 1 2  AXIS 1 0 0  AT 0.3 0 0")
       .example("I 4 CONSTANT_VELOCITY N 1 2  AXIS 1 0 0  AXIS2 1 0 -1  AT 0.3 0 0");
   add_joint_nodes(card);

@@ -327,11 +327,10 @@ ElementType controller_type() {
       .chapter("Control and computation elements")
       .describe(
           "It measures the coordinate of a joint or SENSOR (IN), compares it with the reference and acts along the coordinate of "
-          "a "
-          "joint or SENSOR (OUT): with a force or torque, or, with DRIVE, by imposing its motion. The reference is REF times the "
-          "function NF, or the function alone (radians). The law is KP e + KI (integral of e) + KD (derivative of e), the "
-          "derivative "
-          "through a filter of time constant TF; or the transfer function NUM/DEN, coefficients from the highest power down.")
+          "a joint or SENSOR (OUT): with a force or torque, or, with DRIVE, by imposing its motion. The reference is REF times "
+          "the function NF, or the function alone (radians). The law is KP e + KI (integral of e) + KD (derivative of e), the "
+          "derivative through a filter of time constant TF; or the transfer function NUM/DEN, coefficients from the highest "
+          "power down.")
       .example("I 9 CONTROLLER IN 3  NF 1  KP 200  KI 50  KD 12  TF 2D-3  OUT 3  LIMITS -80 80")
       .example("I 9 CONTROLLER IN 20  REF 0.5  NUM 40 8  DEN 1 30  OUT 20")
       .example("I 9 CONTROLLER IN 4  REF 30  KP 5  OUT 3  DRIVE SPEED TAU 0.01");

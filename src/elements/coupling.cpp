@@ -112,10 +112,8 @@ ElementType coupling_type() {
       .chapter("Special boundary conditions and multi-point constraints")
       .describe(
           "q2 = RATIO q1 + OFFSET, where q1 and q2 are coordinates of the joints named by JOINTS: angles in radians, slides in "
-          "the "
-          "deck's length. So the RATIO of a slide to an angle is the advance per radian. The relation is exact; with K or C it "
-          "is "
-          "elastic. A joint with several coordinates takes its first unless FIRST or SECOND names another.")
+          "the deck's length. So the RATIO of a slide to an angle is the advance per radian. The relation is exact; with K or C "
+          "it is elastic. A joint with several coordinates takes its first unless FIRST or SECOND names another.")
       .example("I 7 COUPLING JOINTS 3 5  RATIO -2.5")
       .example("I 8 COUPLING JOINTS 3 6  RATIO (0.005/(2*PI))  SECOND SLIDE  K 1D7  C 200");
   card.add("JOINTS", &CouplingData::joints, "numbers of the two joints (or sensors)")

@@ -54,10 +54,8 @@ ElementType distance_type() {
       .describe(
           "The ends are at the nodes, or at FROM on node a and TO on node b, in the reference configuration. The length is that "
           "of the reference configuration unless it is driven; with K, C, a law or stops it is free but for these, and the "
-          "spring is "
-          "relaxed at the length of the reference configuration unless LENGTH0 says otherwise. Where an end is at its node the "
-          "joint does not ask for its "
-          "rotation.")
+          "spring is relaxed at the length of the reference configuration unless LENGTH0 says otherwise. Where an end is at its "
+          "node the joint does not ask for its rotation.")
       .example("I 3 DISTANCE N 1 2")
       .example("I 4 DISTANCE N 0 2  FROM 0 0 0")
       .example("I 5 DISTANCE N 0 2  FROM 0 0 0  DRIVE SPEED NF 1")

@@ -43,11 +43,9 @@ ElementType point_cylinder_type() {
       .chapter("Rigid kinematic joints")
       .describe(
           "The axis goes through ON along AXIS; without ON through node a. The point is AT in the reference configuration, "
-          "without "
-          "it node b (node a if b is the ground). The radius is the distance of the point from the axis there unless RADIUS says "
-          "otherwise; the slide along the axis and the angle about it are 0 there. The point is held from both sides. Where it "
-          "is "
-          "at node b the joint does not ask for its rotation.")
+          "without it node b (node a if b is the ground). The radius is the distance of the point from the axis there unless "
+          "RADIUS says otherwise; the slide along the axis and the angle about it are 0 there. The point is held from both "
+          "sides. Where it is at node b the joint does not ask for its rotation.")
       .example("I 3 POINT_CYLINDER N 0 2  AXIS 0 0 1  ON 0.5 0 0")
       .example("I 4 POINT_CYLINDER N 1 2  AXIS 0 0 1  FRICTION CONST 0.2 VREG 1D-4");
   add_joint_nodes(card);

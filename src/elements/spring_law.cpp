@@ -79,25 +79,23 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
   return law;
 }
 
+Expression::Law SpringLaw::of_both(double stretch, double rate, double time) const {
+  if (formula) return formula->law(stretch, rate, time);
+  const user::Results y = user->at({stretch, rate, time});
+  return {y[0], y[1], y[2]};
+}
+
 Energies SpringLaw::energies(double stretch, double rate, double time) const {
   Energies e;
   e.dissipated = viscous(rate) * rate;
-  if (formula) {
-    e.dissipated += formula->law(stretch, rate, time).value * rate;
-    if (!of_formula_) return e;
-    e.potential = (*of_formula_)(stretch);
-    e.dissipated -= formula->law(stretch, 0, time).value * rate;
-    return e;
-  }
-  if (!user) {
+  if (!formula && !user) {
     e.potential = stored(stretch);
     return e;
   }
-  e.dissipated += user->at({stretch, rate, time})[0] * rate;
-  if (!user_stores_) return e;
-  const user::Results still = user->at({stretch, 0, time});
-  e.potential = still[3];
-  e.dissipated -= still[0] * rate;
+  e.dissipated += of_both(stretch, rate, time).value * rate;
+  if (!of_formula_ && !user_stores_) return e;
+  e.potential = of_formula_ ? (*of_formula_)(stretch) : user->at({stretch, 0, time})[3];
+  e.dissipated -= of_both(stretch, 0, time).value * rate;
   return e;
 }
 

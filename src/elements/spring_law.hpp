@@ -31,13 +31,9 @@ struct SpringLaw {
   /// Spring and damper together.
   template <class T>
   T force(const T& stretch, const T& rate, double time) const {
-    if (formula) {
-      const Expression::Law y = formula->law(value_of(stretch), value_of(rate), time);
-      return compose(stretch, y.value, y.by_elongation, 0) + compose(rate, 0, y.by_rate, 0) + viscous(rate);
-    }
-    if (!user) return elastic(stretch) + viscous(rate);
-    const user::Results y = user->at({value_of(stretch), value_of(rate), time});
-    return compose(stretch, y[0], y[1], 0) + compose(rate, 0, y[2], 0) + viscous(rate);
+    if (!formula && !user) return elastic(stretch) + viscous(rate);
+    const Expression::Law y = of_both(value_of(stretch), value_of(rate), time);
+    return compose(stretch, y.value, y.by_elongation, 0) + compose(rate, 0, y.by_rate, 0) + viscous(rate);
   }
   /// Energy stored and power lost.
   Energies energies(double stretch, double rate, double time) const;
@@ -51,6 +47,8 @@ struct SpringLaw {
                                      double first, double scale, const std::string& suffix = {});
 
  private:
+  /// Of a formula or a routine.
+  Expression::Law of_both(double stretch, double rate, double time) const;
   template <class T>
   T elastic(const T& stretch) const {
     if (of_stretch) return evaluate(*of_stretch, stretch);

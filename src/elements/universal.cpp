@@ -56,8 +56,7 @@ ElementType universal_type() {
       .describe(
           "AXIS is the pin held by node a, AXIS2 the pin held by node b, perpendicular to it. They meet in the joint point AT; "
           "without it the nodes must be in one place, or one of them is the ground. KT, CT and ANGLE0 act on both pins, keywords "
-          "that "
-          "end in 1 on that of a, in 2 on that of b.")
+          "that end in 1 on that of a, in 2 on that of b.")
       .example("I 3 UNIVERSAL N 1 2  AXIS 0 1 0  AXIS2 0 0 1  AT 0.3 0 0");
   add_joint_nodes(card);
   card.add("AXIS", &JointData::axis, "pin held by a, in the reference configuration").synonyms({"AXE"}).required();

@@ -65,8 +65,7 @@ void Analysis::refuse_half_turns(std::span<const double> y, NewtonReport& report
     report.converged = false;
     report.reason = fmt::format(
         "node {} turned by {:.4g} degrees in one step; half a turn is the most that can be followed: take a smaller step H, at "
-        "most "
-        "{:.2g} of this one, or see whether a speed is given in the wrong unit",
+        "most {:.2g} of this one, or see whether a speed is given in the wrong unit",
         bench_.model.nodes[i].id, turn * 180 / std::numbers::pi, 0.9 * std::numbers::pi / turn);
     return;
   }
@@ -119,23 +118,6 @@ std::unique_ptr<Analysis> make_analysis(Workbench& bench) {
 
 namespace {
 
-/// Lets every element keep what it remembers of an accepted configuration.
-void commit(Workbench& bench, Configuration& c) {
-  std::vector<double> history = c.history;
-  const auto& parts = bench.model.parts;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const Layout& layout = parts[p].element->layout();
-    if (layout.history == 0) continue;
-    const int part = static_cast<int>(p);
-    parts[p].element->commit(
-        bench.assembler.view(part, c),
-        std::span(c.scalars).subspan(static_cast<std::size_t>(bench.numbering.scalar_begin(part)), layout.scalars.size()),
-        std::span(history).subspan(static_cast<std::size_t>(bench.numbering.history_begin(part)),
-                                   static_cast<std::size_t>(layout.history)));
-  }
-  c.history = std::move(history);
-}
-
 std::string failure_text(Workbench& bench, const Configuration& tried, const NewtonReport& report, int number, int cuts) {
   std::string text = fmt::format("step {}, t = {:.6g}: ", number, tried.time);
   const std::string cut = cuts == 0 ? "" : fmt::format("; the step was cut {} time{}", cuts, cuts == 1 ? "" : "s");
@@ -167,7 +149,7 @@ class Runner {
   bool run(const std::function<void(const StartReport&)>& started) {
     started(analysis_.start(now_));
     bench_.solver.reset();  // the start solved with matrices of other kinds; the steps deserve their own analysis
-    commit(bench_, now_);
+    bench_.assembler.commit(now_);
     if (locator_.active()) locator_.switches().take(now_);
     next_ = now_;
     if (!observer_(now_, step_)) return false;
@@ -242,7 +224,7 @@ class Runner {
   }
 
   bool accepted(double size, bool regular) {
-    commit(bench_, now_);
+    bench_.assembler.commit(now_);
     step_.events.clear();
     if (locator_.active()) step_.events = locator_.switches().take(now_);
     ++step_.number;

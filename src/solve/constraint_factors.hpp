@@ -22,6 +22,10 @@ double size_of(const Unknown& u, double extent);
 /// The unknown of a multiplier, index into Configuration::multipliers.
 const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier);
 
+/// Whether a multiplier is the effort of a drive, which elements name so.
+bool is_drive(const Named& multiplier);
+bool is_drive(const Model& model, const Unknown& multiplier);
+
 /// An open constraint over the extent, or in radians.
 double relative_open(const Assembler& assembler, int multiplier, double phi);
 

@@ -7,6 +7,8 @@
 #include <set>
 #include <vector>
 
+#include "solve/constraint_factors.hpp"
+
 namespace engrane {
 
 namespace {
@@ -39,8 +41,6 @@ const std::set<std::string>* joint_holds(const std::string& type) {
   return nullptr;
 }
 
-bool is_drive(const std::string& name) { return name.find("DRIVE") != std::string::npos; }
-
 std::string in_words(const std::string& multiplier) {
   static const char* const axes[] = {"the axis", "the second axis", "the third axis"};
   const char digit = multiplier.back();
@@ -67,8 +67,9 @@ std::vector<Cure> cures_of(const Assembler& assembler, int part) {
       bool driven = false;
       for (std::size_t i = 0; i < multipliers.size(); ++i) {
         const std::string& name = multipliers[i].name;
-        driven = driven || is_drive(name);
-        if (is_drive(name) || kind.holds.contains(name)) continue;
+        const bool drive = is_drive(multipliers[i]);
+        driven = driven || drive;
+        if (drive || kind.holds.contains(name)) continue;
         cure.rows.push_back(begin + static_cast<Eigen::Index>(i));
         cure.released += (cure.released.empty() ? "" : ", ") + in_words(name);
       }
@@ -78,7 +79,7 @@ std::vector<Cure> cures_of(const Assembler& assembler, int part) {
   for (std::size_t i = 0; i < multipliers.size(); ++i) {
     const std::vector<Eigen::Index> row{begin + static_cast<Eigen::Index>(i)};
     const std::string element = fmt::format("{} {}", p.type, p.element->id());
-    if (is_drive(multipliers[i].name)) cures.push_back({"leave out the drive of " + element, row, ""});
+    if (is_drive(multipliers[i])) cures.push_back({"leave out the drive of " + element, row, ""});
     if (multipliers[i].name == "TOOTH") cures.push_back({"give " + element + " a tooth stiffness (KM)", row, ""});
   }
   return cures;

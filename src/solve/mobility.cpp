@@ -16,11 +16,10 @@ namespace engrane {
 namespace {
 
 using Vector = Eigen::VectorXd;
-using Factors = ConstraintFactors;
-using Columns = ConstraintColumns;
 
 /// A little along a possible motion, closed again. False when it does not close: then the motion is only one of first order.
-bool move_along(Assembler& assembler, const MotionSlots& motion, const Factors& here, Configuration& c, double tolerance) {
+bool move_along(Assembler& assembler, const MotionSlots& motion, const ConstraintFactors& here, Configuration& c,
+                double tolerance) {
   // any direction does that is not a special one
   Vector wish(here.rows());
   for (Eigen::Index i = 0; i < wish.size(); ++i) wish[i] = std::sin(1.0 + 2.3 * static_cast<double>(i * i % 1009));
@@ -28,7 +27,7 @@ bool move_along(Assembler& assembler, const MotionSlots& motion, const Factors& 
   const double largest = way.size() > 0 ? way.lpNorm<Eigen::Infinity>() : 0;
   if (!(largest > 1e-6)) return false;
   std::vector<double> y(motion.size(), 0.0), phi, rate, second;
-  const auto move = [&](const Factors& factors, const Vector& by) {
+  const auto move = [&](const ConstraintFactors& factors, const Vector& by) {
     std::fill(y.begin(), y.end(), 0.0);
     factors.to_slots(by, y);
     Configuration moved = c;
@@ -42,7 +41,7 @@ bool move_along(Assembler& assembler, const MotionSlots& motion, const Factors& 
     for (std::size_t m = 0; m < phi.size(); ++m) open = std::max(open, relative_open(assembler, static_cast<int>(m), phi[m]));
     if (!std::isfinite(open)) return false;
     if (open < 1e-13) return true;
-    const Factors factors(assembler, c, Columns::gradients, tolerance);
+    const ConstraintFactors factors(assembler, c, ConstraintColumns::gradients, tolerance);
     const Vector by = factors.closing_motion(phi);
     if (!(by.lpNorm<Eigen::Infinity>() < 0.05)) return false;
     move(factors, by);
@@ -147,13 +146,13 @@ constexpr const char* usual_cure =
 
 Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const Configuration& configuration, double tolerance) {
   Configuration c = outside_of_steps(configuration);
-  const Factors here(assembler, c, Columns::gradients, tolerance);
+  const ConstraintFactors here(assembler, c, ConstraintColumns::gradients, tolerance);
   Mobility found;
   found.analysed = true;
   found.motions = static_cast<int>(here.rows());
   found.constraints = static_cast<int>(here.columns());
   found.rank = static_cast<int>(here.rank());
-  const auto take = [&](const Factors& factors) {
+  const auto take = [&](const ConstraintFactors& factors) {
     found.dependent.clear();
     for (Eigen::Index i = factors.rank(); i < factors.columns(); ++i) found.dependent.push_back(factors.pivot(i));
     std::sort(found.dependent.begin(), found.dependent.end());
@@ -165,7 +164,7 @@ Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const
   assembler.constraint_rates(c, phi, rate, second);
   take(here);
   if (found.freedom() > 0 && move_along(assembler, motion, here, c, tolerance)) {
-    const Factors there(assembler, c, Columns::gradients, tolerance);
+    const ConstraintFactors there(assembler, c, ConstraintColumns::gradients, tolerance);
     if (there.rank() > here.rank()) {
       found.lost_here = static_cast<int>(there.rank() - here.rank());
       found.rank = static_cast<int>(there.rank());
@@ -244,11 +243,10 @@ std::string Redundancy::cure_of(const RedundantGroup& one) const {
   for (auto m = one.members.rbegin(); m != one.members.rend(); ++m) {
     const Unknown& u = multiplier_unknown(assembler_.numbering(), *m);
     const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(u.part)];
-    if (part.element->layout().multipliers[static_cast<std::size_t>(u.item)].name.find("DRIVE") == std::string::npos) continue;
+    if (!is_drive(assembler_.model(), u)) continue;
     return fmt::format(
         "the joints leave a drive no freedom, or drives disagree: see whether a place, an axis or a drive's function is wrong, "
-        "or "
-        "leave out the drive of {} {}",
+        "or leave out the drive of {} {}",
         part.type, part.element->id());
   }
   Eigen::MatrixXd null(mobility_.null.rows(), one.redundant);
@@ -283,14 +281,14 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
 }
 
 Eigen::MatrixXd Redundancy::undetermined(const Configuration& c) {
-  const Factors factors(assembler_, outside_of_steps(c), Columns::forces, rank_tolerance);
+  const ConstraintFactors factors(assembler_, outside_of_steps(c), ConstraintColumns::forces, rank_tolerance);
   return factors.null_multipliers(true);
 }
 
 bool Redundancy::share(Configuration& c) {
   if (!active()) return false;
   const Configuration here = outside_of_steps(c);
-  const Factors factors(assembler_, here, Columns::forces, rank_tolerance);
+  const ConstraintFactors factors(assembler_, here, ConstraintColumns::forces, rank_tolerance);
   if (factors.deficiency() == 0) return false;
   const double extent = assembler_.model().extent();
   const auto count = static_cast<Eigen::Index>(c.multipliers.size());

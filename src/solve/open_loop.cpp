@@ -72,11 +72,6 @@ void narrow(Assembler& assembler, const MotionSlots& motion, const Vector& weigh
   }
 }
 
-bool is_drive(const Model& model, const Unknown& u) {
-  return model.parts[static_cast<std::size_t>(u.part)].element->layout().multipliers[static_cast<std::size_t>(u.item)].name.find(
-             "DRIVE") != std::string::npos;
-}
-
 std::string node_name(const Model& model, int node) {
   return node == 0 ? "ground" : fmt::format("node {}", model.nodes[static_cast<std::size_t>(node)].id);
 }

@@ -56,23 +56,6 @@ void note_accelerations(const Assembler& assembler, const Configuration& c, int 
   }
 }
 
-/// Counts turns on the way to drives that begin more than half a turn away from where the parts are put.
-void remember_turns(Assembler& assembler, Configuration& c) {
-  const auto& parts = assembler.model().parts;
-  std::vector<double> history = c.history, scalars = c.scalars;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const Layout& layout = parts[p].element->layout();
-    if (layout.history == 0) continue;
-    const int part = static_cast<int>(p);
-    const auto begin = static_cast<std::size_t>(assembler.numbering().history_begin(part));
-    const auto own = static_cast<std::size_t>(assembler.numbering().scalar_begin(part));
-    parts[p].element->commit(assembler.view(part, c), std::span(scalars).subspan(own, layout.scalars.size()),
-                             std::span(history).subspan(begin, static_cast<std::size_t>(layout.history)));
-  }
-  c.history = std::move(history);
-  c.scalars = std::move(scalars);
-}
-
 /// Angle of the rotation that leads from one to the other.
 double angle_between(const Mat3& a, const Mat3& b) { return rotation_log(Mat3(a.transpose() * b)).norm(); }
 
@@ -192,7 +175,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, std::sp
       if (!u.multiplier || assembler_.released(u.slot - static_cast<int>(motion_size))) continue;
       const std::size_t m = static_cast<std::size_t>(u.slot) - motion_size;
       right[e] = phi[m] - (target.empty() ? 0.0 : target[m]);
-      const double relative = std::abs(right[e]) / (u.measure == Measure::length ? extent : 1.0);
+      const double relative = std::abs(right[e]) / size_of(u, extent);
       open = std::isnan(relative) ? relative : std::max(open, relative);
     }
     return open;
@@ -304,7 +287,7 @@ int Start::follow(Configuration& c, std::span<const int> held) {
       continue;
     }
     c = std::move(tried);
-    remember_turns(assembler_, c);
+    assembler_.commit(c);  // turns count on the way to drives that begin more than half a turn away
     if (next == 1) return steps;
     done = next;
     if (closing.iterations < 5) part *= 1.5;

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "deck/reader.hpp"
-#include "model/model.hpp"
+#include "model/element_at_rest.hpp"
 #include "model/registry.hpp"
 
 namespace engrane {
@@ -27,20 +27,9 @@ int evaluate_elements(const Model& model) {
   int count = 0;
   for (const Model::Part& part : model.parts) {
     const Layout& layout = part.element->layout();
-    std::vector<NodeState> nodes;
-    for (const int node : part.nodes) {
-      nodes.emplace_back();
-      nodes.back().x = model.nodes[static_cast<std::size_t>(node)].x;
-    }
-    const std::vector<double> zeros(layout.scalars.size()), loads(layout.multipliers.size(), 1.0);
-    std::vector<double> scalars(zeros), history(static_cast<std::size_t>(layout.history));
-    part.element->start(scalars, history);
-    State state;
-    state.nodes = nodes;
-    state.scalars = scalars;
-    state.scalar_rates = state.scalar_accelerations = zeros;
-    state.multipliers = loads;
-    state.history = history;
+    ElementAtRest rest(model, part);
+    rest.multipliers.assign(rest.multipliers.size(), 1.0);
+    const State state = rest.view();
     const auto n = static_cast<std::size_t>(layout.slots());
     std::vector<double> r(n), k(n * n), values(part.element->channels().size());
     std::vector<Switch> switches(layout.switches.size());
