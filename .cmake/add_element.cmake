@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # One element, one name, five places. See docs/adding.md.
 
-# add_element(NAME): stops configuration unless all five places of the element exist, and puts it on the list that
+# add_element(ROOM/NAME): stops configuration unless all five places of the element exist, and puts it on the list that
 # register_elements() writes.
-function(add_element name)
+function(add_element element)
+  cmake_path(GET element PARENT_PATH room)
+  cmake_path(GET element FILENAME name)
   set(missing "")
-  foreach(place src/elements/${name}.hpp src/elements/${name}.cpp docs/elements/${name}.md tests/elements/${name}.cpp)
+  foreach(place src/elements/${element}.hpp src/elements/${element}.cpp docs/elements/${element}.md tests/elements/${element}.cpp)
     file(GLOB found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${place})  # a glob, so that a build notices a change
     if(NOT found)
       string(APPEND missing "  ${place}\n")
@@ -13,14 +15,14 @@ function(add_element name)
   endforeach()
   file(GLOB_RECURSE decks CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/decks/${name}*.dat)
   if(NOT decks)
-    string(APPEND missing "  decks/elements/${name}.dat (or any decks/**/${name}*.dat)\n")
+    string(APPEND missing "  decks/elements/${element}.dat (or any decks/**/${name}*.dat)\n")
   endif()
 
   if(missing)
     string(
       CONCAT
         message
-        "The element '${name}' lacks\n${missing}"
+        "The element '${element}' lacks\n${missing}"
         "Start each from the one of another element: docs/adding.md says what belongs in it. "
         "While you work on it, -DENGRANE_UNFINISHED=ON makes this a warning; to take the element out, "
         "remove its add_element line from src/CMakeLists.txt.")
@@ -29,11 +31,11 @@ function(add_element name)
     else()
       message(FATAL_ERROR "${message}")
     endif()
-    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/src/elements/${name}.cpp)
+    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/src/elements/${element}.cpp)
       return()
     endif()
   endif()
-  set_property(GLOBAL APPEND PROPERTY engrane_elements ${name})
+  set_property(GLOBAL APPEND PROPERTY engrane_elements ${element})
 endfunction()
 
 # Writes the registration list. It is explicit, not made of self-registering statics: the linker drops those from a
@@ -46,9 +48,11 @@ function(register_elements)
   endif()
   set(declarations "")
   set(calls "")
-  foreach(name ${names})
-    string(APPEND declarations "ElementType ${name}_type();\n")
-    string(APPEND calls "      ${name}_type(),\n")
+  foreach(element ${names})
+    cmake_path(GET element PARENT_PATH room)
+    cmake_path(GET element FILENAME name)
+    string(APPEND declarations "namespace elements::${room} {\nElementType ${name}_type();\n}\n")
+    string(APPEND calls "      elements::${room}::${name}_type(),\n")
   endforeach()
   file(
     CONFIGURE

@@ -6,7 +6,7 @@ function(engrane_layer name)
   if(ENGRANE_FUZZ AND name MATCHES "^(assembly|solve|output|app)$")
     return()  # what is fuzzed reads decks: it needs neither PETSc nor HDF5, and clang builds it faster without
   endif()
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   list(TRANSFORM layer_USES PREPEND engrane_)
 
   if(NOT sources)
@@ -26,6 +26,11 @@ function(engrane_layer name)
   target_include_directories(engrane_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(engrane_${name} PUBLIC ${layer_USES} ${layer_WITH} PRIVATE engrane_options)
   engrane_precompiled(engrane_${name})
+endfunction()
+
+# engrane_room(LAYER/ROOM [USES room...]): a folder of a layer and the other rooms of that layer that it may include. Only
+# tests/layers.py looks at it: rooms are no libraries of their own.
+function(engrane_room name)
 endfunction()
 
 # The foreign headers that nearly every source reads, parsed once: half of the time that a small source takes. Sources include

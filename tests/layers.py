@@ -4,7 +4,8 @@
     layers.py [root]
 
 Which layer may include which, and which foreign library, stands in src/CMakeLists.txt and nowhere else. The
-rest: no code file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, and no
+rest: rooms (folders of a layer) include only the rooms that their line names, open the namespace of their own, and
+none holds more than a fifth of the source; no code file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, and no
 layers that use each other in a circle.
 """
 
@@ -28,6 +29,7 @@ FOREIGN = {
     "CLI11::CLI11": re.compile(r"CLI/"),
 }
 LAYER_LINE = re.compile(r"^engrane_layer\((\w+)([^)]*)\)", re.MULTILINE)
+ROOM_LINE = re.compile(r"^engrane_room\((\w+)/(\w+)([^)]*)\)", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
 
 
@@ -44,6 +46,69 @@ def read_table(cmake: str) -> dict[str, tuple[set[str], set[str]]]:
                 lists[current].add(word)
         table[name] = (lists["USES"], lists["WITH"])
     return table
+
+
+def read_rooms(cmake: str) -> dict[str, set[str]]:
+    """Room, as layer/room -> rooms of its layer that it may include, from the engrane_room() lines."""
+    return {
+        f"{layer}/{room}": {f"{layer}/{word}" for word in words.split() if word != "USES"}
+        for layer, room, words in ROOM_LINE.findall(cmake)
+    }
+
+
+def circular_rooms(rooms) -> list[str]:
+    faults = []
+    above = set()
+    for name, uses in rooms.items():
+        faults += [
+            f"src/CMakeLists.txt: {name} uses {other}, which is not above it" for other in sorted(uses - above)
+        ]
+        above.add(name)
+    return faults
+
+
+def namespace_of(room: str) -> str:
+    """base, math, model and assembly are the vocabulary of all others and share one namespace."""
+    layer, _, folder = room.partition("/")
+    if layer in {"base", "math", "model", "assembly"}:
+        return "engrane"
+    if layer == "elements" and folder != "common":
+        return f"engrane::elements::{folder}"
+    return f"engrane::{layer}"
+
+
+def check_room(file: Path, root: Path, rooms) -> list[str]:
+    """Directions between the rooms of a layer, and the namespace that a file opens."""
+    name = file.relative_to(root)
+    room = file.parent.relative_to(root / "src").as_posix()
+    layer = room.split("/")[0]
+    if any(other.startswith(f"{layer}/") for other in rooms) and room not in rooms:
+        return [f"{name}: no room '{room}' in src/CMakeLists.txt; add an engrane_room line"]
+    text = file.read_text(encoding="utf-8")
+    faults = []
+    for number, line in enumerate(text.splitlines(), 1):
+        match = INCLUDE.match(line)
+        if not match or match.group(1) != '"':
+            continue
+        other = match.group(2).rsplit("/", 1)[0]
+        if other != room and other in rooms and other.startswith(f"{layer}/") and other not in rooms[room]:
+            faults.append(f"{name}:{number}: {room} may not include {match.group(2)}")
+    opened = re.findall(r"^(?:inline )?namespace (engrane[\w:]*) \{", text, re.MULTILINE)
+    expected = namespace_of(room)
+    if opened and not all(o == expected or o.startswith(expected + "::") for o in opened):
+        faults.append(f"{name}: opens namespace {opened[0]}; {room} is {expected}")
+    return faults
+
+
+def check_shares(root: Path) -> list[str]:
+    """No room above a fifth of the source: then it is more than one room."""
+    lines = {}
+    for file in (root / "src").rglob("*"):
+        if file.suffix in CODE:
+            room = file.parent.relative_to(root / "src").as_posix()
+            lines[room] = lines.get(room, 0) + len(file.read_text(encoding="utf-8").splitlines())
+    total = sum(lines.values())
+    return [f"src/{room} is {100 * n / total:.0f} % of the source; split it" for room, n in lines.items() if 5 * n > total]
 
 
 def circular(table) -> list[str]:
@@ -118,13 +183,14 @@ def text_files(root: Path):
 
 def main() -> int:
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
-    table = read_table((root / "src/CMakeLists.txt").read_text(encoding="utf-8"))
-    faults = circular(table)
+    cmake = (root / "src/CMakeLists.txt").read_text(encoding="utf-8")
+    table, rooms = read_table(cmake), read_rooms(cmake)
+    faults = circular(table) + circular_rooms(rooms) + check_shares(root)
     for file in sorted((root / "src").rglob("*.[ch]pp")):
-        faults += check_includes(file, root, table)
+        faults += check_includes(file, root, table) + check_room(file, root, rooms)
     for file in text_files(root):
         faults += check_text(file, root)
-    print("\n".join(faults) or f"{len(table)} layers: every include, length and licence line is in order")
+    print("\n".join(faults) or f"{len(table)} layers, {len(rooms)} rooms: every include, length and licence line is in order")
     return 1 if faults else 0
 
 

@@ -7,24 +7,27 @@
 
 #include "app/options.hpp"
 #include "app/summary.hpp"
-#include "solve/analysis.hpp"
+#include "solve/run/analysis.hpp"
 
-namespace engrane {
+namespace engrane::app {
+
+using namespace output;
+using namespace solve;
 
 int print_model(const Model& model, std::ostream& out) {
-  Workbench bench(model, PETSC_COMM_SELF);
+  SolverContext context(model, PETSC_COMM_SELF);
   if (!model.title.empty()) out << model.title << '\n';
-  out << describe_analysis(model) << "\n\n" << listing_built(summarize(model, bench.numbering)) << describe_geometry(model);
+  out << describe_analysis(model) << "\n\n" << listing_built(summarize(model, context.numbering)) << describe_geometry(model);
   if (!model.commands.checks.empty()) out << fmt::format("\n  {} checks (.CHK) will be made\n", model.commands.checks.size());
-  Configuration c = bench.numbering.reference_configuration(model.commands.stepping.start);
+  Configuration c = context.numbering.reference_configuration(model.commands.stepping.start);
   StartReport report;
   try {
-    apply_initial_displacements(bench, c);
-    bench.start.assemble(c, report);
+    apply_initial_displacements(context, c);
+    context.start.assemble(c, report);
     const bool moves = !model.commands.analysis.type.is("STATIC");
-    if (moves) apply_initial_velocities(bench, c);
+    if (moves) apply_initial_velocities(context, c);
     // drives may agree on the place and not on the speed; supports move nodes only where there is motion
-    bench.start.fit_velocities(c, Assembler::Metric::geometric, report, moves);
+    context.start.fit_velocities(c, Assembler::Metric::geometric, report, moves);
     if (!moves) report.velocities_fitted = false;
   } catch (const SolutionFailure& failure) {
     out << "\n  " << failure.what() << '\n';
@@ -32,8 +35,8 @@ int print_model(const Model& model, std::ostream& out) {
   }
   out << "\nThe start\n"
       << describe_start(model, report) << '\n'
-      << describe_mobility(bench.assembler, c, bench.redundancy.mobility());
+      << describe_mobility(context.assembler, c, context.redundancy.mobility());
   return exit_status::fine;
 }
 
-}  // namespace engrane
+}  // namespace engrane::app

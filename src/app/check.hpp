@@ -5,11 +5,11 @@
 
 #include "model/model.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 /// `engrane check`: what would be built (nodes, unknowns by kind, equations by element, derived geometry), the
 /// degrees of freedom, and which constraints repeat one another. Returns the exit status: a mechanism that does not close is
 /// a solution that fails.
 int print_model(const Model& model, std::ostream& out);
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -9,9 +9,9 @@
 #include "app/read.hpp"
 #include "app/solve_deck.hpp"
 #include "assembly/petsc.hpp"
-#include "deck/manual.hpp"
+#include "deck/manual/manual.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 namespace {
 
@@ -58,10 +58,11 @@ int perform(const Options& options, bool talk) {
 
 }  // namespace
 
-}  // namespace engrane
+}  // namespace engrane::app
 
 int main(int argc, char** argv) {
   using namespace engrane;
+  using namespace engrane::app;
   int status = exit_status::our_error;
   try {
     // words about cards need neither MPI nor PETSc, which take a while to start; decks are checked with the solver's means

@@ -9,7 +9,7 @@
 #include "assembly/petsc.hpp"
 #include "base/text.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 std::string model_json(const Model& model) {
   std::string json = fmt::format("{{\"title\": {},\n \"elements\": [", json_string(model.title));
@@ -36,4 +36,4 @@ std::string library_versions() {
                      mpi_name, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
 }
 
-}  // namespace engrane
+}  // namespace engrane::app

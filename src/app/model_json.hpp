@@ -5,7 +5,7 @@
 
 #include "model/model.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 /// The model as the results file keeps it (docs/format.md, `/model`): elements with parameters and the shapes that draw them.
 std::string model_json(const Model& model);
@@ -13,4 +13,4 @@ std::string model_json(const Model& model);
 /// Names and versions of the libraries below, in one line.
 std::string library_versions();
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -9,7 +9,7 @@
 
 #include "app/version.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 namespace {
 
@@ -88,4 +88,4 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
   }
 }
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace engrane {
+namespace engrane::app {
 
 /// What the command line asks for.
 struct Options {
@@ -25,4 +25,4 @@ inline constexpr int fine = 0, wrong_deck = 1, solution_failed = 2, our_error = 
 /// Without a value the program is to end at once with `status` (help, version, or a wrong command line).
 std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int& status);
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -10,7 +10,7 @@
 
 #include "model/element_at_rest.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 namespace {
 
@@ -126,4 +126,4 @@ void warn_of_unit_slips(const deck::Deck& deck, const Model& model, Diagnostics&
   look_at_gravity(deck, model, extent, diagnostics);
 }
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -7,7 +7,7 @@
 
 #include "app/plausibility.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 namespace {
 
@@ -83,4 +83,4 @@ Reading read_deck(const std::string& path) {
   return reading;
 }
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -5,7 +5,7 @@
 
 #include "model/model.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 /// A deck that was read and found good, with the model it describes. The records stay: elements keep no texts of their own.
 struct Reading {
@@ -20,4 +20,4 @@ struct Reading {
 /// Reads a deck and builds its model. Everything wrong is in `diagnostics`.
 Reading read_deck(const std::string& path);
 
-}  // namespace engrane
+}  // namespace engrane::app

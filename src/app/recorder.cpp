@@ -11,7 +11,10 @@
 #include "app/version.hpp"
 #include "math/rotation.hpp"
 
-namespace engrane {
+namespace engrane::app {
+
+using namespace output;
+using namespace solve;
 
 namespace {
 
@@ -53,8 +56,8 @@ std::vector<Named> run_channels(bool moves) {
 
 }  // namespace
 
-Recorder::Recorder(const Reading& reading, Workbench& bench)
-    : reading_(reading), bench_(bench), moves_(!reading.model.commands.analysis.type.is("STATIC")) {
+Recorder::Recorder(const Reading& reading, SolverContext& context)
+    : reading_(reading), context_(context), moves_(!reading.model.commands.analysis.type.is("STATIC")) {
   const Model& model = reading.model;
   const auto& commands = model.commands;
   int next = 0;
@@ -142,7 +145,7 @@ void Recorder::observe(const Configuration& c, const StepReport& step) {
   }
 
   reactions_ = reactions_at(c);
-  if (bench_.redundancy.active() && (last || (step.number & (step.number - 1)) == 0)) find_not_unique(c);
+  if (context_.redundancy.active() && (last || (step.number & (step.number - 1)) == 0)) find_not_unique(c);
   observe_elements(c, step);
   observe_nodes(c);
   if (frame_due_) fill_fields(c);
@@ -153,7 +156,7 @@ void Recorder::observe_elements(const Configuration& c, const StepReport& step) 
   const auto& parts = reading_.model.parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const Element& element = *parts[p].element;
-    const State state = bench_.assembler.view(static_cast<int>(p), c);
+    const State state = context_.assembler.view(static_cast<int>(p), c);
     const Energies e = element.energies(state);
     sum.kinetic += e.kinetic;
     sum.potential += e.potential;
@@ -214,7 +217,7 @@ double Recorder::static_work(const Configuration& from, const Configuration& to)
     for (std::size_t i = 0; i < c.scalars.size(); ++i) c.scalar_rates[i] = (to.scalars[i] - from.scalars[i]) / time;
     const auto& parts = reading_.model.parts;
     for (std::size_t p = 0; p < parts.size(); ++p)
-      work += 0.5 * time * parts[p].element->energies(bench_.assembler.view(static_cast<int>(p), c)).external;
+      work += 0.5 * time * parts[p].element->energies(context_.assembler.view(static_cast<int>(p), c)).external;
     // reactions are those of the equilibrium, which has no dampers
     for (const Reaction& reaction : reactions_at(*end)) {
       const NodeState& node = c.nodes[static_cast<std::size_t>(reaction.node)];
@@ -230,7 +233,7 @@ std::vector<double> Recorder::reaction_values(const Configuration& c) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const Element& element = *parts[p].element;
     if (element.layout().multipliers.empty()) continue;
-    element.observe(bench_.assembler.view(static_cast<int>(p), c),
+    element.observe(context_.assembler.view(static_cast<int>(p), c),
                     std::span(values).subspan(static_cast<std::size_t>(channel_begin_[p]), element.channels().size()));
   }
   const std::vector<Reaction> reactions = reactions_at(c);
@@ -247,7 +250,7 @@ std::vector<double> Recorder::reaction_values(const Configuration& c) {
 }
 
 void Recorder::find_not_unique(const Configuration& c) {
-  const Eigen::MatrixXd null = bench_.redundancy.undetermined(c);
+  const Eigen::MatrixXd null = context_.redundancy.undetermined(c);
   if (null.cols() == 0) return;
   double size = 0;
   for (const double multiplier : c.multipliers) size = std::max(size, std::abs(multiplier));
@@ -272,12 +275,12 @@ void Recorder::find_not_unique(const Configuration& c) {
 std::vector<Recorder::Reaction> Recorder::reactions_at(const Configuration& c) {
   std::vector<Reaction> reactions;
   if (supported_.empty()) return reactions;
-  const std::vector<double> residual = bench_.assembler.slot_residual(c);
+  const std::vector<double> residual = context_.assembler.slot_residual(c);
   for (const int node : supported_) {
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
     for (int i = 0; i < 6; ++i) {
       const int slot = 6 * node + i;
-      if (bench_.numbering.equation(slot) < 0) (i < 3 ? force : moment)[i % 3] = residual[static_cast<std::size_t>(slot)];
+      if (context_.numbering.equation(slot) < 0) (i < 3 ? force : moment)[i % 3] = residual[static_cast<std::size_t>(slot)];
     }
     reactions.push_back({node, force, c.nodes[static_cast<std::size_t>(node)].R * moment});
   }
@@ -330,4 +333,4 @@ void Recorder::fill_fields(const Configuration& c) {
 
 FrameValues Recorder::frame() const { return {displacement_, rotation_, velocity_, angular_, reaction_force_, reaction_torque_}; }
 
-}  // namespace engrane
+}  // namespace engrane::app

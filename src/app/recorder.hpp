@@ -7,9 +7,9 @@
 
 #include "app/read.hpp"
 #include "output/results.hpp"
-#include "solve/analysis.hpp"
+#include "solve/run/analysis.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 /// Energies of the whole model and the work done since the start.
 struct EnergyBalance {
@@ -26,14 +26,14 @@ struct EnergyBalance {
 /// for the results. Every rank may have one; it needs no communication.
 class Recorder {
  public:
-  Recorder(const Reading& reading, Workbench& bench);
+  Recorder(const Reading& reading, solve::SolverContext& context);
 
-  ResultsLayout layout() const;
-  const std::vector<ChannelGroup>& groups() const { return groups_; }
+  output::ResultsLayout layout() const;
+  const std::vector<output::ChannelGroup>& groups() const { return groups_; }
   /// Index of a channel in values(), or -1. `owner` as in ChannelGroup::path.
   int channel(const std::string& owner, const std::string& name) const;
 
-  void observe(const Configuration& c, const StepReport& step);
+  void observe(const Configuration& c, const solve::StepReport& step);
   const std::vector<double>& values() const { return values_; }
   const EnergyBalance& energies() const { return energies_; }
 
@@ -44,7 +44,7 @@ class Recorder {
   bool sample_due() const { return sample_due_; }
   bool frame_due() const { return frame_due_; }
   /// Fields of the last observed configuration; the spans live until the next observe().
-  FrameValues frame() const;
+  output::FrameValues frame() const;
 
   /// Reaction force and torque (global components) on a supported node, index into Model::nodes.
   struct Reaction {
@@ -54,7 +54,7 @@ class Recorder {
   const std::vector<Reaction>& reactions() const { return reactions_; }
 
  private:
-  void observe_elements(const Configuration& c, const StepReport& step);
+  void observe_elements(const Configuration& c, const solve::StepReport& step);
   void observe_nodes(const Configuration& c);
   std::vector<Reaction> reactions_at(const Configuration& c);
   void find_not_unique(const Configuration& c);
@@ -65,9 +65,9 @@ class Recorder {
   void fill_fields(const Configuration& c);
 
   const Reading& reading_;
-  Workbench& bench_;
+  solve::SolverContext& context_;
   bool moves_;  ///< the analysis has velocities
-  std::vector<ChannelGroup> groups_;
+  std::vector<output::ChannelGroup> groups_;
   std::vector<int> channel_begin_;   ///< per part, first channel in values_
   std::vector<int> observed_nodes_;  ///< with histories
   int node_begin_ = 0, run_begin_ = 0;
@@ -84,4 +84,4 @@ class Recorder {
   std::vector<double> displacement_, rotation_, velocity_, angular_, reaction_force_, reaction_torque_;
 };
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -19,7 +19,10 @@
 #include "output/progress.hpp"
 #include "user/routine.hpp"
 
-namespace engrane {
+namespace engrane::app {
+
+using namespace output;
+using namespace solve;
 
 namespace {
 
@@ -53,12 +56,12 @@ class Writer {
         progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
                   options.quiet ? Progress::Style::silent : Progress::suitable()) {}
 
-  void begin(const Workbench& bench, const Options& options, int ranks) {
+  void begin(const SolverContext& context, const Options& options, int ranks) {
     const Model& model = reading_.model;
     listing_.write(listing_header({version, library_versions(), model.title, options.deck, describe_analysis(model),
                                    fmt::format("{} process{}", ranks, ranks == 1 ? "" : "es")}));
     listing_.write(listing_section("What was built"));
-    listing_.write(listing_built(summarize(model, bench.numbering)));
+    listing_.write(listing_built(summarize(model, context.numbering)));
     listing_.write(describe_geometry(model));
     listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
     listing_.write(listing_section("Start"));
@@ -232,14 +235,14 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   std::signal(SIGTERM, interrupt);
 
   Times times;
-  Workbench bench(reading.model, comm);
-  Recorder recorder(reading, bench);
+  SolverContext context(reading.model, comm);
+  Recorder recorder(reading, context);
   std::optional<Writer> writer;
   // the other ranks must hear of it when the files cannot be made
   std::string trouble;
   if (rank == 0) try {
       writer.emplace(reading, recorder, options, default_prefix(options));
-      writer->begin(bench, options, ranks);
+      writer->begin(context, options, ranks);
     } catch (const OutputError& e) {
       trouble = e.what();
     }
@@ -249,22 +252,22 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
     if (rank == 0) std::cerr << "engrane: " << trouble << '\n';
     return exit_status::solution_failed;
   }
-  if (rank == 0 && bench.solver.package() != reading.model.commands.analysis.solver.tag)
+  if (rank == 0 && context.solver.package() != reading.model.commands.analysis.solver.tag)
     writer->note("engrane: on several processes MUMPS solves, not " + reading.model.commands.analysis.solver.tag);
 
   std::string failure;
   bool complete = false;
   try {
-    const auto analysis = make_analysis(bench);
+    const auto analysis = make_analysis(context);
     complete = run(
-        bench, *analysis,
+        context, *analysis,
         [&](const Configuration& c, const StepReport& step) {
           const auto watch = times.output();
           user::forget_failures();  // those of attempts that were cut
           int stop = 0;
           if (rank == 0) try {
               recorder.observe(c, step);
-              writer->step(c, step, bench.numbering);
+              writer->step(c, step, context.numbering);
             } catch (const OutputError& e) {
               failure = e.what();
               stop = 1;
@@ -287,18 +290,18 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {
     try {
-      status = writer->finish(complete ? RunStatus::complete : RunStatus::failed, failure, times.split(bench.solver));
+      status = writer->finish(complete ? RunStatus::complete : RunStatus::failed, failure, times.split(context.solver));
     } catch (const OutputError& e) {
       failure = e.what();
       status = exit_status::solution_failed;
     }
     if (!failure.empty())
       std::cerr << "engrane: " << failure << "\n         results up to there are in " << writer->path() << '\n';
-    else if (const std::string advice = times.advice(bench.solver, ranks); !advice.empty() && !options.quiet)
+    else if (const std::string advice = times.advice(context.solver, ranks); !advice.empty() && !options.quiet)
       std::cerr << advice;
   }
   MPI_Bcast(&status, 1, MPI_INT, 0, comm);
   return status;
 }
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -5,9 +5,9 @@
 #include "app/read.hpp"
 #include "assembly/petsc.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 /// Solves a good deck on all ranks of `comm`; rank 0 writes results and listing and speaks. Returns the exit status.
 int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm);
 
-}  // namespace engrane
+}  // namespace engrane::app

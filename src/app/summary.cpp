@@ -7,7 +7,9 @@
 #include <map>
 #include <set>
 
-namespace engrane {
+namespace engrane::app {
+
+using namespace output;
 
 BuiltSummary summarize(const Model& model, const Numbering& numbering) {
   BuiltSummary summary;
@@ -90,4 +92,4 @@ std::string describe_geometry(const Model& model) {
   return text;
 }
 
-}  // namespace engrane
+}  // namespace engrane::app

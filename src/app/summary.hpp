@@ -4,10 +4,10 @@
 #include "assembly/numbering.hpp"
 #include "output/listing.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 /// Counts of what the deck built, for the listing and `engrane check`.
-BuiltSummary summarize(const Model& model, const Numbering& numbering);
+output::BuiltSummary summarize(const Model& model, const Numbering& numbering);
 
 /// "DYNAMIC, CHUNG rho 0.8, t = 0 to 0.03, 15000 steps of 2e-06, MUMPS"
 std::string describe_analysis(const Model& model);
@@ -15,4 +15,4 @@ std::string describe_analysis(const Model& model);
 /// Table of the derived geometry of each element that has any.
 std::string describe_geometry(const Model& model);
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -8,7 +8,10 @@
 
 #include "assembly/petsc.hpp"
 
-namespace engrane {
+namespace engrane::app {
+
+using namespace output;
+using namespace solve;
 
 namespace {
 
@@ -57,4 +60,4 @@ std::string Times::advice(const LinearSolver& solver, int ranks) const {
       100 * gain);
 }
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "output/listing.hpp"
-#include "solve/linear.hpp"
+#include "solve/algebra/linear.hpp"
 
-namespace engrane {
+namespace engrane::app {
 
 /// Where a run's time goes: PETSc's own event log for elements and factorisation, a stopwatch for the output.
 class Times {
@@ -29,13 +29,13 @@ class Times {
   };
   Watch output() { return Watch(output_); }
 
-  TimeSplit split(const LinearSolver& solver) const;
+  output::TimeSplit split(const solve::LinearSolver& solver) const;
   /// What the user could gain by another solver; empty when nothing worth a word.
-  std::string advice(const LinearSolver& solver, int ranks) const;
+  std::string advice(const solve::LinearSolver& solver, int ranks) const;
 
  private:
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   double output_ = 0;
 };
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-namespace engrane {
+namespace engrane::app {
 
 inline constexpr const char* version = ENGRANE_VERSION;
 
-}  // namespace engrane
+}  // namespace engrane::app

@@ -89,7 +89,7 @@ State Assembler::view(int part, const Configuration& c) {
   s.time = c.time;
   s.gravity = model_.gravity_at(c.time);
   s.penalty = penalty;
-  s.bridge = bridge;
+  s.contact_homotopy = contact_homotopy;
   return s;
 }
 

@@ -34,8 +34,8 @@ class Assembler {
 
   /// Scale k of each multiplier, in the order of Configuration::multipliers.
   const std::vector<double>& scale() const { return scale_; }
-  double penalty = 0;  ///< p of the augmented Lagrangian
-  double bridge = 0;   ///< of contacts, State::bridge
+  double penalty = 0;           ///< p of the augmented Lagrangian
+  double contact_homotopy = 0;  ///< of contacts, State::contact_homotopy
 
   /// Chooses k so that constraint rows are as large as the rows they act on (Bottasso, Dopico and Trainelli 2008: the
   /// condition number then does not grow as h → 0). A positive `fixed` is used for all instead.

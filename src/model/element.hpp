@@ -70,7 +70,7 @@ struct State {
   double penalty = 0;  ///< p of the augmented Lagrangian (paper, eq. 2)
   /// Part of a contact's stiffness that acts across its open gap as well, 0 but while statics looks for the flanks that
   /// carry: with 1 contacts are springs, and there is always a way from one flank to the other.
-  double bridge = 0;
+  double contact_homotopy = 0;
 };
 
 /// Weights of a tangent: cq ∂r/∂q + cv ∂r/∂v + ca ∂r/∂a in the columns of nodes and scalars; those of multipliers are

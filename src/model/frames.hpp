@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "deck/cards.hpp"
+#include "deck/cards/cards.hpp"
 #include "math/vector.hpp"
 
 namespace engrane {

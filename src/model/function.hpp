@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "deck/cards.hpp"
+#include "deck/cards/cards.hpp"
 #include "math/dual.hpp"
 #include "math/expression.hpp"
 #include "math/jet.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "deck/cards.hpp"
+#include "deck/cards/cards.hpp"
 #include "math/vector.hpp"
 
 namespace engrane {

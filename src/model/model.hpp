@@ -8,8 +8,8 @@
 
 #include "base/diagnostics.hpp"
 #include "base/dimension.hpp"
-#include "deck/cards.hpp"
-#include "deck/reader.hpp"
+#include "deck/cards/cards.hpp"
+#include "deck/read/reader.hpp"
 #include "model/element.hpp"
 #include "model/function.hpp"
 #include "model/registry.hpp"

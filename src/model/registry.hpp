@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "deck/schema.hpp"
+#include "deck/schema/schema.hpp"
 #include "model/element.hpp"
 #include "model/function.hpp"
 

@@ -50,7 +50,7 @@ class Balance {
     return T(state_.multipliers[static_cast<std::size_t>(i)]) + multiplier_lane(i) - state_.penalty * phi;
   }
 
-  double bridge() const { return state_.bridge; }
+  double contact_homotopy() const { return state_.contact_homotopy; }
 
   const Vec3T<T>& force_at(int node) const { return force_[static_cast<std::size_t>(node)]; }
   const Vec3T<T>& moment_at(int node) const { return moment_[static_cast<std::size_t>(node)]; }

@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 namespace {
 
@@ -180,4 +180,4 @@ std::vector<CheckResult> Checks::results() const {
   return all;
 }
 
-}  // namespace engrane
+}  // namespace engrane::output

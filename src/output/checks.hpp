@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "deck/cards.hpp"
+#include "deck/cards/cards.hpp"
 #include "output/results_layout.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 /// Compares channels with what the deck's `.CHK` records expect, while the run goes on.
 ///
@@ -67,4 +67,4 @@ class Checks {
 /// How a check is called: `ELEMENT 1 NORMAL_FORCE at t = 1`.
 std::string check_title(const deck::CheckCard& card);
 
-}  // namespace engrane
+}  // namespace engrane::output

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace engrane {
+namespace engrane::output {
 
 /// A result file that cannot be written: disk full, no permission, taken by another run. The text is a sentence that names
 /// the file and the reason.
@@ -14,4 +14,4 @@ class OutputError : public std::runtime_error {
       : std::runtime_error("Cannot write " + path + ": " + reason + ".") {}
 };
 
-}  // namespace engrane
+}  // namespace engrane::output

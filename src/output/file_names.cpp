@@ -13,7 +13,7 @@
 #include "output/error.hpp"
 #include "output/hdf5_handle.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 namespace {
 
@@ -101,4 +101,4 @@ void replace_text(const std::string& path, std::string_view text) {
   rename_over(temporary, path);
 }
 
-}  // namespace engrane
+}  // namespace engrane::output

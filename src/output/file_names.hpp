@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace engrane {
+namespace engrane::output {
 
 /// The names of a run's files. A complete result of that name is never replaced by a partial one: while it is there, the
 /// run's files are called `prefix.partial.*`, and they take the name over when the run is complete.
@@ -52,4 +52,4 @@ void exchange_names_by_links(const std::string& a, const std::string& b);
 /// Replaces a text file in one step, so that no reader ever sees half of it. Throws OutputError.
 void replace_text(const std::string& path, std::string_view text);
 
-}  // namespace engrane
+}  // namespace engrane::output

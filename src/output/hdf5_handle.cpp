@@ -3,7 +3,7 @@
 
 #include "output/error.hpp"
 
-namespace engrane::hdf5 {
+namespace engrane::output::hdf5 {
 
 void prepare() {
   // At exit the library closes what is still open, and crashes on a file that a full disk kept it from closing. We close
@@ -96,4 +96,4 @@ Handle Place::integers(const std::string& name, std::span<const std::int32_t> va
   return write_array(*this, name, H5T_NATIVE_INT32, values.data(), shape);
 }
 
-}  // namespace engrane::hdf5
+}  // namespace engrane::output::hdf5

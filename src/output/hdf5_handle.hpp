@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace engrane::hdf5 {
+namespace engrane::output::hdf5 {
 
 /// Owns an HDF5 identifier of any kind and closes it.
 class Handle {
@@ -71,4 +71,4 @@ struct Place {
   Handle integers(const std::string& name, std::span<const std::int32_t> values) const;
 };
 
-}  // namespace engrane::hdf5
+}  // namespace engrane::output::hdf5

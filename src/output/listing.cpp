@@ -15,7 +15,7 @@
 #include "output/error.hpp"
 #include "output/table.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 namespace {
 
@@ -213,4 +213,4 @@ void Listing::finish(bool complete) {
   }
 }
 
-}  // namespace engrane
+}  // namespace engrane::output

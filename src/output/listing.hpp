@@ -12,7 +12,7 @@
 #include "output/file_names.hpp"
 #include "output/results_layout.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 /// What stands at the top of a listing.
 struct ListingHeader {
@@ -107,4 +107,4 @@ class Listing {
   std::FILE* file_ = nullptr;
 };
 
-}  // namespace engrane
+}  // namespace engrane::output

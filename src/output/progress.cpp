@@ -9,7 +9,7 @@
 #include <cmath>
 #include <iostream>
 
-namespace engrane {
+namespace engrane::output {
 
 namespace {
 
@@ -93,4 +93,4 @@ void Progress::finish() {
   out_ << std::flush;
 }
 
-}  // namespace engrane
+}  // namespace engrane::output

@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <string>
 
-namespace engrane {
+namespace engrane::output {
 
 /// Tells a waiting user how far a run is: on a terminal one line that is written over, elsewhere a line every tenth of the
 /// run or every half minute, whichever comes first (but no sooner than a second after the last). To standard error, so that
@@ -51,4 +51,4 @@ class Progress {
 /// `3 s`, `4 min 05 s`, `2 h 13 min`.
 std::string duration_text(double seconds);
 
-}  // namespace engrane
+}  // namespace engrane::output

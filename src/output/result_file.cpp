@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cstring>
 
-namespace engrane {
+namespace engrane::output {
 
 using hdf5::check;
 using hdf5::Handle;
@@ -252,4 +252,4 @@ void ResultFile::abandon() noexcept {
   file_.close();
 }
 
-}  // namespace engrane
+}  // namespace engrane::output

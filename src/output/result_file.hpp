@@ -9,7 +9,7 @@
 #include "output/hdf5_handle.hpp"
 #include "output/results_layout.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 /// The fields of a frame, in the order they are stored; velocities may be left out.
 enum class FrameField : unsigned char { displacement, rotation, velocity, angular_velocity, reaction_force, reaction_torque };
@@ -88,4 +88,4 @@ class ResultFile {
   std::vector<hdf5::Handle> field_groups_;
 };
 
-}  // namespace engrane
+}  // namespace engrane::output

@@ -10,7 +10,7 @@
 #include "output/result_file.hpp"
 #include "output/xdmf.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 Results::Results(const std::string& prefix, ResultsLayout layout)
     : layout_(std::move(layout)),
@@ -159,4 +159,4 @@ void Results::finish(RunStatus status) {
   }
 }
 
-}  // namespace engrane
+}  // namespace engrane::output

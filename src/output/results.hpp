@@ -11,7 +11,7 @@
 #include "output/file_names.hpp"
 #include "output/results_layout.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 class ResultFile;
 struct Batch;
@@ -92,4 +92,4 @@ class Results {
   bool over_ = false;  ///< finished, or writing has failed
 };
 
-}  // namespace engrane
+}  // namespace engrane::output

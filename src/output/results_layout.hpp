@@ -9,7 +9,7 @@
 #include "math/vector.hpp"
 #include "model/element.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 /// Histories of one owner: a group below /history.
 struct ChannelGroup {
@@ -59,4 +59,4 @@ struct CheckResult {
   std::string remark;     ///< why it failed when no value says so: "the run ended at t = 0.4"
 };
 
-}  // namespace engrane
+}  // namespace engrane::output

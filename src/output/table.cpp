@@ -10,7 +10,7 @@
 
 #include "base/text.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 namespace {
 
@@ -71,4 +71,4 @@ std::string Table::text() const {
   return out;
 }
 
-}  // namespace engrane
+}  // namespace engrane::output

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace engrane {
+namespace engrane::output {
 
 /// A number as listings show it: at most `digits` significant digits, exponents only where they save space, `-` when it is
 /// not a number.
@@ -43,4 +43,4 @@ class Table {
   std::vector<std::vector<std::string>> rows_;  ///< an empty row is a rule
 };
 
-}  // namespace engrane
+}  // namespace engrane::output

@@ -7,7 +7,7 @@
 
 #include "output/result_file.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 namespace {
 
@@ -64,4 +64,4 @@ std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, 
   return out + "</Grid>\n</Domain>\n</Xdmf>\n";
 }
 
-}  // namespace engrane
+}  // namespace engrane::output

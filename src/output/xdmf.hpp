@@ -6,10 +6,10 @@
 
 #include "output/results_layout.hpp"
 
-namespace engrane {
+namespace engrane::output {
 
 /// The XDMF index of a result file: a temporal collection of uniform grids over one mixed topology, a dataset per frame
 /// and field, which ParaView, VTK and meshio all read. `h5_name` is the file's name without folders.
 std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, std::span<const double> frame_times);
 
-}  // namespace engrane
+}  // namespace engrane::output

@@ -2,8 +2,8 @@
 // The suite on elements whose law is a routine of the user's.
 #include <gtest/gtest.h>
 
-#include "elements/spring.hpp"
-#include "elements/torsion_spring.hpp"
+#include "elements/springs/spring.hpp"
+#include "elements/springs/torsion_spring.hpp"
 #include "gear_pair_cases.hpp"
 #include "suite.hpp"
 

@@ -14,8 +14,8 @@
 #include <string>
 
 #include "../unit/fake_elements.hpp"
-#include "deck/manual.hpp"
-#include "deck/reader.hpp"
+#include "deck/manual/manual.hpp"
+#include "deck/read/reader.hpp"
 
 namespace {
 

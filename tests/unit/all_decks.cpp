@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "deck/reader.hpp"
+#include "deck/read/reader.hpp"
 #include "model/element_at_rest.hpp"
 #include "model/registry.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "deck/manual.hpp"
-#include "deck/matching.hpp"
+#include "deck/manual/manual.hpp"
+#include "deck/schema/matching.hpp"
 #include "deck_testing.hpp"
 
 namespace engrane::deck {

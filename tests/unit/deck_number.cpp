@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "deck/number.hpp"
+#include "deck/language/number.hpp"
 
 namespace engrane::deck {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "deck/reader.hpp"
+#include "deck/read/reader.hpp"
 #include "deck_testing.hpp"
 
 namespace engrane::deck {

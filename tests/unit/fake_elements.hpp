@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "deck/cards.hpp"
-#include "deck/reader.hpp"
+#include "deck/cards/cards.hpp"
+#include "deck/read/reader.hpp"
 
 namespace engrane::deck {
 

@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "deck/reader.hpp"
-#include "elements/gear_pair.hpp"
+#include "deck/read/reader.hpp"
+#include "elements/gears/gear_pair.hpp"
 #include "model/model.hpp"
 
 namespace engrane::gear_deck {

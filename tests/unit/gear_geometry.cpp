@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "elements/gear_geometry.hpp"
+#include "elements/gears/gear_geometry.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Short forms of GEAR against the formulas of handbooks, and the places of second wheels.
-#include "elements/gear_kinds.hpp"
+#include "elements/gears/gear_kinds.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "elements/gear_report.hpp"
-#include "elements/hypoid_cones.hpp"
+#include "elements/gears/gear_report.hpp"
+#include "elements/gears/hypoid_cones.hpp"
 #include "gear_deck.hpp"
 
 namespace engrane {

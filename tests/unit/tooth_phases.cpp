@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Teeth round a train against the mesh phases of planetary gears: Parker & Lin, "Mesh phasing relationships in planetary and
 // epicyclic gears" (2004): sun meshes of a planet at the angle φ_i have the relative phase z_s φ_i, ring meshes z_r φ_i.
-#include "elements/tooth_phases.hpp"
+#include "elements/gears/tooth_phases.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

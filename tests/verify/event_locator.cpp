@@ -8,7 +8,7 @@
 #include <memory>
 #include <numbers>
 
-#include "solve/events.hpp"
+#include "solve/run/events.hpp"
 
 namespace engrane::test {
 namespace {
@@ -43,7 +43,7 @@ struct Curve {
 /// Moves node i along the curve i.
 class Told final : public Analysis {
  public:
-  Told(Workbench& bench, std::vector<Curve> curves) : Analysis(bench), curves_(std::move(curves)) {}
+  Told(SolverContext& context, std::vector<Curve> curves) : Analysis(context), curves_(std::move(curves)) {}
   StartReport start(Configuration& c) override {
     set(c, c.time);
     return {};
@@ -106,13 +106,13 @@ Seen follow(std::vector<Curve> curves, double end, double h, std::function<bool(
   model.commands.analysis.type.tag = "DYNAMIC";
   model.commands.analysis.events.values = {1e-6};
   model.commands.stepping = {0, end, h};
-  Workbench bench(model, PETSC_COMM_SELF);
-  Told told(bench, std::move(curves));
+  SolverContext context(model, PETSC_COMM_SELF);
+  Told told(context, std::move(curves));
   told.fails = std::move(fails);
   told.drifted = std::move(drifted);
   Seen seen;
   run(
-      bench, told,
+      context, told,
       [&](const Configuration& c, const StepReport& step) {
         for (const Event& e : step.events) seen.events.push_back({c.time, e.part, e.rises});
         if (step.regular) seen.regular.push_back(c.time);

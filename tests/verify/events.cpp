@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Events: a tooth that bounces on its flank, against flight and contact in closed form (damping ALWAYS) or contact by a fine
 // Runge–Kutta rule (CONTACT); and the locator by itself, on an element whose switch is a known function of time.
-#include "solve/events.hpp"
+#include "solve/run/events.hpp"
 
 #include <fmt/format.h>
 

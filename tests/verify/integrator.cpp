@@ -124,8 +124,8 @@ TEST(GeneralizedAlpha, KeepsItsOrderWhenTheStepChanges) {
   double error[2];
   for (int level = 0; level < 2; ++level) {
     DeckRun deck(pendulum(0.01 / (1 << level), "RHO 0.8"));
-    const auto analysis = make_analysis(deck.bench());
-    Configuration now = deck.bench().numbering.reference_configuration(0), next;
+    const auto analysis = make_analysis(deck.context());
+    Configuration now = deck.context().numbering.reference_configuration(0), next;
     analysis->start(now);
     const double h = 0.01 / (1 << level);
     for (int i = 0; now.time < 1 - 1e-12; ++i) {

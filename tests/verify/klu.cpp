@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <random>
 
-#include "solve/linear.hpp"
+#include "solve/algebra/linear.hpp"
 
 namespace engrane {
 namespace {

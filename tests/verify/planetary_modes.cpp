@@ -57,8 +57,8 @@ std::string planetary() {
 
 TEST(PlanetaryModes, FrequenciesOfLinAndParker) {
   DeckRun deck(planetary());
-  Assembler& assembler = deck.bench().assembler;
-  const Numbering& numbering = deck.bench().numbering;
+  Assembler& assembler = deck.context().assembler;
+  const Numbering& numbering = deck.context().numbering;
   Configuration state = numbering.reference_configuration(0);
   // just touching, no load, so no stiffness but that of springs and teeth; the sun drives in the positive sense, so the
   // planets press the ring with their other flanks

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "run_deck.hpp"
-#include "solve/mobility.hpp"
+#include "solve/constraints/mobility.hpp"
 
 namespace engrane::test {
 namespace {
@@ -56,7 +56,7 @@ TEST_P(SameAsOneHinge, MotionAndSumsOfForces) {
     expected.push_back(c);
     return true;
   });
-  EXPECT_FALSE(one.bench().redundancy.active());
+  EXPECT_FALSE(one.context().redundancy.active());
   std::size_t step = 0;
   two.run([&](const Configuration& c, const StepReport&) {
     const Configuration& e = expected.at(step++);
@@ -72,8 +72,8 @@ TEST_P(SameAsOneHinge, MotionAndSumsOfForces) {
   });
   EXPECT_EQ(step, expected.size());
   EXPECT_GT((one.node(expected.back(), 1).x - one.node(expected.front(), 1).x).norm(), GetParam() == "KINEMATIC" ? -1.0 : 0.01);
-  EXPECT_EQ(two.bench().redundancy.mobility().redundant(), 5);
-  EXPECT_EQ(two.bench().redundancy.mobility().freedom(), 1);
+  EXPECT_EQ(two.context().redundancy.mobility().redundant(), 5);
+  EXPECT_EQ(two.context().redundancy.mobility().freedom(), 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Redundancy, SameAsOneHinge, ::testing::Values("STATIC", "DYNAMIC", "KINEMATIC"),
@@ -110,8 +110,8 @@ TEST(Redundancy, SharesAreTheLeast) {
 /// Rank of the constraints' gradient from differences of Φ and a singular value decomposition: nothing in common with the
 /// sparse QR of the elements' tangents.
 int rank_by_differences(DeckRun& deck, Configuration c) {
-  Workbench& bench = deck.bench();
-  const Numbering& numbering = bench.numbering;
+  SolverContext& context = deck.context();
+  const Numbering& numbering = context.numbering;
   for (NodeState& node : c.nodes) node.T.setIdentity();
   std::vector<int> slots;
   for (const Unknown& u : numbering.unknowns())
@@ -123,11 +123,11 @@ int rank_by_differences(DeckRun& deck, Configuration c) {
     const Unknown& u = numbering.unknown(numbering.equation(slots[j]));
     const double size = u.measure == Measure::force || u.measure == Measure::length ? extent : 1.0;
     for (const double sign : {1.0, -1.0}) {
-      std::vector<double> y(bench.motion.size(), 0.0);
+      std::vector<double> y(context.motion.size(), 0.0);
       y[static_cast<std::size_t>(slots[j])] = sign * h * size;
       Configuration moved = c;
-      bench.motion.move(c, y, moved);
-      bench.assembler.constraint_rates(moved, sign > 0 ? plus : minus, rate, second);
+      context.motion.move(c, y, moved);
+      context.assembler.constraint_rates(moved, sign > 0 ? plus : minus, rate, second);
     }
     for (std::size_t m = 0; m < plus.size(); ++m)
       gradient(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(j)) = (plus[m] - minus[m]) / (2 * h);
@@ -146,10 +146,10 @@ class Rank : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Rank, AgreesWithSingularValuesOfDifferences) {
   DeckRun deck(deck_text(GetParam()));
-  Configuration c = deck.bench().numbering.reference_configuration(0);
+  Configuration c = deck.context().numbering.reference_configuration(0);
   StartReport report;
-  deck.bench().start.assemble(c, report);
-  const Mobility& mobility = deck.bench().redundancy.mobility();
+  deck.context().start.assemble(c, report);
+  const Mobility& mobility = deck.context().redundancy.mobility();
   ASSERT_TRUE(mobility.analysed);
   EXPECT_EQ(mobility.lost_here, 0);
   EXPECT_EQ(mobility.rank, rank_by_differences(deck, c));
@@ -181,8 +181,8 @@ TEST(Redundancy, DeadPointIsToldFromRedundancy) {
   };
   for (const double degrees : {90.0, 0.0}) {
     DeckRun deck(linkage(degrees));
-    const Configuration c = deck.bench().numbering.reference_configuration(0);
-    const Mobility mobility = analyse_mobility(deck.bench().assembler, deck.bench().motion, c, rank_tolerance);
+    const Configuration c = deck.context().numbering.reference_configuration(0);
+    const Mobility mobility = analyse_mobility(deck.context().assembler, deck.context().motion, c, rank_tolerance);
     EXPECT_EQ(mobility.lost_here, degrees == 0 ? 1 : 0);
     EXPECT_EQ(mobility.redundant(), 3) << "a flat loop repeats one force and two moments";
     EXPECT_EQ(mobility.freedom(), 1);

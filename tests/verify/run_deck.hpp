@@ -9,7 +9,7 @@
 #include <string>
 
 #include "model/model.hpp"
-#include "solve/analysis.hpp"
+#include "solve/run/analysis.hpp"
 
 namespace engrane::test {
 
@@ -22,18 +22,18 @@ class DeckRun {
     std::ostringstream faults;
     diagnostics_.print(faults, sources_);
     if (diagnostics_.has_errors()) throw std::runtime_error(faults.str());
-    bench_ = std::make_unique<Workbench>(model_, PETSC_COMM_SELF);
+    context_ = std::make_unique<SolverContext>(model_, PETSC_COMM_SELF);
   }
 
-  Workbench& bench() { return *bench_; }
+  SolverContext& context() { return *context_; }
   const Model& model() const { return model_; }
 
   /// Runs to the end; `look` sees the start and every step. Returns the last configuration.
   Configuration run(const std::function<void(const Configuration&, const StepReport&)>& look = {}) {
     Configuration last;
-    const auto analysis = make_analysis(*bench_);
+    const auto analysis = make_analysis(*context_);
     engrane::run(
-        *bench_, *analysis,
+        *context_, *analysis,
         [&](const Configuration& c, const StepReport& step) {
           if (look) look(c, step);
           last = c;
@@ -51,7 +51,7 @@ class DeckRun {
       const Element& e = *model_.parts[p].element;
       if (e.id() != element) continue;
       std::vector<double> values(e.channels().size());
-      e.observe(bench_->assembler.view(static_cast<int>(p), c), values);
+      e.observe(context_->assembler.view(static_cast<int>(p), c), values);
       for (std::size_t i = 0; i < values.size(); ++i)
         if (e.channels()[i].name == name) return values[i];
     }
@@ -63,7 +63,7 @@ class DeckRun {
   Diagnostics diagnostics_;
   deck::Deck deck_;
   Model model_;
-  std::unique_ptr<Workbench> bench_;
+  std::unique_ptr<SolverContext> context_;
 };
 
 }  // namespace engrane::test

@@ -28,8 +28,8 @@ std::vector<double> conditions(double fixed) {
 .SAM TYPE DYNAMIC
 .SUB TF 1 H 0.01
 )");
-  Assembler& assembler = deck.bench().assembler;
-  const Configuration c = deck.bench().numbering.reference_configuration(0);
+  Assembler& assembler = deck.context().assembler;
+  const Configuration c = deck.context().numbering.reference_configuration(0);
   std::vector<double> found;
   for (double h = 1e-2; h > 0.5e-8; h /= 100) {
     const Weights weights{1, 2 / h, 4 / (h * h)};

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "elements/stop_law.hpp"
+#include "elements/common/stop_law.hpp"
 #include "run_deck.hpp"
 
 namespace engrane::test {

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The general commands by chapter; general_commands() puts them together.
+#pragma once
+
+#include <vector>
+
+#include "deck/schema/schema.hpp"
+
+namespace engrane::deck {
+
+std::vector<Schema> model_cards();      ///< `.UNIT` `.TITRE` `.NOE` `.FRAME` `.SEL` `.MAT`
+std::vector<Schema> condition_cards();  ///< `.CLM` `.FCT` `.INI`
+std::vector<Schema> analysis_cards();   ///< `.SAM` `.SUB` `.SAI` `.CHK`
+
+}  // namespace engrane::deck

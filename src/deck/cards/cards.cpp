@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/cards/cards.hpp"
+
+#include <iterator>
+#include <utility>
+
+#include "deck/cards/card_chapters.hpp"
+
+namespace engrane::deck {
+
+namespace {
+
+constexpr const char* model_chapter = "The model";
+
+Schema unit_card() {
+  Card<UnitCard> card(".UNIT", {".UNITE"}, "The units of the deck");
+  card.chapter(model_chapter).once();
+  card.describe(
+      "Numbers are never rescaled: a deck is computed in its own units, which must be consistent. `.UNIT` names them, so that "
+      "results and messages carry labels. Without it the units stay unnamed.");
+  card.add("SI", &UnitCard::si, "metre, kilogram, second");
+  card.add("LENGTH", &UnitCard::length, "metres in one unit of length").synonyms({"LONGUEUR"}).positive();
+  card.add("MASS", &UnitCard::mass, "kilograms in one unit of mass").synonyms({"MASSE"}).positive();
+  card.add("TIME", &UnitCard::time, "seconds in one unit of time").synonyms({"TEMPS"}).positive();
+  card.add("CELSIUS", &UnitCard::celsius, "temperatures are in degrees Celsius");
+  card.finish([](UnitCard& unit, Record& record, Diagnostics& diagnostics) {
+    const bool factors = record.given("LENGTH") || record.given("MASS") || record.given("TIME");
+    if (unit.si && factors)
+      diagnostics.error(record.where("SI"), "SI and factors exclude each other", "keep SI, or LENGTH, MASS and TIME");
+    if (!unit.si && !factors)
+      diagnostics.error(record.location, ".UNIT says nothing", "write .UNIT SI, or .UNIT LENGTH 1e-3 MASS 1e3 TIME 1");
+  });
+  card.example(".UNIT SI").example(".UNIT LENGTH 0.001 MASS 1000 TIME 1   ! mm, t, s: forces are in newtons");
+  return card.schema();
+}
+
+Schema title_card() {
+  Card<TitleCard> card(".TITRE", {".TITLE"}, "The title of the run");
+  card.chapter(model_chapter).once();
+  card.add("TEXT", &TitleCard::text, "the title, in double quotes").synonyms({"TEXTE"}).positional().required();
+  card.example(".TITRE \"straight bevel pair\"");
+  return card.schema();
+}
+
+Schema node_card() {
+  Card<NodeCard> card(".NOE", {".NODES"}, "Nodes");
+  card.chapter(model_chapter).numbered().rows();
+  card.describe(
+      "A node has a position and, where an element needs it, an orientation. Missing coordinates are 0. A line that starts with "
+      "a "
+      "number is a node too: its number and up to three coordinates. `.NOE` may be opened several times. "
+      "`FRAME n` before the first node holds for all nodes that follow under this `.NOE`.");
+  card.add("X", &NodeCard::x, "coordinates: x, or x y, or x y z").unit(dimension::length).positional().values(1, 3);
+  card.add_part("Y", "X", 1, &NodeCard::x, "second coordinate").unit(dimension::length);
+  card.add_part("Z", "X", 2, &NodeCard::x, "third coordinate").unit(dimension::length);
+  card.add("FRAME", &NodeCard::frame, "the `.FRAME` in which the coordinates are given; 0 is the global one")
+      .synonyms({"REPERE"})
+      .refers(Reference::frame)
+      .heading();
+  card.example(".NOE\n I 1 X 0 0 5\n I 2 X -10. Z 2.5\n 12 0. 0. 5.");
+  return card.schema();
+}
+
+Schema frame_card() {
+  Card<FrameCard> card(".FRAME", {".REPERE"}, "Frames in which nodes may be given");
+  card.chapter(model_chapter).numbered();
+  card.describe(
+      "The first axis points along V1; the second lies in the plane of V1 and V2, on the side of V2; the third completes a "
+      "right-handed frame. In a cylindrical frame the coordinates of a node are radius, angle (degrees) and height; in a "
+      "spherical "
+      "one radius, longitude and latitude (degrees).");
+  card.add("ORIGIN", &FrameCard::origin, "origin").synonyms({"ORIGINE"}).unit(dimension::length);
+  card.add("V1", &FrameCard::first, "direction of the first axis");
+  card.add("V2", &FrameCard::second, "a direction in the half plane of the second axis");
+  card.add("TYPE", &FrameCard::kind, "kind of coordinates")
+      .positional()
+      .option({"CARTESIAN", {"CARTESIEN"}, "x, y, z"})
+      .option({"CYLINDRICAL", {"CYLINDRIQUE"}, "radius, angle in degrees, height"})
+      .option({"SPHERICAL", {"SPHERIQUE"}, "radius, longitude and latitude in degrees"});
+  card.example(".FRAME\n I 3 ORIGIN 0 0 10 V1 0 1 0 V2 0 0 1 CYL");
+  return card.schema();
+}
+
+Schema group_card() {
+  Card<GroupCard> card(".SEL", {".SELECTION"}, "Named groups of nodes or elements");
+  card.chapter(model_chapter).key("GROUP");
+  card.describe(
+      "What a group holds is given by numbers and ranges (`1 A 20`, or `I 1 J 20 K 1`: from, to, step), by TOUT, by a box, by "
+      "other "
+      "groups, or by the attribute of elements; several of these add up. Other cards name a group by its number or by its name.");
+  card.add("NOM", &GroupCard::name, "name").synonyms({"NAME"});
+  card.add("KIND", &GroupCard::kind, "what the group holds")
+      .synonyms({"GENRE"})
+      .positional()
+      .option({"NODES", {"NOEUDS", "NOEUD"}, "nodes"})
+      .option({"ELEMENTS", {"MAILLES", "MAILLE"}, "elements"})
+      .option({"FACES", {}, "faces of cells: recognised, not in this version"});
+  card.add("IDS", &GroupCard::ids, "numbers and ranges").refers(Reference::node).at_least(1).positional();
+  card.add("TOUT", &GroupCard::all, "all of them").synonyms({"ALL"});
+  card.add("UNION", &GroupCard::united, "other groups whose members belong to this one")
+      .refers(Reference::group)
+      .values(1, detail::any_number);
+  card.add("BOITE", &GroupCard::box, "nodes in the box xmin xmax ymin ymax zmin zmax")
+      .synonyms({"BOX"})
+      .unit(dimension::length)
+      .values(6, 6);
+  card.add("AT", &GroupCard::attribute, "elements with this attribute").synonyms({"ATTRIBUTE", "ATTRIBUT"});
+  card.finish([](GroupCard& group, Record& record, Diagnostics& diagnostics) {
+    group.number = record.id;
+    if (group.kind.is("FACES"))
+      diagnostics.error(record.where("KIND"), "groups of FACES are recognised but not in this version",
+                        "there are no cells to have faces; remove the group");
+    if (!group.all && group.ids.empty() && group.united.empty() && group.box.empty() && !group.attribute)
+      diagnostics.error(record.location, "group " + std::to_string(record.id) + " holds nothing",
+                        "give numbers, TOUT, UNION, BOITE or AT");
+    for (std::size_t axis = 0; axis + 1 < group.box.size(); axis += 2)
+      if (group.box[axis] > group.box[axis + 1])
+        diagnostics.error(record.where("BOITE"), "the box ends before it starts", "give xmin xmax ymin ymax zmin zmax");
+  });
+  card.example(".SEL\n GROUP 1 NOM \"hub\" NOEUDS 1 2 10 A 20\n GROUP 2 NOM \"all\" NOEUDS TOUT");
+  return card.schema();
+}
+
+Schema material_card() {
+  Card<MaterialCard> card(".MAT", {".MATERIAL"}, "Materials");
+  card.chapter(model_chapter).numbered();
+  card.add("NOM", &MaterialCard::name, "name").synonyms({"NAME"});
+  card.add("BEHA", &MaterialCard::behaviour, "behaviour").synonyms({"BEHAVIOUR", "BEHAVIOR", "COMPORTEMENT"});
+  card.add("YT", &MaterialCard::young, "Young's modulus").synonyms({"YOUNG"}).unit(dimension::pressure).positive();
+  card.add("NT", &MaterialCard::poisson, "Poisson's ratio").synonyms({"POISSON", "NU"}).above(-1).at_most(0.5);
+  card.add("M", &MaterialCard::density, "mass per volume").synonyms({"DENSITY", "DENSITE"}).unit({-3, 1, 0, 0}).at_least(0);
+  card.add("A", &MaterialCard::expansion, "coefficient of thermal expansion, per degree").synonyms({"EXPANSION"});
+  card.example(".MAT\n I 1 NOM \"steel\" BEHA \"ELASTIC\" YT 2.1E+11 NT 0.3 M 7850.");
+  return card.schema();
+}
+
+}  // namespace
+
+std::vector<Schema> model_cards() {
+  return {unit_card(), title_card(), node_card(), frame_card(), group_card(), material_card()};
+}
+
+const std::vector<Schema>& general_commands() {
+  static const std::vector<Schema> all = [] {
+    std::vector<Schema> cards = model_cards();
+    for (std::vector<Schema> more : {condition_cards(), analysis_cards()})
+      cards.insert(cards.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    return cards;
+  }();
+  return all;
+}
+
+}  // namespace engrane::deck

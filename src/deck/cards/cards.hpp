@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The structs behind the general commands of a deck (`.NOE`, `.CLM`, `.SAM`, …). Elements declare theirs beside their physics.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deck/schema/schema.hpp"
+
+namespace engrane::deck {
+
+/// `.UNIT SI` or `.UNIT LENGTH f MASS f TIME f`
+struct UnitCard {
+  bool si = false;
+  double length = 1;
+  double mass = 1;
+  double time = 1;
+  bool celsius = false;
+};
+
+/// `.TITRE "text"`
+struct TitleCard {
+  std::string text;
+};
+
+/// `.NOE`: `I 12 X 0 0 5` or the row `12 0. 0. 5.`; in the frame of the last `.FRAME` that it names.
+struct NodeCard {
+  std::array<double, 3> x{0, 0, 0};
+  int frame = 0;  ///< 0: the global frame
+};
+
+/// `.FRAME I 3 ORIGIN x y z V1 x y z V2 x y z [CYL|SPH]`: origin, first axis, a vector in the half plane of the second.
+struct FrameCard {
+  std::array<double, 3> origin{0, 0, 0};
+  std::array<double, 3> first{1, 0, 0};
+  std::array<double, 3> second{0, 1, 0};
+  Tagged kind{"CARTESIAN", {}};
+};
+
+/// `.SEL GROUP n NOM "x" NOEUDS …`: a named set of nodes or elements.
+struct GroupCard {
+  int number = 0;
+  std::string name;
+  Tagged kind{"NODES", {}};         ///< NODES, ELEMENTS, FACES (recognised, refused)
+  bool all = false;                 ///< TOUT
+  std::vector<int> ids;             ///< ids and ranges `1 A 20`, expanded by the reader
+  std::vector<std::string> united;  ///< UNION: names or numbers of groups
+  std::vector<double> box;          ///< BOITE xmin xmax ymin ymax zmin zmax
+  std::optional<int> attribute;     ///< MAILLE AT n
+};
+
+/// `.MAT I id NOM "steel" BEHA "ELASTIC" YT … NT … M …`
+struct MaterialCard {
+  std::string name;
+  std::string behaviour = "ELASTIC";
+  std::optional<double> young, poisson, density, expansion;
+};
+
+/// Which nodes a record of `.CLM` or `.INI` speaks of.
+struct NodeTarget {
+  std::vector<int> nodes;           ///< NOEUD ids and ranges
+  std::vector<std::string> groups;  ///< GROUP names or numbers
+};
+
+/// `.CLM FIX NOEUD n C 1 2 3`
+struct FixCard : NodeTarget {
+  std::vector<int> components;  ///< 1–3 translations, 4–6 rotations
+};
+
+/// `.CLM DEP NOEUD n C c V value [NF f]`: prescribed displacement (rotation in degrees for C 4–6).
+struct DisplacementCard : NodeTarget {
+  std::vector<int> components;
+  std::vector<double> values;
+  int function = 0;
+};
+
+/// `.CLM CHA NOEUD n C c V value [NF f]`: force (1–3) or moment (4–6) on a node, fixed in space.
+struct LoadCard : NodeTarget {
+  std::vector<int> components;
+  std::vector<double> values;
+  int function = 0;
+};
+
+/// `.CLM STRU ACC VAL gx gy gz [NF f]` (`STRUCTURE`): acceleration of gravity on all masses.
+struct GravityCard {
+  std::array<double, 3> acceleration{0, 0, 0};
+  int function = 0;
+};
+
+/// `.FCT I id NOM "…" TABLE t y t y … | SINUS … | RAMP … | STEP … | EXPR "…"`: a function of time or of another variable.
+struct FunctionCard {
+  std::string name;
+  std::vector<double> table;       ///< abscissa and ordinate in turn
+  bool spline = false;             ///< join the table by a C² cubic spline instead of straight lines
+  std::optional<double> period;    ///< the table or spline repeats with this period
+  std::vector<double> sinus;       ///< amplitude, frequency [Hz], phase [degrees], mean
+  std::vector<double> ramp;        ///< t0 y0 t1 y1: constant, straight line, constant
+  std::vector<double> step;        ///< t0 y0 t1 y1: constant, C² polynomial, constant
+  std::string expression;          ///< of T (and PI)
+  std::vector<std::string> user;   ///< library and routine of the user's
+  std::vector<double> parameters;  ///< of that routine
+  std::vector<double> scale;       ///< of that routine's arguments; 0 or missing: chosen by who uses it
+};
+
+/// `.INI DEP|VIT NOEUD n C c V value`: initial displacements and velocities, a wish unless IMPOSED.
+struct InitialCard : NodeTarget {
+  Tagged kind;  ///< DISPLACEMENT, VELOCITY: from the record key
+  std::vector<int> components;
+  std::vector<double> values;
+  bool imposed = false;  ///< must hold exactly: an error when the joints do not allow it
+};
+
+/// `.SAM TYPE STATIC|KINEMATIC|DYNAMIC …`: analysis, scheme and solver.
+struct AnalysisCard {
+  Tagged type{"STATIC", {}};
+  Tagged scheme{"CHUNG", {}};   ///< CHUNG (generalised-alpha), NEWMARK, HHT, BOSSAK
+  std::optional<double> rho;    ///< spectral radius at infinity, CHUNG
+  std::optional<double> alpha;  ///< HHT, BOSSAK
+  Tagged solver{"MUMPS", {}};
+  Tagged start{"AS_GIVEN", {}};   ///< AS_GIVEN: assemble from the given positions; STATIC: from static equilibrium at the start
+  double precision = 1e-9;        ///< of Newton, relative to the largest force in the model
+  int iterations = 20;            ///< most Newton iterations before the step is cut
+  int cuts = 10;                  ///< most halvings of one step
+  Tagged events{"YES", {}};       ///< EVENTS YES [tolerance] or NO: steps end where contact begins and ends
+  std::optional<double> scale;    ///< k of the augmented Lagrangian; automatic when not given
+  std::optional<double> penalty;  ///< p; automatic when not given
+};
+
+/// `.SUB TF tf H h [TI ti]`: from, to, step.
+struct SteppingCard {
+  double start = 0;
+  double end = 1;
+  double step = 0.1;
+};
+
+/// `.SAI` what is archived: rate of the fields, rate of the histories, or a selection by result code.
+struct ArchiveCard {
+  std::optional<double> field_step;    ///< CHAMPS/FIELDS DT: time between archived fields
+  std::optional<double> history_step;  ///< HISTORY DT: time between history samples; 0 or missing: every step
+  std::vector<int> codes;              ///< STYP codes
+  bool newton = false;                 ///< NEWTON: the listing shows every iteration
+};
+
+/// `.CHK`: what the run must give.
+struct CheckCard {
+  std::optional<int> element;      ///< ELEMENT id
+  std::optional<int> node;         ///< NODE id
+  bool run = false;                ///< RUN: a quantity of the whole model (energies, steps, Newton order)
+  std::string quantity;            ///< the channel: NORMAL_FORCE, UX, …; positional behind the id
+  std::optional<double> time;      ///< T t: the value at that time; default: at the end
+  std::vector<double> window;      ///< WINDOW t0 t1, for MIN MAX MEAN RMS AMPLITUDE
+  Tagged measure{"VALUE", {}};     ///< VALUE MIN MAX MEAN RMS AMPLITUDE (half of max - min)
+  double value = 0;                ///< V
+  std::optional<double> relative;  ///< RTOL
+  std::optional<double> absolute;  ///< ATOL
+  std::string reference;           ///< REF "where the number comes from"
+};
+
+/// The schemas of all general commands, in the order of the manual.
+const std::vector<Schema>& general_commands();
+
+}  // namespace engrane::deck

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <string>
+
+#include "deck/cards/card_chapters.hpp"
+#include "deck/cards/cards.hpp"
+
+namespace engrane::deck {
+
+namespace {
+
+constexpr const char* analysis_chapter = "Analysis";
+constexpr const char* result_chapter = "Results and checks";
+
+void check_analysis(AnalysisCard& analysis, Record& record, Diagnostics& diagnostics) {
+  const bool chung = analysis.scheme.is("CHUNG");
+  const bool damped = analysis.scheme.is("HHT") || analysis.scheme.is("BOSSAK");
+  if (analysis.rho && !chung)
+    diagnostics.error(record.where("RHO"), "RHO belongs to SCHEME CHUNG, not to " + analysis.scheme.tag);
+  if (analysis.alpha && !damped)
+    diagnostics.error(record.where("ALPHA"), "ALPHA belongs to the schemes HHT and BOSSAK, not to " + analysis.scheme.tag);
+  if (!analysis.events.values.empty() && !(analysis.events.values[0] > 0 && analysis.events.values[0] <= 0.01))
+    diagnostics.error(record.where("EVENTS"), "the tolerance of EVENTS is a fraction of H, from above 0 to 0.01");
+  if (analysis.type.is("DYNAMIC")) return;
+  for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START", "EVENTS"})
+    if (record.given(keyword))
+      diagnostics.warning(record.where(keyword), std::string(keyword) + " has no effect on a " + analysis.type.tag + " analysis");
+}
+
+Schema analysis_card() {
+  Card<AnalysisCard> card(".SAM", {".ANALYSIS", ".ANALYSE"}, "Kind of analysis, time integration and solver");
+  card.chapter(analysis_chapter).once();
+  card.add("TYPE", &AnalysisCard::type, "kind of analysis")
+      .option({"STATIC", {"STATIQUE"}, "equilibrium, step by step along the loading"})
+      .option({"KINEMATIC", {"CINEMATIQUE"}, "motion of a mechanism whose drives leave it no freedom"})
+      .option({"DYNAMIC", {"DYNAMIQUE"}, "motion in time with inertia"});
+  card.add("SCHEME", &AnalysisCard::scheme, "time integration of a DYNAMIC analysis")
+      .synonyms({"SCHEMA"})
+      .option({"CHUNG", {}, "generalised-alpha of Chung and Hulbert, damping set by RHO"})
+      .option({"NEWMARK", {}, "Newmark, without damping"})
+      .option({"HHT", {}, "Hilber, Hughes and Taylor, damping set by ALPHA"})
+      .option({"BOSSAK", {}, "Wood, Bossak and Zienkiewicz, damping set by ALPHA"});
+  card.add("RHO", &AnalysisCard::rho, "CHUNG: spectral radius at infinite frequency; 1 damps nothing, 0 most")
+      .at_least(0)
+      .at_most(1);
+  card.add("ALPHA", &AnalysisCard::alpha, "HHT and BOSSAK: numerical damping; 0 damps nothing").at_least(0).at_most(1.0 / 3.0);
+  card.add("SOLVER", &AnalysisCard::solver, "direct solver of the linear systems")
+      .synonyms({"SOLVEUR"})
+      .option({"MUMPS", {}, "multifrontal; the only one that runs in parallel"})
+      .option({"KLU", {}, "fastest for small mechanisms"})
+      .option({"UMFPACK", {}, "multifrontal, serial"})
+      .option({"SUPERLU", {}, "supernodal, serial"});
+  card.add("START", &AnalysisCard::start, "state from which a DYNAMIC analysis starts")
+      .synonyms({"DEPART"})
+      .option({"AS_GIVEN", {}, "the given positions, brought to satisfy the joints"})
+      .option({"STATIC", {"STATIQUE"}, "static equilibrium under the loads of the first instant"});
+  card.add("PREC", &AnalysisCard::precision, "precision of Newton's iterations, relative to the largest force in the model")
+      .synonyms({"PRECISION"})
+      .positive()
+      .below(1);
+  card.add("ITMA", &AnalysisCard::iterations, "most Newton iterations before a step is cut")
+      .synonyms({"ITMAX", "ITERATIONS"})
+      .at_least(1)
+      .at_most(1000);
+  card.add("CUTS", &AnalysisCard::cuts, "how often a step may be halved").synonyms({"COUPES"}).at_least(0).at_most(50);
+  card.add("EVENTS", &AnalysisCard::events, "whether a DYNAMIC analysis ends steps where teeth begin and cease to touch")
+      .synonyms({"EVENEMENTS"})
+      .option({"YES", {"OUI"}, "each such instant is located, to a fraction of H that may follow (1E-6)", 0, 1})
+      .option({"NO", {"NON"}, "steps pass over them"});
+  card.add("SCALE", &AnalysisCard::scale, "scale factor of the constraint equations; automatic when not given")
+      .synonyms({"ECHELLE"})
+      .positive();
+  card.add("PENALTY", &AnalysisCard::penalty, "penalty of the constraint equations; automatic when not given")
+      .synonyms({"PENALITE"})
+      .at_least(0);
+  card.finish(check_analysis);
+  card.example(".SAM TYPE STATIC").example(".SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.8");
+  return card.schema();
+}
+
+Schema stepping_card() {
+  Card<SteppingCard> card(".SUB", {".STEPS"}, "The span of time and the step");
+  card.chapter(analysis_chapter).once();
+  card.describe("In a static analysis time is the parameter of the loading.");
+  card.add("TF", &SteppingCard::end, "final time").unit(dimension::time).required();
+  card.add("H", &SteppingCard::step, "time step; steps that do not converge are cut")
+      .synonyms({"DT", "PAS"})
+      .unit(dimension::time)
+      .positive()
+      .required();
+  card.add("TI", &SteppingCard::start, "initial time").unit(dimension::time);
+  card.finish([](SteppingCard& stepping, Record& record, Diagnostics& diagnostics) {
+    if ((stepping.end - stepping.start) / stepping.step > 1e9)
+      diagnostics.error(record.where("H"), "H makes more than 1e9 steps");
+  });
+  card.example(".SUB TF 0.03 H 1D-6");
+  return card.schema();
+}
+
+Schema archive_card() {
+  Card<ArchiveCard> card(".SAI", {".ARCHIVE", ".SAVE"}, "What is archived, and how often");
+  card.chapter(result_chapter).once();
+  card.add("FIELDS", &ArchiveCard::field_step, "time between archived fields; every step when not given")
+      .synonyms({"CHAMPS"})
+      .filler({"DT"})
+      .unit(dimension::time)
+      .positive();
+  card.add("HISTORY", &ArchiveCard::history_step, "time between samples of the histories; 0: every step")
+      .synonyms({"HISTOIRE", "HISTORIQUE"})
+      .filler({"DT"})
+      .unit(dimension::time)
+      .at_least(0);
+  card.add("STYP", &ArchiveCard::codes, "result codes to archive; codes unknown here are skipped with a warning")
+      .codes({{163, "displacement"},
+              {191, "rotation"},
+              {223, "reaction force"},
+              {224, "reaction torque"},
+              {901, "time"},
+              {981, "kinetic energy"},
+              {982, "potential energy"},
+              {984, "work of external forces"},
+              {985, "time step"},
+              {986, "integration error"},
+              {1411, "stress"},
+              {1421, "strain"},
+              {1437, "normal force"},
+              {1438, "normal moment"},
+              {1524, "force vector"},
+              {1525, "moment vector"}});
+  card.add("NEWTON", &ArchiveCard::newton, "the listing shows every Newton iteration");
+  card.example(".SAI FIELDS DT 0.001 HISTORY DT 0.0001 NEWTON");
+  return card.schema();
+}
+
+void check_check(CheckCard& check, Record& record, Diagnostics& diagnostics) {
+  const int subjects = (check.element ? 1 : 0) + (check.node ? 1 : 0) + (check.run ? 1 : 0);
+  if (subjects != 1)
+    diagnostics.error(record.location, subjects == 0 ? "this check has no subject" : "this check has more than one subject",
+                      "a check starts with ELEMENT id, NODE id or RUN");
+  if (!check.relative && !check.absolute)
+    diagnostics.error(record.location, "this check has no tolerance", "give RTOL (relative) or ATOL (absolute)");
+  if (check.relative && !check.absolute && check.value == 0)
+    diagnostics.error(record.where("RTOL"), "a relative tolerance of the value 0 lets nothing pass", "give ATOL");
+  if (check.time && !check.measure.is("VALUE"))
+    diagnostics.error(record.where("T"), "T asks for one instant, " + check.measure.tag + " for many",
+                      "give WINDOW t0 t1 instead");
+  if (!check.window.empty() && check.measure.is("VALUE"))
+    diagnostics.error(record.where("WINDOW"), "WINDOW needs a measure", "give MIN, MAX, MEAN, RMS or AMPLITUDE");
+  if (check.window.size() == 2 && check.window[1] <= check.window[0])
+    diagnostics.error(record.where("WINDOW"), "the window ends before it starts");
+}
+
+Schema check_card() {
+  Card<CheckCard> card(".CHK", {".CHECK", ".VERIFICATION"}, "What the run must give");
+  card.chapter(result_chapter);
+  card.describe(
+      "A check compares one number of the results with a known value. The run prints each check with PASS or FAIL; a failed one "
+      "sets "
+      "the exit status. A check passes when the difference is at most ATOL or at most RTOL times the value. "
+      "ELEMENT, NODE or RUN starts a check.");
+  card.add("ELEMENT", &CheckCard::element, "the element whose quantity is checked")
+      .synonyms({"MCE"})
+      .refers(Reference::element)
+      .at_least(1)
+      .leads();
+  card.add("NODE", &CheckCard::node, "the node whose quantity is checked")
+      .synonyms({"NOEUD", "NOE"})
+      .refers(Reference::node)
+      .at_least(1)
+      .leads();
+  card.add("RUN", &CheckCard::run, "a quantity of the whole model is checked").synonyms({"CALCUL"}).leads();
+  card.add("QUANTITY", &CheckCard::quantity, "name of the quantity: NORMAL_FORCE, UX, ENERGY_ERROR, …")
+      .synonyms({"GRANDEUR"})
+      .positional()
+      .required();
+  card.add("MEASURE", &CheckCard::measure, "what of the quantity's history")
+      .synonyms({"MESURE"})
+      .positional()
+      .option({"VALUE", {"VALEUR"}, "the value at the time T, or at the end"})
+      .option({"MIN", {"MINIMUM"}, "the least"})
+      .option({"MAX", {"MAXIMUM"}, "the largest"})
+      .option({"MEAN", {"MOYENNE"}, "the mean over time"})
+      .option({"RMS", {}, "the root of the mean square over time"})
+      .option({"AMPLITUDE", {}, "half of the largest less the least"});
+  card.add("T", &CheckCard::time, "the time; the end when not given").synonyms({"TIME", "TEMPS"}).unit(dimension::time);
+  card.add("WINDOW", &CheckCard::window, "from when to when a measure is taken; all the time when not given")
+      .synonyms({"FENETRE"})
+      .unit(dimension::time)
+      .values(2, 2);
+  card.add("V", &CheckCard::value, "the right value").required();
+  card.add("RTOL", &CheckCard::relative, "relative tolerance").at_least(0);
+  card.add("ATOL", &CheckCard::absolute, "absolute tolerance").at_least(0);
+  card.add("REF", &CheckCard::reference, "where the right value comes from").synonyms({"REFERENCE"});
+  card.finish(check_check);
+  card.example(
+      ".CHK\n ELEMENT 1 NORMAL_FORCE T 1 V 1064.2 RTOL 1e-4 REF \"F = M/(rB cos alpha)\"\n"
+      " NODE 4 UX MAX WINDOW 0.5 1 V 0.02 ATOL 1e-6\n RUN ENERGY_ERROR V 0 ATOL 1e-9");
+  return card.schema();
+}
+
+}  // namespace
+
+std::vector<Schema> analysis_cards() { return {analysis_card(), stepping_card(), archive_card(), check_card()}; }
+
+}  // namespace engrane::deck

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "base/text.hpp"
+#include "deck/cards/card_chapters.hpp"
+#include "deck/cards/cards.hpp"
+
+namespace engrane::deck {
+
+namespace {
+
+constexpr const char* chapter = "Boundary conditions, loads and functions";
+
+constexpr const char* clm_text =
+    "`.CLM` alone starts afresh: the records of an earlier `.CLM` are dropped, and a warning says so. `.CLM ADD` adds to them. "
+    "NOEUD or GROUP given again behind other keywords starts the next record of the same kind: "
+    "`FIX NOEUD 1 C 1 2 3 NOEUD 4 C 2` holds two records.";
+
+template <class Data>
+void add_target(Card<Data>& card) {
+  card.add("NOEUD", &Data::nodes, "nodes: numbers and ranges")
+      .synonyms({"NOEUDS", "NODES"})
+      .refers(Reference::node)
+      .at_least(1)
+      .positional()
+      .leads();
+  card.add("GROUP", &Data::groups, "groups of nodes: names or numbers")
+      .refers(Reference::group)
+      .values(1, detail::any_number)
+      .leads();
+}
+
+template <class Data>
+void add_components(Card<Data>& card, std::string what) {
+  card.add("C", &Data::components, std::move(what))
+      .synonyms({"COMPONENTS", "COMPOSANTES"})
+      .at_least(1)
+      .at_most(6)
+      .values(1, 6)
+      .required();
+}
+
+/// Somebody whom it concerns, and each component once. What the model must know to judge is checked where it is built.
+template <class Data>
+void check_target(const Data& data, const Record& record, Diagnostics& diagnostics) {
+  if (data.nodes.empty() && data.groups.empty())
+    diagnostics.error(record.location, record.schema->name + " names no nodes", "give NOEUD numbers or GROUP names");
+  std::vector<int> sorted = data.components;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    diagnostics.error(record.where("C"), "a component is named twice", "C takes each of 1 to 6 once");
+}
+
+template <class Data>
+void finish_with_target(Card<Data>& card) {
+  card.finish([](Data& data, Record& record, Diagnostics& diagnostics) { check_target(data, record, diagnostics); });
+}
+
+Schema fix_card() {
+  Card<FixCard> card(".CLM FIX", {".BOUNDARY", "FIXATION", "FIXED"}, "Nodes held at their initial position");
+  card.chapter(chapter).describe(clm_text).redefines();
+  add_target(card);
+  add_components(card, "components that are held: 1 to 3 translations, 4 to 6 rotations, along the global axes");
+  finish_with_target(card);
+  card.example(".CLM\n FIX NOEUD 1 C 1 2 3 4 5 6\n FIX GROUP \"frame\" C 1 2 3");
+  return card.schema();
+}
+
+Schema displacement_card() {
+  Card<DisplacementCard> card(".CLM DEP", {".BOUNDARY", "DEPLACEMENT", "DISPLACEMENT"}, "Prescribed displacements and rotations");
+  card.chapter(chapter).redefines();
+  card.describe(
+      "The value times the function NF of time; without a function the value holds from the start. Rotations are in degrees.");
+  add_target(card);
+  add_components(card, "components: 1 to 3 translations, 4 to 6 rotations");
+  card.add("V", &DisplacementCard::values, "displacement, or rotation in degrees: one for all components or one for each")
+      .values(1, 6)
+      .required();
+  card.add("NF", &DisplacementCard::function, "number of the function of time; 0: constant").refers(Reference::function);
+  finish_with_target(card);
+  card.example(".CLM\n DEP NOEUD 7 C 1 V 0.02 NF 1");
+  return card.schema();
+}
+
+Schema load_card() {
+  Card<LoadCard> card(".CLM CHA", {".BOUNDARY", "CHARGE", "LOAD"}, "Forces and moments on nodes, fixed in space");
+  card.chapter(chapter).redefines();
+  card.describe("The value times the function NF of time; without a function the value holds from the start.");
+  add_target(card);
+  add_components(card, "components: 1 to 3 forces, 4 to 6 moments, along the global axes");
+  card.add("V", &LoadCard::values, "force or moment: one for all components or one for each").values(1, 6).required();
+  card.add("NF", &LoadCard::function, "number of the function of time; 0: constant").refers(Reference::function);
+  finish_with_target(card);
+  card.example(".CLM\n CHA NOEUD 4 C 6 V -945.8");
+  return card.schema();
+}
+
+Schema gravity_card() {
+  Card<GravityCard> card(".CLM STRU", {".BOUNDARY", "STRUCTURE"}, "Acceleration of gravity on all masses");
+  card.chapter(chapter).redefines();
+  card.add("ACC", &GravityCard::acceleration, "acceleration of gravity")
+      .synonyms({"ACCELERATION"})
+      .unit(dimension::acceleration)
+      .filler({"VAL", "V"})
+      .required();
+  card.add("NF", &GravityCard::function, "number of the function of time; 0: constant").refers(Reference::function);
+  card.example(".CLM\n STRU ACC VAL 0 0 -9.81");
+  return card.schema();
+}
+
+Schema function_card() {
+  Card<FunctionCard> card(".FCT", {".FUNCTION", ".FONCTION"}, "Functions of time");
+  card.chapter(chapter).numbered();
+  card.describe(
+      "A function has one shape. Before the first and behind the last point of a TABLE the end values hold, unless it has a "
+      "PERIOD.");
+  card.add("NOM", &FunctionCard::name, "name").synonyms({"NAME"});
+  card.add("TABLE", &FunctionCard::table, "abscissa and ordinate in turn, joined by straight lines")
+      .values(4, detail::any_number);
+  card.add("SPLINE", &FunctionCard::spline, "join the TABLE by a cubic spline with continuous curvature");
+  card.add("PERIOD", &FunctionCard::period, "the TABLE repeats with this period").synonyms({"PERIODE"}).positive();
+  card.add("SINUS", &FunctionCard::sinus, "amplitude, frequency (per unit of time), phase (degrees), mean")
+      .synonyms({"SINE"})
+      .values(2, 4);
+  card.add("RAMP", &FunctionCard::ramp, "t0 y0 t1 y1: constant, a straight line, constant").synonyms({"RAMPE"}).values(4, 4);
+  card.add("STEP", &FunctionCard::step, "t0 y0 t1 y1: constant, a polynomial with continuous curvature, constant")
+      .synonyms({"ECHELON"})
+      .values(4, 4);
+  card.add("EXPR", &FunctionCard::expression,
+           "a formula of the time T, with PI and the functions of the deck's arithmetic (radians); for LAW EXPR of an elongation "
+           "D, its rate V and the time T")
+      .synonyms({"EXPRESSION", "FORMULE"});
+  card.add("USER", &FunctionCard::user,
+           "library and name of a routine in Fortran or C: a function, or for LAW USER, STIFF USER and FRICTION USER a law")
+      .synonyms({"UTILISATEUR"})
+      .values(2, 2);
+  card.add("PARAM", &FunctionCard::parameters, "numbers that a USER routine is given")
+      .synonyms({"PARAMETRES", "PARAMETERS"})
+      .values(1, 10000);
+  card.add("SCALE", &FunctionCard::scale,
+           "over how much the arguments of a USER routine change its result, for derivatives by differences; 0: as the element "
+           "thinks fit, and 50 steps H for functions of time")
+      .synonyms({"ECHELLE"})
+      .values(1, 3)
+      .at_least(0);
+  card.example(".FCT\n I 1 TABLE 0 0  1 1\n I 2 NOM \"swell\" SINUS 0.5 10. 90. 1.\n I 3 EXPR \"sin(2*PI*T)**2\"");
+  card.example(".FCT\n I 4 USER \"libmine.so\" \"hardening\" PARAM 2.0D4 3.0D8");
+  return card.schema();
+}
+
+Schema initial_card(const char* name, std::vector<std::string> synonyms, const char* summary, const char* tag,
+                    const char* values) {
+  Card<InitialCard> card(name, std::move(synonyms), summary);
+  InitialCard data;
+  data.kind.tag = tag;
+  card.chapter(chapter).initial(data);
+  card.describe(
+      "A wish: where joints or drives do not allow it, the nearest state that they allow is taken. With IMPOSED this is an "
+      "error.");
+  add_target(card);
+  add_components(card, "components: 1 to 3 translations, 4 to 6 rotations");
+  card.add("V", &InitialCard::values, values).values(1, 6).required();
+  card.add("IMPOSED", &InitialCard::imposed, "must hold exactly").synonyms({"IMPOSE"});
+  finish_with_target(card);
+  return card.schema();
+}
+
+}  // namespace
+
+std::vector<Schema> condition_cards() {
+  Schema position = initial_card(".INI DEP", {".INITIAL", "DEPLACEMENT", "DISPLACEMENT"}, "Initial displacements and rotations",
+                                 "DISPLACEMENT", "displacement, or rotation in degrees: one for all components or one for each");
+  Schema velocity =
+      initial_card(".INI VIT", {".INITIAL", "VITESSE", "VELOCITY"}, "Initial velocities", "VELOCITY",
+                   "velocity, or angular velocity in radians per unit of time: one for all components or one for each");
+  position.examples = {".INI\n DEP NOEUD 3 C 4 V 5."};
+  velocity.examples = {".INI\n VIT GROUP \"rotor\" C 6 V (12000*PI/30)"};
+  return {fix_card(),      displacement_card(), load_card(),        gravity_card(),
+          function_card(), std::move(position), std::move(velocity)};
+}
+
+}  // namespace engrane::deck

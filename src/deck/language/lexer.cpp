@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/language/lexer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "base/text.hpp"
+#include "deck/language/number.hpp"
+#include "math/expression.hpp"
+
+namespace engrane::deck {
+
+namespace {
+
+/// Control characters count as blanks: tabs, the carriage return of CRLF, the end-of-file mark of DOS.
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == '\x1a'; }
+
+bool ends_word(char c) { return is_blank(c) || c == '"' || c == '\'' || c == '(' || c == ')' || c == '!'; }
+
+bool is_name_character(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
+
+/// Is there nothing but blanks and a comment?
+bool nothing_left(std::string_view rest) {
+  const auto first = std::find_if_not(rest.begin(), rest.end(), is_blank);
+  return first == rest.end() || *first == '!';
+}
+
+/// Copies lines of a file into a LogicalLine.
+class LineBuilder {
+ public:
+  LineBuilder(LogicalLine& line, const Abbreviations& abbreviations, Diagnostics& diagnostics)
+      : line_(line), abbreviations_(abbreviations), diagnostics_(diagnostics) {}
+
+  /// Appends one line of the file; true when a `$` says that the next one continues it.
+  bool append(std::string_view source, int number, int columns) {
+    char quote = '\0';
+    int characters = 0;
+    for (std::size_t i = 0; i < source.size();) {
+      const char c = source[i];
+      const std::string_view rest = source.substr(i);
+      if (quote == '\0') {
+        if (c == '!') return false;
+        if (c == '$' && nothing_left(rest.substr(1))) {
+          put(' ', {number, column(i), 1});
+          return true;
+        }
+      }
+      if (characters >= columns) {
+        warn_of_lost_text(rest, number, i, columns);
+        return false;
+      }
+      if (quote == '\0' && c == '/') {
+        if (const std::string_view name = abbreviations_.longest_at(rest); !name.empty()) {
+          replace(source, i, name, number);
+          i += name.size();
+          characters += static_cast<int>(character_count(name));
+          continue;
+        }
+      }
+      if (quote != '\0')
+        quote = c == quote ? '\0' : quote;
+      else if (c == '"' || c == '\'')
+        quote = c;
+      else
+        parentheses_ = std::max(0, parentheses_ + (c == '(' ? 1 : c == ')' ? -1 : 0));
+      const std::size_t size = character_size(source, i);
+      for (std::size_t k = 0; k < size; ++k) put(source[i + k], {number, column(i + k), 1});
+      i += size;
+      ++characters;
+    }
+    return false;
+  }
+
+ private:
+  static int column(std::size_t offset) { return static_cast<int>(offset) + 1; }
+
+  void put(char c, LogicalLine::Origin origin) {
+    line_.text += c;
+    line_.origins.push_back(origin);
+  }
+
+  void warn_of_lost_text(std::string_view rest, int number, std::size_t offset, int columns) {
+    if (nothing_left(rest)) return;
+    const Location where{line_.file, number, column(offset), static_cast<int>(rest.size())};
+    diagnostics_.warning(where, "text past column " + std::to_string(columns) + " is not read",
+                         "MODE LECT n sets how many columns are read; `$` continues a line");
+  }
+
+  void replace(std::string_view source, std::size_t i, std::string_view name, int number) {
+    const Location where{line_.file, number, column(i), static_cast<int>(name.size())};
+    const char before = i > 0 ? source[i - 1] : ' ';
+    if (parentheses_ > 0 && (is_name_character(before) || before == '.' || before == ')')) {
+      const std::string quoted = "`" + std::string(name) + "`";
+      diagnostics_.error(
+          where, "the abbreviation " + quoted + " would be pasted right behind `" + before + "`",
+          "to divide by it write `/" + std::string(name) + "`; to divide by something else put a blank behind `/`");
+    }
+    const std::size_t end = i + name.size();
+    if (end < source.size() && is_name_character(source[end]) && is_name_character(name.back())) {
+      std::size_t word_end = end;
+      while (word_end < source.size() && is_name_character(source[word_end])) ++word_end;
+      const std::string word(source.substr(i, word_end - i));
+      diagnostics_.warning(
+          where,
+          "`" + word + "` is read as the abbreviation `" + std::string(name) + "` followed by `" + word.substr(name.size()) + "`",
+          "no ABRE defines `" + word + "`");
+    }
+    for (char c : abbreviations_.expand(name, where, diagnostics_)) {
+      parentheses_ = std::max(0, parentheses_ + (c == '(' ? 1 : c == ')' ? -1 : 0));
+      put(c, {number, where.column, where.length});
+    }
+  }
+
+  LogicalLine& line_;
+  const Abbreviations& abbreviations_;
+  Diagnostics& diagnostics_;
+  int parentheses_ = 0;
+};
+
+/// Cuts tokens out of a logical line.
+class Tokenizer {
+ public:
+  Tokenizer(const LogicalLine& line, const Abbreviations& abbreviations)
+      : line_(line), text_(line.text), abbreviations_(abbreviations) {}
+
+  std::vector<Token> run() {
+    if (begins_with_word(text_, "\xef\xbb\xbf")) at_ = 3;  // the byte order mark that some editors write
+    for (;;) {
+      while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+      if (at_ == text_.size() || text_[at_] == '!') break;  // an abbreviation may bring a comment
+      next();
+    }
+    if (!tokens_.empty()) {
+      tokens_.front().starts_line = tokens_.front().may_start_row = true;
+      if (tokens_.front().is_command() && tokens_.size() > 1) tokens_[1].may_start_row = true;
+    }
+    return std::move(tokens_);
+  }
+
+ private:
+  void next() {
+    const char c = text_[at_];
+    if (c == '"') return quoted(Token::Kind::text, "this string is not closed on its line");
+    if (c == '\'') return quoted(Token::Kind::replacement, "this ' is not closed on its line");
+    if (c == '(') return parenthesis();
+    if (c == ')') {
+      Token& token = add(Token::Kind::word, at_, 1);
+      token.fault = "this ) closes nothing";
+      ++at_;
+      return;
+    }
+    word();
+  }
+
+  Token& add(Token::Kind kind, std::size_t first, std::size_t size) {
+    Token token;
+    token.kind = kind;
+    token.text = text_.substr(first, size);
+    token.where = line_.at(first, size);
+    tokens_.push_back(std::move(token));
+    return tokens_.back();
+  }
+
+  void quoted(Token::Kind kind, const char* unclosed) {
+    const std::size_t end = text_.find(text_[at_], at_ + 1);
+    const bool closed = end != std::string_view::npos;
+    const std::size_t size = (closed ? end + 1 : text_.size()) - at_;
+    Token& token = add(kind, at_, size);
+    token.text = text_.substr(at_ + 1, closed ? size - 2 : size - 1);
+    if (!closed) token.fault = unclosed;
+    at_ += size;
+  }
+
+  /// Bytes of the parenthesis that opens at `first`, or 0 when nothing closes it.
+  std::size_t parenthesis_size(std::size_t first) const {
+    int depth = 0;
+    for (std::size_t i = first; i < text_.size() && text_[i] != '"' && text_[i] != '\''; ++i) {
+      if (text_[i] == '(') ++depth;
+      if (text_[i] == ')' && --depth == 0) return i + 1 - first;
+    }
+    return 0;
+  }
+
+  void parenthesis() {
+    const std::size_t size = parenthesis_size(at_);
+    if (size == 0) {
+      Token& token = add(Token::Kind::number, at_, 1);
+      token.fault = "this ( is not closed";
+      at_ = text_.size();
+      return;
+    }
+    Token& token = add(Token::Kind::number, at_, size);
+    const Expression::Parsed result = Expression::parse(text_.substr(at_ + 1, size - 2), false);
+    if (result.good()) token.value = result.expression.value(0);
+    if (result.good() && !std::isfinite(token.value)) token.fault = "this is not a finite number";
+    if (!result.good()) {
+      token.fault = result.fault.message;
+      token.hint = result.fault.hint;
+      token.where = line_.at(at_ + 1 + result.fault.at, result.fault.length);
+    }
+    at_ += size;
+  }
+
+  void word() {
+    const std::size_t first = at_;
+    while (at_ < text_.size() && !ends_word(text_[at_])) ++at_;
+    const std::string_view word = text_.substr(first, at_ - first);
+    if (word.front() == '#' && at_ < text_.size() && text_[at_] == '(') {  // #INQ(...) of BACON is one word
+      const std::size_t size = parenthesis_size(at_);
+      at_ = size == 0 ? text_.size() : at_ + size;
+      add(Token::Kind::word, first, at_ - first);
+      return;
+    }
+    const bool command = tokens_.empty() && word.front() == '.' && !parse_number(word).good();
+    if (command || !(looks_like_number(word) || (word.find('*') != std::string_view::npos && word.front() != '*'))) {
+      Token& token = add(Token::Kind::word, first, word.size());
+      if (word.front() == '/') undefined_abbreviation(token);
+      return;
+    }
+    const Number number = parse_number(word);
+    Token& token = add(Token::Kind::number, first, word.size());
+    token.value = number.value;
+    token.repeat = number.repeat;
+    token.fault = number.fault;
+    token.hint = number.hint;
+  }
+
+  void undefined_abbreviation(Token& token) const {
+    token.fault = "no ABRE defines `" + token.text + "`";
+    const std::string near = nearest(token.text, abbreviations_.names());
+    token.hint = near.empty() ? "" : "did you mean `" + near + "`?";
+  }
+
+  const LogicalLine& line_;
+  std::string_view text_;
+  const Abbreviations& abbreviations_;
+  std::size_t at_ = 0;
+  std::vector<Token> tokens_;
+};
+
+}  // namespace
+
+Location LogicalLine::at(std::size_t first, std::size_t size) const {
+  if (origins.empty()) return {file, 1, 1, 1};
+  first = std::min(first, origins.size() - 1);
+  std::size_t last = std::min(first + std::max<std::size_t>(size, 1), origins.size()) - 1;
+  while (last > first && origins[last].line != origins[first].line) --last;  // a caret marks one line only
+  const Origin& start = origins[first];
+  const Origin& stop = origins[last];
+  return {file, start.line, start.column, stop.column + stop.length - start.column};
+}
+
+LogicalLine logical_line(const SourceMap& sources, int file, int first_line, int columns, const Abbreviations& abbreviations,
+                         Diagnostics& diagnostics) {
+  LogicalLine line;
+  line.file = file;
+  LineBuilder builder(line, abbreviations, diagnostics);
+  bool continued = true;
+  while (continued && first_line + line.lines <= sources.line_count(file)) {
+    const int number = first_line + line.lines++;
+    continued = builder.append(sources.line(file, number), number, columns);
+  }
+  return line;
+}
+
+std::vector<Token> tokenize(const LogicalLine& line, const Abbreviations& abbreviations) {
+  return Tokenizer(line, abbreviations).run();
+}
+
+}  // namespace engrane::deck

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/language/token_stream.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "base/text.hpp"
+
+namespace engrane::deck {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t deepest_input = 20;
+constexpr int most_files = 1000;  ///< two INPUT lines per file, twenty deep, would be a million
+constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
+constexpr int most_columns = 1'000'000;
+
+/// Reads a plain file; devices, pipes and folders are refused, for they may have no end.
+bool read_plain_file(const fs::path& path, std::string& text, std::string& fault) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) return fault = "does not exist", false;
+  if (!fs::is_regular_file(status)) return fault = "is not a plain file", false;
+  if (fs::file_size(path, error) > largest_file || error) return fault = "is larger than 1 GiB", false;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return fault = "cannot be opened", false;
+  text.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  if (in.bad()) return fault = "cannot be read", false;
+  return true;
+}
+
+/// The file that an INPUT names: relative to the including file, with `.dat` when that is left out.
+fs::path resolve_input(const std::string& including, const std::string& name) {
+  const fs::path path = (fs::path(including).parent_path() / name).lexically_normal();
+  std::error_code error;
+  if (!fs::exists(path, error) && !path.has_extension()) return fs::path(path) += ".dat";
+  return path;
+}
+
+}  // namespace
+
+bool TokenStream::open_file(const fs::path& path) {
+  std::string text;
+  std::string fault;
+  if (!read_plain_file(path, text, fault)) {
+    diagnostics_.error({}, "the deck `" + path.string() + "` " + fault);
+    return false;
+  }
+  std::error_code error;
+  open_.push_back({sources_.add(path.string(), std::move(text)), 1, fs::weakly_canonical(path, error)});
+  return true;
+}
+
+void TokenStream::open_text(std::string name, std::string text) {
+  open_.push_back({sources_.add(std::move(name), std::move(text)), 1, {}});
+}
+
+const Token& TokenStream::peek(std::size_t ahead) {
+  static const Token end;
+  while (tokens_.size() <= ahead && read_line()) {
+  }
+  return ahead < tokens_.size() ? tokens_[ahead] : end;
+}
+
+Token TokenStream::take() {
+  Token token = peek();
+  skip();
+  report(token);
+  return token;
+}
+
+void TokenStream::skip() {
+  if (!peek().is_end()) tokens_.pop_front();
+}
+
+bool TokenStream::report(const Token& token) {
+  if (token.fault.empty()) return false;
+  diagnostics_.error(token.where, token.fault, token.hint);
+  return true;
+}
+
+/// Reads one logical line; false at the end of the deck.
+bool TokenStream::read_line() {
+  if (open_.empty()) return false;
+  OpenFile& current = open_.back();
+  if (current.next_line > sources_.line_count(current.file)) {
+    open_.pop_back();
+    return !open_.empty();
+  }
+  const LogicalLine line = logical_line(sources_, current.file, current.next_line, columns_, abbreviations_, diagnostics_);
+  current.next_line += line.lines;
+  std::vector<Token> tokens = tokenize(line, abbreviations_);
+  if (!tokens.empty() && !control(tokens)) push(std::move(tokens));
+  return true;
+}
+
+void TokenStream::push(std::vector<Token> tokens) {
+  for (Token& token : tokens) {
+    if (token.is_word() && (token.text == "&" || begins_with_word(token.text, "#INQ"))) {
+      diagnostics_.warning(token.where, "`" + token.text + "` has no meaning here and is skipped");
+      continue;
+    }
+    tokens_.push_back(std::move(token));
+  }
+}
+
+/// Carries out a line that is an order to the reader itself; false when it is data.
+bool TokenStream::control(std::vector<Token>& tokens) {
+  const Token& first = tokens.front();
+  if (!first.is_word()) return false;
+  if (same_word(first.text, "INPUT")) return input(tokens), true;
+  if (same_word(first.text, "ABRE")) return abbreviation(tokens), true;
+  if (same_word(first.text, "MODE")) return mode(tokens), true;
+  if (same_word(first.text, "RETURN")) return surplus(tokens, 1), leave_file(first), true;
+  if (same_word(first.text, "EXIT")) return surplus(tokens, 1), finish(first), true;
+  if (begins_with_word(first.text, ".FIN")) {
+    const bool numbered = tokens.size() > 1 && tokens[1].is_number();
+    return surplus(tokens, numbered ? 2 : 1), finish(first), true;
+  }
+  return false;
+}
+
+void TokenStream::surplus(const std::vector<Token>& tokens, std::size_t first) {
+  if (tokens.size() <= first) return;
+  diagnostics_.error(tokens[first].where, "nothing may follow `" + upper(tokens.front().text) + "` here");
+}
+
+void TokenStream::input(std::vector<Token>& tokens) {
+  const Token& word = tokens.front();
+  if (tokens.size() < 2 || tokens[1].kind != Token::Kind::text || tokens[1].text.empty())
+    return diagnostics_.error(word.where, "INPUT needs the name of a file in double quotes", "INPUT \"nodes.dat\"");
+  const Token& name = tokens[1];
+  if (report(name)) return;
+  surplus(tokens, 2);
+  if (open_.size() > deepest_input)
+    return diagnostics_.error(name.where, "INPUT is nested more than " + std::to_string(deepest_input) + " deep");
+  if (sources_.size() >= most_files)
+    return diagnostics_.error(name.where, "INPUT reads more than " + std::to_string(most_files) + " files");
+  if (name.text.find('\0') != std::string::npos) return diagnostics_.error(name.where, "this is no name of a file");
+
+  const fs::path path = resolve_input(sources_.path(name.where.file), name.text);
+  std::error_code error;
+  const fs::path identity = fs::weakly_canonical(path, error);
+  for (const OpenFile& open : open_)
+    if (!open.identity.empty() && open.identity == identity)
+      return diagnostics_.error(name.where, "`" + path.string() + "` includes itself");
+  std::string text;
+  std::string fault;
+  if (!read_plain_file(path, text, fault))
+    return diagnostics_.error(name.where, "the file `" + path.string() + "` " + fault,
+                              "names are relative to the folder of the including file");
+  open_.push_back({sources_.add(path.string(), std::move(text), word.where), 1, identity});
+}
+
+void TokenStream::abbreviation(std::vector<Token>& tokens) {
+  if (tokens.size() < 3)
+    return diagnostics_.error(tokens.front().where, "ABRE needs a name and a text in single quotes", "ABRE '/radius' '0.25'");
+  for (std::size_t i = 1; i < tokens.size(); i += 2) {
+    if (report(tokens[i])) return;
+    if (tokens[i].kind != Token::Kind::replacement || i + 1 == tokens.size() || tokens[i + 1].kind != Token::Kind::replacement)
+      return diagnostics_.error(tokens[i].where, "ABRE takes pairs of a name and a text, each in single quotes",
+                                "ABRE '/radius' '0.25'");
+    if (report(tokens[i + 1])) return;
+    const std::string& name = tokens[i].text;
+    const auto blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
+    if (name.size() < 2 || name.size() > 64 || name.front() != '/' || std::any_of(name.begin(), name.end(), blank))
+      return diagnostics_.error(tokens[i].where, "the name of an abbreviation is `/` and one word of at most 63 characters",
+                                "ABRE '/radius' '0.25'");
+    abbreviations_.define(name, tokens[i + 1].text);
+  }
+}
+
+void TokenStream::mode(std::vector<Token>& tokens) {
+  if (tokens.size() > 1 && same_word(tokens[1].text, "LECT")) {
+    if (tokens.size() < 3 || !tokens[2].is_number() || tokens[2].value < 1 || tokens[2].value > most_columns ||
+        tokens[2].value != static_cast<int>(tokens[2].value))
+      return diagnostics_.error(tokens[1].where,
+                                "MODE LECT needs the number of columns to read, 1 to " + std::to_string(most_columns),
+                                "MODE LECT 132");
+    columns_ = static_cast<int>(tokens[2].value);
+    return surplus(tokens, 3);
+  }
+  std::string setting = "MODE";
+  if (tokens.size() > 1) setting += " " + tokens[1].text;
+  diagnostics_.warning(tokens.front().where, "`" + setting + "` has no meaning here and is skipped");
+}
+
+void TokenStream::leave_file(const Token& word) {
+  if (open_.size() < 2)
+    return diagnostics_.error(word.where, "RETURN outside a file read by INPUT", "EXIT or .FIN ends the deck");
+  const OpenFile left = open_.back();
+  open_.pop_back();
+  warn_of_rest(left, word);
+}
+
+void TokenStream::finish(const Token& word) {
+  for (; !open_.empty(); open_.pop_back()) warn_of_rest(open_.back(), word);
+}
+
+/// Nothing the deck says is silently ignored, not even what stands behind its end.
+void TokenStream::warn_of_rest(const OpenFile& open, const Token& word) {
+  for (int number = open.next_line; number <= sources_.line_count(open.file); ++number) {
+    const std::string_view line = sources_.line(open.file, number);
+    const std::size_t first = line.find_first_not_of(" \t\r\f\v\x1a");
+    if (first == std::string_view::npos || line[first] == '!') continue;
+    const Location where{open.file, number, static_cast<int>(first) + 1, static_cast<int>(line.size() - first)};
+    diagnostics_.warning(where, "the text from here on is not read: " + upper(word.text) + " stands before it");
+    return;
+  }
+}
+
+}  // namespace engrane::deck

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.hpp"
+#include "deck/language/abbreviations.hpp"
+#include "deck/language/lexer.hpp"
+
+namespace engrane::deck {
+
+/// The words of a deck across its files. Carries out what has no dot (INPUT, RETURN, EXIT, ABRE, MODE) and stops at `.FIN`.
+class TokenStream {
+ public:
+  TokenStream(SourceMap& sources, Diagnostics& diagnostics) : sources_(sources), diagnostics_(diagnostics) {}
+
+  /// Opens the main file; false (and an error) when it cannot be read.
+  bool open_file(const std::filesystem::path& path);
+  void open_text(std::string name, std::string text);
+
+  /// The token `ahead` places on; of kind end behind the last one.
+  const Token& peek(std::size_t ahead = 0);
+  /// Takes the next token and reports its fault if it has one.
+  Token take();
+  /// Takes the next token and says nothing.
+  void skip();
+
+ private:
+  struct OpenFile {
+    int file = 0;
+    int next_line = 1;
+    std::filesystem::path identity;  ///< to notice a file that includes itself
+  };
+
+  bool read_line();
+  void push(std::vector<Token> tokens);
+  bool control(std::vector<Token>& tokens);
+  void input(std::vector<Token>& tokens);
+  void abbreviation(std::vector<Token>& tokens);
+  void mode(std::vector<Token>& tokens);
+  void leave_file(const Token& word);
+  void finish(const Token& word);
+  void warn_of_rest(const OpenFile& open, const Token& word);
+  void surplus(const std::vector<Token>& tokens, std::size_t first);
+  bool report(const Token& token);
+
+  SourceMap& sources_;
+  Diagnostics& diagnostics_;
+  Abbreviations abbreviations_;
+  std::vector<OpenFile> open_;
+  std::deque<Token> tokens_;
+  int columns_ = 256;
+};
+
+}  // namespace engrane::deck

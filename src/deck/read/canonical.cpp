@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/text.hpp"
+#include "deck/read/reader.hpp"
+#include "deck/schema/field_text.hpp"
+#include "deck/schema/matching.hpp"
+
+namespace engrane::deck {
+
+namespace {
+
+constexpr std::size_t line_width = 100;
+constexpr std::size_t columns_read = 256;  ///< without MODE LECT
+
+/// Writes words, breaking lines with `$` where they get long.
+class Writer {
+ public:
+  void line(const std::string& first) {
+    end_line();
+    line_ = first;
+  }
+
+  void word(const std::string& text) {
+    const std::size_t size = character_count(text);
+    if (width_of_line() + 1 + size > line_width) {
+      line_ += " $";
+      end_line();
+      line_ = "  ";
+    }
+    line_ += ' ' + text;
+  }
+
+  void comment(const std::string& text) {
+    for (const std::string& part : wrap(text, line_width)) line("  ! " + part);
+  }
+
+  std::string finish() {
+    end_line();
+    if (longest_ <= columns_read) return std::move(text_);
+    return "MODE LECT " + std::to_string(longest_) + "\n" + text_;
+  }
+
+ private:
+  std::size_t width_of_line() const { return character_count(line_); }
+
+  void end_line() {
+    if (line_.empty()) return;
+    longest_ = std::max(longest_, width_of_line());
+    text_ += line_ + "\n";
+    line_.clear();
+  }
+
+  std::string text_;
+  std::string line_;
+  std::size_t longest_ = 0;
+};
+
+/// The words behind the record key, and those of the defaults that hold because nothing was given.
+void write_fields(Writer& writer, const Record& record) {
+  std::string defaults;
+  const bool ranges_allowed = !match_field(*record.schema, "A").exact;
+  for (const Field& field : record.schema->fields) {
+    if (!field.whole.empty()) continue;
+    Field::Values values = field.load(record.data);
+    const bool ids =
+        ranges_allowed && field.type == FieldType::integer && field.reference != Reference::nothing && field.max_values > 1;
+    if (!record.given(field.keyword)) {
+      if (!has_default(field, values)) continue;
+      for (const std::string& word : deck_words(field, values, ids)) defaults += word + " ";
+      continue;
+    }
+    if (field.type == FieldType::text && values.texts.empty()) values.texts.emplace_back();  // an empty text was given
+    if (!values.present && field.type != FieldType::text) continue;                          // all its codes were unknown
+    for (const std::string& word : deck_words(field, values, ids)) writer.word(word);
+  }
+  if (!defaults.empty()) writer.comment("by default: " + defaults);
+}
+
+}  // namespace
+
+std::string canonical_text(const Deck& deck) {
+  Writer writer;
+  std::string open;            // the command under which records stand
+  std::set<std::string> seen;  // commands opened before: those that start afresh need ADD
+  for (const Record& record : deck.records) {
+    const Schema& schema = *record.schema;
+    const std::string command(schema.command());
+    const bool has_key = schema.numbered || command == ".MCE" || !schema.key().empty();
+    const bool leads = std::any_of(schema.fields.begin(), schema.fields.end(), [](const Field& field) { return field.leads; });
+    if (command != open || (!has_key && !leads)) {
+      writer.line(schema.redefines && seen.contains(command) ? command + " ADD" : command);
+      open = command;
+      seen.insert(command);
+    }
+    if (command == ".MCE") {
+      writer.line(" I " + std::to_string(record.id) + " " + schema.name);
+    } else if (schema.numbered) {
+      writer.line(" " + schema.record_key + " " + std::to_string(record.id));
+    } else if (!schema.key().empty()) {
+      writer.line(" " + std::string(schema.key()));
+    } else if (leads) {
+      writer.line(" ");
+    }
+    write_fields(writer, record);
+  }
+  return writer.finish();
+}
+
+std::string record_json(const Record& record) {
+  std::string text = "{";
+  if (record.id != 0) text += "\"id\": " + std::to_string(record.id) + ", ";
+  text += "\"type\": " + json_string(record.schema->name);
+  for (const Field& field : record.schema->fields) {
+    const Field::Values values = field.load(record.data);
+    if (values.present) text += ", " + json_string(field.keyword) + ": " + json_value(field, values);
+  }
+  return text + "}";
+}
+
+}  // namespace engrane::deck

@@ -1,0 +1,422 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/read/reader.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/text.hpp"
+#include "deck/language/token_stream.hpp"
+#include "deck/read/recognised.hpp"
+#include "deck/read/record_reader.hpp"
+#include "deck/schema/matching.hpp"
+
+namespace engrane::deck {
+
+namespace {
+
+/// Most records that one `I a J b K c` may stand for.
+constexpr double most_copies = 1'000'000;
+
+/// One dot command: the cards its records may be of.
+struct Command {
+  std::string name;
+  std::vector<const Schema*> schemas;
+  RecordKeys keys;
+  bool elements = false;
+
+  const Schema& only() const { return *schemas.front(); }
+  bool keyed() const { return !keys.keyed.empty(); }
+  bool numbered() const { return !keys.number_key.empty(); }
+  bool redefines() const {
+    return std::any_of(schemas.begin(), schemas.end(), [](const Schema* s) { return s->redefines; });
+  }
+};
+
+/// All commands of a catalogue by the significant part of their words.
+class CommandTable {
+ public:
+  explicit CommandTable(const Catalogue& catalogue) {
+    for (const Schema* schema : catalogue.commands) add(*schema);
+    Command mechanism;
+    mechanism.name = ".MCE";
+    mechanism.schemas = catalogue.elements;
+    mechanism.keys.command = mechanism.name;
+    mechanism.keys.number_key = "I";
+    mechanism.elements = true;
+    for (const char* word : {".MCE", ".MECHANISM"}) index_[significant(word)] = commands_.size();
+    words_.insert(words_.end(), {".MCE", ".MECHANISM", ".FIN", ".DEL"});
+    commands_.push_back(std::move(mechanism));
+  }
+
+  const Command* find(std::string_view word) const {
+    const auto found = index_.find(significant(word));
+    return found == index_.end() ? nullptr : &commands_[found->second];
+  }
+
+  const std::vector<std::string>& words() const { return words_; }
+
+ private:
+  void add(const Schema& schema) {
+    const std::vector<std::string> words = command_words(schema);
+    const auto [entry, fresh] = index_.try_emplace(significant(words.front()), commands_.size());
+    if (fresh) commands_.emplace_back().name = words.front();
+    for (const std::string& word : words) {
+      index_.try_emplace(significant(word), entry->second);
+      words_.push_back(word);
+    }
+    Command& command = commands_[entry->second];
+    command.schemas.push_back(&schema);
+    command.keys.command = command.name;
+    if (!schema.key().empty()) command.keys.keyed.push_back(&schema);
+    if (schema.numbered) command.keys.number_key = schema.record_key;
+    command.keys.rows = command.keys.rows || schema.rows;
+  }
+
+  std::vector<Command> commands_;
+  std::map<std::string, std::size_t, std::less<>> index_;
+  std::vector<std::string> words_;
+};
+
+/// Reads a deck command by command.
+class Reader {
+ public:
+  Reader(const Catalogue& catalogue, TokenStream& tokens, Diagnostics& diagnostics)
+      : commands_(catalogue), tokens_(tokens), diagnostics_(diagnostics), records_(tokens, diagnostics) {}
+
+  Deck run() {
+    bool complained = false;
+    while (!tokens_.peek().is_end()) {
+      if (tokens_.peek().is_command()) {
+        read_command();
+        continue;
+      }
+      const Token token = tokens_.peek();
+      tokens_.skip();
+      if (!complained)
+        diagnostics_.error(token.where, "`" + token.text + "` stands before the first command",
+                           "a deck starts with a command such as .NOE");
+      complained = true;
+    }
+    const auto first_faulty =
+        std::stable_partition(deck_.records.begin(), deck_.records.end(), [](const Record& record) { return !record.faulty; });
+    std::move(first_faulty, deck_.records.end(), std::back_inserter(deck_.faulty));
+    deck_.records.erase(first_faulty, deck_.records.end());
+    return std::move(deck_);
+  }
+
+ private:
+  void read_command() {
+    const Token word = tokens_.take();
+    if (begins_with_word(word.text, ".DEL")) return delete_records(word);
+    const Command* command = commands_.find(word.text);
+    if (!command) return unknown_command(word);
+    if (command->redefines()) open_again(*command, word);
+    if (command->elements || command->numbered()) return read_numbered(*command);
+    if (command->keyed()) return read_keyed(*command);
+    read_plain(*command, word);
+  }
+
+  void unknown_command(const Token& word) {
+    if (const Recognised* known = find_recognised(word.text)) {
+      report(*known, word);
+    } else {
+      std::string hint = did_you_mean(word.text, commands_.words());
+      if (hint.empty()) hint = "`engrane help` lists the commands; its data is skipped";
+      diagnostics_.error(word.where, "unknown command `" + word.text + "`", hint);
+    }
+    skip_command();
+  }
+
+  void skip_command() {
+    while (!tokens_.peek().is_end() && !tokens_.peek().is_command()) tokens_.skip();
+  }
+
+  void report(const Recognised& known, const Token& word) {
+    if (known.skipped())
+      diagnostics_.warning(word.where, "`" + known.name + "` (" + known.meaning + ") has no meaning here and is skipped");
+    else
+      diagnostics_.error(word.where, "`" + known.name + "` is recognised but not in this version: " + known.meaning, known.cure);
+  }
+
+  /// `.DEL.CLM` forgets what `.CLM` gave so far, `.DEL.*` everything.
+  void delete_records(const Token& word) {
+    const std::string_view target = std::string_view(word.text).substr(4);
+    const Command* command = target.empty() ? nullptr : commands_.find(target);
+    if (target == ".*")
+      forget(nullptr);
+    else if (command)
+      forget(command);
+    else if (target.empty() || !find_recognised(target))
+      diagnostics_.error(word.where, "`" + word.text + "` does not say which command to delete",
+                         target.empty() ? "write .DEL.CLM, or .DEL.* for all" : did_you_mean(target, commands_.words()));
+    const Token rest = tokens_.peek();
+    if (rest.is_end() || rest.is_command()) return;
+    diagnostics_.error(rest.where, "nothing may follow `" + upper(word.text) + "`");
+    skip_command();
+  }
+
+  int forget(const Command* command) {
+    const auto gone = [&](const Record& record) { return !command || record.schema->command() == command->name; };
+    const auto removed = std::erase_if(deck_.records, gone);
+    if (command)
+      ids_.erase(command->name);
+    else
+      ids_.clear();
+    return static_cast<int>(removed);
+  }
+
+  /// `.CLM ADD` adds, `.CLM` alone starts afresh.
+  void open_again(const Command& command, const Token& word) {
+    const Token& next = tokens_.peek();
+    if (next.is_word() && !next.starts_line && (same_word(next.text, "ADD") || same_word(next.text, "AJOUT")))
+      return tokens_.skip();
+    if (const int dropped = forget(&command); dropped > 0)
+      diagnostics_.warning(
+          word.where,
+          command.name + " starts afresh: " + counted(static_cast<std::size_t>(dropped), "earlier record") + " dropped",
+          "`" + command.name + " ADD` adds to them");
+  }
+
+  /// Records `I <id> …`, of one card or, in `.MCE`, of the one whose TYPE follows the id.
+  void read_numbered(const Command& command) {
+    std::vector<Heading> headings;
+    if (command.elements)
+      expect_key(command);
+    else
+      headings = records_.read_headings(command.only(), command.keys);
+    while (at_number_key(tokens_, command.keys)) {
+      Record record;
+      std::vector<int> copies;
+      if (!read_id(command, record, copies)) {
+        records_.skip_record(command.keys);
+        continue;
+      }
+      record.schema = command.elements ? element_type(record) : &command.only();
+      if (!record.schema) {
+        records_.skip_record(command.keys);
+        continue;
+      }
+      record.data = record.schema->make();
+      check_new_id(command, record, copies);
+      records_.read(record, command.keys, headings);
+      for (int id : copies) {
+        deck_.records.push_back(record);
+        deck_.records.back().id = id;
+      }
+      deck_.records.push_back(std::move(record));
+      if (!copies.empty())
+        std::rotate(deck_.records.rbegin(), deck_.records.rbegin() + 1,
+                    deck_.records.rbegin() + static_cast<std::ptrdiff_t>(copies.size()) + 1);
+    }
+  }
+
+  void expect_key(const Command& command) {
+    if (at_boundary(tokens_, command.keys)) return;
+    const Token token = tokens_.take();
+    if (token.fault.empty())
+      diagnostics_.error(token.where, "expected `I` and a number instead of `" + token.text + "`",
+                         "an element is given as I 1 GEAR N 1 2 …");
+    records_.skip_record(command.keys);
+  }
+
+  bool read_id(const Command& command, Record& record, std::vector<int>& copies) {
+    Token token = tokens_.peek();
+    record.location = token.where;
+    if (!token.is_number()) {
+      tokens_.skip();
+      if (!tokens_.peek().is_number()) {
+        diagnostics_.error(token.where, "`" + token.text + "` needs a number behind it",
+                           "records are numbered: " + command.keys.number_key + " 1");
+        return false;
+      }
+    }
+    token = tokens_.take();
+    if (!token.fault.empty()) return false;
+    record.id = id_of(token);
+    if (record.id == 0) return false;
+    span(record.location, token.where);
+    const auto word_then_number = [&](std::string_view word) {
+      return tokens_.peek().is_word() && same_word(tokens_.peek().text, word) && tokens_.peek(1).is_number();
+    };
+    if (command.elements || !command.only().repeated_ids || !word_then_number("J")) return true;
+    tokens_.skip();
+    const Token last = tokens_.take();
+    double step = 1;
+    if (word_then_number("K")) {
+      tokens_.skip();
+      step = tokens_.take().value;
+    }
+    const int end = id_of(last);
+    if (end == 0) return false;
+    if (end < record.id || step < 1 || step > end || (end - record.id) / step > most_copies) {
+      diagnostics_.error(last.where, "this range of numbers is empty or too long", "I 1 J 9 K 2 stands for 1, 3, 5, 7 and 9");
+      return false;
+    }
+    for (int id = record.id + static_cast<int>(step); id <= end; id += static_cast<int>(step)) copies.push_back(id);
+    return true;
+  }
+
+  /// The number of a record, or 0 (and an error) when it is none.
+  int id_of(const Token& token) {
+    if (token.value >= 1 && token.value <= 999'999'999 && token.value == static_cast<int>(token.value) && token.repeat == 1)
+      return static_cast<int>(token.value);
+    diagnostics_.error(token.where, "`" + token.text + "` cannot number a record", "numbers are whole, from 1 to 999999999");
+    return 0;
+  }
+
+  static void span(Location& location, const Location& end) {
+    if (end.file == location.file && end.line == location.line) location.length = end.column + end.length - location.column;
+  }
+
+  const Schema* element_type(Record& record) {
+    const Token& next = tokens_.peek();
+    const bool keyword =
+        next.is_word() && (same_word(next.text, "N") || same_word(next.text, "NOEUDS") || same_word(next.text, "NODES"));
+    if (!next.is_word() || next.is_command() || keyword) {
+      diagnostics_.error(record.location, "element " + std::to_string(record.id) + " has no type",
+                         "an element is given as I 1 GEAR N 1 2 …");
+      return nullptr;
+    }
+    const Token word = tokens_.take();
+    if (!word.fault.empty()) return nullptr;
+    const std::vector<const Schema*>& elements = commands_.find(".MCE")->schemas;
+    const Match<Schema> match = match_schema(elements, word.text);
+    span(record.location, word.where);
+    if (match.entry) return match.entry;
+    if (match.ambiguous()) {
+      diagnostics_.error(word.where, "`" + word.text + "` is short for several element types",
+                         "write " + join(match.candidates, " or "));
+      return nullptr;
+    }
+    std::string hint = did_you_mean(word.text, schema_words(elements));
+    if (hint.empty()) hint = "`engrane help` lists the element types";
+    diagnostics_.error(word.where, "unknown element type `" + word.text + "`", hint);
+    return nullptr;
+  }
+
+  void check_new_id(const Command& command, Record& record, std::vector<int>& copies) {
+    auto& known = ids_[command.name];
+    const auto check = [&](int id) {
+      const auto [entry, fresh] = known.try_emplace(id, record.location);
+      if (fresh) return true;
+      diagnostics_.error(record.location, command.name + " " + std::to_string(id) + " is given twice",
+                         "first in line " + std::to_string(entry->second.line));
+      return false;
+    };
+    bool good = check(record.id);
+    for (int id : copies) good = good && check(id);
+    if (!good) record.faulty = true;
+  }
+
+  /// Records that start with their card's key: `FIX NOEUD 1 C 1 2 3`. A leading keyword given again starts another one.
+  void read_keyed(const Command& command) {
+    const Schema* current = nullptr;
+    for (;;) {
+      const Token token = tokens_.peek();
+      if (token.is_end() || token.is_command()) return;
+      const Schema* next = keyed_schema(command.keys, token);
+      const Field* lead = current && token.is_word() ? match_field(*current, token.text).entry : nullptr;
+      if (!next && !(lead && lead->leads)) {
+        unknown_key(command, token);
+        continue;
+      }
+      if (next) {
+        tokens_.skip();
+        current = next;
+      }
+      read_record(*current, command, token.where);
+    }
+  }
+
+  void unknown_key(const Command& command, const Token& token) {
+    const bool faulty = !token.fault.empty();
+    tokens_.take();
+    if (const Recognised* known = token.is_word() ? find_recognised(command.name, token.text) : nullptr)
+      report(*known, token);
+    else if (!faulty)
+      diagnostics_.error(token.where, "`" + token.text + "` starts no record of " + command.name, key_hint(command, token.text));
+    records_.skip_to_line(command.keys);
+  }
+
+  static std::string key_hint(const Command& command, const std::string& word) {
+    std::string hint = did_you_mean(word, schema_words(command.keys.keyed));
+    if (!hint.empty()) return hint;
+    std::vector<std::string> names;
+    for (const Schema* schema : command.keys.keyed) names.emplace_back(schema->key());
+    return "its records start with " + join(names, " or ");
+  }
+
+  /// A command with one card and no keys: `.SAM` is one record, `.CHK` one for each ELEMENT, NODE or RUN.
+  void read_plain(const Command& command, const Token& word) {
+    const Schema& schema = command.only();
+    const bool several = std::any_of(schema.fields.begin(), schema.fields.end(), [](const Field& field) { return field.leads; });
+    if (!several) return read_record(schema, command, word.where);
+    while (!at_boundary(tokens_, command.keys)) read_record(schema, command, tokens_.peek().where);
+  }
+
+  void read_record(const Schema& schema, const Command& command, const Location& where) {
+    Record record;
+    record.schema = &schema;
+    record.location = where;
+    record.data = schema.make();
+    if (schema.once) {
+      const auto same = [&](const Record& other) { return other.schema == &schema; };
+      const auto first = std::find_if(deck_.records.begin(), deck_.records.end(), same);
+      if (first != deck_.records.end()) {
+        diagnostics_.error(where, schema.name + " is given twice", "first in line " + std::to_string(first->location.line));
+        record.faulty = true;
+      }
+    }
+    records_.read(record, command.keys, {});
+    deck_.records.push_back(std::move(record));
+  }
+
+  CommandTable commands_;
+  TokenStream& tokens_;
+  Diagnostics& diagnostics_;
+  RecordReader records_;
+  Deck deck_;
+  std::map<std::string, std::map<int, Location>> ids_;  ///< by command: where each number was given
+};
+
+}  // namespace
+
+const Schema* Catalogue::find(std::string_view name) const {
+  for (const Schema* schema : commands)
+    if (same_word(schema->name, name) ||
+        (name.starts_with('.') && significant(name) == significant(schema->name) && name.find(' ') == name.npos))
+      return schema;
+  if (const Match<Schema> match = match_schema(elements, name); match.entry) return match.entry;
+  for (const Schema* schema : commands)
+    for (const std::string& word : command_words(*schema))
+      if (same_word(significant(word), significant("." + std::string(name)))) return schema;
+  return match_schema(commands, name).entry;
+}
+
+namespace {
+
+Deck read(TokenStream& tokens, const Catalogue& catalogue, const SourceMap& sources, Diagnostics& diagnostics) {
+  Deck deck = Reader(catalogue, tokens, diagnostics).run();
+  for (int file = 0; file < sources.size(); ++file)
+    deck.folders.push_back(std::filesystem::path(sources.path(file)).parent_path().string());
+  return deck;
+}
+
+}  // namespace
+
+Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics) {
+  TokenStream tokens(sources, diagnostics);
+  if (!tokens.open_file(path)) return {};
+  return read(tokens, catalogue, sources, diagnostics);
+}
+
+Deck read_text(std::string name, std::string text, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics) {
+  TokenStream tokens(sources, diagnostics);
+  tokens.open_text(std::move(name), std::move(text));
+  return read(tokens, catalogue, sources, diagnostics);
+}
+
+}  // namespace engrane::deck

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/read/recognised.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "deck/schema/matching.hpp"
+
+namespace engrane::deck {
+
+const std::vector<Recognised>& recognised_commands() {
+  static const std::vector<Recognised> all{
+      {".MAI", "the cells of a finite-element mesh", "give mechanism elements in .MCE and remove .MAI"},
+      {".COL", "joining nodes that lie closer than a tolerance",
+       "use the same node in both parts, or .MCE RIGID, and remove .COL"},
+      {".AXL", "local axes of nodes", "give directions by AXIS in .MCE, nodes in a .FRAME, and remove .AXL"},
+      {".HYP", "which formulation a group of cells gets", "the TYPE of an .MCE record says it; remove .HYP"},
+      {".PHP", "physical properties of cells (thickness, section)", "give them in the .MCE record and remove .PHP"},
+      {".BPR", "the library of beam profiles", "give the section in the .MCE record and remove .BPR"},
+      {".AEL", "materials and properties of cells", "give them in the .MCE record and remove .AEL"},
+      {".ASE", "assembly of super-elements", "remove .ASE"},
+      {".STO", "storage of super-elements", "remove .STO"},
+      {".CLT", "thermal conditions", "remove .CLT"},
+      {".CLM PRE", "pressure on faces of cells", "give the resulting forces with CHA and remove PRE"},
+      {".CLM LIA", "linear relations between displacements", "write it as a record of .LIA"},
+      {".DES", "drawing", ""},
+      {".ALG", "settings of the solution algorithms", ""},
+  };
+  return all;
+}
+
+const Recognised* find_recognised(std::string_view command, std::string_view key) {
+  const std::string name = significant(command);
+  const auto& all = recognised_commands();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Recognised& entry) {
+    const std::size_t blank = entry.name.find(' ');
+    if (key.empty()) return entry.name == name;
+    return blank != std::string::npos && entry.name.substr(0, blank) == name && key.size() >= 3 &&
+           begins_with_word(key, std::string_view(entry.name).substr(blank + 1));
+  });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace engrane::deck

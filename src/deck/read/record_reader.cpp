@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/read/record_reader.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "base/text.hpp"
+#include "deck/schema/matching.hpp"
+
+namespace engrane::deck {
+
+namespace {
+
+std::string list_of_keywords(const Schema& schema) {
+  constexpr std::size_t most_listed = 24;
+  std::vector<std::string> names;
+  for (const Field& field : schema.fields) names.push_back(field.keyword);
+  if (names.empty()) return "it takes no keywords";
+  return names.size() > most_listed ? "`engrane help " + schema.name + "` lists its keywords" : "it has " + join(names);
+}
+
+}  // namespace
+
+/// A record half read.
+struct RecordReader::Reading {
+  Record& record;
+  const Schema& schema;
+  const RecordKeys& keys;
+  std::map<std::string, Location, std::less<>> given;      ///< keyword → where its values are
+  std::map<std::string, std::size_t, std::less<>> counts;  ///< how many numbers a keyword had, for wholes and parts
+  bool past_leads = false;                                 ///< a keyword that does not lead was given
+};
+
+std::string record_title(const Schema& schema, int id) { return id == 0 ? schema.name : schema.name + " " + std::to_string(id); }
+
+void RecordReader::read(Record& record, const RecordKeys& keys, const std::vector<Heading>& headings) {
+  Reading reading{record, *record.schema, keys, {}, {}};
+  while (!at_boundary(tokens_, keys) && !begins_next(reading)) read_item(reading);
+  for (const Heading& heading : headings) {
+    if (reading.given.contains(heading.field->keyword)) continue;
+    heading.field->store(record.data, heading.values);
+    record.field_locations[heading.field->keyword] = heading.where;
+  }
+  finish(reading);
+}
+
+/// `FIX NOEUD 1 C 1 NOEUD 2 C 3`: the second NOEUD begins another FIX.
+bool RecordReader::begins_next(const Reading& reading) {
+  const Token& token = tokens_.peek();
+  if (!token.is_word() || !reading.past_leads || reading.schema.numbered) return false;
+  const Match<Field> match = match_field(reading.schema, token.text);
+  if (!match.entry || !match.entry->leads) return false;
+  return std::any_of(reading.schema.fields.begin(), reading.schema.fields.end(),
+                     [&](const Field& field) { return field.leads && reading.given.contains(field.keyword); });
+}
+
+/// The first positional field that was not given and can take the token.
+const Field* RecordReader::positional_field(const Reading& reading, const Token& token) const {
+  for (const Field& field : reading.schema.fields) {
+    if (!field.positional || reading.given.contains(field.keyword)) continue;
+    const bool text = field.type == FieldType::text;
+    if (token.kind == Token::Kind::text && text) return &field;
+    if (token.is_number() && (field.type == FieldType::integer || field.type == FieldType::real)) return &field;
+    if (token.is_number() && text && field.reference == Reference::group) return &field;
+    if (!token.is_word()) continue;
+    if (text) return &field;
+    if (field.type == FieldType::choice && match_option(field, token.text).entry) return &field;
+    const bool ids = field.type == FieldType::integer && field.reference != Reference::nothing;
+    if (ids && same_word(token.text, "I")) return &field;  // the range I a J b K c
+  }
+  return nullptr;
+}
+
+void RecordReader::read_item(Reading& reading) {
+  const Token token = tokens_.peek();
+  if (!token.fault.empty() && token.is_word()) {
+    tokens_.take();
+    reading.record.faulty = true;
+    return;
+  }
+  Match<Field> match;
+  if (token.is_word()) match = match_field(reading.schema, token.text);
+  if (match.exact) {
+    tokens_.take();
+    return read_field(reading, *match.entry, &token);
+  }
+  if (const Field* field = positional_field(reading, token)) return read_field(reading, *field, nullptr);
+  if (match.entry) {
+    tokens_.take();
+    return read_field(reading, *match.entry, &token);
+  }
+  unknown_item(reading);
+}
+
+void RecordReader::read_field(Reading& reading, const Field& field, const Token* keyword) {
+  const Location start = keyword ? keyword->where : tokens_.peek().where;
+  FieldReading result = values_.read(field, reading.schema, reading.keys, start);
+  if (!field.leads) reading.past_leads = true;
+  if (appends(reading, field)) {
+    const std::vector<double> before = field.load(reading.record.data).numbers;
+    result.values.numbers.insert(result.values.numbers.begin(), before.begin(), before.end());
+  } else if (given_twice(reading, field, result.values.numbers.size(), start)) {
+    return;
+  }
+  const std::size_t count = result.values.numbers.size();
+  reading.given[field.keyword] = start;
+  reading.counts[field.keyword] = count;
+  Record& record = reading.record;
+  record.field_locations[field.keyword] = result.where;
+  if (!field.whole.empty()) record.field_locations.try_emplace(field.whole, result.where);
+  if (result.faulty)
+    record.faulty = true;
+  else
+    field.store(record.data, result.values);
+}
+
+/// `NOEUD 3 C 1 A 2. NOEUD 4 C 1 A -1.` in a numbered record: term after term, each list goes on.
+bool RecordReader::appends(const Reading& reading, const Field& field) const {
+  const auto leads = [](const Field& other) { return other.leads; };
+  return reading.schema.numbered && reading.given.contains(field.keyword) && field.max_values == detail::any_number &&
+         std::any_of(reading.schema.fields.begin(), reading.schema.fields.end(), leads);
+}
+
+/// Also `X 0 1 2 Y 3`, which gives the second coordinate twice.
+bool RecordReader::given_twice(Reading& reading, const Field& field, std::size_t count, const Location& where) {
+  const Field* clash = nullptr;
+  if (reading.given.contains(field.keyword)) clash = &field;
+  for (const Field& other : reading.schema.fields) {
+    if (!reading.given.contains(other.keyword)) continue;
+    if (other.whole == field.keyword && count > static_cast<std::size_t>(other.part)) clash = &other;
+    if (field.whole == other.keyword && reading.counts[other.keyword] > static_cast<std::size_t>(field.part)) clash = &other;
+  }
+  if (!clash) return false;
+  const Location& first = reading.given[clash->keyword];
+  diagnostics_.error(where, field.keyword + " is given twice in " + record_title(reading.schema, reading.record.id),
+                     clash == &field ? "first in line " + std::to_string(first.line)
+                                     : "already given by " + clash->keyword + " in line " + std::to_string(first.line));
+  reading.record.faulty = true;
+  return true;
+}
+
+void RecordReader::unknown_item(Reading& reading) {
+  const Token token = tokens_.take();
+  reading.record.faulty = true;
+  if (token.is_word()) return unknown_word(reading, token);
+  if (!token.fault.empty()) return;
+  const std::string what = token.kind == Token::Kind::text ? "\"" + token.text + "\"" : "`" + token.text + "`";
+  diagnostics_.error(token.where, what + " belongs to no keyword of " + record_title(reading.schema, reading.record.id));
+  skip_values(reading);
+}
+
+void RecordReader::unknown_word(Reading& reading, const Token& token) {
+  const std::string what = "`" + token.text + "` is ";
+  const std::string no_keyword = what + "not a keyword of " + reading.schema.name;
+  if (token.text.front() == '.') {
+    diagnostics_.error(token.where, no_keyword, "a command must be the first word of its line");
+    while (!at_boundary(tokens_, reading.keys) && !tokens_.peek().starts_line) tokens_.skip();
+    return;
+  }
+  if (token.starts_line) {  // rather a record key with a slip than a keyword of the record before it
+    const std::string key = did_you_mean(token.text, schema_words(reading.keys.keyed));
+    if (!key.empty()) {
+      diagnostics_.error(token.where, "`" + token.text + "` starts no record of " + reading.keys.command, key);
+      return skip_to_line(reading.keys);
+    }
+  }
+  const Match<Field> match = match_field(reading.schema, token.text);
+  if (match.ambiguous()) {
+    diagnostics_.error(token.where, what + "short for several keywords of " + reading.schema.name,
+                       "write " + join(match.candidates, " or "));
+    if (tokens_.peek().is_word() && !tokens_.peek().starts_line && !at_boundary(tokens_, reading.keys) &&
+        !match_field(reading.schema, tokens_.peek().text).entry)
+      tokens_.skip();  // the word of a choice
+  } else if (token.text.find('=') != std::string::npos) {
+    diagnostics_.error(token.where, no_keyword, "values follow their keyword behind a blank, without `=`");
+  } else {
+    std::string hint = did_you_mean(token.text, field_words(reading.schema));
+    diagnostics_.error(token.where, no_keyword, hint.empty() ? list_of_keywords(reading.schema) : hint);
+    skip_filler(reading);
+  }
+  skip_values(reading);
+}
+
+void RecordReader::skip_filler(const Reading& reading) {
+  const Token& next = tokens_.peek();
+  for (const Field& field : reading.schema.fields)
+    for (const std::string& filler : field.fillers)
+      if (next.is_word() && same_word(filler, next.text)) return tokens_.skip();
+}
+
+/// Skips the values of a keyword that is none. Words that cannot be read at all are still reported.
+void RecordReader::skip_values(const Reading& reading) {
+  while (!tokens_.peek().is_word() && !at_boundary(tokens_, reading.keys)) tokens_.take();
+}
+
+void RecordReader::finish(Reading& reading) {
+  Record& record = reading.record;
+  std::vector<std::string> missing;
+  std::vector<std::string> explained;
+  for (const Field& field : reading.schema.fields) {
+    if (!field.required || record.given(field.keyword)) continue;
+    missing.push_back(field.keyword);
+    explained.push_back(field.keyword + ": " + field.help);
+  }
+  if (!missing.empty() && !record.faulty) {
+    diagnostics_.error(record.location, record_title(reading.schema, record.id) + " lacks " + join(missing),
+                       join(explained, "; "));
+    record.faulty = true;
+  }
+  if (!record.faulty && reading.schema.finish) {
+    const int before = diagnostics_.errors();
+    reading.schema.finish(record, diagnostics_);
+    record.faulty = diagnostics_.errors() > before;
+  }
+}
+
+std::vector<Heading> RecordReader::read_headings(const Schema& schema, const RecordKeys& keys) {
+  std::vector<Heading> headings;
+  while (!at_boundary(tokens_, keys)) {
+    const Token token = tokens_.take();
+    const Match<Field> match = token.is_word() ? match_field(schema, token.text) : Match<Field>{};
+    if (match.entry && match.entry->heading) {
+      FieldReading result = values_.read(*match.entry, schema, keys, token.where);
+      if (!result.faulty) headings.push_back({match.entry, std::move(result.values), result.where});
+      continue;
+    }
+    if (token.fault.empty())
+      diagnostics_.error(token.where, "expected `" + keys.number_key + "` and a number instead of `" + token.text + "`",
+                         "a record of " + std::string(schema.command()) + " starts with `" + keys.number_key + " 1`");
+    skip_record(keys);
+  }
+  return headings;
+}
+
+void RecordReader::skip_to_line(const RecordKeys& keys) {
+  while (!at_boundary(tokens_, keys) && !(tokens_.peek().is_word() && tokens_.peek().starts_line)) tokens_.take();
+}
+
+void RecordReader::skip_record(const RecordKeys& keys) {
+  while (!at_boundary(tokens_, keys)) tokens_.take();
+}
+
+}  // namespace engrane::deck

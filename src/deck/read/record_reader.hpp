@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.hpp"
+#include "deck/language/token_stream.hpp"
+#include "deck/read/value_reader.hpp"
+#include "deck/schema/schema.hpp"
+
+namespace engrane::deck {
+
+/// A value given before the first record of a command, which holds for all its records.
+struct Heading {
+  const Field* field;
+  Field::Values values;
+  Location where;
+};
+
+/// `GEAR 1`, `.NOE 12`, `.CLM FIX`: how messages name a record.
+std::string record_title(const Schema& schema, int id);
+
+/// Reads the fields of one record, up to the next record key, command or end.
+class RecordReader {
+ public:
+  RecordReader(TokenStream& tokens, Diagnostics& diagnostics)
+      : tokens_(tokens), diagnostics_(diagnostics), values_(tokens, diagnostics) {}
+
+  /// Reads fields into `record`, whose schema, id, location and default data are set; checks what is missing.
+  void read(Record& record, const RecordKeys& keys, const std::vector<Heading>& headings);
+
+  /// Reads the keywords before the first record. What cannot stand there is an error.
+  std::vector<Heading> read_headings(const Schema& schema, const RecordKeys& keys);
+
+  /// Skips a record whose key is not known: up to the next key, or a word that starts a line and may be meant as one.
+  void skip_to_line(const RecordKeys& keys);
+
+  /// Skips what belongs to nothing, up to the next record key or command.
+  void skip_record(const RecordKeys& keys);
+
+ private:
+  struct Reading;
+
+  bool begins_next(const Reading& reading);
+  void read_item(Reading& reading);
+  const Field* positional_field(const Reading& reading, const Token& token) const;
+  void read_field(Reading& reading, const Field& field, const Token* keyword);
+  bool appends(const Reading& reading, const Field& field) const;
+  bool given_twice(Reading& reading, const Field& field, std::size_t count, const Location& where);
+  void unknown_item(Reading& reading);
+  void unknown_word(Reading& reading, const Token& token);
+  void skip_filler(const Reading& reading);
+  void skip_values(const Reading& reading);
+  void finish(Reading& reading);
+
+  TokenStream& tokens_;
+  Diagnostics& diagnostics_;
+  ValueReader values_;
+};
+
+}  // namespace engrane::deck

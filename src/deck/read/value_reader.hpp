@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.hpp"
+#include "deck/language/token_stream.hpp"
+#include "deck/schema/schema.hpp"
+
+namespace engrane::deck {
+
+/// What ends a record inside one command: the next record's key.
+struct RecordKeys {
+  std::string command;               ///< `.CLM`: its records that BACON has and this version has not are keys too
+  std::string number_key;            ///< `I`, or `GROUP` in `.SEL`; empty when records have no number
+  bool rows = false;                 ///< a number at the start of a line begins a record
+  std::vector<const Schema*> keyed;  ///< `FIX`, `DEP`, … of `.CLM`
+};
+
+/// Is the next token the key of a numbered record, or the number of a row?
+bool at_number_key(TokenStream& tokens, const RecordKeys& keys);
+
+/// Does the next token begin another record or command, or end the deck?
+bool at_boundary(TokenStream& tokens, const RecordKeys& keys);
+
+/// The card a record key names: a full spelling, or a prefix of at least three letters.
+const Schema* keyed_schema(const RecordKeys& keys, const Token& token);
+
+/// What was read for one field.
+struct FieldReading {
+  Field::Values values;
+  Location where;       ///< from the first value to the last, or the keyword when there is none
+  bool faulty = false;  ///< an error was reported
+};
+
+/// Reads the values behind a keyword and checks number, kind and range.
+class ValueReader {
+ public:
+  ValueReader(TokenStream& tokens, Diagnostics& diagnostics) : tokens_(tokens), diagnostics_(diagnostics) {}
+
+  /// `keyword` is where the field's keyword stands (or its first value, for a positional field).
+  FieldReading read(const Field& field, const Schema& schema, const RecordKeys& keys, Location keyword);
+
+ private:
+  struct Work;
+
+  Token take(Work& work);
+  void error(Work& work, const Location& where, std::string message, std::string hint = {});
+  bool at_value_number(const Work& work);
+  bool at_stray_value(const Work& work);
+  void read_numbers(Work& work);
+  bool read_range(Work& work);
+  void append_range(Work& work, const Token& first, const Token& last, double step);
+  void append(Work& work, double value, int count, const Location& where);
+  void read_texts(Work& work);
+  void refuse_more_words(Work& work);
+  void read_choice(Work& work);
+  void check_number(Work& work, const Token& token);
+  void check_count(Work& work, const std::string& name, int least, int most);
+  void skip_unknown_codes(Work& work);
+
+  TokenStream& tokens_;
+  Diagnostics& diagnostics_;
+  int repeated_ = 0;  ///< values that ranges and repeat counts have produced in this deck
+};
+
+/// `3 values`, `1 to 3 values`, `at least 1 value`.
+std::string expected_count(int least, int most);
+
+/// `greater than 0`, `from 0 to 1`, with the unit; empty when any number will do.
+std::string range_text(const Field& field);
+
+}  // namespace engrane::deck

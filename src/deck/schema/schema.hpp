@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <any>
+#include <array>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "base/diagnostics.hpp"
+#include "base/dimension.hpp"
+
+namespace engrane::deck {
+
+/// A word of a fixed list followed by numbers: `ERR COS 0.004`, `DRIVE SPEED`, `TYPE STATIC`.
+struct Tagged {
+  std::string tag;             ///< canonical (English, upper case) name of the option; empty when not given
+  std::vector<double> values;  ///< the numbers behind it
+
+  bool given() const { return !tag.empty(); }
+  bool is(std::string_view name) const { return tag == name; }
+};
+
+struct Record;
+
+/// What a keyword's values look like in the deck.
+enum class FieldType { flag, integer, real, text, choice };
+
+/// What the integers of a field point at; the reader leaves the look-up to the model, which knows what exists.
+enum class Reference { nothing, node, element, function, group, frame };
+
+/// One word of a choice field.
+struct Option {
+  std::string name;
+  std::vector<std::string> synonyms;
+  std::string help;
+  int min_values = 0;  ///< how many numbers must follow the word
+  int max_values = 0;  ///< how many may
+  Dimension dimension{};
+};
+
+/// One meaning of an integer that is a code (`STYP 163`).
+struct Code {
+  int number;
+  std::string meaning;
+};
+
+/// One keyword of a card: everything that reading, help, template, manual and JSON schema need to know.
+struct Field {
+  std::string keyword;
+  std::vector<std::string> synonyms;
+  std::string help;
+  FieldType type = FieldType::real;
+  int min_values = 1;
+  int max_values = 1;
+  Dimension dimension{};
+  Reference reference = Reference::nothing;
+  bool required = false;
+  bool positional = false;  ///< its values may come without the keyword: the first field not yet given takes them
+  bool leads = false;       ///< given again it starts the next record (NOEUD, GROUP); in a numbered one the lists go on
+  bool heading = false;     ///< may stand before the first record of the command and then holds for all of them
+  std::string whole;        ///< the keyword whose array this field is one entry of (Y and Z of X); empty otherwise
+  int part = 0;             ///< which entry, from 0
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool lower_open = false;  ///< the bound itself is not allowed
+  bool upper_open = false;
+  std::vector<std::string> fillers;  ///< words without meaning that may stand before the values (`ACC VAL …`)
+  std::vector<Code> codes;           ///< the integers that mean something; others are skipped with a warning
+  std::vector<Option> options;       ///< of a choice; the first is taken when the keyword stands alone and needs no value
+
+  /// Values as the deck gives them; exactly one vector is in use, by type (a choice uses `tag` and `numbers`).
+  struct Values {
+    std::vector<double> numbers;
+    std::vector<std::string> texts;
+    std::string tag;
+    bool present = false;
+  };
+  std::function<void(std::any&, const Values&)> store;  ///< writes the values into the card's struct
+  std::function<Values(const std::any&)> load;          ///< reads them back: defaults, canonical deck, JSON
+};
+
+/// A card without its struct's type: what reader, help and manual work with.
+struct Schema {
+  std::string name;                   ///< `GEAR`, or `.CLM FIX`, `.SAM`
+  std::vector<std::string> synonyms;  ///< `ENGRENAGE`
+  std::string summary;                ///< one sentence
+  std::string chapter;                ///< of the manual
+  std::string description;            ///< paragraphs, may be empty
+  std::vector<std::string> examples;  ///< deck lines
+  std::vector<Field> fields;
+  bool numbered = false;           ///< the record starts with `I <id>`
+  std::string record_key = "I";    ///< the word before the number (`GROUP` in `.SEL`)
+  bool repeated_ids = false;       ///< `I a J b K c` ranges of ids make sense
+  bool rows = false;               ///< a line that starts with a number is a record: id, then the positional values
+  bool once = false;               ///< a second record is an error
+  bool redefines = false;          ///< opening the command again without ADD drops its earlier records
+  std::function<std::any()> make;  ///< a default-constructed struct
+  /// Checks across fields and values that follow from others, once the record is read without a fault; may be empty.
+  std::function<void(Record&, Diagnostics&)> finish;
+
+  const Field* find(std::string_view keyword) const;  ///< exact canonical keyword
+  std::string_view command() const;                   ///< `.CLM` of `.CLM FIX`; `.MCE` for elements
+  std::string_view key() const;                       ///< `FIX` of `.CLM FIX`; empty when the command has one kind of record only
+};
+
+/// Every spelling of a field: keyword, declared synonyms, and those that BACON gives this keyword everywhere (V = VAL).
+std::vector<std::string> spellings(const Field& field);
+
+/// What is wrong with a schema itself (reserved or doubled words, missing help, a default out of range): for unit tests.
+std::vector<std::string> schema_faults(const Schema& schema);
+
+/// The unit a number has in a deck: as UnitSystem::label, but angles are in degrees.
+std::string deck_unit(Dimension dimension);
+
+/// Refines the field just added to a Card.
+class FieldBuilder {
+ public:
+  FieldBuilder(Schema& schema, std::size_t index) : schema_(schema), index_(index) {}
+  FieldBuilder& synonyms(std::vector<std::string> words) {
+    field().synonyms = std::move(words);
+    return *this;
+  }
+  FieldBuilder& unit(Dimension d) {
+    field().dimension = d;
+    return *this;
+  }
+  FieldBuilder& refers(Reference r) {
+    field().reference = r;
+    return *this;
+  }
+  FieldBuilder& required() {
+    field().required = true;
+    return *this;
+  }
+  FieldBuilder& positional() {
+    field().positional = true;
+    return *this;
+  }
+  FieldBuilder& values(int least, int most) {
+    field().min_values = least;
+    field().max_values = most;
+    return *this;
+  }
+  FieldBuilder& positive() {
+    field().lower = 0;
+    field().lower_open = true;
+    return *this;
+  }
+  FieldBuilder& at_least(double bound) {
+    field().lower = bound;
+    return *this;
+  }
+  FieldBuilder& at_most(double bound) {
+    field().upper = bound;
+    return *this;
+  }
+  FieldBuilder& below(double bound) {
+    field().upper = bound;
+    field().upper_open = true;
+    return *this;
+  }
+  FieldBuilder& above(double bound) {
+    field().lower = bound;
+    field().lower_open = true;
+    return *this;
+  }
+  FieldBuilder& leads() {
+    field().leads = true;
+    return *this;
+  }
+  FieldBuilder& heading() {
+    field().heading = true;
+    return *this;
+  }
+  FieldBuilder& filler(std::vector<std::string> words) {
+    field().fillers = std::move(words);
+    return *this;
+  }
+  FieldBuilder& codes(std::vector<Code> known) {
+    field().codes = std::move(known);
+    return *this;
+  }
+  FieldBuilder& option(Option o) {
+    field().options.push_back(std::move(o));
+    return *this;
+  }
+
+ private:
+  Field& field() { return schema_.fields[index_]; }
+  Schema& schema_;
+  std::size_t index_;
+};
+
+/// Declares a card once and binds every keyword to a member of `Data`.
+///
+///     Card<SpringData> card("SPRING", {"RESSORT"}, "Spring and damper between two nodes");
+///     card.add("K", &SpringData::stiffness, "stiffness").unit(dimension::stiffness).at_least(0);
+///
+/// The member's type fixes the field's type: bool flag; int, std::vector<int>, std::array<int, N> integers;
+/// double, std::optional<double>, std::vector<double>, std::array<double, N> reals; std::string text; Tagged choice.
+/// The defaults shown to the user are those of a default-constructed `Data`.
+template <class Data>
+class Card {
+ public:
+  Card(std::string name, std::vector<std::string> synonyms, std::string summary) {
+    schema_.name = std::move(name);
+    schema_.synonyms = std::move(synonyms);
+    schema_.summary = std::move(summary);
+    schema_.make = [] { return std::any(Data{}); };
+  }
+
+  /// `Owner` is Data or a base of it.
+  template <class Member, class Owner>
+  FieldBuilder add(std::string keyword, Member Owner::*member, std::string help);
+
+  /// A keyword for one entry of an array that another keyword sets as a whole: `Y` for entry 1 of `X`.
+  template <class Member>
+  FieldBuilder add_part(std::string keyword, std::string whole, int part, Member Data::*member, std::string help);
+
+  Card& chapter(std::string title) {
+    schema_.chapter = std::move(title);
+    return *this;
+  }
+  Card& describe(std::string text) {
+    schema_.description = std::move(text);
+    return *this;
+  }
+  Card& example(std::string lines) {
+    schema_.examples.push_back(std::move(lines));
+    return *this;
+  }
+  Card& numbered() {
+    schema_.numbered = true;
+    return *this;
+  }
+  Card& key(std::string word) {
+    schema_.numbered = true;
+    schema_.record_key = std::move(word);
+    return *this;
+  }
+  Card& repeated_ids() {
+    schema_.repeated_ids = true;
+    return *this;
+  }
+  Card& rows() {
+    schema_.rows = true;
+    return *this;
+  }
+  Card& once() {
+    schema_.once = true;
+    return *this;
+  }
+  Card& redefines() {
+    schema_.redefines = true;
+    return *this;
+  }
+  /// The struct a record starts from, where it is not Data's own default.
+  Card& initial(Data data) {
+    schema_.make = [data] { return std::any(data); };
+    return *this;
+  }
+  /// `check(Data&, Record&, Diagnostics&)` runs once a record is read without a fault.
+  template <class Check>
+  Card& finish(Check check);
+
+  const Schema& schema() const { return schema_; }
+
+ private:
+  Schema schema_;
+};
+
+/// One record of a deck, read, checked against its schema and stored in its struct.
+struct Record {
+  const Schema* schema = nullptr;
+  int id = 0;  ///< the number behind `I`; 0 when the card has none
+  Location location;
+  std::map<std::string, Location, std::less<>> field_locations;  ///< by canonical keyword; only those given
+  std::any data;
+  bool faulty = false;  ///< an error was reported for it; it is then in Deck::faulty
+
+  /// The card's struct, or nullptr when the record is of another card.
+  template <class Data>
+  const Data* get() const {
+    return std::any_cast<Data>(&data);
+  }
+  bool given(std::string_view keyword) const { return field_locations.contains(keyword); }
+  /// Where the keyword's values stand; the record itself when the keyword was not given.
+  Location where(std::string_view keyword) const;
+};
+
+}  // namespace engrane::deck
+
+#include "deck/schema/schema_binding.hpp"

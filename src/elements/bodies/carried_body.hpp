@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "elements/bodies/body_inertia.hpp"
+#include "model/templated_element.hpp"
+
+namespace engrane::elements::bodies {
+
+/// A rigid body's inertia on one node: the whole of INERTIA, and a part of RIGID. Asks for the node's rotation only when
+/// the body has a tensor or an offset.
+class CarriedBody final : public TemplatedElement<CarriedBody, 1, 6> {
+ public:
+  CarriedBody(int id, int node, const BodyInertia& body) : TemplatedElement(id), body_(body), channels_(body_channels(body)) {
+    Layout layout;
+    layout.nodes = {node};
+    layout.needs = {!body.turns() ? NodeNeed::translation : body.mass == 0 ? NodeNeed::rotation : NodeNeed::both};
+    set_layout(std::move(layout));
+  }
+
+  template <class T>
+  void evaluate(const Motion<T, 1>& motion, const State& state, Balance<T, 1>& balance) const {
+    const auto resistance = body_.resistance<T>(motion.node[0], state.gravity);
+    balance.force(0, resistance.force);
+    balance.moment(0, resistance.moment);
+  }
+
+  Energies energies(const State& state) const override { return body_.energies(state.nodes[0], state.gravity); }
+  Mat3 inertia_at(int node) const override { return node == layout().nodes[0] ? body_.about_node() : Mat3(Mat3::Zero()); }
+  const std::vector<Named>& channels() const override { return channels_; }
+  void observe(const State& state, std::span<double> values) const override { observe_body(body_, state.nodes[0], values); }
+  Drawing drawing() const override { return {R"("shape": "mass", "node": )" + std::to_string(layout().nodes[0])}; }
+
+ private:
+  BodyInertia body_;
+  std::vector<Named> channels_;
+};
+
+}  // namespace engrane::elements::bodies

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/cams/cam_contact.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "elements/common/building.hpp"
+
+namespace engrane::elements::cams {
+
+Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)) {
+  Layout layout;
+  layout.nodes.assign(parts_.nodes.begin(), parts_.nodes.end());
+  // the force on an edge or a roller at the node itself turns nothing
+  layout.needs = {NodeNeed::both, parts_.flat || !parts_.point.isZero(0) ? NodeNeed::both : NodeNeed::translation};
+  layout.history = 2;
+  if (parts_.law) {
+    layout.switches.push_back({"follower touches", "follower parts"});
+    if (parts_.law->damped()) layout.switches.push_back({"follower presses again", "follower presses no more"});
+  } else {
+    layout.multipliers.push_back({"NORMAL_FORCE", dimension::length, "normal force of the cam on the follower"});
+  }
+  set_layout(std::move(layout));
+  const bool roller = !parts_.flat && parts_.radius > 0;
+  channels_ = {
+      {"NORMAL_FORCE", dimension::force, "of the cam on the follower; positive pushes it away"},
+      {"FORCE_X", dimension::force, "force on the follower, global"},
+      {"FORCE_Y", dimension::force, "force on the follower, global"},
+      {"FORCE_Z", dimension::force, "force on the follower, global"},
+      {"GAP", dimension::length, "between follower and profile; negative: pressed together"},
+      {"CAM_ANGLE", dimension::angle, "parameter of the profile at the contact: of a motion the cam's turn, within a turn"},
+      {"CONTACT_ANGLE", dimension::angle, "polar angle of the contact point in the cam"},
+      {"RADIUS_OF_CURVATURE", dimension::length, "of the profile at the contact; negative in a hollow"},
+      {"POWER", dimension::power, "power that the follower takes from the cam"}};
+  if (parts_.profile->curve().motion()) {
+    const bool arm = parts_.guide.kind == CamGuide::Kind::arm;
+    channels_.push_back({"LIFT", arm ? dimension::angle : dimension::length, "lift of the motion at the contact"});
+  }
+  if (parts_.guide.kind != CamGuide::Kind::none)
+    channels_.push_back({"PRESSURE_ANGLE", dimension::angle, "between the contact's normal and the follower's way"});
+  channels_.push_back(roller ? Named{"ROLLER_SPEED", dimension::angular_velocity, "of the roller in the follower, as it rolls"}
+                             : Named{"SLIDING_SPEED", dimension::velocity, "of the follower over the profile"});
+  if (parts_.friction) channels_.push_back({"FRICTION_FORCE", dimension::force, "size of the friction"});
+  if (parts_.law) channels_.push_back({"SPRING_ENERGY", dimension::energy, "energy stored in the contact"});
+  if (parts_.law || parts_.friction) channels_.push_back({"POWER_LOST", dimension::power, "by damping and friction"});
+}
+
+void Cam::commit(const State& state, std::span<double>, std::span<double> history) const {
+  history[0] = contact<double>(motion<double>(state).node, state.history).foot.s;
+  history[1] = 1;
+}
+
+void Cam::switches(const State& state, std::span<Switch> values) const {
+  if (!parts_.law) return;
+  const Nodes<double> node = motion<double>(state).node;
+  const Contact<double> c = contact<double>(node, state.history);
+  Nodes<Taylor> along;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const NodeState& s = state.nodes[i];
+    const Mat3 W = skew(s.W), first = s.R * W, second = s.R * (skew(s.A) + W * W);
+    for (int k = 0; k < 3; ++k) {
+      along[i].x[k] = {s.x[k], s.v[k], s.a[k]};
+      for (int l = 0; l < 3; ++l) along[i].R(k, l) = {s.R(k, l), first(k, l), second(k, l)};
+    }
+  }
+  const Taylor gap = contact<Taylor>(along, state.history).gap;
+  const double pressed = -c.gap, rate = -gap.d1, growth = -gap.d2;
+  values[0] = {pressed, rate, c.foot.p.norm() + parts_.radius + parts_.profile->inset()};
+  if (!parts_.law->damped()) return;
+  values[1] = pressed > 0 ? Switch{parts_.law->pressure(pressed, rate), parts_.law->pressure_rate(pressed, rate, growth),
+                                   parts_.law->pressure_size(pressed, rate)}
+                          : Switch{};
+}
+
+Energies Cam::energies(const State& state) const {
+  const Nodes<double> node = motion<double>(state).node;
+  const Contact<double> c = contact<double>(node, state.history);
+  const double rate = gap_rate(c, node), force = load(c, state, rate);
+  Energies e;
+  if (parts_.law && c.gap < 0) {
+    e.potential = parts_.law->stored(-c.gap);
+    e.dissipated = (parts_.law->force(-c.gap, -rate, 0) - parts_.law->elastic(-c.gap)) * -rate;
+  }
+  if (parts_.friction) {
+    const double square = sliding(c, node).squaredNorm();
+    e.dissipated += parts_.friction->over_speed(square, std::abs(force)) * std::abs(force) * square;
+  }
+  return e;
+}
+
+double Cam::pressure_angle(const Vec3& normal, const Vec3& way) { return std::atan2(cross(normal, way).norm(), normal.dot(way)); }
+
+void Cam::observe(const State& state, std::span<double> values) const {
+  const Nodes<double> node = motion<double>(state).node;
+  const Contact<double> c = contact<double>(node, state.history);
+  const double rate = gap_rate(c, node), force = load(c, state, rate);
+  std::array<double, 13> r{};
+  residual(state, std::span(r).first(static_cast<std::size_t>(layout().slots())));
+  const Vec3 force_b = -Vec3(r[6], r[7], r[8]), moment_b = -Vec3(r[9], r[10], r[11]);
+  const NodeState &a = state.nodes[0], &b = state.nodes[1];
+
+  std::size_t i = 0;
+  const auto put = [&](double value) { values[i++] = value; };
+  put(force);
+  for (Eigen::Index k = 0; k < 3; ++k) put(force_b[k]);
+  put(c.gap);
+  const CamProfile& profile = *parts_.profile;
+  const double turn = 2 * std::numbers::pi;
+  const double s = std::remainder(c.foot.s, turn);
+  put(s < 0 ? s + turn : s);
+  const Vec2 touch = c.foot.p - profile.inset() * c.foot.n;
+  put(std::atan2(touch[1], touch[0]));
+  put(1 / c.foot.curvature - profile.inset());
+  put(force_b.dot(b.v) + moment_b.dot(b.W));
+  if (const CamMotion* motion = profile.curve().motion()) put(motion->at(c.foot.s).f);
+  if (parts_.guide.kind == CamGuide::Kind::slide) put(pressure_angle(c.normal, Vec3(b.R * parts_.guide.direction)));
+  if (parts_.guide.kind == CamGuide::Kind::arm) {
+    // where the arm leads the follower's point when it swings away from the cam
+    const Vec3 way = cross(Vec3(a.R * parts_.axes.col(2)), Vec3(b.R * Vec3(parts_.point - parts_.guide.pivot)));
+    put(pressure_angle(c.normal, Vec3(c.normal.dot(way) < 0 ? -way : way)));
+  }
+  const Vec3 slip = sliding(c, node);
+  if (!parts_.flat && parts_.radius > 0) {
+    // the roller's rim moves with the cam: seen from the follower, about the cam's axis
+    const Vec3 axis = a.R * parts_.axes.col(2);
+    put(slip.dot(cross(axis, c.normal)) / parts_.radius);
+  } else {
+    put(slip.norm());
+  }
+  if (parts_.friction) {
+    const double square = slip.squaredNorm();
+    put(parts_.friction->over_speed(square, std::abs(force)) * std::abs(force) * std::sqrt(square));
+  }
+  const Energies e = energies(state);
+  if (parts_.law) put(e.potential);
+  if (parts_.law || parts_.friction) put(e.dissipated);
+}
+
+Drawing Cam::drawing() const {
+  const auto [a, b] = parts_.nodes;
+  const Vec3 axis = parts_.axes.col(2);
+  const CamProfile& profile = *parts_.profile;
+  const auto round = [](const Vec3& v) { return fmt::format("[{:.7g}, {:.7g}, {:.7g}]", v[0], v[1], v[2]); };
+  std::string outline;
+  const std::size_t count = std::clamp<std::size_t>(2 * profile.curve().pieces(), 240, 2000);
+  for (std::size_t k = 0; k < count; ++k) {
+    const CamFoot foot = profile.at(2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count));
+    const Vec2 p = foot.p - profile.inset() * foot.n;
+    outline += (k > 0 ? ", " : "") + round(parts_.place + p[0] * parts_.axes.col(0) + p[1] * parts_.axes.col(1));
+  }
+  Drawing shapes{fmt::format(R"("shape": "plate", "node": {}, "axis": {}, "hollow": {}, "outline": [{}])", a, json(axis),
+                             parts_.inside, outline)};
+  if (!parts_.flat && parts_.radius > 0)
+    shapes.push_back(fmt::format(R"("shape": "roller", "node": {}, "center": {}, "axis": {}, "radius": {})", b,
+                                 json(parts_.follower), json(axis), parts_.radius));
+  return shapes;
+}
+
+}  // namespace engrane::elements::cams

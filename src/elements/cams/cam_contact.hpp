@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "elements/cams/cam_profile.hpp"
+#include "elements/common/axis_angle.hpp"
+#include "elements/common/friction_law.hpp"
+#include "elements/common/stop_law.hpp"
+#include "model/templated_element.hpp"
+
+namespace engrane::elements::cams {
+
+/// How the follower is led, as far as its pressure angle goes; directions in the reference configuration.
+struct CamGuide {
+  enum class Kind { none, slide, arm };
+  Kind kind = Kind::none;
+  Vec3 direction = Vec3::Zero();  ///< of a slide, carried by B
+  Vec3 pivot = Vec3::Zero();      ///< of an arm: from B to it
+};
+
+/// What the element is made of.
+struct CamParts {
+  std::array<int, 2> nodes{};
+  Mat3 axes = Mat3::Identity();                        ///< columns: x and y of the cam's plane, and the cam's axis; held by A
+  Vec3 center = Vec3::Zero();                          ///< from A to the centre
+  Vec3 place = Vec3::Zero(), follower = Vec3::Zero();  ///< centre and follower's point themselves, for pictures
+  Vec3 point = Vec3::Zero();                           ///< from B to the follower's point
+  Vec3 face = Vec3::Zero();                            ///< normal of a flat face, away from the cam, carried by B
+  bool flat = false;
+  bool inside = false;  ///< the follower is within the profile
+  double radius = 0;    ///< of a roller; 0 a knife edge
+  std::shared_ptr<const CamProfile> profile;
+  std::optional<StopLaw> law;  ///< none: the follower is held to the profile
+  std::optional<FrictionLaw> friction;
+  CamGuide guide;
+  std::vector<Derived> derived;
+};
+
+/// A follower on the profile of a cam (docs/elements/cams/cam.md).
+class Cam final : public TemplatedElement<Cam, 2, 13> {
+ public:
+  Cam(int id, CamParts parts);
+
+  template <class T>
+  using Nodes = std::array<typename Motion<T, 2>::Node, 2>;
+
+  /// The contact in a configuration. Its gap is right to the second derivative, all else to the first.
+  template <class T>
+  struct Contact {
+    T gap;
+    Vec3T<T> normal;      ///< from the cam to the follower
+    Vec3T<T> reach, arm;  ///< to the follower's point, from A and from B
+    T lever;              ///< flat face: from the contact point to the follower's point, along the face
+    Vec3T<T> turn;        ///< flat face: gradient of its direction in the cam by the turn of B from A
+    Vec3T<T> touch;       ///< from A to the contact point; of a knife edge its place
+    CamFoot foot;
+  };
+  template <class T>
+  Contact<T> contact(const Nodes<T>& node, std::span<const double> history) const;
+
+  template <class T>
+  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
+    const Contact<T> c = contact<T>(motion.node, state.history);
+    const T load = parts_.law ? parts_.law->force(T(-c.gap), T(-gap_rate(c, motion.node)), balance.contact_homotopy())
+                              : balance.constraint(0, c.gap);
+    const Vec3T<T> force = c.normal * load;
+    balance.force(0, force);
+    balance.force(1, Vec3T<T>(-force));
+    Vec3T<T> moment_a = cross(c.reach, force), moment_b = -cross(c.arm, force);
+    if (parts_.flat) {
+      const Vec3T<T> couple = c.turn * T(c.lever * load);
+      moment_a += couple;
+      moment_b -= couple;
+    }
+    if (parts_.friction) {
+      using std::abs;
+      const Vec3T<T> slip = sliding(c, motion.node);
+      const Vec3T<T> drag = slip * T(parts_.friction->over_speed(T(dot(slip, slip)), T(abs(load))) * abs(load));
+      balance.force(0, Vec3T<T>(-drag));
+      balance.force(1, drag);
+      moment_a -= cross(c.touch, drag);
+      moment_b += cross(touch_from_b(c), drag);
+    }
+    balance.moment(0, rotate_back(motion.node[0].R, moment_a));
+    balance.moment(1, rotate_back(motion.node[1].R, moment_b));
+  }
+
+  void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
+  void switches(const State& state, std::span<Switch> values) const override;
+  Energies energies(const State& state) const override;
+  const std::vector<Named>& channels() const override { return channels_; }
+  void observe(const State& state, std::span<double> values) const override;
+  std::vector<Derived> derived() const override { return parts_.derived; }
+  Drawing drawing() const override;
+
+  /// Angle between the contact's normal and the follower's way, both in one set of axes.
+  static double pressure_angle(const Vec3& normal, const Vec3& way);
+
+ private:
+  template <class T>
+  Vec3T<T> touch_from_b(const Contact<T>& c) const {
+    return c.touch - c.reach + c.arm;
+  }
+
+  /// Velocity of B's body over A's at a point that is at `from_a` and `from_b`.
+  template <class T>
+  static Vec3T<T> velocity(const Nodes<T>& node, const Vec3T<T>& from_a, const Vec3T<T>& from_b) {
+    const auto& [a, b] = node;
+    return b.v + cross(rotate(b.R, b.W), from_b) - a.v - cross(rotate(a.R, a.W), from_a);
+  }
+
+  template <class T>
+  T gap_rate(const Contact<T>& c, const Nodes<T>& node) const {
+    const auto& [a, b] = node;
+    const T rate = dot(c.normal, velocity(node, c.reach, c.arm));
+    if (!parts_.flat) return rate;
+    return rate + c.lever * dot(c.turn, Vec3T<T>(rotate(b.R, b.W) - rotate(a.R, a.W)));
+  }
+
+  /// Sliding velocity of the follower over the cam.
+  template <class T>
+  Vec3T<T> sliding(const Contact<T>& c, const Nodes<T>& node) const {
+    const Vec3T<T> v = velocity(node, c.touch, touch_from_b(c));
+    return v - c.normal * dot(c.normal, v);
+  }
+
+  double load(const Contact<double>& c, const State& state, double rate) const {
+    return parts_.law ? parts_.law->force(-c.gap, -rate, 0) : state.multipliers[0] - state.penalty * c.gap;
+  }
+
+  CamParts parts_;
+  std::vector<Named> channels_;
+};
+
+template <class T>
+Cam::Contact<T> Cam::contact(const Nodes<T>& node, std::span<const double> history) const {
+  const auto& [a, b] = node;
+  const CamProfile& profile = *parts_.profile;
+  const Vec3T<T> u = rotate(a.R, Vec3(parts_.axes.col(0))), v = rotate(a.R, Vec3(parts_.axes.col(1))),
+                 axis = rotate(a.R, Vec3(parts_.axes.col(2))), center = rotate(a.R, parts_.center);
+  Contact<T> c;
+  c.arm = rotate(b.R, parts_.point);
+  c.reach = b.x + c.arm - a.x;
+  const Vec3T<T> place = c.reach - center;
+  const T x = dot(place, u), y = dot(place, v);
+  // on smooth curves distance and support are functions of two and of one variable with known second derivatives: their
+  // polynomials give what dual and Taylor numbers need, with no derivative of the search
+  if (parts_.flat) {
+    const Vec3T<T> face = rotate(b.R, parts_.face);
+    const T fx = dot(face, u), fy = dot(face, v), square = fx * fx + fy * fy;
+    using std::sqrt;
+    const T scale = T(1) / sqrt(square), mx = fx * scale, my = fy * scale;
+    const CamFoot foot = profile.farthest({value_of(mx), value_of(my)});
+    const Vec2 n{value_of(mx), value_of(my)}, t = turned_left(n);
+    const T angle = t[0] * mx + t[1] * my;  // from the value, to second order
+    const double reach = foot.p.dot(n), aside = foot.p.dot(t), radius = 1 / foot.curvature;
+    c.gap = x * mx + y * my - (reach + aside * angle + (0.5 * (radius - reach)) * angle * angle) + profile.inset();
+    c.lever = y * mx - x * my - (aside + (radius - reach) * angle);
+    c.normal = u * mx + v * my;
+    c.turn = (cross(face, v) * fx - cross(face, u) * fy) * T(T(1) / square);
+    const T px = foot.p[0] + (radius * t[0]) * angle - profile.inset() * mx,
+            py = foot.p[1] + (radius * t[1]) * angle - profile.inset() * my;
+    c.touch = center + axis * dot(place, axis) + u * px + v * py;
+    c.foot = foot;
+    return c;
+  }
+  std::optional<double> last;
+  if (!parts_.law && history[1] != 0) last = history[0];
+  const Vec2 q{value_of(x), value_of(y)};
+  const CamFoot foot = profile.nearest(q, last);
+  const double distance = (q - foot.p).dot(foot.n), bend = foot.curvature / (1 + foot.curvature * distance);
+  const T dx = x - q[0], dy = y - q[1];
+  const T along = foot.t[0] * dx + foot.t[1] * dy;
+  c.gap = distance + foot.n[0] * dx + foot.n[1] * dy + (0.5 * bend) * along * along - (parts_.radius - profile.inset());
+  const T nx = foot.n[0] + (bend * foot.t[0]) * along, ny = foot.n[1] + (bend * foot.t[1]) * along;
+  c.normal = u * nx + v * ny;
+  c.touch = c.reach - c.normal * parts_.radius;
+  c.lever = T(0);
+  c.foot = foot;
+  return c;
+}
+
+}  // namespace engrane::elements::cams

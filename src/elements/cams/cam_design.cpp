@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/cams/cam_design.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "elements/common/building.hpp"
+
+namespace engrane::elements::cams {
+
+namespace {
+
+/// The way of the follower's point when it is at q in the cam: a unit vector away from the cam, or none when it cannot be there.
+std::optional<Vec2> way_at(const Vec2& q, const CamPlan& plan, const CamParts& parts) {
+  const double distance = q.norm();
+  if (parts.guide.kind == CamGuide::Kind::slide) {
+    // in the cam the slide turns about the centre, and keeps its offset from it
+    const double offset = plane_cross(plan.direction, plan.point), square = distance * distance - offset * offset;
+    if (!(square > 0)) return {};
+    return Vec2((std::sqrt(square) * q - offset * turned_left(q)) / (distance * distance));
+  }
+  if (parts.guide.kind == CamGuide::Kind::arm) {
+    const double arm = (plan.point - plan.pivot).norm(), between = plan.pivot.norm();
+    const double cosine = (distance * distance + arm * arm - between * between) / (2 * distance * arm);
+    if (!(std::abs(cosine) < 1)) return {};
+    // from the line to the centre by the angle of the triangle, on the side where the pivot is
+    const double sine = (plane_cross(plan.pivot, plan.point) > 0 ? 1 : -1) * std::sqrt(1 - cosine * cosine);
+    const Vec2 inwards = -q / distance, to_pivot = cosine * inwards + sine * turned_left(inwards);
+    const Vec2 way = turned_left(to_pivot);
+    return Vec2(way.dot(q) < 0 ? -way : way);
+  }
+  return {};
+}
+
+double angle_between(const Vec2& a, const Vec2& b) { return std::atan2(std::abs(plane_cross(a, b)), a.dot(b)); }
+
+/// Least radius of curvature of the envelope of a face that moves by slope times the lift: ρ = base + slope (s + s″)
+/// (Norton, eq. 7.31). Where it is negative the curve turns back on itself.
+double least_face_radius(const CamMotion& motion, double base, double slope) {
+  double least = std::numeric_limits<double>::infinity();
+  constexpr int samples = 36000;
+  for (int k = 0; k < samples; ++k) {
+    const Jet lift = motion.at(2 * std::numbers::pi * k / samples);
+    least = std::min(least, base + slope * (lift.f + lift.d2));
+  }
+  return least;
+}
+
+/// Greatest angle between the contact's normal and the follower's way, or none when the follower does not reach every place.
+std::optional<double> greatest_pressure_angle(const CamPlan& plan, const CamParts& parts) {
+  if (parts.guide.kind == CamGuide::Kind::none) return {};
+  if (parts.flat) {
+    if (parts.guide.kind == CamGuide::Kind::arm) return {};
+    return angle_between(plan.face, plan.direction);
+  }
+  const double out = parts.radius - parts.profile->inset();
+  bool reached = true;
+  const auto angle = [&](const CamFoot& f) {
+    const auto way = way_at(f.p + out * f.n, plan, parts);
+    if (!way) reached = false;
+    return way ? angle_between(f.n, *way) : 0.0;
+  };
+  const CamFoot worst = parts.profile->least([&](const CamFoot& f) { return -angle(f); });
+  if (!reached) return {};
+  return angle(worst);
+}
+
+bool check_face(const BuildContext& context, const CamPlan& plan, const char* keyword, const CamFoot& hollow, CamParts& parts) {
+  if (const CamMotion* motion = parts.profile->curve().motion()) {
+    const double radius = least_face_radius(*motion, plan.base, plan.face.dot(plan.direction));
+    if (radius > 0) {
+      parts.derived.push_back({"least radius of curvature of the profile", radius, dimension::length});
+      return true;
+    }
+    context.error("BASE",
+                  fmt::format("the profile is undercut and crosses itself: its least radius of curvature, base + lift + lift'', "
+                              "is {:.6g}",
+                              radius),
+                  fmt::format("a flat face needs BASE above {:.6g}", plan.base - radius));
+    return false;
+  }
+  if (hollow.curvature > 0) return true;
+  const std::string what = fmt::format("the profile is hollow or straight at ({}, {}), where a flat face does not reach",
+                                       number(hollow.p[0]), number(hollow.p[1]));
+  if (parts.law) {
+    context.diagnostics.warning(context.record.where(keyword), what, "the face will rest on either side of it in turn");
+    return true;
+  }
+  context.error(keyword, what,
+                "a face that is held to the profile needs one that is convex everywhere; or give K: it then rests on it");
+  return false;
+}
+
+/// The hollow that is smaller than the roller, or the profile that the roller's path leaves no room for.
+bool check_roller(const BuildContext& context, const char* keyword, const CamFoot& sharp, const CamFoot& hollow,
+                  const CamParts& parts) {
+  const double inset = parts.profile->inset(), out = parts.radius - inset;
+  if (inset > 0 && sharp.curvature > 0 && 1 / sharp.curvature <= inset)
+    context.diagnostics.warning(context.record.where("FOLLOWER"),
+                                fmt::format("the profile is undercut: the roller has a radius of {}, and the path of its centre "
+                                            "one of {:.6g} at cam angle {:.4g}",
+                                            number(parts.radius), 1 / sharp.curvature, std::fmod(sharp.s / degree + 720, 360)),
+                                "a larger BASE, a wider segment or a smaller roller; the path is followed all the same");
+  if (!(hollow.curvature < 0) || !(-1 / hollow.curvature <= out)) return true;
+  const std::string what = fmt::format("a roller of radius {} does not fit into the hollow of radius {:.6g} at ({}, {})",
+                                       number(parts.radius), -1 / hollow.curvature, number(hollow.p[0]), number(hollow.p[1]));
+  if (parts.law) {
+    context.diagnostics.warning(context.record.where(keyword), what,
+                                "it will touch on one side of it or on the other, where it should touch on both");
+    return true;
+  }
+  context.error(keyword, what, "a smaller roller, or a profile with wider hollows");
+  return false;
+}
+
+}  // namespace
+
+bool check_design(const BuildContext& context, const CamPlan& plan, CamParts& parts) {
+  const CamProfile& profile = *parts.profile;
+  const char* keyword = profile.curve().motion() ? "MOTION" : context.record.given("TABLE") ? "TABLE" : "POLAR";
+  const auto tell = [&](const char* name, double value, Dimension d = dimension::length) {
+    parts.derived.push_back({name, value, d});
+  };
+  const CamFoot sharp = profile.least([](const CamFoot& f) { return -f.curvature; });
+  const CamFoot hollow = profile.least([](const CamFoot& f) { return f.curvature; });
+  if (parts.flat) {
+    if (!check_face(context, plan, keyword, hollow, parts)) return false;
+  }
+  if (const auto place = profile.crossing()) {
+    context.error(
+        keyword,
+        fmt::format("the {} crosses itself near ({}, {})", profile.inset() > 0 ? "path of the roller's centre" : "profile",
+                    number((*place)[0]), number((*place)[1])),
+        "give the points in the order in which they follow each other round the cam");
+    return false;
+  }
+  if (!parts.flat && !check_roller(context, keyword, sharp, hollow, parts)) return false;
+
+  const auto radius = [&](const CamFoot& f) { return (f.p - profile.inset() * f.n).norm(); };
+  tell("base circle", radius(profile.least(radius)));
+  tell("greatest radius", radius(profile.least([&](const CamFoot& f) { return -radius(f); })));
+  if (!(parts.flat && profile.curve().motion())) {
+    if (sharp.curvature > 0) tell("least radius of curvature of the profile", 1 / sharp.curvature - profile.inset());
+    if (hollow.curvature < 0) tell("radius of the tightest hollow", -1 / hollow.curvature + profile.inset());
+  }
+  if (parts.radius > 0 && sharp.curvature > 0)
+    tell("least radius of curvature of the roller's path", 1 / sharp.curvature + parts.radius - profile.inset());
+  if (parts.guide.kind == CamGuide::Kind::slide) tell("offset of the slide", plane_cross(plan.direction, plan.point));
+  if (parts.guide.kind == CamGuide::Kind::arm) tell("length of the arm", (plan.point - plan.pivot).norm());
+  if (const auto angle = greatest_pressure_angle(plan, parts)) tell("greatest pressure angle", *angle, dimension::angle);
+  return true;
+}
+
+}  // namespace engrane::elements::cams

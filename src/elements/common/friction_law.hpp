@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <memory>
+
+#include "math/dual.hpp"
+#include "model/function.hpp"
+#include "user/routine.hpp"
+
+namespace engrane::elements {
+
+/// Dry friction between two surfaces: force μ(v, F) F against the sliding velocity. Below the speed `width` it falls to zero by
+/// a polynomial in v that keeps value, slope and curvature continuous; above it is Coulomb's law exactly. Its power is never
+/// negative.
+struct FrictionLaw {
+  enum class Kind {
+    constant,
+    stribeck,  ///< μ_k + (μ_s − μ_k) exp(−(v/v_s)²) + c v
+    function   ///< of the sliding speed
+  };
+  Kind kind = Kind::constant;
+  double mu = 0;              ///< μ, or μ_s
+  double kinetic = 0;         ///< μ_k
+  double stribeck_speed = 1;  ///< v_s
+  double viscous = 0;         ///< c, per unit of speed
+  const Function* of_speed = nullptr;
+  const Function* of_load = nullptr;          ///< a factor on μ, of the normal force; none: 1
+  std::shared_ptr<const user::Routine> user;  ///< instead of all the above: μ of speed and normal force
+  double width = 0;                           ///< speed below which it is regularised; positive
+
+  /// μ at a sliding speed, with derivatives; without the factor of the load.
+  Function::Jet coefficient(double speed) const {
+    switch (kind) {
+      case Kind::constant:
+        return {mu, 0, 0, 0};
+      case Kind::stribeck: {
+        const double s = speed / stribeck_speed, e = (mu - kinetic) * std::exp(-s * s);
+        return {kinetic + e + viscous * speed, -2 * s * e / stribeck_speed + viscous,
+                (4 * s * s - 2) * e / (stribeck_speed * stribeck_speed), 0};
+      }
+      case Kind::function:
+        return of_speed->at(speed);
+    }
+    return {};
+  }
+
+  /// μ/v, by which the sliding velocity and the normal force are multiplied; finite at rest.
+  template <class T>
+  T over_speed(const T& speed_squared, const T& load) const {
+    using std::sqrt;
+    constexpr double at_rest = 1e-8;  // of the width: keeps the root differentiable and changes no digit
+    const T speed = sqrt(speed_squared + at_rest * at_rest * width * width);
+    T factor;
+    if (user) {
+      const user::Results y = user->at({value_of(speed), value_of(load), 0});
+      factor = compose(speed, y[0], y[1], 0) + compose(load, 0, y[2], 0);
+    } else {
+      const Function::Jet c = coefficient(value_of(speed));
+      factor = compose(speed, c.f, c.d1, c.d2);
+      if (of_load) factor *= evaluate(*of_load, load);
+    }
+    if (value_of(speed) >= width) return factor / speed;
+    const T s = speed_squared * (1 / (width * width));
+    return factor * ((T(15) - s * 10.0 + s * s * 3.0) * (0.125 / width));
+  }
+};
+
+}  // namespace engrane::elements

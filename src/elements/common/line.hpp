@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The line between two nodes, along which springs and forces act.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "elements/common/building.hpp"
+#include "model/templated_element.hpp"
+
+namespace engrane::elements {
+
+/// Where the ends of the line are: at the nodes, or, for an end on the ground, at a fixed point.
+struct LineEnds {
+  std::array<int, 2> nodes{};
+  std::array<Vec3, 2> anchor{Vec3::Zero(), Vec3::Zero()};  ///< from the ground node, which is at the origin, to the end
+
+  /// The ends of a card: `at` is the ground's end (default: the origin). An error when the ends coincide, since a line needs
+  /// a direction, or when `at` is given and neither end is on the ground.
+  static std::optional<LineEnds> of(const BuildContext& context, const std::array<int, 2>& nodes,
+                                    const std::optional<std::array<double, 3>>& at, std::string_view cure);
+
+  double reference_length(const BuildContext& context) const {
+    return (context.nodes.at(nodes[1]) + anchor[1] - context.nodes.at(nodes[0]) - anchor[0]).norm();
+  }
+
+  /// Length of the line, its rate and its direction from the first end to the second. Coincident ends have no direction:
+  /// then it is zero, and so is every force along it.
+  template <class T>
+  struct Reach {
+    T length, rate;
+    Vec3T<T> direction;
+  };
+
+  template <class T, class Nodes>
+  Reach<T> reach(const Nodes& node) const {
+    const Vec3T<T> arrow = node[1].x - node[0].x + (anchor[1] - anchor[0]).template cast<T>();
+    using std::sqrt;
+    const T square = dot(arrow, arrow);
+    if (value_of(square) == 0) return {T(0), T(0), Vec3T<T>(T(0), T(0), T(0))};
+    const T length = sqrt(square);
+    const Vec3T<T> direction = arrow * (T(1) / length);
+    return {length, dot(direction, Vec3T<T>(node[1].v - node[0].v)), direction};
+  }
+
+  /// Adds the resistance of a line that pulls its ends together with `tension`.
+  template <class T>
+  void pull(const Vec3T<T>& tension, Balance<T, 2>& balance) const {
+    balance.force(0, Vec3T<T>(-tension));
+    balance.force(1, tension);
+    // the ground takes its force at the anchor
+    balance.moment(0, Vec3T<T>(cross(tension, Vec3T<T>(anchor[0].template cast<T>()))));
+    balance.moment(1, Vec3T<T>(cross(Vec3T<T>(anchor[1].template cast<T>()), tension)));
+  }
+};
+
+}  // namespace engrane::elements

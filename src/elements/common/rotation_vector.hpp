@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rotation vector of a rotation, in numbers that elements differentiate.
+#pragma once
+
+#include <cmath>
+
+#include "math/dual.hpp"
+#include "math/taylor.hpp"
+#include "math/vector.hpp"
+
+namespace engrane::elements {
+
+/// θ with R = exp(θ), |θ| < π, and what relates its change to spatial rotations δφ, R → exp(δφ) R:
+///
+///     δθ = δφ − ½ θ × δφ + κ θ × (θ × δφ),   κ = (1 − (a/2) cot(a/2)) / a²,   a = |θ|
+///
+/// (Géradin and Cardona, Flexible Multibody Dynamics, 2001, ch. 4; the inverse tangent operator).
+template <class T>
+struct RotationVector {
+  Vec3T<T> theta;
+  T kappa;
+
+  /// Of a rotation other than by half a turn, where the vector changes its sign.
+  static RotationVector of(const Mat3T<T>& R);
+
+  /// δθ of a spatial rotation, or the rate of θ of an angular velocity.
+  Vec3T<T> change(const Vec3T<T>& phi) const {
+    return phi - cross(theta, phi) * T(0.5) + cross(theta, Vec3T<T>(cross(theta, phi))) * kappa;
+  }
+  /// The moment m with m·δφ = f·δθ.
+  Vec3T<T> moment(const Vec3T<T>& f) const {
+    return f + cross(theta, f) * T(0.5) + cross(theta, Vec3T<T>(cross(theta, f))) * kappa;
+  }
+};
+
+template <class T>
+RotationVector<T> RotationVector<T>::of(const Mat3T<T>& R) {
+  using std::atan2, std::sqrt;
+  // the quaternion from its largest component (Shepperd, 1978), so that nothing cancels
+  const double trace = value_of(R(0, 0)) + value_of(R(1, 1)) + value_of(R(2, 2));
+  Vec3T<T> v;
+  T w;
+  if (trace > 0) {
+    const T root = sqrt(T(1) + R(0, 0) + R(1, 1) + R(2, 2));
+    const T scale = T(0.5) / root;
+    w = root * T(0.5);
+    v = Vec3T<T>((R(2, 1) - R(1, 2)) * scale, (R(0, 2) - R(2, 0)) * scale, (R(1, 0) - R(0, 1)) * scale);
+  } else {
+    int i = 0;
+    for (int c = 1; c < 3; ++c)
+      if (value_of(R(c, c)) > value_of(R(i, i))) i = c;
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const T root = sqrt(T(1) + R(i, i) - R(j, j) - R(k, k));
+    const T scale = T(0.5) / root;
+    v[i] = root * T(0.5);
+    v[j] = (R(j, i) + R(i, j)) * scale;
+    v[k] = (R(k, i) + R(i, k)) * scale;
+    w = (R(k, j) - R(j, k)) * scale;
+    if (value_of(w) < 0) {
+      w = -w;
+      v = Vec3T<T>(-v);
+    }
+  }
+  const T square = dot(v, v);  // sin²(a/2)
+  RotationVector out;
+  if (value_of(square) < 1e-3) {
+    // (a/2)/sin(a/2) by the series of the arc sine, to rounding
+    const T half =
+        T(1) + square * (T(1.0 / 6) +
+                         square * (T(3.0 / 40) + square * (T(5.0 / 112) + square * (T(35.0 / 1152) + square * T(63.0 / 2816)))));
+    out.theta = v * (T(2) * half);
+    const T a2 = T(4) * square * half * half;
+    out.kappa = T(1.0 / 12) + a2 * (T(1.0 / 720) + a2 * (T(1.0 / 30240) + a2 * T(1.0 / 1209600)));
+  } else {
+    const T sine = sqrt(square);
+    const T half = atan2(sine, w) / sine;
+    out.theta = v * (T(2) * half);
+    out.kappa = (T(1) - half * w) / (T(4) * square * half * half);
+  }
+  return out;
+}
+
+}  // namespace engrane::elements

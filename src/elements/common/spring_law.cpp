@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/common/spring_law.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "model/user_function.hpp"
+
+namespace engrane::elements {
+
+namespace {
+
+/// The formula of D and V that a keyword names; nullptr with an error when it is none.
+const Expression* find_formula(const BuildContext& context, const std::string& keyword, int id) {
+  const auto it = context.functions.find(id);
+  if (it == context.functions.end()) {
+    context.error(keyword, fmt::format("function {} does not exist", id),
+                  fmt::format("declare it with .FCT I {} EXPR \"...\", a formula of D, V and T", id));
+    return nullptr;
+  }
+  if (!it->second) return nullptr;  // what is wrong with it was said already
+  if (!it->second->law())
+    context.error(keyword, fmt::format("function {} is no formula of D or V", id),
+                  "LAW TABLE takes a function of one variable, LAW EXPR a formula such as \"2E4*D*(1 + 0.3*V)\"");
+  return it->second->law();
+}
+
+}  // namespace
+
+std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping,
+                                       double first, double scale, const std::string& suffix) {
+  SpringLaw law;
+  law.k1 = stiffness;
+  law.damping = damping;
+  if (data.law.given() && stiffness != 0) {
+    context.error("LAW" + suffix, fmt::format("K{0} and LAW{0} both give the spring's force", suffix),
+                  fmt::format("give K{0} or LAW{0}; LAW{0} POLY k1 k2 k3 starts with the stiffness", suffix));
+    return {};
+  }
+  if (data.damping_law != 0 && damping != 0) {
+    context.error("CLAW" + suffix, fmt::format("C{0} and CLAW{0} both give the damper's force", suffix),
+                  fmt::format("give C{0} or CLAW{0}", suffix));
+    return {};
+  }
+  if (data.law.is("TABLE") || data.law.is("EXPR")) {
+    const double id = data.law.values[0];
+    if (id != std::floor(id) || !(id > 0 && id < 1e9)) {
+      context.error("LAW" + suffix, fmt::format("{} is not the number of a function", number(id)),
+                    fmt::format("LAW{} {} f, where .FCT declares f", suffix, data.law.tag));
+      return {};
+    }
+    if (data.law.is("EXPR")) {
+      law.formula = find_formula(context, "LAW" + suffix, static_cast<int>(id));
+      if (!law.formula) return {};
+      if (!law.formula->uses_time())
+        law.of_formula_ = std::make_shared<PanelIntegral>([f = law.formula](double e) { return f->law(e, 0, 0).value; });
+    } else {
+      law.of_stretch = context.function(static_cast<int>(id), "LAW" + suffix);
+      if (!law.of_stretch) return {};
+    }
+  } else if (data.law.is("USER")) {
+    std::vector<user::Arguments> samples{{first, 0, 0}};
+    for (const double part : {-1.0, -0.313, 0.171, 0.477, 1.0})
+      samples.push_back({first + part * scale, 0.7 * (part + 0.1) * scale, 0});
+    law.user = user_routine(context, "LAW" + suffix, data.law.values[0], user::Kind::force, {scale, scale, 1}, samples);
+    if (!law.user) return {};
+    law.user_stores_ = law.user->gives(3, samples[0]);
+  } else if (data.law.given()) {
+    const std::vector<double>& k = data.law.values;
+    law.k1 = k[0];
+    if (k.size() > 1) law.k2 = k[1];
+    if (k.size() > 2) law.k3 = k[2];
+  }
+  if (data.damping_law != 0) {
+    law.of_rate = context.function(data.damping_law, "CLAW" + suffix);
+    if (!law.of_rate) return {};
+  }
+  return law;
+}
+
+Expression::Law SpringLaw::of_both(double stretch, double rate, double time) const {
+  if (formula) return formula->law(stretch, rate, time);
+  const user::Results y = user->at({stretch, rate, time});
+  return {y[0], y[1], y[2]};
+}
+
+Energies SpringLaw::energies(double stretch, double rate, double time) const {
+  Energies e;
+  e.dissipated = viscous(rate) * rate;
+  if (!formula && !user) {
+    e.potential = stored(stretch);
+    return e;
+  }
+  e.dissipated += of_both(stretch, rate, time).value * rate;
+  if (!of_formula_ && !user_stores_) return e;
+  e.potential = of_formula_ ? (*of_formula_)(stretch) : user->at({stretch, 0, time})[3];
+  e.dissipated -= of_both(stretch, 0, time).value * rate;
+  return e;
+}
+
+}  // namespace engrane::elements

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The laws of springs and dampers, of an elongation or of an angle.
+#pragma once
+
+#include <memory>
+
+#include "elements/common/building.hpp"
+#include "model/function.hpp"
+#include "model/function_integral.hpp"
+#include "user/routine.hpp"
+
+namespace engrane::elements {
+
+/// Keywords that SPRING and TSPRING share. Without `LAW` the spring is linear in K, without `CLAW` the damper in C.
+struct SpringLawData {
+  deck::Tagged law;     ///< TABLE f, POLY k1 [k2 [k3]], EXPR f or USER f
+  int damping_law = 0;  ///< function of the rate
+};
+
+/// Tension of a spring and damper: f(e) + g(ė), e measured from where the spring is relaxed. The energy is ∫f from 0 to e. Or a
+/// routine of the user's or a formula, f(e, ė, t) + g(ė). A routine's energy is what it says, a formula's ∫f(e, 0) where it does
+/// not depend on time; without energy all the work counts as lost.
+struct SpringLaw {
+  double k1 = 0, k2 = 0, k3 = 0;              ///< f = k1 e + k2 e² + k3 e³, unless `of_stretch` is given
+  const Function* of_stretch = nullptr;       ///< f
+  const Expression* formula = nullptr;        ///< f of the elongation, its rate and the time
+  std::shared_ptr<const user::Routine> user;  ///< the same
+  double damping = 0;                         ///< g = damping ė, unless `of_rate` is given
+  const Function* of_rate = nullptr;          ///< g
+
+  /// Spring and damper together.
+  template <class T>
+  T force(const T& stretch, const T& rate, double time) const {
+    if (!formula && !user) return elastic(stretch) + viscous(rate);
+    const Expression::Law y = of_both(value_of(stretch), value_of(rate), time);
+    return compose(stretch, y.value, y.by_elongation, 0) + compose(rate, 0, y.by_rate, 0) + viscous(rate);
+  }
+  /// Energy stored and power lost.
+  Energies energies(double stretch, double rate, double time) const;
+
+  bool acts() const { return user || formula || of_stretch || of_rate || k1 != 0 || k2 != 0 || k3 != 0 || damping != 0; }
+
+  /// The law of a card with one stiffness and one damping; an error, and none, when K and LAW or C and CLAW are both given.
+  /// `first` is the elongation at the start and `scale` over how much of it a law may change, for a USER law; `suffix` stands
+  /// behind the keywords.
+  static std::optional<SpringLaw> of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping,
+                                     double first, double scale, const std::string& suffix = {});
+
+ private:
+  /// Of a formula or a routine.
+  Expression::Law of_both(double stretch, double rate, double time) const;
+  template <class T>
+  T elastic(const T& stretch) const {
+    if (of_stretch) return evaluate(*of_stretch, stretch);
+    if (k2 == 0 && k3 == 0) return k1 * stretch;
+    return stretch * (k1 + stretch * (k2 + stretch * k3));
+  }
+  template <class T>
+  T viscous(const T& rate) const {
+    return of_rate ? evaluate(*of_rate, rate) : damping * rate;
+  }
+  double stored(double stretch) const {
+    if (of_stretch) return of_stretch->integral(stretch);
+    return stretch * stretch * (k1 / 2 + stretch * (k2 / 3 + stretch * (k3 / 4)));
+  }
+
+  bool user_stores_ = false;                         ///< the routine gives the energy
+  std::shared_ptr<const PanelIntegral> of_formula_;  ///< ∫f(e, 0) of a formula without time
+};
+
+/// Adds LAW and CLAW to a card, `suffix` behind them; `stretch` is the word for e, and `force` for what it makes. `Data` is the
+/// card's struct or a base of it.
+template <class Data, class Whole>
+void add_spring_law(deck::Card<Whole>& card, const std::string& stretch, const std::string& force, const std::string& suffix) {
+  deck::Tagged Data::*law = &SpringLawData::law;
+  int Data::*damping_law = &SpringLawData::damping_law;
+  card.add("LAW" + suffix, law, "instead of K" + suffix + ": " + force + " as a function of the " + stretch)
+      .synonyms({"LOI" + suffix})
+      .option({"TABLE", {"FONCTION", "FUNCTION"}, "function f of the " + stretch, 1, 1})
+      .option({"POLY", {"POLYNOME"}, "k1 e + k2 e2 + k3 e3 of the " + stretch + " e", 1, 3})
+      .option({"EXPR", {"FORMULE"}, "f: formula f of .FCT, of the " + stretch + " D, its rate V and the time T", 1, 1})
+      .option({"USER", {"UTILISATEUR"}, "f: routine f of .FCT, of the " + stretch + ", its rate and the time", 1, 1});
+  card.add("CLAW" + suffix, damping_law, "instead of C" + suffix + ": function of the rate of the " + stretch)
+      .synonyms({"LOI_C" + suffix})
+      .refers(deck::Reference::function)
+      .at_least(0);
+}
+template <class Data>
+void add_spring_law(deck::Card<Data>& card, const std::string& stretch, const std::string& force) {
+  add_spring_law<Data, Data>(card, stretch, force, "");
+}
+
+}  // namespace engrane::elements

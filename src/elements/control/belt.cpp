@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/control/belt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "elements/common/building.hpp"
+#include "elements/control/joint_coordinate.hpp"
+
+namespace engrane::elements::control {
+
+namespace {
+
+/// Sizes that do not change.
+struct BeltShape {
+  double r1 = 0, r2 = 0;
+  double side = 1;                                 ///< 1 open, -1 crossed: the sense in which the second pulley turns
+  double reach() const { return r1 - side * r2; }  ///< the free spans leave the line of centres by asin(reach/distance)
+
+  /// Length of belt, but for a constant, that one span and half its wraps take up: L + reach β with L = sqrt(d² − reach²),
+  /// sin β = reach/d. Its derivative by d is cos β.
+  template <class T>
+  T taken(const T& d) const {
+    using std::atan2;
+    using std::sqrt;
+    const T free = sqrt(d * d - reach() * reach());
+    return free + reach() * atan2(T(reach()), free);
+  }
+};
+
+struct BeltLaw {
+  double stiffness = 0;  ///< 0: rigid
+  double preload = 0;
+  double damping = 0;
+  std::optional<double> friction;
+  bool rigid() const { return stiffness == 0; }
+};
+
+/// The spans run along the two tangents t₁,₂ = cos β u ∓ sin β n of the pulleys, u along the line of centres and n = e × u
+/// across it. Stretches of the spans, with the pulleys' turns θ counted from the line of centres:
+///
+///     δ₁,₂ = taken(d) − taken(d₀) ± (r₁ θ_A − s r₂ θ_B)
+///
+/// and their gradients are the tangents, so that each span pulls with its tension along its own line.
+class Belt final : public TemplatedElement<Belt, 2, 13> {
+ public:
+  Belt(int id, const std::array<int, 2>& nodes, const JointFrame& frame, const BeltShape& shape, const BeltLaw& law,
+       double distance)
+      : TemplatedElement(id), frame_(frame), shape_(shape), law_(law), distance_(distance), taken_(shape.taken(distance)) {
+    Layout layout;
+    layout.nodes.assign(nodes.begin(), nodes.end());
+    layout.needs = {NodeNeed::both, NodeNeed::both};
+    layout.history = 2 * turn_count::history;
+    if (law.rigid()) layout.multipliers = {{"PULL", dimension::length, "tension of the second span less that of the first"}};
+    set_layout(std::move(layout));
+    name_channels();
+  }
+
+  template <class T>
+  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
+    const auto& a = motion.node[0];
+    const auto& b = motion.node[1];
+    const Runs<T> runs(*this, a, b, state);
+    const auto [first, second] = tensions(runs, [&] { return balance.constraint(0, runs.roll); });
+    const Vec3T<T> force = runs.tangent[0] * T(-first) - runs.tangent[1] * second;
+    const Vec3T<T> moment = runs.turned * (shape_.side * shape_.r2 * (first - second));
+    balance.force(0, force);
+    balance.force(1, Vec3T<T>(-force));
+    balance.moment(0, rotate_back(a.R, Vec3T<T>(cross(runs.pose.gap, force) + moment)));
+    balance.moment(1, rotate_back(b.R, Vec3T<T>(-moment)));
+  }
+
+  void commit(const State& state, std::span<double>, std::span<double> history) const override {
+    const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);
+    turn_count::commit(runs.line_angle, state.history.first(2), history.first(2));
+    turn_count::commit(runs.turn_angle, state.history.subspan(2), history.subspan(2));
+  }
+
+  Energies energies(const State& state) const override {
+    const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);
+    Energies e;
+    if (law_.rigid()) {
+      e.potential = 2 * law_.preload * runs.slack_taken;
+      return e;
+    }
+    for (int i = 0; i < 2; ++i) {
+      const double elastic = taut(runs.stretch(i));
+      e.potential += 0.5 * elastic * elastic / law_.stiffness;
+      e.dissipated += (tension(runs.stretch(i), runs.stretch_rate(i)) - elastic) * runs.stretch_rate(i);
+    }
+    return e;
+  }
+
+  const std::vector<Named>& channels() const override { return channels_; }
+
+  void observe(const State& state, std::span<double> values) const override {
+    const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);
+    const auto [first, second] = tensions(runs, [&] { return state.multipliers[0] - state.penalty * runs.roll; });
+    const Vec3 force = -first * runs.tangent[0] - second * runs.tangent[1];
+    const double beta = std::asin(shape_.reach() / runs.distance);
+    const double wrap_1 = std::numbers::pi + 2 * beta, wrap_2 = std::numbers::pi - 2 * shape_.side * beta;
+    std::size_t i = 0;
+    const auto write = [&](double value) { values[i++] = value; };
+    write(first);
+    write(second);
+    write(std::max(first, second));
+    write(std::min(first, second));
+    write(-shape_.r1 * (first - second));
+    write(shape_.side * shape_.r2 * (first - second));
+    write(runs.speed_1);
+    write(runs.speed_2);
+    for (Eigen::Index c = 0; c < 3; ++c) write(force[c]);
+    write(force.norm());
+    write(runs.distance * std::cos(beta));
+    write(wrap_1);
+    write(wrap_2);
+    if (!law_.rigid()) {
+      write(runs.stretch(0));
+      write(runs.stretch(1));
+    }
+    if (law_.friction) {
+      // Euler and Eytelwein: the tight side carries at most exp(mu wrap) times the slack side
+      const double tight = std::max(first, second), most = -std::expm1(-*law_.friction * std::min(wrap_1, wrap_2));
+      write(tight > 0 ? (tight - std::max(0.0, std::min(first, second))) / (tight * most) : 0);
+    }
+  }
+
+  std::vector<Derived> derived() const override {
+    const double beta = std::asin(shape_.reach() / distance_), free = distance_ * std::cos(beta);
+    std::vector<Derived> all = {
+        {"ratio of speeds", shape_.side * shape_.r1 / shape_.r2, dimension::none},
+        {"centre distance", distance_, dimension::length},
+        {"free span", free, dimension::length},
+        {"belt length",
+         2 * free + shape_.r1 * (std::numbers::pi + 2 * beta) + shape_.r2 * (std::numbers::pi - 2 * shape_.side * beta),
+         dimension::length}};
+    if (!law_.rigid()) all.push_back({"stiffness of a span", law_.stiffness, dimension::stiffness});
+    return all;
+  }
+
+  Drawing drawing() const override { return {fmt::format(R"("shape": "line", "points": {})", json(layout().nodes))}; }
+
+ private:
+  /// Where the spans run, and how far they are stretched.
+  template <class T>
+  struct Runs {
+    JointPose<T> pose;
+    T distance, slack_taken, roll, taken_rate, roll_rate;
+    double line_angle, turn_angle;  ///< in (−π, π]
+    T speed_1, speed_2;             ///< of the pulleys, seen from the line of centres
+    std::array<Vec3T<T>, 2> tangent;
+    Vec3T<T> turned;  ///< gradient of the turn of B from A
+
+    template <class Node>
+    Runs(const Belt& belt, const Node& a, const Node& b, const State& state) : pose(belt.frame_, a, b) {
+      using std::atan2;
+      using std::sqrt;
+      const BeltShape& shape = belt.shape_;
+      const Vec3T<T> in_plane = pose.gap - pose.a1 * dot(pose.a1, pose.gap);
+      distance = sqrt(dot(in_plane, in_plane));
+      const Vec3T<T> u = in_plane * (T(1) / distance), n = cross(pose.a1, u);
+      const T sine = shape.reach() / distance, cosine = sqrt(T(1) - sine * sine);
+      tangent = {Vec3T<T>(u * cosine - n * sine), Vec3T<T>(u * cosine + n * sine)};
+      const T line = atan2(dot(u, pose.a3), dot(u, pose.a2));
+      const AxisAngle<T> turn = axis_angle(std::array{pose.a1, pose.a2, pose.a3}, std::array{pose.b1, pose.b2, pose.b3});
+      turned = turn.gradient;
+      line_angle = value_of(line);
+      turn_angle = value_of(turn.angle);
+      const double lines = turn_count::turns(line_angle, state.history.first(2)),
+                   turns = turn_count::turns(turn_angle, state.history.subspan(2));
+      // r₁ θ_A − s r₂ θ_B: the line of centres seen from A turns by −θ_A, B from A by θ_B − θ_A
+      roll = -shape.reach() * line - shape.side * shape.r2 * turn.angle +
+             2 * std::numbers::pi * (-shape.reach() * lines - shape.side * shape.r2 * turns);
+      slack_taken = shape.taken(distance) - belt.taken_;
+
+      const Vec3T<T> spin_a = rotate(a.R, a.W), spin_b = rotate(b.R, b.W);
+      const Vec3T<T> slip = b.v - a.v - cross(spin_a, pose.gap);
+      speed_1 = T(-1) * dot(n, slip) / distance;
+      speed_2 = speed_1 + dot(turned, Vec3T<T>(spin_b - spin_a));
+      roll_rate = shape.r1 * speed_1 - shape.side * shape.r2 * speed_2;
+      taken_rate = cosine * dot(u, slip);
+    }
+    T stretch(int i) const { return i == 0 ? T(slack_taken + roll) : T(slack_taken - roll); }
+    T stretch_rate(int i) const { return i == 0 ? T(taken_rate + roll_rate) : T(taken_rate - roll_rate); }
+  };
+
+  /// Elastic tension: a slack span does not push.
+  template <class T>
+  T taut(const T& stretch) const {
+    const T tension = law_.preload + law_.stiffness * stretch;
+    return value_of(tension) > 0 ? tension : T(0);
+  }
+  /// The damper acts in proportion to the tension, C at the preload, so that it lets go with the span.
+  template <class T>
+  T tension(const T& stretch, const T& rate) const {
+    const T elastic = taut(stretch);
+    if (law_.damping == 0) return elastic;
+    const T factor = T(1) + law_.damping / law_.preload * rate;
+    return value_of(factor) > 0 ? T(elastic * factor) : T(0);
+  }
+  /// Tensions of the two spans; `pull` gives the force along the gradient of `roll` where the belt is rigid.
+  template <class T, class Pull>
+  std::array<T, 2> tensions(const Runs<T>& runs, Pull pull) const {
+    if (!law_.rigid()) return {tension(runs.stretch(0), runs.stretch_rate(0)), tension(runs.stretch(1), runs.stretch_rate(1))};
+    const T half = T(pull()) * 0.5;
+    return {T(law_.preload - half), T(law_.preload + half)};
+  }
+
+  void name_channels() {
+    channels_ = {{"TENSION_1", dimension::force, "of the span on the side of AXIS x (line from A to B)"},
+                 {"TENSION_2", dimension::force, "of the other span"},
+                 {"TIGHT_SIDE", dimension::force, "the larger tension"},
+                 {"SLACK_SIDE", dimension::force, "the smaller tension; negative: a rigid belt would be slack"},
+                 {"TORQUE_1", dimension::moment, "of the belt on A about AXIS"},
+                 {"TORQUE_2", dimension::moment, "of the belt on B about AXIS"},
+                 {"SPEED_1", dimension::angular_velocity, "of A, seen from the line of centres"},
+                 {"SPEED_2", dimension::angular_velocity, "of B, seen from the line of centres"},
+                 {"FORCE_X", dimension::force, "force of the belt on B, global"},
+                 {"FORCE_Y", dimension::force, "force of the belt on B, global"},
+                 {"FORCE_Z", dimension::force, "force of the belt on B, global"},
+                 {"BEARING_FORCE", dimension::force, "size of the force of the belt on either pulley"},
+                 {"SPAN", dimension::length, "length of a free span"},
+                 {"WRAP_1", dimension::angle, "angle that the belt wraps round A"},
+                 {"WRAP_2", dimension::angle, "angle that the belt wraps round B"}};
+    if (!law_.rigid()) {
+      channels_.push_back({"STRETCH_1", dimension::length, "stretch of the first span beyond its preload"});
+      channels_.push_back({"STRETCH_2", dimension::length, "stretch of the second span beyond its preload"});
+    }
+    if (law_.friction)
+      channels_.push_back(
+          {"GRIP_USED", dimension::none, "difference of the tensions over the most that friction holds; 1 slips"});
+  }
+
+  JointFrame frame_;
+  BeltShape shape_;
+  BeltLaw law_;
+  double distance_, taken_;  ///< in the reference configuration
+  std::vector<Named> channels_;
+};
+
+std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {
+  const auto axis = unit_vector(context, "AXIS", data.axis);
+  if (!check_nodes(context, {data.nodes[0], data.nodes[1]}) || !axis) return nullptr;
+  const Vec3 gap = context.nodes.at(data.nodes[1]) - context.nodes.at(data.nodes[0]);
+  const Vec3 across = gap - *axis * axis->dot(gap);
+  const BeltShape shape{data.radii[0], data.radii[1], data.crossed ? -1.0 : 1.0};
+  const double distance = across.norm(), least = data.crossed ? shape.r1 + shape.r2 : std::abs(shape.r1 - shape.r2);
+  if (std::abs(axis->dot(gap)) > 1e-6 * gap.norm()) {
+    context.error("N", fmt::format("the pulleys are {:.6g} apart along their axis", std::abs(axis->dot(gap))),
+                  "the nodes must lie in the plane of the belt; join others to them by RIGID");
+    return nullptr;
+  }
+  if (distance <= least || distance <= std::max(shape.r1, shape.r2)) {
+    context.error(
+        "R",
+        fmt::format("the pulleys are {:.6g} apart: no belt runs {} them", distance, data.crossed ? "crossed between" : "between"),
+        fmt::format("a distance of more than {:.6g} is needed", std::max({least, shape.r1, shape.r2})));
+    return nullptr;
+  }
+  if (data.stiffness && data.rigidity) {
+    context.error("EA", "K and EA both give the stiffness of the spans", "keep one of them");
+    return nullptr;
+  }
+  const double free = std::sqrt(distance * distance - shape.reach() * shape.reach());
+  BeltLaw law{data.stiffness.value_or(data.rigidity.value_or(0) / free), data.preload, data.damping, data.friction};
+  if (law.damping > 0 && law.rigid()) {
+    context.error("C", "a rigid belt has no damping", "give the stiffness of the spans, K or EA");
+    return nullptr;
+  }
+  if (law.damping > 0 && law.preload == 0) {
+    context.error("C", "damping without a preload", "C holds at the tension PRELOAD, and follows the tension of each span");
+    return nullptr;
+  }
+  JointFrame frame;
+  frame.set_axes(*axis, across / distance);
+  return std::make_unique<Belt>(context.record.id, data.nodes, frame, shape, law, distance);
+}
+
+}  // namespace
+
+ElementType belt_type() {
+  deck::Card<BeltData> card("BELT", {"COURROIE"}, "Two pulleys and a belt that does not slip on them");
+  card.numbered()
+      .chapter("Flexible joints")
+      .describe(
+          "The pulleys are at the nodes, with radii R and parallel axes. The belt runs open, or CROSSED, which turns the second "
+          "pulley the other way. With K or EA the free spans are elastic, each pulls along its own tangent and a slack one does "
+          "not push; the centre distance may change. Without them the belt only holds the ratio of the turns, each span pulling "
+          "with PRELOAD and half the difference.")
+      .example("I 5 BELT N 1 2  AXIS 0 0 1  R 0.05 0.12  EA 2D5  PRELOAD 300  C 40  MU 0.4")
+      .example("I 6 BELT N 1 2  AXIS 0 0 1  R 0.05 0.12  CROSSED");
+  card.add("N", &BeltData::nodes, "the two pulleys, a and b; 0 is the ground")
+      .synonyms({"NODES", "NOEUDS"})
+      .refers(deck::Reference::node)
+      .required();
+  card.add("AXIS", &BeltData::axis, "axis of the pulleys, in the reference configuration").synonyms({"AXE"}).required();
+  card.add("R", &BeltData::radii, "radii of the pulleys, to the middle of the belt")
+      .unit(dimension::length)
+      .positive()
+      .required();
+  card.add("CROSSED", &BeltData::crossed, "the belt is crossed").synonyms({"CROISEE"});
+  card.add("K", &BeltData::stiffness, "stiffness of one free span").unit(dimension::stiffness).positive();
+  card.add("EA", &BeltData::rigidity, "force per strain; the stiffness of a span is EA over its length")
+      .unit(dimension::force)
+      .positive();
+  card.add("C", &BeltData::damping, "damping of one free span at its preload").unit(dimension::damping).at_least(0);
+  card.add("PRELOAD", &BeltData::preload, "tension of both spans in the reference configuration")
+      .synonyms({"PRECHARGE"})
+      .unit(dimension::force)
+      .at_least(0);
+  card.add("MU", &BeltData::friction, "friction on the pulleys, for the channel GRIP_USED").positive();
+  return element_type(card, build);
+}
+
+}  // namespace engrane::elements::control

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "elements/control/joint_coordinate.hpp"
+
+namespace engrane::elements::control {
+
+/// Card of a sensor. `SENSOR N a b DISTANCE [AT x y z]`, `SENSOR N a b ANGLE AXIS x y z`,
+/// `SENSOR N a b DISPLACEMENT AXIS x y z`; a may be left out: the ground.
+struct SensorData {
+  std::vector<int> nodes;  ///< one or two
+  deck::Tagged kind;       ///< DISTANCE, ANGLE or DISPLACEMENT
+  std::optional<std::array<double, 3>> axis;
+  std::optional<std::array<double, 3>> at;  ///< the ground's end of a distance
+};
+
+/// What a sensor measures, or nothing, with errors.
+std::optional<Coordinate> sensor_coordinate(const SensorData& data, const BuildContext& context);
+
+/// SENSOR (CAPTEUR): observes a distance, an angle or a displacement. It has no forces and adds no unknowns.
+ElementType sensor_type();
+
+}  // namespace engrane::elements::control

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/gears/gear_pair.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "base/text.hpp"
+#include "elements/common/building.hpp"
+#include "elements/gears/contact_channels.hpp"
+#include "elements/gears/gear_place.hpp"
+#include "elements/gears/gear_report.hpp"
+#include "elements/gears/tooth_phases.hpp"
+
+namespace engrane::elements::gears {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+std::vector<Named> channel_list() {
+  using namespace dimension;
+  std::vector<Named> list{{"NORMAL_FORCE", force, "normal tooth force, positive where A drives"}};
+  for (const char* wheel : {"A", "B"}) {
+    const std::string w(wheel), of = " on wheel " + w;
+    list.push_back({"TANGENTIAL_FORCE_" + w, force, "tooth force" + of + " along its positive sense of turning"});
+    list.push_back({"RADIAL_FORCE_" + w, force, "tooth force" + of + " towards its axle"});
+    list.push_back({"AXIAL_FORCE_" + w, force, "tooth force" + of + " along its axle"});
+    list.push_back({"TORQUE_" + w, moment, "moment of the tooth forces" + of + " about its axle"});
+  }
+  add_force_channels(list, {"wheel A", "wheel B"});
+  list.push_back({"PSI_A", angle, "turn of wheel A relative to the pair's frame, whole turns included"});
+  list.push_back({"PSI_B", angle, "turn of wheel B relative to the pair's frame, whole turns included"});
+  return list;
+}
+
+}  // namespace
+
+GearPair::GearPair(int id, std::array<int, 2> nodes, const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth,
+                   const ContactOptions& options, double width)
+    : ToothedPair(id, nodes, ToothContact(contact_geometry(design, width), teeth, options),
+                  {{{"PSI_A", dimension::angle, "turn of wheel A relative to the pair's frame"},
+                    {"PSI_B", dimension::angle, "turn of wheel B relative to the pair's frame"}}},
+                  2, channel_list()),
+      design_(design),
+      frames_(frames),
+      triad_{frames.mu, frames.xi},
+      tooth_{tooth_axes(design.cone[0], design.helix[0]), mating_tooth_axes(design.cone[1], design.helix[1])},
+      radius_{design.radius(0), design.radius(1)} {}
+
+ContactGeometry contact_geometry(const GearDesign& design, double width) {
+  ContactGeometry g;
+  g.pressure_angle = design.pressure_angle;
+  g.transverse_pressure_angle = design.transverse_pressure_angle(0);
+  g.helix = design.helix[0];
+  g.teeth = design.teeth[0];
+  g.radius = design.radius(0);
+  g.width = width;
+  const int kind = design.parallel_kind();
+  if (kind == 0) return g;
+  g.side = g.axle_sense = kind > 0 ? 1 : -1;
+  const double c = std::cos(g.transverse_pressure_angle);
+  const double sign_a = kind == -2 ? -1 : 1, sign_b = kind == -1 ? -1 : 1;
+  g.base_radii = c * (sign_a * design.radius(0) + sign_b * design.radius(1));
+  g.center_distance = std::abs(g.base_radii) / c;
+  g.base_pitch = std::numbers::pi * design.transverse_module(0) * c;
+  g.approach = path_of_contact(design, 1).value_or(0);
+  g.recess = path_of_contact(design, 0).value_or(0);
+  return g;
+}
+
+void GearPair::commit(const State& state, std::span<double> scalars, std::span<double> history) const {
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double turns = std::round(state.scalars[i] / turn);
+    scalars[i] = state.scalars[i] - turns * turn;
+    history[i] = state.history[i] + turns;
+  }
+}
+
+double GearPair::counted_phase(std::span<const double> history) const {
+  return turn * (design_.teeth[0] * history[0] + design_.teeth[1] * history[1]);
+}
+
+template <class T>
+ToothedSide<T> GearPair::wheel(std::size_t i, const Mat3T<T>& R, const T& psi) const {
+  return toothed_wheel(triad_[i], tooth_[i], radius_[i], R, psi);
+}
+
+template <class T>
+void GearPair::mesh(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const {
+  const T &psi_a = motion.scalar[0], &psi_b = motion.scalar[1];
+  const ToothedSide<T> a = wheel(0, motion.node[0].R, psi_a), b = wheel(1, motion.node[1].R, psi_b);
+  const double pitch = design_.normal_module / 2;
+  const T closing = -pitch * (design_.teeth[0] * psi_a + design_.teeth[1] * psi_b + counted_phase(state.history));
+  ToothLoads<T> loads;
+  const T normal_force = contact_.act(motion, a, b, closing, balance, loads, report);
+  // a change of ψ is the turn −δψ of the wheel's frame about its axle (18)
+  balance.scalar(0, contact_.cos_alpha() * design_.lever(0) * normal_force + dot(a.axle, loads.frame_moment[0]));
+  balance.scalar(1, contact_.cos_alpha() * design_.lever(1) * normal_force + dot(b.axle, loads.frame_moment[1]));
+}
+
+void GearPair::observe(const State& state, std::span<double> values) const {
+  ChannelWriter out(values);
+  const ContactReport on = report(state);
+  out.put(state.multipliers[0]);
+  std::array<Vec3, 2> point;
+  std::array<double, 2> power{};  // that the teeth give to each wheel, in the pair's frame
+  for (std::size_t i = 0; i < 2; ++i) {
+    const NodeState& node = state.nodes[i];
+    const auto w = wheel(i, node.R, state.scalars[i]);
+    point[i] = node.x + w.arm;
+    const Vec3 outward = w.arm / radius_[i], forward = cross(w.axle, outward);
+    const double torque = on.moment[i].dot(w.axle);
+    out.put(on.force[i].dot(forward));
+    out.put(-on.force[i].dot(outward));
+    out.put(on.force[i].dot(w.axle));
+    out.put(torque);
+    power[i] = torque * state.scalar_rates[i];
+  }
+  put_force_channels(out, on, 0.5 * (point[0] + point[1]));
+  for (std::size_t i = 0; i < 2; ++i) out.put(state.scalars[i] + turn * state.history[i]);
+  put_contact_channels(out, contact_, on, power, state.scalars);
+}
+
+template class ToothedPair<GearPair>;
+
+std::vector<Derived> GearPair::derived() const {
+  return gear_report(design_, frames_, contact_.law(), contact_.geometry().width);
+}
+
+Drawing GearPair::drawing() const {
+  Drawing shapes;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec3 toward = triad_[i].col(1);
+    const Vec3 center = frames_.contact - radius_[i] * toward;
+    shapes.push_back(R"("shape": "wheel", "node": )" + std::to_string(layout().nodes[i]) + R"(, "center": )" + json(center) +
+                     R"(, "axis": )" + json(Vec3(triad_[i].col(0))) + R"(, "toward": )" + json(toward) + R"(, "radius": )" +
+                     format_number(radius_[i]) + R"(, "cone": )" + format_number(design_.cone[i] / degree) + R"(, "helix": )" +
+                     format_number(paper_helix(design_.helix[i], design_.cone[i]) / degree) + R"(, "teeth": )" +
+                     std::to_string(design_.teeth[i]) + R"(, "module": )" + format_number(design_.normal_module) +
+                     R"(, "width": )" + format_number(contact_.geometry().width));
+  }
+  return shapes;
+}
+
+namespace {
+
+std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& context) {
+  const auto placement = place_gear(data, context);
+  if (!placement) return nullptr;
+  const GearDesign& design = placement->design;
+  const int kind = design.parallel_kind();
+  const double width = data.width.value_or(10 * design.normal_module);
+  TeethOwner owner;
+  owner.nodes = data.nodes;
+  owner.axle = {placement->frames.mu.col(0), placement->frames.xi.col(0)};
+  owner.teeth = design.teeth;
+  owner.ring = {kind == -2, kind == -1};
+  owner.lever = {design.lever(0), design.lever(1)};
+  owner.parallel = kind != 0;
+  owner.geometry = contact_geometry(design, width);
+  const auto mesh = mesh_phase(context, data.stiffness || data.course.is("ISO"));
+  if (!mesh) return nullptr;
+  owner.mesh = *mesh;
+  const auto teeth = read_teeth(data, owner, context);
+  if (!teeth) return nullptr;
+  return std::make_unique<GearPair>(context.record.id, data.nodes, design, placement->frames, teeth->law, teeth->options, width);
+}
+
+}  // namespace
+
+ElementType gear_pair_type() { return element_type(gear_card(), build_gear_pair, 1, place_second_wheel); }
+
+}  // namespace engrane::elements::gears

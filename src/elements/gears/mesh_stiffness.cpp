@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/gears/mesh_stiffness.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace engrane::elements::gears {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+}  // namespace
+
+Function::Jet smooth_step(double x, double width) {
+  if (x <= -0.5 * width) return {};
+  if (x >= 0.5 * width) return {1, 0, 0, 0};
+  const double t = x / width + 0.5, w = 1 / width;
+  return {t * t * t * (10 + t * (6 * t - 15)), 30 * w * t * t * (1 - t) * (1 - t), 60 * w * w * t * (1 - t) * (1 - 2 * t),
+          60 * w * w * w * (1 + 6 * t * (t - 1))};
+}
+
+Function::Jet fourier_series(const std::vector<double>& coefficients, double angle) {
+  Function::Jet sum;
+  for (std::size_t i = 0; i + 1 < coefficients.size(); i += 2) {
+    const double n = static_cast<double>(i / 2) + 1, c = std::cos(n * angle), s = std::sin(n * angle);
+    const double even = coefficients[i] * c + coefficients[i + 1] * s, odd = coefficients[i + 1] * c - coefficients[i] * s;
+    sum.f += even;
+    sum.d1 += n * odd;
+    sum.d2 -= n * n * even;
+    sum.d3 -= n * n * n * odd;
+  }
+  return sum;
+}
+
+Function::Jet MeshStiffness::square_wave(double cycle) const {
+  // One pair more for the fraction of the pitch by which the contact ratio exceeds a whole number. The middle of that
+  // interval is where two flanks touch half a base pitch on either side of the pitch point.
+  const double pairs = std::floor(contact_ratio), fraction = contact_ratio - pairs;
+  const double from_middle = cycle - 0.25 - std::round(cycle - 0.25);
+  const double side = from_middle < 0 ? -1 : 1;
+  const Function::Jet s = smooth_step(0.5 * fraction - std::abs(from_middle), edge);
+  const double step = 1 / contact_ratio;
+  return {step * (pairs + s.f), -side * step * s.d1, step * s.d2, -side * step * s.d3};
+}
+
+Function::Jet MeshStiffness::at(double phase) const {
+  switch (kind) {
+    case Kind::constant:
+      return {1, 0, 0, 0};
+    case Kind::fourier: {
+      Function::Jet k = fourier_series(coefficients, phase);
+      k.f += 1;
+      return k;
+    }
+    case Kind::table:
+      return stretched(function->at(phase / turn), 1 / turn);
+    case Kind::user: {
+      const user::Results y = at(phase, 0);
+      return {y[0], y[1], y[2], 0};
+    }
+    case Kind::square:
+      return stretched(square_wave(phase / turn), 1 / turn);
+  }
+  return {1, 0, 0, 0};
+}
+
+user::Results MeshStiffness::at(double phase, double deflection) const {
+  const double cycle = phase / turn;
+  user::Results y = routine->at({cycle - std::floor(cycle), deflection, 0});
+  y[1] /= turn;
+  y[2] /= turn * turn;
+  return y;
+}
+
+double iso_mesh_stiffness(const IsoMesh& mesh) {
+  constexpr double degree = std::numbers::pi / 180;
+  constexpr double steel = 206;  // N/(mm µm): 206 000 N/mm²
+  const double cos_beta = std::cos(mesh.helix);
+  const auto inverse_teeth = [&](std::size_t wheel) {
+    return mesh.ring[wheel] ? 0.0 : cos_beta * cos_beta * cos_beta / mesh.teeth[wheel];
+  };
+  // wheel 1 of the norm is the pinion
+  const std::size_t pinion = mesh.ring[0] || (!mesh.ring[1] && mesh.teeth[1] < mesh.teeth[0]) ? 1 : 0;
+  const double compliance = 0.04723 + 0.15551 * inverse_teeth(pinion) + 0.25791 * inverse_teeth(1 - pinion);
+  const double rack = 0.975 * (1 - 0.02 * (20 - mesh.pressure_angle / degree));
+  const double single = 0.8 * rack * cos_beta / compliance;
+  const double mean = single * (0.75 * mesh.contact_ratio + 0.25);
+  const double E = 2 * mesh.E[0] * mesh.E[1] / (mesh.E[0] + mesh.E[1]);
+  const double cos_alpha_t = std::cos(std::atan(std::tan(mesh.pressure_angle) / cos_beta));
+  return mean / steel * E * mesh.width * cos_alpha_t * cos_alpha_t / (cos_beta * cos_beta);
+}
+
+}  // namespace engrane::elements::gears

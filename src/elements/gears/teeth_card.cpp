@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/gears/teeth_card.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "elements/common/building.hpp"
+#include "elements/common/friction_card.hpp"
+#include "model/user_function.hpp"
+
+namespace engrane::elements::gears {
+
+namespace {
+
+bool repeats(const Function& function, double period) {
+  double size = 0, change = 0;
+  for (int i = 0; i < 97; ++i) {
+    const double x = period * (0.0203 * i - 1), f = function.at(x).f;
+    size = std::max(size, std::abs(f));
+    change = std::max(change, std::abs(function.at(x + period).f - f));
+  }
+  return change <= 1e-9 * size;
+}
+
+bool set_error(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  if (!data.error.given()) return true;
+  TransmissionError& error = law.error;
+  error.teeth = owner.teeth[0];
+  if (data.error.is("COS")) {
+    error.kind = TransmissionError::Kind::cosine;
+    error.amplitude = data.error.values[0];
+  } else if (data.error.is("FOURIER")) {
+    error.kind = TransmissionError::Kind::fourier;
+    error.coefficients = data.error.values;
+    if (error.coefficients.size() % 2 != 0) {
+      context.error("ERR", fmt::format("ERR FOURIER with {} coefficients: they come in pairs a_n b_n", error.coefficients.size()),
+                    "give 0 for a missing sine");
+      return false;
+    }
+  } else {
+    error.kind = TransmissionError::Kind::table;
+    if (!named_function(context, "ERR", data.error.values[0], error.function)) return false;
+    if (!repeats(*error.function, 360)) {
+      context.error("ERR", fmt::format("function {} does not repeat with each turn of wheel A", number(data.error.values[0])),
+                    fmt::format("it is a function of A's angle in degrees: give it PERIOD 360, or PERIOD (360/{}) for one tooth",
+                                owner.teeth[0]));
+      return false;
+    }
+  }
+  return true;
+}
+
+bool set_wheel_errors(ToothLaw& law, const TeethData& data, const BuildContext& context) {
+  bool good = true;
+  const std::array<const std::vector<double>*, 2> runout{&data.eccentricity_a, &data.eccentricity_b};
+  const std::array<int, 2> pitch{data.pitch_a, data.pitch_b};
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    const char name = i == 0 ? 'A' : 'B';
+    TransmissionError::Wheel& wheel = law.error.wheel[i];
+    if (!runout[i]->empty()) wheel.eccentricity = runout[i]->front();
+    if (runout[i]->size() > 1) wheel.phase = runout[i]->back() * degree;
+    if (pitch[i] == 0) continue;
+    const std::string keyword = std::string("PITCH") + name;
+    wheel.pitch = context.function(pitch[i], keyword);
+    if (wheel.pitch && !repeats(*wheel.pitch, 360))
+      context.error(keyword, fmt::format("function {} does not repeat with each turn of wheel {}", pitch[i], name),
+                    "it is a function of the wheel's angle in degrees: give it PERIOD 360");
+    good = good && wheel.pitch && repeats(*wheel.pitch, 360);
+  }
+  return good;
+}
+
+/// The mean stiffness by ISO 6336-1.
+bool set_iso(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  const auto refuse = [&](std::string_view keyword, std::string message, std::string hint) {
+    context.error(keyword, std::move(message), std::move(hint));
+    return false;
+  };
+  const ContactGeometry& g = owner.geometry;
+  if (data.stiffness) return refuse("KM", "both KM and STIFF ISO are given: each fixes the tooth stiffness", "keep one of them");
+  if (!owner.parallel)
+    return refuse("STIFF", "ISO 6336-1 is for wheels with parallel axles", "give the tooth stiffness KM itself");
+  if (!data.width) return refuse("STIFF", "STIFF ISO needs the face width", "give WIDTH");
+  if (data.moduli.empty()) return refuse("STIFF", "STIFF ISO needs Young's modulus in the units of the deck", "give E");
+  IsoMesh mesh;
+  mesh.teeth = owner.teeth;
+  mesh.ring = {owner.ring[0], owner.ring[1] || owner.teeth[1] == 0};
+  mesh.helix = g.helix;
+  mesh.pressure_angle = g.pressure_angle;
+  mesh.contact_ratio = (g.approach + g.recess) / g.base_pitch;
+  mesh.width = *data.width;
+  mesh.E = {data.moduli.front(), data.moduli.back()};
+  if (!(mesh.contact_ratio > 1))
+    return refuse("STIFF", fmt::format("contact ratio {:.3g}: teeth would lose touch", mesh.contact_ratio), "choose more teeth");
+  law.stiffness = iso_mesh_stiffness(mesh);
+  return true;
+}
+
+/// A factor over one tooth pitch, and perhaps of the deflection, by a routine of the user's.
+bool set_user_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  MeshStiffness& course = law.course;
+  const double deflection = 1e-4 * owner.geometry.radius;
+  std::vector<user::Arguments> samples;
+  for (const double place : {0.0, 0.1173, 0.2871, 0.4619, 0.6337, 0.8211, 0.9503})
+    for (const double part : {0.0, 0.5, 1.0}) samples.push_back({place, part * deflection, 0});
+  course.kind = MeshStiffness::Kind::user;
+  course.routine = user_routine(context, "STIFF", data.course.values[0], user::Kind::mesh, {0.05, deflection, 1}, samples);
+  if (!course.routine) return false;
+  for (const user::Arguments& x : samples)
+    for (const double size : {0.1, 1.0, 10.0})
+      course.loaded = course.loaded || course.routine->at({x[0], size * deflection, 0})[0] != course.routine->at({x[0], 0, 0})[0];
+  const double begin = course.routine->at({0, 0, 0})[0], end = course.routine->at({1, 0, 0})[0];
+  if (!(std::abs(end - begin) <= 1e-9 * std::abs(begin))) {
+    context.error("STIFF",
+                  fmt::format("{} gives {} at the beginning of a tooth pitch (0) and {} at its end (1)",
+                              course.routine->source().label(), number(begin), number(end)),
+                  "the factor repeats with each tooth, so both are the same place");
+    return false;
+  }
+  if (!course.loaded) return true;
+  for (const auto& [keyword, given] : {std::pair<std::string_view, bool>{"RUNNING", data.running},
+                                       {"SLICES", data.slices > 1},
+                                       {"EXPONENT", !data.exponent.empty()}})
+    if (given) {
+      context.error(keyword,
+                    fmt::format("{} does not go with a stiffness that depends on the deflection ({})", keyword,
+                                course.routine->source().label()),
+                    fmt::format("leave {} out, or make the routine depend on the place in the pitch alone", keyword));
+      return false;
+    }
+  return true;
+}
+
+bool set_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  MeshStiffness& course = law.course;
+  const std::vector<double>& values = data.course.values;
+  if (data.course.is("FOURIER")) {
+    course.kind = MeshStiffness::Kind::fourier;
+    course.coefficients = values;
+    if (values.size() % 2 != 0) {
+      context.error("STIFF", fmt::format("STIFF FOURIER with {} coefficients: they come in pairs a_n b_n", values.size()),
+                    "give 0 for a missing sine");
+      return false;
+    }
+  } else if (data.course.is("TABLE")) {
+    course.kind = MeshStiffness::Kind::table;
+    if (!named_function(context, "STIFF", values[0], course.function)) return false;
+    if (!repeats(*course.function, 1)) {
+      context.error("STIFF", fmt::format("function {} does not repeat with each tooth", number(values[0])),
+                    "it is a factor on KM over one tooth pitch, from 0 to 1: give it PERIOD 1");
+      return false;
+    }
+  } else if (data.course.is("USER")) {
+    if (!set_user_course(law, data, owner, context)) return false;
+  } else if (data.course.is("SQUARE")) {
+    course.kind = MeshStiffness::Kind::square;
+    const ContactGeometry& g = owner.geometry;
+    if (values.empty() && !owner.parallel) {
+      context.error("STIFF", "the contact ratio of these teeth is not known", "give it: STIFF SQUARE eps");
+      return false;
+    }
+    course.contact_ratio = values.empty() ? (g.approach + g.recess) / g.base_pitch : values[0];
+    if (!(course.contact_ratio >= 1)) {
+      context.error("STIFF", fmt::format("contact ratio {:.4g}: between two teeth nothing would touch", course.contact_ratio),
+                    "a pair that runs has 1 or more: choose more teeth, or STIFF CONST");
+      return false;
+    }
+    const double fraction = course.contact_ratio - std::floor(course.contact_ratio);
+    const double edge = values.size() > 1 ? values[1] : 0.05;
+    if (edge <= 0 || edge > 0.5) {
+      context.error("STIFF", fmt::format("the stiffness cannot change over {} of a pitch", number(edge)), "give 0.01 to 0.5");
+      return false;
+    }
+    course.edge = std::min({edge, fraction, 1 - fraction});
+    if (course.edge < 1e-6) course.kind = MeshStiffness::Kind::constant;  // a whole number of pairs at all times
+  }
+  double least = 1;
+  for (int i = 0; course.varies() && i < 720; ++i) least = std::min(least, course.at(i * std::numbers::pi / 360).f);
+  if (least > 0) return true;
+  context.error("STIFF", fmt::format("the tooth stiffness falls to {:.3g} of KM", least), "it must stay positive");
+  return false;
+}
+
+/// Backlash along the circumference, in whichever way it is given.
+bool set_backlash(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  const int ways = (data.backlash ? 1 : 0) + (data.normal_backlash ? 1 : 0) + (data.center_backlash ? 1 : 0);
+  if (ways > 1) {
+    context.error(data.normal_backlash ? "JEUN" : "JEUA", "JEU, JEUN and JEUA exclude each other: each fixes the backlash",
+                  "keep one of them");
+    return false;
+  }
+  const double alpha = owner.geometry.pressure_angle;
+  if (data.backlash) law.backlash = *data.backlash;
+  if (data.normal_backlash) law.backlash = *data.normal_backlash / std::cos(alpha);
+  if (data.center_backlash)
+    law.backlash =
+        2 * (owner.parallel ? owner.geometry.flank_opening(*data.center_backlash).f : *data.center_backlash * std::tan(alpha));
+  law.onset = data.onset.value_or(1e-3 * law.backlash);
+  if (!data.onset || law.onset <= law.backlash) return true;
+  context.error("SMOOTH", fmt::format("SMOOTH {} is wider than the backlash {}", number(law.onset), number(law.backlash)),
+                law.backlash > 0 ? "give a small fraction of it" : "without JEU there is no onset of contact: leave SMOOTH out");
+  return false;
+}
+
+bool set_damping(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  if (data.damping && data.damping_ratio) {
+    context.error("CM", "both XI and CM are given: each fixes the damping of the teeth", "keep one of them");
+    return false;
+  }
+  if (data.damping) law.damping = *data.damping;
+  if (!data.damping_ratio || *data.damping_ratio == 0) return true;
+  if (owner.teeth[1] == 0) {
+    context.error("XI", "XI is measured against the inertia of two wheels", "give the damper of a rack's teeth itself with CM");
+    return false;
+  }
+  std::array<double, 2> inertia{};
+  bool good = true;
+  for (const std::size_t wheel : {std::size_t{0}, std::size_t{1}}) {
+    const int node = owner.nodes[wheel];
+    inertia[wheel] = node == 0 ? std::numeric_limits<double>::infinity() : context.wheel_inertia(node, owner.axle[wheel]);
+    if (inertia[wheel] > 0) continue;
+    good = false;
+    context.error("XI",
+                  fmt::format("XI needs the inertia of both wheels about their axles (32, 33); node {} of wheel {} has none",
+                              node, wheel == 0 ? "A" : "B"),
+                  "give the damper itself with CM, or the wheel's inertia with INERTIA");
+  }
+  if (good)
+    law.damping = tooth_damping(*data.damping_ratio, law.stiffness, inertia[0], inertia[1], owner.lever[0], owner.lever[1]);
+  return good;
+}
+
+/// What describes elastic teeth means nothing for rigid ones.
+bool refuse_of_rigid_teeth(const TeethData& data, const BuildContext& context) {
+  const std::array<std::pair<std::string_view, bool>, 15> elastic{{{"XI", data.damping_ratio.has_value()},
+                                                                   {"CM", data.damping.has_value()},
+                                                                   {"JEU", data.backlash.has_value()},
+                                                                   {"JEUN", data.normal_backlash.has_value()},
+                                                                   {"JEUA", data.center_backlash.has_value()},
+                                                                   {"SMOOTH", data.onset.has_value()},
+                                                                   {"DAMP", data.damping_mode.given()},
+                                                                   {"ERR", data.error.given()},
+                                                                   {"ECCA", !data.eccentricity_a.empty()},
+                                                                   {"ECCB", !data.eccentricity_b.empty()},
+                                                                   {"PITCHA", data.pitch_a != 0},
+                                                                   {"PITCHB", data.pitch_b != 0},
+                                                                   {"STIFF", data.course.given()},
+                                                                   {"EXPONENT", !data.exponent.empty()},
+                                                                   {"SLICES", data.slices > 1}}};
+  bool rigid = true;
+  for (const auto& [keyword, given] : elastic)
+    if (given) {
+      rigid = false;
+      context.error(keyword, fmt::format("{} describes elastic teeth, but these are rigid", keyword),
+                    "give the tooth stiffness KM, or STIFF ISO");
+    }
+  return rigid;
+}
+
+bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  if (!data.friction.given()) {
+    bool good = true;
+    for (const auto& [keyword, given] : {std::pair<std::string_view, bool>{"VREG", data.friction_width.has_value()},
+                                         {"SLIDING", data.sliding.given()},
+                                         {"ROLLING", data.rolling > 0}})
+      if (given) {
+        good = false;
+        context.error(keyword, fmt::format("{} describes friction, and there is none", keyword),
+                      "give FRICTION (CONST 0 for rolling alone)");
+      }
+    return good;
+  }
+  ToothFriction friction;
+  FrictionLaw& law = friction.law;
+  law.width = data.friction_width.value_or(1e-3 * owner.geometry.radius);
+  if (!read_friction(context, data.friction, law)) return false;
+  friction.rolling = data.rolling;
+  friction.profile = data.sliding.is("PROFILE");
+  const ContactGeometry& g = owner.geometry;
+  if (friction.profile && !owner.parallel) {
+    context.error("SLIDING", "the path of contact is only known of parallel axles", "SLIDING PITCH slides at the pitch point");
+    return false;
+  }
+  if (friction.profile && !(g.approach + g.recess > 1.01 * g.base_pitch)) {
+    context.error(
+        "SLIDING",
+        fmt::format("contact ratio {:.4g}: some flanks must touch at all times", (g.approach + g.recess) / g.base_pitch),
+        "choose more teeth");
+    return false;
+  }
+  options.friction = friction;
+  return true;
+}
+
+bool set_options(ContactOptions& options, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  options.separation = !data.separation.is("NO");
+  options.running = data.running || data.slices > 1;
+  options.slices = data.slices;
+  bool good = set_friction(options, data, owner, context);
+  if (!options.running) return good;
+  const char* keyword = data.running ? "RUNNING" : "SLICES";
+  if (!owner.parallel) {
+    context.error(keyword, fmt::format("{} follows the involutes of parallel axles, and these cross or meet", keyword));
+    good = false;
+  }
+  if (!options.separation) {
+    context.error("SEPARATION", fmt::format("with {} the radial force belongs to the flanks and cannot be left out", keyword));
+    good = false;
+  }
+  if (options.slices > 1 && !data.width) {
+    context.error("SLICES", "slices need the face width", "give WIDTH");
+    good = false;
+  }
+  return good;
+}
+
+}  // namespace
+
+std::optional<Teeth> read_teeth(const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  Teeth teeth;
+  bool good = set_options(teeth.options, data, owner, context);
+  ToothLaw& law = teeth.law;
+  law.mesh = owner.mesh;
+  if (data.phase) law.mesh.phase = *data.phase * degree;
+  if (!data.stiffness && !data.course.is("ISO")) {
+    good = refuse_of_rigid_teeth(data, context) && good;
+    if (!good) return {};
+    return teeth;
+  }
+  if (data.course.is("ISO"))
+    good = set_iso(law, data, owner, context) && good;
+  else
+    law.stiffness = *data.stiffness;
+  good = set_course(law, data, owner, context) && good;
+  if (!data.exponent.empty()) {
+    law.exponent = data.exponent[0];
+    law.reference = data.exponent[1];
+    if (law.exponent < 1 || law.exponent > 3) {
+      context.error("EXPONENT", fmt::format("exponent {}: teeth have 1 to 3, line contact about 1.1", number(law.exponent)));
+      good = false;
+    }
+  }
+  good = set_backlash(law, data, owner, context) && good;
+  law.mode = data.damping_mode.is("CONTACT") || (!data.damping_mode.given() && law.backlash > 0) ? ToothLaw::Damping::contact
+                                                                                                 : ToothLaw::Damping::always;
+  good = set_error(law, data, owner, context) && good;
+  good = set_wheel_errors(law, data, context) && good;
+  good = set_damping(law, data, owner, context) && good;
+  if (!good) return {};
+  return teeth;
+}
+
+}  // namespace engrane::elements::gears

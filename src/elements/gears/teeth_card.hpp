@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a card says of the teeth of a gear pair, or of a pinion and its rack.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "elements/common/friction_card.hpp"
+#include "elements/gears/tooth_contact.hpp"
+#include "model/registry.hpp"
+
+namespace engrane::elements::gears {
+
+/// The part of a card that describes how teeth touch, angles in degrees. Cards derive their struct from it.
+struct TeethData {
+  std::optional<double> width;
+  std::optional<double> stiffness;
+  deck::Tagged course;           ///< STIFF
+  std::vector<double> moduli;    ///< E of A and B, one value for both
+  std::vector<double> exponent;  ///< p and x₀
+  std::optional<double> damping_ratio;
+  std::optional<double> damping;
+  deck::Tagged damping_mode;
+  std::optional<double> backlash, normal_backlash, center_backlash;
+  std::optional<double> onset;
+  deck::Tagged error;
+  std::vector<double> eccentricity_a, eccentricity_b;  ///< amplitude and phase
+  int pitch_a = 0, pitch_b = 0;                        ///< functions of the cumulative pitch error
+  std::optional<double> phase;
+  deck::Tagged friction;
+  std::optional<double> friction_width;
+  deck::Tagged sliding;
+  double rolling = 0;
+  deck::Tagged separation{"YES", {}};
+  bool running = false;
+  int slices = 1;
+};
+
+/// What the tooth law needs to know of the pair whose teeth these are. Entry 0 is wheel A, entry 1 wheel B or the rack.
+struct TeethOwner {
+  std::array<int, 2> nodes{0, 0};
+  std::array<Vec3, 2> axle{Vec3::Zero(), Vec3::Zero()};
+  std::array<int, 2> teeth{1, 1};  ///< 0: a rack
+  std::array<bool, 2> ring{false, false};
+  std::array<double, 2> lever{1, 1};  ///< r cosβ, along which u_m is measured; 1 for a rack
+  bool parallel = true;               ///< are the axles, so that involute relations hold?
+  ContactGeometry geometry;
+  MeshPhase mesh;
+};
+
+/// How teeth touch, as a card says.
+struct Teeth {
+  ToothLaw law;  ///< rigid teeth, without `KM` or `STIFF ISO`, have stiffness 0
+  ContactOptions options;
+};
+/// Faults go to the context's diagnostics; then there is no result.
+std::optional<Teeth> read_teeth(const TeethData& data, const TeethOwner& owner, const BuildContext& context);
+
+/// Adds the keywords of TeethData to a card.
+template <class Data>
+void add_teeth_keywords(deck::Card<Data>& c) {
+  using namespace dimension;
+  c.add("WIDTH", &TeethData::width, "face width; 10 m_n when not given").synonyms({"LARGEUR"}).unit(length).positive();
+  c.add("KM", &TeethData::stiffness, "tooth stiffness along the circumference")
+      .synonyms({"RAIDEUR"})
+      .unit(dimension::stiffness)
+      .positive();
+  c.add("STIFF", &TeethData::course, "course of the tooth stiffness while teeth come and go")
+      .synonyms({"RIGIDITE", "STIFFNESS"})
+      .option({"CONST", {"CONSTANT"}, "KM at all times"})
+      .option({"ISO", {}, "constant, computed by ISO 6336-1 (method B) from geometry, WIDTH and E instead of KM"})
+      .option({"FOURIER", {}, "a1 b1 a2 b2 ...: KM (1 + sum of a_n cos n tau + b_n sin n tau), tau 2 pi per tooth", 2, 200})
+      .option({"TABLE", {"FCT", "NF"}, "f: KM times function f of tau/(2 pi), repeating with 1", 1, 1})
+      .option({"USER",
+               {"UTILISATEUR"},
+               "f: KM times routine f of .FCT, of tau/(2 pi) from 0 to 1 and of the deflection of the teeth",
+               1,
+               1})
+      .option({"SQUARE",
+               {"CARRE"},
+               "[eps [edge]]: pairs in contact, of contact ratio eps (geometry's when not given), changing over edge (0.05) of "
+               "a pitch; KM is the mean",
+               0,
+               2});
+  c.add("E", &TeethData::moduli, "Young's modulus, of both wheels or of A and B, for STIFF ISO")
+      .synonyms({"YT", "YOUNG"})
+      .unit(dimension::pressure)
+      .values(1, 2)
+      .positive();
+  c.add("EXPONENT", &TeethData::exponent, "p x0: the force grows with x^p, and is KM x0 at the deflection x0")
+      .synonyms({"EXPOSANT"})
+      .values(2, 2)
+      .positive();
+  c.add("XI", &TeethData::damping_ratio, "damping ratio of the teeth against the inertia of both wheels").at_least(0);
+  c.add("CM", &TeethData::damping, "tooth damping along the circumference, instead of XI").unit(dimension::damping).at_least(0);
+  c.add("JEU", &TeethData::backlash, "backlash along the circumference").synonyms({"BACKLASH"}).unit(length).at_least(0);
+  c.add("JEUN", &TeethData::normal_backlash, "backlash normal to the flanks, instead of JEU")
+      .synonyms({"NORMAL_BACKLASH"})
+      .unit(length)
+      .at_least(0);
+  c.add("JEUA", &TeethData::center_backlash, "backlash as the change of centre distance that would take it up, instead of JEU")
+      .synonyms({"CENTRE_BACKLASH", "CENTER_BACKLASH"})
+      .unit(length)
+      .at_least(0);
+  c.add("SMOOTH", &TeethData::onset, "width over which contact comes on; JEU/1000 when not given")
+      .synonyms({"LISSAGE"})
+      .unit(length)
+      .at_least(0);
+  c.add("DAMP", &TeethData::damping_mode, "when the teeth damp; CONTACT with JEU and ALWAYS without when not given")
+      .synonyms({"AMORTISSEMENT"})
+      .option({"ALWAYS", {"TOUJOURS"}, "at all times, the paper's law"})
+      .option({"CONTACT", {}, "only while they touch, and never so that they pull"});
+  c.add("ERR", &TeethData::error, "transmission error under static load, along the circumference")
+      .synonyms({"ERREUR", "ERROR"})
+      .option({"COS", {}, "X: X (1 - cos z_A psi_A)", 1, 1, length})
+      .option({"FOURIER", {}, "a1 b1 a2 b2 ...: sum of a_n cos(n z_A psi_A) + b_n sin(n z_A psi_A)", 2, 200, length})
+      .option({"TABLE", {"FCT", "NF"}, "f: function f of psi_A in degrees, repeating with the turn", 1, 1});
+  c.add("ECCA", &TeethData::eccentricity_a, "e [phase]: runout of wheel A, e sin of its turn, along the circumference; degrees")
+      .synonyms({"EXCENTRICITE_A", "ECCENTRICITY_A"})
+      .values(1, 2);
+  c.add("ECCB", &TeethData::eccentricity_b, "e [phase]: runout of wheel B")
+      .synonyms({"EXCENTRICITE_B", "ECCENTRICITY_B"})
+      .values(1, 2);
+  c.add("PITCHA", &TeethData::pitch_a, "function of the cumulative pitch error of wheel A over its turn in degrees, PERIOD 360")
+      .synonyms({"PAS_A"})
+      .refers(deck::Reference::function);
+  c.add("PITCHB", &TeethData::pitch_b, "the same of wheel B").synonyms({"PAS_B"}).refers(deck::Reference::function);
+  c.add("PHASE", &TeethData::phase, "mesh phase at the start, 360 per tooth; follows from the train when not given").unit(angle);
+  add_friction_options(c.add("FRICTION", &TeethData::friction, "sliding friction between the flanks"));
+  c.add("VREG", &TeethData::friction_width,
+        "sliding speed below which friction is regularised; 1e-3 r_A per time unit when not given")
+      .synonyms({"V0"})
+      .unit(velocity)
+      .positive();
+  c.add("SLIDING", &TeethData::sliding, "where the flanks slide")
+      .synonyms({"GLISSEMENT"})
+      .option({"PITCH", {"PRIMITIF"}, "at the pitch point: axles that cross or pass each other"})
+      .option({"PROFILE", {"PROFIL"}, "each pair of flanks along the path of contact (parallel axles)"});
+  c.add("ROLLING", &TeethData::rolling, "lever of the rolling resistance").synonyms({"ROULEMENT"}).unit(length).at_least(0);
+  c.add("SEPARATION", &TeethData::separation, "the radial part of the tooth force, which pushes the wheels apart")
+      .option({"YES", {"OUI"}, "with it"})
+      .option({"NO", {"NON"}, "without: tangential and axial parts only"});
+  c.add("RUNNING", &TeethData::running, "pressure angle and flanks follow the running centre distance (parallel axles)")
+      .synonyms({"ENTRAXE_COURANT"});
+  c.add("SLICES", &TeethData::slices, "slices along WIDTH that see the tilt of the axles (parallel axles, elastic teeth)")
+      .synonyms({"TRANCHES"})
+      .at_least(1)
+      .at_most(200);
+}
+
+}  // namespace engrane::elements::gears

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What acts where teeth meet, whatever they are cut on: two wheels, or a pinion and a rack.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "elements/common/friction_law.hpp"
+#include "elements/gears/gear_teeth.hpp"
+#include "math/vector.hpp"
+#include "model/templated_element.hpp"
+
+namespace engrane::elements::gears {
+
+/// Dimensions of the contact that do not change. Angles in radians; β is the paper's helix of wheel A.
+struct ContactGeometry {
+  double pressure_angle = 0;             ///< α_n
+  double transverse_pressure_angle = 0;  ///< α_t; only of parallel axles
+  double helix = 0;                      ///< β of A
+  int teeth = 1;                         ///< z_A, by which ψ_A turns into mesh phase
+  double radius = 1;                     ///< pitch radius of A
+  double width = 0;                      ///< face width, over which slices are spread
+
+  /// Signed sum of the base radii over that of the pitch radii's sense: r_bA + r_bB outside, their difference, negative when
+  /// the ring is B, inside; 0 for a rack, whose pressure angle does not run.
+  double base_radii = 0;
+  double center_distance = 0;  ///< of the reference configuration
+  double side = 1;             ///< κ: 1 outside, −1 inside
+  double axle_sense = 1;       ///< σ: ξ₁ = σ μ₁
+  /// Path of contact from the pitch point, along the direction in which A moves: while flanks in front touch from
+  /// −approach to recess. Only of parallel axles.
+  double approach = 0, recess = 0;
+  double base_pitch = 0;  ///< transverse
+
+  /// cosα_t′ = (a₀/a) cosα_t. `opening` is by how far the wheels have moved apart across the teeth.
+  double working_pressure_angle(double opening) const;
+  /// By how much each flank opens, along the circumference, when the wheels move apart: of involutes,
+  /// (cosβ/cosα_t) (r_bA + r_bB)(inv α_t′ − inv α_t).
+  Function::Jet flank_opening(double opening) const;
+};
+
+/// Friction between teeth: sliding at the pitch point, or of every pair of flanks along the path of contact, and rolling.
+struct ToothFriction {
+  FrictionLaw law;
+  bool profile = false;  ///< each pair of flanks slides by its distance from the pitch point
+  double rolling = 0;    ///< lever of the rolling resistance, a length
+};
+
+/// Which of the options beyond the founding paper's model a scene asks for.
+struct ContactOptions {
+  bool separation = true;  ///< the radial force (34, 35)
+  bool running = false;    ///< pressure angle and flanks follow the distance of the axles
+  int slices = 1;          ///< along the face width; more than 1 needs `running`
+  std::optional<ToothFriction> friction;
+};
+
+/// One of the two toothed bodies in the current configuration, global components.
+template <class T>
+struct ToothedSide {
+  Vec3T<T> axle;     ///< μ₁″ or ξ₁″
+  Vec3T<T> arm;      ///< from the node to the contact point (10)
+  Vec3T<T> eta_2;    ///< across the tooth, from A to B
+  Vec3T<T> eta_3;    ///< normal to the tooth's middle plane
+  Vec3T<T> forward;  ///< μ₃″ or ξ₃″
+};
+
+/// A wheel from its rotation and turn ψ, by (4), (16) and (6) or (8). `triad`: columns μ or ξ of the reference configuration;
+/// `tooth`: Y_A or Y_B.
+template <class T>
+ToothedSide<T> toothed_wheel(const Mat3& triad, const Mat3& tooth, double radius, const Mat3T<T>& R, const T& psi) {
+  using std::cos, std::sin;
+  const T c = cos(psi), s = sin(psi);
+  const Vec3T<T> turned_2 = rotate(R, Vec3(triad.col(1))), turned_3 = rotate(R, Vec3(triad.col(2)));  // (4)
+  ToothedSide<T> w;
+  w.axle = rotate(R, Vec3(triad.col(0)));
+  for (int k = 0; k < 3; ++k) {
+    const T e_2 = turned_2[k] * c - turned_3[k] * s;  // (16)
+    w.forward[k] = turned_2[k] * s + turned_3[k] * c;
+    w.arm[k] = radius * e_2;
+    w.eta_2[k] = tooth(0, 1) * w.axle[k] + tooth(1, 1) * e_2 + tooth(2, 1) * w.forward[k];
+    w.eta_3[k] = tooth(0, 2) * w.axle[k] + tooth(1, 2) * e_2 + tooth(2, 2) * w.forward[k];
+  }
+  return w;
+}
+
+/// Forces of the teeth on A; B gets the opposite. Moments on A and B about their nodes. What belongs to the pair's frame also
+/// acts on the coordinate by which a body moves relative to it; what acts on the bodies does not.
+template <class T>
+struct ToothLoads {
+  Vec3T<T> frame_force = Vec3T<T>(T(0), T(0), T(0)), body_force = frame_force;
+  std::array<Vec3T<T>, 2> frame_moment{frame_force, frame_force}, body_moment{frame_force, frame_force};
+};
+
+/// What a contact can be asked for besides its forces.
+struct ContactReport {
+  std::array<Vec3, 2> force, moment;  ///< of the teeth on A and B, moments about the nodes, global components
+  double approach = 0;                ///< u_m + x_err
+  double front = 0, back = 0;         ///< how far either flank is pressed in, middle of the face
+  double opening = 0;                 ///< of the wheels, across the teeth
+  double stiffness_factor = 1;        ///< of the course over the mesh
+  double potential = 0;
+  double damping_power = 0, friction_power = 0, separation_power = 0;
+  double sliding_speed = 0;    ///< at the pitch point
+  double friction_force = 0;   ///< size
+  std::vector<double> slices;  ///< force on each along the circumference
+};
+
+/// The separating force (34) works on the wheels where the centres change their distance; it counts as external.
+inline Energies energies_of(const ContactReport& r) {
+  return {0, r.potential, r.damping_power + r.friction_power, r.separation_power};
+}
+
+/// The contact of two toothed bodies: (21)–(23) with their forces, the tooth law (28–33), and what a scene asks for beyond the
+/// paper. Scalars of the element are ψ_A, the motion of B, and u_m with elastic teeth; multipliers those of φ₁, φ₂, φ₃.
+class ToothContact {
+ public:
+  ToothContact(const ContactGeometry& geometry, const ToothLaw& law, const ContactOptions& options)
+      : geometry_(geometry),
+        law_(law),
+        options_(options),
+        cos_alpha_(std::cos(geometry.pressure_angle)),
+        sin_alpha_(std::sin(geometry.pressure_angle)),
+        cos_beta_(std::cos(geometry.helix)) {}
+
+  const ContactGeometry& geometry() const { return geometry_; }
+  const ToothLaw& law() const { return law_; }
+  const ContactOptions& options() const { return options_; }
+  bool elastic() const { return law_.stiffness > 0; }
+  double cos_alpha() const { return cos_alpha_; }
+  double sin_alpha() const { return sin_alpha_; }
+
+  /// Everything but the rows of ψ_A and of B's motion from (21) and the frame, which the element knows how to make of `loads`.
+  /// `closing` is φ₁ over cosα_n without u_m. Returns the force kλ₁ along the normal.
+  template <class T>
+  T act(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const T& closing, Balance<T, 2>& balance,
+        ToothLoads<T>& loads, ContactReport* report) const;
+
+  /// Where the force between flanks is not smooth: both ends of each rounded corner, or the corner itself, and where the
+  /// damping of a flank in contact is limited. None with slices, which come into contact one after another.
+  std::vector<SwitchNames> switch_names() const;
+  /// Their values. Rates leave out what the distance of running axles changes, which only aims at events, never moves them.
+  void switches(const ContactReport& report, const State& state, std::span<Switch> values) const;
+
+ private:
+  bool limits_damping() const { return law_.mode == ToothLaw::Damping::contact && law_.damping > 0; }
+  template <class T>
+  void press(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap, const T& force_1,
+             Balance<T, 2>& balance, ToothLoads<T>& loads, ContactReport* report) const;
+  template <class T>
+  void rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap, const T& force_1,
+           ToothLoads<T>& loads, ContactReport* report) const;
+
+  ContactGeometry geometry_;
+  ToothLaw law_;
+  ContactOptions options_;
+  double cos_alpha_, sin_alpha_, cos_beta_;
+};
+
+}  // namespace engrane::elements::gears
+
+#include "elements/gears/tooth_contact_forces.hpp"

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/gears/tooth_phases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "elements/common/building.hpp"
+#include "elements/gears/gear_place.hpp"
+#include "elements/gears/gear_report.hpp"
+
+namespace engrane::elements::gears {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr std::array<std::size_t, 2> sides{0, 1};
+
+/// Misfit, in pitches, that typed coordinates may leave; and the most that elastic teeth contact_homotopy.
+constexpr double fits = 1e-6, bridged = 0.05;
+
+/// An angle between −π and π.
+double wrapped(double angle) { return std::remainder(angle, turn); }
+
+struct Wheel {
+  int node = 0;
+  int teeth = 1;
+  double module = 1;
+  double cone = 0, helix = 0;  ///< counted for the axle in its one sense; the helix is the trade's
+  Vec3 axle, center;
+  Vec3 datum;  ///< across the axle, towards the wheel's first contact point
+  double tip = 0, width = 0;
+
+  bool same(const Wheel& w) const {
+    constexpr double angular = 1e-6;
+    return node == w.node && teeth == w.teeth && std::abs(module - w.module) <= 1e-9 * module &&
+           (axle - w.axle).norm() < angular && std::abs(wrapped(cone - w.cone)) < angular && std::abs(helix - w.helix) < angular;
+  }
+  bool external_cylinder() const { return std::abs(std::sin(cone)) < 1e-9 && std::cos(cone) > 0; }
+};
+
+struct Mesh {
+  const deck::Record* record = nullptr;
+  std::array<std::size_t, 2> wheel{0, 0};
+  std::array<double, 2> sense{1, 1};    ///< of the pair's axles, against that of the wheels
+  std::array<double, 2> contact{0, 0};  ///< θ, about the wheel's axle from its datum
+  double module = 1;
+  bool closes = false;  ///< its wheels are joined by earlier pairs
+  bool known = false;   ///< its teeth are taken into account
+
+  bool has(std::size_t w) const { return wheel[0] == w || wheel[1] == w; }
+  std::size_t other(std::size_t w) const { return wheel[0] == w ? wheel[1] : wheel[0]; }
+};
+
+/// One sense for an axle, whichever way the decks count it.
+double sense_of(const Vec3& axle) {
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(axle[k]) > 1e-6) return axle[k] < 0 ? -1 : 1;
+  return 1;
+}
+
+/// All gear pairs of the deck with the phases of their wheels.
+class Trains {
+ public:
+  explicit Trains(const BuildContext& context) {
+    for (const deck::Record& record : *context.records) {
+      const auto* data = record.get<GearData>();
+      if (!data || !context.nodes.contains(data->nodes[0]) || !context.nodes.contains(data->nodes[1])) continue;
+      Diagnostics unheard;
+      const BuildContext other{context.nodes, context.functions, unheard, record, context.wheel_inertia, context.records};
+      if (const auto placement = place_gear(*data, other)) add(record, *data, *placement);
+    }
+    join();
+    spread();
+  }
+
+  const Mesh* find(const deck::Record& record) const {
+    for (const Mesh& m : meshes_)
+      if (m.record == &record) return &m;
+    return nullptr;
+  }
+
+  /// z_A times the angle from the contact point to a tooth, about the pair's axle of that wheel.
+  double phase(const Mesh& m, std::size_t side) const {
+    const Wheel& w = wheels_[m.wheel[side]];
+    return m.sense[side] * (tooth_[m.wheel[side]] - w.teeth * m.contact[side]);
+  }
+
+  /// By how much, of a pitch of 2π, the teeth of A stand too far ahead for a space of B.
+  double misfit(const Mesh& m) const { return wrapped(phase(m, 0) + phase(m, 1) - std::numbers::pi); }
+
+  std::string planet_condition(const Mesh& m) const;
+  void warn_of_overlap(const Mesh& m, const BuildContext& context) const;
+
+ private:
+  void add(const deck::Record& record, const GearData& data, const GearPlacement& placement) {
+    Mesh m;
+    m.record = &record;
+    m.module = placement.design.normal_module;
+    for (const std::size_t side : sides) {
+      const Mat3& triad = side == 0 ? placement.frames.mu : placement.frames.xi;
+      const GearDesign& d = placement.design;
+      const Vec3 axle = triad.col(0), toward = triad.col(1);
+      m.sense[side] = sense_of(axle);
+      Wheel w;
+      w.node = data.nodes[side];
+      w.teeth = d.teeth[side];
+      w.module = d.normal_module;
+      w.cone = m.sense[side] * d.cone[side];
+      w.helix = paper_helix(d.helix[side], d.cone[side]);
+      w.axle = m.sense[side] * axle;
+      w.center = placement.frames.contact - d.radius(side) * toward;
+      w.datum = toward;
+      w.tip = tip_radius(d, side);
+      w.width = data.width.value_or(d.normal_module);
+      const auto known = std::find_if(wheels_.begin(), wheels_.end(), [&](const Wheel& k) { return k.same(w); });
+      m.wheel[side] = static_cast<std::size_t>(known - wheels_.begin());
+      if (known == wheels_.end()) {
+        wheels_.push_back(w);
+      } else {
+        const Vec3 across = cross(known->axle, known->datum);
+        m.contact[side] = std::atan2(toward.dot(across), toward.dot(known->datum));
+      }
+    }
+    meshes_.push_back(m);
+  }
+
+  /// Tells the pairs that close a loop: those whose wheels earlier pairs of the deck have joined.
+  void join() {
+    std::vector<std::size_t> train(wheels_.size());
+    std::iota(train.begin(), train.end(), std::size_t{0});
+    for (Mesh& m : meshes_) {
+      const std::size_t a = train[m.wheel[0]], b = train[m.wheel[1]];
+      m.closes = a == b;
+      if (!m.closes) std::replace(train.begin(), train.end(), b, a);
+    }
+  }
+
+  /// Gives every wheel the place of its teeth, from the first pair of each train on.
+  void spread() {
+    tooth_.assign(wheels_.size(), 0);
+    std::vector<bool> known(wheels_.size(), false);
+    for (std::size_t first = 0; first < meshes_.size(); ++first) {
+      const Mesh& founder = meshes_[first];
+      if (known[founder.wheel[0]]) continue;
+      known[founder.wheel[0]] = true;  // a tooth at the contact point: θ = 0 there, by the datum
+      tooth_[founder.wheel[0]] = wheels_[founder.wheel[0]].teeth * founder.contact[0];
+      for (bool more = true; more;) {
+        more = false;
+        for (Mesh& m : meshes_) {
+          if (m.closes || m.known || known[m.wheel[0]] == known[m.wheel[1]]) continue;
+          const std::size_t side = known[m.wheel[0]] ? 1 : 0;  // the one to be found
+          const double phase_needed = std::numbers::pi - phase(m, 1 - side);
+          tooth_[m.wheel[side]] = wrapped(m.sense[side] * phase_needed + wheels_[m.wheel[side]].teeth * m.contact[side]);
+          known[m.wheel[side]] = m.known = more = true;
+        }
+      }
+    }
+  }
+
+  std::vector<Wheel> wheels_;
+  std::vector<Mesh> meshes_;
+  std::vector<double> tooth_;  ///< z δ of each wheel, from its datum about its axle
+};
+
+/// Where equal planets fit, when the pair closes a loop of two coaxial wheels and two planets: (z_s + z_r)·angle/360 must be
+/// an integer (also for the pinions of a bevel differential: the coaxial wheels turn against each other past the planets).
+std::string Trains::planet_condition(const Mesh& m) const {
+  for (const std::size_t side : sides) {
+    const std::size_t planet = m.wheel[side], central = m.wheel[1 - side];
+    const Wheel& c = wheels_[central];
+    for (const Mesh& second : meshes_) {
+      if (&second == &m || !second.has(planet)) continue;
+      const std::size_t opposite = second.other(planet);
+      const Wheel& o = wheels_[opposite];
+      const Vec3 apart = o.center - c.center;
+      if (opposite == central || cross(c.axle, o.axle).norm() > 1e-6 || cross(c.axle, apart).norm() > 1e-6 * c.tip) continue;
+      for (std::size_t first = 0; first < wheels_.size(); ++first) {
+        const auto joins = [&](std::size_t with) {
+          return std::any_of(meshes_.begin(), meshes_.end(),
+                             [&](const Mesh& k) { return k.has(first) && k.other(first) == with; });
+        };
+        if (first == planet || !joins(central) || !joins(opposite)) continue;
+        Vec3 from = wheels_[first].center - c.center, to = wheels_[planet].center - c.center;
+        from -= from.dot(c.axle) * c.axle;
+        to -= to.dot(c.axle) * c.axle;
+        if (from.norm() < 1e-6 * c.tip || to.norm() < 1e-6 * c.tip) continue;
+        const double given = std::atan2(std::abs(c.axle.dot(cross(from, to))), from.dot(to)) / degree;
+        const int sum = c.teeth + o.teeth;
+        const double steps = given * sum / 360, below = std::floor(steps), above = std::ceil(steps);
+        return fmt::format(
+            "the planets at nodes {} and {} stand {} degrees apart; ({} + {})·angle/360 must be an integer: {} or {} fit",
+            wheels_[first].node, wheels_[planet].node, number(given), std::min(c.teeth, o.teeth), std::max(c.teeth, o.teeth),
+            number(below * 360 / sum), number(above * 360 / sum));
+      }
+    }
+  }
+  return "move the axle of one wheel of the loop, or change its teeth";
+}
+
+/// Wheels that share a partner, such as neighbouring planets, must keep their tips apart. Each wheel is looked at by the
+/// pair that first names it.
+void Trains::warn_of_overlap(const Mesh& m, const BuildContext& context) const {
+  for (const std::size_t side : sides) {
+    const std::size_t self = m.wheel[side], partner = m.wheel[1 - side];
+    const Wheel &w = wheels_[self], &p = wheels_[partner];
+    if (!w.external_cylinder()) continue;
+    const auto first = std::find_if(meshes_.begin(), meshes_.end(), [&](const Mesh& k) { return k.has(self); });
+    if (&*first != &m) continue;
+    for (const Mesh& k : meshes_) {
+      if (&k == &m) break;  // each two wheels once
+      if (!k.has(partner)) continue;
+      const std::size_t neighbour = k.other(partner);
+      const Wheel& n = wheels_[neighbour];
+      if (neighbour == self || n.node == w.node || !n.external_cylinder() || cross(n.axle, w.axle).norm() > 1e-6) continue;
+      const bool mesh =
+          std::any_of(meshes_.begin(), meshes_.end(), [&](const Mesh& j) { return j.has(self) && j.other(self) == neighbour; });
+      const Vec3 apart = n.center - w.center;
+      const double along = std::abs(apart.dot(w.axle)), across = cross(w.axle, apart).norm();
+      if (mesh || along >= 0.5 * (n.width + w.width) || across >= n.tip + w.tip) continue;
+      const double arm = cross(p.axle, Vec3(w.center - p.center)).norm();
+      const int most = w.tip < arm ? static_cast<int>(std::numbers::pi / std::asin(w.tip / arm)) : 1;
+      context.diagnostics.warning(
+          context.record.where("N"),
+          fmt::format("the wheels at nodes {} and {} run into each other: tip radii {} and {}, centres {} apart", n.node, w.node,
+                      number(n.tip), number(w.tip), number(across)),
+          fmt::format("at most {} wheels like that at node {} have room round node {}; otherwise take smaller ones", most, w.node,
+                      p.node));
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<MeshPhase> mesh_phase(const BuildContext& context, bool elastic) {
+  if (!context.records) return MeshPhase{};
+  const Trains trains(context);
+  const Mesh* m = trains.find(context.record);
+  if (!m) return MeshPhase{};
+  trains.warn_of_overlap(*m, context);
+  MeshPhase result;
+  result.phase = wrapped(trains.phase(*m, 0));
+  if (result.phase < 1e-9 - std::numbers::pi) result.phase += turn;  // half a pitch has one name
+  for (const std::size_t side : sides) result.contact[side] = m->sense[side] * m->contact[side];
+  if (!m->closes) return result;
+
+  const double misfit = trains.misfit(*m), pitches = std::abs(misfit) / turn;
+  if (pitches < fits) return result;
+  result.misfit = 0.5 * m->module * misfit;
+  const std::string message = fmt::format(
+      "this pair closes a loop of wheels, and its teeth miss each other by {:.4g} of a pitch, {:.4g} along the circumference",
+      pitches, std::abs(result.misfit));
+  if (elastic && pitches <= bridged) {
+    context.diagnostics.warning(context.record.where("N"), message + "; the elastic teeth take it up",
+                                trains.planet_condition(*m));
+    return result;
+  }
+  context.error("N", message, trains.planet_condition(*m));
+  return {};
+}
+
+}  // namespace engrane::elements::gears

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "elements/joints/joint_card.hpp"
+
+namespace engrane::elements::joints {
+
+/// HINGE (CHARNIERE): node B turns about an axis held by node A through a point held by both.
+ElementType hinge_type();
+
+}  // namespace engrane::elements::joints

@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/joints/joint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "elements/common/building.hpp"
+
+namespace engrane::elements::joints {
+
+namespace {
+
+/// Does the measure look at B's second or third axis?
+bool looks_across_b(Measure m) {
+  switch (m) {
+    case Measure::gap_1:
+    case Measure::gap_2:
+    case Measure::gap_3:
+    case Measure::tilt_2:
+    case Measure::tilt_3:
+    case Measure::distance:
+    case Measure::radius:
+    case Measure::azimuth:
+      return false;
+    default:
+      return true;
+  }
+}
+
+Dimension dimension_of(Measure m) {
+  switch (m) {
+    case Measure::gap_1:
+    case Measure::gap_2:
+    case Measure::gap_3:
+    case Measure::distance:
+    case Measure::screw:
+    case Measure::radius:
+      return dimension::length;
+    default:
+      return dimension::angle;
+  }
+}
+
+bool is_length(Measure m) { return dimension_of(m) == dimension::length; }
+
+Named multiplier(Measure m) {
+  switch (m) {
+    case Measure::gap_1:
+      return {"FORCE_1", dimension::length, "force along the axis"};
+    case Measure::gap_2:
+      return {"FORCE_2", dimension::length, "force along the joint's second axis"};
+    case Measure::gap_3:
+      return {"FORCE_3", dimension::length, "force along the joint's third axis"};
+    case Measure::tilt_2:
+    case Measure::turn_2:
+      return {"MOMENT_2", dimension::angle, "moment about the joint's second axis"};
+    case Measure::tilt_3:
+    case Measure::turn_3:
+      return {"MOMENT_3", dimension::angle, "moment about the joint's third axis"};
+    case Measure::distance:
+      return {"THRUST", dimension::length, "force that pushes the points apart"};
+    case Measure::screw:
+      return {"THREAD_FORCE", dimension::length, "force of the thread along the axis"};
+    case Measure::pins:
+      return {"TORQUE", dimension::angle, "moment across both pins"};
+    case Measure::twist:
+      return {"TORQUE", dimension::angle, "torque from shaft to shaft"};
+    case Measure::radius:
+      return {"NORMAL_FORCE", dimension::length, "force away from the axis"};
+    default:
+      return {"MOMENT_1", dimension::angle, "moment about the axis"};
+  }
+}
+
+bool rubs_along(const JointFriction& f) { return f.kind != Rubbing::journal && f.kind != Rubbing::ball; }
+bool rubs_round(const JointFriction& f) { return f.kind != Rubbing::guide && f.radius > 0; }
+
+/// Rate of a measure from the velocities of the nodes, by its gradient.
+template <class T>
+T rate_of(const Measured<T>& m, const JointRates<T>& rates) {
+  T sum(0);
+  if (m.pushes) sum += dot(m.force, rates.slip);
+  if (m.turns) sum += dot(m.moment, rates.spin);
+  return sum;
+}
+
+}  // namespace
+
+template <class T>
+Measured<T> Joint::measured(Measure what, const JointPose<T>& pose, const State& state) const {
+  const int at = counted(what);
+  if (at < 0) return measure(what, parts_.frame, pose);
+  const auto committed = state.history.subspan(static_cast<std::size_t>(at), turn_count::history);
+  Measured<T> m = measure(what, parts_.frame, pose);
+  if (what == Measure::screw) {
+    const double angle = value_of(measure(Measure::angle, parts_.frame, pose).value);
+    m.value -= parts_.frame.lead * 2 * std::numbers::pi * turn_count::turns(angle, committed);
+  } else {
+    m.value += 2 * std::numbers::pi * turn_count::turns(value_of(m.value), committed);
+  }
+  return m;
+}
+
+template <class T, class Node>
+JointRates<T> Joint::rates_of(const JointPose<T>& pose, const Node& a, const Node& b) const {
+  const auto spin = [](bool turns, const Node& node) {
+    return turns ? Vec3T<T>(rotate(node.R, node.W)) : Vec3T<T>(T(0), T(0), T(0));
+  };
+  const Vec3T<T> spin_a = spin(parts_.frame.turns_a, a), spin_b = spin(parts_.frame.turns_b, b);
+  return {b.v + cross(spin_b, pose.arm_b) - a.v - cross(spin_a, Vec3T<T>(pose.arm_a + pose.gap)), spin_b - spin_a};
+}
+
+template <class T>
+void Joint::act(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, Report* report) const {
+  const auto& a = motion.node[0];
+  const auto& b = motion.node[1];
+  const JointFrame& frame = parts_.frame;
+  const JointPose<T> pose(frame, a, b, whole_b_);
+  Vec3T<T> force(T(0), T(0), T(0)), moment(T(0), T(0), T(0));
+  const auto add = [&](const Measured<T>& m, const T& amount) {
+    if (m.pushes) force += m.force * amount;
+    if (m.turns) moment += m.moment * amount;
+  };
+
+  int row = 0;
+  Vec3T<T> normal;
+  for (const JointConstraint& c : parts_.constraints) {
+    const Measured<T> m = measured(c.measure, pose, state);
+    if (row == 0 && !parts_.friction.empty()) normal = m.force;
+    add(m, balance.constraint(row++, m.value - c.value));
+  }
+  if (moves_) {
+    const Vec3T<T> carried = force, carried_moment = moment;
+    const JointRates<T> rates = has_rates_ ? rates_of<T>(pose, a, b) : JointRates<T>();
+    for (const JointCoordinate& c : parts_.coordinates) {
+      if (!c.sprung() && !c.drive.given() && !c.stop.given()) continue;
+      const Measured<T> m = measured(c.measure, pose, state);
+      if (c.drive.given()) add(m, balance.constraint(row++, m.value - c.drive.coordinate(motion.time) - driven_origin(c)));
+      if (!c.sprung() && !c.stop.given()) continue;
+      const T speed = rate_of(m, rates);
+      if (c.sprung()) add(m, c.spring(m.value, speed, state.time));
+      if (c.stop.given()) add(m, c.stop.push(m.value, speed, balance.contact_homotopy()));
+    }
+    for (const JointFriction& f : parts_.friction) {
+      const bool turns = f.kind != Rubbing::guide && f.kind != Rubbing::ball && f.radius > 0;
+      const Measured<T> turn = turns ? measured(f.turn, pose, state) : Measured<T>();
+      const JointRub<T> found = rub(f, pose, carried, carried_moment, turn, normal, rates);
+      force += found.force;
+      moment += found.moment;
+      if constexpr (std::is_same_v<T, double>)
+        if (report) report->push_back(found);
+    }
+  }
+
+  balance.force(0, force);
+  balance.force(1, Vec3T<T>(-force));
+  // A's lever reaches to B's point, gap or no gap, so that the sum of moments is zero
+  if (frame.turns_a)
+    balance.moment(
+        0, rotate_back(a.R, Vec3T<T>(cross(pose.has_arm_a ? Vec3T<T>(pose.gap + pose.arm_a) : pose.gap, force) + moment)));
+  if (frame.turns_b)
+    balance.moment(1,
+                   rotate_back(b.R, Vec3T<T>(pose.has_arm_b ? Vec3T<T>(-cross(pose.arm_b, force) - moment) : Vec3T<T>(-moment))));
+}
+
+template <class T>
+void Joint::evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
+  act<T>(motion, state, balance, nullptr);
+}
+
+Joint::~Joint() = default;
+
+/// Without friction a multiplier acts along the gradient of its constraint, which needs no differentiation, and of the nodes'
+/// places only the difference counts: nine lanes in place of eighteen.
+void Joint::tangent(const State& state, Weights weights, std::span<double> r, std::span<double> k) const {
+  if (!parts_.friction.empty()) return TemplatedElement::tangent(state, weights, r, k);
+  constexpr std::size_t places = 0, turns_a = 3, turns_b = 6;
+  using D = Dual<9>;
+  Motion<D, 2> moved = motion<D>(state);
+  seed_translation(moved.node[1], weights, places);
+  seed_rotation(moved.node[0], state.nodes[0], weights, turns_a);
+  seed_rotation(moved.node[1], state.nodes[1], weights, turns_b);
+  Balance<D, 2> balance(state);
+  act(moved, state, balance, nullptr);
+
+  const std::size_t n = r.size(), multipliers = layout().multipliers.size(), first = n - multipliers;
+  std::fill(k.begin(), k.end(), 0.0);
+  const auto write = [&](std::size_t row, const D& value, double sign) {
+    r[row] = sign * value.value;
+    const auto copy = [&](std::size_t node, NodeNeed need, std::size_t lane, double factor) {
+      if (layout().nodes[node] == 0 || !needs(node, need)) return;
+      double* to = &k[row * n + 6 * node + (need == NodeNeed::rotation ? 3 : 0)];
+      for (std::size_t c = 0; c < 3; ++c) to[c] = factor * value.d[lane + c];
+    };
+    copy(0, NodeNeed::translation, places, -sign);
+    copy(0, NodeNeed::rotation, turns_a, sign);
+    copy(1, NodeNeed::translation, places, sign);
+    copy(1, NodeNeed::rotation, turns_b, sign);
+  };
+  for (int node = 0; node < 2; ++node)
+    for (int c = 0; c < 3; ++c) {
+      const auto row = static_cast<std::size_t>(6 * node + c);
+      write(row, balance.force_at(node)[c], 1);
+      write(row + 3, balance.moment_at(node)[c], 1);
+    }
+  for (std::size_t i = 0; i < multipliers; ++i) write(first + i, balance.constraint_at(static_cast<int>(i)), -1);
+
+  const NodeState &a = state.nodes[0], &b = state.nodes[1];
+  const JointPose<double> pose(parts_.frame, a, b, whole_b_);
+  std::size_t column = first;
+  const auto put = [&](Measure what) {
+    const Measured<double> m = measure(what, parts_.frame, pose);
+    const Vec3 on_a = a.R.transpose() * (cross(Vec3(pose.gap + pose.arm_a), m.force) + m.moment);
+    const Vec3 on_b = b.R.transpose() * (-cross(pose.arm_b, m.force) - m.moment);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto i = static_cast<Eigen::Index>(c);
+      k[c * n + column] = m.force[i];
+      k[(6 + c) * n + column] = -m.force[i];
+      if (parts_.frame.turns_a) k[(3 + c) * n + column] = on_a[i];
+      if (parts_.frame.turns_b) k[(9 + c) * n + column] = on_b[i];
+    }
+    ++column;
+  };
+  for (const JointConstraint& c : parts_.constraints) put(c.measure);
+  for (const JointCoordinate& c : parts_.coordinates)
+    if (c.drive.given()) put(c.measure);
+}
+
+Joint::Joint(int id, JointParts parts) : TemplatedElement(id), parts_(std::move(parts)) {
+  Layout layout;
+  layout.nodes.assign(parts_.nodes.begin(), parts_.nodes.end());
+  layout.needs = {parts_.frame.turns_a ? NodeNeed::both : NodeNeed::translation,
+                  parts_.frame.turns_b ? NodeNeed::both : NodeNeed::translation};
+  const auto count = [this](Measure m) {
+    if (m == Measure::screw) m = Measure::angle;
+    if (is_turn(m) && std::find(angles_.begin(), angles_.end(), m) == angles_.end()) angles_.push_back(m);
+  };
+  for (const JointConstraint& c : parts_.constraints) {
+    layout.multipliers.push_back(multiplier(c.measure));
+    count(c.measure);
+    whole_b_ = whole_b_ || looks_across_b(c.measure);
+  }
+  for (const JointCoordinate& c : parts_.coordinates) {
+    if (c.drive.given())
+      layout.multipliers.push_back(
+          {c.names.drive, dimension_of(c.measure), is_length(c.measure) ? "force of the drive" : "torque of the drive"});
+    count(c.measure);
+    const bool acts = c.drive.given() || c.sprung() || c.stop.given();
+    moves_ = moves_ || acts;
+    has_rates_ = has_rates_ || c.sprung() || c.stop.given();
+    whole_b_ = whole_b_ || (acts && looks_across_b(c.measure));
+    c.stop.name_switches(layout.switches, c.names.value + ": ");
+  }
+  for (const JointFriction& f : parts_.friction)
+    if (f.radius > 0 && f.kind != Rubbing::guide && f.kind != Rubbing::ball) count(f.turn);
+  if (!parts_.friction.empty()) moves_ = has_rates_ = whole_b_ = true;
+  layout.history = turn_count::history * static_cast<int>(angles_.size());
+  set_layout(std::move(layout));
+  name_channels();
+}
+
+int Joint::counted(Measure what) const {
+  const auto found = std::find(angles_.begin(), angles_.end(), what == Measure::screw ? Measure::angle : what);
+  return found == angles_.end() ? -1 : turn_count::history * static_cast<int>(found - angles_.begin());
+}
+
+void Joint::commit(const State& state, std::span<double>, std::span<double> history) const {
+  const JointPose<double> pose(parts_.frame, state.nodes[0], state.nodes[1]);
+  for (std::size_t i = 0; i < angles_.size(); ++i) {
+    const std::size_t at = i * turn_count::history;
+    turn_count::commit(measure(angles_[i], parts_.frame, pose).value, state.history.subspan(at, turn_count::history),
+                       history.subspan(at, turn_count::history));
+  }
+}
+
+Joint::Observed Joint::observed(const JointCoordinate& c, const State& state) const {
+  const JointPose<double> pose(parts_.frame, state.nodes[0], state.nodes[1]);
+  const Measured<double> m = measured(c.measure, pose, state);
+  return {m.value, rate_of(m, rates_of<double>(pose, state.nodes[0], state.nodes[1]))};
+}
+
+Joint::Report Joint::rubbed(const State& state) const {
+  Report report;
+  if (parts_.friction.empty()) return report;
+  Balance<double, 2> balance(state);
+  act<double>(motion<double>(state), state, balance, &report);
+  return report;
+}
+
+void Joint::switches(const State& state, std::span<Switch> values) const {
+  if (values.empty()) return;
+  const auto nodes = along_motion(state);
+  const JointPose<Taylor> pose(parts_.frame, nodes[0], nodes[1]);
+  for (const JointCoordinate& c : parts_.coordinates) {
+    if (!c.stop.given()) continue;
+    const Taylor q = measured(c.measure, pose, state).value;
+    values = values.subspan(c.stop.switches(q.value, q.d1, q.d2, values));
+  }
+}
+
+Energies Joint::energies(const State& state) const {
+  Energies e;
+  std::size_t row = parts_.constraints.size();
+  for (const JointCoordinate& c : parts_.coordinates) {
+    const Observed o = observed(c, state);
+    const Energies spring = c.law.energies(o.value - c.relaxed, o.rate, state.time);
+    e.potential += spring.potential + c.stop.stored(o.value);
+    e.dissipated += spring.dissipated + c.stop.lost(o.value, o.rate);
+    if (c.drive.given()) e.external += state.multipliers[row++] * c.drive.rate(state.time);
+  }
+  for (const JointRub<double>& r : rubbed(state)) e.dissipated += r.power;
+  return e;
+}
+
+void Joint::observe(const State& state, std::span<double> values) const {
+  std::array<double, 18> r{};
+  residual(state, std::span(r).first(static_cast<std::size_t>(layout().slots())));
+  const NodeState& b = state.nodes[1];
+  const JointPose<double> pose(parts_.frame, state.nodes[0], b);
+  const Vec3 force = -Vec3(r[6], r[7], r[8]);
+  const Vec3 moment = parts_.frame.turns_b ? Vec3(-b.R * Vec3(r[9], r[10], r[11]) - cross(pose.arm_b, force)) : Vec3::Zero();
+
+  std::size_t i = 0;
+  for (const JointCoordinate& c : parts_.coordinates) {
+    const Observed o = observed(c, state);
+    values[i++] = o.value;
+    values[i++] = o.rate;
+  }
+  const std::array axes = {pose.a1, pose.a2, pose.a3};
+  const auto write = [&](const Vec3& v) {
+    for (Eigen::Index c = 0; c < 3; ++c) values[i++] = v[c];
+    if (parts_.has_axis)
+      for (const Vec3& e : axes) values[i++] = v.dot(e);
+  };
+  write(force);
+  if (parts_.has_moment) write(moment);
+  if (parts_.has_axial) values[i++] = force.dot(axes[0]);
+  if (parts_.is_bearing) {
+    values[i++] = std::hypot(force.dot(axes[1]), force.dot(axes[2]));
+    if (parts_.has_moment) values[i++] = std::hypot(moment.dot(axes[1]), moment.dot(axes[2]));
+  }
+  if (parts_.has_thrust) values[i++] = force.dot(pose.gap) / pose.gap.norm();
+  if (!parts_.has_axis) values[i++] = force.norm();
+  if (parts_.has_bend) values[i++] = std::atan2(cross(pose.a1, pose.b1).norm(), pose.a1.dot(pose.b1));
+  if (!parts_.normal_channel.empty()) values[i++] = state.multipliers[0];
+  std::size_t row = parts_.constraints.size();
+  for (const JointCoordinate& c : parts_.coordinates) {
+    const Observed o = observed(c, state);
+    if (c.sprung()) values[i++] = c.spring(o.value, o.rate, state.time);
+    if (c.drive.given()) {
+      const double effort = state.multipliers[row++];
+      values[i++] = effort;
+      values[i++] = effort * c.drive.rate(state.time);
+    }
+    if (c.stop.given()) {
+      values[i++] = c.stop.push(o.value, o.rate, 0);
+      values[i++] = c.stop.gap(o.value);
+    }
+  }
+  const Report report = rubbed(state);
+  for (std::size_t f = 0; f < report.size(); ++f) {
+    values[i++] = report[f].normal;
+    if (rubs_along(parts_.friction[f])) values[i++] = report[f].force.norm();
+    if (rubs_round(parts_.friction[f])) values[i++] = report[f].moment.norm();
+    values[i++] = report[f].power;
+  }
+}
+
+Drawing Joint::drawing() const {
+  const auto [a, b] = parts_.nodes;
+  if (parts_.drawn_axis)
+    return {fmt::format(R"("shape": "axis", "node": {}, "center": {}, "axis": {})", a != 0 ? a : b, json(parts_.point),
+                        json(parts_.frame.e1))};
+  if (a != 0 && b != 0) return {fmt::format(R"("shape": "line", "points": {})", json(layout().nodes))};
+  return {};
+}
+
+void Joint::name_channels() {
+  for (const JointCoordinate& c : parts_.coordinates) {
+    const bool length = is_length(c.measure);
+    channels_.push_back({c.names.value, length ? dimension::length : dimension::angle,
+                         length ? "position of B from A in the joint" : "turn of B from A, whole turns counted"});
+    channels_.push_back({c.names.rate, length ? dimension::velocity : dimension::angular_velocity, "rate of " + c.names.value});
+  }
+  const auto name = [this](const std::string& what, Dimension d, const std::string& where) {
+    for (const char* c : {"_X", "_Y", "_Z"}) channels_.push_back({what + c, d, where + ", global"});
+    if (parts_.has_axis)
+      for (const char* c : {"_1", "_2", "_3"}) channels_.push_back({what + c, d, where + ", joint axes"});
+  };
+  name("FORCE", dimension::force, "force of the joint on B");
+  if (parts_.has_moment) name("MOMENT", dimension::moment, "moment of the joint on B at the joint point");
+  if (parts_.has_axial) channels_.push_back({"AXIAL_FORCE", dimension::force, "force on B along the axis"});
+  if (parts_.is_bearing) {
+    channels_.push_back({"RADIAL_FORCE", dimension::force, "size of the force on B across the axis"});
+    if (parts_.has_moment) channels_.push_back({"BENDING_MOMENT", dimension::moment, "size of the moment on B across the axis"});
+  }
+  if (parts_.has_thrust) channels_.push_back({"THRUST", dimension::force, "force that pushes the ends apart"});
+  if (!parts_.has_axis) channels_.push_back({"FORCE_SIZE", dimension::force, "size of the force of the joint on B"});
+  if (parts_.has_bend) channels_.push_back({"BEND", dimension::angle, "angle between the shafts"});
+  if (!parts_.normal_channel.empty())
+    channels_.push_back({parts_.normal_channel, is_length(parts_.constraints[0].measure) ? dimension::force : dimension::moment,
+                         multiplier(parts_.constraints[0].measure).help});
+  for (const JointCoordinate& c : parts_.coordinates) {
+    const bool length = is_length(c.measure);
+    const Dimension effort = length ? dimension::force : dimension::moment;
+    if (c.sprung()) channels_.push_back({c.names.spring, effort, "of spring and damper on B"});
+    if (c.drive.given()) {
+      channels_.push_back({c.names.drive, effort, "of the drive on B, the opposite on A"});
+      channels_.push_back({c.names.power, dimension::power, "power that the drive gives to the mechanism"});
+    }
+    if (c.stop.given()) {
+      channels_.push_back({c.names.stop, effort, "of the stops on B; positive pushes the coordinate up"});
+      channels_.push_back({c.names.gap, length ? dimension::length : dimension::angle, "to the nearer stop; negative: pressed"});
+    }
+  }
+  for (const JointFriction& f : parts_.friction) {
+    channels_.push_back(
+        {"PRESSING_FORCE" + f.suffix, dimension::force, "sum of the forces that press the rubbing surfaces together"});
+    if (rubs_along(f)) channels_.push_back({"FRICTION_FORCE" + f.suffix, dimension::force, "size of the friction force"});
+    if (rubs_round(f)) channels_.push_back({"FRICTION_MOMENT" + f.suffix, dimension::moment, "size of the friction moment"});
+    channels_.push_back({"FRICTION_POWER" + f.suffix, dimension::power, "power lost in friction"});
+  }
+}
+
+}  // namespace engrane::elements::joints

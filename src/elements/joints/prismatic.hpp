@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "elements/joints/joint_card.hpp"
+
+namespace engrane::elements::joints {
+
+/// PRISMATIC (PRISMATIQUE): node B slides along an axis held by node A and does not turn from it.
+ElementType prismatic_type();
+
+}  // namespace engrane::elements::joints

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/springs/bushing.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "elements/common/building.hpp"
+#include "elements/common/rotation_vector.hpp"
+#include "model/templated_element.hpp"
+
+namespace engrane::elements::springs {
+
+namespace {
+
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+/// Linear in the displacement u of B's point from A's, in axes that A holds, and in the rotation vector θ of B from A in them.
+class Bushing final : public TemplatedElement<Bushing, 2, 12> {
+ public:
+  struct Place {
+    std::array<int, 2> nodes;
+    Vec3 point, offset_a, offset_b;  ///< offsets from the nodes to the point, held in each node's axes
+    Mat3 axes;                       ///< columns, in the reference configuration
+  };
+
+  Bushing(int id, const Place& place, const Mat6& stiffness, const Mat6& damping)
+      : TemplatedElement(id), place_(place), stiffness_(stiffness), damping_(damping) {
+    Layout layout;
+    layout.nodes.assign(place.nodes.begin(), place.nodes.end());
+    layout.needs = {NodeNeed::both, NodeNeed::both};
+    set_layout(std::move(layout));
+  }
+
+  template <class T>
+  void evaluate(const Motion<T, 2>& motion, const State&, Balance<T, 2>& balance) const {
+    const Strain<T> strain = this->strain(motion);
+    const auto load = [&](int row) {
+      T sum(0);
+      for (int c = 0; c < 6; ++c) {
+        const T &q = c < 3 ? strain.shift[c] : strain.turn.theta[c - 3],
+                &rate = c < 3 ? strain.shift_rate[c] : strain.turn_rate[c - 3];
+        sum += stiffness_(row, c) * q + damping_(row, c) * rate;
+      }
+      return sum;
+    };
+    const Vec3T<T> force = rotate(strain.axes, Vec3T<T>(load(0), load(1), load(2)));
+    const Vec3T<T> moment = rotate(strain.axes, strain.turn.moment(Vec3T<T>(load(3), load(4), load(5))));
+    balance.force(0, Vec3T<T>(-force));
+    balance.force(1, force);
+    // u turns with A, so that the force on A acts at B's point
+    const auto& a = motion.node[0];
+    const auto& b = motion.node[1];
+    balance.moment(0, rotate_back(a.R, Vec3T<T>(-moment - cross(Vec3T<T>(strain.arm_a + strain.gap), force))));
+    balance.moment(1, rotate_back(b.R, Vec3T<T>(moment + cross(strain.arm_b, force))));
+  }
+
+  Energies energies(const State& state) const override {
+    const auto [q, rate] = coordinates(state);
+    Energies e;
+    e.potential = 0.5 * q.dot(stiffness_ * q);
+    e.dissipated = rate.dot(damping_ * rate);
+    return e;
+  }
+
+  const std::vector<Named>& channels() const override {
+    static const std::vector<Named> all = [] {
+      std::vector<Named> list;
+      const auto three = [&](const std::string& name, Dimension dimension, const std::string& help) {
+        for (const char* axis : {"_1", "_2", "_3"}) list.push_back({name + axis, dimension, help});
+      };
+      three("DISPLACEMENT", dimension::length, "of B's point from A's, in the bush's axes");
+      three("ROTATION", dimension::angle, "rotation vector of B from A, in the bush's axes");
+      three("FORCE", dimension::force, "of the bush on B, in its axes");
+      three("MOMENT", dimension::moment, "of the bush on B, at its point, in its axes");
+      list.push_back({"SPRING_ENERGY", dimension::energy, "energy stored"});
+      list.push_back({"DAMPER_POWER", dimension::power, "power lost"});
+      return list;
+    }();
+    return all;
+  }
+
+  void observe(const State& state, std::span<double> values) const override {
+    const auto [q, rate] = coordinates(state);
+    const Vec6 load = stiffness_ * q + damping_ * rate;
+    const Vec3 moment = strain(motion<double>(state)).turn.moment(Vec3(load.tail<3>()));
+    for (Eigen::Index c = 0; c < 6; ++c) {
+      values[static_cast<std::size_t>(c)] = q[c];
+      values[static_cast<std::size_t>(c + 6)] = c < 3 ? -load[c] : -moment[c - 3];
+    }
+    const Energies e = energies(state);
+    values[12] = e.potential;
+    values[13] = e.dissipated;
+  }
+
+  Drawing drawing() const override {
+    Drawing shapes = {fmt::format(R"("shape": "axis", "node": {}, "center": {}, "axis": {})",
+                                  place_.nodes[0] != 0 ? place_.nodes[0] : place_.nodes[1], json(place_.point),
+                                  json(Vec3(place_.axes.col(0))))};
+    if (place_.nodes[0] != 0 && place_.nodes[1] != 0)
+      shapes.push_back(fmt::format(R"("shape": "coil", "points": {})", json(layout().nodes)));
+    return shapes;
+  }
+
+ private:
+  template <class T>
+  struct Strain {
+    Mat3T<T> axes;               ///< the bush's axes, global
+    Vec3T<T> arm_a, arm_b, gap;  ///< from the nodes to their points, and from A's point to B's, global
+    Vec3T<T> shift, shift_rate;  ///< u and its rate, in the bush's axes
+    RotationVector<T> turn;
+    Vec3T<T> turn_rate;
+  };
+
+  template <class T>
+  Strain<T> strain(const Motion<T, 2>& motion) const {
+    const auto& a = motion.node[0];
+    const auto& b = motion.node[1];
+    Strain<T> s;
+    Mat3T<T> carried, relative;  // the axes held by B; and B's in A's
+    for (int c = 0; c < 3; ++c) {
+      s.axes.col(c) = rotate(a.R, Vec3(place_.axes.col(c)));
+      carried.col(c) = rotate(b.R, Vec3(place_.axes.col(c)));
+    }
+    for (int c = 0; c < 3; ++c) relative.col(c) = rotate_back(s.axes, Vec3T<T>(carried.col(c)));
+    s.arm_a = rotate(a.R, place_.offset_a);
+    s.arm_b = rotate(b.R, place_.offset_b);
+    s.gap = b.x + s.arm_b - a.x - s.arm_a;
+    s.shift = rotate_back(s.axes, s.gap);
+    const Vec3T<T> spin_a = rotate(a.R, a.W), spin_b = rotate(b.R, b.W);
+    const Vec3T<T> rate = b.v + cross(spin_b, s.arm_b) - a.v - cross(spin_a, Vec3T<T>(s.arm_a + s.gap));
+    s.shift_rate = rotate_back(s.axes, rate);
+    s.turn = RotationVector<T>::of(relative);
+    s.turn_rate = s.turn.change(rotate_back(s.axes, Vec3T<T>(spin_b - spin_a)));
+    return s;
+  }
+
+  std::pair<Vec6, Vec6> coordinates(const State& state) const {
+    const Strain<double> s = strain(motion<double>(state));
+    Vec6 q, rate;
+    q << s.shift, s.turn.theta;
+    rate << s.shift_rate, s.turn_rate;
+    return {q, rate};
+  }
+
+  Place place_;
+  Mat6 stiffness_, damping_;
+};
+
+/// The matrix of 6 or 21 values, with an error when it has another number of them or would give energy.
+std::optional<Mat6> matrix(const BuildContext& context, const char* keyword, const std::vector<double>& values) {
+  Mat6 m = Mat6::Zero();
+  if (values.empty()) return m;
+  if (values.size() == 6) {
+    for (Eigen::Index i = 0; i < 6; ++i) m(i, i) = values[static_cast<std::size_t>(i)];
+  } else if (values.size() == 21) {
+    std::size_t next = 0;
+    for (Eigen::Index i = 0; i < 6; ++i)
+      for (Eigen::Index j = i; j < 6; ++j) m(i, j) = m(j, i) = values[next++];
+  } else {
+    context.error(keyword, fmt::format("{} has {} values", keyword, values.size()),
+                  "give 6 (the diagonal: three of displacement, three of rotation) or 21 (the upper triangle, row by row)");
+    return {};
+  }
+  // scaled to a diagonal of ones, since its rows have different units
+  Vec6 scale = m.diagonal();
+  for (Eigen::Index i = 0; i < 6; ++i) scale[i] = scale[i] > 0 ? 1 / std::sqrt(scale[i]) : 1;
+  const Mat6 scaled = scale.asDiagonal() * m * scale.asDiagonal();
+  const Vec6 eigenvalues = Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  if (eigenvalues[0] < -1e-9 * std::abs(eigenvalues[5])) {
+    context.error(keyword, fmt::format("the matrix of {} is not positive: some motion would gain energy from it", keyword),
+                  "every row's diagonal must outweigh what couples it to the others");
+    return {};
+  }
+  return m;
+}
+
+/// The bush's axes as columns, right-handed.
+std::optional<Mat3> find_axes(const BushingData& data, const BuildContext& context) {
+  if (!data.axis) {
+    if (!data.axis_2) return Mat3(Mat3::Identity());
+    context.error("AXIS2", "AXIS2 without AXIS", "give the first axis: AXIS x y z");
+    return {};
+  }
+  const auto first = unit_vector(context, "AXIS", *data.axis);
+  if (!first) return {};
+  Vec3 second = perpendicular(*first);
+  if (data.axis_2) {
+    const auto side = unit_vector(context, "AXIS2", *data.axis_2);
+    if (!side) return {};
+    second = *side - first->dot(*side) * *first;
+    if (second.norm() < 1e-6) {
+      context.error("AXIS2", "AXIS2 is along AXIS", "give a direction across the first axis");
+      return {};
+    }
+    second.normalize();
+  }
+  Mat3 axes;
+  axes << *first, second, cross(*first, second);
+  return axes;
+}
+
+std::unique_ptr<Element> build(const BushingData& data, BuildContext& context) {
+  const auto stiffness = matrix(context, "K", data.stiffness), damping = matrix(context, "C", data.damping);
+  const auto axes = find_axes(data, context);
+  if (!check_nodes(context, {data.nodes[0], data.nodes[1]}) || !stiffness || !damping || !axes) return nullptr;
+  if (stiffness->isZero(0) && damping->isZero(0)) {
+    context.error("K", "a bush with neither stiffness nor damping does nothing", "K k1 .. k6 and C c1 .. c6");
+    return nullptr;
+  }
+  const Vec3 &at_a = context.nodes.at(data.nodes[0]), &at_b = context.nodes.at(data.nodes[1]);
+  const Vec3 point = data.at ? to_vector(*data.at) : data.nodes[1] != 0 ? at_b : at_a;
+  const Bushing::Place place{data.nodes, point, point - at_a, point - at_b, *axes};
+  return std::make_unique<Bushing>(context.record.id, place, *stiffness, *damping);
+}
+
+}  // namespace
+
+ElementType bushing_type() {
+  deck::Card<BushingData> card("BUSHING", {"SILENTBLOC", "BUSH"}, "Bush: stiffness and damping in all six directions");
+  card.numbered()
+      .chapter("Stiffeners, dampers, transfer functions")
+      .describe(
+          "Linear in the displacement of b relative to a and in their relative rotation vector, both in axes that node a "
+          "holds: exact under any motion of both nodes, for relative rotations below half a turn. It is relaxed in the "
+          "reference configuration. K and C are diagonals (6 values: displacement along, rotation about the axes 1, 2, 3) "
+          "or full symmetric matrices (21 values: the upper triangle, row by row).")
+      .example("I 8 BUSHING N 4 5  K 2D6 5D5 5D5 80 300 300  C 200 50 50 0 0 0  AXIS 0 0 1");
+  card.add("N", &BushingData::nodes, "the two nodes, a and b; 0 is the ground")
+      .synonyms({"NODES", "NOEUDS"})
+      .refers(deck::Reference::node)
+      .required();
+  card.add("K", &BushingData::stiffness, "stiffness: 6 values of the diagonal, or 21 of the upper triangle").values(6, 21);
+  card.add("C", &BushingData::damping, "damping: 6 values of the diagonal, or 21 of the upper triangle").values(6, 21);
+  card.add("AT", &BushingData::at, "where the bush is, in the reference configuration; default: at b").unit(dimension::length);
+  card.add("AXIS", &BushingData::axis, "first axis, in the reference configuration; default: global x, y, z").synonyms({"AXE"});
+  card.add("AXIS2", &BushingData::axis_2, "across AXIS, towards the second axis; default: any perpendicular").synonyms({"AXE2"});
+  return element_type(card, build);
+}
+
+}  // namespace engrane::elements::springs

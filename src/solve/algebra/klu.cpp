@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/algebra/klu.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace engrane::solve {
+
+namespace {
+
+static_assert(sizeof(PetscInt) == sizeof(int), "KLU's int interface takes PETSc's indices as they are");
+
+/// A solution as good as this is that of a matrix that nobody can tell from the given one.
+constexpr double good = 1e-14;
+/// Where one refinement leaves more, the old pivots serve no longer.
+constexpr double worst_kept = 1e-11;
+
+/// The values of a sequential matrix, for as long as this lives.
+class Values {
+ public:
+  explicit Values(Mat matrix) : matrix_(matrix) { check_petsc(MatSeqAIJGetArrayRead(matrix, &values_)); }
+  ~Values() { (void)MatSeqAIJRestoreArrayRead(matrix_, &values_); }
+  Values(const Values&) = delete;
+  Values& operator=(const Values&) = delete;
+  // KLU's interface predates const
+  double* get() const { return const_cast<double*>(values_); }
+
+ private:
+  Mat matrix_;
+  const PetscScalar* values_ = nullptr;
+};
+
+}  // namespace
+
+Klu::Klu(Mat matrix) : matrix_(matrix) {
+  klu_defaults(&common_);
+  check_petsc(PetscLogEventGetId("MatLUFactorNum", &factoring_));
+  check_petsc(PetscLogEventGetId("MatSolve", &solving_));
+}
+
+void Klu::serve(PC pc) {
+  check_petsc(PCSetType(pc, PCSHELL));
+  check_petsc(PCShellSetName(pc, "KLU, its pivots kept"));
+  check_petsc(PCShellSetContext(pc, this));
+  check_petsc(PCShellSetSetUp(pc, set_up));
+  check_petsc(PCShellSetApply(pc, apply));
+}
+
+void Klu::forget() {
+  klu_free_numeric(&numeric_, &common_);
+  klu_free_symbolic(&symbolic_, &common_);
+}
+
+bool Klu::factor(bool fresh) {
+  const Values values(matrix_);
+  auto *begin = const_cast<PetscInt*>(begin_), *column = const_cast<PetscInt*>(column_);
+  if (!symbolic_) symbolic_ = klu_analyze(size_, begin, column, &common_);
+  if (!symbolic_) return false;
+  stale_ = !fresh && numeric_ && klu_refactor(begin, column, values.get(), symbolic_, numeric_, &common_) == 1 &&
+           common_.status == KLU_OK;
+  if (stale_) return true;
+  klu_free_numeric(&numeric_, &common_);
+  numeric_ = klu_factor(begin, column, values.get(), symbolic_, &common_);
+  return numeric_ && common_.status == KLU_OK;
+}
+
+double Klu::backward_error(const double* right, const double* solution) {
+  const Values values(matrix_);
+  const double* a = values.get();
+  double worst = 0;
+  for (int row = 0; row < size_; ++row) {
+    double remainder = right[row], terms = std::abs(right[row]);
+    for (PetscInt k = begin_[row]; k < begin_[row + 1]; ++k) {
+      const double term = a[k] * solution[column_[k]];
+      remainder -= term;
+      terms += std::abs(term);
+    }
+    residual_[static_cast<std::size_t>(row)] = remainder;
+    if (std::isnan(terms) || std::isinf(terms)) return std::numeric_limits<double>::infinity();
+    if (terms > 0) worst = std::max(worst, std::abs(remainder) / terms);
+  }
+  return worst;
+}
+
+double Klu::solve(const double* right, double* solution) {
+  // the factors are those of the transpose
+  std::copy_n(right, size_, solution);
+  klu_tsolve(symbolic_, numeric_, size_, 1, solution, &common_);
+  const double error = backward_error(right, solution);
+  if (error <= good || !std::isfinite(error)) return error;
+  klu_tsolve(symbolic_, numeric_, size_, 1, residual_.data(), &common_);
+  for (int i = 0; i < size_; ++i) solution[i] += residual_[static_cast<std::size_t>(i)];
+  return backward_error(right, solution);
+}
+
+PetscErrorCode Klu::set_up(PC pc) {
+  Klu* self = nullptr;
+  PetscCall(PCShellGetContext(pc, &self));
+  if (!self->begin_) {
+    PetscBool done = PETSC_FALSE;
+    PetscInt rows = 0;
+    PetscCall(MatGetRowIJ(self->matrix_, 0, PETSC_FALSE, PETSC_FALSE, &rows, &self->begin_, &self->column_, &done));
+    self->size_ = rows;
+    self->residual_.resize(static_cast<std::size_t>(rows));
+  }
+  PetscCall(PetscLogEventBegin(self->factoring_, pc, nullptr, nullptr, nullptr));
+  const bool regular = self->factor(false);
+  PetscCall(PetscLogEventEnd(self->factoring_, pc, nullptr, nullptr, nullptr));
+  PetscCall(PCSetFailedReason(pc, regular ? PC_NOERROR : PC_FACTOR_NUMERIC_ZEROPIVOT));
+  return 0;
+}
+
+PetscErrorCode Klu::apply(PC pc, Vec right, Vec solution) {
+  Klu* self = nullptr;
+  PetscCall(PCShellGetContext(pc, &self));
+  const PetscScalar* b = nullptr;
+  PetscScalar* x = nullptr;
+  PetscCall(VecGetArrayRead(right, &b));
+  PetscCall(VecGetArrayWrite(solution, &x));
+  PetscCall(PetscLogEventBegin(self->solving_, pc, nullptr, nullptr, nullptr));
+  double error = self->solve(b, x);
+  if (self->stale_ && !(error <= worst_kept))
+    error = self->factor(true) ? self->solve(b, x) : std::numeric_limits<double>::infinity();
+  PetscCall(PetscLogEventEnd(self->solving_, pc, nullptr, nullptr, nullptr));
+  PetscCall(VecRestoreArrayRead(right, &b));
+  PetscCall(VecRestoreArrayWrite(solution, &x));
+  if (!std::isfinite(error)) PetscCall(PCSetFailedReason(pc, PC_FACTOR_NUMERIC_ZEROPIVOT));
+  return 0;
+}
+
+}  // namespace engrane::solve

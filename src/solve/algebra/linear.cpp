@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/algebra/linear.hpp"
+
+#include <cmath>
+
+namespace engrane::solve {
+
+namespace {
+
+MatSolverType petsc_name(const std::string& package) {
+  if (package == "UMFPACK") return MATSOLVERUMFPACK;
+  if (package == "SUPERLU") return MATSOLVERSUPERLU;
+  return MATSOLVERMUMPS;
+}
+
+}  // namespace
+
+LinearSolver::LinearSolver(Mat matrix, const std::string& package) : package_(package) {
+  MPI_Comm comm = PETSC_COMM_SELF;
+  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  if (size > 1) package_ = "MUMPS";
+  if (package_ == "KLU") klu_ = std::make_unique<Klu>(matrix);
+  check_petsc(KSPCreate(comm, ksp_.out()));
+  check_petsc(KSPSetOperators(ksp_, matrix, matrix));
+  check_petsc(KSPSetType(ksp_, KSPPREONLY));
+  set_up();
+}
+
+void LinearSolver::set_up() {
+  PC pc = nullptr;
+  check_petsc(KSPGetPC(ksp_, &pc));
+  if (klu_) {
+    klu_->serve(pc);
+    check_petsc(KSPSetFromOptions(ksp_));
+    return;
+  }
+  check_petsc(PCSetType(pc, PCLU));
+  check_petsc(PCFactorSetMatSolverType(pc, petsc_name(package_)));
+  check_petsc(PCFactorSetUpMatSolverType(pc));
+  // MUMPS stops with -9 when pivoting needs more room than the analysis guessed
+  if (package_ == "MUMPS") check_petsc(MatMumpsSetIcntl(factor(), 14, mumps_room_));
+  check_petsc(KSPSetFromOptions(ksp_));
+}
+
+void LinearSolver::reset() {
+  Mat matrix = nullptr;
+  PC pc = nullptr;
+  check_petsc(KSPGetOperators(ksp_, &matrix, nullptr));
+  check_petsc(KSPGetPC(ksp_, &pc));
+  check_petsc(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
+  check_petsc(PCReset(pc));
+  if (klu_) klu_->forget();
+  check_petsc(KSPSetOperators(ksp_, matrix, matrix));
+  check_petsc(PetscObjectDereference(reinterpret_cast<PetscObject>(matrix)));
+  set_up();
+}
+
+Mat LinearSolver::factor() const {
+  PC pc = nullptr;
+  Mat f = nullptr;
+  check_petsc(KSPGetPC(ksp_, &pc));
+  check_petsc(PCFactorGetMatrix(pc, &f));
+  return f;
+}
+
+bool LinearSolver::solve(Vec right, Vec solution) {
+  do {
+    check_petsc(KSPSolve(ksp_, right, solution));
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    check_petsc(KSPGetConvergedReason(ksp_, &reason));
+    PetscReal norm = 0;
+    check_petsc(VecNorm(solution, NORM_INFINITY, &norm));
+    if (reason > 0 && std::isfinite(norm)) return true;
+  } while (enlarge());
+  reset();
+  return false;
+}
+
+bool LinearSolver::enlarge() {
+  if (package_ != "MUMPS") return false;
+  PetscInt info = 0;
+  check_petsc(MatMumpsGetInfog(factor(), 1, &info));
+  const bool short_of_room = info == -9 || info == -8 || info == -14 || info == -15;
+  if (!short_of_room || mumps_room_ > 3000) return false;
+  mumps_room_ *= 4;
+  check_petsc(MatMumpsSetIcntl(factor(), 14, mumps_room_));
+  return true;
+}
+
+double LinearSolver::factor_bytes() const {
+  if (klu_) return klu_->bytes();
+  MatInfo info{};
+  if (package_ == "MUMPS") {
+    PetscInt megabytes = 0;
+    check_petsc(MatMumpsGetInfog(factor(), 19, &megabytes));  // total over all ranks, in the factorisation
+    return 1e6 * static_cast<double>(megabytes);
+  }
+  check_petsc(MatGetInfo(factor(), MAT_GLOBAL_SUM, &info));
+  return info.nz_used * (sizeof(PetscScalar) + sizeof(PetscInt));
+}
+
+}  // namespace engrane::solve

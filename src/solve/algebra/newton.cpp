@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/algebra/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace engrane::solve {
+
+namespace {
+
+constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+/// A correction this small (over the extent, or in radians) changes nothing that anybody can see: what residual is left
+/// is the rounding of the sums themselves.
+constexpr double negligible_correction = 1e-13;
+/// And below this nothing moves at all, whatever the forces are compared with: a freely spinning body has forces that
+/// cancel inside its one element, and leaves nothing but rounding to judge by.
+constexpr double no_correction = 2e-15;
+
+/// Share of the largest force so far that a residual is at least compared with.
+constexpr double remembered = 1e-3;
+
+}  // namespace
+
+Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int iterations)
+    : assembler_(assembler), solver_(solver), precision_(precision) {
+  *residual_.out() = assembler.new_vector();
+  check_petsc(SNESCreate(assembler.comm(), snes_.out()));
+  check_petsc(SNESSetType(snes_, SNESNEWTONLS));
+  check_petsc(SNESSetKSP(snes_, solver.ksp()));
+  check_petsc(SNESSetFunction(snes_, residual_, form_function, this));
+  check_petsc(SNESSetJacobian(snes_, assembler.matrix(), assembler.matrix(), form_jacobian, this));
+  SNESLineSearch search = nullptr;
+  check_petsc(SNESGetLineSearch(snes_, &search));
+  check_petsc(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
+  check_petsc(SNESSetTolerances(snes_, 0, 0, 0, iterations, 100000));
+  check_petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
+  check_petsc(SNESSetFromOptions(snes_));
+}
+
+NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configuration& work) {
+  apply_ = &apply;
+  work_ = &work;
+  weights_ = weights;
+  NewtonReport report;
+  const Magnitudes before = largest_;
+  Owned<Vec> guess;
+  *guess.out() = assembler_.new_vector();
+  check_petsc(VecCopy(x, guess));
+  for (;;) {
+    rows_.clear();
+    failure_.clear();
+    const PetscErrorCode code = SNESSolve(snes_, nullptr, x);
+    if (!failure_.empty()) throw PetscFailure(failure_);
+    check_petsc(code);
+    SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+    check_petsc(SNESGetConvergedReason(snes_, &reason));
+    report.converged = reason > 0;
+    report.singular = reason == SNES_DIVERGED_LINEAR_SOLVE;
+    if (report.singular && solver_.enlarge()) {
+      check_petsc(VecCopy(guess, x));
+      continue;
+    }
+    if (reason == SNES_DIVERGED_MAX_IT)
+      report.reason = "no convergence in " + std::to_string(rows_.size() - 1) + " iterations";
+    else if (report.singular)
+      report.reason = "the tangent matrix is singular";
+    else if (reason < 0)
+      report.reason = "the iteration left the range of numbers";
+    break;
+  }
+  if (report.singular) solver_.reset();
+  if (!report.converged) largest_ = before;  // what a failed iteration tried is no measure of anything
+  report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
+  report.rows = rows_;
+  return report;
+}
+
+PetscErrorCode Newton::form_function(SNES snes, Vec x, Vec f, void* context) {
+  auto& self = *static_cast<Newton*>(context);
+  try {
+    (*self.apply_)(self.assembler_.gather(x), *self.work_);
+    self.magnitudes_ = self.assembler_.residual(*self.work_, f);
+    self.measure(f);
+  } catch (const std::exception& e) {
+    self.failure_ = e.what();
+    return PETSC_ERR_LIB;
+  }
+  const double worst = std::max({self.row_.force, self.row_.moment, self.row_.length, self.row_.angle});
+  if (!std::isfinite(worst)) return SNESSetFunctionDomainError(snes);
+  return 0;
+}
+
+PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
+  auto& self = *static_cast<Newton*>(context);
+  try {
+    // work_ is the configuration of the last residual, which SNES evaluates at the same point just before
+    self.assembler_.tangent(*self.work_, self.weights_);
+  } catch (const std::exception& e) {
+    self.failure_ = e.what();
+    return PETSC_ERR_LIB;
+  }
+  return 0;
+}
+
+void Newton::measure(Vec f) {
+  const Numbering& numbering = assembler_.numbering();
+  const double extent = assembler_.model().extent();
+  // what has been carried so far stays the measure, or a load that passes through zero could never be balanced
+  for (int i = 0; i < 4; ++i) largest_.of[i] = std::max(largest_.of[i], magnitudes_.of[i]);
+  Magnitudes reference = magnitudes_;
+  for (const Measure m : {Measure::force, Measure::moment}) reference[m] = std::max(reference[m], remembered * largest_[m]);
+  // a model where all is force, or all moment, must not judge the other by rounding noise
+  reference[Measure::moment] = std::max(reference[Measure::moment], reference[Measure::force] * extent);
+  reference[Measure::force] = std::max(reference[Measure::force], reference[Measure::moment] / extent);
+  reference[Measure::length] = extent;
+  reference[Measure::angle] = 1;
+  const double least = std::numeric_limits<double>::min();
+  double worst[6] = {0, 0, 0, 0, 0, 0};  // four measures, kΦ over force, open constraint in roundings
+  double worst_of_all = -1;
+  int worst_row = -1;
+  PetscInt first = 0, end = 0;
+  check_petsc(VecGetOwnershipRange(f, &first, &end));
+  const PetscScalar* values = nullptr;
+  check_petsc(VecGetArrayRead(f, &values));
+  for (PetscInt row = first; row < end; ++row) {
+    const Unknown& u = numbering.unknown(static_cast<int>(row));
+    double value = std::abs(values[row - first]);
+    if (u.multiplier) {
+      // kΦ is the force (or moment) that the open constraint stands for
+      const double carried = u.measure == Measure::length ? reference[Measure::force] : reference[Measure::moment];
+      const double k = assembler_.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
+      const double as_force = value / std::max(carried, least);
+      value /= k;
+      const double open = value / (reference[u.measure] * rounding);
+      if (open > 1) worst[4] = std::max(worst[4], as_force);
+      worst[5] = std::max(worst[5], open);
+    }
+    const double relative = value / std::max(reference[u.measure], least);
+    double& largest = worst[static_cast<int>(u.measure)];
+    largest = std::isnan(relative) ? relative : std::max(largest, relative);
+    if (!(relative <= worst_of_all)) {
+      worst_of_all = relative;
+      worst_row = static_cast<int>(row);
+    }
+  }
+  check_petsc(VecRestoreArrayRead(f, &values));
+  struct {
+    double value;
+    int row;
+  } located{worst_of_all, worst_row};
+  int size = 1;
+  MPI_Comm_size(assembler_.comm(), &size);
+  if (size > 1) {
+    MPI_Allreduce(MPI_IN_PLACE, worst, 6, MPI_DOUBLE, MPI_MAX, assembler_.comm());
+    MPI_Allreduce(MPI_IN_PLACE, &located, 1, MPI_DOUBLE_INT, MPI_MAXLOC, assembler_.comm());
+  }
+  row_ = {0, worst[0], worst[1], worst[2], worst[3], 0, located.row};
+  constraint_force_ = worst[4];
+  scaled_open_ = worst[5];
+}
+
+bool Newton::judge(int iteration) {
+  row_.iteration = iteration;
+  double forces = 0;  // largest change of a multiplier
+  if (iteration > 0) {
+    Vec update = nullptr;
+    check_petsc(SNESGetSolutionUpdate(snes_, &update));
+    PetscInt first = 0, end = 0;
+    check_petsc(VecGetOwnershipRange(update, &first, &end));
+    const PetscScalar* values = nullptr;
+    check_petsc(VecGetArrayRead(update, &values));
+    const double extent = assembler_.model().extent();
+    for (PetscInt row = first; row < end; ++row) {
+      const Unknown& u = assembler_.numbering().unknown(static_cast<int>(row));
+      // a multiplier over its k is the displacement that its force stands for
+      const double size = u.measure == Measure::force || u.measure == Measure::length ? extent : 1.0;
+      double& largest = u.multiplier ? forces : row_.correction;
+      largest = std::max(largest, std::abs(values[row - first]) / size);
+    }
+    check_petsc(VecRestoreArrayRead(update, &values));
+    double both[2] = {row_.correction, forces};
+    MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_DOUBLE, MPI_MAX, assembler_.comm());
+    row_.correction = both[0];
+    forces = both[1];
+  }
+  rows_.push_back(row_);
+  const bool balanced = std::max({row_.force, row_.moment}) <= precision_;
+  const bool closed = std::max({row_.length, row_.angle}) <= precision_ && constraint_force_ <= precision_;
+  if (balanced && closed) return true;
+  const double changed = std::max(row_.correction, forces);
+  if (iteration > 1 && changed <= no_correction) return true;
+  const bool settled = iteration > 1 && changed <= negligible_correction;
+  return settled && std::max({row_.force, row_.moment, row_.length, row_.angle}) <= std::sqrt(precision_);
+}
+
+PetscErrorCode Newton::test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal fnorm,
+                                        SNESConvergedReason* reason, void* context) {
+  auto& self = *static_cast<Newton*>(context);
+  *reason = SNES_CONVERGED_ITERATING;
+  if (!std::isfinite(fnorm)) {
+    *reason = SNES_DIVERGED_FNORM_NAN;
+    return 0;
+  }
+  try {
+    if (self.judge(static_cast<int>(iteration))) *reason = SNES_CONVERGED_FNORM_ABS;
+  } catch (const std::exception& e) {
+    self.failure_ = e.what();
+    return PETSC_ERR_LIB;
+  }
+  return 0;
+}
+
+}  // namespace engrane::solve

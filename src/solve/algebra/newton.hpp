@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "assembly/assembler.hpp"
+#include "solve/algebra/linear.hpp"
+
+namespace engrane::solve {
+
+/// One line of a Newton table. Residuals are relative: forces and moments to the largest element contribution, open
+/// constraints to the size of the mechanism.
+struct NewtonRow {
+  int iteration = 0;
+  double force = 0, moment = 0, length = 0, angle = 0;
+  double correction = 0;  ///< largest change of a position over the extent or of an angle, of the iteration before
+  int worst = -1;         ///< equation with the largest relative residual
+};
+
+struct NewtonReport {
+  bool converged = false;
+  bool singular = false;
+  bool conflict = false;  ///< constraints could not be met that the solver took for consequences of the others
+  int iterations = 0;
+  std::string reason;  ///< why it did not converge, in words
+  std::vector<NewtonRow> rows;
+};
+
+/// PETSc's SNES on the assembled system, with a convergence test that knows forces from lengths.
+class Newton {
+ public:
+  /// Writes the configuration that belongs to the unknowns; multipliers come scaled, λ = unknown × k.
+  using Apply = std::function<void(std::span<const double> unknowns, Configuration& configuration)>;
+
+  Newton(Assembler& assembler, LinearSolver& solver, double precision, int iterations);
+
+  /// Solves r = 0 from the guess `x`, which it overwrites; `work` ends as the last configuration tried.
+  NewtonReport solve(Vec x, Weights weights, const Apply& apply, Configuration& work);
+
+ private:
+  static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
+  static PetscErrorCode form_jacobian(SNES, Vec x, Mat, Mat, void* self);
+  static PetscErrorCode test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal, SNESConvergedReason* reason,
+                                         void* self);
+  void measure(Vec f);
+  bool judge(int iteration);
+
+  Assembler& assembler_;
+  LinearSolver& solver_;
+  double precision_;
+  Owned<SNES> snes_;
+  Owned<Vec> residual_;
+  const Apply* apply_ = nullptr;
+  Configuration* work_ = nullptr;
+  Weights weights_;
+  Magnitudes magnitudes_;  ///< of the last residual
+  Magnitudes largest_;     ///< of all residuals so far
+  NewtonRow row_;
+  double constraint_force_ = 0;  ///< largest k Φ over the largest force
+  double scaled_open_ = 0;       ///< largest open constraint in units of rounding
+  std::vector<NewtonRow> rows_;
+  std::string failure_;  ///< of an exception inside a callback
+};
+
+}  // namespace engrane::solve

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "assembly/assembler.hpp"
+#include "solve/algebra/newton.hpp"
+
+namespace engrane::solve {
+
+/// Says which motion or which reactions make the matrix of `assembler` singular: `what`, then the unknowns of its
+/// nearest null vector by name. Larger systems than about 1500 unknowns only get the first part. Collective.
+std::string explain_singular(Assembler& assembler, const std::string& what);
+
+/// Says where a Newton iteration got stuck: "largest residual at node 57 (rz) from HINGE 3".
+std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report);
+
+/// Names the first element whose forces or tangent are not finite numbers; empty when all are.
+std::string explain_not_finite(Assembler& assembler, const Configuration& configuration);
+
+}  // namespace engrane::solve

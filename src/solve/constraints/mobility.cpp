@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/constraints/mobility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "solve/constraints/constraint_factors.hpp"
+#include "solve/constraints/redundancy_advice.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+/// A little along a possible motion, closed again. False when it does not close: then the motion is only one of first order.
+bool move_along(Assembler& assembler, const MotionSlots& motion, const ConstraintFactors& here, Configuration& c,
+                double tolerance) {
+  // any direction does that is not a special one
+  Vector wish(here.rows());
+  for (Eigen::Index i = 0; i < wish.size(); ++i) wish[i] = std::sin(1.0 + 2.3 * static_cast<double>(i * i % 1009));
+  Vector way = here.possible_motion(wish);
+  const double largest = way.size() > 0 ? way.lpNorm<Eigen::Infinity>() : 0;
+  if (!(largest > 1e-6)) return false;
+  std::vector<double> y(motion.size(), 0.0), phi, rate, second;
+  const auto move = [&](const ConstraintFactors& factors, const Vector& by) {
+    std::fill(y.begin(), y.end(), 0.0);
+    factors.to_slots(by, y);
+    Configuration moved = c;
+    motion.move(c, y, moved);
+    c = outside_of_steps(std::move(moved));
+  };
+  move(here, way * (0.02 / largest));
+  for (int iteration = 0; iteration < 12; ++iteration) {
+    assembler.constraint_rates(c, phi, rate, second);
+    double open = 0;
+    for (std::size_t m = 0; m < phi.size(); ++m) open = std::max(open, relative_open(assembler, static_cast<int>(m), phi[m]));
+    if (!std::isfinite(open)) return false;
+    if (open < 1e-13) return true;
+    const ConstraintFactors factors(assembler, c, ConstraintColumns::gradients, tolerance);
+    const Vector by = factors.closing_motion(phi);
+    if (!(by.lpNorm<Eigen::Infinity>() < 0.05)) return false;
+    move(factors, by);
+    if (by.lpNorm<Eigen::Infinity>() < 1e-14) return open < 1e-11;
+  }
+  return false;
+}
+
+/// Which constraints hang together: those that a null vector combines.
+std::vector<RedundantGroup> group(const Eigen::MatrixXd& null) {
+  std::vector<int> leader(static_cast<std::size_t>(null.rows()));
+  std::iota(leader.begin(), leader.end(), 0);
+  const auto find = [&](int m) {
+    while (leader[static_cast<std::size_t>(m)] != m) m = leader[static_cast<std::size_t>(m)];
+    return m;
+  };
+  std::vector<int> first_of(static_cast<std::size_t>(null.cols()), -1);
+  std::vector<bool> takes_part(leader.size(), false);
+  for (Eigen::Index j = 0; j < null.cols(); ++j) {
+    const double size = null.col(j).lpNorm<Eigen::Infinity>();
+    for (Eigen::Index m = 0; m < null.rows(); ++m) {
+      if (std::abs(null(m, j)) < 1e-6 * size) continue;
+      takes_part[static_cast<std::size_t>(m)] = true;
+      int& first = first_of[static_cast<std::size_t>(j)];
+      if (first < 0)
+        first = static_cast<int>(m);
+      else
+        leader[static_cast<std::size_t>(find(static_cast<int>(m)))] = find(first);
+    }
+  }
+  std::map<int, RedundantGroup> groups;
+  for (std::size_t m = 0; m < leader.size(); ++m)
+    if (takes_part[m]) groups[find(static_cast<int>(m))].members.push_back(static_cast<int>(m));
+  for (const int first : first_of) ++groups[find(first)].redundant;
+  std::vector<RedundantGroup> all;
+  for (auto& [first, one] : groups) all.push_back(std::move(one));
+  return all;
+}
+
+std::string along(const Vec3& direction) {
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(direction[i]) > 1 - 1e-9) return std::string(1, "xyz"[i]);
+  return fmt::format("({:.3g}, {:.3g}, {:.3g})", direction[0], direction[1], direction[2]);
+}
+
+/// "force along z", from the gradient of the constraint; for what is not a joint the words of its element.
+std::string describe_direction(Assembler& assembler, const Configuration& c, const Unknown& u) {
+  const Model::Part& part = assembler.model().parts[static_cast<std::size_t>(u.part)];
+  const Layout& layout = part.element->layout();
+  const Named& named = layout.multipliers[static_cast<std::size_t>(u.item)];
+  const bool force = named.name.find("FORCE_") != std::string::npos, moment = named.name.find("MOMENT_") != std::string::npos;
+  if (!force && !moment) return named.name == "TOOTH" ? "tooth force" : named.help;
+  const std::size_t n = static_cast<std::size_t>(layout.slots()), nodes = part.nodes.size();
+  std::vector<double> r(n), k(n * n);
+  part.element->tangent(assembler.view(u.part, c), {1, 0, 0}, r, k);
+  const std::size_t row = n - layout.multipliers.size() + static_cast<std::size_t>(u.item);
+  for (std::size_t i = nodes; i-- > 0;) {
+    const double* g = k.data() + row * n + 6 * i + (force ? 0 : 3);
+    Vec3 direction(g[0], g[1], g[2]);
+    if (direction.norm() < 1e-9) continue;
+    if (moment) direction = c.nodes[static_cast<std::size_t>(part.nodes[i])].R * direction;
+    return fmt::format("{} {}", force ? "force along" : "moment about", along(direction.normalized()));
+  }
+  return named.help;
+}
+
+std::string names(Assembler& assembler, const Configuration& c, const std::vector<int>& members) {
+  constexpr int most = 12;
+  std::string text;
+  int part = -1, elements = 0;
+  std::map<int, std::size_t> directions;
+  for (const int m : members) ++directions[multiplier_unknown(assembler.numbering(), m).part];
+  bool all = false;
+  std::size_t unnamed = 0;
+  for (const int m : members) {
+    const Unknown& u = multiplier_unknown(assembler.numbering(), m);
+    if (u.part != part) {
+      part = u.part;
+      if (elements++ >= most) {
+        ++unnamed;
+        continue;
+      }
+      const Model::Part& owner = assembler.model().parts[static_cast<std::size_t>(part)];
+      text += fmt::format("{}{} {} (", elements > 1 ? "), " : "", owner.type, owner.element->id());
+      all = directions[part] > 3 && directions[part] == owner.element->layout().multipliers.size();
+      text += all ? "in all directions that it holds" : describe_direction(assembler, c, u);
+    } else if (elements <= most && !all) {
+      text += ", " + describe_direction(assembler, c, u);
+    }
+  }
+  if (!text.empty()) text += ")";
+  if (unnamed > 0) text += fmt::format(" and {} more", unnamed);
+  return text;
+}
+
+std::string counted(int number, const char* what) { return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s"); }
+
+constexpr const char* usual_cure =
+    "leave one of these directions free in one of the joints, or give it a stiffness instead (KM for teeth)";
+
+}  // namespace
+
+Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const Configuration& configuration, double tolerance) {
+  Configuration c = outside_of_steps(configuration);
+  const ConstraintFactors here(assembler, c, ConstraintColumns::gradients, tolerance);
+  Mobility found;
+  found.analysed = true;
+  found.motions = static_cast<int>(here.rows());
+  found.constraints = static_cast<int>(here.columns());
+  found.rank = static_cast<int>(here.rank());
+  const auto take = [&](const ConstraintFactors& factors) {
+    found.dependent.clear();
+    for (Eigen::Index i = factors.rank(); i < factors.columns(); ++i) found.dependent.push_back(factors.pivot(i));
+    std::sort(found.dependent.begin(), found.dependent.end());
+    found.null = factors.null_multipliers(false);
+    found.groups = group(found.null);
+  };
+  if (here.deficiency() == 0) return found;
+  std::vector<double> phi, rate, second;
+  assembler.constraint_rates(c, phi, rate, second);
+  take(here);
+  if (found.freedom() > 0 && move_along(assembler, motion, here, c, tolerance)) {
+    const ConstraintFactors there(assembler, c, ConstraintColumns::gradients, tolerance);
+    if (there.rank() > here.rank()) {
+      found.lost_here = static_cast<int>(there.rank() - here.rank());
+      found.rank = static_cast<int>(there.rank());
+      take(there);
+    }
+  }
+  for (RedundantGroup& one : found.groups)
+    for (const int m : one.members) {
+      const double relative = relative_open(assembler, m, phi[static_cast<std::size_t>(m)]);
+      if (relative < one.relative) continue;
+      one.relative = relative;
+      one.open = std::abs(phi[static_cast<std::size_t>(m)]);
+      one.widest = m;
+    }
+  return found;
+}
+
+std::string describe_groups(Assembler& assembler, const Configuration& configuration, const Mobility& mobility) {
+  const Configuration c = outside_of_steps(configuration);
+  std::string text;
+  for (const RedundantGroup& one : mobility.groups)
+    text += fmt::format("{}{} among {}", text.empty() ? "" : "\n", counted(one.redundant, "redundant constraint"),
+                        names(assembler, c, one.members));
+  return text;
+}
+
+std::string describe_mobility(Assembler& assembler, const Configuration& configuration, const Mobility& mobility) {
+  if (!mobility.analysed) return "";
+  std::string text = fmt::format("  {} ({} free motions, {} independent constraints)\n",
+                                 counted(mobility.freedom(), "degree") + " of freedom", mobility.motions, mobility.rank);
+  if (mobility.lost_here > 0)
+    text += fmt::format("  the start is a singular position: {} more there alone\n", mobility.lost_here);
+  if (mobility.redundant() == 0) return text;
+  std::string groups = describe_groups(assembler, configuration, mobility);
+  for (std::size_t at = groups.find('\n'); at != std::string::npos; at = groups.find('\n', at + 3)) groups.replace(at, 1, "\n  ");
+  text += "  " + groups + "\n";
+  text +=
+      "  They agree with one another. The motion and the sums of forces are determined; how these reactions share a load is not "
+      "unique: the least ones are given.\n";
+  const std::string cure = suggest_releases(assembler, mobility.null);
+  return text + fmt::format("  For reactions of a real machine {}.\n", cure.empty() ? usual_cure : cure);
+}
+
+bool Redundancy::analyse(const Configuration& c, double tolerance, bool whatever_size) {
+  const int constraints = assembler_.numbering().slots() - assembler_.numbering().motion_slots();
+  if (constraints > most_analysed && !whatever_size) return false;
+  std::vector<int> before = mobility_.dependent;
+  mobility_ = analyse_mobility(assembler_, motion_, c, tolerance);
+  assembler_.release(mobility_.dependent, c.multipliers);
+  return before != mobility_.dependent;
+}
+
+std::string Redundancy::conflict(const Configuration& c) {
+  if (!active()) return {};
+  std::vector<double> phi, rate, second;
+  assembler_.constraint_rates(c, phi, rate, second);
+  const Numbering& numbering = assembler_.numbering();
+  for (const RedundantGroup& one : mobility_.groups)
+    for (const int m : one.members) {
+      const double open = phi[static_cast<std::size_t>(m)];
+      if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
+      if (relative_open(assembler_, m, open) <= consistent) continue;
+      const Unknown& u = multiplier_unknown(numbering, m);
+      const bool length = u.measure == Measure::length;
+      return fmt::format("conflicting constraints: {} stays open by {:.3g} {} when the others are closed; {} among {}: {}",
+                         numbering.describe(numbering.equation(u.slot)), std::abs(open),
+                         assembler_.model().units.label(length ? dimension::length : dimension::angle),
+                         counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members),
+                         cure_of(one));
+    }
+  return {};
+}
+
+std::string Redundancy::cure_of(const RedundantGroup& one) const {
+  // of drives the last in the deck: it is the one that was added to what moved before
+  for (auto m = one.members.rbegin(); m != one.members.rend(); ++m) {
+    const Unknown& u = multiplier_unknown(assembler_.numbering(), *m);
+    const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(u.part)];
+    if (!is_drive(assembler_.model(), u)) continue;
+    return fmt::format(
+        "the joints leave a drive no freedom, or drives disagree: see whether a place, an axis or a drive's function is wrong, "
+        "or leave out the drive of {} {}",
+        part.type, part.element->id());
+  }
+  Eigen::MatrixXd null(mobility_.null.rows(), one.redundant);
+  Eigen::Index count = 0;
+  // a combination belongs to the group that its largest part belongs to
+  for (Eigen::Index j = 0; j < mobility_.null.cols() && count < one.redundant; ++j) {
+    Eigen::Index largest = 0;
+    mobility_.null.col(j).cwiseAbs().maxCoeff(&largest);
+    if (std::find(one.members.begin(), one.members.end(), static_cast<int>(largest)) != one.members.end())
+      null.col(count++) = mobility_.null.col(j);
+  }
+  const std::string cure = count == one.redundant ? suggest_releases(assembler_, null) : "";
+  return "make the places and axes agree, or " + (cure.empty() ? "free that direction in one of the joints" : cure);
+}
+
+std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<double>& rate, double speed) {
+  const Numbering& numbering = assembler_.numbering();
+  for (const RedundantGroup& one : mobility_.groups)
+    for (const int m : one.members) {
+      if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
+      const double open = relative_open(assembler_, m, rate[static_cast<std::size_t>(m)]);
+      if (open <= 1e-8 * speed) continue;
+      const Unknown& u = multiplier_unknown(numbering, m);
+      const bool length = u.measure == Measure::length;
+      return fmt::format("conflicting constraints: {} asks for a speed that the others forbid, by {:.4g} {}; {} among {}: {}",
+                         numbering.describe(numbering.equation(u.slot)), std::abs(rate[static_cast<std::size_t>(m)]),
+                         assembler_.model().units.label(length ? dimension::velocity : dimension::angular_velocity),
+                         counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members),
+                         cure_of(one));
+    }
+  return {};
+}
+
+Eigen::MatrixXd Redundancy::undetermined(const Configuration& c) {
+  const ConstraintFactors factors(assembler_, outside_of_steps(c), ConstraintColumns::forces, rank_tolerance);
+  return factors.null_multipliers(true);
+}
+
+bool Redundancy::share(Configuration& c) {
+  if (!active()) return false;
+  const Configuration here = outside_of_steps(c);
+  const ConstraintFactors factors(assembler_, here, ConstraintColumns::forces, rank_tolerance);
+  if (factors.deficiency() == 0) return false;
+  const double extent = assembler_.model().extent();
+  const auto count = static_cast<Eigen::Index>(c.multipliers.size());
+  // forces count as they are, moments over the extent
+  Vector weight(count), forces(count);
+  for (Eigen::Index m = 0; m < count; ++m) {
+    weight[m] = size_of(multiplier_unknown(assembler_.numbering(), static_cast<int>(m)), extent) == 1.0 ? 1 / extent : 1.0;
+    forces[m] = weight[m] * c.multipliers[static_cast<std::size_t>(m)];
+  }
+  if (forces.isZero(0)) return false;
+  const Eigen::MatrixXd null = weight.asDiagonal() * factors.null_multipliers(true);
+  const Vector part = null.colPivHouseholderQr().solve(forces);
+  const Vector least = forces - null * part;
+  const std::vector<double> before = assembler_.slot_residual(here);
+  for (Eigen::Index m = 0; m < count; ++m) c.multipliers[static_cast<std::size_t>(m)] = least[m] / weight[m];
+  Configuration shared = here;
+  shared.multipliers = c.multipliers;
+  const std::vector<double> after = assembler_.slot_residual(shared);
+  assembler_.release(mobility_.dependent, c.multipliers);
+  double changed = 0;
+  for (int e = 0; e < assembler_.numbering().equations(); ++e) {
+    const Unknown& u = assembler_.numbering().unknown(e);
+    if (u.multiplier) continue;
+    const auto slot = static_cast<std::size_t>(u.slot);
+    changed = std::max(changed, std::abs(after[slot] - before[slot]) * size_of(u, extent) / extent);
+  }
+  return changed > 1e-11 * forces.lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace engrane::solve

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/constraints/motion.hpp"
+
+#include "math/rotation.hpp"
+
+namespace engrane::solve {
+
+void MotionSlots::move(const Configuration& from, std::span<const double> y, Configuration& to) const {
+  for (std::size_t i = 1; i < from.nodes.size(); ++i) {
+    const Vec3 translation(y[6 * i], y[6 * i + 1], y[6 * i + 2]);
+    const Vec3 rotation(y[6 * i + 3], y[6 * i + 4], y[6 * i + 5]);
+    NodeState& node = to.nodes[i];
+    node = from.nodes[i];
+    node.x += translation;
+    if (rotation.isZero(0)) {
+      node.T.setIdentity();
+    } else {
+      node.R = orthonormalized(from.nodes[i].R * rotation_exp(rotation));
+      node.T = rotation_tangent(rotation);
+    }
+  }
+  const std::size_t first = 6 * from.nodes.size();
+  to.scalars.resize(from.scalars.size());
+  for (std::size_t i = 0; i < from.scalars.size(); ++i) to.scalars[i] = from.scalars[i] + y[first + i];
+}
+
+std::vector<double> MotionSlots::velocities(const Configuration& c) const {
+  std::vector<double> all;
+  all.reserve(size());
+  for (const NodeState& n : c.nodes)
+    for (const Vec3* part : {&n.v, &n.W}) all.insert(all.end(), part->data(), part->data() + 3);
+  all.insert(all.end(), c.scalar_rates.begin(), c.scalar_rates.end());
+  return all;
+}
+
+std::vector<double> MotionSlots::accelerations(const Configuration& c) const {
+  std::vector<double> all;
+  all.reserve(size());
+  for (const NodeState& n : c.nodes)
+    for (const Vec3* part : {&n.a, &n.A}) all.insert(all.end(), part->data(), part->data() + 3);
+  all.insert(all.end(), c.scalar_accelerations.begin(), c.scalar_accelerations.end());
+  return all;
+}
+
+void MotionSlots::set_velocities(std::span<const double> v, Configuration& c) const {
+  for (std::size_t i = 1; i < c.nodes.size(); ++i) {
+    c.nodes[i].v = Vec3(v[6 * i], v[6 * i + 1], v[6 * i + 2]);
+    c.nodes[i].W = Vec3(v[6 * i + 3], v[6 * i + 4], v[6 * i + 5]);
+  }
+  const std::size_t first = 6 * c.nodes.size();
+  for (std::size_t i = 0; i < c.scalar_rates.size(); ++i) c.scalar_rates[i] = v[first + i];
+}
+
+void MotionSlots::set_accelerations(std::span<const double> a, Configuration& c) const {
+  for (std::size_t i = 1; i < c.nodes.size(); ++i) {
+    c.nodes[i].a = Vec3(a[6 * i], a[6 * i + 1], a[6 * i + 2]);
+    c.nodes[i].A = Vec3(a[6 * i + 3], a[6 * i + 4], a[6 * i + 5]);
+  }
+  const std::size_t first = 6 * c.nodes.size();
+  for (std::size_t i = 0; i < c.scalar_accelerations.size(); ++i) c.scalar_accelerations[i] = a[first + i];
+}
+
+void MotionSlots::scatter(std::span<const double> unknowns, std::span<double> motion) const {
+  for (std::size_t e = 0; e < unknowns.size(); ++e) {
+    const Unknown& u = numbering_.unknown(static_cast<int>(e));
+    if (!u.multiplier) motion[static_cast<std::size_t>(u.slot)] = unknowns[e];
+  }
+}
+
+void MotionSlots::gather(std::span<const double> motion, std::span<double> unknowns) const {
+  for (std::size_t e = 0; e < unknowns.size(); ++e) {
+    const Unknown& u = numbering_.unknown(static_cast<int>(e));
+    if (!u.multiplier) unknowns[e] = motion[static_cast<std::size_t>(u.slot)];
+  }
+}
+
+std::vector<MotionSlots::Prescribed> MotionSlots::prescribed(double time) const {
+  std::vector<Prescribed> all;
+  for (const Support& s : model_.supports) {
+    if (s.value == 0) continue;
+    const Function::Jet f = s.function ? s.function->at(time) : Function::Jet{1, 0, 0, 0};
+    all.push_back({static_cast<std::size_t>(6 * s.node + s.component), s.value * f.f, s.value * f.d1, s.value * f.d2});
+  }
+  return all;
+}
+
+}  // namespace engrane::solve

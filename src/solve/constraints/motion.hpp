@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "assembly/numbering.hpp"
+
+namespace engrane::solve {
+
+/// Flat access to a configuration by motion slot (six per node, then scalars), and the displacements the deck prescribes.
+class MotionSlots {
+ public:
+  MotionSlots(const Model& model, const Numbering& numbering) : model_(model), numbering_(numbering) {}
+
+  std::size_t size() const { return static_cast<std::size_t>(numbering_.motion_slots()); }
+
+  /// `to` = `from` moved by y: positions and scalars added, rotations multiplied by exp of the rotation vector; sets
+  /// NodeState::T. Rates and history are copied.
+  void move(const Configuration& from, std::span<const double> y, Configuration& to) const;
+
+  std::vector<double> velocities(const Configuration& c) const;
+  std::vector<double> accelerations(const Configuration& c) const;
+  void set_velocities(std::span<const double> v, Configuration& c) const;
+  void set_accelerations(std::span<const double> a, Configuration& c) const;
+
+  /// Copies the entries of `unknowns` (one per equation) into the motion slots that have an equation.
+  void scatter(std::span<const double> unknowns, std::span<double> motion) const;
+
+  /// The other way round: an entry of `unknowns` for each motion slot that has an equation.
+  void gather(std::span<const double> motion, std::span<double> unknowns) const;
+
+  /// A prescribed slot at a time: displacement from the reference, its rate and acceleration.
+  struct Prescribed {
+    std::size_t slot;
+    double u, v, a;
+  };
+  std::vector<Prescribed> prescribed(double time) const;
+
+ private:
+  const Model& model_;
+  const Numbering& numbering_;
+};
+
+}  // namespace engrane::solve

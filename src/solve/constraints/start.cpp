@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/constraints/start.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/rotation.hpp"
+#include "solve/constraints/constraint_factors.hpp"
+#include "solve/constraints/diagnosis.hpp"
+#include "solve/constraints/open_loop.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+double largest(const std::vector<double>& v) {
+  double m = 0;
+  for (const double x : v) m = std::isnan(x) ? x : std::max(m, std::abs(x));
+  return m;
+}
+
+/// "node 3 (x)" of a slot of a node.
+std::string slot_name(const Model& model, std::size_t slot) {
+  return fmt::format("node {} ({})", model.nodes[slot / 6].id, component_name(static_cast<int>(slot % 6)));
+}
+
+void note_accelerations(const Assembler& assembler, const Configuration& c, int iterations, StartReport& report) {
+  report.accelerations_found = true;
+  report.acceleration_iterations = iterations;
+  report.largest_acceleration = report.largest_force = 0;
+  // a node's path says more than its turning, and a force more than a moment; they have no common unit
+  for (const bool turning : {false, true}) {
+    if (report.largest_acceleration > 0) break;
+    for (std::size_t i = 1; i < c.nodes.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const double a = std::abs((turning ? c.nodes[i].A : c.nodes[i].a)[k]);
+        if (a <= report.largest_acceleration) continue;
+        report.largest_acceleration = a;
+        report.accelerated_most = slot_name(assembler.model(), 6 * i + static_cast<std::size_t>(turning ? 3 + k : k));
+      }
+  }
+  for (const Measure measure : {Measure::length, Measure::angle}) {
+    if (report.largest_force > 0) break;
+    for (std::size_t m = 0; m < c.multipliers.size(); ++m) {
+      const Unknown& u = multiplier_unknown(assembler.numbering(), static_cast<int>(m));
+      if (u.measure != measure || std::abs(c.multipliers[m]) <= report.largest_force) continue;
+      report.largest_force = std::abs(c.multipliers[m]);
+      report.carried_most = assembler.numbering().describe(assembler.numbering().equation(u.slot));
+    }
+  }
+}
+
+/// Angle of the rotation that leads from one to the other.
+double angle_between(const Mat3& a, const Mat3& b) { return rotation_log(Mat3(a.transpose() * b)).norm(); }
+
+}  // namespace
+
+Start::Start(Assembler& assembler, LinearSolver& solver, const MotionSlots& motion, Redundancy& redundancy)
+    : assembler_(assembler), solver_(solver), motion_(motion), redundancy_(redundancy) {
+  *right_.out() = assembler.new_vector();
+  *solution_.out() = assembler.new_vector();
+}
+
+bool Start::solve(std::vector<double>& right, std::vector<double>& solution) {
+  assembler_.spread(right, right_);
+  if (!solver_.solve(right_, solution_)) return false;
+  const auto all = assembler_.gather(solution_);
+  solution.assign(all.begin(), all.end());
+  return true;
+}
+
+std::vector<int> Start::imposed(bool velocity) const {
+  std::vector<int> equations;
+  for (const InitialValue& value : assembler_.model().initial) {
+    if (value.velocity != velocity || !value.imposed) continue;
+    if (const int e = assembler_.numbering().equation(6 * value.node + value.component); e >= 0) equations.push_back(e);
+  }
+  return equations;
+}
+
+void Start::verify_imposed(const Configuration& c, std::span<const double> wished, bool velocity) const {
+  const auto v = motion_.velocities(c);
+  for (const int e : imposed(velocity)) {
+    const Unknown& u = assembler_.numbering().unknown(e);
+    const auto slot = static_cast<std::size_t>(u.slot);
+    const NodeState& node = c.nodes[static_cast<std::size_t>(u.node)];
+    double off = 0, size = 0;
+    Dimension unit = dimension::length;
+    if (velocity) {
+      off = v[slot] - wished[slot];
+      size = largest(v);
+      unit = u.item < 3 ? dimension::velocity : dimension::angular_velocity;
+    } else if (u.item < 3) {
+      off = node.x[u.item] - wished[slot];
+      size = assembler_.model().extent();
+    } else {
+      // what was held is the component of the turn from where the deck put the node
+      const std::size_t first = slot - static_cast<std::size_t>(u.item - 3);
+      const Mat3 put = rotation_exp(Vec3(wished[first], wished[first + 1], wished[first + 2]));
+      off = rotation_log(put.transpose() * node.R)[u.item - 3] * 57.295779513082320877;
+      size = 57.3;
+    }
+    if (std::abs(off) <= 1e-6 * size) continue;
+    throw SolutionFailure(fmt::format(
+        "the initial {} of {} is imposed, but joints, drives or supports do not allow it: they change it by {:.4g} {}. Without "
+        "IMPOSED it is a wish, which they may change",
+        velocity ? "velocity" : "position", assembler_.numbering().describe(e), off,
+        !velocity && u.item >= 3 ? "deg" : assembler_.model().units.label(unit)));
+  }
+}
+
+void Start::assemble(Configuration& c, StartReport& report, bool initial) {
+  const Configuration given = c;
+  if (initial) {
+    redundancy_.analyse(given);
+    note_open(given, report);
+    Closing closing = close_initial(c, report);
+    std::string conflict = closing.closed ? redundancy_.conflict(c) : "";
+    // where the parts do not quite fit, constraints that repeat one another look independent: look again less sharply
+    if (!closing.closed || !conflict.empty()) {
+      if (Configuration again = given; redundancy_.analyse(given, 1e-4, true)) {
+        closing = close_initial(again, report);
+        conflict = closing.closed ? redundancy_.conflict(again) : "";
+        c = std::move(again);
+      }
+    }
+    // joints that repeat one another do so exactly only where the mechanism is closed
+    if (closing.closed && conflict.empty() && redundancy_.analyse(c)) {
+      closing = close(c, imposed(false), {});
+      conflict = closing.closed ? redundancy_.conflict(c) : "";
+    }
+    if (!conflict.empty()) throw SolutionFailure(conflict);
+    if (!closing.closed) throw SolutionFailure(explain_open_loop(assembler_, motion_, given));
+    report.redundant = redundancy_.mobility().redundant();
+    report.mobility = describe_mobility(assembler_, c, redundancy_.mobility());
+  } else {
+    const Closing closing = close(c, {}, {});
+    report.position_iterations = closing.iterations;
+    if (closing.singular)
+      throw SolutionFailure(explain_singular(assembler_, "the constraints of the mechanism contradict or repeat one another"));
+    if (!closing.closed) throw SolutionFailure(explain_open_loop(assembler_, motion_, given));
+    if (const std::string conflict = redundancy_.conflict(c); !conflict.empty()) throw SolutionFailure(conflict);
+    return;
+  }
+  std::vector<double> wished(motion_.size(), 0.0);
+  for (std::size_t i = 0; i < given.nodes.size(); ++i) {
+    const Vec3 turn = rotation_log(given.nodes[i].R);
+    for (std::size_t k = 0; k < 3; ++k) {
+      wished[6 * i + k] = given.nodes[i].x[static_cast<Eigen::Index>(k)];
+      wished[6 * i + 3 + k] = turn[static_cast<Eigen::Index>(k)];
+    }
+  }
+  verify_imposed(c, wished, false);
+  note_moved(given.nodes, c, report);
+}
+
+Start::Closing Start::close(Configuration& c, std::span<const int> held, std::span<const double> target) {
+  constexpr int most_iterations = 50;
+  const Numbering& numbering = assembler_.numbering();
+  const double extent = assembler_.model().extent();
+  const auto motion_size = motion_.size();
+  std::vector<double> phi, rate, second, right(static_cast<std::size_t>(numbering.equations())), step;
+  const auto measure = [&](const Configuration& at) {
+    assembler_.constraint_rates(at, phi, rate, second);
+    double open = 0;
+    for (std::size_t e = 0; e < right.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      right[e] = 0;
+      if (!u.multiplier || assembler_.released(u.slot - static_cast<int>(motion_size))) continue;
+      const std::size_t m = static_cast<std::size_t>(u.slot) - motion_size;
+      right[e] = phi[m] - (target.empty() ? 0.0 : target[m]);
+      const double relative = std::abs(right[e]) / size_of(u, extent);
+      open = std::isnan(relative) ? relative : std::max(open, relative);
+    }
+    return open;
+  };
+  Closing result;
+  double open = measure(c);
+  for (;; ++result.iterations) {
+    result.closed = open <= 32 * epsilon;
+    if (result.closed || result.iterations == most_iterations || !std::isfinite(open)) return result;
+    assembler_.projection(c, Assembler::Metric::geometric, held);
+    if (!solve(right, step)) {
+      result.singular = true;
+      return result;
+    }
+    // a step far outside where the constraints are nearly linear would jump to another way of assembling
+    double length = 0;
+    std::vector<double> y(motion_size, 0.0);
+    motion_.scatter(step, y);
+    for (std::size_t i = 0; i < 6 * c.nodes.size(); ++i)
+      length = std::max(length, std::abs(y[i]) / (i % 6 < 3 ? 0.25 * extent : 0.5));
+    if (length > 1) {
+      result.far = true;
+      for (double& v : y) v /= length;
+    }
+    const double before = open;
+    Configuration moved = c;
+    // damped: a step that opens the constraints further is halved, but not for ever
+    for (int halvings = 0;; ++halvings) {
+      motion_.move(c, y, moved);
+      for (NodeState& node : moved.nodes) node.T.setIdentity();
+      open = measure(moved);
+      if (open <= before || before < 1e-6 || halvings == 4) break;
+      result.far = true;
+      for (double& v : y) v /= 2;
+    }
+    std::swap(c, moved);
+    if (length < 4 * epsilon && before < 1e-11) {  // closed as far as rounding lets it
+      ++result.iterations;
+      result.closed = true;
+      return result;
+    }
+  }
+}
+
+Start::Distance Start::distance(const Configuration& from, const Configuration& to) const {
+  Distance largest;
+  for (std::size_t i = 1; i < from.nodes.size(); ++i) {
+    const double move = (to.nodes[i].x - from.nodes[i].x).norm() / assembler_.model().extent();
+    const double both = std::max(move, angle_between(from.nodes[i].R, to.nodes[i].R));
+    if (both > largest.size) largest = {both, static_cast<int>(i)};
+  }
+  return largest;
+}
+
+Start::Closing Start::close_initial(Configuration& c, StartReport& report) {
+  constexpr double near = 0.3;     // a shorter way, over the extent or in radians, is not looked at again
+  constexpr double another = 0.1;  // positions farther apart than this are taken for different ones
+  const Configuration given = c;
+  const std::vector<int> held = imposed(false);
+  report.remarks.clear();
+  report.path_steps = 0;
+  Closing direct = close(c, held, {});
+  report.position_iterations = direct.iterations;
+  if (direct.closed && !direct.far && distance(given, c).size < near) return direct;
+
+  Configuration followed = given;
+  const int steps = follow(followed, held);
+  const auto node = [this](const Distance& d) {
+    return fmt::format("node {}", assembler_.model().nodes[static_cast<std::size_t>(d.node)].id);
+  };
+  if (!direct.closed) {
+    if (steps == 0) return direct;
+    report.path_steps = steps;
+    direct.closed = true;
+    c = std::move(followed);
+  } else if (const Distance apart = distance(followed, c); steps > 0 && apart.size > another) {
+    const bool nearer = distance(given, followed).size < distance(given, c).size;
+    report.remarks.push_back(fmt::format(
+        "there are two ways to assemble the mechanism near the positions given, apart by most at {}; the {} was taken. Begin "
+        "nearer to the other (.INI DEP) if that is the one you mean",
+        node(apart), nearer ? "one reached by closing the gaps little by little" : "nearer one"));
+    if (nearer) {
+      report.path_steps = steps;
+      c = std::move(followed);
+    }
+  }
+  remark_on_branch(given, c, held, report);
+  if (steps == 0 && report.remarks.empty())
+    report.remarks.push_back(
+        "this position is not reached by closing the gaps little by little from the positions given: the mechanism may be "
+        "assembled on another branch than they suggest; begin nearer to it (.INI DEP) if so");
+  return direct;
+}
+
+int Start::follow(Configuration& c, std::span<const int> held) {
+  constexpr double longest = 0.2, shortest = 1e-3;
+  constexpr int most_steps = 300;
+  std::vector<double> phi, rate, second;
+  assembler_.constraint_rates(c, phi, rate, second);
+  double done = 0, part = 0.1;
+  std::vector<double> target(phi.size());
+  for (int steps = 1; steps <= most_steps && part >= shortest;) {
+    const double next = std::min(1.0, done + part);
+    for (std::size_t m = 0; m < phi.size(); ++m) target[m] = (1 - next) * phi[m];
+    Configuration tried = c;
+    const Closing closing = close(tried, held, target);
+    if (!closing.closed || closing.far || distance(c, tried).size > longest) {
+      part /= 2;
+      continue;
+    }
+    c = std::move(tried);
+    assembler_.commit(c);  // turns count on the way to drives that begin more than half a turn away
+    if (next == 1) return steps;
+    done = next;
+    if (closing.iterations < 5) part *= 1.5;
+    ++steps;
+  }
+  return 0;
+}
+
+int Start::orientation(const Configuration& c, std::span<const int> held) {
+  const Numbering& numbering = assembler_.numbering();
+  const ConstraintMatrix gradients(assembler_, outside_of_steps(c), ConstraintColumns::gradients);
+  std::vector<int> row(gradients.slot.size(), 0);
+  int rows = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const int e = numbering.equation(static_cast<int>(gradients.slot[i]));
+    row[i] = std::find(held.begin(), held.end(), e) == held.end() ? rows++ : -1;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  int columns = 0;
+  for (int m = 0; m < gradients.matrix.outerSize(); ++m) {
+    if (assembler_.released(m)) continue;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(gradients.matrix, m); it; ++it)
+      if (const int at = row[static_cast<std::size_t>(it.row())]; at >= 0) entries.emplace_back(at, columns, it.value());
+    ++columns;
+  }
+  if (rows == 0 || rows != columns) return 0;
+  Eigen::SparseMatrix<double> square(rows, columns);
+  square.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(square);
+  return factors.info() == Eigen::Success ? static_cast<int>(factors.signDeterminant()) : 0;
+}
+
+void Start::remark_on_branch(const Configuration& given, const Configuration& c, std::span<const int> held, StartReport& report) {
+  const int before = orientation(given, held), after = orientation(c, held);
+  if (before * after >= 0) return;
+  const Distance farthest = distance(given, c);
+  report.remarks.push_back(fmt::format(
+      "branch flip: on the way from the positions given a loop was stretched straight and folded the other way (the "
+      "determinant of the constraints changed its sign); node {} went farthest. If the other way is meant begin nearer to it "
+      "(.INI DEP)",
+      assembler_.model().nodes[static_cast<std::size_t>(farthest.node)].id));
+}
+
+void Start::note_open(const Configuration& given, StartReport& report) {
+  const Numbering& numbering = assembler_.numbering();
+  const double extent = assembler_.model().extent();
+  std::vector<double> phi, rate, second;
+  assembler_.constraint_rates(given, phi, rate, second);
+  std::vector<StartReport::Opened> all;
+  for (std::size_t m = 0; m < phi.size(); ++m) {
+    if (relative_open(assembler_, static_cast<int>(m), phi[m]) < 1e-9) continue;
+    const Unknown& u = multiplier_unknown(numbering, static_cast<int>(m));
+    if (all.empty() || all.back().part != u.part) all.push_back({u.part, 0, 0});
+    double& sum = u.measure == Measure::length ? all.back().length : all.back().angle;
+    sum = std::hypot(sum, phi[m]);
+  }
+  const auto size = [&](const StartReport::Opened& o) { return std::max(o.length / extent, o.angle); };
+  std::stable_sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return size(a) > size(b); });
+  report.opened = std::move(all);
+}
+
+void Start::note_moved(const std::vector<NodeState>& begun, const Configuration& c, StartReport& report) const {
+  const double extent = assembler_.model().extent();
+  for (std::size_t i = 1; i < c.nodes.size(); ++i) {
+    const double move = (c.nodes[i].x - begun[i].x).norm(), turn = angle_between(begun[i].R, c.nodes[i].R);
+    report.largest_move = std::max(report.largest_move, move);
+    report.largest_turn = std::max(report.largest_turn, turn);
+    if (std::max(move / extent, turn) > 1e-9) report.moved.push_back({static_cast<int>(i), move, turn});
+  }
+  const auto size = [&](const StartReport::Moved& m) { return std::max(m.move / extent, m.turn); };
+  std::stable_sort(report.moved.begin(), report.moved.end(), [&](const auto& a, const auto& b) { return size(a) > size(b); });
+}
+
+void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report, bool initial) {
+  const Numbering& numbering = assembler_.numbering();
+  std::vector<double> v = motion_.velocities(c);
+  for (const auto& p : motion_.prescribed(c.time)) v[p.slot] = p.v;
+  motion_.set_velocities(v, c);
+  std::vector<double> phi, rate, second, change;
+  assembler_.constraint_rates(c, phi, rate, second);
+  report.velocities_fitted = true;
+  if (largest(rate) == 0) return;
+  std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
+  double fastest = 0;
+  for (std::size_t e = 0; e < right.size(); ++e) {
+    const Unknown& u = numbering.unknown(static_cast<int>(e));
+    if (!u.multiplier) continue;
+    const double r = rate[static_cast<std::size_t>(u.slot) - motion_.size()];
+    if (!assembler_.released(u.slot - numbering.motion_slots())) right[e] = r;
+    const double relative = std::abs(r) / size_of(u, assembler_.model().extent());
+    if (initial && relative > fastest) {
+      fastest = relative;
+      report.rate_violated_most = numbering.describe(static_cast<int>(e));
+    }
+  }
+  const std::vector<double> wished = v;
+  assembler_.projection(c, metric, initial ? imposed(true) : std::vector<int>{});
+  if (!solve(right, change))
+    throw SolutionFailure(explain_singular(assembler_, "no velocities fit the constraints and drives at the start"));
+  std::vector<double> delta(motion_.size(), 0.0);
+  motion_.scatter(change, delta);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += delta[i];
+  motion_.set_velocities(v, c);
+  if (redundancy_.active()) {
+    const double asked = largest(rate);
+    assembler_.constraint_rates(c, phi, rate, second);
+    if (const std::string conflict = redundancy_.rate_conflict(c, rate, std::max(asked, largest(v))); !conflict.empty())
+      throw SolutionFailure(conflict);
+  }
+  delta.resize(6 * c.nodes.size());  // scalars follow: their change says nothing
+  report.largest_velocity_change = 0;
+  for (std::size_t i = 0; i < delta.size(); ++i) {
+    if (std::abs(delta[i]) <= report.largest_velocity_change) continue;
+    report.largest_velocity_change = std::abs(delta[i]);
+    if (initial) report.velocity_changed_most = slot_name(assembler_.model(), i);
+  }
+  if (initial) verify_imposed(c, wished, true);
+}
+
+void Start::balance_accelerations(Configuration& c, int most_iterations, StartReport* report) {
+  const Numbering& numbering = assembler_.numbering();
+  std::vector<double> a = motion_.accelerations(c);
+  for (const auto& p : motion_.prescribed(c.time)) a[p.slot] = p.a;
+  motion_.set_accelerations(a, c);
+  std::vector<double> phi, rate, second, change;
+  double before = std::numeric_limits<double>::infinity();
+  // linear but for forces that follow the multipliers (|λ| of the separating force), hence a short iteration
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const std::vector<double> r = assembler_.slot_residual(c);
+    assembler_.constraint_rates(c, phi, rate, second);
+    std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
+    for (std::size_t e = 0; e < right.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      const int m = u.slot - numbering.motion_slots();
+      if (!u.multiplier)
+        right[e] = -r[static_cast<std::size_t>(u.slot)];
+      else if (assembler_.released(m))
+        right[e] = assembler_.released_value(m) - c.multipliers[static_cast<std::size_t>(m)];
+      else
+        right[e] = second[static_cast<std::size_t>(m)];
+    }
+    const double size = largest(right);
+    if (report) note_accelerations(assembler_, c, iteration, *report);
+    if (!std::isfinite(size)) throw SolutionFailure("the forces at the start are not finite");
+    if (size == 0 || (iteration > 1 && size >= 0.5 * before)) {
+      if (!redundancy_.share(c)) return;
+      before = std::numeric_limits<double>::infinity();
+      continue;
+    }
+    before = size;
+    assembler_.projection(c, Assembler::Metric::dynamic);
+    if (!solve(right, change))
+      throw SolutionFailure(explain_singular(assembler_, "the accelerations at the start are not determined"));
+    for (std::size_t e = 0; e < right.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      if (u.multiplier)
+        c.multipliers[static_cast<std::size_t>(u.slot) - motion_.size()] += change[e];
+      else
+        a[static_cast<std::size_t>(u.slot)] += change[e];
+    }
+    motion_.set_accelerations(a, c);
+  }
+  redundancy_.share(c);
+}
+
+}  // namespace engrane::solve

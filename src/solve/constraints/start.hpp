@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "assembly/assembler.hpp"
+#include "solve/algebra/linear.hpp"
+#include "solve/constraints/mobility.hpp"
+#include "solve/constraints/motion.hpp"
+#include "solve/constraints/start_report.hpp"
+
+namespace engrane::solve {
+
+/// The solution cannot go on; the words are for the user (exit status 2).
+struct SolutionFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Makes a configuration satisfy its constraints at the levels of position, velocity and acceleration.
+class Start {
+ public:
+  Start(Assembler& assembler, LinearSolver& solver, const MotionSlots& motion, Redundancy& redundancy);
+
+  /// Moves `c` as little as possible until all constraints are closed at c.time. Throws SolutionFailure naming the loop
+  /// that stays open. `initial`: what the deck imposes on the start holds here, redundant constraints are looked for, and
+  /// after a long way the position is compared with the one that is reached by closing the gaps little by little.
+  void assemble(Configuration& c, StartReport& report, bool initial = true);
+  /// Changes the velocities in `c` as little as possible (in kinetic energy, or geometrically) until they fit.
+  void fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report, bool initial = true);
+  /// Sets accelerations and multipliers from the equations of motion and the constraints' second derivatives. With those in `c`
+  /// close to right, few iterations are enough. Fills its phase of a report when there is one.
+  void balance_accelerations(Configuration& c, int most_iterations = 12, StartReport* report = nullptr);
+
+ private:
+  /// What one closing came to.
+  struct Closing {
+    bool closed = false;
+    bool singular = false;  ///< ended by a matrix that could not be factorised
+    bool far = false;       ///< some step was cut, or the way was long: another branch may be nearer
+    int iterations = 0;
+  };
+  /// Damped Newton iteration to Φ = `target` (0 when empty) in the constraints that are not released.
+  Closing close(Configuration& c, std::span<const int> held, std::span<const double> target);
+  /// Newton's iteration first; after a long way, or when that fails, also along the path Φ = (1 − s) Φ(given).
+  Closing close_initial(Configuration& c, StartReport& report);
+  /// Follows that path; returns its number of steps, 0 when it cannot be followed to the end.
+  int follow(Configuration& c, std::span<const int> held);
+  /// Sign of the determinant of the constraints' gradient where nothing is left free; 0 where that is not so.
+  int orientation(const Configuration& c, std::span<const int> held);
+  void remark_on_branch(const Configuration& given, const Configuration& c, std::span<const int> held, StartReport& report);
+  /// The largest move over the extent, or turn in radians, from one configuration to another, and its node.
+  struct Distance {
+    double size = 0;
+    int node = 0;
+  };
+  Distance distance(const Configuration& from, const Configuration& to) const;
+  void note_open(const Configuration& given, StartReport& report);
+  void note_moved(const std::vector<NodeState>& begun, const Configuration& c, StartReport& report) const;
+  /// Equations of the initial values of one kind that must hold.
+  std::vector<int> imposed(bool velocity) const;
+  void verify_imposed(const Configuration& c, std::span<const double> wished, bool velocity) const;
+  bool solve(std::vector<double>& right, std::vector<double>& solution);
+
+  Assembler& assembler_;
+  LinearSolver& solver_;
+  const MotionSlots& motion_;
+  Redundancy& redundancy_;
+  Owned<Vec> right_, solution_;
+};
+
+}  // namespace engrane::solve

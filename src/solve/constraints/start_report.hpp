@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assembly/assembler.hpp"
+
+namespace engrane::solve {
+
+/// What the start did, phase by phase, for the listing.
+struct StartReport {
+  struct Moved {
+    int node = 0;  ///< index into Model::nodes
+    double move = 0, turn = 0;
+  };
+  struct Opened {
+    int part = 0;
+    double length = 0, angle = 0;  ///< sizes of its open constraints before the assembly
+  };
+
+  /// Assembly of positions.
+  int position_iterations = 0;
+  int path_steps = 0;                ///< of closing the gaps little by little; 0 when that was not needed
+  std::vector<Moved> moved;          ///< nodes that moved or turned, the farthest first
+  std::vector<Opened> opened;        ///< joints that did not fit, the widest first
+  std::vector<std::string> remarks;  ///< on the branch that was reached
+  double largest_move = 0;           ///< in the deck's unit of length
+  double largest_turn = 0;           ///< radians
+
+  /// Velocities.
+  bool velocities_fitted = false;
+  double largest_velocity_change = 0;  ///< from the wished initial velocities, per unit of time
+  std::string velocity_changed_most;   ///< "node 3 (x)"
+  std::string rate_violated_most;      ///< constraint that the wished velocities violated most; empty when none
+
+  /// Accelerations and multipliers.
+  bool accelerations_found = false;
+  int acceleration_iterations = 0;
+  double largest_acceleration = 0;  ///< of a translation or, when nothing else moves, of a rotation
+  std::string accelerated_most;     ///< "node 3 (x)"
+  double largest_force = 0;         ///< multiplier that is a force, or a moment when there are no forces
+  std::string carried_most;         ///< "HINGE 3 (FORCE_1)"
+
+  int redundant = 0;     ///< constraints that follow from others
+  std::string mobility;  ///< degrees of freedom and redundant constraints, as a paragraph
+};
+
+/// The paragraphs of the listing and of `engrane check`.
+std::string describe_start(const Model& model, const StartReport& report);
+
+}  // namespace engrane::solve

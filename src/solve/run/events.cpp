@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/run/events.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace engrane::solve {
+
+namespace {
+
+/// A switch closer to zero than this part of its terms says nothing.
+constexpr double rounding = 1e-13;
+/// More events between two multiples of H than this are chattering: the law, not the motion, makes them.
+constexpr int most_events = 40;
+/// Bisections enough for any tolerance, and some attempts by extrapolation before them.
+constexpr int quick_attempts = 6, most_attempts = 60;
+/// A step that does not converge is suspected to end at an event when the speeds at its beginning reach one in this many steps.
+constexpr double foreseen = 4;
+/// Attempts without a solution after which something else must be wrong.
+constexpr int most_failures = 30;
+
+}  // namespace
+
+std::optional<double> first_descent(double a, double da, double b, double db, double h, double band) {
+  if (a < -band) return 0.0;
+  // p(s) = a + s (c1 + s (c2 + s c3)), s = t/h from 0 to 1
+  const double c1 = h * da, c2 = 3 * (b - a) - h * (2 * da + db), c3 = 2 * (a - b) + h * (da + db);
+  const auto p = [&](double s) { return a + s * (c1 + s * (c2 + s * c3)); };
+  // between its extremes, roots of c1 + 2 c2 s + 3 c3 s², the cubic is monotone
+  std::array<double, 4> knots{0, 1, 1, 1};
+  std::size_t count = 1;
+  const double discriminant = c2 * c2 - 3 * c1 * c3;
+  if (discriminant > 0) {
+    const double q = -(c2 + std::copysign(std::sqrt(discriminant), c2));
+    std::array<double, 2> roots{q != 0 ? c1 / q : -1, c3 != 0 ? q / (3 * c3) : -1};
+    if (roots[0] > roots[1]) std::swap(roots[0], roots[1]);
+    for (const double s : roots)
+      if (s > 0 && s < 1) knots[count++] = s;
+  }
+  knots[count] = 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    double lo = knots[i], hi = knots[i + 1];
+    if (!(p(hi) < -band)) continue;
+    for (int k = 0; k < 60 && hi - lo > 1e-16; ++k) {
+      const double middle = 0.5 * (lo + hi);
+      (p(middle) < -band ? hi : lo) = middle;
+    }
+    return h * hi;
+  }
+  return {};
+}
+
+Switches::Switches(SolverContext& context) : context_(context) {
+  const auto& parts = context.model.parts;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    for (std::size_t i = 0; i < parts[p].element->layout().switches.size(); ++i)
+      places_.push_back({static_cast<int>(p), static_cast<int>(i)});
+  side_.assign(places_.size(), 0);
+}
+
+std::vector<Switch> Switches::at(const Configuration& c) const {
+  std::vector<Switch> values(places_.size());
+  for (std::size_t i = 0; i < places_.size();) {
+    const Element& element = *context_.model.parts[static_cast<std::size_t>(places_[i].part)].element;
+    const std::size_t count = element.layout().switches.size();
+    element.switches(context_.assembler.view(places_[i].part, c), std::span(values).subspan(i, count));
+    i += count;
+  }
+  return values;
+}
+
+std::vector<Event> Switches::take(const Configuration& c) {
+  const std::vector<Switch> now = at(c);
+  std::vector<Event> events;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now[i].size == 0) {
+      side_[i] = 0;
+      continue;
+    }
+    const bool unclear = std::abs(now[i].value) <= rounding * now[i].size;
+    if (unclear && side_[i] != 0) continue;
+    const int side = (unclear ? now[i].rate : now[i].value) < 0 ? -1 : 1;
+    if (side_[i] != 0 && side != side_[i]) events.push_back({places_[i].part, places_[i].index, side > 0});
+    side_[i] = side;
+  }
+  return events;
+}
+
+std::optional<double> Switches::first_change(const std::vector<Switch>& from, const std::vector<Switch>& to, double h) const {
+  std::optional<double> first;
+  for (std::size_t i = 0; i < side_.size(); ++i) {
+    if (side_[i] == 0 || to[i].size == 0) continue;
+    const double s = side_[i], band = rounding * std::max(from[i].size, to[i].size);
+    const auto t = first_descent(s * from[i].value, s * from[i].rate, s * to[i].value, s * to[i].rate, h, band);
+    if (t && (!first || *t < *first)) first = t;
+  }
+  return first;
+}
+
+double Switches::time_to_change(const std::vector<Switch>& now) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < side_.size(); ++i) {
+    const double value = side_[i] * now[i].value, rate = side_[i] * now[i].rate;
+    if (rate < 0) least = std::min(least, std::max(0.0, -value / rate));
+  }
+  return least;
+}
+
+EventLocator::EventLocator(SolverContext& context, Analysis& analysis)
+    : analysis_(analysis), switches_(context), step_(context.model.commands.stepping.step) {
+  const deck::Tagged& card = context.model.commands.analysis.events;
+  tolerance_ = step_ * (card.values.empty() ? 1e-6 : card.values[0]);
+  active_ = analysis.meets_events() && !card.is("NO") && !switches_.empty();
+}
+
+bool EventLocator::chatters() {
+  if (!chattered_ || told_) return false;
+  told_ = true;
+  return true;
+}
+
+EventLocator::Outcome EventLocator::inspect(const Configuration& from, double size, bool converged, Configuration& to) {
+  Outcome outcome;
+  outcome.step = size;
+  if (!active_ || located_ >= most_events) return outcome;
+  const std::vector<Switch> before = switches_.at(from);
+  std::vector<Switch> after;
+  double ahead = 0;  // from `to` to the next event
+  // a step that ends within rounding of an event may have taken either law at its end: as good as past it
+  const auto change_within = [&](double h) {
+    after = switches_.at(to);
+    ahead = switches_.time_to_change(after);
+    const auto change = switches_.first_change(before, after, h);
+    return change || ahead > 0.1 * tolerance_ ? change : h;
+  };
+  double free = 0, past = size, event = 0;  // no change up to `free`; one before `past`, or no solution there
+  int failures = 0;
+  if (converged) {
+    const auto seen = change_within(size);
+    if (!seen) return outcome;
+    event = *seen;
+  } else {
+    // where a force jumps, a step that would end at the jump has no solution
+    event = switches_.time_to_change(before);
+    if (event > foreseen * size) return outcome;
+    event = std::min(event, 0.5 * size);
+    failures = 1;
+  }
+  if (++located_ == most_events) chattered_ = true;
+
+  while (true) {
+    if (event < shortest()) {
+      outcome.kind = Outcome::Kind::drift;
+      outcome.drift = event + tolerance_;
+      return outcome;
+    }
+    // the step is to end before the event, where the law is still that of its beginning
+    double size_tried = std::max(event - 0.5 * tolerance_, shortest());
+    if (outcome.attempts >= quick_attempts || size_tried <= free || size_tried >= past) size_tried = 0.5 * (free + past);
+    if (past - free <= 0.5 * tolerance_ || outcome.attempts == most_attempts) size_tried = free;
+    const bool last = size_tried == free;
+    if (last && free == 0) {
+      outcome.kind = Outcome::Kind::drift;
+      outcome.drift = past;
+      return outcome;
+    }
+    outcome.report = analysis_.attempt(from, size_tried, to);
+    outcome.step = size_tried;
+    ++outcome.attempts;
+    if (!outcome.report->converged) {
+      if (last || ++failures == most_failures) {
+        outcome.kind = Outcome::Kind::failed;
+        return outcome;
+      }
+      past = size_tried;
+      event = 0.5 * (free + past);
+      continue;
+    }
+    const auto change = change_within(size_tried);
+    if (last || (!change && ahead <= tolerance_)) {
+      outcome.kind = Outcome::Kind::land;
+      outcome.drift = std::min(ahead, past - size_tried) + tolerance_;
+      return outcome;
+    }
+    if (change) {
+      past = size_tried;
+      event = *change;
+    } else {
+      free = size_tried;
+      event = free + ahead;
+    }
+  }
+}
+
+}  // namespace engrane::solve

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Events: the instants at which a switch of an element changes sign (docs/theory.md, Events).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "solve/run/analysis.hpp"
+
+namespace engrane::solve {
+
+/// The switches of all elements, and the side that each is on. Every rank computes the same, for every rank holds the whole
+/// configuration.
+class Switches {
+ public:
+  explicit Switches(SolverContext& context);
+
+  bool empty() const { return places_.empty(); }
+  std::vector<Switch> at(const Configuration& c) const;
+
+  /// Takes the sides of an accepted configuration and returns the switches that have changed. A value that is mere rounding
+  /// stays on the side it came from.
+  std::vector<Event> take(const Configuration& c);
+
+  /// Time from `from`, which is h before `to`, to the first change of a side: of the cubic that has the values and rates of both
+  /// ends, so that a phase which begins and ends within the step is seen.
+  std::optional<double> first_change(const std::vector<Switch>& from, const std::vector<Switch>& to, double h) const;
+  /// Time from an instant to the next change of a side, as its values and rates foretell; infinite when none is near.
+  double time_to_change(const std::vector<Switch>& now) const;
+
+ private:
+  SolverContext& context_;
+  struct Place {
+    int part, index;
+  };
+  std::vector<Place> places_;
+  std::vector<int> side_;  ///< 1 or −1
+};
+
+/// First t in [0, h] at which the cubic with values a, b and rates da, db at 0 and h is below −`band`, when there is one: the
+/// instant at which it passes −band.
+std::optional<double> first_descent(double a, double da, double b, double db, double h, double band);
+
+/// Ends steps at events. An event is met by a step that ends a little before it and a drift across it; steps are never
+/// shorter than `shortest()`, below which the inverse square of the step enlarges rounding: there it drifts.
+class EventLocator {
+ public:
+  EventLocator(SolverContext& context, Analysis& analysis);
+
+  bool active() const { return active_; }
+  double shortest() const { return 0.01 * step_; }
+  /// How far an event may be from the end of the step before it.
+  double tolerance() const { return tolerance_; }
+
+  Switches& switches() { return switches_; }
+  /// A new multiple of H is the aim: the guard against chattering counts anew.
+  void new_target() { located_ = 0; }
+
+  struct Outcome {
+    enum class Kind {
+      none,   ///< no event in the step just tried: it stands
+      land,   ///< `to` ends a little before the event; then drift
+      drift,  ///< the event is too near for a step: drift at once
+      failed  ///< an attempt did not converge
+    } kind = Kind::none;
+    double step = 0;   ///< of the last attempt
+    double drift = 0;  ///< time to drift across the event
+    int attempts = 0;  ///< beyond the first
+    std::optional<NewtonReport> report;
+  };
+  /// After an attempt of `size` from `from` to `to`, converged or not.
+  Outcome inspect(const Configuration& from, double size, bool converged, Configuration& to);
+
+  /// Whether the guard has switched location off for the rest of the step; true once per run.
+  bool chatters();
+
+ private:
+  Analysis& analysis_;
+  Switches switches_;
+  double step_, tolerance_ = 0;
+  bool active_ = false;
+  int located_ = 0;
+  bool chattered_ = false, told_ = false;
+};
+
+}  // namespace engrane::solve

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/schemes/statics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "solve/constraints/diagnosis.hpp"
+
+namespace engrane::solve {
+
+Statics::Statics(SolverContext& context)
+    : Analysis(context),
+      has_contacts_(std::any_of(context.model.parts.begin(), context.model.parts.end(),
+                                [](const Model::Part& part) { return !part.element->layout().switches.empty(); })) {
+  *unknowns_.out() = context.assembler.new_vector();
+}
+
+StartReport Statics::start(Configuration& c) {
+  StartReport report;
+  apply_initial_displacements(context_, c);
+  context_.start.assemble(c, report);
+  context_.assembler.choose_scale(c, {1, 0, 0}, context_.model.commands.analysis.scale.value_or(0));
+  Configuration balanced = c;
+  const NewtonReport newton = attempt(c, 0, balanced);
+  if (!newton.converged) {
+    std::string why = fmt::format("no equilibrium at the start, t = {:.6g}: {}", c.time, newton.reason);
+    if (newton.conflict) throw SolutionFailure(why);
+    if (newton.singular) throw SolutionFailure(explain_singular(context_.assembler, why));
+    why += "; " + explain_residual(context_.assembler, balanced, newton);
+    throw SolutionFailure(why + ". Loads given without NF act in full from the start: ramp them with a function of time");
+  }
+  c = std::move(balanced);
+  return report;
+}
+
+NewtonReport Statics::attempt(const Configuration& from, double h, Configuration& to) {
+  std::vector<double> y(context_.motion.size(), 0.0);
+  prescribe_step(from.time, from.time + h, y);
+  const std::vector<double> prescribed = y;
+  to = from;
+  to.time = from.time + h;
+  NewtonReport report = balance(from, y, to);
+  if (!report.converged && has_contacts_) {
+    Configuration other = from;
+    other.time = to.time;
+    if (NewtonReport across = balance_across_gaps(from, prescribed, other); across.converged) {
+      to = std::move(other);
+      return across;
+    }
+  }
+  return report;
+}
+
+NewtonReport Statics::balance(const Configuration& from, std::span<double> y, Configuration& to) {
+  const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
+    context_.motion.scatter(unknowns, y);
+    context_.motion.move(from, y, c);
+    unknowns_to_multipliers(unknowns, c);
+  };
+  std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
+  context_.motion.gather(y, guess);
+  multipliers_to_unknowns(to, guess);
+  context_.assembler.spread(guess, unknowns_);
+  NewtonReport report = solve(unknowns_, {1, 0, 0}, apply, to);
+  refuse_half_turns(y, report);
+  return report;
+}
+
+NewtonReport Statics::balance_across_gaps(const Configuration& from, std::span<const double> prescribed, Configuration& to) {
+  std::vector<double> y(prescribed.begin(), prescribed.end());
+  NewtonReport report;
+  int iterations = 0;
+  for (const double contact_homotopy : {1.0, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6, 0.0}) {
+    context_.assembler.contact_homotopy = contact_homotopy;
+    try {
+      report = balance(from, y, to);
+    } catch (...) {
+      context_.assembler.contact_homotopy = 0;
+      throw;
+    }
+    iterations += report.iterations;
+    if (!report.converged) break;
+  }
+  context_.assembler.contact_homotopy = 0;
+  report.iterations = iterations;
+  return report;
+}
+
+}  // namespace engrane::solve

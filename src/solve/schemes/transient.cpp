@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/schemes/transient.hpp"
+
+#include <cmath>
+
+#include "solve/schemes/statics.hpp"
+
+namespace engrane::solve {
+
+AlphaScheme AlphaScheme::chung(double rho) {
+  AlphaScheme s;
+  s.alpha_m = (2 * rho - 1) / (rho + 1);
+  s.alpha_f = rho / (rho + 1);
+  s.gamma = 0.5 + s.alpha_f - s.alpha_m;
+  s.beta = 0.25 * (s.gamma + 0.5) * (s.gamma + 0.5);
+  return s;
+}
+
+AlphaScheme AlphaScheme::newmark() { return {0, 0, 0.25, 0.5}; }
+
+AlphaScheme AlphaScheme::hht(double alpha) { return {0, alpha, 0.25 * (1 + alpha) * (1 + alpha), 0.5 + alpha}; }
+
+AlphaScheme AlphaScheme::bossak(double alpha) { return {-alpha, 0, 0.25 * (1 + alpha) * (1 + alpha), 0.5 + alpha}; }
+
+namespace {
+
+/// The slope of v̇ after an event is taken over this part of a step, so that it does not reach the next event too soon.
+constexpr double slope_span = 0.01;
+
+AlphaScheme scheme_of(const deck::AnalysisCard& card) {
+  if (card.scheme.is("NEWMARK")) return AlphaScheme::newmark();
+  if (card.scheme.is("HHT")) return AlphaScheme::hht(card.alpha.value_or(0.05));
+  if (card.scheme.is("BOSSAK")) return AlphaScheme::bossak(card.alpha.value_or(0.05));
+  return AlphaScheme::chung(card.rho.value_or(0.8));
+}
+
+}  // namespace
+
+Transient::Transient(SolverContext& context) : Analysis(context), scheme_(scheme_of(context.model.commands.analysis)) {
+  *unknowns_.out() = context.assembler.new_vector();
+}
+
+StartReport Transient::start(Configuration& c) {
+  StartReport report;
+  if (context_.model.commands.analysis.start.is("STATIC")) {
+    report = Statics(context_).start(c);
+  } else {
+    apply_initial_displacements(context_, c);
+    context_.start.assemble(c, report);
+  }
+  apply_initial_velocities(context_, c);
+  context_.start.fit_velocities(c, Assembler::Metric::mass, report);
+  context_.start.balance_accelerations(c, 12, &report);
+  const double h = context_.model.commands.stepping.step;
+  start_algorithmic_accelerations(c, h, h);
+  return report;
+}
+
+void Transient::start_algorithmic_accelerations(const Configuration& c, double h, double ahead) {
+  // a_0 = v̇(t_0 + (α_m − α_f) h) to second order, or multipliers lose an order at first (Arnold, Brüls and Cardona
+  // 2015); the slope of v̇ is taken from a consistent acceleration a little ahead
+  algorithmic_ = context_.motion.accelerations(c);
+  step_of_algorithmic_ = h;
+  if (scheme_.alpha_m == scheme_.alpha_f) return;
+  Configuration later = glide(c, ahead);
+  context_.start.balance_accelerations(later, ahead < h ? 1 : 12);
+  const auto next = context_.motion.accelerations(later);
+  const double shift = (scheme_.alpha_m - scheme_.alpha_f) * h / ahead;
+  for (std::size_t i = 0; i < next.size(); ++i) algorithmic_[i] += shift * (next[i] - algorithmic_[i]);
+}
+
+Configuration Transient::glide(const Configuration& c, double h) const {
+  const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
+  std::vector<double> y(v.size()), ahead(v.size());
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    y[i] = h * (v[i] + 0.5 * h * a[i]);
+    ahead[i] = v[i] + h * a[i];
+  }
+  Configuration later = c;
+  later.time = c.time + h;
+  prescribe_step(c.time, later.time, y);
+  for (const auto& p : context_.motion.prescribed(later.time)) ahead[p.slot] = p.v;
+  context_.motion.move(c, y, later);
+  context_.motion.set_velocities(ahead, later);
+  return later;
+}
+
+void Transient::drift(Configuration& c, double h) {
+  // Heun's step. Both accelerations fit the constraints, so their mean does; the constraints open by a third of the cube of
+  // a hundredth of a step at most, and the next step closes them.
+  const auto before = context_.motion.accelerations(c);
+  c = glide(c, h);
+  context_.start.balance_accelerations(c, 2);
+  auto v = context_.motion.velocities(c);
+  const auto after = context_.motion.accelerations(c);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
+  for (const auto& p : context_.motion.prescribed(c.time)) v[p.slot] = p.v;
+  context_.motion.set_velocities(v, c);
+  const double step = context_.model.commands.stepping.step;
+  start_algorithmic_accelerations(c, step, slope_span * step);
+}
+
+NewtonReport Transient::attempt(const Configuration& from, double h, Configuration& to) {
+  const auto [am, af, beta, gamma] = scheme_;
+  const Weights weights{1, gamma / (beta * h), (1 - am) / ((1 - af) * beta * h * h)};
+  // only the order of magnitude of k matters: steps of a little less than H need no other
+  if (!(h > 0.3 * scaled_for_ && h < 3 * scaled_for_)) {
+    context_.assembler.choose_scale(from, weights, context_.model.commands.analysis.scale.value_or(0));
+    scaled_for_ = h;
+  }
+  const auto v0 = context_.motion.velocities(from), vdot0 = context_.motion.accelerations(from);
+  std::vector<double> a0 = algorithmic_;
+  // a_n is v̇ shifted by (α_m − α_f) h: another h, another shift
+  if (h != step_of_algorithmic_)
+    for (std::size_t i = 0; i < a0.size(); ++i) a0[i] = vdot0[i] + h / step_of_algorithmic_ * (a0[i] - vdot0[i]);
+
+  const std::size_t n = context_.motion.size();
+  std::vector<double> y(n), v(n), vdot(n);
+  tried_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) y[i] = h * (v0[i] + 0.5 * h * a0[i]);
+  to = from;
+  to.time = from.time + h;
+  for (std::size_t slot = 0; slot < n; ++slot)
+    if (context_.numbering.equation(static_cast<int>(slot)) < 0) y[slot] = 0;
+  prescribe_step(from.time, to.time, y);
+  // Newton's iteration finds no drive's angle more than half a turn away, and would not say why
+  std::vector<double> coasting(n);
+  for (std::size_t i = 0; i < n; ++i) coasting[i] = h * v0[i];
+  NewtonReport foreseen;
+  foreseen.converged = true;
+  refuse_half_turns(coasting, foreseen);
+  if (!foreseen.converged) return foreseen;
+  const auto prescribed = context_.motion.prescribed(to.time);
+
+  std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
+  context_.motion.gather(y, guess);
+  multipliers_to_unknowns(from, guess);
+
+  const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
+    context_.motion.scatter(unknowns, y);
+    for (std::size_t i = 0; i < n; ++i) {
+      tried_[i] = (y[i] / h - v0[i] - (0.5 - beta) * h * a0[i]) / (beta * h);
+      v[i] = v0[i] + h * ((1 - gamma) * a0[i] + gamma * tried_[i]);
+      vdot[i] = ((1 - am) * tried_[i] + am * a0[i] - af * vdot0[i]) / (1 - af);
+      if (context_.numbering.equation(static_cast<int>(i)) < 0) tried_[i] = v[i] = vdot[i] = 0;
+    }
+    for (const auto& p : prescribed) {
+      v[p.slot] = p.v;
+      tried_[p.slot] = vdot[p.slot] = p.a;
+    }
+    context_.motion.move(from, y, c);
+    context_.motion.set_velocities(v, c);
+    context_.motion.set_accelerations(vdot, c);
+    unknowns_to_multipliers(unknowns, c);
+  };
+  context_.assembler.spread(guess, unknowns_);
+  NewtonReport report = solve(unknowns_, weights, apply, to);
+  refuse_half_turns(y, report);
+  tried_step_ = h;
+  return report;
+}
+
+void Transient::accept() {
+  algorithmic_ = tried_;
+  step_of_algorithmic_ = tried_step_;
+}
+
+}  // namespace engrane::solve

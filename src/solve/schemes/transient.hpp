@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "solve/run/analysis.hpp"
+
+namespace engrane::solve {
+
+/// Coefficients of a one-step second-order scheme of the generalised-α family.
+struct AlphaScheme {
+  double alpha_m = 0, alpha_f = 0, beta = 0.25, gamma = 0.5;
+
+  /// Chung and Hulbert (1993): spectral radius ρ∞ at infinite frequency, 0 to 1.
+  static AlphaScheme chung(double rho);
+  /// Newmark's trapezoidal rule: no damping.
+  static AlphaScheme newmark();
+  /// Hilber, Hughes and Taylor (1977), α from 0 to 1/3.
+  static AlphaScheme hht(double alpha);
+  /// Wood, Bossak and Zienkiewicz (1980), α from 0 to 1/3 (given positive).
+  static AlphaScheme bossak(double alpha);
+};
+
+/// Generalised-α on the Lie group, constraints at index 3 (Arnold and Brüls 2007; Brüls, Cardona and Arnold 2012).
+/// Unknowns of a step are its increments h Δq (rotation vectors, positions, scalars) and λ/k.
+class Transient final : public Analysis {
+ public:
+  explicit Transient(SolverContext& context);
+
+  StartReport start(Configuration& c) override;
+  NewtonReport attempt(const Configuration& from, double h, Configuration& to) override;
+  void accept() override;
+  bool meets_events() const override { return true; }
+  void drift(Configuration& c, double h) override;
+
+ private:
+  /// Starts the scheme's memory for steps of h; the slope of v̇ is looked for over the time `ahead`.
+  void start_algorithmic_accelerations(const Configuration& c, double h, double ahead);
+
+  /// `c` moved by h with the accelerations it has; these and the multipliers do not change.
+  Configuration glide(const Configuration& c, double h) const;
+
+  AlphaScheme scheme_;
+  Owned<Vec> unknowns_;
+  double step_of_algorithmic_ = 0;   ///< the h that `algorithmic_` belongs to
+  double scaled_for_ = 0;            ///< the h that k was chosen for
+  std::vector<double> algorithmic_;  ///< a_n of the scheme: v̇ shifted by (α_m − α_f) h
+  std::vector<double> tried_;        ///< its value at the end of the last attempt
+  double tried_step_ = 0;
+};
+
+}  // namespace engrane::solve
