@@ -11,6 +11,9 @@
 #include "solve/run/events.hpp"
 
 namespace engrane::test {
+
+using namespace solve;
+
 namespace {
 
 /// Its switch is the x of its node.

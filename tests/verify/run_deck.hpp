@@ -13,6 +13,8 @@
 
 namespace engrane::test {
 
+using namespace solve;
+
 /// A model read from text, with its workbench; fails the test when the deck is wrong.
 class DeckRun {
  public:
@@ -32,7 +34,7 @@ class DeckRun {
   Configuration run(const std::function<void(const Configuration&, const StepReport&)>& look = {}) {
     Configuration last;
     const auto analysis = make_analysis(*context_);
-    engrane::run(
+    solve::run(
         *context_, *analysis,
         [&](const Configuration& c, const StepReport& step) {
           if (look) look(c, step);
