@@ -62,12 +62,12 @@ FileLock::FileLock(const std::string& path) : descriptor_(open(path.c_str(), O_R
   throw OutputError(path, "another run is writing it");
 }
 
-FileLock FileLock::create(const std::string& path) {
+FileLock FileLock::create(const std::string& path, const std::string& shown_as) {
   for (;;) {
     FileLock lock;
     lock.descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock.descriptor_ < 0) fail(path);
-    if (!take(lock.descriptor_)) throw OutputError(path, "another run is writing it");
+    if (lock.descriptor_ < 0) fail(shown_as);
+    if (!take(lock.descriptor_)) throw OutputError(shown_as, "another run is writing it");
     // between opening and locking another run may have given the file another name, or none
     if (is_called(lock.descriptor_, path)) return lock;
   }

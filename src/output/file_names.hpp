@@ -33,8 +33,9 @@ class FileLock {
   FileLock() = default;
   /// Throws OutputError when another process holds it. Where the file system has no locks, or no such file, it locks nothing.
   explicit FileLock(const std::string& path);
-  /// Opens a file, or makes an empty one, and locks it before anything else is done with it. Throws OutputError.
-  static FileLock create(const std::string& path);
+  /// Opens a file, or makes an empty one, and locks it before anything else is done with it. Throws OutputError, which calls
+  /// the file `shown_as`.
+  static FileLock create(const std::string& path, const std::string& shown_as);
   ~FileLock();
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;

@@ -42,7 +42,7 @@ Results::Results(const std::string& prefix, ResultsLayout layout, const RestartF
 void Results::create(const RestartFile* earlier, const RestartPoint* from) {
   // another run that writes these files holds a lock on the one that bears the name; ours is taken before anything is written
   { const FileLock nobody_else(path_); }
-  shown_lock_ = FileLock::create(spare_path());
+  shown_lock_ = FileLock::create(spare_path(), path_);
   try {
     { const FileLock nobody_came_first(path_); }
     ResultFile file(spare_path(), layout_, path_, ResultFile::Mode::create);
@@ -53,7 +53,7 @@ void Results::create(const RestartFile* earlier, const RestartPoint* from) {
       file.write_latest(*from, false);
     }
     file.close();
-    shown_lock_.sync(path_);
+    if (earlier) shown_lock_.sync(path_);  // it may take the place of what it was copied from
     unlink(name_.path(".xdmf").c_str());
     rename_over(spare_path(), path_);
   } catch (...) {
@@ -144,7 +144,7 @@ void Results::give_up() {
 
 void Results::write_spare(const char* status) {
   if (!has_spare_) {
-    spare_lock_ = FileLock::create(spare_path());
+    spare_lock_ = FileLock::create(spare_path(), path_);
     has_spare_ = true;
     copy_contents(path_, spare_path());
     marked_spare_ = marked_shown_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "output/checks.hpp"
 #include "output/restart_file.hpp"
@@ -13,6 +14,9 @@
 #include "sample_results.hpp"
 
 namespace engrane::testing {
+
+using namespace output;
+
 namespace {
 
 constexpr std::size_t all_steps = 40;
