@@ -9,8 +9,9 @@
 #include <iostream>
 #include <optional>
 
-#include "app/model_json.hpp"
-#include "app/recorder.hpp"
+#include "app/layout.hpp"
+#include "app/schedule.hpp"
+#include "app/selection.hpp"
 #include "app/summary.hpp"
 #include "app/times.hpp"
 #include "app/version.hpp"
@@ -30,13 +31,13 @@ volatile std::sig_atomic_t interrupted = 0;
 void interrupt(int) { interrupted = 1; }
 
 /// Checks of the deck, each tied to its channel. The reader has made sure that the channels exist.
-Checks resolve_checks(const Model& model, const Recorder& recorder) {
+Checks resolve_checks(const Model& model, const observe::Observer& observer) {
   std::vector<Checks::Resolved> all;
   for (const deck::CheckCard& card : model.commands.checks) {
     const std::string owner = card.element ? fmt::format("element/{}", *card.element)
                               : card.node  ? fmt::format("node/{}", *card.node)
                                            : std::string("run");
-    all.push_back({card, static_cast<std::size_t>(recorder.channel(owner, card.quantity))});
+    all.push_back({card, static_cast<std::size_t>(observer.channel(owner, card.quantity))});
   }
   return Checks(std::move(all));
 }
@@ -47,12 +48,13 @@ constexpr long most_listed_events = 100;
 /// Everything that rank 0 writes during a run.
 class Writer {
  public:
-  Writer(const Reading& reading, const Recorder& recorder, const Options& options, const std::string& prefix)
+  Writer(const Reading& reading, const observe::Observer& observer, const Schedule& schedule, const Options& options,
+         const std::string& prefix)
       : reading_(reading),
-        recorder_(recorder),
-        results_(prefix, recorder.layout()),
+        observer_(observer),
+        results_(prefix, results_layout(reading, observer, schedule.expected_samples())),
         listing_(results_.name()),
-        checks_(resolve_checks(reading.model, recorder)),
+        checks_(resolve_checks(reading.model, observer)),
         progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
                   options.quiet ? Progress::Style::silent : Progress::suitable()) {}
 
@@ -64,6 +66,10 @@ class Writer {
     listing_.write(listing_built(summarize(model, context.numbering)));
     listing_.write(describe_geometry(model));
     listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
+    if (const std::string text = left_out_histories(model); !text.empty()) {
+      listing_.write("\n  " + text + "\n");
+      progress_.note("engrane: " + text);
+    }
     listing_.write(listing_section("Start"));
   }
 
@@ -78,17 +84,17 @@ class Writer {
     if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
   }
 
-  void step(const Configuration& c, const StepReport& step, const Numbering& numbering) {
+  void step(const Configuration& c, const StepReport& step, const Schedule::Due& due, const Numbering& numbering) {
     const bool last = c.time >= reading_.model.commands.stepping.end;
-    checks_.observe(c.time, recorder_.values(), step.regular);
-    if (recorder_.not_unique().size() != marked_) {
-      marked_ = recorder_.not_unique().size();
-      results_.mark_not_unique(recorder_.not_unique());
+    if (!checks_.empty()) checks_.observe(c.time, observer_.values(), step.regular);
+    if (observer_.not_unique().size() != marked_) {
+      marked_ = observer_.not_unique().size();
+      results_.mark_not_unique(observer_.not_unique());
     }
-    if (recorder_.sample_due()) results_.sample(c.time, recorder_.values());
-    if (recorder_.frame_due()) {
-      results_.frame(c.time, recorder_.frame());
-      const EnergyBalance& e = recorder_.energies();
+    if (due.sample) results_.sample(c.time, observer_.values());
+    if (due.frame) {
+      results_.frame(c.time, frame_values(observer_.fields()));
+      const observe::EnergyBalance& e = observer_.energies();
       energies_.push_back({c.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error()});
     }
     ++steps_;
@@ -111,7 +117,7 @@ class Writer {
     listing_.write(listing_section("Energies"));
     listing_.write(listing_energies(thinned_energies(), units));
     std::vector<ReactionRow> reactions;
-    for (const Recorder::Reaction& r : recorder_.reactions())
+    for (const observe::Reaction& r : observer_.reactions())
       reactions.push_back({reading_.model.nodes[static_cast<std::size_t>(r.node)].id, r.force, r.torque});
     if (!reactions.empty()) {
       listing_.write(listing_section("Reactions at the end"));
@@ -119,7 +125,7 @@ class Writer {
     }
     if (marked_ > 0) {
       listing_.write(listing_section("Not unique"));
-      listing_.write(listing_not_unique(recorder_.groups(), recorder_.not_unique()));
+      listing_.write(listing_not_unique(results_.layout().history, observer_.not_unique()));
     }
     if (event_count_ > 0) {
       listing_.write(listing_section("Events"));
@@ -190,7 +196,7 @@ class Writer {
   }
 
   const Reading& reading_;
-  const Recorder& recorder_;
+  const observe::Observer& observer_;
   Results results_;
   Listing listing_;
   Checks checks_;
@@ -226,6 +232,17 @@ bool asked_to_stop(MPI_Comm comm, int ranks) {
   return stop != 0;
 }
 
+/// Lets the observer see an accepted step; what is not unique is looked for at the start, after 1, 2, 4, … steps and at the end.
+void observe_step(SolverContext& context, observe::Observer& observer, const Configuration& c, const StepReport& step,
+                  const Schedule::Due& due) {
+  const Model& model = context.model;
+  const int iterations = step.newton ? step.newton->iterations : 0;
+  observer.observe(c, {step.step, iterations, step.events.size()}, due.sample || !model.commands.checks.empty(), due.frame);
+  const bool last = c.time >= model.commands.stepping.end;
+  if (context.redundancy.active() && (last || (step.number & (step.number - 1)) == 0))
+    observer.find_not_unique(c, context.redundancy.undetermined(c));
+}
+
 }  // namespace
 
 int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
@@ -238,12 +255,13 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
 
   Times times;
   SolverContext context(reading.model, comm);
-  Recorder recorder(reading, context);
+  observe::Observer observer(context.assembler, moves(reading.model), select_histories(reading.model));
+  Schedule schedule(reading.model.commands.stepping, reading.model.commands.archive);
   std::optional<Writer> writer;
   // the other ranks must hear of it when the files cannot be made
   std::string trouble;
   if (rank == 0) try {
-      writer.emplace(reading, recorder, options, default_prefix(options));
+      writer.emplace(reading, observer, schedule, options, default_prefix(options));
       writer->begin(context, options, ranks);
     } catch (const OutputError& e) {
       trouble = e.what();
@@ -266,10 +284,11 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
         [&](const Configuration& c, const StepReport& step) {
           const auto watch = times.output();
           user::forget_failures();  // those of attempts that were cut
+          const Schedule::Due due = schedule.at(c.time, step.number == 0 ? 0.0 : step.step, step.regular);
+          observe_step(context, observer, c, step, due);
           int stop = 0;
           if (rank == 0) try {
-              recorder.observe(c, step);
-              writer->step(c, step, context.numbering);
+              writer->step(c, step, due, context.numbering);
             } catch (const OutputError& e) {
               failure = e.what();
               stop = 1;

@@ -22,10 +22,11 @@ Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm co
 
   // contiguous blocks of elements: neighbours in the deck are usually neighbours in the machine
   const auto parts = static_cast<long>(model.parts.size());
-  const auto begin = static_cast<int>(parts * rank_ / size_), end = static_cast<int>(parts * (rank_ + 1) / size_);
+  first_part_ = static_cast<int>(parts * rank_ / size_);
+  end_part_ = static_cast<int>(parts * (rank_ + 1) / size_);
   std::vector<PetscInt> coo_i, coo_j, rows;
   std::size_t widest = 0;
-  for (int p = begin; p < end; ++p) {
+  for (int p = first_part_; p < end_part_; ++p) {
     const auto& slots = numbering.part_slots(p);
     Share share{p, coo_i.size(), {}, rows.size(), {}, std::vector<double>(slots.size(), 1.0), std::vector<char>(slots.size(), 1)};
     for (std::size_t i = 0; i < slots.size(); ++i) {

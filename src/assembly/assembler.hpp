@@ -30,6 +30,9 @@ class Assembler {
   const Model& model() const { return model_; }
   const Numbering& numbering() const { return numbering_; }
   int rank() const { return rank_; }
+  /// This rank's share of Model::parts: from first_part() to before end_part().
+  int first_part() const { return first_part_; }
+  int end_part() const { return end_part_; }
   Mat matrix() const { return matrix_; }
   Vec new_vector() const;
 
@@ -104,6 +107,7 @@ class Assembler {
   const Numbering& numbering_;
   MPI_Comm comm_;
   int rank_ = 0, size_ = 1;
+  int first_part_ = 0, end_part_ = 0;  ///< this rank's share
   std::vector<Share> shares_;
   Owned<Mat> matrix_;
   Owned<Vec> template_, everywhere_;
