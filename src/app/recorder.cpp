@@ -10,6 +10,7 @@
 
 #include "app/model_json.hpp"
 #include "app/version.hpp"
+#include "assembly/configuration_snapshot.hpp"
 #include "math/rotation.hpp"
 
 namespace engrane::app {
@@ -352,5 +353,29 @@ void Recorder::fill_fields(const Configuration& c) {
 }
 
 FrameValues Recorder::frame() const { return {displacement_, rotation_, velocity_, angular_, reaction_force_, reaction_torque_}; }
+
+void Recorder::save(Snapshot& snapshot) const {
+  const EnergyBalance& e = energies_;
+  snapshot.put("recorder/energies", {e.kinetic, e.potential, e.external_work, e.dissipated, e.initial, e.largest_error,
+                                     external_power_, dissipated_power_, last_time_, events_});
+  snapshot.put("recorder/due", {next_frame_, next_sample_});
+  snapshot.put("recorder/not_unique", {not_unique_.begin(), not_unique_.end()});
+}
+
+void Recorder::load(const Snapshot& snapshot) {
+  const std::vector<double>& e = snapshot.array("recorder/energies");
+  energies_ = {e.at(0), e.at(1), e.at(2), e.at(3), e.at(4), e.at(5)};
+  external_power_ = e.at(6);
+  dissipated_power_ = e.at(7);
+  last_time_ = e.at(8);
+  events_ = e.at(9);
+  next_frame_ = snapshot.array("recorder/due").at(0);
+  next_sample_ = snapshot.array("recorder/due").at(1);
+  not_unique_.clear();
+  for (const double channel : snapshot.array("recorder/not_unique")) not_unique_.push_back(static_cast<int>(channel));
+  if (moves_) return;
+  before_ = context_.numbering.reference_configuration(last_time_);
+  load_configuration(snapshot, before_);
+}
 
 }  // namespace engrane::app

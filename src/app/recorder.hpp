@@ -41,6 +41,10 @@ class Recorder {
   /// steps and at the end, since what is undetermined in one position may show in other components in the next.
   const std::vector<int>& not_unique() const { return not_unique_; }
 
+  /// The sums and the times of what is due next, for a restart.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
+
   bool sample_due() const { return sample_due_; }
   bool frame_due() const { return frame_due_; }
   /// Fields of the last observed configuration; the spans live until the next observe().

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <optional>
 
+#include "app/model_difference.hpp"
 #include "app/model_json.hpp"
 #include "app/recorder.hpp"
 #include "app/summary.hpp"
@@ -17,6 +20,7 @@
 #include "output/checks.hpp"
 #include "output/listing.hpp"
 #include "output/progress.hpp"
+#include "output/restart_file.hpp"
 #include "user/routine.hpp"
 
 namespace engrane::app {
@@ -41,16 +45,47 @@ Checks resolve_checks(const Model& model, const Recorder& recorder) {
   return Checks(std::move(all));
 }
 
+/// An earlier run, and the point of it that this run goes on from.
+struct Resumption {
+  RestartFile earlier;
+  RestartPoint point;
+};
+
+/// Opens what `.SAM RESTART` names, on every rank. Throws RestartError, also when its model is another than that of `reading`.
+std::unique_ptr<Resumption> find_resumption(const Reading& reading) {
+  const deck::AnalysisCard& card = reading.model.commands.analysis;
+  if (card.restart.empty()) return nullptr;
+  RestartFile earlier(card.restart);
+  SourceMap sources;
+  Diagnostics diagnostics;
+  const deck::Deck before =
+      deck::read_text(earlier.path(), earlier.deck_text(), catalogue(element_types()), sources, diagnostics);
+  if (const std::string difference = model_difference(before, reading.deck); !difference.empty())
+    throw RestartError(
+        fmt::format("{} is the result of another model: {}. A restart may change .SUB, .SAM, .SAI, checks, loads and "
+                    "functions of time",
+                    earlier.path(), difference));
+  RestartPoint point = earlier.load(card.restart_time);
+  if (point.time >= reading.model.commands.stepping.end)
+    throw RestartError(
+        fmt::format("{} goes on from t = {:.10g}, and .SUB ends at TF = {:.10g}: give a later TF, or RESTART an earlier T",
+                    earlier.path(), point.time, reading.model.commands.stepping.end));
+  return std::make_unique<Resumption>(std::move(earlier), std::move(point));
+}
+
 /// More events than this are counted only.
 constexpr long most_listed_events = 100;
 
 /// Everything that rank 0 writes during a run.
 class Writer {
  public:
-  Writer(const Reading& reading, const Recorder& recorder, const Options& options, const std::string& prefix)
+  /// `resumed`: what this run goes on from, or nullptr.
+  Writer(const Reading& reading, const Recorder& recorder, const Options& options, const std::string& prefix,
+         const Resumption* resumed)
       : reading_(reading),
         recorder_(recorder),
-        results_(prefix, recorder.layout()),
+        results_(resumed ? Results(prefix, recorder.layout(), resumed->earlier, resumed->point)
+                         : Results(prefix, recorder.layout())),
         listing_(results_.name()),
         checks_(resolve_checks(reading.model, recorder)),
         progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
@@ -65,6 +100,36 @@ class Writer {
     listing_.write(describe_geometry(model));
     listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
     listing_.write(listing_section("Start"));
+  }
+
+  void resumed(const Resumption& from) {
+    checks_.load(from.point.memory);
+    const std::vector<double>& counts = from.point.memory.array("writer/counts");
+    steps_ = static_cast<long>(counts.at(0));
+    iterations_ = static_cast<long>(counts.at(1));
+    cuts_ = static_cast<long>(counts.at(2));
+    locating_ = static_cast<long>(counts.at(3));
+    event_count_ = static_cast<long>(counts.at(4));
+    marked_ = recorder_.not_unique().size();
+    results_.mark_not_unique(recorder_.not_unique());
+    next_kept_ = after(from.point.time);
+    listing_.write(fmt::format("  goes on from {} at t = {:.10g}\n", from.earlier.path(), from.point.time));
+    if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
+  }
+
+  /// Gives the results what the run could go on from now: with a batch, where the deck asks for it, and at the end.
+  void remember(const Configuration& c, const Runner& runner, bool last) {
+    const bool kept = c.time >= next_kept_ * (1 - 1e-12);
+    if (!kept && !last && !results_.due()) return;
+    Snapshot memory;
+    runner.save(memory);
+    recorder_.save(memory);
+    checks_.save(memory);
+    memory.put("writer/counts", {static_cast<double>(steps_), static_cast<double>(iterations_), static_cast<double>(cuts_),
+                                 static_cast<double>(locating_), static_cast<double>(event_count_)});
+    results_.restart_point(c.time, std::move(memory), kept);
+    if (kept) next_kept_ = after(c.time);
+    if (results_.due()) results_.flush();
   }
 
   void started(const StartReport& start) {
@@ -189,6 +254,14 @@ class Writer {
     return rows;
   }
 
+  /// The first time after `time` that `.SAI RESTART DT` asks for.
+  double after(double time) const {
+    const std::optional<double> every;  // of .SAI RESTART DT
+    if (!every) return std::numeric_limits<double>::infinity();
+    const double begin = reading_.model.commands.stepping.start;
+    return begin + (std::floor((time - begin) / *every * (1 + 1e-12)) + 1) * *every;
+  }
+
   const Reading& reading_;
   const Recorder& recorder_;
   Results results_;
@@ -198,6 +271,7 @@ class Writer {
   std::vector<EnergyRow> energies_;
   std::string events_;
   std::size_t marked_ = 0;  ///< channels marked as not unique so far
+  double next_kept_ = after(reading_.model.commands.stepping.start);
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;
 };
 
@@ -237,13 +311,20 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end of the program
 
   Times times;
+  std::unique_ptr<Resumption> resumption;
+  try {
+    resumption = find_resumption(reading);
+  } catch (const RestartError& e) {
+    if (rank == 0) std::cerr << "engrane: " << e.what() << '\n';
+    return exit_status::wrong_deck;
+  }
   SolverContext context(reading.model, comm);
   Recorder recorder(reading, context);
   std::optional<Writer> writer;
   // the other ranks must hear of it when the files cannot be made
   std::string trouble;
   if (rank == 0) try {
-      writer.emplace(reading, recorder, options, default_prefix(options));
+      writer.emplace(reading, recorder, options, default_prefix(options), resumption.get());
       writer->begin(context, options, ranks);
     } catch (const OutputError& e) {
       trouble = e.what();
@@ -259,31 +340,43 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
 
   std::string failure;
   bool complete = false;
+  const auto scheme = make_scheme(context);
+  Runner runner(context, *scheme);
+  const Observer observer = [&](const Configuration& c, const StepReport& step) {
+    const auto watch = times.output();
+    user::forget_failures();  // those of attempts that were cut
+    int stop = 0;
+    if (rank == 0) try {
+        recorder.observe(c, step);
+        writer->step(c, step, context.numbering);
+        writer->remember(c, runner, false);
+      } catch (const OutputError& e) {
+        failure = e.what();
+        stop = 1;
+      }
+    if (ranks > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, comm);
+    if (asked_to_stop(comm, ranks)) {
+      failure = fmt::format("interrupted at t = {:.6g}", c.time);
+      stop = 1;
+    }
+    return stop == 0;
+  };
   try {
-    const auto scheme = make_scheme(context);
-    Runner runner(context, *scheme);
-    complete = runner.run(
-        [&](const Configuration& c, const StepReport& step) {
-          const auto watch = times.output();
-          user::forget_failures();  // those of attempts that were cut
-          int stop = 0;
-          if (rank == 0) try {
-              recorder.observe(c, step);
-              writer->step(c, step, context.numbering);
-            } catch (const OutputError& e) {
-              failure = e.what();
-              stop = 1;
-            }
-          if (ranks > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, comm);
-          if (asked_to_stop(comm, ranks)) {
-            failure = fmt::format("interrupted at t = {:.6g}", c.time);
-            stop = 1;
-          }
-          return stop == 0;
-        },
-        [&](const StartReport& start) {
-          if (rank == 0) writer->started(start);
-        });
+    if (resumption) {
+      if (rank == 0) {
+        recorder.load(resumption->point.memory);
+        writer->resumed(*resumption);
+      }
+      complete = runner.resume(resumption->point.memory, observer);
+    } else {
+      complete = runner.run(observer, [&](const StartReport& start) {
+        if (rank == 0) writer->started(start);
+      });
+    }
+  } catch (const std::out_of_range& e) {
+    // of the restart point: its arrays do not fit this model
+    if (!resumption) throw;
+    failure = fmt::format("cannot go on from {}: {}", resumption->earlier.path(), e.what());
   } catch (const SolutionFailure& e) {
     failure = e.what();
   }
@@ -292,6 +385,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {
     try {
+      if (runner.started()) writer->remember(runner.now(), runner, true);
       status = writer->finish(complete ? RunStatus::complete : RunStatus::failed, failure, times.split(context.solver));
     } catch (const OutputError& e) {
       failure = e.what();
