@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/plausibility.hpp"
@@ -11,15 +12,20 @@ namespace engrane::app {
 
 namespace {
 
+/// The element of a number, loads aside; nullptr when there is none. Parts are in the order of their numbers.
+const Model::Part* find_element(const Model& model, int id) {
+  const auto part = std::lower_bound(model.parts.begin(), model.parts.end(), id,
+                                     [](const Model::Part& p, int wanted) { return p.element->id() < wanted; });
+  return part != model.parts.end() && part->element->id() == id && part->type != "CHA" ? &*part : nullptr;
+}
+
 /// Rows of `.CHK` and others that name what only the built model knows.
 void check_targets(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   for (const deck::Record& record : deck.records) {
     const auto* check = record.get<deck::CheckCard>();
     if (!check || !check->element) continue;
-    const Model::Part* found = nullptr;
+    const Model::Part* found = find_element(model, *check->element);
     std::vector<std::string> names;
-    for (const Model::Part& part : model.parts)
-      if (part.element->id() == *check->element && part.type != "CHA") found = &part;
     if (!found) {
       diagnostics.error(record.where("ELEMENT"), fmt::format("there is no element {}", *check->element));
       continue;

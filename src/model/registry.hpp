@@ -11,13 +11,14 @@
 #include "deck/schema/schema.hpp"
 #include "model/element.hpp"
 #include "model/function.hpp"
+#include "model/node_positions.hpp"
 
 namespace engrane {
 
 /// What an element may look up while it is built from its record. Faults of the deck go to `diagnostics`, at the
 /// location of the keyword that is wrong (`record.where("MN")`); an element that cannot be built is nullptr.
 struct BuildContext {
-  const std::map<int, Vec3>& nodes;  ///< reference positions; the ground, node 0, is at the origin
+  const NodePositions& nodes;  ///< in the reference configuration; the ground, node 0, is at the origin
   const std::map<int, std::unique_ptr<Function>>& functions;
   Diagnostics& diagnostics;
   const deck::Record& record;
