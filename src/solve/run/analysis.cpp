@@ -186,7 +186,7 @@ class Runner {
       if (outcome.report) report = std::move(*outcome.report);
       if (!report.converged && outcome.kind != Kind::drift) {
         // other constraints may depend on the rest here than did at the start
-        if ((report.singular || report.conflict) && !renewed && context_.redundancy.analyse(now_, rank_tolerance, true)) {
+        if ((report.singular || report.conflict) && !renewed && context_.redundancy.analyse(now_)) {
           renewed = true;
           continue;
         }
