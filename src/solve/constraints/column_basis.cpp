@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/constraints/column_basis.hpp"
 
-#include <umfpack.h>
-
+#include <Eigen/Dense>
+#include <SuiteSparseQR.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -18,31 +17,43 @@ namespace {
 
 /// Entries below this in columns of length 1 are rounding; following them would fill what is sparse.
 constexpr double rounding = 1e-15;
-/// A dependent column returns to the basis only when its remainder is this many times the tolerance, or the two could take turns.
-constexpr double clearly = 10;
+/// Columns are clearly independent in a leaf when their remainders there are longer than this.
+constexpr double clearly = 1e-3;
 
 std::size_t index(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
-void check_umfpack(int status) {
-  if (status < 0) throw std::bad_alloc();  // of its errors only that of memory can come from a well-formed matrix
-}
+/// CHOLMOD's settings and memory.
+class Cholmod {
+ public:
+  Cholmod() {
+    cholmod_l_start(&common_);
+    common_.print = 0;
+  }
+  ~Cholmod() { cholmod_l_finish(&common_); }
+  Cholmod(const Cholmod&) = delete;
+  Cholmod& operator=(const Cholmod&) = delete;
+  cholmod_common* get() { return &common_; }
 
-/// A sparse vector under elimination: its entries are taken in the order of their places, new ones come behind.
-template <class Order>
+ private:
+  cholmod_common common_{};
+};
+
+/// A sparse vector in the elimination by an upper triangle: its places are taken from the last, new ones come before.
 class Elimination {
  public:
   explicit Elimination(std::size_t size) : value_(size, 0.0), seen_(size, false) {}
 
   void add(int place, double value) {
-    value_[static_cast<std::size_t>(place)] += value;
-    if (seen_[static_cast<std::size_t>(place)]) return;
-    seen_[static_cast<std::size_t>(place)] = true;
+    const auto at = static_cast<std::size_t>(place);
+    value_[at] += value;
+    if (seen_[at]) return;
+    seen_[at] = true;
     places_.push(place);
   }
 
   bool empty() const { return places_.empty(); }
 
-  /// The next place and its value, which is final.
+  /// The last place and its value, which is final.
   std::pair<int, double> take() {
     const int place = places_.top();
     places_.pop();
@@ -54,214 +65,196 @@ class Elimination {
  private:
   std::vector<double> value_;
   std::vector<bool> seen_;
-  std::priority_queue<int, std::vector<int>, Order> places_;
+  std::priority_queue<int> places_;
 };
 
 }  // namespace
 
-ColumnBasis::ColumnBasis(const Sparse& a, double tolerance, const std::vector<int>& dependent)
-    : rows_(a.rows()), columns_(a.cols()) {
-  for (int j = 0; j < static_cast<int>(columns_); ++j) {
-    const bool left_out = a.innerVector(j).nonZeros() == 0 || std::binary_search(dependent.begin(), dependent.end(), j);
-    (left_out ? dependent_ : independent_).push_back(j);
+ColumnBasis::ColumnBasis(Sparse a, double tolerance, std::vector<int> groups) : a_(std::move(a)), groups_(std::move(groups)) {
+  a_.makeCompressed();
+  if (groups_.empty()) {
+    groups_.resize(index(rows()));
+    std::iota(groups_.begin(), groups_.end(), 0);
   }
-  constexpr int most_rounds = 4;
-  for (int round = 0; round < most_rounds; ++round) {
-    drop_small_pivots(a, tolerance);
-    const Sparse remainder = eliminate_dependent(a);
-    // a pivot of rounding took a row away from others, which only therefore seemed dependent
-    std::vector<int> open;
-    for (Eigen::Index j = 0; j < remainder.cols(); ++j)
-      for (Sparse::InnerIterator it(remainder, j); it; ++it)
-        if (std::abs(it.value()) > clearly * tolerance) {
-          open.push_back(static_cast<int>(j));
-          break;
-        }
-    if (open.empty()) return;
-    Sparse part(remainder.rows(), static_cast<Eigen::Index>(open.size()));
-    for (std::size_t j = 0; j < open.size(); ++j) part.col(static_cast<Eigen::Index>(j)) = remainder.col(open[j]);
-    const ColumnBasis among(part, clearly * tolerance);
-    if (among.rank() == 0) return;
-    for (const int j : among.independent()) independent_.push_back(dependent_[index(open[index(j)])]);
-    std::sort(independent_.begin(), independent_.end());
-    std::vector<int> left;
-    std::set_difference(dependent_.begin(), dependent_.end(), independent_.begin(), independent_.end(), std::back_inserter(left));
-    dependent_ = std::move(left);
-  }
-  drop_small_pivots(a, tolerance);
-  eliminate_dependent(a);
+  groups_.push_back(static_cast<int>(rows()));
+  take_leaves();
+  factor(tolerance);
 }
 
-void ColumnBasis::drop_small_pivots(const Sparse& a, double tolerance) {
-  for (;;) {
-    factor(a);
-    std::vector<int> kept;
-    for (std::size_t k = 0; k < pivot_.size(); ++k)
-      if (std::abs(pivot_[k]) >= tolerance) kept.push_back(column_[k]);
-    if (kept.size() == independent_.size()) return;
-    std::sort(kept.begin(), kept.end());
-    std::set_difference(independent_.begin(), independent_.end(), kept.begin(), kept.end(), std::back_inserter(dependent_));
-    std::sort(dependent_.begin(), dependent_.end());
-    independent_ = std::move(kept);
-  }
+Eigen::MatrixXd ColumnBasis::block(int group, const int* first, const int* end) const {
+  const int begin = groups_[index(group)];
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(groups_[index(group) + 1] - begin, end - first);
+  for (const int* j = first; j != end; ++j)
+    for (Sparse::InnerIterator it(a_, *j); it; ++it)
+      if (it.row() >= begin && it.row() - begin < dense.rows()) dense(it.row() - begin, j - first) = it.value();
+  return dense;
 }
 
-void ColumnBasis::factor(const Sparse& a) {
-  const auto m = static_cast<int>(rows_), n = static_cast<int>(independent_.size());
-  const int pivots = std::min(m, n);
-  lower_ = upper_ = {};
-  pivot_.clear();
-  column_.clear();
-  row_.resize(index(rows_));
-  for (int i = 0; i < m; ++i) row_[index(i)] = i;
-  lower_.begin.assign(index(m) + 1, 0);
-  upper_.begin.assign(index(n) + 1, 0);
-  if (pivots == 0) return;
+void ColumnBasis::take_leaves() {
+  const std::size_t groups = groups_.size() - 1, n = index(columns());
+  std::vector<int> group_of(index(rows()));
+  for (std::size_t g = 0; g < groups; ++g)
+    for (int i = groups_[g]; i < groups_[g + 1]; ++i) group_of[index(i)] = static_cast<int>(g);
+  // rows ascend in a column, and so do groups
+  const auto for_each_group = [&](int j, auto&& use) {
+    int last = -1;
+    for (Sparse::InnerIterator it(a_, j); it; ++it)
+      if (const int g = group_of[index(it.row())]; g != last) use(index(last = g));
+  };
+  std::vector<std::vector<int>> touching(groups);
+  for (int j = 0; j < static_cast<int>(n); ++j) for_each_group(j, [&](std::size_t g) { touching[g].push_back(j); });
+  std::vector<std::size_t> left(groups);
+  std::vector<bool> taken(n, false);
+  std::vector<int> ready;
+  const auto look_at = [&](std::size_t g) {
+    if (left[g] > 0 && left[g] <= index(groups_[g + 1] - groups_[g])) ready.push_back(static_cast<int>(g));
+  };
+  for (std::size_t g = 0; g < groups; ++g) {
+    left[g] = touching[g].size();
+    look_at(g);
+  }
+  std::vector<int> mine;
+  while (!ready.empty()) {
+    const int g = ready.back();
+    ready.pop_back();
+    mine.clear();
+    for (const int j : touching[index(g)])
+      if (!taken[index(j)]) mine.push_back(j);
+    if (mine.empty()) continue;
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(block(g, mine.data(), mine.data() + mine.size()));
+    if (!(qr.matrixR().diagonal().cwiseAbs().minCoeff() > clearly)) continue;
+    leaf_groups_.push_back(g);
+    leaf_columns_.insert(leaf_columns_.end(), mine.begin(), mine.end());
+    leaf_begin_.push_back(static_cast<int>(leaf_columns_.size()));
+    for (const int j : mine) {
+      taken[index(j)] = true;
+      for_each_group(j, [&](std::size_t other) {
+        --left[other];
+        look_at(other);
+      });
+    }
+  }
+  for (int j = 0; j < static_cast<int>(n); ++j)
+    if (!taken[index(j)]) core_.push_back(j);
+}
 
-  std::vector<int> begin{0}, at;
+void ColumnBasis::factor(double tolerance) {
+  const std::vector<int> all = std::exchange(core_, {});
+  const auto n = static_cast<int>(all.size());
+  using Long = SuiteSparse_long;
+  std::vector<Long> begin{0}, at;
   std::vector<double> entry;
-  for (const int j : independent_) {
-    for (Sparse::InnerIterator it(a, j); it; ++it) {
-      at.push_back(static_cast<int>(it.row()));
+  for (const int j : all) {
+    for (Sparse::InnerIterator it(a_, j); it; ++it) {
+      at.push_back(it.row());
       entry.push_back(it.value());
     }
-    begin.push_back(static_cast<int>(at.size()));
+    begin.push_back(static_cast<Long>(at.size()));
   }
-  std::array<double, UMFPACK_CONTROL> control{};
-  umfpack_di_defaults(control.data());
-  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_UNSYMMETRIC;
-  control[UMFPACK_SCALE] = UMFPACK_SCALE_NONE;  // sizes have a meaning here
-  control[UMFPACK_SINGLETONS] = 0;              // they would be pivots however small
-  using Symbolic = std::unique_ptr<void, decltype([](void* p) { umfpack_di_free_symbolic(&p); })>;
-  using Numeric = std::unique_ptr<void, decltype([](void* p) { umfpack_di_free_numeric(&p); })>;
-  void* made = nullptr;
-  check_umfpack(umfpack_di_symbolic(m, n, begin.data(), at.data(), entry.data(), &made, control.data(), nullptr));
-  const Symbolic symbolic(made);
-  check_umfpack(umfpack_di_numeric(begin.data(), at.data(), entry.data(), symbolic.get(), &made, control.data(), nullptr));
-  const Numeric numeric(made);
+  Cholmod cholmod;
+  cholmod_sparse core{};
+  core.nrow = index(rows());
+  core.ncol = index(n);
+  core.nzmax = at.size();
+  core.p = begin.data();
+  core.i = at.data();
+  core.x = entry.data();
+  core.itype = CHOLMOD_LONG;
+  core.xtype = CHOLMOD_REAL;
+  core.dtype = CHOLMOD_DOUBLE;
+  core.sorted = core.packed = 1;
+  cholmod_sparse* factor = nullptr;
+  Long* order = nullptr;
+  if (!at.empty()) SuiteSparseQR<double>(SPQR_ORDERING_COLAMD, tolerance, 0, &core, &factor, &order, cholmod.get());
+  const auto free_factor = [&](cholmod_sparse* r) { cholmod_l_free_sparse(&r, cholmod.get()); };
+  const auto free_order = [&](Long* e) { cholmod_l_free(index(n), sizeof(Long), e, cholmod.get()); };
+  const std::unique_ptr<cholmod_sparse, decltype(free_factor)> r(factor, free_factor);
+  const std::unique_ptr<Long, decltype(free_order)> permutation(order, free_order);
+  if (!at.empty() && !r) throw std::bad_alloc();
 
-  int entries_l = 0, entries_u = 0, found_m = 0, found_n = 0, on_diagonal = 0;
-  check_umfpack(umfpack_di_get_lunz(&entries_l, &entries_u, &found_m, &found_n, &on_diagonal, numeric.get()));
-  const auto size = [](Triangle& t, int entries) {
-    t.at.resize(index(entries));
-    t.entry.resize(index(entries));
-  };
-  size(lower_, entries_l);
-  size(upper_, entries_u);
-  std::vector<int> order(index(n));
-  std::vector<double> pivot(index(pivots));
-  int reciprocal = 0;
-  check_umfpack(umfpack_di_get_numeric(lower_.begin.data(), lower_.at.data(), lower_.entry.data(), upper_.begin.data(),
-                                       upper_.at.data(), upper_.entry.data(), row_.data(), order.data(), pivot.data(),
-                                       &reciprocal, nullptr, numeric.get()));
-  pivot_ = std::move(pivot);
-  for (const int j : order) column_.push_back(independent_[index(j)]);
-  // the diagonals are known
-  for (Triangle* t : {&lower_, &upper_}) {
-    int kept = 0;
-    for (std::size_t k = 0; k + 1 < t->begin.size(); ++k) {
-      const int first = std::exchange(t->begin[k], kept);
-      for (int e = first; e < t->begin[k + 1]; ++e) {
-        if (t->at[index(e)] == static_cast<int>(k)) continue;
-        t->at[index(kept)] = t->at[index(e)];
-        t->entry[index(kept++)] = t->entry[index(e)];
-      }
+  // R is a staircase: a column is independent where it goes one row farther than those before it
+  std::vector<int> places;  // in the order of R, of the dependent columns
+  const auto* r_begin = r ? static_cast<const Long*>(r->p) : nullptr;
+  const auto* r_at = r ? static_cast<const Long*>(r->i) : nullptr;
+  const auto* r_entry = r ? static_cast<const double*>(r->x) : nullptr;
+  for (int k = 0; k < n; ++k) {
+    const int column = all[index(permutation ? permutation.get()[k] : k)];
+    const auto step = static_cast<Long>(core_.size());
+    double pivot = 0;
+    if (r)
+      for (Long e = r_begin[k]; e < r_begin[k + 1]; ++e)
+        if (r_at[e] == step) pivot = r_entry[e];
+    if (pivot == 0) {
+      places.push_back(k);
+      dependent_.push_back(column);
+      continue;
     }
-    t->begin.back() = kept;
-    size(*t, kept);
+    for (Long e = r_begin[k]; e < r_begin[k + 1]; ++e) {
+      if (r_at[e] == step) continue;
+      upper_.at.push_back(static_cast<int>(r_at[e]));
+      upper_.entry.push_back(r_entry[e]);
+    }
+    upper_.begin.push_back(static_cast<int>(upper_.at.size()));
+    pivot_.push_back(pivot);
+    core_.push_back(column);
   }
-}
 
-ColumnBasis::Sparse ColumnBasis::eliminate_dependent(const Sparse& a) {
-  const auto pivots = pivot_.size();
-  const auto m = index(rows_);
-  null_ = Sparse(columns_, static_cast<Eigen::Index>(dependent_.size()));
-  Sparse remainder(rows_, null_.cols());
-  if (dependent_.empty()) return remainder;
-  // L by columns
-  Triangle columns{std::vector<int>(pivots + 1, 0), std::vector<int>(lower_.at.size()), std::vector<double>(lower_.at.size())};
-  for (const int j : lower_.at) ++columns.begin[index(j) + 1];
-  for (std::size_t k = 0; k < pivots; ++k) columns.begin[k + 1] += columns.begin[k];
-  std::vector<int> next(columns.begin.begin(), columns.begin.end());
-  for (std::size_t i = 0; i < m; ++i)
-    for (int e = lower_.begin[i]; e < lower_.begin[i + 1]; ++e) {
-      const int to = next[index(lower_.at[index(e)])]++;
-      columns.at[index(to)] = static_cast<int>(i);
-      columns.entry[index(to)] = lower_.entry[index(e)];
-    }
-  std::vector<int> place(m);
-  for (std::size_t k = 0; k < m; ++k) place[index(row_[k])] = static_cast<int>(k);
-
-  Elimination<std::greater<>> forward(m);
-  Elimination<std::less<>> backward(pivots);
-  std::vector<Eigen::Triplet<double>> combinations, remainders;
-  for (std::size_t d = 0; d < dependent_.size(); ++d) {
+  std::vector<std::size_t> ascending(dependent_.size());
+  std::iota(ascending.begin(), ascending.end(), 0);
+  std::sort(ascending.begin(), ascending.end(), [&](std::size_t i, std::size_t j) { return dependent_[i] < dependent_[j]; });
+  std::vector<Eigen::Triplet<double>> combinations;
+  Elimination x(core_.size());
+  for (std::size_t d = 0; d < ascending.size(); ++d) {
     const auto column = static_cast<int>(d);
-    for (Sparse::InnerIterator it(a, dependent_[d]); it; ++it) forward.add(place[index(it.row())], it.value());
-    while (!forward.empty()) {
-      const auto [k, value] = forward.take();
+    const std::size_t which = ascending[d];
+    combinations.emplace_back(dependent_[which], column, 1.0);
+    const int k = places[which];
+    if (r)
+      for (Long e = r_begin[k]; e < r_begin[k + 1]; ++e) x.add(static_cast<int>(r_at[e]), r_entry[e]);
+    while (!x.empty()) {
+      const auto [place, value] = x.take();
       if (std::abs(value) <= rounding) continue;
-      if (index(k) >= pivots) {
-        remainders.emplace_back(k, column, value);
-        continue;
-      }
-      backward.add(k, value);
-      for (int e = columns.begin[index(k)]; e < columns.begin[index(k) + 1]; ++e)
-        forward.add(columns.at[index(e)], -value * columns.entry[index(e)]);
-    }
-    combinations.emplace_back(dependent_[d], column, 1.0);
-    while (!backward.empty()) {
-      const auto [k, value] = backward.take();
-      const double part = value / pivot_[index(k)];
-      if (std::abs(value) <= rounding) continue;
-      combinations.emplace_back(column_[index(k)], column, -part);
-      for (int e = upper_.begin[index(k)]; e < upper_.begin[index(k) + 1]; ++e)
-        backward.add(upper_.at[index(e)], -part * upper_.entry[index(e)]);
+      const double part = value / pivot_[index(place)];
+      combinations.emplace_back(core_[index(place)], column, -part);
+      for (int e = upper_.begin[index(place)]; e < upper_.begin[index(place) + 1]; ++e)
+        x.add(upper_.at[index(e)], -part * upper_.entry[index(e)]);
     }
   }
+  std::sort(dependent_.begin(), dependent_.end());
+  null_.resize(columns(), static_cast<Eigen::Index>(dependent_.size()));
   null_.setFromTriplets(combinations.begin(), combinations.end());
-  remainder.setFromTriplets(remainders.begin(), remainders.end());
-  return remainder;
 }
 
-ColumnBasis::Vector ColumnBasis::back_through_lower(Vector y) const {
-  for (std::size_t k = row_.size(); k-- > 0;)
-    for (int e = lower_.begin[k]; e < lower_.begin[k + 1]; ++e)
-      y[lower_.at[index(e)]] -= lower_.entry[index(e)] * y[static_cast<Eigen::Index>(k)];
-  Vector result(rows_);
-  for (Eigen::Index k = 0; k < rows_; ++k) result[row_[index(k)]] = y[k];
-  return result;
-}
-
-ColumnBasis::Vector ColumnBasis::left_null(const Vector& wish) const {
-  Vector y(rows_);
-  for (Eigen::Index k = 0; k < rows_; ++k) y[k] = k < rank() ? 0.0 : wish[row_[index(k)]];
-  return back_through_lower(std::move(y));
-}
-
-ColumnBasis::Vector ColumnBasis::solve_transposed(const Vector& b) const {
-  Vector y = Vector::Zero(rows_);
-  for (std::size_t k = 0; k < pivot_.size(); ++k) {
-    double sum = b[column_[k]];
-    for (int e = upper_.begin[k]; e < upper_.begin[k + 1]; ++e) sum -= upper_.entry[index(e)] * y[upper_.at[index(e)]];
-    y[static_cast<Eigen::Index>(k)] = sum / pivot_[k];
+ColumnBasis::Vector ColumnBasis::corrected(Vector y, const Vector& b) const {
+  const auto short_of = [&](int column) { return b[column] - a_.col(column).dot(y); };
+  // y += A (RᵀR)⁻¹ (b − Aᵀy) over the columns of the core; the second pass takes back the rounding of the first
+  for (int pass = 0; pass < 2; ++pass) {
+    Vector x(static_cast<Eigen::Index>(core_.size()));
+    for (std::size_t k = 0; k < core_.size(); ++k) {
+      double sum = short_of(core_[k]);
+      for (int e = upper_.begin[k]; e < upper_.begin[k + 1]; ++e) sum -= upper_.entry[index(e)] * x[upper_.at[index(e)]];
+      x[static_cast<Eigen::Index>(k)] = sum / pivot_[k];
+    }
+    for (std::size_t k = core_.size(); k-- > 0;) {
+      const double part = x[static_cast<Eigen::Index>(k)] /= pivot_[k];
+      for (int e = upper_.begin[k]; e < upper_.begin[k + 1]; ++e) x[upper_.at[index(e)]] -= part * upper_.entry[index(e)];
+    }
+    for (std::size_t k = 0; k < core_.size(); ++k) y += x[static_cast<Eigen::Index>(k)] * a_.col(core_[k]);
   }
-  return back_through_lower(std::move(y));
+  // no other column than those of a leaf touches its rows but those of leaves taken before
+  for (std::size_t leaf = leaf_groups_.size(); leaf-- > 0;) {
+    const int* first = leaf_columns_.data() + leaf_begin_[leaf];
+    const int* end = leaf_columns_.data() + leaf_begin_[leaf + 1];
+    Vector open(end - first);
+    for (const int* j = first; j != end; ++j) open[j - first] = short_of(*j);
+    const Eigen::MatrixXd rows_of = block(leaf_groups_[leaf], first, end).transpose();
+    y.segment(groups_[index(leaf_groups_[leaf])], rows_of.cols()) += rows_of.completeOrthogonalDecomposition().solve(open);
+  }
+  return y;
 }
 
-ColumnBasis::Vector ColumnBasis::solve(const Vector& b) const {
-  Vector y(rows_), x(columns_);
-  for (std::size_t k = 0; k < row_.size(); ++k) {
-    double sum = b[row_[k]];
-    for (int e = lower_.begin[k]; e < lower_.begin[k + 1]; ++e) sum -= lower_.entry[index(e)] * y[lower_.at[index(e)]];
-    y[static_cast<Eigen::Index>(k)] = sum;
-  }
-  for (std::size_t k = pivot_.size(); k-- > 0;) {
-    const double part = y[static_cast<Eigen::Index>(k)] / pivot_[k];
-    x[column_[k]] = part;
-    for (int e = upper_.begin[k]; e < upper_.begin[k + 1]; ++e) y[upper_.at[index(e)]] -= part * upper_.entry[index(e)];
-  }
-  return x;
-}
+ColumnBasis::Vector ColumnBasis::left_null(const Vector& wish) const { return corrected(wish, Vector::Zero(columns())); }
+
+ColumnBasis::Vector ColumnBasis::solve_transposed(const Vector& b) const { return corrected(Vector::Zero(rows()), b); }
 
 }  // namespace engrane::solve

@@ -9,62 +9,59 @@ namespace engrane::solve {
 
 /// Which columns of a sparse matrix are independent, and the combinations of them that vanish.
 ///
-/// Gaussian elimination P A_I Q = L U of an independent set I of columns, by UMFPACK with threshold pivoting (Davis 2004):
-/// a column whose remainder after all others is below the tolerance leaves the set. Costs what a sparse solve costs, and null
-/// vectors are as sparse as they are by nature (docs/decisions/0011).
+/// Two things in turn, each of the cost of a sparse solve (docs/decisions/0011). Leaves go first: where the columns that touch
+/// a group of rows are no more than its rows and clearly independent there, they depend on nothing else, and the matrix goes on
+/// without them; open chains and bodies on a common carrier vanish to nothing. What is left, the loops, goes to the
+/// rank-revealing sparse QR of SuiteSparse (SPQR; Davis 2011), of which R is kept.
 class ColumnBasis {
  public:
   using Sparse = Eigen::SparseMatrix<double>;
   using Vector = Eigen::VectorXd;
 
-  ColumnBasis() = default;
-  /// Columns of `a` are of length 1, or empty; `tolerance` is compared with the entries of their remainders. `dependent`:
-  /// columns that are believed to be so (ascending): where that is true one factorisation is enough. Throws std::bad_alloc
-  /// when the factors do not fit into memory.
-  ColumnBasis(const Sparse& a, double tolerance, const std::vector<int>& dependent = {});
+  /// Columns of `a` are of length 1, or empty; one counts as dependent where its remainder after the others is shorter than
+  /// `tolerance`. `groups`: first rows of the groups, ascending from 0; each row is one when there are none. Throws
+  /// std::bad_alloc when R does not fit into memory.
+  ColumnBasis(Sparse a, double tolerance, std::vector<int> groups = {});
 
-  Eigen::Index rows() const { return rows_; }
-  Eigen::Index columns() const { return columns_; }
-  Eigen::Index rank() const { return static_cast<Eigen::Index>(independent_.size()); }
-  const std::vector<int>& independent() const { return independent_; }  ///< ascending
-  const std::vector<int>& dependent() const { return dependent_; }      ///< ascending
+  Eigen::Index rows() const { return a_.rows(); }
+  Eigen::Index columns() const { return a_.cols(); }
+  Eigen::Index rank() const { return columns() - static_cast<Eigen::Index>(dependent_.size()); }
+  const std::vector<int>& dependent() const { return dependent_; }  ///< ascending
 
   /// Basis of the vectors with A x = 0: a column for each dependent one, in which that one counts 1.
   const Sparse& null() const { return null_; }
 
-  /// A vector with Aᵀy = 0 that is `wish` in the rows without pivot.
+  /// A vector near `wish` with Aᵀy = 0.
   Vector left_null(const Vector& wish) const;
-  /// A vector with (Aᵀy)_i = b_i for all independent columns i, zero in the rows without pivot.
+  /// A small vector with (Aᵀy)_i = b_i for all independent columns i.
   Vector solve_transposed(const Vector& b) const;
-  /// The solution of A x = b, of a square matrix of full rank.
-  Vector solve(const Vector& b) const;
 
-  /// Entries of both factors: what it cost.
-  std::size_t factor_entries() const { return lower_.entry.size() + upper_.entry.size(); }
+  /// Columns that leaves took, and entries of R for the others: what it cost.
+  std::size_t leaf_columns() const { return leaf_columns_.size(); }
+  std::size_t factor_entries() const { return upper_.entry.size() + pivot_.size(); }
 
  private:
-  /// A triangle, or a trapezium, by rows or columns: those of number k stand from begin[k] to begin[k + 1].
+  /// A triangle by columns: the entries of number k stand from begin[k] to begin[k + 1].
   struct Triangle {
-    std::vector<int> begin, at;
+    std::vector<int> begin{0}, at;
     std::vector<double> entry;
   };
 
-  void factor(const Sparse& a);
-  /// Factors until all pivots are above the tolerance; columns with smaller ones become dependent.
-  void drop_small_pivots(const Sparse& a, double tolerance);
-  /// Finds null(); returns the remainders of the dependent columns over the rows without pivot.
-  Sparse eliminate_dependent(const Sparse& a);
-  /// y in place: the entries without pivot are given, the others hold the right-hand side of Lᵀy = t.
-  Vector back_through_lower(Vector y) const;
+  void take_leaves();
+  void factor(double tolerance);
+  /// Rows of a group and columns of a leaf, as a dense matrix.
+  Eigen::MatrixXd block(int group, const int* first, const int* end) const;
+  /// The y nearest to the given one that has (Aᵀy)_i = b_i for the independent columns.
+  Vector corrected(Vector y, const Vector& b) const;
 
-  Eigen::Index rows_ = 0, columns_ = 0;
-  std::vector<int> independent_, dependent_;
+  Sparse a_;
+  std::vector<int> groups_;                                      ///< first rows, and behind the last the number of rows
+  std::vector<int> leaf_groups_, leaf_begin_{0}, leaf_columns_;  ///< in the order in which they were taken
+  std::vector<int> core_;                                        ///< independent columns of the others, in the order of R
+  std::vector<int> dependent_;
+  Triangle upper_;             ///< R of them without its diagonal
+  std::vector<double> pivot_;  ///< its diagonal
   Sparse null_;
-  Triangle lower_;  ///< L by rows of the pivoted order, without the ones of its diagonal
-  Triangle upper_;  ///< U by columns of the pivoted order, without its diagonal
-  std::vector<double> pivot_;
-  std::vector<int> row_;     ///< of A, at a place of the pivoted order
-  std::vector<int> column_;  ///< of A, at a place of the pivoted order
 };
 
 }  // namespace engrane::solve

@@ -46,10 +46,14 @@ ConstraintMatrix::ConstraintMatrix(Assembler& assembler, const Configuration& co
   const Numbering& numbering = assembler.numbering();
   const double extent = assembler.model().extent();
   std::vector<int> row_of(static_cast<std::size_t>(numbering.motion_slots()), -1);
+  int node = -1;
   for (int e = 0; e < numbering.equations(); ++e) {
     const Unknown& u = numbering.unknown(e);
     if (u.multiplier) continue;
-    row_of[static_cast<std::size_t>(u.slot)] = static_cast<int>(row_size.size());
+    const auto row = static_cast<int>(row_size.size());
+    row_of[static_cast<std::size_t>(u.slot)] = row;
+    if (row == 0 || u.node < 0 || u.node != node) first_rows.push_back(row);
+    node = u.node;
     row_size.push_back(size_of(u, extent));
     slot.push_back(static_cast<std::size_t>(u.slot));
   }
@@ -81,18 +85,24 @@ void ConstraintMatrix::to_slots(const Vector& motion, std::vector<double>& y) co
   for (std::size_t i = 0; i < slot.size(); ++i) y[slot[i]] = motion[static_cast<Eigen::Index>(i)] * row_size[i];
 }
 
-ConstraintFactors::ConstraintFactors(Assembler& assembler, const Configuration& configuration, ConstraintColumns kind,
-                                     double tolerance, const std::vector<int>& expected)
-    : gradients_(assembler, configuration, kind), length_(Vector::Ones(gradients_.matrix.cols())) {
-  Sparse matrix = gradients_.matrix;
-  for (Eigen::Index m = 0; m < matrix.cols(); ++m) {
-    const double length = matrix.col(m).norm();
-    if (!(length > 0)) continue;
-    length_[m] = length;
-    matrix.col(m) /= length;
-  }
-  basis_ = ColumnBasis(matrix, tolerance, expected);
+namespace {
+
+/// Columns of length 1; those without entries stay.
+Sparse normalized(const Sparse& matrix, const Vector& length) { return matrix * length.cwiseInverse().asDiagonal(); }
+
+Vector lengths(const Sparse& matrix) {
+  Vector length(matrix.cols());
+  for (Eigen::Index m = 0; m < matrix.cols(); ++m) length[m] = matrix.col(m).norm();
+  return (length.array() > 0).select(length, 1.0);
 }
+
+}  // namespace
+
+ConstraintFactors::ConstraintFactors(Assembler& assembler, const Configuration& configuration, ConstraintColumns kind,
+                                     double tolerance)
+    : gradients_(assembler, configuration, kind),
+      length_(lengths(gradients_.matrix)),
+      basis_(normalized(gradients_.matrix, length_), tolerance, gradients_.first_rows) {}
 
 Sparse ConstraintFactors::null_forces() const { return length_.cwiseInverse().asDiagonal() * basis_.null(); }
 

@@ -43,14 +43,14 @@ struct ConstraintMatrix {
   Eigen::SparseMatrix<double> matrix;
   std::vector<std::size_t> slot;  ///< of a row
   std::vector<double> row_size;
+  std::vector<int> first_rows;  ///< of the nodes, and of the elements' scalars each
 };
 
 /// Which columns of a ConstraintMatrix are independent when all have length 1.
 class ConstraintFactors {
  public:
-  /// Columns whose remainder after all others is below `tolerance` count as dependent; `expected`: those that will be.
-  ConstraintFactors(Assembler& assembler, const Configuration& configuration, ConstraintColumns kind, double tolerance,
-                    const std::vector<int>& expected = {});
+  /// Columns whose remainder after the others is below `tolerance` count as dependent.
+  ConstraintFactors(Assembler& assembler, const Configuration& configuration, ConstraintColumns kind, double tolerance);
 
   Eigen::Index rank() const { return basis_.rank(); }
   Eigen::Index rows() const { return basis_.rows(); }
@@ -62,7 +62,7 @@ class ConstraintFactors {
   /// units of force and moment.
   const Eigen::SparseMatrix<double>& null_multipliers() const { return basis_.null(); }
   Eigen::SparseMatrix<double> null_forces() const;
-  /// A (scaled) motion that closes no constraint, as `wish` where that is free to choose.
+  /// The (scaled) motion that closes no constraint and is near to `wish`.
   Eigen::VectorXd possible_motion(const Eigen::VectorXd& wish) const { return basis_.left_null(wish); }
   /// A (scaled) motion that closes the independent constraints, to first order.
   Eigen::VectorXd closing_motion(const std::vector<double>& phi) const;

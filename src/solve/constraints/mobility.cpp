@@ -47,7 +47,7 @@ bool move_along(Assembler& assembler, const MotionSlots& motion, const Constrain
     if (!std::isfinite(open)) return false;
     if (open < 1e-13) return true;
     // factors serve on while the gap shrinks by decades
-    if (open > 1e-2 * before) factors.emplace(assembler, c, ConstraintColumns::gradients, tolerance, here.dependent());
+    if (open > 1e-2 * before) factors.emplace(assembler, c, ConstraintColumns::gradients, tolerance);
     before = open;
     const Vector by = factors->closing_motion(phi);
     if (!(by.lpNorm<Eigen::Infinity>() < 0.05)) return false;
@@ -319,8 +319,7 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
 }
 
 std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
-  const ConstraintFactors factors(assembler_, outside_of_steps(c), ConstraintColumns::forces, rank_tolerance,
-                                  mobility_.dependent);
+  const ConstraintFactors factors(assembler_, outside_of_steps(c), ConstraintColumns::forces, rank_tolerance);
   const Sparse null = factors.null_forces();
   std::vector<Vector> changes;
   if (null.cols() == 0) return changes;
@@ -336,7 +335,7 @@ std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
 bool Redundancy::share(Configuration& c) {
   if (!active()) return false;
   const Configuration here = outside_of_steps(c);
-  const ConstraintFactors factors(assembler_, here, ConstraintColumns::forces, rank_tolerance, mobility_.dependent);
+  const ConstraintFactors factors(assembler_, here, ConstraintColumns::forces, rank_tolerance);
   if (factors.deficiency() == 0) return false;
   const double extent = assembler_.model().extent();
   // forces count as they are, moments over the extent

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -44,7 +44,7 @@ Vector damped_step(const Sparse& gradient, const Vector& phi, double mu) {
   whole.setFromTriplets(entries.begin(), entries.end());
   Vector right(n + m);
   right << Vector::Zero(n), phi;
-  return -ColumnBasis(whole, 0).solve(right).head(n);
+  return -Eigen::SparseLU<Sparse>(whole).solve(right).head(n);
 }
 
 /// Moves `c` to where the weighted sum of squares of the open constraints is least: steps −Jᵀ(JJᵀ + μ)⁻¹ φ of Levenberg and
