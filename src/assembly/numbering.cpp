@@ -100,8 +100,9 @@ std::string Numbering::describe(int equation) const {
   if (u.part < 0) return fmt::format("node {} ({})", model_.nodes[static_cast<std::size_t>(u.node)].id, component_name(u.item));
   const Model::Part& part = model_.parts[static_cast<std::size_t>(u.part)];
   const Layout& layout = part.element->layout();
-  const auto& names = u.multiplier ? layout.multipliers : layout.scalars;
-  return fmt::format("{} {} ({})", part.type, part.element->id(), names[static_cast<std::size_t>(u.item)].name);
+  const auto item = static_cast<std::size_t>(u.item);
+  const Named& named = u.multiplier ? layout.multipliers[item] : layout.scalars[item];
+  return fmt::format("{} {} ({})", part.type, part.element->id(), named.name);
 }
 
 }  // namespace engrane

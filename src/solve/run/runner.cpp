@@ -116,7 +116,7 @@ bool Runner::reach(double target) {
     const NewtonReport& report = outcome.newton;
     if (!report.converged && found.kind != Kind::drift) {
       // other constraints may depend on the rest here than did at the start
-      if ((report.singular || report.conflict) && !renewed_ && context_.redundancy.analyse(now_, rank_tolerance, true)) {
+      if ((report.singular || report.conflict) && !renewed_ && context_.redundancy.analyse(now_)) {
         renewed_ = true;
         continue;
       }
