@@ -38,7 +38,7 @@ class Builder {
                      [](const Model::Part& a, const Model::Part& b) { return a.element->id() < b.element->id(); });
     add_loads();
     for (Model::Part& part : model_.parts)
-      for (const int id : part.element->layout().nodes) part.nodes.push_back(model_.node_index(id));
+      for (const int id : part.element->node_ids()) part.nodes.push_back(model_.node_index(id));
     check_rotation_supports();
     return std::move(model_);
   }
@@ -244,7 +244,8 @@ class Builder {
             diagnostics,
             record,
             [this](int node, const Vec3& axis) { return inertia_about(node, axis); },
-            &deck_.records};
+            &deck_.records,
+            &blocks_};
   }
 
   /// Lets an element put a node where it needs it: one after another in the order of the deck.
@@ -319,6 +320,7 @@ class Builder {
   std::map<int, Placed> placed_by_;
   Frames frames_;
   NodeGroups groups_;
+  BlockStore blocks_;
   std::vector<Load> loads_;
   std::vector<Location> support_locations_;
   Model model_;
