@@ -38,6 +38,16 @@ const std::vector<Field>& Element::fields() const {
 
 void Element::evaluate_fields(const State&, std::span<double>) const {}
 
+std::vector<Release> Element::releases() const {
+  std::vector<Release> all;
+  const auto& multipliers = layout().multipliers;
+  for (std::size_t i = 0; i < multipliers.size(); ++i) {
+    if (multipliers[i].role == Role::drive) all.push_back({"leave out the drive of {}", {static_cast<int>(i)}, ""});
+    if (multipliers[i].role == Role::tooth) all.push_back({"give {} a tooth stiffness (KM)", {static_cast<int>(i)}, ""});
+  }
+  return all;
+}
+
 std::vector<Derived> Element::derived() const { return {}; }
 
 Drawing Element::drawing() const { return {}; }

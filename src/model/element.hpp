@@ -40,6 +40,27 @@ struct Field : Named {
   }
 };
 
+/// What a multiplier is, for those who speak of constraints without knowing the elements.
+enum class Role : unsigned char {
+  other,   ///< its help says what
+  force,   ///< holds a point of one node on a line or place of the other, along one direction
+  moment,  ///< holds the turn of one node from the other about one direction
+  drive,   ///< imposes a motion: can be left out, and is what asks for too much when nothing else does
+  tooth    ///< holds the flanks of rigid teeth together
+};
+
+/// The multiplier of one holonomic constraint: `{"TOOTH", dimension::length, "normal force", Role::tooth}`.
+struct Multiplier : Named {
+  Role role = Role::other;
+};
+
+/// One change of an element that gives up some of its constraints, as advice against redundant ones.
+struct Release {
+  std::string change;            ///< "make {} a SPHERICAL", with {} for the element
+  std::vector<int> multipliers;  ///< given up by it: indices into Layout::multipliers, ascending
+  std::string what;              ///< "moment about the second axis"; may be empty
+};
+
 /// What happens when a switch of an element changes sign, in words for the listing: `front flank touches`.
 struct SwitchNames {
   std::string rises;  ///< from negative to positive
@@ -57,12 +78,12 @@ struct Switch {
 /// Which unknowns an element works on. Its local slots, in order: those that it asks of each node (three translations, three
 /// material rotation increments; of node 0, the ground, too), its scalars, its multipliers.
 struct Layout {
-  std::vector<int> nodes;             ///< ids; 0 is the ground
-  std::vector<NodeNeed> needs;        ///< one per node
-  std::vector<Scalar> scalars;        ///< own unknowns with rates, such as ψ_A, ψ_B, u_m
-  std::vector<Named> multipliers;     ///< one per holonomic constraint, in the order of the residual's constraint rows
-  int history = 0;                    ///< committed numbers kept from step to step (turn counts, contact states)
-  std::vector<SwitchNames> switches;  ///< where the element's law is not smooth: dynamics places ends of steps there
+  std::vector<int> nodes;               ///< ids; 0 is the ground
+  std::vector<NodeNeed> needs;          ///< one per node
+  std::vector<Scalar> scalars;          ///< own unknowns with rates, such as ψ_A, ψ_B, u_m
+  std::vector<Multiplier> multipliers;  ///< one per holonomic constraint, in the order of the residual's constraint rows
+  int history = 0;                      ///< committed numbers kept from step to step (turn counts, contact states)
+  std::vector<SwitchNames> switches;    ///< where the element's law is not smooth: dynamics places ends of steps there
 
   bool needs_any(std::size_t node, NodeNeed what) const {
     return (static_cast<unsigned>(needs[node]) & static_cast<unsigned>(what)) != 0;
@@ -222,6 +243,11 @@ class Element {
   /// Fields, and all their values: field by field, in each place by place, in each component by component.
   virtual const std::vector<Field>& fields() const;
   virtual void evaluate_fields(const State& state, std::span<double> values) const;
+
+  /// Changes that hold less, the usual ones of machines first.
+  virtual std::vector<Release> releases() const;
+  /// Whether the element makes its nodes a body that can have mass; advice against motions that no inertia resists looks here.
+  virtual bool is_body() const { return false; }
 
   virtual std::vector<Derived> derived() const;
   virtual Drawing drawing() const;

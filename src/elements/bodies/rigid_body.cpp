@@ -26,7 +26,7 @@ class RigidBody final : public Element {
     }
     for (std::size_t i = 1; i < nodes.size(); ++i) {
       links_.push_back(std::make_unique<RigidLink>(id, nodes[0], nodes[i], offsets[i]));
-      for (Named multiplier : links_.back()->layout().multipliers) {
+      for (Multiplier multiplier : links_.back()->layout().multipliers) {
         multiplier.name += fmt::format("_{}", nodes[i]);
         layout_.multipliers.push_back(std::move(multiplier));
       }
@@ -81,6 +81,7 @@ class RigidBody final : public Element {
   }
 
   Energies energies(const State& state) const override { return body_ ? body_->energies(of_master(state)) : Energies{}; }
+  bool is_body() const override { return true; }
   Mat3 inertia_at(int node) const override { return body_ ? body_->inertia_at(node) : Mat3(Mat3::Zero()); }
   const std::vector<Named>& channels() const override { return channels_; }
 

@@ -47,20 +47,20 @@ Dimension dimension_of(Measure m) {
 
 bool is_length(Measure m) { return dimension_of(m) == dimension::length; }
 
-Named multiplier(Measure m) {
+Multiplier multiplier(Measure m) {
   switch (m) {
     case Measure::gap_1:
-      return {"FORCE_1", dimension::length, "force along the axis"};
+      return {"FORCE_1", dimension::length, "force along the axis", Role::force};
     case Measure::gap_2:
-      return {"FORCE_2", dimension::length, "force along the joint's second axis"};
+      return {"FORCE_2", dimension::length, "force along the joint's second axis", Role::force};
     case Measure::gap_3:
-      return {"FORCE_3", dimension::length, "force along the joint's third axis"};
+      return {"FORCE_3", dimension::length, "force along the joint's third axis", Role::force};
     case Measure::tilt_2:
     case Measure::turn_2:
-      return {"MOMENT_2", dimension::angle, "moment about the joint's second axis"};
+      return {"MOMENT_2", dimension::angle, "moment about the joint's second axis", Role::moment};
     case Measure::tilt_3:
     case Measure::turn_3:
-      return {"MOMENT_3", dimension::angle, "moment about the joint's third axis"};
+      return {"MOMENT_3", dimension::angle, "moment about the joint's third axis", Role::moment};
     case Measure::distance:
       return {"THRUST", dimension::length, "force that pushes the points apart"};
     case Measure::screw:
@@ -72,7 +72,7 @@ Named multiplier(Measure m) {
     case Measure::radius:
       return {"NORMAL_FORCE", dimension::length, "force away from the axis"};
     default:
-      return {"MOMENT_1", dimension::angle, "moment about the axis"};
+      return {"MOMENT_1", dimension::angle, "moment about the axis", Role::moment};
   }
 }
 
@@ -240,8 +240,8 @@ Joint::Joint(int id, JointParts parts) : TemplatedElement(id), parts_(std::move(
   }
   for (const JointCoordinate& c : parts_.coordinates) {
     if (c.drive.given())
-      layout.multipliers.push_back(
-          {c.names.drive, dimension_of(c.measure), is_length(c.measure) ? "force of the drive" : "torque of the drive"});
+      layout.multipliers.push_back({c.names.drive, dimension_of(c.measure),
+                                    is_length(c.measure) ? "force of the drive" : "torque of the drive", Role::drive});
     count(c.measure);
     const bool acts = c.drive.given() || c.sprung() || c.stop.given();
     moves_ = moves_ || acts;

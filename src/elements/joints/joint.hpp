@@ -82,6 +82,8 @@ class Joint final : public TemplatedElement<Joint, 2, 18> {
   Energies energies(const State& state) const override;
   const std::vector<Named>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override;
+  /// Usual kinds of joint that hold some of the same directions and no other.
+  std::vector<Release> releases() const override;
   Drawing drawing() const override;
 
   /// For elements that act on the joint's coordinates (joint_coordinate.hpp).

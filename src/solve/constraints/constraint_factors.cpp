@@ -16,12 +16,12 @@ const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier) {
   return numbering.unknown(numbering.equation(numbering.motion_slots() + multiplier));
 }
 
-bool is_drive(const Named& multiplier) { return multiplier.name.find("DRIVE") != std::string::npos; }
-
-bool is_drive(const Model& model, const Unknown& multiplier) {
+const Multiplier& multiplier_of(const Model& model, const Unknown& multiplier) {
   const Model::Part& part = model.parts[static_cast<std::size_t>(multiplier.part)];
-  return is_drive(part.element->layout().multipliers[static_cast<std::size_t>(multiplier.item)]);
+  return part.element->layout().multipliers[static_cast<std::size_t>(multiplier.item)];
 }
+
+bool is_drive(const Model& model, const Unknown& multiplier) { return multiplier_of(model, multiplier).role == Role::drive; }
 
 double relative_open(const Assembler& assembler, int multiplier, double phi) {
   return std::abs(phi) / size_of(multiplier_unknown(assembler.numbering(), multiplier), assembler.model().extent());

@@ -22,8 +22,8 @@ double size_of(const Unknown& u, double extent);
 /// The unknown of a multiplier, index into Configuration::multipliers.
 const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier);
 
-/// Whether a multiplier is the effort of a drive, which elements name so.
-bool is_drive(const Named& multiplier);
+/// What the element says of the unknown of a multiplier.
+const Multiplier& multiplier_of(const Model& model, const Unknown& multiplier);
 bool is_drive(const Model& model, const Unknown& multiplier);
 
 /// An open constraint over the extent, or in radians.

@@ -91,9 +91,9 @@ std::string along(const Vec3& direction) {
 std::string describe_direction(Assembler& assembler, const Configuration& c, const Unknown& u) {
   const Model::Part& part = assembler.model().parts[static_cast<std::size_t>(u.part)];
   const Layout& layout = part.element->layout();
-  const Named& named = layout.multipliers[static_cast<std::size_t>(u.item)];
-  const bool force = named.name.find("FORCE_") != std::string::npos, moment = named.name.find("MOMENT_") != std::string::npos;
-  if (!force && !moment) return named.name == "TOOTH" ? "tooth force" : named.help;
+  const Multiplier& named = layout.multipliers[static_cast<std::size_t>(u.item)];
+  const bool force = named.role == Role::force, moment = named.role == Role::moment;
+  if (!force && !moment) return named.role == Role::tooth ? "tooth force" : named.help;
   const std::size_t n = static_cast<std::size_t>(layout.slots()), nodes = part.nodes.size();
   std::vector<double> r(n), k(n * n);
   part.element->tangent(assembler.view(u.part, c), {1, 0, 0}, r, k);
