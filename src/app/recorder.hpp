@@ -7,7 +7,7 @@
 
 #include "app/read.hpp"
 #include "output/results.hpp"
-#include "solve/run/analysis.hpp"
+#include "solve/run/runner.hpp"
 
 namespace engrane::app {
 

@@ -258,9 +258,9 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   std::string failure;
   bool complete = false;
   try {
-    const auto analysis = make_analysis(context);
-    complete = run(
-        context, *analysis,
+    const auto scheme = make_scheme(context);
+    Runner runner(context, *scheme);
+    complete = runner.run(
         [&](const Configuration& c, const StepReport& step) {
           const auto watch = times.output();
           user::forget_failures();  // those of attempts that were cut

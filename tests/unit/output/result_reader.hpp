@@ -10,6 +10,8 @@
 
 namespace engrane::testing {
 
+using namespace output;
+
 /// Reads a result file back with the plain HDF5 library.
 class ResultReader {
  public:

@@ -20,6 +20,9 @@
 #include "sample_results.hpp"
 
 namespace engrane::testing {
+
+using namespace output;
+
 namespace {
 
 std::string read_text(const std::string& path) {

@@ -12,6 +12,8 @@
 
 namespace engrane::testing {
 
+using namespace output;
+
 /// A folder of its own, removed at the end.
 class Scratch {
  public:
