@@ -45,6 +45,8 @@ class Numbering {
     const auto p = static_cast<std::size_t>(part);
     return std::span(part_slots_).subspan(parts_[p].slot, parts_[p + 1].slot - parts_[p].slot);
   }
+  /// Bytes that are kept for the elements.
+  std::size_t part_bytes() const { return parts_.size() * sizeof(Part) + part_slots_.size() * sizeof(int); }
   int scalar_begin(int part) const { return parts_[static_cast<std::size_t>(part)].scalar; }
   int multiplier_begin(int part) const { return parts_[static_cast<std::size_t>(part)].multiplier; }
   int history_begin(int part) const { return parts_[static_cast<std::size_t>(part)].history; }

@@ -31,6 +31,12 @@ class TemplatedBlock : public Block {
     return std::make_unique<BlockMember>(id, block, block->data_.size() - 1);
   }
 
+  /// Room for so many elements, where it is known how many come.
+  void reserve(std::size_t count) {
+    nodes_.reserve(count);
+    data_.reserve(count);
+  }
+
   std::size_t size() const final { return data_.size(); }
   const Layout& layout() const final { return sweep_.layout(); }
   std::span<const int> node_ids(std::size_t e) const final { return nodes_[e]; }

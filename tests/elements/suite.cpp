@@ -388,13 +388,12 @@ void check_needs(const Subject& s, const Element& element, const StateBuffer& st
   const Vector r = residual_of(element, state);
   for (std::size_t j = 0; j < slots.count(); ++j) {
     if (slots.ground(j)) continue;
-    const bool first_order = j >= slots.first_scalar() && j < slots.first_multiplier() &&
-                             slots.layout.scalars[j - slots.first_scalar()].first_order;
+    const bool first_order =
+        j >= slots.first_scalar() && j < slots.first_multiplier() && slots.layout.scalars[j - slots.first_scalar()].first_order;
     if (slots.needed(j) && !first_order) continue;
     StateBuffer moved = state;
     for (Level level : {Level::position, Level::velocity, Level::acceleration})
-      if (!first_order || level == Level::acceleration)
-        moved.add(j, level, size_of(s, slots.kind(j), level) * uniform(random));
+      if (!first_order || level == Level::acceleration) moved.add(j, level, size_of(s, slots.kind(j), level) * uniform(random));
     EXPECT_EQ(residual_of(element, moved), r) << "depends on an unknown it did not ask for: " << slots.name(j);
   }
 }
@@ -408,7 +407,8 @@ void check_parts(const Element& element, const StateBuffer& state) {
   const auto sum = [&](std::size_t i) { return all.q * k[i] + all.v * c[i] + all.a * m[i] + all.multipliers * b[i]; };
   for (std::size_t i = 0; i < whole.size(); ++i) largest = std::max(largest, std::abs(k[i]) + std::abs(c[i]) + std::abs(m[i]));
   for (std::size_t i = 0; i < whole.size(); ++i)
-    ASSERT_NEAR(whole[i], sum(i), 1e-12 * (largest + std::abs(b[i]))) << "K, C, M and the multipliers' columns apart: entry " << i;
+    ASSERT_NEAR(whole[i], sum(i), 1e-12 * (largest + std::abs(b[i])))
+        << "K, C, M and the multipliers' columns apart: entry " << i;
 }
 
 void check_mass(const Subject& s, const Element& element, StateBuffer state, Random& random) {

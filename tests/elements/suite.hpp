@@ -139,6 +139,7 @@ struct BuildOptions {
   std::function<double(int, const Vec3&)> wheel_inertia = [](int, const Vec3&) { return 0.0; };
   int id = 1;
   const std::vector<deck::Record>* records = nullptr;  ///< of the other elements
+  BlockStore* blocks = nullptr;                        ///< without it every element is alone in its block
 };
 
 /// Builds an element from its card's struct, as a deck would.

@@ -206,8 +206,9 @@ std::unique_ptr<Element> build_record(const ElementType& type, std::any data, co
   record.data = std::move(data);
   Diagnostics own;
   Diagnostics& diagnostics = options.diagnostics ? *options.diagnostics : own;
-  BuildContext context{nodes,          options.functions ? *options.functions : none, diagnostics, record, options.wheel_inertia,
-                       options.records};
+  BuildContext context{
+      nodes,         options.functions ? *options.functions : none, diagnostics, record, options.wheel_inertia, options.records,
+      options.blocks};
   auto element = type.build(context);
   for (const Diagnostic& d : own.all())
     if (d.severity == Severity::error) ADD_FAILURE() << type.schema.name << ": " << d.message << " (" << d.hint << ")";

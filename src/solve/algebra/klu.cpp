@@ -13,7 +13,7 @@ static_assert(sizeof(PetscInt) == sizeof(int), "KLU's int interface takes PETSc'
 
 /// A solution as good as this is that of a matrix that nobody can tell from the given one.
 constexpr double good = 1e-14;
-/// Where one refinement leaves more, the old pivots serve no longer.
+/// Where neither the first solution nor its refinement is as good as this, the old pivots serve no longer.
 constexpr double worst_kept = 1e-11;
 /// After old pivots were useless n times in a row they are not tried for the next 2ⁿ matrices, but not longer than for this many:
 /// a trial costs a factorisation and two solutions, and is worth a third of a factorisation when it succeeds.
@@ -76,11 +76,11 @@ bool Klu::refactor() {
 
 bool Klu::factor() {
   const Values values(matrix_);
-  return factor(std::vector<double>(values.get(), values.get() + begin_[size_]));
+  chosen_for_.assign(values.get(), values.get() + begin_[size_]);
+  return factor_chosen();
 }
 
-bool Klu::factor(const std::vector<double>& values) {
-  chosen_for_ = values;
+bool Klu::factor_chosen() {
   stale_ = false;
   auto *begin = const_cast<PetscInt*>(begin_), *column = const_cast<PetscInt*>(column_);
   if (!symbolic_) symbolic_ = klu_analyze(size_, begin, column, &common_);
@@ -99,8 +99,8 @@ void Klu::save(Snapshot& snapshot) const {
 void Klu::load(const Snapshot& snapshot) {
   forget();
   find_pattern();
-  const std::vector<double>& values = snapshot.array("klu/chosen_for");
-  if (values.size() == static_cast<std::size_t>(begin_[size_])) factor(values);
+  chosen_for_ = snapshot.array("klu/chosen_for");
+  if (chosen_for_.size() == static_cast<std::size_t>(begin_[size_])) factor_chosen();
   trials_lost_ = static_cast<int>(snapshot.number("klu/trials_lost"));
   wait_ = static_cast<int>(snapshot.number("klu/wait"));
 }
@@ -131,7 +131,8 @@ double Klu::solve(const double* right, double* solution) {
   if (error <= good || !std::isfinite(error)) return error;
   klu_tsolve(symbolic_, numeric_, size_, 1, residual_.data(), &common_);
   for (int i = 0; i < size_; ++i) solution[i] += residual_[static_cast<std::size_t>(i)];
-  return backward_error(right, solution);
+  // what was good enough before is so after it
+  return error <= worst_kept ? error : backward_error(right, solution);
 }
 
 PetscErrorCode Klu::set_up(PC pc) {

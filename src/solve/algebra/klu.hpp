@@ -41,7 +41,8 @@ class Klu {
   bool refactor();
   /// With pivots of its own.
   bool factor();
-  bool factor(const std::vector<double>& values);
+  /// The same for the values in chosen_for_.
+  bool factor_chosen();
   /// Solves, refines once where the backward error asks for it, and returns the backward error.
   double solve(const double* right, double* solution);
   /// The remainder right − A solution goes to residual_; returns its size, each row over that of its terms.
