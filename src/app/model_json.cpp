@@ -15,7 +15,7 @@ std::string model_json(const Model& model) {
   std::string json = fmt::format("{{\"title\": {},\n \"elements\": [", json_string(model.title));
   bool first = true;
   for (const Model::Part& part : model.parts) {
-    const auto& nodes = part.element->layout().nodes;
+    const auto nodes = part.element->node_ids();
     json += fmt::format("{}\n  {{\"id\": {}, \"type\": {}, \"nodes\": [{}], \"parameters\": {}, \"drawing\": [", first ? "" : ",",
                         part.element->id(), json_string(part.type), fmt::join(nodes, ", "), parameters_json(part));
     first = false;

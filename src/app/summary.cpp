@@ -77,7 +77,7 @@ std::string describe_geometry(const Model& model) {
   for (const Model::Part& part : model.parts) {
     const auto derived = part.element->derived();
     if (derived.empty()) continue;
-    text += fmt::format("\n  {} {}, nodes {}\n", part.type, part.element->id(), fmt::join(part.element->layout().nodes, " "));
+    text += fmt::format("\n  {} {}, nodes {}\n", part.type, part.element->id(), fmt::join(part.element->node_ids(), " "));
     for (const Derived& d : derived) {
       // angles are radians inside and degrees wherever a person reads or writes a deck
       const bool angle = d.dimension == dimension::angle;

@@ -43,7 +43,7 @@ class Builder {
     add_loads();
     model_.nodes = nodes_.release();
     for (Model::Part& part : model_.parts)
-      for (const int id : part.element->layout().nodes) part.nodes.push_back(model_.node_index(id));
+      for (const int id : part.element->node_ids()) part.nodes.push_back(model_.node_index(id));
     check_rotation_supports();
     model_.measure();
     return std::move(model_);
@@ -274,7 +274,8 @@ class Builder {
             diagnostics,
             record,
             [this](int node, const Vec3& axis) { return inertia_about(node, axis); },
-            &deck_.records};
+            &deck_.records,
+            &blocks_};
   }
 
   /// Lets an element put a node where it needs it: one after another in the order of the deck.
@@ -357,6 +358,7 @@ class Builder {
   const deck::SteppingCard* stepping_ = nullptr;  ///< the last
   Frames frames_;
   NodeGroups groups_;
+  BlockStore blocks_;
   std::vector<Load> loads_;
   std::vector<std::array<int, 6>> support_of_;  ///< by node and component: which of the supports, or none
   std::vector<Location> support_locations_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "deck/schema/schema.hpp"
+#include "model/block.hpp"
 #include "model/element.hpp"
 #include "model/function.hpp"
 #include "model/node_positions.hpp"
@@ -26,6 +27,8 @@ struct BuildContext {
   std::function<double(int node, const Vec3& axis)> wheel_inertia;
   /// All records of the deck, for elements that depend on others of their kind; nullptr: this one stands alone.
   const std::vector<deck::Record>* records = nullptr;
+  /// Where elements of a kind meet in blocks; nullptr: each is alone in its own.
+  BlockStore* blocks = nullptr;
 
   /// The function a keyword names, or nullptr with an error when it does not exist.
   const Function* function(int id, std::string_view keyword) const;
