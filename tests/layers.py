@@ -25,6 +25,7 @@ FOREIGN = {
     "PkgConfig::PETSC": re.compile(r"petsc|slepc"),
     "MPI::MPI_CXX": re.compile(r"mpi\.h$"),
     "KLU::KLU": re.compile(r"^klu\.h$"),
+    "SPQR::SPQR": re.compile(r"^(SuiteSparseQR|cholmod)"),
     "PkgConfig::HDF5": re.compile(r"hdf5|H5"),
     "CLI11::CLI11": re.compile(r"CLI/"),
 }

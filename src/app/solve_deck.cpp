@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 
 #include "app/layout.hpp"
+#include "app/model_difference.hpp"
 #include "app/schedule.hpp"
 #include "app/selection.hpp"
 #include "app/summary.hpp"
@@ -18,6 +20,7 @@
 #include "output/checks.hpp"
 #include "output/listing.hpp"
 #include "output/progress.hpp"
+#include "output/restart_file.hpp"
 #include "user/routine.hpp"
 
 namespace engrane::app {
@@ -42,17 +45,47 @@ Checks resolve_checks(const Model& model, const observe::Observer& observer) {
   return Checks(std::move(all));
 }
 
+/// An earlier run, and the point of it that this run goes on from.
+struct Resumption {
+  RestartFile earlier;
+  RestartPoint point;
+};
+
+/// Opens what `.SAM RESTART` names, on every rank. Throws RestartError, also when its model is another than that of `reading`.
+std::unique_ptr<Resumption> find_resumption(const Reading& reading) {
+  const deck::AnalysisCard& card = reading.model.commands.analysis;
+  if (card.restart.empty()) return nullptr;
+  RestartFile earlier(card.restart);
+  SourceMap sources;
+  Diagnostics diagnostics;
+  const deck::Deck before =
+      deck::read_text(earlier.path(), earlier.deck_text(), catalogue(element_types()), sources, diagnostics);
+  if (const std::string difference = model_difference(before, reading.deck); !difference.empty())
+    throw RestartError(
+        fmt::format("{} is the result of another model: {}. A restart may change .SUB, .SAM, .SAI, checks, loads and "
+                    "functions of time",
+                    earlier.path(), difference));
+  RestartPoint point = earlier.load(card.restart_time);
+  if (point.time >= reading.model.commands.stepping.end)
+    throw RestartError(
+        fmt::format("{} goes on from t = {:.10g}, and .SUB ends at TF = {:.10g}: give a later TF, or RESTART an earlier T",
+                    earlier.path(), point.time, reading.model.commands.stepping.end));
+  return std::make_unique<Resumption>(std::move(earlier), std::move(point));
+}
+
 /// More events than this are counted only.
 constexpr long most_listed_events = 100;
 
 /// Everything that rank 0 writes during a run.
 class Writer {
  public:
+  /// `resumed`: what this run goes on from, or nullptr.
   Writer(const Reading& reading, const observe::Observer& observer, const Schedule& schedule, const Options& options,
-         const std::string& prefix)
+         const std::string& prefix, const Resumption* resumed)
       : reading_(reading),
         observer_(observer),
-        results_(prefix, results_layout(reading, observer, schedule.expected_samples())),
+        schedule_(schedule),
+        results_(make_results(prefix, results_layout(reading, observer, schedule.expected_samples()), resumed)),
         listing_(results_.name()),
         checks_(resolve_checks(reading.model, observer)),
         progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
@@ -71,6 +104,34 @@ class Writer {
       progress_.note("engrane: " + text);
     }
     listing_.write(listing_section("Start"));
+  }
+
+  void resumed(const Resumption& from) {
+    checks_.load(from.point.memory);
+    const std::vector<double>& counts = from.point.memory.array("writer/counts");
+    steps_ = static_cast<long>(counts.at(0));
+    iterations_ = static_cast<long>(counts.at(1));
+    cuts_ = static_cast<long>(counts.at(2));
+    locating_ = static_cast<long>(counts.at(3));
+    event_count_ = static_cast<long>(counts.at(4));
+    marked_ = observer_.not_unique().size();
+    results_.mark_not_unique(observer_.not_unique());
+    listing_.write(fmt::format("  goes on from {} at t = {:.10g}\n", from.earlier.path(), from.point.time));
+    if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
+  }
+
+  /// Gives the results what the run could go on from now: with a batch, where the deck asks for it, and at the end.
+  void remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
+    if (!kept && !last && !results_.due()) return;
+    Snapshot memory;
+    runner.save(memory);
+    observer_.save(memory);
+    schedule_.save(memory);
+    checks_.save(memory);
+    memory.put("writer/counts", {static_cast<double>(steps_), static_cast<double>(iterations_), static_cast<double>(cuts_),
+                                 static_cast<double>(locating_), static_cast<double>(event_count_)});
+    results_.restart_point(c.time, std::move(memory), kept);
+    if (results_.due()) results_.flush();
   }
 
   void started(const StartReport& start) {
@@ -105,7 +166,6 @@ class Writer {
       iterations_ += step.newton->iterations;
       if (reading_.model.commands.archive.newton) write_newton(c, step, numbering);
     }
-    if (results_.due()) results_.flush();
     progress_.update(c.time, step.step, step.number);
     if (last) progress_.finish();
   }
@@ -195,8 +255,14 @@ class Writer {
     return rows;
   }
 
+  static Results make_results(const std::string& prefix, ResultsLayout layout, const Resumption* resumed) {
+    if (resumed) return {prefix, std::move(layout), resumed->earlier, resumed->point};
+    return {prefix, std::move(layout)};
+  }
+
   const Reading& reading_;
   const observe::Observer& observer_;
+  const Schedule& schedule_;
   Results results_;
   Listing listing_;
   Checks checks_;
@@ -254,6 +320,13 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end of the program
 
   Times times;
+  std::unique_ptr<Resumption> resumption;
+  try {
+    resumption = find_resumption(reading);
+  } catch (const RestartError& e) {
+    if (rank == 0) std::cerr << "engrane: " << e.what() << '\n';
+    return exit_status::wrong_deck;
+  }
   SolverContext context(reading.model, comm);
   observe::Observer observer(context.assembler, moves(reading.model), select_histories(reading.model));
   Schedule schedule(reading.model.commands.stepping, reading.model.commands.archive);
@@ -261,7 +334,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   // the other ranks must hear of it when the files cannot be made
   std::string trouble;
   if (rank == 0) try {
-      writer.emplace(reading, observer, schedule, options, default_prefix(options));
+      writer.emplace(reading, observer, schedule, options, default_prefix(options), resumption.get());
       writer->begin(context, options, ranks);
     } catch (const OutputError& e) {
       trouble = e.what();
@@ -277,32 +350,43 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
 
   std::string failure;
   bool complete = false;
+  const auto scheme = make_scheme(context);
+  Runner runner(context, *scheme);
+  const Observer after_step = [&](const Configuration& c, const StepReport& step) {
+    const auto watch = times.output();
+    user::forget_failures();  // those of attempts that were cut
+    const Schedule::Due due = schedule.at(c.time, step.number == 0 ? 0.0 : step.step, step.regular);
+    observe_step(context, observer, c, step, due);
+    int stop = 0;
+    if (rank == 0) try {
+        writer->step(c, step, due, context.numbering);
+        writer->remember(c, runner, due.restart, false);
+      } catch (const OutputError& e) {
+        failure = e.what();
+        stop = 1;
+      }
+    if (ranks > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, comm);
+    if (asked_to_stop(comm, ranks)) {
+      failure = fmt::format("interrupted at t = {:.6g}", c.time);
+      stop = 1;
+    }
+    return stop == 0;
+  };
   try {
-    const auto scheme = make_scheme(context);
-    Runner runner(context, *scheme);
-    complete = runner.run(
-        [&](const Configuration& c, const StepReport& step) {
-          const auto watch = times.output();
-          user::forget_failures();  // those of attempts that were cut
-          const Schedule::Due due = schedule.at(c.time, step.number == 0 ? 0.0 : step.step, step.regular);
-          observe_step(context, observer, c, step, due);
-          int stop = 0;
-          if (rank == 0) try {
-              writer->step(c, step, due, context.numbering);
-            } catch (const OutputError& e) {
-              failure = e.what();
-              stop = 1;
-            }
-          if (ranks > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, comm);
-          if (asked_to_stop(comm, ranks)) {
-            failure = fmt::format("interrupted at t = {:.6g}", c.time);
-            stop = 1;
-          }
-          return stop == 0;
-        },
-        [&](const StartReport& start) {
-          if (rank == 0) writer->started(start);
-        });
+    if (resumption) {
+      observer.load(resumption->point.memory);
+      schedule.load(resumption->point.memory);
+      if (rank == 0) writer->resumed(*resumption);
+      complete = runner.resume(resumption->point.memory, after_step);
+    } else {
+      complete = runner.run(after_step, [&](const StartReport& start) {
+        if (rank == 0) writer->started(start);
+      });
+    }
+  } catch (const std::out_of_range& e) {
+    // of the restart point: its arrays do not fit this model
+    if (!resumption) throw;
+    failure = fmt::format("cannot go on from {}: {}", resumption->earlier.path(), e.what());
   } catch (const SolutionFailure& e) {
     failure = e.what();
   }
@@ -311,6 +395,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {
     try {
+      if (runner.started()) writer->remember(runner.now(), runner, false, true);
       status = writer->finish(complete ? RunStatus::complete : RunStatus::failed, failure, times.split(context.solver));
     } catch (const OutputError& e) {
       failure = e.what();

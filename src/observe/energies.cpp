@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/configuration_snapshot.hpp"
 #include "math/rotation.hpp"
 
 namespace engrane::observe {
@@ -84,14 +85,16 @@ void EnergyLedger::save(Snapshot& snapshot) const {
                                     balance_.initial, balance_.largest_error, external_power_, dissipated_power_, last_time_});
 }
 
-void EnergyLedger::load(const Snapshot& snapshot, const Configuration& c) {
+void EnergyLedger::load(const Snapshot& snapshot) {
   const std::vector<double>& state = snapshot.array("observe/energies");
   balance_ = {state.at(0), state.at(1), state.at(2), state.at(3), state.at(4), state.at(5)};
   external_power_ = state.at(6);
   dissipated_power_ = state.at(7);
   last_time_ = state.at(8);
-  if (!moves_) before_ = c;
   started_ = true;
+  if (moves_) return;
+  before_ = assembler_.numbering().reference_configuration(last_time_);
+  load_configuration(snapshot, before_);
 }
 
 }  // namespace engrane::observe

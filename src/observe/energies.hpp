@@ -36,9 +36,9 @@ class EnergyLedger {
   void add(const Configuration& c, const std::vector<Reaction>& reactions);
   const EnergyBalance& balance() const { return balance_; }
 
-  /// For a restart: `c` is the configuration last added.
+  /// For a restart; load() takes the configuration last added from the snapshot too.
   void save(Snapshot& snapshot) const;
-  void load(const Snapshot& snapshot, const Configuration& c);
+  void load(const Snapshot& snapshot);
 
  private:
   Assembler& assembler_;

@@ -67,21 +67,17 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
   std::copy(run.begin(), run.end(), out);
 }
 
-void Observer::find_not_unique(const Configuration& c, const Eigen::MatrixXd& null) {
-  if (null.cols() == 0) return;
+void Observer::find_not_unique(const Configuration& c, const std::vector<Eigen::VectorXd>& undetermined) {
+  if (undetermined.empty()) return;
   double size = 0;
   for (const double multiplier : c.multipliers) size = std::max(size, std::abs(multiplier));
   if (size == 0) size = 1;
   const std::vector<double> values = histories_.evaluate(c, supports_.at(c));
   std::set<int> found(not_unique_.begin(), not_unique_.end());
-  // two combinations, so that what one leaves alone by chance the other changes
-  for (const double seed : {0.7, 1.9}) {
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(null.rows());
-    for (Eigen::Index j = 0; j < null.cols(); ++j)
-      change += std::cos(seed + 2.3 * static_cast<double>(j)) * null.col(j) / null.col(j).lpNorm<Eigen::Infinity>();
-    change *= size / std::max(change.lpNorm<Eigen::Infinity>(), 1e-300);
+  for (const Eigen::VectorXd& change : undetermined) {
     Configuration other = c;
-    for (std::size_t m = 0; m < other.multipliers.size(); ++m) other.multipliers[m] += change[static_cast<Eigen::Index>(m)];
+    for (std::size_t m = 0; m < other.multipliers.size(); ++m)
+      other.multipliers[m] += size * change[static_cast<Eigen::Index>(m)];
     const std::vector<double>& changed = histories_.evaluate(other, supports_.at(other));
     for (std::size_t i = 0; i < values.size(); ++i)
       if (std::abs(changed[i] - values[i]) > 1e-7 * (size + std::abs(values[i]))) found.insert(static_cast<int>(i));
@@ -97,8 +93,8 @@ void Observer::save(Snapshot& snapshot) const {
   snapshot.put("observe/columns", static_cast<double>(values_.size()));
 }
 
-void Observer::load(const Snapshot& snapshot, const Configuration& c) {
-  ledger_.load(snapshot, c);
+void Observer::load(const Snapshot& snapshot) {
+  ledger_.load(snapshot);
   events_ = snapshot.number("observe/events");
   not_unique_.clear();
   // with other histories than before the columns mean others: they are found again

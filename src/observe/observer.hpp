@@ -29,10 +29,10 @@ class Observer {
   /// The next accepted configuration, the start first. Histories and fields are computed where they are wanted.
   void observe(const Configuration& c, const Step& step, bool histories, bool fields);
 
-  /// Finds the channels that change when forces are added to the multipliers of `c` that have no effect on what moves, the
-  /// columns of `null`: redundant constraints leave them undetermined. To be asked now and then, since what is undetermined in
-  /// one position may show in other components in the next.
-  void find_not_unique(const Configuration& c, const Eigen::MatrixXd& null);
+  /// Finds the channels that change when forces are added to the multipliers of `c` that have no effect on what moves; a few
+  /// such combinations, the largest entry of each 1: redundant constraints leave them undetermined. To be asked now and then,
+  /// since what is undetermined in one position may show in other components in the next.
+  void find_not_unique(const Configuration& c, const std::vector<Eigen::VectorXd>& undetermined);
 
   const std::vector<Table>& tables() const { return histories_.tables(); }
   /// Channels of the whole model, whose values stand behind those of all tables.
@@ -50,9 +50,10 @@ class Observer {
   /// Columns of values() that were found not to be unique so far, ascending.
   const std::vector<int>& not_unique() const { return not_unique_; }
 
-  /// What must be remembered for a restart; save() on rank 0, load() on all. `c` is the configuration last observed.
+  /// What must be remembered for a restart, beside the configuration last observed, which load() takes from the snapshot too.
+  /// save() on rank 0, load() on all.
   void save(Snapshot& snapshot) const;
-  void load(const Snapshot& snapshot, const Configuration& c);
+  void load(const Snapshot& snapshot);
 
  private:
   Assembler& assembler_;

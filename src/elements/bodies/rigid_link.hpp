@@ -17,9 +17,11 @@ class RigidLink final : public TemplatedElement<RigidLink, 2, 18> {
     layout.nodes = {master, slave};
     layout.needs = {NodeNeed::both, NodeNeed::both};
     for (const char* c : {"X", "Y", "Z"})
-      layout.multipliers.push_back({std::string("FORCE_") + c, dimension::length, "force on the slave, master's axes"});
+      layout.multipliers.push_back(
+          {std::string("FORCE_") + c, dimension::length, "force on the slave, master's axes", Role::force});
     for (const char* c : {"X", "Y", "Z"})
-      layout.multipliers.push_back({std::string("MOMENT_") + c, dimension::angle, "moment on the slave, master's axes"});
+      layout.multipliers.push_back(
+          {std::string("MOMENT_") + c, dimension::angle, "moment on the slave, master's axes", Role::moment});
     set_layout(std::move(layout));
   }
 

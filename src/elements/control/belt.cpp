@@ -73,7 +73,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
     balance.moment(1, rotate_back(b.R, Vec3T<T>(-moment)));
   }
 
-  void commit(const State& state, std::span<double>, std::span<double> history) const override {
+  void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
     const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);
     turn_count::commit(runs.line_angle, state.history.first(2), history.first(2));
     turn_count::commit(runs.turn_angle, state.history.subspan(2), history.subspan(2));

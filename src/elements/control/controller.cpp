@@ -88,7 +88,7 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
     for (int i = 0; i < law_.order(); ++i) scalars[at(i)] = law_.start[i] / law_.pace[i];
   }
 
-  void commit(const State& state, std::span<double>, std::span<double> history) const override {
+  void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
     input_.commit(state, history);
     output_.commit(state, history);
   }
@@ -137,7 +137,8 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
       layout.scalars.push_back({fmt::format("STATE_{}", i + 1), command, "state of the law, filtered"});
     if (output.kind != Kind::effort) {
       layout.scalars.push_back({"POSITION", out.dimension(), "position that the drive imposes"});
-      layout.multipliers = {{"EFFORT", out.dimension(), out.is_angle() ? "torque of the drive" : "force of the drive"}};
+      layout.multipliers = {
+          {"EFFORT", out.dimension(), out.is_angle() ? "torque of the drive" : "force of the drive", Role::drive}};
     }
     set_layout(std::move(layout));
     const Dimension measured = input.speed ? in.rate_dimension() : in.dimension();

@@ -35,7 +35,7 @@ class Coupling final : public TemplatedElement<Coupling, 4, 25> {
     first_.act(first, T(-law_.ratio * effort), motion.node, balance);
   }
 
-  void commit(const State& state, std::span<double>, std::span<double> history) const override {
+  void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
     first_.commit(state, history);
     second_.commit(state, history);
   }

@@ -28,7 +28,7 @@ class Sensor final : public TemplatedElement<Sensor, 2, 1> {
   template <class T>
   void evaluate(const Motion<T, 2>&, const State&, Balance<T, 2>&) const {}
 
-  void commit(const State& state, std::span<double>, std::span<double> history) const override {
+  void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
     coordinate_.commit(state.nodes[0], state.nodes[1], state.history, history);
   }
 

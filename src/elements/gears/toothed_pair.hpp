@@ -20,7 +20,7 @@ namespace engrane::elements::gears {
 template <class Derived>
 class ToothedPair : public TemplatedElement<Derived, 2, 18> {
  public:
-  ToothedPair(int id, std::array<int, 2> nodes, const ToothContact& contact, std::array<Named, 2> motions, int history,
+  ToothedPair(int id, std::array<int, 2> nodes, const ToothContact& contact, std::array<Scalar, 2> motions, int history,
               std::vector<Named> channels)
       : TemplatedElement<Derived, 2, 18>(id), contact_(contact), channels_(std::move(channels)) {
     add_contact_channels(channels_, contact_);
@@ -29,7 +29,7 @@ class ToothedPair : public TemplatedElement<Derived, 2, 18> {
     layout.needs = {NodeNeed::both, NodeNeed::both};
     layout.scalars.assign(motions.begin(), motions.end());
     if (contact_.elastic()) layout.scalars.push_back({"U_M", dimension::length, "tooth deformation along the circumference"});
-    layout.multipliers = {{"TOOTH", dimension::length, "tooth contact, phi_1: its multiplier is the normal force"},
+    layout.multipliers = {{"TOOTH", dimension::length, "tooth contact, phi_1: its multiplier is the normal force", Role::tooth},
                           {"MESH", dimension::length, "contact points along the circumference, phi_2"},
                           {"TRIAD", dimension::angle, "tooth triads about the tooth, phi_3"}};
     layout.history = history;

@@ -77,11 +77,13 @@ class Joint final : public TemplatedElement<Joint, 2, 18> {
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const;
 
   void tangent(const State& state, Weights weights, std::span<double> r, std::span<double> k) const override;
-  void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
+  void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void switches(const State& state, std::span<Switch> values) const override;
   Energies energies(const State& state) const override;
   const std::vector<Named>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override;
+  /// Usual kinds of joint that hold some of the same directions and no other.
+  std::vector<Release> releases() const override;
   Drawing drawing() const override;
 
   /// For elements that act on the joint's coordinates (joint_coordinate.hpp).

@@ -25,6 +25,14 @@ class LinearSolver {
   /// Forgets the analysis, which looks at numbers too: after a failure, or before matrices of another kind.
   void reset();
 
+  /// What the next solution owes to earlier ones: KLU's pivots. The other packages choose theirs for each matrix.
+  void save(Snapshot& snapshot) const {
+    if (klu_) klu_->save(snapshot);
+  }
+  void load(const Snapshot& snapshot) {
+    if (klu_ && snapshot.has("klu/chosen_for")) klu_->load(snapshot);
+  }
+
   /// Memory of the factors in bytes, as the package reports it; 0 when it does not.
   double factor_bytes() const;
 

@@ -56,8 +56,7 @@ std::string advice(const Assembler& assembler, const std::vector<int>& order, co
     if (u.multiplier || u.node < 0 || u.node == last) continue;
     bool inert = false;
     for (const Model::Part& part : model.parts)
-      if (part.type == "INERTIA" || part.type == "RIGID")
-        inert = inert || std::find(part.nodes.begin(), part.nodes.end(), u.node) != part.nodes.end();
+      if (part.element->is_body()) inert = inert || std::find(part.nodes.begin(), part.nodes.end(), u.node) != part.nodes.end();
     if (inert) continue;
     last = u.node;
     nodes += fmt::format("{}node {}", nodes.empty() ? "" : ", ", model.nodes[static_cast<std::size_t>(u.node)].id);

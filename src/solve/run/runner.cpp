@@ -50,6 +50,7 @@ bool Runner::run(const Observer& observer, const std::function<void(const StartR
   context_.assembler.commit(now_);
   if (locator_.active()) locator_.switches().take(now_);
   next_ = now_;
+  started_ = true;
   return observer(now_, step_) && march();
 }
 
@@ -64,6 +65,7 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   step_.number = static_cast<int>(snapshot.number("runner/number"));
   renewed_ = snapshot.number("runner/renewed") != 0;
   pending_drift_ = snapshot.number("runner/pending_drift");
+  started_ = true;
   return march();
 }
 
@@ -114,7 +116,7 @@ bool Runner::reach(double target) {
     const NewtonReport& report = outcome.newton;
     if (!report.converged && found.kind != Kind::drift) {
       // other constraints may depend on the rest here than did at the start
-      if ((report.singular || report.conflict) && !renewed_ && context_.redundancy.analyse(now_, rank_tolerance, true)) {
+      if ((report.singular || report.conflict) && !renewed_ && context_.redundancy.analyse(now_)) {
         renewed_ = true;
         continue;
       }
