@@ -2,6 +2,7 @@
 #include "observe/reactions.hpp"
 
 #include <set>
+#include <span>
 
 namespace engrane::observe {
 
@@ -28,7 +29,7 @@ std::vector<Reaction> Reactions::at(const Configuration& c) {
   const Numbering& numbering = assembler_.numbering();
   std::vector<double> sums(6 * nodes_.size(), 0.0), r;
   for (const int part : parts_) {
-    const std::vector<int>& slots = numbering.part_slots(part);
+    const std::span<const int> slots = numbering.part_slots(part);
     r.resize(slots.size());
     assembler_.model().parts[static_cast<std::size_t>(part)].element->residual(assembler_.view(part, c), r);
     for (std::size_t i = 0; i < slots.size(); ++i) {
