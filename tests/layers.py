@@ -131,6 +131,26 @@ def circular(table) -> list[str]:
     return faults
 
 
+IMPORT = re.compile(r"^\s*from \.(\w*) import ([\w, ]+)|^\s*from engrane_post\.(\w+) import", re.MULTILINE)
+
+
+def circular_modules(package: Path) -> list[str]:
+    """Modules of a Python package that import each other in a circle, wherever in the file the import stands."""
+    names = {file.stem for file in package.glob("*.py")}
+    uses = {}
+    for file in package.glob("*.py"):
+        found = set()
+        for module, words, absolute in IMPORT.findall(file.read_text(encoding="utf-8")):
+            found |= {module or absolute} if module or absolute else {w.strip() for w in words.split(",")}
+        uses[file.stem] = (found & names) - {file.stem}
+    # take away what uses nothing that is left, until only circles are left
+    while free := [name for name, others in uses.items() if not others]:
+        for name in free:
+            del uses[name]
+        uses = {name: others - set(free) for name, others in uses.items()}
+    return [f"{package.name}/{name}.py: in a circle of imports with {', '.join(sorted(others))}" for name, others in uses.items()]
+
+
 def check_includes(file: Path, root: Path, table) -> list[str]:
     layer = file.relative_to(root / "src").parts[0]
     if layer not in table:
@@ -226,6 +246,7 @@ def main() -> int:
     cmake = (root / "src/CMakeLists.txt").read_text(encoding="utf-8")
     table, rooms = read_table(cmake), read_rooms(cmake)
     faults = circular(table) + circular_rooms(rooms) + check_shares(root)
+    faults += circular_modules(root / "post/engrane_post")
     for file in sorted((root / "src").rglob("*.[ch]pp")):
         faults += check_includes(file, root, table) + check_room(file, root, rooms)
     for file in text_files(root):

@@ -7,43 +7,11 @@
 #include <filesystem>
 
 #include "app/plausibility.hpp"
+#include "app/selection.hpp"
 
 namespace engrane::app {
 
 namespace {
-
-/// The element of a number, loads aside; nullptr when there is none. Parts are in the order of their numbers.
-const Model::Part* find_element(const Model& model, int id) {
-  const auto part = std::lower_bound(model.parts.begin(), model.parts.end(), id,
-                                     [](const Model::Part& p, int wanted) { return p.element->id() < wanted; });
-  return part != model.parts.end() && part->element->id() == id && part->type != "CHA" ? &*part : nullptr;
-}
-
-/// Rows of `.CHK` and others that name what only the built model knows.
-void check_targets(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
-  for (const deck::Record& record : deck.records) {
-    const auto* check = record.get<deck::CheckCard>();
-    if (!check || !check->element) continue;
-    const Model::Part* found = find_element(model, *check->element);
-    std::vector<std::string> names;
-    if (!found) {
-      diagnostics.error(record.where("ELEMENT"), fmt::format("there is no element {}", *check->element));
-      continue;
-    }
-    bool known = false;
-    for (const Named& channel : found->element->channels()) {
-      names.push_back(channel.name);
-      known = known || channel.name == check->quantity;
-    }
-    if (known) continue;
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : " ") + name;
-    const std::string near = nearest(check->quantity, names);
-    diagnostics.error(record.where("QUANTITY"),
-                      fmt::format("{} {} has no output {}", found->type, *check->element, check->quantity),
-                      near.empty() ? "it has " + list : fmt::format("did you mean {}? It has {}", near, list));
-  }
-}
 
 /// Constraints at index 3 need some damping at high frequency: without, rounding grows with the square of the number of
 /// steps (Cardona and Géradin 1989).

@@ -8,12 +8,12 @@
 #include <csignal>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <optional>
 
+#include "app/layout.hpp"
 #include "app/model_difference.hpp"
-#include "app/model_json.hpp"
-#include "app/recorder.hpp"
+#include "app/schedule.hpp"
+#include "app/selection.hpp"
 #include "app/summary.hpp"
 #include "app/times.hpp"
 #include "app/version.hpp"
@@ -34,13 +34,13 @@ volatile std::sig_atomic_t interrupted = 0;
 void interrupt(int) { interrupted = 1; }
 
 /// Checks of the deck, each tied to its channel. The reader has made sure that the channels exist.
-Checks resolve_checks(const Model& model, const Recorder& recorder) {
+Checks resolve_checks(const Model& model, const observe::Observer& observer) {
   std::vector<Checks::Resolved> all;
   for (const deck::CheckCard& card : model.commands.checks) {
     const std::string owner = card.element ? fmt::format("element/{}", *card.element)
                               : card.node  ? fmt::format("node/{}", *card.node)
                                            : std::string("run");
-    all.push_back({card, static_cast<std::size_t>(recorder.channel(owner, card.quantity))});
+    all.push_back({card, static_cast<std::size_t>(observer.channel(owner, card.quantity))});
   }
   return Checks(std::move(all));
 }
@@ -83,14 +83,14 @@ constexpr long most_listed_events = 100;
 class Writer {
  public:
   /// `resumed`: what this run goes on from, or nullptr.
-  Writer(const Reading& reading, const Recorder& recorder, const Options& options, const std::string& prefix,
-         const Resumption* resumed)
+  Writer(const Reading& reading, const observe::Observer& observer, const Schedule& schedule, const Options& options,
+         const std::string& prefix, const Resumption* resumed)
       : reading_(reading),
-        recorder_(recorder),
-        results_(resumed ? Results(prefix, recorder.layout(), resumed->earlier, resumed->point)
-                         : Results(prefix, recorder.layout())),
+        observer_(observer),
+        schedule_(schedule),
+        results_(make_results(prefix, results_layout(reading, observer, schedule.expected_samples()), resumed)),
         listing_(results_.name()),
-        checks_(resolve_checks(reading.model, recorder)),
+        checks_(resolve_checks(reading.model, observer)),
         progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
                   options.quiet ? Progress::Style::silent : Progress::suitable()) {}
 
@@ -102,6 +102,10 @@ class Writer {
     listing_.write(listing_built(summarize(model, context.numbering)));
     listing_.write(describe_geometry(model));
     listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
+    if (const std::string text = left_out_histories(model); !text.empty()) {
+      listing_.write("\n  " + text + "\n");
+      progress_.note("engrane: " + text);
+    }
     listing_.write(listing_section("Start"));
   }
 
@@ -113,25 +117,23 @@ class Writer {
     cuts_ = static_cast<long>(counts.at(2));
     locating_ = static_cast<long>(counts.at(3));
     event_count_ = static_cast<long>(counts.at(4));
-    marked_ = recorder_.not_unique().size();
-    results_.mark_not_unique(recorder_.not_unique());
-    next_kept_ = after(from.point.time);
+    marked_ = observer_.not_unique().size();
+    results_.mark_not_unique(observer_.not_unique());
     listing_.write(fmt::format("  goes on from {} at t = {:.10g}\n", from.earlier.path(), from.point.time));
     if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
   }
 
   /// Gives the results what the run could go on from now: with a batch, where the deck asks for it, and at the end.
-  void remember(const Configuration& c, const Runner& runner, bool last) {
-    const bool kept = c.time >= next_kept_ * (1 - 1e-12);
+  void remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
     if (!kept && !last && !results_.due()) return;
     Snapshot memory;
     runner.save(memory);
-    recorder_.save(memory);
+    observer_.save(memory);
+    schedule_.save(memory);
     checks_.save(memory);
     memory.put("writer/counts", {static_cast<double>(steps_), static_cast<double>(iterations_), static_cast<double>(cuts_),
                                  static_cast<double>(locating_), static_cast<double>(event_count_)});
     results_.restart_point(c.time, std::move(memory), kept);
-    if (kept) next_kept_ = after(c.time);
     if (results_.due()) results_.flush();
   }
 
@@ -146,17 +148,17 @@ class Writer {
     if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
   }
 
-  void step(const Configuration& c, const StepReport& step, const Numbering& numbering) {
+  void step(const Configuration& c, const StepReport& step, const Schedule::Due& due, const Numbering& numbering) {
     const bool last = c.time >= reading_.model.commands.stepping.end;
-    checks_.observe(c.time, recorder_.values(), step.regular);
-    if (recorder_.not_unique().size() != marked_) {
-      marked_ = recorder_.not_unique().size();
-      results_.mark_not_unique(recorder_.not_unique());
+    if (!checks_.empty()) checks_.observe(c.time, observer_.values(), step.regular);
+    if (observer_.not_unique().size() != marked_) {
+      marked_ = observer_.not_unique().size();
+      results_.mark_not_unique(observer_.not_unique());
     }
-    if (recorder_.sample_due()) results_.sample(c.time, recorder_.values());
-    if (recorder_.frame_due()) {
-      results_.frame(c.time, recorder_.frame());
-      const EnergyBalance& e = recorder_.energies();
+    if (due.sample) results_.sample(c.time, observer_.values());
+    if (due.frame) {
+      results_.frame(c.time, frame_values(observer_.fields()));
+      const observe::EnergyBalance& e = observer_.energies();
       energies_.push_back({c.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error()});
     }
     ++steps_;
@@ -167,7 +169,6 @@ class Writer {
       iterations_ += step.newton->iterations;
       if (reading_.model.commands.archive.newton) write_newton(c, step, numbering);
     }
-    if (results_.due()) results_.flush();
     progress_.update(c.time, step.step, step.number);
     if (last) progress_.finish();
   }
@@ -179,7 +180,7 @@ class Writer {
     listing_.write(listing_section("Energies"));
     listing_.write(listing_energies(thinned_energies(), units));
     std::vector<ReactionRow> reactions;
-    for (const Recorder::Reaction& r : recorder_.reactions())
+    for (const observe::Reaction& r : observer_.reactions())
       reactions.push_back({reading_.model.nodes[static_cast<std::size_t>(r.node)].id, r.force, r.torque});
     if (!reactions.empty()) {
       listing_.write(listing_section("Reactions at the end"));
@@ -187,7 +188,7 @@ class Writer {
     }
     if (marked_ > 0) {
       listing_.write(listing_section("Not unique"));
-      listing_.write(listing_not_unique(recorder_.groups(), recorder_.not_unique()));
+      listing_.write(listing_not_unique(results_.layout().history, observer_.not_unique()));
     }
     if (event_count_ > 0) {
       listing_.write(listing_section("Events"));
@@ -257,16 +258,14 @@ class Writer {
     return rows;
   }
 
-  /// The first time after `time` that `.SAI RESTART DT` asks for.
-  double after(double time) const {
-    const std::optional<double> every;  // of .SAI RESTART DT
-    if (!every) return std::numeric_limits<double>::infinity();
-    const double begin = reading_.model.commands.stepping.start;
-    return begin + (std::floor((time - begin) / *every * (1 + 1e-12)) + 1) * *every;
+  static Results make_results(const std::string& prefix, ResultsLayout layout, const Resumption* resumed) {
+    if (resumed) return {prefix, std::move(layout), resumed->earlier, resumed->point};
+    return {prefix, std::move(layout)};
   }
 
   const Reading& reading_;
-  const Recorder& recorder_;
+  const observe::Observer& observer_;
+  const Schedule& schedule_;
   Results results_;
   Listing listing_;
   Checks checks_;
@@ -274,7 +273,6 @@ class Writer {
   std::vector<EnergyRow> energies_;
   std::string events_;
   std::size_t marked_ = 0;  ///< channels marked as not unique so far
-  double next_kept_ = after(reading_.model.commands.stepping.start);
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;
 };
 
@@ -303,6 +301,17 @@ bool asked_to_stop(MPI_Comm comm, int ranks) {
   return stop != 0;
 }
 
+/// Lets the observer see an accepted step; what is not unique is looked for at the start, after 1, 2, 4, … steps and at the end.
+void observe_step(SolverContext& context, observe::Observer& observer, const Configuration& c, const StepReport& step,
+                  const Schedule::Due& due) {
+  const Model& model = context.model;
+  const int iterations = step.newton ? step.newton->iterations : 0;
+  observer.observe(c, {step.step, iterations, step.events.size()}, due.sample || !model.commands.checks.empty(), due.frame);
+  const bool last = c.time >= model.commands.stepping.end;
+  if (context.redundancy.active() && (last || (step.number & (step.number - 1)) == 0))
+    observer.find_not_unique(c, context.redundancy.undetermined(c));
+}
+
 }  // namespace
 
 int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
@@ -322,12 +331,13 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
     return exit_status::wrong_deck;
   }
   SolverContext context(reading.model, comm);
-  Recorder recorder(reading, context);
+  observe::Observer observer(context.assembler, moves(reading.model), select_histories(reading.model));
+  Schedule schedule(reading.model.commands.stepping, reading.model.commands.archive);
   std::optional<Writer> writer;
   // the other ranks must hear of it when the files cannot be made
   std::string trouble;
   if (rank == 0) try {
-      writer.emplace(reading, recorder, options, default_prefix(options), resumption.get());
+      writer.emplace(reading, observer, schedule, options, default_prefix(options), resumption.get());
       writer->begin(context, options, ranks);
     } catch (const OutputError& e) {
       trouble = e.what();
@@ -345,14 +355,15 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   bool complete = false;
   const auto scheme = make_scheme(context);
   Runner runner(context, *scheme);
-  const Observer observer = [&](const Configuration& c, const StepReport& step) {
+  const Observer after_step = [&](const Configuration& c, const StepReport& step) {
     const auto watch = times.output();
     user::forget_failures();  // those of attempts that were cut
+    const Schedule::Due due = schedule.at(c.time, step.number == 0 ? 0.0 : step.step, step.regular);
+    observe_step(context, observer, c, step, due);
     int stop = 0;
     if (rank == 0) try {
-        recorder.observe(c, step);
-        writer->step(c, step, context.numbering);
-        writer->remember(c, runner, false);
+        writer->step(c, step, due, context.numbering);
+        writer->remember(c, runner, due.restart, false);
       } catch (const OutputError& e) {
         failure = e.what();
         stop = 1;
@@ -367,13 +378,12 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   };
   try {
     if (resumption) {
-      if (rank == 0) {
-        recorder.load(resumption->point.memory);
-        writer->resumed(*resumption);
-      }
-      complete = runner.resume(resumption->point.memory, observer);
+      observer.load(resumption->point.memory);
+      schedule.load(resumption->point.memory);
+      if (rank == 0) writer->resumed(*resumption);
+      complete = runner.resume(resumption->point.memory, after_step);
     } else {
-      complete = runner.run(observer, [&](const StartReport& start) {
+      complete = runner.run(after_step, [&](const StartReport& start) {
         if (rank == 0) writer->started(start);
       });
     }
@@ -389,7 +399,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {
     try {
-      if (runner.started()) writer->remember(runner.now(), runner, true);
+      if (runner.started()) writer->remember(runner.now(), runner, false, true);
       status = writer->finish(complete ? RunStatus::complete : RunStatus::failed, failure, times.split(context.solver));
     } catch (const OutputError& e) {
       failure = e.what();

@@ -105,7 +105,7 @@ class Builder {
     if (const auto* analysis = record.get<deck::AnalysisCard>()) model_.commands.analysis = *analysis;
     if (const auto* stepping = record.get<deck::SteppingCard>()) set_stepping(record, *stepping);
     if (const auto* archive = record.get<deck::ArchiveCard>()) {
-      model_.commands.archive = *archive;
+      add_archive(record, *archive);
       if (!archive->codes.empty())
         diagnostics_.warning(record.where("STYP"), "STYP selects nothing in this version: all fields and histories are archived");
     }
@@ -124,6 +124,27 @@ class Builder {
       model_.gravity.push_back({Vec3(g[0], g[1], g[2]), function(record, gravity->function)});
     }
     if (const auto* initial = record.get<deck::InitialCard>()) add_initial(record, *initial);
+  }
+
+  /// Puts the members of the card's groups to its nodes and elements.
+  void add_archive(const deck::Record& record, const deck::ArchiveCard& card) {
+    deck::ArchiveCard& archive = model_.commands.archive = card;
+    deck::NodeTarget nodes{card.nodes, {}};
+    for (const std::string& name : card.groups) {
+      const deck::GroupCard* elements = nullptr;
+      for (const deck::Record& other : deck_.records)
+        if (const auto* group = other.get<deck::GroupCard>();
+            group && group->kind.is("ELEMENTS") && (group->name == name || std::to_string(group->number) == name))
+          elements = group;
+      if (!elements) {
+        nodes.groups.push_back(name);
+        continue;
+      }
+      archive.elements.insert(archive.elements.end(), elements->ids.begin(), elements->ids.end());
+      for (const deck::Record& other : deck_.records)
+        if (elements->all && other.schema->command() == ".MCE") archive.elements.push_back(other.id);
+    }
+    archive.nodes = groups_.resolve(record, nodes);
   }
 
   void set_stepping(const deck::Record& record, const deck::SteppingCard& card) {
