@@ -4,10 +4,9 @@
     layers.py [root]
     layers.py --graph [root]    draws which room includes which, as a Mermaid graph (docs/adding.md)
 
-Which layer and room may include which, and which foreign library, stands in src/CMakeLists.txt and nowhere else.
-The rest: every file opens the namespace of its room, no room holds more than a fifth of the source, no code
-file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, and nothing that uses each
-other in a circle.
+Which layer and room may include which, and which foreign library, stands in src/CMakeLists.txt and nowhere
+else. The rest: every file opens the namespace of its room, no room holds more than a fifth of the source, no
+code file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, and no circles.
 """
 
 import re
@@ -135,7 +134,7 @@ IMPORT = re.compile(r"^\s*from \.(\w*) import ([\w, ]+)|^\s*from engrane_post\.(
 
 
 def circular_modules(package: Path) -> list[str]:
-    """Modules of a Python package that import each other in a circle, wherever in the file the import stands."""
+    """Modules of a package that import each other in a circle, wherever in the file the import stands."""
     names = {file.stem for file in package.glob("*.py")}
     uses = {}
     for file in package.glob("*.py"):
@@ -148,7 +147,10 @@ def circular_modules(package: Path) -> list[str]:
         for name in free:
             del uses[name]
         uses = {name: others - set(free) for name, others in uses.items()}
-    return [f"{package.name}/{name}.py: in a circle of imports with {', '.join(sorted(others))}" for name, others in uses.items()]
+    return [
+        f"{package.name}/{name}.py: in a circle of imports with {', '.join(sorted(others))}"
+        for name, others in uses.items()
+    ]
 
 
 def check_includes(file: Path, root: Path, table) -> list[str]:
