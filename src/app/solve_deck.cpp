@@ -55,10 +55,13 @@ struct Resumption {
 };
 
 /// Opens what `.SAM RESTART` names, on every rank. Throws RestartError, also when its model is another than that of `reading`.
-std::unique_ptr<Resumption> find_resumption(const Reading& reading) {
+std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Options& options) {
   const deck::AnalysisCard& card = reading.model.commands.analysis;
-  if (card.restart.empty()) return nullptr;
-  RestartFile earlier(card.restart);
+  const bool overruled = !options.restart.empty();
+  const std::string& prefix = overruled ? options.restart : card.restart;
+  const std::optional<double> time = overruled ? options.restart_time : card.restart_time;
+  if (prefix.empty()) return nullptr;
+  RestartFile earlier(prefix);
   SourceMap sources;
   Diagnostics diagnostics;
   const deck::Deck before =
@@ -68,7 +71,7 @@ std::unique_ptr<Resumption> find_resumption(const Reading& reading) {
         fmt::format("{} is the result of another model: {}. A restart may change .SUB, .SAM, .SAI, checks, loads and "
                     "functions of time",
                     earlier.path(), difference));
-  RestartPoint point = earlier.load(card.restart_time);
+  RestartPoint point = earlier.load(time);
   if (point.time >= reading.model.commands.stepping.end)
     throw RestartError(
         fmt::format("{} goes on from t = {:.10g}, and .SUB ends at TF = {:.10g}: give a later TF, or RESTART an earlier T",
@@ -325,7 +328,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   Times times;
   std::unique_ptr<Resumption> resumption;
   try {
-    resumption = find_resumption(reading);
+    resumption = find_resumption(reading, options);
   } catch (const RestartError& e) {
     if (rank == 0) std::cerr << "engrane: " << e.what() << '\n';
     return exit_status::wrong_deck;
@@ -369,7 +372,8 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
         stop = 1;
       }
     if (ranks > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, comm);
-    if (asked_to_stop(comm, ranks)) {
+    const bool far_enough = options.until && c.time >= *options.until && c.time < reading.model.commands.stepping.end;
+    if (asked_to_stop(comm, ranks) || far_enough) {
       failure = fmt::format("interrupted at t = {:.6g}", c.time);
       stop = 1;
     }

@@ -18,8 +18,8 @@ void add_vector(std::vector<Named>& channels, const char* prefix, Dimension d, c
 
 /// Places of the selected channels of one owner.
 std::vector<int> selected_places(const Selection& selection, bool of_part, int index, const std::vector<Named>& channels) {
-  const bool chosen = of_part ? selection.all_parts || selection.parts.contains(index)
-                              : selection.all_nodes || selection.nodes.contains(index);
+  const bool chosen =
+      of_part ? selection.all_parts || selection.parts.contains(index) : selection.all_nodes || selection.nodes.contains(index);
   std::vector<int> places;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const std::string& name = channels[i].name;

@@ -29,12 +29,12 @@ struct Selection {
 /// Histories of parts or nodes that have the same channels. Its columns are the channels of the first owner, then those of the
 /// next, and so on.
 struct Table {
-  std::string path;            ///< `element/GEAR`, `element/GEAR_2`, `node/NODE`
-  std::string type;            ///< of elements: the card's name
-  std::vector<int> ids;        ///< of the owners in the deck
-  std::vector<int> owners;     ///< their indices into Model::parts or Model::nodes
+  std::string path;         ///< `element/GEAR`, `element/GEAR_2`, `node/NODE`
+  std::string type;         ///< of elements: the card's name
+  std::vector<int> ids;     ///< of the owners in the deck
+  std::vector<int> owners;  ///< their indices into Model::parts or Model::nodes
   std::vector<Named> channels;
-  std::vector<int> places;     ///< of the channels among all that an owner has
+  std::vector<int> places;  ///< of the channels among all that an owner has
 
   std::size_t columns() const { return owners.size() * channels.size(); }
 };
@@ -69,9 +69,9 @@ class Histories {
   std::size_t part_tables_ = 0;  ///< so many of the tables are of elements
   std::size_t columns_ = 0;
   std::vector<double> values_;
-  std::vector<double> own_, element_;          ///< this rank's columns; all channels of one element
-  std::vector<int> counts_, displacements_;    ///< rank 0: columns that come from each rank
-  std::vector<std::size_t> destination_;       ///< rank 0: where the gathered numbers belong
+  std::vector<double> own_, element_;        ///< this rank's columns; all channels of one element
+  std::vector<int> counts_, displacements_;  ///< rank 0: columns that come from each rank
+  std::vector<std::size_t> destination_;     ///< rank 0: where the gathered numbers belong
   std::vector<double> gathered_;
 };
 

@@ -61,7 +61,9 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
   const EnergyBalance& e = ledger_.balance();
   auto out = std::copy(values.begin(), values.end(), values_.begin());
   const std::vector<double> run =
-      moves_ ? std::vector{step.length, static_cast<double>(step.iterations), events_,      e.potential, e.kinetic, e.external_work,
+      moves_ ? std::vector{step.length,  static_cast<double>(step.iterations),
+                           events_,      e.potential,
+                           e.kinetic,    e.external_work,
                            e.dissipated, e.error()}
              : std::vector{step.length, static_cast<double>(step.iterations), events_, e.potential, e.external_work, e.error()};
   std::copy(run.begin(), run.end(), out);

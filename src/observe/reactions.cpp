@@ -41,8 +41,7 @@ std::vector<Reaction> Reactions::at(const Configuration& c) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
     for (int i = 0; i < 6; ++i)
-      if (numbering.equation(6 * nodes_[n] + i) < 0)
-        (i < 3 ? force : moment)[i % 3] = sums[6 * n + static_cast<std::size_t>(i)];
+      if (numbering.equation(6 * nodes_[n] + i) < 0) (i < 3 ? force : moment)[i % 3] = sums[6 * n + static_cast<std::size_t>(i)];
     reactions.push_back({nodes_[n], force, c.nodes[static_cast<std::size_t>(nodes_[n])].R * moment});
   }
   return reactions;

@@ -114,7 +114,8 @@ void check_archive(ArchiveCard& archive, Record& record, Diagnostics& diagnostic
   if (!archive.keep.given()) return;
   for (const char* keyword : {"ELEMENT", "TYPE", "NOEUD", "GROUP"})
     if (record.given(keyword))
-      diagnostics.error(record.where(keyword), std::string(keyword) + " selects histories, and KEEP " + archive.keep.tag + " does too",
+      diagnostics.error(record.where(keyword),
+                        std::string(keyword) + " selects histories, and KEEP " + archive.keep.tag + " does too",
                         "leave one of them out");
 }
 
@@ -162,19 +163,23 @@ Schema archive_card() {
       .refers(Reference::group);
   card.add("CHANNEL", &ArchiveCard::channels, "of those, only these histories: NORMAL_FORCE, UX, …")
       .synonyms({"GRANDEUR", "CHANNELS"});
-  card.add("KEEP", &ArchiveCard::keep, "whose histories are kept where nothing selects them; with no more than 300 elements and nodes all")
+  card.add("KEEP", &ArchiveCard::keep,
+           "whose histories are kept where nothing selects them; with no more than 300 elements and nodes all")
       .synonyms({"GARDER"})
       .option({"ALL", {"TOUT"}, "of all elements and nodes, however many"})
       .option({"NONE", {"RIEN"}, "only of the run and of what .CHK asks for"});
-  card.add("RESTART", &ArchiveCard::restart_step, "time between restart points that stay in the results; there is always one at the end")
+  card.add("RESTART", &ArchiveCard::restart_step,
+           "time between restart points that stay in the results; there is always one at the end")
       .synonyms({"REPRISE"})
       .filler({"DT"})
       .unit(dimension::time)
       .positive();
   card.add("NEWTON", &ArchiveCard::newton, "the listing shows every Newton iteration");
   card.describe(
-      "Histories are kept of all elements and nodes while these are no more than 300 together. Of larger models only those of the "
-      "run, those that .CHK compares, and those that ELEMENT, TYPE, NOEUD and GROUP select. Where these select, nothing else is kept, in "
+      "Histories are kept of all elements and nodes while these are no more than 300 together. Of larger models only those of "
+      "the "
+      "run, those that .CHK compares, and those that ELEMENT, TYPE, NOEUD and GROUP select. Where these select, nothing else is "
+      "kept, in "
       "small models too; CHANNEL alone selects from all elements and nodes.");
   card.finish(check_archive);
   card.example(".SAI FIELDS DT 0.001 HISTORY DT 0.0001 NEWTON");

@@ -63,6 +63,7 @@ void TokenStream::open_text(std::string name, std::string text) {
 }
 
 const Token& TokenStream::peek(std::size_t ahead) {
+  if (ahead == 0 && !tokens_.empty()) return tokens_.front();
   static const Token end;
   while (tokens_.size() <= ahead && read_line()) {
   }

@@ -58,7 +58,7 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   observer_ = &observer;
   load_configuration(snapshot, now_);
   next_ = now_;
-  context_.load(snapshot, now_);
+  context_.load(snapshot);
   scheme_.load(snapshot);
   locator_.load(snapshot);
   h_ = std::min(snapshot.number("runner/h"), options_.step);

@@ -85,7 +85,8 @@ class Stay final : public PlainElement {
     r[0] = -s.multipliers[0];
   }
   const std::vector<Named>& channels() const override {
-    static const std::vector<Named> names{{"FORCE", dimension::force, "force of the stay"}, {"ONE", dimension::none, "always one"}};
+    static const std::vector<Named> names{{"FORCE", dimension::force, "force of the stay"},
+                                          {"ONE", dimension::none, "always one"}};
     return names;
   }
   void observe(const State& s, std::span<double> values) const override {

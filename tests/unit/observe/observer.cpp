@@ -186,7 +186,8 @@ TEST(NotUnique, AreTheForcesOfTwoStaysInOnePlace) {
   observer.find_not_unique(c, {});
   EXPECT_TRUE(observer.not_unique().empty());
   observer.find_not_unique(c, {Eigen::Vector2d(1, -1)});
-  EXPECT_EQ(observer.not_unique(), (std::vector<int>{observer.channel("element/2", "FORCE"), observer.channel("element/3", "FORCE")}));
+  EXPECT_EQ(observer.not_unique(),
+            (std::vector<int>{observer.channel("element/2", "FORCE"), observer.channel("element/3", "FORCE")}));
   Snapshot snapshot;
   observer.observe(c, {}, true, false);
   observer.save(snapshot);
