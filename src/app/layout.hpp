@@ -10,7 +10,7 @@ namespace engrane::app {
 /// What a result file says before the first step.
 output::ResultsLayout results_layout(const Reading& reading, const observe::Observer& observer, std::size_t expected_samples);
 
-/// Fields as the results take them; the spans live as long as `fields`.
-output::FrameValues frame_values(const observe::NodalFields& fields);
+/// The observer's fields as the results take them; the spans live until it observes again.
+output::FrameValues frame_values(const Model& model, const observe::Observer& observer);
 
 }  // namespace engrane::app

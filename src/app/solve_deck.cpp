@@ -160,7 +160,7 @@ class Writer {
     }
     if (due.sample) results_.sample(c.time, observer_.values());
     if (due.frame) {
-      results_.frame(c.time, frame_values(observer_.fields()));
+      results_.frame(c.time, frame_values(reading_.model, observer_));
       const observe::EnergyBalance& e = observer_.energies();
       energies_.push_back({c.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error()});
     }

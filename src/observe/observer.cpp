@@ -26,7 +26,8 @@ Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
       histories_(assembler, supports_, moves, selection),
       ledger_(assembler, supports_, moves),
       run_channels_(observe::run_channels(moves)),
-      values_(histories_.columns() + run_channels_.size(), 0.0) {}
+      values_(histories_.columns() + run_channels_.size(), 0.0),
+      element_fields_(assembler) {}
 
 int Observer::channel(const std::string& owner, const std::string& name) const {
   const auto place = [&name](const std::vector<Named>& channels) {
@@ -55,6 +56,7 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
   ledger_.add(c, last_reactions_);
   events_ += static_cast<double>(step.events);
   if (fields && assembler_.rank() == 0) fields_ = nodal_fields(assembler_.model(), c, last_reactions_, moves_);
+  if (fields) element_fields_.evaluate(c);
   if (!histories) return;
   const std::vector<double>& values = histories_.evaluate(c, last_reactions_);
   if (assembler_.rank() != 0) return;

@@ -45,6 +45,7 @@ class Observer {
   const std::vector<double>& values() const { return values_; }
   /// Of the last configuration for which fields were wanted.
   const NodalFields& fields() const { return fields_; }
+  const std::vector<ElementField>& element_fields() const { return element_fields_.fields(); }
   const EnergyBalance& energies() const { return ledger_.balance(); }
   const std::vector<Reaction>& reactions() const { return last_reactions_; }
   /// Columns of values() that were found not to be unique so far, ascending.
@@ -64,6 +65,7 @@ class Observer {
   std::vector<Named> run_channels_;
   std::vector<double> values_;
   NodalFields fields_;
+  ElementFields element_fields_;
   std::vector<Reaction> last_reactions_;
   std::vector<int> not_unique_;
   double events_ = 0;

@@ -76,6 +76,24 @@ class LineSpring final : public PlainElement {
   double stiffness_;
 };
 
+/// A spring that declares fields: its force as a vector, and a number at two points.
+class TellingSpring final : public PlainElement {
+ public:
+  TellingSpring(int id, int a, int b) : PlainElement(id, translations_of({a, b})) {}
+  void residual(const State&, std::span<double> r) const override { std::fill(r.begin(), r.end(), 0.0); }
+  const std::vector<Field>& fields() const override {
+    static const std::vector<Field> fields{{{"TRACTION", dimension::force, "force"}, Field::Place::element, {"X", "Y", "Z"}, 1},
+                                           {{"PLACE", dimension::length, "x of the points"}, Field::Place::point, {}, 2}};
+    return fields;
+  }
+  void evaluate_fields(const State& s, std::span<double> values) const override {
+    const Vec3 apart = s.nodes[1].x - s.nodes[0].x;
+    std::copy_n(apart.data(), 3, values.begin());
+    values[3] = s.nodes[0].x[0];
+    values[4] = s.nodes[1].x[0];
+  }
+};
+
 /// Holds the x of a node by a multiplier, which is its channel.
 class Stay final : public PlainElement {
  public:

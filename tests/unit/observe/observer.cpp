@@ -176,6 +176,21 @@ TEST(Fields, AreGlobalComponents) {
   EXPECT_TRUE(f.velocity.empty());
 }
 
+TEST(Fields, OfElementsAreRowsOfTheParts) {
+  Bench bench({Vec3(0, 0, 0), Vec3(4, 0, 3)});
+  bench.add<PointMass>("INERTIA", 10, 1.0).add<TellingSpring>("SPRING", 10, 20);
+  Set set(std::move(bench));
+  Observer observer(set.assembler, false, {});
+  observer.observe(set.at(0), {}, false, true);
+  ASSERT_EQ(observer.element_fields().size(), 2u);
+  const ElementField &traction = observer.element_fields()[0], &place = observer.element_fields()[1];
+  EXPECT_EQ(traction.named.name, "TRACTION");
+  ASSERT_EQ(traction.rows.size(), 6u);
+  EXPECT_TRUE(std::isnan(traction.rows[0]));
+  EXPECT_EQ(std::vector<double>(traction.rows.begin() + 3, traction.rows.end()), (std::vector<double>{4, 0, 3}));
+  EXPECT_EQ(place.rows[1], 2);  // the mean over its points
+}
+
 TEST(NotUnique, AreTheForcesOfTwoStaysInOnePlace) {
   Bench bench({Vec3(0, 0, 0)});
   bench.add<PointMass>("INERTIA", 10, 1.0).add<Stay>("STAY", 10).add<Stay>("STAY", 10);
