@@ -28,6 +28,7 @@ Schedule::Due Schedule::at(double time, double step, bool regular) {
   if (!regular) return due;
   // half a step early is on time: sums of steps do not meet sums of intervals to the last digit
   const double early = time + 0.5 * step;
+  asked_ = early;
   due.sample = sample_.due(early, start_) || last;
   due.frame = frame_.due(early, start_) || last;
   due.restart = restart_ && restart_->due(early, start_);
@@ -38,13 +39,14 @@ std::size_t Schedule::expected_samples() const {
   return static_cast<std::size_t>(std::min(1e9, (end_ - start_) / std::max(step_, sample_.length))) + 2;
 }
 
-void Schedule::save(Snapshot& snapshot) const { snapshot.put("schedule/next", {sample_.next, frame_.next}); }
+void Schedule::save(Snapshot& snapshot) const { snapshot.put("schedule/next", {sample_.next, frame_.next, asked_}); }
 
 void Schedule::load(const Snapshot& snapshot) {
   const std::vector<double>& next = snapshot.array("schedule/next");
   sample_.next = next.at(0);
   frame_.next = next.at(1);
-  if (restart_) restart_->due(sample_.next, start_);
+  asked_ = next.at(2);
+  if (restart_) restart_->due(asked_, start_);
 }
 
 }  // namespace engrane::app

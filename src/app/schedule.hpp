@@ -34,6 +34,7 @@ class Schedule {
     bool due(double time, double start);
   };
   double start_, end_, step_;
+  double asked_ = 0;  ///< the last regular time that was asked about, with what counts as early
   Interval sample_, frame_;
   std::optional<Interval> restart_;
 };

@@ -12,6 +12,7 @@
 
 #include "app/layout.hpp"
 #include "app/model_difference.hpp"
+#include "app/model_json.hpp"
 #include "app/schedule.hpp"
 #include "app/selection.hpp"
 #include "app/summary.hpp"
@@ -21,6 +22,8 @@
 #include "output/listing.hpp"
 #include "output/progress.hpp"
 #include "output/restart_file.hpp"
+#include "solve/constraints/start_report.hpp"
+#include "solve/run/runner.hpp"
 #include "user/routine.hpp"
 
 namespace engrane::app {
@@ -103,7 +106,7 @@ class Writer {
     listing_.write(describe_geometry(model));
     listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
     if (const std::string text = left_out_histories(model); !text.empty()) {
-      listing_.write("\n  " + text + "\n");
+      listing_.write(fmt::format("\n  {}\n", text));
       progress_.note("engrane: " + text);
     }
     listing_.write(listing_section("Start"));
