@@ -22,8 +22,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "post"))
+
+from engrane_post import Results
+
 # How many steps and iterations a run takes is its own affair.
-NOT_COMPARED = re.compile(r"^(history/run/(STEP|ITERATIONS)|checks|deck|model)$")
+NOT_COMPARED = re.compile(r"^(run/(STEP|ITERATIONS)|checks|deck|model|history/.*|restart/.*)$")
 
 
 def wishes(deck: Path) -> dict[str, list[str]]:
@@ -33,7 +37,7 @@ def wishes(deck: Path) -> dict[str, list[str]]:
 
 
 def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
-    """Dataset -> (unit, values): all numbers of the mesh, fields and histories. Under "" stands the noise of
+    """Dataset or channel -> (unit, values): all numbers of the mesh, fields and histories. Under "" stands the noise of
     accelerations, which are differences of rounded positions over the square of the step."""
     found = {}
 
@@ -44,8 +48,13 @@ def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
 
     with h5py.File(path, "r") as file:
         file.visititems(keep)
-        steps = file["history/run/STEP"][1:]
-        extent = float(np.max(np.abs(file["mesh/points"][()]), initial=1.0))
+    with Results(path) as results:
+        for name, channel in results.channels.items():
+            if not NOT_COMPARED.match(name):
+                found[name] = (channel.unit, results.history(channel)[1])
+        found["time"] = (results.time_unit, results.times())
+        steps = results.history("run/STEP")[1][1:]
+        extent = float(np.max(np.abs(results.points), initial=1.0))
     found[""] = ("", np.array(np.finfo(float).eps * extent / np.min(steps, initial=1.0) ** 2))
     return found
 
@@ -127,7 +136,10 @@ def main() -> int:
             f"{n} ranks against {ranks[0]}: {fault}"
             for fault in differences(first, read_results(run(arguments, deck, n)), tolerance)
         ]
-    print("\n".join(faults) or f"{arguments.deck.name}: ranks {ranks} agree in {len(first)} datasets")
+    print(
+        "\n".join(faults)
+        or f"{arguments.deck.name}: ranks {ranks} agree in {len(first)} datasets and channels"
+    )
     return 1 if faults else 0
 
 

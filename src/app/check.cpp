@@ -7,7 +7,7 @@
 
 #include "app/options.hpp"
 #include "app/summary.hpp"
-#include "solve/run/analysis.hpp"
+#include "solve/schemes/scheme.hpp"
 
 namespace engrane::app {
 

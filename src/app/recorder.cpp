@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "app/model_json.hpp"
@@ -61,12 +62,26 @@ Recorder::Recorder(const Reading& reading, SolverContext& context)
   const Model& model = reading.model;
   const auto& commands = model.commands;
   int next = 0;
-  for (const Model::Part& part : model.parts) {
-    channel_begin_.push_back(next);
-    const auto& channels = part.element->channels();
-    if (channels.empty()) continue;
-    groups_.push_back({fmt::format("element/{}", part.element->id()), {{"type", part.type}}, channels});
-    next += static_cast<int>(channels.size());
+  std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> kinds;
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    std::string names;
+    for (const Named& channel : model.parts[p].element->channels()) names += channel.name + " ";
+    if (!names.empty()) kinds[{model.parts[p].type, names}].push_back(p);
+  }
+  channel_begin_.assign(model.parts.size(), 0);
+  std::map<std::string, int> variants;
+  for (const auto& [kind, parts] : kinds) {
+    const int variant = ++variants[kind.first];
+    HistoryTable table{fmt::format("element/{}{}", kind.first, variant > 1 ? fmt::format("_{}", variant) : ""),
+                       kind.first,
+                       {},
+                       model.parts[parts.front()].element->channels()};
+    for (const std::size_t p : parts) {
+      table.ids.push_back(model.parts[p].element->id());
+      channel_begin_[p] = next;
+      next += static_cast<int>(table.channels.size());
+    }
+    groups_.push_back(std::move(table));
   }
   std::set<int> supported, observed;
   for (const Support& s : model.supports) supported.insert(s.node);
@@ -78,14 +93,17 @@ Recorder::Recorder(const Reading& reading, SolverContext& context)
   observed.erase(-1);
   observed_nodes_.assign(observed.begin(), observed.end());
   node_begin_ = next;
-  for (const int node : observed_nodes_) {
-    groups_.push_back({fmt::format("node/{}", model.nodes[static_cast<std::size_t>(node)].id),
-                       {},
-                       node_channels(moves_, supported.contains(node))});
-    next += static_cast<int>(groups_.back().channels.size());
+  std::stable_partition(observed_nodes_.begin(), observed_nodes_.end(), [&](int node) { return !supported.contains(node); });
+  for (const bool held : {false, true}) {
+    HistoryTable table{held ? "node/SUPPORTED" : "node/NODE", "", {}, node_channels(moves_, held)};
+    for (const int node : observed_nodes_)
+      if (supported.contains(node) == held) table.ids.push_back(model.nodes[static_cast<std::size_t>(node)].id);
+    if (table.ids.empty()) continue;
+    next += static_cast<int>(table.columns());
+    groups_.push_back(std::move(table));
   }
   run_begin_ = next;
-  groups_.push_back({"run", {}, run_channels(moves_)});
+  groups_.push_back({"run", "", {}, run_channels(moves_)});
   next += static_cast<int>(groups_.back().channels.size());
   values_.assign(static_cast<std::size_t>(next), 0.0);
 
@@ -118,17 +136,19 @@ ResultsLayout Recorder::layout() const {
   }
   layout.history = groups_;
   layout.velocities = moves_;
+  const auto& s = model.commands.stepping;
+  layout.expected_samples = static_cast<std::size_t>(std::min(1e9, (s.end - s.start) / std::max(s.step, sample_step_))) + 2;
   return layout;
 }
 
 int Recorder::channel(const std::string& owner, const std::string& name) const {
-  int index = 0;
-  for (const ChannelGroup& group : groups_) {
-    if (group.path == owner)
-      for (std::size_t i = 0; i < group.channels.size(); ++i)
-        if (group.channels[i].name == name) return index + static_cast<int>(i);
-    index += static_cast<int>(group.channels.size());
-  }
+  std::size_t index = 0;
+  for (const HistoryTable& table : groups_)
+    for (std::size_t i = 0; i < table.owners(); ++i)
+      for (const Named& channel : table.channels) {
+        if (channel.name == name && table.owner(i) == owner) return static_cast<int>(index);
+        ++index;
+      }
   return -1;
 }
 

@@ -7,7 +7,7 @@
 
 #include "app/read.hpp"
 #include "output/results.hpp"
-#include "solve/run/analysis.hpp"
+#include "solve/run/runner.hpp"
 
 namespace engrane::app {
 
@@ -29,8 +29,8 @@ class Recorder {
   Recorder(const Reading& reading, solve::SolverContext& context);
 
   output::ResultsLayout layout() const;
-  const std::vector<output::ChannelGroup>& groups() const { return groups_; }
-  /// Index of a channel in values(), or -1. `owner` as in ChannelGroup::path.
+  const std::vector<output::HistoryTable>& groups() const { return groups_; }
+  /// Index of a channel in values(), or -1. `owner` as in HistoryTable::owner.
   int channel(const std::string& owner, const std::string& name) const;
 
   void observe(const Configuration& c, const solve::StepReport& step);
@@ -67,7 +67,7 @@ class Recorder {
   const Reading& reading_;
   solve::SolverContext& context_;
   bool moves_;  ///< the analysis has velocities
-  std::vector<output::ChannelGroup> groups_;
+  std::vector<output::HistoryTable> groups_;
   std::vector<int> channel_begin_;   ///< per part, first channel in values_
   std::vector<int> observed_nodes_;  ///< with histories
   int node_begin_ = 0, run_begin_ = 0;

@@ -99,6 +99,7 @@ class Writer {
       iterations_ += step.newton->iterations;
       if (reading_.model.commands.archive.newton) write_newton(c, step, numbering);
     }
+    if (results_.due()) results_.flush();
     progress_.update(c.time, step.step, step.number);
     if (last) progress_.finish();
   }
@@ -233,6 +234,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   MPI_Comm_size(comm, &ranks);
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end of the program
 
   Times times;
   SolverContext context(reading.model, comm);
@@ -258,9 +260,9 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   std::string failure;
   bool complete = false;
   try {
-    const auto analysis = make_analysis(context);
-    complete = run(
-        context, *analysis,
+    const auto scheme = make_scheme(context);
+    Runner runner(context, *scheme);
+    complete = runner.run(
         [&](const Configuration& c, const StepReport& step) {
           const auto watch = times.output();
           user::forget_failures();  // those of attempts that were cut

@@ -131,6 +131,25 @@ void Assembler::release(const std::vector<int>& multipliers, const std::vector<d
   }
 }
 
+void Assembler::save(Snapshot& snapshot) const {
+  snapshot.put("assembler/scale", scale_);
+  snapshot.put("assembler/released", {released_.begin(), released_.end()});
+  snapshot.put("assembler/released_values", released_values_);
+}
+
+void Assembler::load(const Snapshot& snapshot) {
+  const std::vector<double>& scale = snapshot.array("assembler/scale");
+  const std::vector<double>& flags = snapshot.array("assembler/released");
+  if (scale.size() != scale_.size() || flags.size() != scale_.size())
+    throw std::out_of_range("the restart point has another number of constraints");
+  std::vector<int> multipliers;
+  for (std::size_t m = 0; m < flags.size(); ++m)
+    if (flags[m] != 0) multipliers.push_back(static_cast<int>(m));
+  release(multipliers, snapshot.array("assembler/released_values"));
+  scale_ = scale;
+  update_factors();
+}
+
 bool Assembler::released_equation(int equation) const {
   const Unknown& u = numbering_.unknown(equation);
   return u.multiplier && released(u.slot - numbering_.motion_slots());

@@ -6,6 +6,7 @@
 
 #include "assembly/numbering.hpp"
 #include "assembly/petsc.hpp"
+#include "base/snapshot.hpp"
 
 namespace engrane {
 
@@ -46,6 +47,10 @@ class Assembler {
   bool released(int multiplier) const { return released_[static_cast<std::size_t>(multiplier)]; }
   /// What the multiplier of a released constraint is to be.
   double released_value(int multiplier) const { return released_values_[static_cast<std::size_t>(multiplier)]; }
+
+  /// Scale factors, and which constraints are released with which values, for a restart.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
 
   /// The scaled residual; returns the largest element contributions.
   Magnitudes residual(const Configuration& configuration, Vec r);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "suite.hpp"
+#include "elements/suite.hpp"
 
 #include <gtest/gtest.h>
 

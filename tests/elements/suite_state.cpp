@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "elements/suite.hpp"
 #include "math/rotation.hpp"
-#include "suite.hpp"
 
 namespace engrane::suite {
 

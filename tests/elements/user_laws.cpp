@@ -2,12 +2,15 @@
 // The suite on elements whose law is a routine of the user's.
 #include <gtest/gtest.h>
 
+#include "elements/gears/gear_pair_cases.hpp"
 #include "elements/springs/spring.hpp"
 #include "elements/springs/torsion_spring.hpp"
-#include "gear_pair_cases.hpp"
-#include "suite.hpp"
+#include "elements/suite.hpp"
 
 namespace engrane {
+
+using namespace elements::springs;
+
 namespace {
 
 using namespace suite;

@@ -12,6 +12,8 @@
 
 namespace engrane::gear_deck {
 
+using namespace elements::gears;
+
 /// The model of `.NOE` nodes and `.MCE` elements.
 struct Deck {
   deck::Catalogue cards = catalogue(element_types());

@@ -8,6 +8,9 @@
 #include <random>
 
 namespace engrane {
+
+using namespace elements::gears;
+
 namespace {
 
 constexpr double deg = std::numbers::pi / 180;

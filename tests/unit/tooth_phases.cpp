@@ -14,6 +14,9 @@
 #include "gear_deck.hpp"
 
 namespace engrane {
+
+using namespace elements::gears;
+
 namespace {
 
 using gear_deck::Deck;

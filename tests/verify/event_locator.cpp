@@ -8,9 +8,12 @@
 #include <memory>
 #include <numbers>
 
-#include "solve/run/events.hpp"
+#include "solve/run/runner.hpp"
 
 namespace engrane::test {
+
+using namespace solve;
+
 namespace {
 
 /// Its switch is the x of its node.
@@ -41,20 +44,20 @@ struct Curve {
 };
 
 /// Moves node i along the curve i.
-class Told final : public Analysis {
+class Told final : public Scheme {
  public:
-  Told(SolverContext& context, std::vector<Curve> curves) : Analysis(context), curves_(std::move(curves)) {}
+  Told(SolverContext& context, std::vector<Curve> curves) : Scheme(context), curves_(std::move(curves)) {}
   StartReport start(Configuration& c) override {
     set(c, c.time);
     return {};
   }
-  NewtonReport attempt(const Configuration& from, double h, Configuration& to) override {
+  Outcome attempt(const Configuration& from, double h, Configuration& to) override {
     ++attempts;
     to = from;
     set(to, from.time + h);
-    NewtonReport report;
-    report.converged = !fails || !fails(from.time, to.time);
-    return report;
+    Outcome outcome;
+    outcome.newton.converged = !fails || !fails(from.time, to.time);
+    return outcome;
   }
   bool meets_events() const override { return true; }
   void drift(Configuration& c, double h) override {
@@ -103,24 +106,25 @@ Seen follow(std::vector<Curve> curves, double end, double h, std::function<bool(
     part.nodes = {index};
     model.parts.push_back(std::move(part));
   }
-  model.commands.analysis.type.tag = "DYNAMIC";
-  model.commands.analysis.events.values = {1e-6};
-  model.commands.stepping = {0, end, h};
-  SolverContext context(model, PETSC_COMM_SELF);
+  SolverOptions options;
+  options.analysis = SolverOptions::Analysis::dynamics;
+  options.end = end;
+  options.step = h;
+  SolverContext context(model, options, PETSC_COMM_SELF);
   Told told(context, std::move(curves));
   told.fails = std::move(fails);
   told.drifted = std::move(drifted);
   Seen seen;
-  run(
-      context, told,
-      [&](const Configuration& c, const StepReport& step) {
-        for (const Event& e : step.events) seen.events.push_back({c.time, e.part, e.rises});
-        if (step.regular) seen.regular.push_back(c.time);
-        seen.chatter += step.chatter;
-        seen.locating += step.locating;
-        return true;
-      },
-      [](const StartReport&) {});
+  Runner(context, told)
+      .run(
+          [&](const Configuration& c, const StepReport& step) {
+            for (const Event& e : step.events) seen.events.push_back({c.time, e.part, e.rises});
+            if (step.regular) seen.regular.push_back(c.time);
+            seen.chatter += step.chatter;
+            seen.locating += step.locating;
+            return true;
+          },
+          [](const StartReport&) {});
   seen.attempts = told.attempts;
   return seen;
 }

@@ -12,6 +12,9 @@
 #include "run_deck.hpp"
 
 namespace engrane::test {
+
+using namespace solve;
+
 namespace {
 
 constexpr double stiffness = 100, torque = 1, released = -0.53, ending = 6;

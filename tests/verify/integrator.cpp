@@ -124,14 +124,14 @@ TEST(GeneralizedAlpha, KeepsItsOrderWhenTheStepChanges) {
   double error[2];
   for (int level = 0; level < 2; ++level) {
     DeckRun deck(pendulum(0.01 / (1 << level), "RHO 0.8"));
-    const auto analysis = make_analysis(deck.context());
+    const auto scheme = make_scheme(deck.context());
     Configuration now = deck.context().numbering.reference_configuration(0), next;
-    analysis->start(now);
+    scheme->start(now);
     const double h = 0.01 / (1 << level);
     for (int i = 0; now.time < 1 - 1e-12; ++i) {
       const double step = std::min(i % 3 == 0 ? 0.5 * h : h, 1 - now.time);
-      ASSERT_TRUE(analysis->attempt(now, step, next).converged);
-      analysis->accept();
+      ASSERT_TRUE(scheme->attempt(now, step, next).converged());
+      scheme->accept();
       std::swap(now, next);
     }
     error[level] = std::abs(deck.node(now, 1).x[0] - x1);

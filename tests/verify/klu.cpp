@@ -8,6 +8,9 @@
 #include "solve/algebra/linear.hpp"
 
 namespace engrane {
+
+using namespace solve;
+
 namespace {
 
 /// A sequential matrix whose pattern stays, with LinearSolver on it.

@@ -8,6 +8,9 @@
 #include "solve/constraints/mobility.hpp"
 
 namespace engrane::test {
+
+using namespace solve;
+
 namespace {
 
 /// A door with its mass away from the axis, pushed and turned; `second` is a line for what holds it besides HINGE 2.

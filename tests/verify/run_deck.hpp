@@ -9,9 +9,11 @@
 #include <string>
 
 #include "model/model.hpp"
-#include "solve/run/analysis.hpp"
+#include "solve/run/runner.hpp"
 
 namespace engrane::test {
+
+using namespace solve;
 
 /// A model read from text, with its workbench; fails the test when the deck is wrong.
 class DeckRun {
@@ -31,15 +33,15 @@ class DeckRun {
   /// Runs to the end; `look` sees the start and every step. Returns the last configuration.
   Configuration run(const std::function<void(const Configuration&, const StepReport&)>& look = {}) {
     Configuration last;
-    const auto analysis = make_analysis(*context_);
-    engrane::run(
-        *context_, *analysis,
-        [&](const Configuration& c, const StepReport& step) {
-          if (look) look(c, step);
-          last = c;
-          return true;
-        },
-        [](const StartReport&) {});
+    const auto scheme = make_scheme(*context_);
+    Runner(*context_, *scheme)
+        .run(
+            [&](const Configuration& c, const StepReport& step) {
+              if (look) look(c, step);
+              last = c;
+              return true;
+            },
+            [](const StartReport&) {});
     return last;
   }
 

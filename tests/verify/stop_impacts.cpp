@@ -11,6 +11,9 @@
 #include "run_deck.hpp"
 
 namespace engrane::test {
+
+using namespace elements;
+
 namespace {
 
 constexpr double mass = 2, gravity = 10, dropped = 0.45, ending = 1.5;

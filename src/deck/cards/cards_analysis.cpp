@@ -20,6 +20,9 @@ void check_analysis(AnalysisCard& analysis, Record& record, Diagnostics& diagnos
     diagnostics.error(record.where("ALPHA"), "ALPHA belongs to the schemes HHT and BOSSAK, not to " + analysis.scheme.tag);
   if (!analysis.events.values.empty() && !(analysis.events.values[0] > 0 && analysis.events.values[0] <= 0.01))
     diagnostics.error(record.where("EVENTS"), "the tolerance of EVENTS is a fraction of H, from above 0 to 0.01");
+  if (analysis.restart_time && analysis.restart.empty())
+    diagnostics.error(record.where("T"), "T is the time of a restart point, and there is no RESTART",
+                      "give RESTART \"prefix\" T t");
   if (analysis.type.is("DYNAMIC")) return;
   for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START", "EVENTS"})
     if (record.given(keyword))
@@ -72,8 +75,19 @@ Schema analysis_card() {
   card.add("PENALTY", &AnalysisCard::penalty, "penalty of the constraint equations; automatic when not given")
       .synonyms({"PENALITE"})
       .at_least(0);
+  card.add("RESTART", &AnalysisCard::restart,
+           "go on from a restart point of these results (a path without .h5) instead of starting; `.SUB`, `.SAM`, `.SAI`, "
+           "checks, loads "
+           "and functions may differ from the run that wrote them, the model may not")
+      .synonyms({"REPRISE"});
+  card.add("T", &AnalysisCard::restart_time,
+           "RESTART: time of the restart point, the last one up to then; the last of all when not given")
+      .synonyms({"TIME", "TEMPS"})
+      .unit(dimension::time);
   card.finish(check_analysis);
-  card.example(".SAM TYPE STATIC").example(".SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.8");
+  card.example(".SAM TYPE STATIC")
+      .example(".SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.8")
+      .example(".SAM TYPE DYNAMIC RESTART \"first_run\" T 0.5");
   return card.schema();
 }
 

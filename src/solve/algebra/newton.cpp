@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace engrane::solve {
@@ -74,6 +75,15 @@ NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configura
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
   report.rows = rows_;
   return report;
+}
+
+void Newton::save(Snapshot& snapshot) const {
+  snapshot.put("newton/largest", std::vector<double>(std::begin(largest_.of), std::end(largest_.of)));
+}
+
+void Newton::load(const Snapshot& snapshot) {
+  const std::vector<double>& saved = snapshot.array("newton/largest");
+  for (std::size_t i = 0; i < 4; ++i) largest_.of[i] = saved.at(i);
 }
 
 PetscErrorCode Newton::form_function(SNES snes, Vec x, Vec f, void* context) {

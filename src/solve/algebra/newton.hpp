@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assembly/assembler.hpp"
+#include "base/snapshot.hpp"
 #include "solve/algebra/linear.hpp"
 
 namespace engrane::solve {
@@ -38,6 +39,10 @@ class Newton {
 
   /// Solves r = 0 from the guess `x`, which it overwrites; `work` ends as the last configuration tried.
   NewtonReport solve(Vec x, Weights weights, const Apply& apply, Configuration& work);
+
+  /// The largest contributions so far, which residuals are compared with, for a restart.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
 
  private:
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);

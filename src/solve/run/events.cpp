@@ -88,6 +88,14 @@ std::vector<Event> Switches::take(const Configuration& c) {
   return events;
 }
 
+void Switches::save(Snapshot& snapshot) const { snapshot.put("events/sides", {side_.begin(), side_.end()}); }
+
+void Switches::load(const Snapshot& snapshot) {
+  const std::vector<double>& sides = snapshot.array("events/sides");
+  if (sides.size() != side_.size()) throw std::out_of_range("the restart point has another number of contacts and stops");
+  std::transform(sides.begin(), sides.end(), side_.begin(), [](double side) { return static_cast<int>(side); });
+}
+
 std::optional<double> Switches::first_change(const std::vector<Switch>& from, const std::vector<Switch>& to, double h) const {
   std::optional<double> first;
   for (std::size_t i = 0; i < side_.size(); ++i) {
@@ -108,11 +116,10 @@ double Switches::time_to_change(const std::vector<Switch>& now) const {
   return least;
 }
 
-EventLocator::EventLocator(SolverContext& context, Analysis& analysis)
-    : analysis_(analysis), switches_(context), step_(context.model.commands.stepping.step) {
-  const deck::Tagged& card = context.model.commands.analysis.events;
-  tolerance_ = step_ * (card.values.empty() ? 1e-6 : card.values[0]);
-  active_ = analysis.meets_events() && !card.is("NO") && !switches_.empty();
+EventLocator::EventLocator(SolverContext& context, Scheme& scheme)
+    : scheme_(scheme), switches_(context), step_(context.options.step) {
+  tolerance_ = step_ * context.options.event_tolerance;
+  active_ = scheme.meets_events() && context.options.events && !switches_.empty();
 }
 
 bool EventLocator::chatters() {
@@ -121,10 +128,24 @@ bool EventLocator::chatters() {
   return true;
 }
 
-EventLocator::Outcome EventLocator::inspect(const Configuration& from, double size, bool converged, Configuration& to) {
-  Outcome outcome;
-  outcome.step = size;
-  if (!active_ || located_ >= most_events) return outcome;
+void EventLocator::save(Snapshot& snapshot) const {
+  switches_.save(snapshot);
+  snapshot.put("events/located", located_);
+  snapshot.put("events/chattered", chattered_ ? 1 : 0);
+  snapshot.put("events/told", told_ ? 1 : 0);
+}
+
+void EventLocator::load(const Snapshot& snapshot) {
+  switches_.load(snapshot);
+  located_ = static_cast<int>(snapshot.number("events/located"));
+  chattered_ = snapshot.number("events/chattered") != 0;
+  told_ = snapshot.number("events/told") != 0;
+}
+
+EventLocator::Finding EventLocator::inspect(const Configuration& from, double size, bool converged, Configuration& to) {
+  Finding found;
+  found.step = size;
+  if (!active_ || located_ >= most_events) return found;
   const std::vector<Switch> before = switches_.at(from);
   std::vector<Switch> after;
   double ahead = 0;  // from `to` to the next event
@@ -139,12 +160,12 @@ EventLocator::Outcome EventLocator::inspect(const Configuration& from, double si
   int failures = 0;
   if (converged) {
     const auto seen = change_within(size);
-    if (!seen) return outcome;
+    if (!seen) return found;
     event = *seen;
   } else {
     // where a force jumps, a step that would end at the jump has no solution
     event = switches_.time_to_change(before);
-    if (event > foreseen * size) return outcome;
+    if (event > foreseen * size) return found;
     event = std::min(event, 0.5 * size);
     failures = 1;
   }
@@ -152,27 +173,27 @@ EventLocator::Outcome EventLocator::inspect(const Configuration& from, double si
 
   while (true) {
     if (event < shortest()) {
-      outcome.kind = Outcome::Kind::drift;
-      outcome.drift = event + tolerance_;
-      return outcome;
+      found.kind = Finding::Kind::drift;
+      found.drift = event + tolerance_;
+      return found;
     }
     // the step is to end before the event, where the law is still that of its beginning
     double size_tried = std::max(event - 0.5 * tolerance_, shortest());
-    if (outcome.attempts >= quick_attempts || size_tried <= free || size_tried >= past) size_tried = 0.5 * (free + past);
-    if (past - free <= 0.5 * tolerance_ || outcome.attempts == most_attempts) size_tried = free;
+    if (found.attempts >= quick_attempts || size_tried <= free || size_tried >= past) size_tried = 0.5 * (free + past);
+    if (past - free <= 0.5 * tolerance_ || found.attempts == most_attempts) size_tried = free;
     const bool last = size_tried == free;
     if (last && free == 0) {
-      outcome.kind = Outcome::Kind::drift;
-      outcome.drift = past;
-      return outcome;
+      found.kind = Finding::Kind::drift;
+      found.drift = past;
+      return found;
     }
-    outcome.report = analysis_.attempt(from, size_tried, to);
-    outcome.step = size_tried;
-    ++outcome.attempts;
-    if (!outcome.report->converged) {
+    found.outcome = scheme_.attempt(from, size_tried, to);
+    found.step = size_tried;
+    ++found.attempts;
+    if (!found.outcome->converged()) {
       if (last || ++failures == most_failures) {
-        outcome.kind = Outcome::Kind::failed;
-        return outcome;
+        found.kind = Finding::Kind::failed;
+        return found;
       }
       past = size_tried;
       event = 0.5 * (free + past);
@@ -180,9 +201,9 @@ EventLocator::Outcome EventLocator::inspect(const Configuration& from, double si
     }
     const auto change = change_within(size_tried);
     if (last || (!change && ahead <= tolerance_)) {
-      outcome.kind = Outcome::Kind::land;
-      outcome.drift = std::min(ahead, past - size_tried) + tolerance_;
-      return outcome;
+      found.kind = Finding::Kind::land;
+      found.drift = std::min(ahead, past - size_tried) + tolerance_;
+      return found;
     }
     if (change) {
       past = size_tried;

@@ -5,9 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "solve/run/analysis.hpp"
+#include "solve/schemes/scheme.hpp"
 
 namespace engrane::solve {
+
+/// A switch of an element that has changed sign.
+struct Event {
+  int part = 0;   ///< index into Model::parts
+  int index = 0;  ///< into Layout::switches
+  bool rises = true;
+};
 
 /// The switches of all elements, and the side that each is on. Every rank computes the same, for every rank holds the whole
 /// configuration.
@@ -21,6 +28,9 @@ class Switches {
   /// Takes the sides of an accepted configuration and returns the switches that have changed. A value that is mere rounding
   /// stays on the side it came from.
   std::vector<Event> take(const Configuration& c);
+
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
 
   /// Time from `from`, which is h before `to`, to the first change of a side: of the cubic that has the values and rates of both
   /// ends, so that a phase which begins and ends within the step is seen.
@@ -45,7 +55,7 @@ std::optional<double> first_descent(double a, double da, double b, double db, do
 /// shorter than `shortest()`, below which the inverse square of the step enlarges rounding: there it drifts.
 class EventLocator {
  public:
-  EventLocator(SolverContext& context, Analysis& analysis);
+  EventLocator(SolverContext& context, Scheme& scheme);
 
   bool active() const { return active_; }
   double shortest() const { return 0.01 * step_; }
@@ -56,7 +66,7 @@ class EventLocator {
   /// A new multiple of H is the aim: the guard against chattering counts anew.
   void new_target() { located_ = 0; }
 
-  struct Outcome {
+  struct Finding {
     enum class Kind {
       none,   ///< no event in the step just tried: it stands
       land,   ///< `to` ends a little before the event; then drift
@@ -66,16 +76,20 @@ class EventLocator {
     double step = 0;   ///< of the last attempt
     double drift = 0;  ///< time to drift across the event
     int attempts = 0;  ///< beyond the first
-    std::optional<NewtonReport> report;
+    std::optional<Outcome> outcome;
   };
   /// After an attempt of `size` from `from` to `to`, converged or not.
-  Outcome inspect(const Configuration& from, double size, bool converged, Configuration& to);
+  Finding inspect(const Configuration& from, double size, bool converged, Configuration& to);
+
+  /// The sides, and how often events were met on the way to the present multiple of H.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
 
   /// Whether the guard has switched location off for the rest of the step; true once per run.
   bool chatters();
 
  private:
-  Analysis& analysis_;
+  Scheme& scheme_;
   Switches switches_;
   double step_, tolerance_ = 0;
   bool active_ = false;

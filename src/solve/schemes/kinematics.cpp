@@ -13,8 +13,9 @@ StartReport Kinematics::start(Configuration& c) {
   return report;
 }
 
-NewtonReport Kinematics::attempt(const Configuration& from, double h, Configuration& to) {
-  NewtonReport report;
+Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& to) {
+  Outcome outcome;
+  NewtonReport& report = outcome.newton;
   to = from;
   to.time = from.time + h;
   // along the motion known so far: near enough to stay in the way the mechanism is assembled
@@ -25,7 +26,7 @@ NewtonReport Kinematics::attempt(const Configuration& from, double h, Configurat
   context_.motion.move(from, y, to);
   report.converged = true;
   refuse_half_turns(y, report);
-  if (!report.converged) return report;
+  if (!report.converged) return outcome;
   try {
     StartReport assembly;
     context_.start.assemble(to, assembly, false);
@@ -37,7 +38,7 @@ NewtonReport Kinematics::attempt(const Configuration& from, double h, Configurat
     report.conflict = true;
     report.reason = failure.what();
   }
-  return report;
+  return outcome;
 }
 
 }  // namespace engrane::solve

@@ -10,7 +10,7 @@
 namespace engrane::solve {
 
 Statics::Statics(SolverContext& context)
-    : Analysis(context),
+    : Scheme(context),
       has_contacts_(std::any_of(context.model.parts.begin(), context.model.parts.end(),
                                 [](const Model::Part& part) { return !part.element->layout().switches.empty(); })) {
   *unknowns_.out() = context.assembler.new_vector();
@@ -20,9 +20,9 @@ StartReport Statics::start(Configuration& c) {
   StartReport report;
   apply_initial_displacements(context_, c);
   context_.start.assemble(c, report);
-  context_.assembler.choose_scale(c, {1, 0, 0}, context_.model.commands.analysis.scale.value_or(0));
+  context_.assembler.choose_scale(c, {1, 0, 0}, context_.options.scale);
   Configuration balanced = c;
-  const NewtonReport newton = attempt(c, 0, balanced);
+  const NewtonReport newton = attempt(c, 0, balanced).newton;
   if (!newton.converged) {
     std::string why = fmt::format("no equilibrium at the start, t = {:.6g}: {}", c.time, newton.reason);
     if (newton.conflict) throw SolutionFailure(why);
@@ -34,7 +34,7 @@ StartReport Statics::start(Configuration& c) {
   return report;
 }
 
-NewtonReport Statics::attempt(const Configuration& from, double h, Configuration& to) {
+Outcome Statics::attempt(const Configuration& from, double h, Configuration& to) {
   std::vector<double> y(context_.motion.size(), 0.0);
   prescribe_step(from.time, from.time + h, y);
   const std::vector<double> prescribed = y;
@@ -46,10 +46,10 @@ NewtonReport Statics::attempt(const Configuration& from, double h, Configuration
     other.time = to.time;
     if (NewtonReport across = balance_across_gaps(from, prescribed, other); across.converged) {
       to = std::move(other);
-      return across;
+      return {std::move(across), 0, {}};
     }
   }
-  return report;
+  return {std::move(report), 0, {}};
 }
 
 NewtonReport Statics::balance(const Configuration& from, std::span<double> y, Configuration& to) {

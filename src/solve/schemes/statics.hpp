@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "solve/run/analysis.hpp"
+#include "solve/schemes/scheme.hpp"
 
 namespace engrane::solve {
 
 /// Equilibrium without inertia and damping, time being only the parameter of loads and drives.
-class Statics final : public Analysis {
+class Statics final : public Scheme {
  public:
   explicit Statics(SolverContext& context);
 
   StartReport start(Configuration& c) override;
-  NewtonReport attempt(const Configuration& from, double h, Configuration& to) override;
+  Outcome attempt(const Configuration& from, double h, Configuration& to) override;
 
  private:
   /// Newton's iteration from the displacements `y` and the multipliers of `to`, which end as the solution.

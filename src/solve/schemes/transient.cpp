@@ -27,22 +27,29 @@ namespace {
 /// The slope of v̇ after an event is taken over this part of a step, so that it does not reach the next event too soon.
 constexpr double slope_span = 0.01;
 
-AlphaScheme scheme_of(const deck::AnalysisCard& card) {
-  if (card.scheme.is("NEWMARK")) return AlphaScheme::newmark();
-  if (card.scheme.is("HHT")) return AlphaScheme::hht(card.alpha.value_or(0.05));
-  if (card.scheme.is("BOSSAK")) return AlphaScheme::bossak(card.alpha.value_or(0.05));
-  return AlphaScheme::chung(card.rho.value_or(0.8));
+AlphaScheme coefficients(const SolverOptions& options) {
+  switch (options.family) {
+    case SolverOptions::Family::newmark:
+      return AlphaScheme::newmark();
+    case SolverOptions::Family::hht:
+      return AlphaScheme::hht(options.damping);
+    case SolverOptions::Family::bossak:
+      return AlphaScheme::bossak(options.damping);
+    case SolverOptions::Family::chung:
+      break;
+  }
+  return AlphaScheme::chung(options.damping);
 }
 
 }  // namespace
 
-Transient::Transient(SolverContext& context) : Analysis(context), scheme_(scheme_of(context.model.commands.analysis)) {
+Transient::Transient(SolverContext& context) : Scheme(context), scheme_(coefficients(context.options)) {
   *unknowns_.out() = context.assembler.new_vector();
 }
 
 StartReport Transient::start(Configuration& c) {
   StartReport report;
-  if (context_.model.commands.analysis.start.is("STATIC")) {
+  if (context_.options.static_start) {
     report = Statics(context_).start(c);
   } else {
     apply_initial_displacements(context_, c);
@@ -51,7 +58,7 @@ StartReport Transient::start(Configuration& c) {
   apply_initial_velocities(context_, c);
   context_.start.fit_velocities(c, Assembler::Metric::mass, report);
   context_.start.balance_accelerations(c, 12, &report);
-  const double h = context_.model.commands.stepping.step;
+  const double h = context_.options.step;
   start_algorithmic_accelerations(c, h, h);
   return report;
 }
@@ -96,16 +103,16 @@ void Transient::drift(Configuration& c, double h) {
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
   for (const auto& p : context_.motion.prescribed(c.time)) v[p.slot] = p.v;
   context_.motion.set_velocities(v, c);
-  const double step = context_.model.commands.stepping.step;
+  const double step = context_.options.step;
   start_algorithmic_accelerations(c, step, slope_span * step);
 }
 
-NewtonReport Transient::attempt(const Configuration& from, double h, Configuration& to) {
+Outcome Transient::attempt(const Configuration& from, double h, Configuration& to) {
   const auto [am, af, beta, gamma] = scheme_;
   const Weights weights{1, gamma / (beta * h), (1 - am) / ((1 - af) * beta * h * h)};
   // only the order of magnitude of k matters: steps of a little less than H need no other
   if (!(h > 0.3 * scaled_for_ && h < 3 * scaled_for_)) {
-    context_.assembler.choose_scale(from, weights, context_.model.commands.analysis.scale.value_or(0));
+    context_.assembler.choose_scale(from, weights, context_.options.scale);
     scaled_for_ = h;
   }
   const auto v0 = context_.motion.velocities(from), vdot0 = context_.motion.accelerations(from);
@@ -129,7 +136,7 @@ NewtonReport Transient::attempt(const Configuration& from, double h, Configurati
   NewtonReport foreseen;
   foreseen.converged = true;
   refuse_half_turns(coasting, foreseen);
-  if (!foreseen.converged) return foreseen;
+  if (!foreseen.converged) return {std::move(foreseen), 0, {}};
   const auto prescribed = context_.motion.prescribed(to.time);
 
   std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
@@ -157,12 +164,26 @@ NewtonReport Transient::attempt(const Configuration& from, double h, Configurati
   NewtonReport report = solve(unknowns_, weights, apply, to);
   refuse_half_turns(y, report);
   tried_step_ = h;
-  return report;
+  return {std::move(report), 0, {}};
 }
 
 void Transient::accept() {
   algorithmic_ = tried_;
   step_of_algorithmic_ = tried_step_;
+}
+
+void Transient::save(Snapshot& snapshot) const {
+  snapshot.put("scheme/algorithmic", algorithmic_);
+  snapshot.put("scheme/step", step_of_algorithmic_);
+  snapshot.put("scheme/scaled_for", scaled_for_);
+}
+
+void Transient::load(const Snapshot& snapshot) {
+  // a run that was not dynamic has no algorithmic acceleration: the configuration's own starts the memory
+  if (!snapshot.has("scheme/algorithmic")) return;
+  algorithmic_ = snapshot.array("scheme/algorithmic");
+  step_of_algorithmic_ = snapshot.number("scheme/step");
+  scaled_for_ = snapshot.number("scheme/scaled_for");
 }
 
 }  // namespace engrane::solve

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "solve/run/analysis.hpp"
+#include "solve/schemes/scheme.hpp"
 
 namespace engrane::solve {
 
@@ -23,15 +23,17 @@ struct AlphaScheme {
 
 /// Generalised-α on the Lie group, constraints at index 3 (Arnold and Brüls 2007; Brüls, Cardona and Arnold 2012).
 /// Unknowns of a step are its increments h Δq (rotation vectors, positions, scalars) and λ/k.
-class Transient final : public Analysis {
+class Transient final : public Scheme {
  public:
   explicit Transient(SolverContext& context);
 
   StartReport start(Configuration& c) override;
-  NewtonReport attempt(const Configuration& from, double h, Configuration& to) override;
+  Outcome attempt(const Configuration& from, double h, Configuration& to) override;
   void accept() override;
   bool meets_events() const override { return true; }
   void drift(Configuration& c, double h) override;
+  void save(Snapshot& snapshot) const override;
+  void load(const Snapshot& snapshot) override;
 
  private:
   /// Starts the scheme's memory for steps of h; the slope of v̇ is looked for over the time `ahead`.

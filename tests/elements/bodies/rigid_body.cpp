@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "elements/suite.hpp"
 #include "math/rotation.hpp"
-#include "suite.hpp"
 
 namespace engrane::elements::bodies {
 namespace {

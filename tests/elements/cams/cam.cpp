@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "elements/cams/cam_profile.hpp"
-#include "jets.hpp"
+#include "elements/jets.hpp"
+#include "elements/suite.hpp"
 #include "math/rotation.hpp"
-#include "suite.hpp"
 
 namespace engrane::elements::cams {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "joint_cases.hpp"
-#include "suite.hpp"
+#include "elements/joints/joint_cases.hpp"
+#include "elements/suite.hpp"
 
 namespace engrane::elements::control {
 namespace {

@@ -4,8 +4,8 @@
 #include <Eigen/LU>
 #include <complex>
 
-#include "coordinate_cases.hpp"
 #include "elements/control/control_law.hpp"
+#include "elements/control/coordinate_cases.hpp"
 
 namespace engrane::elements::control {
 namespace {

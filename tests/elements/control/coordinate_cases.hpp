@@ -10,13 +10,16 @@
 #include "elements/control/sensor.hpp"
 #include "elements/joints/cylindrical.hpp"
 #include "elements/joints/joint_card.hpp"
+#include "elements/joints/joint_cases.hpp"
 #include "elements/joints/prismatic.hpp"
 #include "elements/joints/spherical.hpp"
 #include "elements/joints/universal.hpp"
-#include "joint_cases.hpp"
-#include "suite.hpp"
+#include "elements/suite.hpp"
 
 namespace engrane::suite {
+
+using namespace elements::control;
+using namespace elements::joints;
 
 inline NodeMap machine_nodes() {
   return {{0, Vec3::Zero()}, {1, {1, 0.2, -0.3}}, {2, {-0.5, 0.4, 0.8}}, {3, {0.3, -0.7, 0.5}}, {4, {0.9, 0.6, 1.1}}};

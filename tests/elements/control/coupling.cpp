@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elements/control/coupling.hpp"
 
-#include "coordinate_cases.hpp"
+#include "elements/control/coordinate_cases.hpp"
 
 namespace engrane::elements::control {
 namespace {

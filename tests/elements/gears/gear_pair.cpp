@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "gear_pair_cases.hpp"
+#include "elements/gears/gear_pair_cases.hpp"
+#include "elements/suite.hpp"
 #include "math/rotation.hpp"
-#include "suite.hpp"
 
 namespace engrane::elements::gears {
 namespace {

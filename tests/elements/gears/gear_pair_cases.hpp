@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "elements/gears/gear_pair.hpp"
-#include "suite.hpp"
+#include "elements/suite.hpp"
 
 namespace engrane::gear_cases {
+
+using namespace elements::gears;
 
 constexpr double deg = std::numbers::pi / 180;
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "gear_pair_cases.hpp"
+#include "elements/gears/gear_pair_cases.hpp"
+#include "elements/suite.hpp"
 #include "math/rotation.hpp"
-#include "suite.hpp"
 
 namespace engrane::elements::gears {
 namespace {

@@ -2,8 +2,8 @@
 // The suite on what goes beyond the founding paper: stiffness that varies, running centre distance, slices, friction.
 #include <gtest/gtest.h>
 
-#include "gear_pair_cases.hpp"
-#include "suite.hpp"
+#include "elements/gears/gear_pair_cases.hpp"
+#include "elements/suite.hpp"
 
 namespace engrane::elements::gears {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "elements/gears/gear_pair_cases.hpp"
 #include "elements/gears/gear_teeth.hpp"
-#include "gear_pair_cases.hpp"
-#include "jets.hpp"
-#include "suite.hpp"
+#include "elements/jets.hpp"
+#include "elements/suite.hpp"
 
 namespace engrane::elements::gears {
 namespace {

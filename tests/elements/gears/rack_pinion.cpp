@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "suite.hpp"
+#include "elements/suite.hpp"
 
 namespace engrane::elements::gears {
 namespace {

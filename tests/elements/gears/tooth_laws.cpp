@@ -8,8 +8,8 @@
 #include "elements/common/friction_law.hpp"
 #include "elements/gears/gear_pair.hpp"
 #include "elements/gears/mesh_stiffness.hpp"
-#include "jets.hpp"
-#include "suite.hpp"
+#include "elements/jets.hpp"
+#include "elements/suite.hpp"
 
 namespace engrane::elements::gears {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "elements/common/axis_angle.hpp"
-#include "joint_cases.hpp"
+#include "elements/joints/joint_cases.hpp"
 #include "math/rotation.hpp"
 
 namespace engrane::elements::joints {

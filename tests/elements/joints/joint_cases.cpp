@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "joint_cases.hpp"
+#include "elements/joints/joint_cases.hpp"
 
 namespace engrane::suite {
 

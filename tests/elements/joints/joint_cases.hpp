@@ -9,10 +9,12 @@
 #include <string>
 
 #include "elements/joints/joint_card.hpp"
+#include "elements/suite.hpp"
 #include "math/rotation.hpp"
-#include "suite.hpp"
 
 namespace engrane::suite {
+
+using namespace elements::joints;
 
 inline std::array<double, 3> components(const Vec3& v) { return {v[0], v[1], v[2]}; }
 

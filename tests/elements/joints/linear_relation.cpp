@@ -5,8 +5,8 @@
 
 #include <numbers>
 
-#include "joint_cases.hpp"
-#include "suite.hpp"
+#include "elements/joints/joint_cases.hpp"
+#include "elements/suite.hpp"
 
 namespace engrane::elements::joints {
 namespace {

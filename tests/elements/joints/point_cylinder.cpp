@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elements/joints/point_cylinder.hpp"
 
-#include "joint_cases.hpp"
+#include "elements/joints/joint_cases.hpp"
 
 namespace engrane::elements::joints {
 namespace {

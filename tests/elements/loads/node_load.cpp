@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "suite.hpp"
+#include "elements/suite.hpp"
 
 namespace engrane::elements::loads {
 namespace {

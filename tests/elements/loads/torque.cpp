@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "elements/suite.hpp"
 #include "math/rotation.hpp"
-#include "suite.hpp"
 
 namespace engrane::elements::loads {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "elements/common/rotation_vector.hpp"
+#include "elements/suite.hpp"
 #include "math/rotation.hpp"
-#include "suite.hpp"
 
 namespace engrane::elements::springs {
 namespace {

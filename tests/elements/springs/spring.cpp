@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "suite.hpp"
+#include "elements/suite.hpp"
 
 namespace engrane::elements::springs {
 namespace {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "elements/common/stop_law.hpp"
+#include "elements/suite.hpp"
 #include "math/rotation.hpp"
-#include "suite.hpp"
 
 namespace engrane::elements::springs {
 namespace {

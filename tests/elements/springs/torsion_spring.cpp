@@ -5,8 +5,8 @@
 
 #include <numbers>
 
+#include "elements/suite.hpp"
 #include "math/rotation.hpp"
-#include "suite.hpp"
 
 namespace engrane::elements::springs {
 namespace {

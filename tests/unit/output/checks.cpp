@@ -8,6 +8,9 @@
 #include <numbers>
 
 namespace engrane::testing {
+
+using namespace output;
+
 namespace {
 
 deck::CheckCard card(const std::string& measure, double expected) {

@@ -12,6 +12,9 @@
 #include "sample_results.hpp"
 
 namespace engrane::testing {
+
+using namespace output;
+
 namespace {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

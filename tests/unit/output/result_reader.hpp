@@ -10,6 +10,8 @@
 
 namespace engrane::testing {
 
+using namespace output;
+
 /// Reads a result file back with the plain HDF5 library.
 class ResultReader {
  public:
@@ -32,6 +34,8 @@ class ResultReader {
       ADD_FAILURE() << name << " cannot be read: " << hdf5::reason_of_failure();
     return values;
   }
+
+  std::vector<std::string> texts(const std::string& name) const { return hdf5::read_texts(file_.id(), name); }
 
   std::string attribute(const std::string& object, const char* name) const {
     const hdf5::Handle owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT));

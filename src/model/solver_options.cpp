@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/solver_options.hpp"
+
+namespace engrane {
+
+SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::SteppingCard& stepping) {
+  using Analysis = SolverOptions::Analysis;
+  using Family = SolverOptions::Family;
+  SolverOptions o;
+  o.analysis = analysis.type.is("DYNAMIC")     ? Analysis::dynamics
+               : analysis.type.is("KINEMATIC") ? Analysis::kinematics
+                                               : Analysis::statics;
+  o.family = analysis.scheme.is("NEWMARK")  ? Family::newmark
+             : analysis.scheme.is("HHT")    ? Family::hht
+             : analysis.scheme.is("BOSSAK") ? Family::bossak
+                                            : Family::chung;
+  o.damping = o.family == Family::chung ? analysis.rho.value_or(0.8) : analysis.alpha.value_or(0.05);
+  o.static_start = analysis.start.is("STATIC");
+  o.begin = stepping.start;
+  o.end = stepping.end;
+  o.step = stepping.step;
+  o.cuts = analysis.cuts;
+  o.package = analysis.solver.tag;
+  o.precision = analysis.precision;
+  o.iterations = analysis.iterations;
+  o.scale = analysis.scale.value_or(0);
+  o.penalty = analysis.penalty.value_or(0);
+  o.events = !analysis.events.is("NO");
+  if (!analysis.events.values.empty()) o.event_tolerance = analysis.events.values[0];
+  return o;
+}
+
+}  // namespace engrane

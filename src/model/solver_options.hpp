@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "deck/cards/cards.hpp"
+
+namespace engrane {
+
+/// What is to be solved and how: the cards `.SAM` and `.SUB` without the words of the deck, every default filled in.
+struct SolverOptions {
+  enum class Analysis : unsigned char { statics, kinematics, dynamics };
+  enum class Family : unsigned char { chung, newmark, hht, bossak };
+
+  Analysis analysis = Analysis::statics;
+  Family family = Family::chung;  ///< of the scheme, in dynamics
+  double damping = 0.8;           ///< ρ∞ of CHUNG; α of HHT and BOSSAK
+  bool static_start = false;      ///< dynamics begins in static equilibrium
+
+  double begin = 0, end = 1;  ///< time
+  double step = 0.1;          ///< H
+  int cuts = 10;              ///< how often H may be halved
+
+  std::string package = "MUMPS";  ///< direct solver
+  double precision = 1e-9;        ///< of Newton's iteration, relative to the largest force in the model
+  int iterations = 20;            ///< most Newton iterations of an attempt
+  double scale = 0;               ///< k of the augmented Lagrangian; 0: automatic
+  double penalty = 0;             ///< p of the augmented Lagrangian
+  bool events = true;             ///< steps end where a law of an element changes
+  double event_tolerance = 1e-6;  ///< how sharply, as a part of H
+
+  bool moves() const { return analysis != Analysis::statics; }
+};
+
+SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::SteppingCard& stepping);
+
+}  // namespace engrane

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/run/runner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "assembly/configuration_snapshot.hpp"
+#include "solve/constraints/diagnosis.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+/// Part of H below which reactions would carry visible noise of rounding.
+constexpr double noisy = 0.1;
+
+std::string failure_text(SolverContext& context, const Configuration& tried, const NewtonReport& report, int number, int cuts) {
+  std::string text = fmt::format("step {}, t = {:.6g}: ", number, tried.time);
+  const std::string cut = cuts == 0 ? "" : fmt::format("; the step was cut {} time{}", cuts, cuts == 1 ? "" : "s");
+  if (const std::string element = explain_not_finite(context.assembler, tried); !element.empty())
+    text += element;
+  else if (report.conflict)
+    text += report.reason;
+  else if (report.singular)
+    return explain_singular(context.assembler, text + report.reason + cut);  // with advice at its end
+  else if (const std::string where = explain_residual(context.assembler, tried, report); !where.empty())
+    text += report.reason + "; " + where;
+  else
+    text += report.reason;
+  return text + cut;
+}
+
+}  // namespace
+
+Runner::Runner(SolverContext& context, Scheme& scheme)
+    : context_(context),
+      scheme_(scheme),
+      options_(context.options),
+      locator_(context, scheme),
+      now_(context.numbering.reference_configuration(options_.begin)),
+      h_(options_.step) {}
+
+bool Runner::run(const Observer& observer, const std::function<void(const StartReport&)>& started) {
+  observer_ = &observer;
+  started(scheme_.start(now_));
+  context_.solver.reset();  // the start solved with matrices of other kinds; the steps deserve their own analysis
+  context_.assembler.commit(now_);
+  if (locator_.active()) locator_.switches().take(now_);
+  next_ = now_;
+  return observer(now_, step_) && march();
+}
+
+bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
+  observer_ = &observer;
+  load_configuration(snapshot, now_);
+  next_ = now_;
+  context_.load(snapshot, now_);
+  scheme_.load(snapshot);
+  locator_.load(snapshot);
+  h_ = std::min(snapshot.number("runner/h"), options_.step);
+  step_.number = static_cast<int>(snapshot.number("runner/number"));
+  renewed_ = snapshot.number("runner/renewed") != 0;
+  pending_drift_ = snapshot.number("runner/pending_drift");
+  return march();
+}
+
+void Runner::save(Snapshot& snapshot) const {
+  save_configuration(now_, snapshot);
+  context_.save(snapshot);
+  scheme_.save(snapshot);
+  locator_.save(snapshot);
+  snapshot.put("runner/h", h_);
+  snapshot.put("runner/number", step_.number);
+  snapshot.put("runner/renewed", renewed_ ? 1 : 0);
+  snapshot.put("runner/pending_drift", pending_drift_);
+}
+
+bool Runner::march() {
+  const double begin = options_.begin, end = options_.end, step = options_.step;
+  // a last step shorter than a billionth of the others is the rounding of their sum
+  const auto steps = static_cast<long long>(std::ceil((end - begin) / step * (1 - 1e-9)));
+  const auto done = static_cast<long long>(std::floor((now_.time - begin) / step * (1 + 1e-15)));
+  for (long long k = std::max(1LL, done); k <= steps; ++k) {
+    const double target = k == steps ? end : begin + static_cast<double>(k) * step;
+    if (now_.time < target && !reach(target)) return false;
+  }
+  return true;
+}
+
+double Runner::next_size(double left) const { return h_ < 0.99 * left ? left / std::ceil(left / h_ * 0.99) : left; }
+
+bool Runner::reach(double target) {
+  // a resumed run is on its way to a target already
+  if (pending_drift_ > 0 && !drift(std::exchange(pending_drift_, 0), target)) return false;
+  int failures = 0;
+  double shortest = 0;
+  while (now_.time < target) {
+    const double left = target - now_.time;
+    if (locator_.active() && left < locator_.shortest()) {
+      if (!drift(left, target)) return false;
+      continue;
+    }
+    double size = next_size(left);
+    const bool shortened = h_ < 0.99 * left;
+    Outcome outcome = scheme_.attempt(now_, size, next_);
+    EventLocator::Finding found = locator_.inspect(now_, size, outcome.converged(), next_);
+    using Kind = EventLocator::Finding::Kind;
+    step_.locating += found.attempts;
+    size = found.step;
+    if (found.outcome) outcome = std::move(*found.outcome);
+    const NewtonReport& report = outcome.newton;
+    if (!report.converged && found.kind != Kind::drift) {
+      // other constraints may depend on the rest here than did at the start
+      if ((report.singular || report.conflict) && !renewed_ && context_.redundancy.analyse(now_)) {
+        renewed_ = true;
+        continue;
+      }
+      // CUTS is a depth: halvings of H, or of a step that the target or an event has made shorter
+      if (failures == 0)
+        shortest = (shortened && found.attempts == 0 ? options_.step : size) * std::ldexp(1 - 1e-6, -options_.cuts);
+      if (size / 2 < shortest || now_.time + size / 2 == now_.time)
+        throw SolutionFailure(failure_text(context_, next_, report, step_.number + 1, failures));
+      ++failures;
+      ++step_.cuts;
+      h_ = size / 2;
+      continue;
+    }
+    failures = 0;
+    if (found.kind != Kind::drift) {
+      if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // no drift from the sums of h
+      scheme_.accept();
+      std::swap(now_, next_);
+      // the inverse square of a short step enlarges rounding in accelerations and multipliers: they are found anew
+      if (locator_.active() && size < noisy * options_.step) scheme_.drift(now_, 0);
+      const double grown = outcome.proposed > 0 ? outcome.proposed : 2 * h_;
+      h_ = std::min(options_.step, grown);  // back to the asked step as soon as it goes
+      step_.newton = &report;
+      pending_drift_ = found.kind != Kind::none && now_.time < target ? found.drift : 0;
+      if (!accepted(size, found.kind == Kind::none || now_.time == target)) return false;
+      if (pending_drift_ > 0 && !drift(std::exchange(pending_drift_, 0), target)) return false;
+    } else if (!drift(found.drift, target)) {
+      return false;
+    }
+  }
+  locator_.new_target();
+  renewed_ = false;
+  step_.locating = 0;
+  return true;
+}
+
+/// Over an event, and to the target if a step would be too short to get there.
+bool Runner::drift(double time, double target) {
+  const double left = target - now_.time;
+  const bool arrives = left - time < locator_.shortest();
+  const double size = arrives ? left : time;
+  scheme_.drift(now_, size);
+  if (arrives) now_.time = target;
+  step_.newton = nullptr;
+  return accepted(size, arrives);
+}
+
+bool Runner::accepted(double size, bool regular) {
+  context_.assembler.commit(now_);
+  step_.events.clear();
+  if (locator_.active()) step_.events = locator_.switches().take(now_);
+  ++step_.number;
+  step_.step = size;
+  step_.regular = regular;
+  step_.chatter = locator_.chatters();
+  const bool go_on = (*observer_)(now_, step_);
+  step_.cuts = step_.locating = 0;
+  return go_on;
+}
+
+}  // namespace engrane::solve

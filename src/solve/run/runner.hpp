@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+
+#include "solve/run/events.hpp"
+
+namespace engrane::solve {
+
+/// What the run tells about each accepted step.
+struct StepReport {
+  int number = 0;             ///< from 1; 0 is the start
+  double step = 0;            ///< h
+  int cuts = 0;               ///< failed attempts before this one
+  bool regular = true;        ///< false: the step ended for an event, not where a multiple of H or a cut asks for it
+  int locating = 0;           ///< attempts spent on locating an event before this step
+  bool chatter = false;       ///< the first time that events come too thick to be located
+  std::vector<Event> events;  ///< that happened in this step
+  const NewtonReport* newton = nullptr;
+};
+
+/// Called with the start and every accepted step; false ends the run early.
+using Observer = std::function<bool(const Configuration&, const StepReport&)>;
+
+/// Goes from the start to the end of `.SUB`: cuts steps that fail, lets them grow again, ends them at events and at the
+/// multiples of H.
+class Runner {
+ public:
+  Runner(SolverContext& context, Scheme& scheme);
+
+  /// Starts, and runs to the end. Throws SolutionFailure when cutting does not help; false when the observer ended it.
+  bool run(const Observer& observer, const std::function<void(const StartReport&)>& started);
+  /// Goes on from a snapshot that save() made; the observer sees the steps after it.
+  bool resume(const Snapshot& snapshot, const Observer& observer);
+
+  /// The last accepted configuration and everything that the steps after it depend on. May be called by the observer, and
+  /// after run() has returned or thrown.
+  void save(Snapshot& snapshot) const;
+
+ private:
+  bool march();
+  bool reach(double target);
+  bool drift(double time, double target);
+  bool accepted(double size, bool regular);
+  /// The step that an attempt towards a point `left` ahead takes: equal parts of it, as long as h_ allows.
+  double next_size(double left) const;
+  /// The next attempt after a failed one of `size`; throws when it would be shorter than CUTS halvings of H.
+  void cut(double size, const NewtonReport& report);
+
+  SolverContext& context_;
+  Scheme& scheme_;
+  const SolverOptions& options_;
+  EventLocator locator_;
+  const Observer* observer_ = nullptr;
+  Configuration now_, next_;
+  double h_;
+  bool renewed_ = false;      ///< constraints have been analysed anew on the way to the present target
+  double pending_drift_ = 0;  ///< time to drift over the event that the last step has landed before
+  StepReport step_;
+};
+
+}  // namespace engrane::solve

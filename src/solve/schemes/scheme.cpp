@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/schemes/scheme.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "solve/schemes/kinematics.hpp"
+#include "solve/schemes/statics.hpp"
+#include "solve/schemes/transient.hpp"
+
+namespace engrane::solve {
+
+void Scheme::prescribe_step(double from, double to, std::span<double> y) const {
+  const auto before = context_.motion.prescribed(from), after = context_.motion.prescribed(to);
+  for (std::size_t i = 0; i < after.size(); ++i) y[after[i].slot] = after[i].u - before[i].u;
+}
+
+void apply_initial_displacements(const SolverContext& context, Configuration& c) {
+  std::vector<double> y(context.motion.size(), 0.0);
+  for (const InitialValue& value : context.model.initial)
+    if (!value.velocity) y[static_cast<std::size_t>(6 * value.node + value.component)] += value.value;
+  for (const auto& p : context.motion.prescribed(c.time)) y[p.slot] = p.u;
+  Configuration moved = c;
+  context.motion.move(c, y, moved);
+  c = std::move(moved);
+}
+
+void apply_initial_velocities(const SolverContext& context, Configuration& c) {
+  std::vector<double> v = context.motion.velocities(c);
+  for (const InitialValue& value : context.model.initial) {
+    if (!value.velocity) continue;
+    if (value.component < 3) {
+      v[static_cast<std::size_t>(6 * value.node + value.component)] = value.value;
+    } else {
+      // given about global axes; the state holds material components
+      const NodeState& node = c.nodes[static_cast<std::size_t>(value.node)];
+      const Vec3 spin = node.R.transpose() * Vec3::Unit(value.component - 3) * value.value;
+      for (int i = 0; i < 3; ++i) v[static_cast<std::size_t>(6 * value.node + 3 + i)] += spin[i];
+    }
+  }
+  context.motion.set_velocities(v, c);
+}
+
+void Scheme::refuse_half_turns(std::span<const double> y, NewtonReport& report) const {
+  if (!report.converged) return;
+  for (std::size_t i = 1; i < context_.model.nodes.size(); ++i) {
+    const double turn = Vec3(y[6 * i + 3], y[6 * i + 4], y[6 * i + 5]).norm();
+    if (turn < std::numbers::pi) continue;
+    report.converged = false;
+    report.reason = fmt::format(
+        "node {} turned by {:.4g} degrees in one step; half a turn is the most that can be followed: take a smaller step H, at "
+        "most {:.2g} of this one, or see whether a speed is given in the wrong unit",
+        context_.model.nodes[i].id, turn * 180 / std::numbers::pi, 0.9 * std::numbers::pi / turn);
+    return;
+  }
+}
+
+void Scheme::multipliers_to_unknowns(const Configuration& c, std::span<double> unknowns) const {
+  const auto motion = context_.motion.size();
+  for (std::size_t m = 0; m < c.multipliers.size(); ++m)
+    unknowns[static_cast<std::size_t>(context_.numbering.equation(static_cast<int>(motion + m)))] =
+        c.multipliers[m] / context_.assembler.scale()[m];
+}
+
+void Scheme::unknowns_to_multipliers(std::span<const double> unknowns, Configuration& c) const {
+  const auto motion = context_.motion.size();
+  for (std::size_t m = 0; m < c.multipliers.size(); ++m)
+    c.multipliers[m] = context_.assembler.scale()[m] *
+                       unknowns[static_cast<std::size_t>(context_.numbering.equation(static_cast<int>(motion + m)))];
+}
+
+NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to) {
+  NewtonReport report;
+  int iterations = 0;
+  // where forces depend linearly on the multipliers once is enough
+  for (int pass = 0; pass < 10; ++pass) {
+    report = context_.newton.solve(unknowns, weights, apply, to);
+    iterations += report.iterations;
+    if (!report.converged || !context_.redundancy.active()) break;
+    if (const std::string conflict = context_.redundancy.conflict(to); !conflict.empty()) {
+      report.converged = false;
+      report.conflict = true;
+      report.reason = conflict;
+      break;
+    }
+    if (!context_.redundancy.share(to)) break;
+    const auto all = context_.assembler.gather(unknowns);
+    std::vector<double> shared(all.begin(), all.end());
+    multipliers_to_unknowns(to, shared);
+    context_.assembler.spread(shared, unknowns);
+  }
+  report.iterations = iterations;
+  return report;
+}
+
+std::unique_ptr<Scheme> make_scheme(SolverContext& context) {
+  switch (context.options.analysis) {
+    case SolverOptions::Analysis::dynamics:
+      return std::make_unique<Transient>(context);
+    case SolverOptions::Analysis::kinematics:
+      return std::make_unique<Kinematics>(context);
+    case SolverOptions::Analysis::statics:
+      break;
+  }
+  return std::make_unique<Statics>(context);
+}
+
+}  // namespace engrane::solve

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "base/snapshot.hpp"
+#include "solve/schemes/solver_context.hpp"
+
+namespace engrane::solve {
+
+/// What came of an attempt to step.
+struct Outcome {
+  NewtonReport newton;
+  double proposed = 0;          ///< step that the scheme would take next; 0: it has no opinion
+  std::optional<double> error;  ///< estimate of the step's local error over its tolerance, where the scheme has one
+
+  bool converged() const { return newton.converged; }
+};
+
+/// One way of going from one instant to the next. It tries steps and says what happened; cutting, growth, events and output
+/// times are the Runner's.
+class Scheme {
+ public:
+  explicit Scheme(SolverContext& context) : context_(context) {}
+  virtual ~Scheme() = default;
+  Scheme(const Scheme&) = delete;
+  Scheme& operator=(const Scheme&) = delete;
+
+  /// Makes the given configuration a solution at c.time. Throws SolutionFailure.
+  virtual StartReport start(Configuration& c) = 0;
+  /// Tries a step of h from an accepted configuration; `to` is a solution when the outcome is converged.
+  virtual Outcome attempt(const Configuration& from, double h, Configuration& to) = 0;
+  /// The last attempt stands.
+  virtual void accept() {}
+  /// Whether steps are to end at the events of the elements' switches; drift() is then defined.
+  virtual bool meets_events() const { return false; }
+  /// Moves an accepted configuration over a stretch much shorter than a step, past an event; what the scheme
+  /// remembers of earlier steps is forgotten.
+  virtual void drift(Configuration&, double /*h*/) {}
+
+  /// What the scheme remembers of accepted steps, for a restart.
+  virtual void save(Snapshot&) const {}
+  virtual void load(const Snapshot&) {}
+
+ protected:
+  /// Displacements of the prescribed slots between two times, written into a flat step.
+  void prescribe_step(double from, double to, std::span<double> y) const;
+  /// Fails a converged step in which a node turned so far that turns can no longer be counted.
+  void refuse_half_turns(std::span<const double> y, NewtonReport& report) const;
+  /// Multipliers of `c` in the scaled unknowns of the solver, and back.
+  void multipliers_to_unknowns(const Configuration& c, std::span<double> unknowns) const;
+  void unknowns_to_multipliers(std::span<const double> unknowns, Configuration& c) const;
+
+  /// Newton's method from the unknowns given, with redundant constraints: these are seen to be closed, and their
+  /// multipliers made the least.
+  NewtonReport solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to);
+
+  SolverContext& context_;
+};
+
+/// Moves the reference configuration to the initial displacements and supports of the deck.
+void apply_initial_displacements(const SolverContext& context, Configuration& c);
+/// Gives it the initial velocities of the deck.
+void apply_initial_velocities(const SolverContext& context, Configuration& c);
+
+/// The scheme that the options ask for.
+std::unique_ptr<Scheme> make_scheme(SolverContext& context);
+
+}  // namespace engrane::solve

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "model/solver_options.hpp"
+#include "solve/algebra/newton.hpp"
+#include "solve/constraints/start.hpp"
+
+namespace engrane::solve {
+
+/// What every scheme works with; made once per run, outlives the schemes.
+struct SolverContext {
+  SolverContext(const Model& model, SolverOptions options, MPI_Comm comm);
+  /// With the options that the model's deck asks for.
+  SolverContext(const Model& model, MPI_Comm comm);
+
+  /// Everything here that the next step depends on beside the configuration, for a restart.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot, const Configuration& configuration);
+
+  const Model& model;
+  const SolverOptions options;
+  Numbering numbering;
+  Assembler assembler;
+  LinearSolver solver;
+  Newton newton;
+  MotionSlots motion;
+  Redundancy redundancy;
+  Start start;
+};
+
+}  // namespace engrane::solve
