@@ -18,10 +18,10 @@ void Scatter::find_pattern() {
   check_petsc(MatSetSizes(pattern_, PETSC_DECIDE, PETSC_DECIDE, n, n));
   check_petsc(MatSetType(pattern_, MATAIJ));
   check_petsc(MatSetFromOptions(pattern_));
-  Vec row_layout = nullptr;
-  check_petsc(MatCreateVecs(pattern_, nullptr, &row_layout));
-  check_petsc(VecGetOwnershipRange(row_layout, &first_row_, &end_row_));
-  check_petsc(VecDestroy(&row_layout));
+  PetscLayout layout = nullptr;
+  check_petsc(MatGetLayouts(pattern_, &layout, nullptr));
+  check_petsc(PetscLayoutSetUp(layout));
+  check_petsc(PetscLayoutGetRange(layout, &first_row_, &end_row_));
 
   // the elements of each row; every rank knows all elements, and so the whole of its own rows
   const auto rows = static_cast<std::size_t>(end_row_ - first_row_);
