@@ -101,7 +101,8 @@ std::string Numbering::describe(int equation) const {
   const Model::Part& part = model_.parts[static_cast<std::size_t>(u.part)];
   const Layout& layout = part.element->layout();
   const auto item = static_cast<std::size_t>(u.item);
-  const Named& named = u.multiplier ? static_cast<const Named&>(layout.multipliers[item]) : layout.scalars[item];
+  const Named& named =
+      u.multiplier ? static_cast<const Named&>(layout.multipliers[item]) : static_cast<const Named&>(layout.scalars[item]);
   return fmt::format("{} {} ({})", part.type, part.element->id(), named.name);
 }
 

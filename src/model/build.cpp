@@ -35,6 +35,8 @@ class Builder {
       if (record.get<deck::FunctionCard>()) add_function(record);
     for (const ElementRecord& element : elements_) place_node(element);
     for (const deck::Record& record : deck_.records) add_command(record);
+    others_are_asked_for_ =
+        std::any_of(elements_.begin(), elements_.end(), [](const ElementRecord& e) { return e.type->stage == 1; });
     for (int stage = 0; stage < 2; ++stage)
       for (const ElementRecord& element : elements_)
         if (element.type->stage == stage) add_element(element);
@@ -272,18 +274,27 @@ class Builder {
     const bool command = name.front() == '.';
     if (command && taken(record)) return;
     BuildContext context = context_of(record, diagnostics_);
-    if (auto built = element.type->build(context))
-      model_.parts.push_back({std::move(built), name.substr(command ? 1 : 0), &record, record.location, {}});
+    auto built = element.type->build(context);
+    if (BuildContext::Found* one = element.type->stage == 0 && others_are_asked_for_ ? find_in_mechanism(record.id) : nullptr) {
+      one->element = built.get();
+      one->faulty = !built;
+    }
+    if (built) model_.parts.push_back({std::move(built), name.substr(command ? 1 : 0), &record, record.location, {}});
+  }
+
+  BuildContext::Found* find_in_mechanism(int id) {
+    if (mechanism_.empty())
+      for (const deck::Record& other : deck_.records)
+        if (other.schema->command() == ".MCE") mechanism_.try_emplace(other.id, BuildContext::Found{&other});
+    const auto found = mechanism_.find(id);
+    return found == mechanism_.end() ? nullptr : &found->second;
   }
 
   /// Results name elements by their numbers, so those of .MCE and of commands such as .LIA must differ.
   bool taken(const deck::Record& record) {
-    if (mechanism_.empty())
-      for (const deck::Record& other : deck_.records)
-        if (other.schema->command() == ".MCE") mechanism_.try_emplace(other.id, &other);
-    const auto found = mechanism_.find(record.id);
-    if (found == mechanism_.end()) return false;
-    const deck::Record& other = *found->second;
+    const BuildContext::Found* found = find_in_mechanism(record.id);
+    if (!found) return false;
+    const deck::Record& other = *found->record;
     diagnostics_.error(record.location, fmt::format("number {} is that of {} {}", record.id, other.schema->name, other.id),
                        "results name elements by their numbers: give another");
     return true;
@@ -296,6 +307,10 @@ class Builder {
             record,
             [this](int node, const Vec3& axis) { return inertia_about(node, axis); },
             &deck_.records,
+            [this](int id) {
+              const BuildContext::Found* found = find_in_mechanism(id);
+              return found ? *found : BuildContext::Found{};
+            },
             &blocks_};
   }
 
@@ -371,7 +386,8 @@ class Builder {
   NodePositions nodes_;
   std::unordered_map<const deck::Schema*, const ElementType*> types_by_schema_;
   std::vector<ElementRecord> elements_;                         ///< in the order of the deck
-  std::unordered_map<int, const deck::Record*> mechanism_;      ///< records of .MCE by number, once asked for
+  std::unordered_map<int, BuildContext::Found> mechanism_;      ///< of .MCE by number, once asked for
+  bool others_are_asked_for_ = false;                           ///< some element is of stage 1
   std::unordered_map<int, const deck::Record*> placed_by_;      ///< which element placed a node
   std::unordered_map<int, std::vector<int>> placed_from_;       ///< nodes placed from a node, in the order of the deck
   std::unordered_map<int, std::vector<std::size_t>> parts_at_;  ///< elements at a node, of the first `indexed_`

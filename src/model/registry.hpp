@@ -27,6 +27,13 @@ struct BuildContext {
   std::function<double(int node, const Vec3& axis)> wheel_inertia;
   /// All records of the deck, for elements that depend on others of their kind; nullptr: this one stands alone.
   const std::vector<deck::Record>* records = nullptr;
+  /// An element of `.MCE` by its number, for elements of stage 1. No record: there is none of that number.
+  struct Found {
+    const deck::Record* record = nullptr;
+    const Element* element = nullptr;  ///< those of stage 0
+    bool faulty = false;               ///< of stage 0, and could not be built
+  };
+  std::function<Found(int id)> find_element = nullptr;
   /// Where elements of a kind meet in blocks; nullptr: each is alone in its own.
   BlockStore* blocks = nullptr;
 

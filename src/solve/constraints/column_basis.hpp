@@ -51,7 +51,7 @@ class ColumnBasis {
   void factor(double tolerance);
   /// Rows of a group and columns of a leaf, as a dense matrix.
   Eigen::MatrixXd block(int group, const int* first, const int* end) const;
-  /// The y nearest to the given one that has (Aᵀy)_i = b_i for the independent columns.
+  /// A y near the given one, the nearest but for leaves, that has (Aᵀy)_i = b_i for the independent columns.
   Vector corrected(Vector y, const Vector& b) const;
 
   Sparse a_;

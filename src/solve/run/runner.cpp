@@ -25,7 +25,8 @@ std::string failure_text(SolverContext& context, const Configuration& tried, con
   else if (report.conflict)
     text += report.reason;
   else if (report.singular)
-    return explain_singular(context.assembler, text + report.reason + cut);  // with advice at its end
+    return explain_singular(context.assembler, text + report.reason + cut,
+                            context.options.moves() ? Resistance::in_motion : Resistance::at_rest);  // with advice at its end
   else if (const std::string where = explain_residual(context.assembler, tried, report); !where.empty())
     text += report.reason + "; " + where;
   else
