@@ -133,8 +133,8 @@ void check_tangent(const Subject& s, const Element& element, const StateBuffer& 
         eps = std::max(eps, 1e-14 * scale[slots.kind(i)] / h);
       }
     }
-    Vector r(n), k(n * n);
-    element.tangent(state.view(), weights[l], r, k);
+    Vector r;
+    const Vector k = tangent_of(element, state, weights[l], &r);
     expect_matrix(slots, k, differences, noise, s.tolerance, names[l]);
     for (std::size_t i = 0; i < n; ++i)
       EXPECT_NEAR(r[i], r0[i], 1e-12 * scale[slots.kind(i)]) << "tangent() returns another residual in " << slots.name(i);

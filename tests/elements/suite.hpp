@@ -115,8 +115,9 @@ StateBuffer random_state(const Subject& subject, const Element& element, Random&
 
 /// The residual, with six rows for every node whatever the element asks for: zero where it does not. Then scalars, multipliers.
 std::vector<double> residual_of(const Element& element, const StateBuffer& state);
-/// The tangent likewise: row-major, as wide as residual_of() is long.
-std::vector<double> tangent_of(const Element& element, const StateBuffer& state, Weights weights);
+/// The tangent likewise: row-major, as wide as residual_of() is long; and the residual that comes with it, where asked for.
+std::vector<double> tangent_of(const Element& element, const StateBuffer& state, Weights weights,
+                               std::vector<double>* residual = nullptr);
 /// The value of an output channel; fails the test when there is none of that name.
 double channel_of(const Element& element, const StateBuffer& state, const std::string& name);
 

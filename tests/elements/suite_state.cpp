@@ -170,13 +170,17 @@ std::vector<double> residual_of(const Element& element, const StateBuffer& state
   return full;
 }
 
-std::vector<double> tangent_of(const Element& element, const StateBuffer& state, Weights weights) {
+std::vector<double> tangent_of(const Element& element, const StateBuffer& state, Weights weights, std::vector<double>* residual) {
   const auto places = full_places(element.layout());
   const std::size_t n = places.size(), count = full_count(element.layout());
   Vector r(n), k(n * n, std::numeric_limits<double>::quiet_NaN()), full(count * count, 0.0);
   element.tangent(state.view(), weights, r, k);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) full[places[i] * count + places[j]] = k[i * n + j];
+  if (residual) {
+    residual->assign(count, 0.0);
+    for (std::size_t i = 0; i < n; ++i) (*residual)[places[i]] = r[i];
+  }
   return full;
 }
 
