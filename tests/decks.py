@@ -146,7 +146,12 @@ def interrupted(arguments, deck: Path, whole: Path) -> list[str]:
 
 def changed(deck: Path, results: dict, tolerance: float) -> list[str]:
     """Channels that version 0.3.0 had otherwise, by more than the tolerance times the largest of the unit."""
-    reference = json.loads(REFERENCE.read_text(encoding="utf-8")).get(deck.stem, {})
+    owners = json.loads(REFERENCE.read_text(encoding="utf-8")).get(deck.stem, {})
+    reference = {
+        f"{owner}/{channel}": values or (0.0, 0.0)
+        for owner, channels in owners.items()
+        for channel, values in channels.items()
+    }
     scale = {}
     for name, (last, rms) in reference.items():
         if name in results:
