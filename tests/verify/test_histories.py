@@ -73,7 +73,7 @@ def test_all_of_a_large_model_if_asked(tmp_path):
     [
         ("ELEMENT 12 14 A 15 CHANNEL LENGTH", {f"element/{i}/LENGTH" for i in (12, 14, 15)}),
         ("TYPE SPRING CHANNEL LENGTH", {f"element/{i}/LENGTH" for i in range(11, 21)}),
-        ("NOEUD 3 GROUP ends CHANNEL UX UZ", {f"node/{i}/{c}" for i in (1, 3, 10) for c in ("UX", "UZ")}),
+        ('NOEUD 3 GROUP ends CHANNEL "UX" "UZ"', {f"node/{i}/{c}" for i in (1, 3, 10) for c in ("UX", "UZ")}),
         ("GROUP springs CHANNEL LENGTH", {"element/11/LENGTH", "element/20/LENGTH"}),
         ("CHANNEL WX", {f"node/{i}/WX" for i in range(1, 11)}),
         ("KEEP NONE", set()),

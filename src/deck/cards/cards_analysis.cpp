@@ -153,15 +153,15 @@ Schema archive_card() {
       .synonyms({"MCE", "ELEMENTS"})
       .refers(Reference::element)
       .at_least(1);
-  card.add("TYPE", &ArchiveCard::kinds, "types of elements whose histories are kept: GEAR, HINGE, …");
+  card.add("TYPE", &ArchiveCard::kinds,
+           "types of elements whose histories are kept; several in double quotes: \"GEAR\" \"HINGE\"");
   card.add("NOEUD", &ArchiveCard::nodes, "nodes whose histories are kept: ids and ranges")
-      .synonyms({"NODE", "NODES", "NOE"})
+      .synonyms({"NOEUDS", "NODES"})
       .refers(Reference::node)
       .at_least(1);
-  card.add("GROUP", &ArchiveCard::groups, "groups of nodes whose histories are kept: names or numbers")
-      .synonyms({"GROUPE"})
+  card.add("GROUP", &ArchiveCard::groups, "groups of nodes or elements whose histories are kept: names or numbers")
       .refers(Reference::group);
-  card.add("CHANNEL", &ArchiveCard::channels, "of those, only these histories: NORMAL_FORCE, UX, …")
+  card.add("CHANNEL", &ArchiveCard::channels, "of those, only these histories; several in double quotes: \"NORMAL_FORCE\" \"UX\"")
       .synonyms({"GRANDEUR", "CHANNELS"});
   card.add("KEEP", &ArchiveCard::keep,
            "whose histories are kept where nothing selects them; with no more than 300 elements and nodes all")
@@ -183,7 +183,7 @@ Schema archive_card() {
       "small models too; CHANNEL alone selects from all elements and nodes.");
   card.finish(check_archive);
   card.example(".SAI FIELDS DT 0.001 HISTORY DT 0.0001 NEWTON");
-  card.example(".SAI TYPE GEAR NOEUD 4 10 A 20 CHANNEL NORMAL_FORCE UX UY RESTART DT 0.1");
+  card.example(".SAI TYPE GEAR NOEUD 4 10 A 20 CHANNEL \"NORMAL_FORCE\" \"UX\" RESTART DT 0.1");
   return card.schema();
 }
 
