@@ -127,7 +127,7 @@ class Results:
         self._file.close()
 
     def read(self, look: Callable[[h5py.File], T]) -> T:
-        """What `look` finds in the HDF5 file, whole even while a run writes it: `look` may be called again."""
+        """What `look` finds in the HDF5 file, even while a run writes it: `look` may be called again."""
         return self._file.read(look)
 
     def dataset(self, name: str) -> np.ndarray | None:

@@ -6,115 +6,131 @@
 
 namespace engrane {
 
+namespace {
+
+/// Contiguous shares of elements: neighbours in the deck are usually neighbours in the machine.
+int share_begin(const Model& model, MPI_Comm comm, int after) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  return static_cast<int>(static_cast<long>(model.parts.size()) * (rank + after) / size);
+}
+
+}  // namespace
+
 Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm comm)
-    : model_(model), numbering_(numbering), comm_(comm) {
+    : model_(model),
+      numbering_(numbering),
+      comm_(comm),
+      first_part_(share_begin(model, comm, 0)),
+      end_part_(share_begin(model, comm, 1)),
+      scatter_(numbering, first_part_, end_part_, comm),
+      first_row_(scatter_.first_row()),
+      end_row_(scatter_.end_row()) {
   MPI_Comm_rank(comm, &rank_);
   MPI_Comm_size(comm, &size_);
-  const int n = numbering.equations();
-
-  check_petsc(MatCreate(comm, matrix_.out()));
-  check_petsc(MatSetSizes(matrix_, PETSC_DECIDE, PETSC_DECIDE, n, n));
-  check_petsc(MatSetType(matrix_, MATAIJ));
-  check_petsc(MatSetFromOptions(matrix_));
-  check_petsc(MatSetUp(matrix_));
-  check_petsc(MatCreateVecs(matrix_, nullptr, template_.out()));
-  check_petsc(VecGetOwnershipRange(template_, &first_row_, &end_row_));
-
-  // contiguous blocks of elements: neighbours in the deck are usually neighbours in the machine
-  const auto parts = static_cast<long>(model.parts.size());
-  const auto begin = static_cast<int>(parts * rank_ / size_), end = static_cast<int>(parts * (rank_ + 1) / size_);
-  std::vector<PetscInt> coo_i, coo_j, rows;
-  std::size_t widest = 0;
-  for (int p = begin; p < end; ++p) {
-    const auto& slots = numbering.part_slots(p);
-    Share share{p, coo_i.size(), {}, rows.size(), {}, std::vector<double>(slots.size(), 1.0), std::vector<char>(slots.size(), 1)};
-    for (std::size_t i = 0; i < slots.size(); ++i) {
-      const int row = numbering.equation(slots[i]);
-      if (row < 0) continue;
-      share.rows.push_back(i);
-      rows.push_back(row);
-      for (std::size_t j = 0; j < slots.size(); ++j) {
-        const int column = numbering.equation(slots[j]);
-        if (column < 0) continue;
-        share.entries.push_back(i * slots.size() + j);
-        coo_i.push_back(row);
-        coo_j.push_back(column);
-      }
-    }
-    widest = std::max(widest, slots.size());
-    shares_.push_back(std::move(share));
-  }
-  // every diagonal entry exists: factorisations expect it, projections write it
-  diagonal_begin_ = coo_i.size();
-  for (PetscInt row = first_row_; row < end_row_; ++row) {
-    coo_i.push_back(row);
-    coo_j.push_back(row);
-  }
-  check_petsc(MatSetPreallocationCOO(matrix_, static_cast<PetscCount>(coo_i.size()), coo_i.data(), coo_j.data()));
-  check_petsc(VecSetPreallocationCOO(template_, static_cast<PetscCount>(rows.size()), rows.data()));
-  coo_values_.assign(coo_i.size(), 0);
-  row_values_.assign(rows.size(), 0);
-  local_r_.resize(widest);
-  local_k_.resize(widest * widest);
-  local_mass_.resize(widest * widest);
+  *matrix_.out() = scatter_.new_matrix();
+  find_batches();
 
   const auto multipliers = static_cast<std::size_t>(numbering.slots() - numbering.motion_slots());
   scale_.assign(multipliers, 1.0);
   released_.assign(multipliers, false);
   released_values_.assign(multipliers, 0.0);
-  if (size_ > 1) check_petsc(VecScatterCreateToAll(template_, scatter_.out(), everywhere_.out()));
+  if (size_ > 1) {
+    Owned<Vec> sample;
+    *sample.out() = new_vector();
+    check_petsc(VecScatterCreateToAll(sample, to_all_.out(), everywhere_.out()));
+  }
 }
 
-Vec Assembler::new_vector() const {
-  Vec v = nullptr;
-  check_petsc(VecDuplicate(template_, &v));
-  return v;
+void Assembler::find_batches() {
+  constexpr std::size_t most = 64, most_numbers = 4096;  // what stays in the cache
+  std::size_t widest_r = 0, widest_k = 0, longest = 0;
+  for (int p = first_part_; p < end_part_; ++p) {
+    const std::size_t n = numbering_.part_slots(p).size();
+    const bool room =
+        !batches_.empty() && batches_.back().range.count() < most && (batches_.back().range.count() + 1) * n * n <= most_numbers;
+    if (!room || !batches_.back().range.extend(element(p))) batches_.push_back({p, ElementRange(element(p)), n});
+    const std::size_t count = batches_.back().range.count();
+    longest = std::max(longest, count);
+    widest_r = std::max(widest_r, count * n);
+    widest_k = std::max(widest_k, count * n * n);
+  }
+  states_.resize(longest);
+  local_r_.resize(widest_r);
+  local_k_.resize(widest_k);
 }
 
-State Assembler::view(int part, const Configuration& c) {
+std::span<const State> Assembler::views(const Batch& batch, const Configuration& configuration) {
+  for (std::size_t i = 0; i < batch.range.count(); ++i) states_[i] = view(batch.first + static_cast<int>(i), configuration);
+  return std::span(states_).first(batch.range.count());
+}
+
+template <class Use>
+void Assembler::for_each_residual(const Configuration& configuration, Use&& use) {
+  for (const Batch& batch : batches_) {
+    batch.range.residual(views(batch, configuration), std::span(local_r_).first(batch.range.count() * batch.slots));
+    for (std::size_t i = 0; i < batch.range.count(); ++i)
+      use(batch.first + static_cast<int>(i), std::span<const double>(local_r_).subspan(i * batch.slots, batch.slots));
+  }
+}
+
+template <class Use>
+void Assembler::for_each_tangent(const Configuration& configuration, Weights weights, Use&& use) {
+  for (const Batch& batch : batches_) {
+    const std::size_t n = batch.slots, count = batch.range.count();
+    batch.range.tangent(views(batch, configuration), weights, std::span(local_r_).first(count * n),
+                        std::span(local_k_).first(count * n * n));
+    for (std::size_t i = 0; i < count; ++i) use(batch.first + static_cast<int>(i), std::span(local_k_).subspan(i * n * n, n * n));
+  }
+}
+
+State Assembler::view(int part, const Configuration& c) const {
   const Model::Part& p = model_.parts[static_cast<std::size_t>(part)];
   const Layout& layout = p.element->layout();
-  local_nodes_.resize(p.nodes.size());
-  for (std::size_t i = 0; i < p.nodes.size(); ++i) local_nodes_[i] = c.nodes[static_cast<std::size_t>(p.nodes[i])];
   const auto piece = [](const std::vector<double>& all, int begin, std::size_t count) {
     return std::span(all).subspan(static_cast<std::size_t>(begin), count);
   };
   State s;
-  s.nodes = local_nodes_;
+  s.nodes = {c.nodes, p.nodes};
   s.scalars = piece(c.scalars, numbering_.scalar_begin(part), layout.scalars.size());
   s.scalar_rates = piece(c.scalar_rates, numbering_.scalar_begin(part), layout.scalars.size());
   s.scalar_accelerations = piece(c.scalar_accelerations, numbering_.scalar_begin(part), layout.scalars.size());
   s.multipliers = piece(c.multipliers, numbering_.multiplier_begin(part), layout.multipliers.size());
   s.history = piece(c.history, numbering_.history_begin(part), static_cast<std::size_t>(layout.history));
   s.time = c.time;
-  s.gravity = model_.gravity_at(c.time);
+  s.h = c.h;
+  s.gravity = gravity_at(c.time);
   s.penalty = penalty;
   s.contact_homotopy = contact_homotopy;
   return s;
 }
 
-void Assembler::commit(Configuration& configuration) {
+const Vec3& Assembler::gravity_at(double time) const {
+  if (time != gravity_time_) {
+    gravity_ = model_.gravity_at(time);
+    gravity_time_ = time;
+  }
+  return gravity_;
+}
+
+void Assembler::count_turns(Configuration& configuration) { write_history(configuration, &Element::count_turns); }
+
+void Assembler::commit(Configuration& configuration) { write_history(configuration, &Element::commit); }
+
+void Assembler::write_history(Configuration& configuration,
+                              void (Element::*write)(const State&, std::span<double>, std::span<double>) const) {
   std::vector<double> history = configuration.history;
-  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-    const Layout& layout = model_.parts[p].element->layout();
+  for (int p = 0; p < numbering_.parts(); ++p) {
+    const Layout& layout = element(p).layout();
     if (layout.history == 0) continue;
-    const int part = static_cast<int>(p);
-    model_.parts[p].element->commit(
-        view(part, configuration),
-        std::span(configuration.scalars).subspan(static_cast<std::size_t>(numbering_.scalar_begin(part)), layout.scalars.size()),
-        std::span(history).subspan(static_cast<std::size_t>(numbering_.history_begin(part)),
+    (element(p).*write)(
+        view(p, configuration),
+        std::span(configuration.scalars).subspan(static_cast<std::size_t>(numbering_.scalar_begin(p)), layout.scalars.size()),
+        std::span(history).subspan(static_cast<std::size_t>(numbering_.history_begin(p)),
                                    static_cast<std::size_t>(layout.history)));
   }
   configuration.history = std::move(history);
-}
-
-void Assembler::update_factors() {
-  for (Share& share : shares_) {
-    const Layout& layout = model_.parts[static_cast<std::size_t>(share.part)].element->layout();
-    const std::size_t first = share.factor.size() - layout.multipliers.size();
-    for (std::size_t i = 0; i < layout.multipliers.size(); ++i)
-      share.factor[first + i] = scale_[static_cast<std::size_t>(numbering_.multiplier_begin(share.part)) + i];
-  }
 }
 
 void Assembler::release(const std::vector<int>& multipliers, const std::vector<double>& values) {
@@ -123,11 +139,6 @@ void Assembler::release(const std::vector<int>& multipliers, const std::vector<d
   for (const int m : multipliers) {
     released_[static_cast<std::size_t>(m)] = true;
     released_values_[static_cast<std::size_t>(m)] = values[static_cast<std::size_t>(m)];
-  }
-  for (Share& share : shares_) {
-    const auto& slots = numbering_.part_slots(share.part);
-    for (std::size_t i = 0; i < slots.size(); ++i)
-      share.kept[i] = slots[i] < numbering_.motion_slots() || !released(slots[i] - numbering_.motion_slots());
   }
 }
 
@@ -147,7 +158,6 @@ void Assembler::load(const Snapshot& snapshot) {
     if (flags[m] != 0) multipliers.push_back(static_cast<int>(m));
   release(multipliers, snapshot.array("assembler/released_values"));
   scale_ = scale;
-  update_factors();
 }
 
 bool Assembler::released_equation(int equation) const {
@@ -158,36 +168,28 @@ bool Assembler::released_equation(int equation) const {
 void Assembler::choose_scale(const Configuration& configuration, Weights weights, double fixed) {
   if (fixed > 0) {
     std::fill(scale_.begin(), scale_.end(), fixed);
-    update_factors();
     return;
   }
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
   std::vector<double> diagonal(motion, 0.0);
-  const auto for_each_tangent = [&](auto&& use) {
-    for (const Share& share : shares_) {
-      const Element& element = *model_.parts[static_cast<std::size_t>(share.part)].element;
-      const auto& slots = numbering_.part_slots(share.part);
-      const std::size_t n = slots.size();
-      element.tangent(view(share.part, configuration), weights, std::span(local_r_).first(n), std::span(local_k_).first(n * n));
-      use(share, slots, n);
-    }
-  };
-  for_each_tangent([&](const Share&, const std::vector<int>& slots, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i)
-      if (const auto slot = static_cast<std::size_t>(slots[i]); slot < motion) diagonal[slot] += local_k_[i * n + i];
+  for_each_tangent(configuration, weights, [&](int part, std::span<const double> local) {
+    const auto slots = numbering_.part_slots(part);
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      if (const auto slot = static_cast<std::size_t>(slots[i]); slot < motion) diagonal[slot] += local[i * slots.size() + i];
   });
   MPI_Allreduce(MPI_IN_PLACE, diagonal.data(), static_cast<int>(motion), MPI_DOUBLE, MPI_SUM, comm_);
 
   std::vector<double> k(scale_.size(), 0.0);
-  for_each_tangent([&](const Share& share, const std::vector<int>& slots, std::size_t n) {
-    for (std::size_t i = n - model_.parts[static_cast<std::size_t>(share.part)].element->layout().multipliers.size(); i < n;
-         ++i) {
+  for_each_tangent(configuration, weights, [&](int part, std::span<const double> local) {
+    const auto slots = numbering_.part_slots(part);
+    const std::size_t n = slots.size();
+    for (std::size_t i = n - element(part).layout().multipliers.size(); i < n; ++i) {
       double steepest = 0;
-      for (std::size_t j = 0; j < n; ++j) steepest = std::max(steepest, std::abs(local_k_[i * n + j]));
+      for (std::size_t j = 0; j < n; ++j) steepest = std::max(steepest, std::abs(local[i * n + j]));
       double size = 0;
       for (std::size_t j = 0; j < n; ++j) {
         const auto slot = static_cast<std::size_t>(slots[j]);
-        const double b = std::abs(local_k_[i * n + j]) / std::max(std::abs(weights.q), 1e-300);
+        const double b = std::abs(local[i * n + j]) / std::max(std::abs(weights.q), 1e-300);
         // a slot that the constraint hardly touches says nothing about the size of its forces
         if (slot < motion && numbering_.equation(slots[j]) >= 0 && b > 1e-6 * steepest)
           size = std::max(size, std::abs(diagonal[slot]) / b);
@@ -199,95 +201,96 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
   // constraints between things without mass and stiffness borrow the largest scale of the others
   const double largest = k.empty() ? 1.0 : *std::max_element(k.begin(), k.end());
   for (std::size_t i = 0; i < k.size(); ++i) scale_[i] = k[i] > 0 ? k[i] : largest > 0 ? largest : 1.0;
-  update_factors();
 }
 
 Magnitudes Assembler::residual(const Configuration& configuration, Vec r) {
   Magnitudes largest;
-  for (const Share& share : shares_) {
-    const Element& element = *model_.parts[static_cast<std::size_t>(share.part)].element;
-    const auto& slots = numbering_.part_slots(share.part);
-    element.residual(view(share.part, configuration), std::span(local_r_).first(slots.size()));
-    for (std::size_t e = 0; e < share.rows.size(); ++e) {
-      const std::size_t i = share.rows[e];
-      if (!share.kept[i]) {
-        const int m = slots[i] - numbering_.motion_slots();
-        local_r_[i] = (released_value(m) - configuration.multipliers[static_cast<std::size_t>(m)]) / share.factor[i];
+  Scatter::VectorSum sum(scatter_, r);
+  const int motion = numbering_.motion_slots();
+  for_each_residual(configuration, [&](int part, std::span<const double> local) {
+    const auto slots = numbering_.part_slots(part);
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      const int row = numbering_.equation(slots[i]);
+      if (row < 0) continue;
+      double value = local[i], factor = 1;
+      if (const int m = slots[i] - motion; m >= 0) {
+        factor = scale_[static_cast<std::size_t>(m)];
+        if (released(m)) value = (released_value(m) - configuration.multipliers[static_cast<std::size_t>(m)]) / factor;
       }
-      row_values_[share.row_begin + e] = local_r_[i] * share.factor[i];
-      double& size = largest[numbering_.unknown(numbering_.equation(slots[i])).measure];
-      size = std::max(size, std::abs(local_r_[i]));
+      sum.add(row, value * factor);
+      double& size = largest[numbering_.measure(row)];
+      size = std::max(size, std::abs(value));
     }
-  }
-  // the COO pattern of a vector does not survive VecDuplicate: assemble in the template, hand over a copy
-  check_petsc(VecSetValuesCOO(template_, row_values_.data(), INSERT_VALUES));
-  check_petsc(VecCopy(template_, r));
+  });
+  sum.finish();
   if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, largest.of, 4, MPI_DOUBLE, MPI_MAX, comm_);
   return largest;
 }
 
-void Assembler::add_entries(const Share& share, std::span<const double> k) {
-  const std::size_t n = share.factor.size();
-  for (std::size_t e = 0; e < share.entries.size(); ++e) {
-    const std::size_t at = share.entries[e];
-    coo_values_[share.coo_begin + e] = share.kept[at / n] ? k[at] * share.factor[at / n] * share.factor[at % n] : 0.0;
+void Assembler::scale_multipliers(int part, std::span<double> k) const {
+  const auto slots = numbering_.part_slots(part);
+  const std::size_t n = slots.size();
+  for (std::size_t i = n - element(part).layout().multipliers.size(); i < n; ++i) {
+    const int m = slots[i] - numbering_.motion_slots();
+    const double factor = scale_[static_cast<std::size_t>(m)];
+    for (std::size_t j = 0; j < n; ++j) k[i * n + j] = released(m) ? 0 : k[i * n + j] * factor;
+    for (std::size_t j = 0; j < n; ++j) k[j * n + i] *= factor;
   }
 }
 
-void Assembler::set_matrix_values() { check_petsc(MatSetValuesCOO(matrix_, coo_values_.data(), INSERT_VALUES)); }
-
-void Assembler::tangent(const Configuration& configuration, Weights weights) {
-  for (const Share& share : shares_) {
-    const Element& element = *model_.parts[static_cast<std::size_t>(share.part)].element;
-    const std::size_t n = share.factor.size();
-    element.tangent(view(share.part, configuration), weights, std::span(local_r_).first(n), std::span(local_k_).first(n * n));
-    add_entries(share, local_k_);
-  }
-  std::fill(coo_values_.begin() + static_cast<long>(diagonal_begin_), coo_values_.end(), 0.0);
+void Assembler::tangent(const Configuration& configuration, Weights weights, Mat into) {
+  Scatter::MatrixSum sum(scatter_, into);
+  for_each_tangent(configuration, weights, [&](int part, std::span<double> k) {
+    scale_multipliers(part, k);
+    sum.add(part, k);
+  });
   for (PetscInt row = first_row_; any_released_ && row < end_row_; ++row)
     if (released_equation(static_cast<int>(row)))
-      coo_values_[diagonal_begin_ + static_cast<std::size_t>(row - first_row_)] =
-          -scale_[static_cast<std::size_t>(numbering_.unknown(static_cast<int>(row)).slot - numbering_.motion_slots())];
-  set_matrix_values();
+      sum.add_diagonal(
+          row, -scale_[static_cast<std::size_t>(numbering_.unknown(static_cast<int>(row)).slot - numbering_.motion_slots())]);
+  sum.finish();
 }
 
 void Assembler::projection(const Configuration& configuration, Metric metric, std::span<const int> held) {
   const bool mass = metric != Metric::geometric;
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
   std::vector<double> inertia(motion, 0.0);
-  for (const Share& share : shares_) {
-    const Element& element = *model_.parts[static_cast<std::size_t>(share.part)].element;
-    const Layout& layout = element.layout();
-    const auto& slots = numbering_.part_slots(share.part);
-    const std::size_t n = slots.size(), m0 = n - layout.multipliers.size();
-    element.tangent(view(share.part, configuration), {1, 0, 0}, std::span(local_r_).first(n), std::span(local_k_).first(n * n));
-    if (mass)
-      element.tangent(view(share.part, configuration), {0, 0, 1}, std::span(local_r_).first(n),
-                      std::span(local_mass_).first(n * n));
-    for (std::size_t i = 0; i < m0; ++i)
-      for (std::size_t j = 0; j < m0; ++j) local_k_[i * n + j] = mass ? local_mass_[i * n + j] : 0.0;
+  Scatter::MatrixSum sum(scatter_, matrix_);
+  std::vector<double> of_mass, unused;
+  for_each_tangent(configuration, {1, 0, 0}, [&](int part, std::span<double> k) {
+    const auto slots = numbering_.part_slots(part);
+    const std::size_t n = slots.size(), m0 = n - element(part).layout().multipliers.size();
+    if (mass) {
+      of_mass.resize(n * n);
+      unused.resize(n);
+      element(part).tangent(view(part, configuration), {0, 0, 1, 0}, unused, of_mass);
+    }
     for (std::size_t i = 0; i < m0; ++i) {
-      inertia[static_cast<std::size_t>(slots[i])] += local_k_[i * n + i];
+      for (std::size_t j = 0; j < m0; ++j) k[i * n + j] = mass ? of_mass[i * n + j] : 0.0;
+      inertia[static_cast<std::size_t>(slots[i])] += k[i * n + i];
       // a multiplier's column may hold more than −Bᵀ (the separating force of gears): a projection wants −Bᵀ alone
       if (metric == Metric::dynamic) continue;
-      for (std::size_t j = m0; j < n; ++j) local_k_[i * n + j] = local_k_[j * n + i];
+      for (std::size_t j = m0; j < n; ++j) k[i * n + j] = k[j * n + i];
     }
-    for (std::size_t e = 0; e < share.entries.size(); ++e)
-      coo_values_[share.coo_begin + e] = share.kept[share.entries[e] / n] ? local_k_[share.entries[e]] : 0.0;
-  }
+    for (std::size_t i = m0; i < n; ++i)
+      if (released(slots[i] - numbering_.motion_slots())) std::fill_n(k.begin() + static_cast<std::ptrdiff_t>(i * n), n, 0.0);
+    sum.add(part, k);
+  });
   MPI_Allreduce(MPI_IN_PLACE, inertia.data(), static_cast<int>(motion), MPI_DOUBLE, MPI_SUM, comm_);
   double largest = 0;
   for (const double d : inertia) largest = std::max(largest, d);
   const double extent = model_.extent();
+  std::vector<bool> fixed(static_cast<std::size_t>(numbering_.equations()), false);
+  for (const int equation : held) fixed[static_cast<std::size_t>(equation)] = true;
   for (PetscInt row = first_row_; row < end_row_; ++row) {
     const Unknown& u = numbering_.unknown(static_cast<int>(row));
     double d = any_released_ && released_equation(static_cast<int>(row)) ? 1.0 : 0.0;
     if (!u.multiplier && !mass) d = u.part >= 0 ? 1e-12 : u.measure == Measure::force ? 1 / (extent * extent) : 1.0;
     if (!u.multiplier && mass && inertia[static_cast<std::size_t>(u.slot)] == 0) d = 1e-13 * (largest > 0 ? largest : 1.0);
-    if (std::find(held.begin(), held.end(), static_cast<int>(row)) != held.end()) d = 1e8 * std::max(largest, 1.0);
-    coo_values_[diagonal_begin_ + static_cast<std::size_t>(row - first_row_)] = d;
+    if (fixed[static_cast<std::size_t>(row)]) d = 1e8 * std::max(largest, 1.0);
+    sum.add_diagonal(row, d);
   }
-  set_matrix_values();
+  sum.finish();
 }
 
 void Assembler::constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
@@ -320,8 +323,8 @@ std::span<const double> Assembler::gather(Vec x) {
   gathered_.resize(static_cast<std::size_t>(numbering_.equations()));
   Vec source = x;
   if (size_ > 1) {
-    check_petsc(VecScatterBegin(scatter_, x, everywhere_, INSERT_VALUES, SCATTER_FORWARD));
-    check_petsc(VecScatterEnd(scatter_, x, everywhere_, INSERT_VALUES, SCATTER_FORWARD));
+    check_petsc(VecScatterBegin(to_all_, x, everywhere_, INSERT_VALUES, SCATTER_FORWARD));
+    check_petsc(VecScatterEnd(to_all_, x, everywhere_, INSERT_VALUES, SCATTER_FORWARD));
     source = everywhere_;
   }
   const PetscScalar* values = nullptr;

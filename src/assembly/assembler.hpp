@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "assembly/numbering.hpp"
 #include "assembly/petsc.hpp"
+#include "assembly/scatter.hpp"
 #include "base/snapshot.hpp"
+#include "model/block.hpp"
 
 namespace engrane {
 
@@ -30,8 +33,13 @@ class Assembler {
   const Model& model() const { return model_; }
   const Numbering& numbering() const { return numbering_; }
   int rank() const { return rank_; }
+  /// This rank's share of Model::parts: from first_part() to before end_part().
+  int first_part() const { return first_part_; }
+  int end_part() const { return end_part_; }
   Mat matrix() const { return matrix_; }
-  Vec new_vector() const;
+  Vec new_vector() const { return scatter_.new_vector(); }
+  /// A matrix like matrix(), of the caller's.
+  Mat new_matrix() const { return scatter_.new_matrix(); }
 
   /// Scale k of each multiplier, in the order of Configuration::multipliers.
   const std::vector<double>& scale() const { return scale_; }
@@ -55,7 +63,9 @@ class Assembler {
   /// The scaled residual; returns the largest element contributions.
   Magnitudes residual(const Configuration& configuration, Vec r);
   /// The scaled tangent, in matrix().
-  void tangent(const Configuration& configuration, Weights weights);
+  void tangent(const Configuration& configuration, Weights weights) { tangent(configuration, weights, matrix_); }
+  /// The same in a matrix of new_matrix().
+  void tangent(const Configuration& configuration, Weights weights, Mat into);
 
   /// What the projections of the start move with.
   enum class Metric {
@@ -64,7 +74,7 @@ class Assembler {
     dynamic     ///< the mass matrix, and the multipliers' columns with all forces that follow them
   };
   /// [D −Bᵀ; −B 0] (unscaled) in matrix(), D by metric. Unknowns without mass get a negligible one; the equations in
-  /// `held` one so large that everything else moves first.
+  /// `held`, in any order, one so large that everything else moves first.
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held = {});
   /// Φ and its time derivatives along the motion (unscaled), in the order of the multipliers.
   void constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
@@ -78,47 +88,60 @@ class Assembler {
   /// Fills a distributed vector from values that every rank has.
   void spread(std::span<const double> all, Vec x) const;
 
-  /// State of one element, copied from the configuration into buffers of this object; valid until the next call.
-  State view(int part, const Configuration& configuration);
+  /// State of one element: views the configuration.
+  State view(int part, const Configuration& configuration) const;
 
-  /// Lets every element keep what it remembers of an accepted configuration, such as whole turns.
+  /// Lets every element follow its whole turns, also on the way to a position that is sought.
+  void count_turns(Configuration& configuration);
+  /// Lets every element keep what it remembers of an accepted configuration.
   void commit(Configuration& configuration);
 
  private:
-  struct Share {
-    int part;
-    std::size_t coo_begin;             ///< first of this element's entries in the COO arrays
-    std::vector<std::size_t> entries;  ///< local index row·n + column of each entry
-    std::size_t row_begin;
-    std::vector<std::size_t> rows;  ///< local slots that have an equation
-    std::vector<double> factor;     ///< k of the local slot, 1 but for multipliers
-    std::vector<char> kept;         ///< whether the local slot has its own equation, 0 for released constraints
+  const Element& element(int part) const { return *model_.parts[static_cast<std::size_t>(part)].element; }
+  const Vec3& gravity_at(double time) const;
+  void write_history(Configuration& configuration,
+                     void (Element::*write)(const State&, std::span<double>, std::span<double>) const);
+  /// Elements that are evaluated together: part `first` and those after it.
+  struct Batch {
+    int first;
+    ElementRange range;
+    std::size_t slots;  ///< of each
   };
-  void add_entries(const Share& share, std::span<const double> k);
-  void set_matrix_values();
+  void find_batches();
+  /// Evaluates residuals, and calls `use(part, r)` for each element of this rank.
+  template <class Use>
+  void for_each_residual(const Configuration& configuration, Use&& use);
+  /// The same with tangents: `use(part, k)`; k may be changed.
+  template <class Use>
+  void for_each_tangent(const Configuration& configuration, Weights weights, Use&& use);
+  /// States of a batch's elements, in states_.
+  std::span<const State> views(const Batch& batch, const Configuration& configuration);
+  /// Multiplies rows and columns of an element's multipliers by their k, and clears those that are released.
+  void scale_multipliers(int part, std::span<double> k) const;
   /// Whether an equation is a released constraint's.
   bool released_equation(int equation) const;
-  void update_factors();
 
   const Model& model_;
   const Numbering& numbering_;
   MPI_Comm comm_;
   int rank_ = 0, size_ = 1;
-  std::vector<Share> shares_;
-  Owned<Mat> matrix_;
-  Owned<Vec> template_, everywhere_;
-  Owned<VecScatter> scatter_;
+  int first_part_ = 0, end_part_ = 0;  ///< this rank's share
+  Scatter scatter_;
   PetscInt first_row_ = 0, end_row_ = 0;
-  std::vector<double> coo_values_, row_values_;
-  std::size_t diagonal_begin_ = 0;
+  Owned<Mat> matrix_;
+  Owned<Vec> everywhere_;
+  Owned<VecScatter> to_all_;
   std::vector<double> scale_;
   std::vector<bool> released_;
   std::vector<double> released_values_;
   bool any_released_ = false;
   std::vector<double> gathered_;
-  // one element's buffers
-  std::vector<NodeState> local_nodes_;
-  std::vector<double> local_r_, local_k_, local_mass_;
+  mutable double gravity_time_ = std::numeric_limits<double>::quiet_NaN();
+  mutable Vec3 gravity_ = Vec3::Zero();  ///< at that time
+  std::vector<Batch> batches_;           ///< of this rank's share, in the order of the parts
+  // one batch's buffers
+  std::vector<State> states_;
+  std::vector<double> local_r_, local_k_;
 };
 
 }  // namespace engrane

@@ -10,6 +10,7 @@ namespace engrane {
 /// The whole mechanism at one instant: every value that moves, on every rank.
 struct Configuration {
   double time = 0;
+  double h = 0;                  ///< of the step that ends here; 0 where there is none
   std::vector<NodeState> nodes;  ///< in the order of Model::nodes; the first is the ground
   std::vector<double> scalars, scalar_rates, scalar_accelerations;
   std::vector<double> multipliers;  ///< kλ: forces and moments

@@ -46,30 +46,30 @@ Numbering::Numbering(const Model& model) : model_(model), rotates_(model.nodes.s
   for (std::size_t slot = 0; slot < node_slots; ++slot)
     if (used[slot]) {
       const int c = static_cast<int>(slot % 6);
-      add({static_cast<int>(slot), -1, static_cast<int>(slot / 6), c, false, c < 3 ? Measure::force : Measure::moment});
+      add({static_cast<int>(slot), -1, static_cast<int>(slot / 6), c, false, false, c < 3 ? Measure::force : Measure::moment});
     }
   int scalar = 0, multiplier = 0;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Layout& layout = model.parts[p].element->layout();
-    Part part;
-    part.scalar = scalar;
-    part.multiplier = multiplier;
-    part.history = history_;
-    for (const int node : model.parts[p].nodes)
-      for (int c = 0; c < 6; ++c) part.slots.push_back(6 * node + c);
+    parts_.push_back({part_slots_.size(), scalar, multiplier, history_});
+    for (std::size_t i = 0; i < layout.needs.size(); ++i)
+      for (int c = 0; c < 6; ++c)
+        if (layout.needs_any(i, c < 3 ? NodeNeed::translation : NodeNeed::rotation))
+          part_slots_.push_back(6 * model.parts[p].nodes[i] + c);
     for (std::size_t i = 0; i < layout.scalars.size(); ++i) {
       const int slot = static_cast<int>(node_slots) + scalar++;
-      part.slots.push_back(slot);
-      add({slot, static_cast<int>(p), -1, static_cast<int>(i), false, measure_of(layout.scalars[i], false)});
+      part_slots_.push_back(slot);
+      add({slot, static_cast<int>(p), -1, static_cast<int>(i), false, layout.scalars[i].first_order,
+           measure_of(layout.scalars[i], false)});
     }
     for (std::size_t i = 0; i < layout.multipliers.size(); ++i) {
       const int slot = motion_slots_ + multiplier++;
-      part.slots.push_back(slot);
-      add({slot, static_cast<int>(p), -1, static_cast<int>(i), true, measure_of(layout.multipliers[i], true)});
+      part_slots_.push_back(slot);
+      add({slot, static_cast<int>(p), -1, static_cast<int>(i), true, false, measure_of(layout.multipliers[i], true)});
     }
     history_ += layout.history;
-    parts_.push_back(std::move(part));
   }
+  parts_.push_back({part_slots_.size(), scalar, multiplier, history_});
 }
 
 Configuration Numbering::reference_configuration(double time) const {
@@ -101,7 +101,8 @@ std::string Numbering::describe(int equation) const {
   const Model::Part& part = model_.parts[static_cast<std::size_t>(u.part)];
   const Layout& layout = part.element->layout();
   const auto item = static_cast<std::size_t>(u.item);
-  const Named& named = u.multiplier ? layout.multipliers[item] : layout.scalars[item];
+  const Named& named =
+      u.multiplier ? static_cast<const Named&>(layout.multipliers[item]) : static_cast<const Named&>(layout.scalars[item]);
   return fmt::format("{} {} ({})", part.type, part.element->id(), named.name);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Unknown {
   int node = -1;  ///< index of the node that owns it; -1 when an element does
   int item = 0;   ///< component of the node, or index of the element's scalar or multiplier
   bool multiplier = false;
+  bool first_order = false;          ///< Scalar::first_order
   Measure measure = Measure::force;  ///< of its equation
 };
 
@@ -35,9 +37,16 @@ class Numbering {
   int equation(int slot) const { return equation_[static_cast<std::size_t>(slot)]; }
   const Unknown& unknown(int equation) const { return unknowns_[static_cast<std::size_t>(equation)]; }
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
+  Measure measure(int equation) const { return unknown(equation).measure; }
 
+  int parts() const { return static_cast<int>(parts_.size()) - 1; }
   /// Global slot of each local slot of an element.
-  const std::vector<int>& part_slots(int part) const { return parts_[static_cast<std::size_t>(part)].slots; }
+  std::span<const int> part_slots(int part) const {
+    const auto p = static_cast<std::size_t>(part);
+    return std::span(part_slots_).subspan(parts_[p].slot, parts_[p + 1].slot - parts_[p].slot);
+  }
+  /// Bytes that are kept for the elements.
+  std::size_t part_bytes() const { return parts_.size() * sizeof(Part) + part_slots_.size() * sizeof(int); }
   int scalar_begin(int part) const { return parts_[static_cast<std::size_t>(part)].scalar; }
   int multiplier_begin(int part) const { return parts_[static_cast<std::size_t>(part)].multiplier; }
   int history_begin(int part) const { return parts_[static_cast<std::size_t>(part)].history; }
@@ -53,13 +62,14 @@ class Numbering {
 
  private:
   struct Part {
-    std::vector<int> slots;
+    std::size_t slot = 0;  ///< first in part_slots_
     int scalar = 0, multiplier = 0, history = 0;
   };
   const Model& model_;
   std::vector<int> equation_;
   std::vector<Unknown> unknowns_;
-  std::vector<Part> parts_;
+  std::vector<Part> parts_;  ///< and one more, where the last ends
+  std::vector<int> part_slots_;
   std::vector<bool> rotates_;
   int motion_slots_ = 0;
   int scalars_ = 0, multipliers_ = 0, history_ = 0;

@@ -10,8 +10,12 @@ void Element::start(std::span<double> scalars, std::span<double> history) const 
   std::fill(history.begin(), history.end(), 0.0);
 }
 
-void Element::commit(const State& state, std::span<double>, std::span<double> history) const {
+void Element::count_turns(const State& state, std::span<double>, std::span<double> history) const {
   std::copy(state.history.begin(), state.history.end(), history.begin());
+}
+
+void Element::commit(const State& state, std::span<double> scalars, std::span<double> history) const {
+  count_turns(state, scalars, history);
 }
 
 void Element::switches(const State&, std::span<Switch>) const {}
@@ -26,6 +30,13 @@ const std::vector<Named>& Element::channels() const {
 }
 
 void Element::observe(const State&, std::span<double>) const {}
+
+const std::vector<Field>& Element::fields() const {
+  static const std::vector<Field> none;
+  return none;
+}
+
+void Element::evaluate_fields(const State&, std::span<double>) const {}
 
 std::vector<Release> Element::releases() const {
   std::vector<Release> all;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <concepts>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,25 @@ struct Named {
   std::string name;     ///< upper case with underscores: `NORMAL_FORCE`
   Dimension dimension;  ///< of the value; of a multiplier: of its constraint
   std::string help;     ///< a few words, shown beside plots and in the listing
+};
+
+/// An unknown of an element's own.
+struct Scalar : Named {
+  bool first_order = false;  ///< its equation holds its rate, and no acceleration: the state of a controller
+};
+
+/// Results of an element that are too many for channels: a stress at every Gauss point, section forces along a beam.
+struct Field : Named {
+  enum class Place : unsigned char { element, node, point };
+  Place place = Place::element;
+  std::vector<std::string> components = {};  ///< `XX`, `YY`, `XY`; none: a scalar
+  int points = 1;                            ///< of Place::point: how many an element has
+
+  /// How many numbers it has on an element of so many nodes.
+  std::size_t size(std::size_t nodes) const {
+    const std::size_t places = place == Place::node ? nodes : place == Place::point ? static_cast<std::size_t>(points) : 1;
+    return places * (components.empty() ? 1 : components.size());
+  }
 };
 
 /// What a multiplier is, for those who speak of constraints without knowing the elements.
@@ -55,17 +75,37 @@ struct Switch {
       0;  ///< of the terms that `value` is the sum of: what is rounding, and what is not; 0: the switch has no meaning now
 };
 
-/// Which unknowns an element works on. Its local slots, in order: six per node (three translations, three material
-/// rotation increments, whether the node has them or not; node 0, the ground, too), its scalars, its multipliers.
+/// Which unknowns an element works on. Its local slots, in order: those that it asks of each node (three translations, three
+/// material rotation increments; of node 0, the ground, too), its scalars, its multipliers.
 struct Layout {
   std::vector<int> nodes;               ///< ids; 0 is the ground
   std::vector<NodeNeed> needs;          ///< one per node
-  std::vector<Named> scalars;           ///< own unknowns with rates, such as ψ_A, ψ_B, u_m
+  std::vector<Scalar> scalars;          ///< own unknowns with rates, such as ψ_A, ψ_B, u_m
   std::vector<Multiplier> multipliers;  ///< one per holonomic constraint, in the order of the residual's constraint rows
   int history = 0;                      ///< committed numbers kept from step to step (turn counts, contact states)
   std::vector<SwitchNames> switches;    ///< where the element's law is not smooth: dynamics places ends of steps there
 
-  int slots() const { return static_cast<int>(6 * nodes.size() + scalars.size() + multipliers.size()); }
+  bool needs_any(std::size_t node, NodeNeed what) const {
+    return (static_cast<unsigned>(needs[node]) & static_cast<unsigned>(what)) != 0;
+  }
+  /// First slot of a node's three translations or rotations; −1 when the element does not ask for them.
+  int node_slot(std::size_t node, NodeNeed what) const {
+    if (!needs_any(node, what)) return -1;
+    int slot = what == NodeNeed::rotation && needs_any(node, NodeNeed::translation) ? 3 : 0;
+    for (std::size_t i = 0; i < node; ++i) slot += width(i);
+    return slot;
+  }
+  int node_slots() const {
+    int count = 0;
+    for (std::size_t i = 0; i < needs.size(); ++i) count += width(i);
+    return count;
+  }
+  int slots() const { return node_slots() + static_cast<int>(scalars.size() + multipliers.size()); }
+
+ private:
+  int width(std::size_t node) const {
+    return (needs_any(node, NodeNeed::translation) ? 3 : 0) + (needs_any(node, NodeNeed::rotation) ? 3 : 0);
+  }
 };
 
 /// Motion of a node. Translations in global components, rotations by the matrix R that turns the reference
@@ -78,15 +118,46 @@ struct NodeState {
   Mat3 T = Mat3::Identity();  ///< material increment of R per increment of the step's rotation vector; identity outside a step
 };
 
+/// An element's nodes, where they stand in a larger array.
+class NodeStates {
+ public:
+  NodeStates() = default;
+  /// All of a vector, array or span, in its order.
+  template <class Nodes>
+  requires std::convertible_to<const Nodes&, std::span<const NodeState>> NodeStates(
+      const Nodes& nodes) {  // NOLINT(google-explicit-constructor): a view, as a span is
+    const std::span<const NodeState> all(nodes);
+    all_ = all.data();
+    size_ = all.size();
+  }
+  /// Those at `index`.
+  NodeStates(std::span<const NodeState> all, std::span<const int> index)
+      : all_(all.data()), index_(index.data()), size_(index.size()) {}
+
+  const NodeState& operator[](std::size_t i) const { return all_[index_ ? static_cast<std::size_t>(index_[i]) : i]; }
+  std::size_t size() const { return size_; }
+  NodeStates first(std::size_t count) const {
+    NodeStates part = *this;
+    part.size_ = count;
+    return part;
+  }
+
+ private:
+  const NodeState* all_ = nullptr;
+  const int* index_ = nullptr;
+  std::size_t size_ = 0;
+};
+
 /// Everything an element may look at. The spans view arrays owned by the caller.
 struct State {
-  std::span<const NodeState> nodes;  ///< in the order of Layout::nodes
-  std::span<const double> scalars;   ///< values of the own unknowns
+  NodeStates nodes;                 ///< in the order of Layout::nodes
+  std::span<const double> scalars;  ///< values of the own unknowns
   std::span<const double> scalar_rates;
   std::span<const double> scalar_accelerations;
   std::span<const double> multipliers;  ///< kλ, in units of force or moment
   std::span<const double> history;      ///< as committed at the end of the last step
   double time = 0;
+  double h = 0;  ///< length of the step that ends at `time`; 0 where there is none, as in statics and at the start
   Vec3 gravity = Vec3::Zero();
   double penalty = 0;  ///< p of the augmented Lagrangian (paper, eq. 2)
   /// Part of a contact's stiffness that acts across its open gap as well, 0 but while statics looks for the flanks that
@@ -94,12 +165,13 @@ struct State {
   double contact_homotopy = 0;
 };
 
-/// Weights of a tangent: cq ∂r/∂q + cv ∂r/∂v + ca ∂r/∂a in the columns of nodes and scalars; those of multipliers are
-/// ∂r/∂(kλ) whatever the weights.
+/// Weights of a tangent: cq ∂r/∂q + cv ∂r/∂v + ca ∂r/∂a in the columns of nodes and scalars, cλ ∂r/∂(kλ) in those of
+/// multipliers. K, C and M apart are {1, 0, 0, 0}, {0, 1, 0, 0} and {0, 0, 1, 0}.
 struct Weights {
   double q = 1;
   double v = 0;
   double a = 0;
+  double multipliers = 1;
 };
 
 /// Energies held by an element and power that flows through it. Positive `dissipated` leaves the system; positive
@@ -136,6 +208,8 @@ class Element {
 
   int id() const { return id_; }
   virtual const Layout& layout() const = 0;
+  /// Ids of its nodes. An element of a block shares its layout with others, which tells only nodes on the ground from others.
+  virtual std::span<const int> node_ids() const { return layout().nodes; }
 
   virtual void residual(const State& state, std::span<double> r) const = 0;
   /// The residual and its tangent in one call, since they share their work. Columns of rotations are per increment of
@@ -147,7 +221,11 @@ class Element {
 
   /// Initial values of own unknowns and history in the reference configuration.
   virtual void start(std::span<double> scalars, std::span<double> history) const;
-  /// Called when a step is accepted: writes the new history; may shift own scalars by whole periods.
+  /// Follows whole turns and the like, which only say where the element is: called when a step is accepted and on the way to a
+  /// position that is sought. Writes the new history; may shift own scalars by whole periods. By itself history stays.
+  virtual void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const;
+  /// Called when a step is accepted, and only then: writes the new history as far as it tells what happened (plastic strain,
+  /// sticking). By itself that is what count_turns() writes.
   virtual void commit(const State& state, std::span<double> scalars, std::span<double> history) const;
 
   /// Values of the switches, in the order of Layout::switches.
@@ -161,6 +239,10 @@ class Element {
   /// Output channels and their values in the order of `channels()`.
   virtual const std::vector<Named>& channels() const;
   virtual void observe(const State& state, std::span<double> values) const;
+
+  /// Fields, and all their values: field by field, in each place by place, in each component by component.
+  virtual const std::vector<Field>& fields() const;
+  virtual void evaluate_fields(const State& state, std::span<double> values) const;
 
   /// Changes that hold less, the usual ones of machines first.
   virtual std::vector<Release> releases() const;

@@ -131,6 +131,15 @@ std::vector<double> ResultFile::copy_from(hid_t earlier, std::size_t samples, st
       else
         at(file_).numbers(name, nothing, shape);
     }
+  for (std::size_t f = 0; f < times.size(); ++f)
+    for (const CellField& field : layout_->cell_fields) {
+      const std::string name = fmt::format("fields/{}/{:06}", field.named.name, f);
+      const hsize_t rows[2] = {mixed_topology(*layout_).cells.size(), field.width()};
+      if (hdf5::read_shape(earlier, name).size() == 2)
+        check(H5Ocopy(earlier, name.c_str(), file_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_);
+      else
+        at(file_).numbers(name, std::vector<double>(rows[0] * rows[1], std::numeric_limits<double>::quiet_NaN()), rows);
+    }
   if (!times.empty()) {
     Growing list = open_growing("fields/time");
     grow(list, times.data(), times.size());

@@ -47,7 +47,10 @@ std::vector<FieldInfo> frame_fields(const ResultsLayout& layout) {
 
 std::size_t Batch::bytes() const {
   std::size_t numbers = times.size() + values.size();
-  for (const Frame& frame : frames) numbers += frame.values.size();
+  for (const Frame& frame : frames) {
+    numbers += frame.values.size();
+    for (const std::vector<double>& field : frame.cells) numbers += field.size();
+  }
   for (const RestartPoint& point : restarts)
     for (const auto& [name, array] : point.memory.arrays()) numbers += array.size();
   return numbers * sizeof(double);
@@ -61,7 +64,8 @@ MixedTopology mixed_topology(const ResultsLayout& layout) {
     topology.data.insert(topology.data.end(), {polyline, 2, a, b});
     topology.elements.push_back(element);
   };
-  for (const Cell& cell : layout.cells) {
+  for (std::size_t c = 0; c < layout.cells.size(); ++c) {
+    const Cell& cell = layout.cells[c];
     const std::size_t n = cell.points.size();
     if (cell.surface && (n == 3 || n == 4)) {
       topology.data.push_back(n == 3 ? triangle : quadrilateral);
@@ -72,6 +76,7 @@ MixedTopology mixed_topology(const ResultsLayout& layout) {
     } else {
       for (std::size_t i = 0; i + 1 < n; ++i) line(cell.points[i], cell.points[i + 1], cell.element);
     }
+    topology.cells.resize(topology.elements.size(), c);
   }
   // readers refuse a mesh without cells
   if (topology.elements.empty())
@@ -164,6 +169,13 @@ void ResultFile::create_fields() {
     at(group).attribute("unit", layout.units.label(field.dimension));
     at(group).attribute("label", field.label);
   }
+  for (const CellField& field : layout.cell_fields) {
+    const Handle group = at(fields).group(field.named.name);
+    at(group).attribute("unit", layout.units.label(field.named.dimension));
+    at(group).attribute("label", field.named.help);
+    at(group).attribute("center", "Cell");
+    if (!field.components.empty()) at(group).attribute("components", fmt::format("{}", fmt::join(field.components, " ")));
+  }
 }
 
 void ResultFile::create_growing(hid_t group, const std::string& name, std::optional<hsize_t> columns, hsize_t chunk_rows,
@@ -241,7 +253,22 @@ void ResultFile::append_frame(const Batch::Frame& frame) {
   for (std::size_t f = 0; f < fields.size(); ++f)
     at(file_).numbers(fmt::format("fields/{}/{}", fields[f].name, name), std::span(frame.values).subspan(f * numbers, numbers),
                       shape);
+  append_cell_fields(frame, name);
   grow(time, &frame.time, 1);
+}
+
+void ResultFile::append_cell_fields(const Batch::Frame& frame, const std::string& name) {
+  if (layout_->cell_fields.empty()) return;
+  const std::vector<std::size_t> cells = mixed_topology(*layout_).cells;
+  for (std::size_t f = 0; f < layout_->cell_fields.size(); ++f) {
+    const CellField& field = layout_->cell_fields[f];
+    assert(frame.cells[f].size() == layout_->cells.size() * field.width());
+    std::vector<double> rows;
+    for (const std::size_t cell : cells)
+      for (std::size_t k = 0; k < field.width(); ++k) rows.push_back(frame.cells[f][cell * field.width() + k]);
+    const hsize_t shape[2] = {cells.size(), field.width()};
+    at(file_).numbers(fmt::format("fields/{}/{}", field.named.name, name), rows, shape);
+  }
 }
 
 void ResultFile::write_restart(const std::string& name, const RestartPoint& point, bool compressed) {

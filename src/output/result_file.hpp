@@ -35,7 +35,8 @@ struct RestartPoint {
 struct Batch {
   struct Frame {
     double time = 0;
-    std::vector<double> values;  ///< the fields in the order of frame_fields(), each n × 3
+    std::vector<double> values;              ///< the fields in the order of frame_fields(), each n × 3
+    std::vector<std::vector<double>> cells;  ///< in the order of ResultsLayout::cell_fields
   };
   std::vector<double> times;
   std::vector<double> values;  ///< a row of channel_count() per sample
@@ -50,6 +51,7 @@ struct Batch {
 struct MixedTopology {
   std::vector<std::int32_t> data;
   std::vector<std::int32_t> elements;
+  std::vector<std::size_t> cells;  ///< the place in ResultsLayout::cells that each of its cells stands for
 };
 MixedTopology mixed_topology(const ResultsLayout& layout);
 
@@ -99,6 +101,7 @@ class ResultFile {
   void create_fields();
   void append_samples(const Batch& batch);
   void append_frame(const Batch::Frame& frame);
+  void append_cell_fields(const Batch::Frame& frame, const std::string& name);
   void write_restart(const std::string& name, const RestartPoint& point, bool compressed);
   void copy_histories(hid_t earlier, std::size_t samples);
   hdf5::Place at(const hdf5::Handle& handle) const { return {handle.id(), path_}; }

@@ -102,6 +102,8 @@ void Results::frame(double time, const FrameValues& values) {
   }
   add(values.reaction_force);
   add(values.reaction_torque);
+  assert(values.cells.size() == layout_.cell_fields.size());
+  frame.cells = values.cells;
   gathered_->frames.push_back(std::move(frame));
   ++frames_;
 }

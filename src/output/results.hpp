@@ -24,6 +24,8 @@ enum class RunStatus : unsigned char { complete, failed };
 /// has none.
 struct FrameValues {
   std::span<const double> displacement, rotation, velocity, angular_velocity, reaction_force, reaction_torque;
+  /// Those of ResultsLayout::cell_fields: a row of CellField::width() for each of ResultsLayout::cells.
+  std::vector<std::vector<double>> cells = {};
 };
 
 /// Writes a run's numbers (docs/format.md) and their XDMF index.

@@ -33,6 +33,14 @@ struct Cell {
   bool surface = false;     ///< three or four points are a face, not a line
 };
 
+/// A field over the cells, beside those over the nodes.
+struct CellField {
+  Named named;
+  std::vector<std::string> components;  ///< none: a scalar
+
+  std::size_t width() const { return components.empty() ? 1 : components.size(); }
+};
+
 /// Everything about a result file that is known before the first step (docs/format.md).
 struct ResultsLayout {
   std::string title;
@@ -45,6 +53,7 @@ struct ResultsLayout {
   std::vector<int> node_ids;
   std::vector<Vec3> points;  ///< reference positions, one per node
   std::vector<Cell> cells;
+  std::vector<CellField> cell_fields;
   std::vector<HistoryTable> history;
   bool velocities = false;              ///< frames carry velocities
   std::size_t expected_samples = 1024;  ///< about how many there will be: tables are laid out for so many rows at a time

@@ -68,9 +68,10 @@ enum class Check {
   rotated_copy,  ///< the element built in a rotated frame gives rotated forces
   equilibrium,   ///< forces and moments of all nodes, the ground too, sum to zero
   zero,          ///< the reference configuration at rest has no residual
-  needs,         ///< nothing depends on, or acts on, unknowns that the layout does not ask for
+  needs,         ///< nothing depends on unknowns that the layout does not ask for, nor first-order ones on accelerations
   mass,          ///< the resistance to a common acceleration, and the weight, are those of Subject::mass
   swap,          ///< the element with its nodes the other way round gives the same forces
+  parts,         ///< tangents are sums of K, C, M and the multipliers' columns, which can be had apart
   finite,        ///< everything is finite
 };
 
@@ -112,10 +113,11 @@ void run_extreme(const Subject& subject);
 /// A state at random: displacements, rotations, rates, multipliers, time, gravity.
 StateBuffer random_state(const Subject& subject, const Element& element, Random& random);
 
-/// ∂Φ/∂q q̇ + ∂Φ/∂t and residual rows, for tests of single elements.
+/// The residual, with six rows for every node whatever the element asks for: zero where it does not. Then scalars, multipliers.
 std::vector<double> residual_of(const Element& element, const StateBuffer& state);
-/// Row-major square, Layout::slots() wide.
-std::vector<double> tangent_of(const Element& element, const StateBuffer& state, Weights weights);
+/// The tangent likewise: row-major, as wide as residual_of() is long; and the residual that comes with it, where asked for.
+std::vector<double> tangent_of(const Element& element, const StateBuffer& state, Weights weights,
+                               std::vector<double>* residual = nullptr);
 /// The value of an output channel; fails the test when there is none of that name.
 double channel_of(const Element& element, const StateBuffer& state, const std::string& name);
 
@@ -138,6 +140,7 @@ struct BuildOptions {
   std::function<double(int, const Vec3&)> wheel_inertia = [](int, const Vec3&) { return 0.0; };
   int id = 1;
   const std::vector<deck::Record>* records = nullptr;  ///< of the other elements
+  BlockStore* blocks = nullptr;                        ///< without it every element is alone in its block
 };
 
 /// Builds an element from its card's struct, as a deck would.

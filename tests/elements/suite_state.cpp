@@ -2,6 +2,7 @@
 // States, elements and functions to test with.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,7 +30,7 @@ Mat3 uniform_rotation(Random& random) {
 
 StateBuffer::StateBuffer(const Element& element, const NodeMap& places) {
   const Layout& layout = element.layout();
-  ids = layout.nodes;
+  ids.assign(element.node_ids().begin(), element.node_ids().end());
   nodes.resize(ids.size());
   start_R.assign(ids.size(), Mat3::Identity());
   y.assign(ids.size(), Vec3::Zero());
@@ -142,17 +143,45 @@ StateBuffer random_state(const Subject& s, const Element& element, Random& rando
   return state;
 }
 
-std::vector<double> residual_of(const Element& element, const StateBuffer& state) {
-  Vector r(static_cast<std::size_t>(element.layout().slots()), std::numeric_limits<double>::quiet_NaN());
-  element.residual(state.view(), r);
-  return r;
+namespace {
+
+/// For each slot of the element its place where every node has six; what it does not ask for is zero there.
+std::vector<std::size_t> full_places(const Layout& layout) {
+  std::vector<std::size_t> places;
+  const std::size_t nodes = layout.nodes.size();
+  for (std::size_t i = 0; i < nodes; ++i)
+    for (std::size_t c = 0; c < 6; ++c)
+      if (layout.needs_any(i, c < 3 ? NodeNeed::translation : NodeNeed::rotation)) places.push_back(6 * i + c);
+  for (std::size_t i = 0; places.size() < static_cast<std::size_t>(layout.slots()); ++i) places.push_back(6 * nodes + i);
+  return places;
 }
 
-std::vector<double> tangent_of(const Element& element, const StateBuffer& state, Weights weights) {
-  const auto n = static_cast<std::size_t>(element.layout().slots());
-  Vector r(n), k(n * n, std::numeric_limits<double>::quiet_NaN());
+std::size_t full_count(const Layout& layout) {
+  return 6 * layout.nodes.size() + layout.scalars.size() + layout.multipliers.size();
+}
+
+}  // namespace
+
+std::vector<double> residual_of(const Element& element, const StateBuffer& state) {
+  const auto places = full_places(element.layout());
+  Vector r(places.size(), std::numeric_limits<double>::quiet_NaN()), full(full_count(element.layout()), 0.0);
+  element.residual(state.view(), r);
+  for (std::size_t i = 0; i < r.size(); ++i) full[places[i]] = r[i];
+  return full;
+}
+
+std::vector<double> tangent_of(const Element& element, const StateBuffer& state, Weights weights, std::vector<double>* residual) {
+  const auto places = full_places(element.layout());
+  const std::size_t n = places.size(), count = full_count(element.layout());
+  Vector r(n), k(n * n, std::numeric_limits<double>::quiet_NaN()), full(count * count, 0.0);
   element.tangent(state.view(), weights, r, k);
-  return k;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) full[places[i] * count + places[j]] = k[i * n + j];
+  if (residual) {
+    residual->assign(count, 0.0);
+    for (std::size_t i = 0; i < n; ++i) (*residual)[places[i]] = r[i];
+  }
+  return full;
 }
 
 double channel_of(const Element& element, const StateBuffer& state, const std::string& name) {
@@ -182,8 +211,23 @@ std::unique_ptr<Element> build_record(const ElementType& type, std::any data, co
   record.data = std::move(data);
   Diagnostics own;
   Diagnostics& diagnostics = options.diagnostics ? *options.diagnostics : own;
-  BuildContext context{nodes,          options.functions ? *options.functions : none, diagnostics, record, options.wheel_inertia,
-                       options.records};
+  const FunctionMap& functions = options.functions ? *options.functions : none;
+  BuildContext context{nodes, functions, diagnostics, record, options.wheel_inertia, options.records, {}, options.blocks};
+  std::vector<std::unique_ptr<Element>> others;
+  context.find_element = [&](int id) -> BuildContext::Found {
+    if (!options.records) return {};
+    for (const deck::Record& other : *options.records) {
+      if (other.id != id) continue;
+      const auto& types = element_types();
+      const auto its =
+          std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.schema.name == other.schema->name; });
+      Diagnostics unheard;
+      BuildContext alone{nodes, functions, unheard, other, options.wheel_inertia};
+      others.push_back(its == types.end() ? nullptr : its->build(alone));
+      return {&other, others.back().get(), !others.back()};
+    }
+    return {};
+  };
   auto element = type.build(context);
   for (const Diagnostic& d : own.all())
     if (d.severity == Severity::error) ADD_FAILURE() << type.schema.name << ": " << d.message << " (" << d.hint << ")";

@@ -30,6 +30,8 @@ struct BodyInertia {
   /// Newton's and Euler's equations. The centre of mass has the acceleration a + R(A×s + W×(W×s)), s the offset.
   template <class T, class Node>
   Resistance<T> resistance(const Node& node, const Vec3& gravity) const {
+    const Vec3T<T> none(T(0), T(0), T(0));
+    if (!turns()) return {(node.a - gravity.template cast<T>()) * T(mass), none};
     const Vec3T<T> s = offset.template cast<T>();
     const Vec3T<T> own = cross(node.A, s) + cross(node.W, cross(node.W, s));
     const Vec3T<T> force = (node.a + rotate(node.R, own) - gravity.template cast<T>()) * T(mass);

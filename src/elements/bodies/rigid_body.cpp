@@ -40,8 +40,9 @@ class RigidBody final : public Element {
     std::fill(r.begin(), r.end(), 0.0);
     std::array<double, largest> part{};
     if (body_) {
-      body_->residual(of_master(state), std::span(part).first(6));
-      for (std::size_t i = 0; i < 6; ++i) r[i] = part[i];
+      const std::size_t count = body_slots();
+      body_->residual(of_master(state), std::span(part).first(count));
+      for (std::size_t i = 0; i < count; ++i) r[body_slot(i)] = part[i];
     }
     for (std::size_t link = 0; link < links_.size(); ++link) {
       links_[link]->residual(OfLink(state, link).state, part);
@@ -62,8 +63,9 @@ class RigidBody final : public Element {
       }
     };
     if (body_) {
-      body_->tangent(of_master(state), weights, std::span(part).first(6), std::span(square).first(36));
-      scatter(6, [](std::size_t i) { return i; });
+      const std::size_t count = body_slots();
+      body_->tangent(of_master(state), weights, std::span(part).first(count), std::span(square).first(count * count));
+      scatter(count, [this](std::size_t i) { return body_slot(i); });
     }
     for (std::size_t link = 0; link < links_.size(); ++link) {
       links_[link]->tangent(OfLink(state, link).state, weights, part, square);
@@ -127,7 +129,14 @@ class RigidBody final : public Element {
     State state;
   };
 
-  /// Slot of the whole for slot i of a link.
+  std::size_t body_slots() const { return static_cast<std::size_t>(body_->layout().slots()); }
+  /// Slot of the whole for slot i of the inertia, which may leave out the master's translations.
+  std::size_t body_slot(std::size_t i) const {
+    const auto of = [](const Layout& layout) { return layout.node_slot(0, NodeNeed::translation); };
+    return of(layout_) >= 0 && of(body_->layout()) < 0 ? i + 3 : i;
+  }
+
+  /// Slot of the whole for slot i of a link; all nodes that links join have six.
   std::size_t slot(std::size_t link, std::size_t i) const {
     if (i < 6) return i;
     if (i < 12) return 6 * (link + 1) + i - 6;

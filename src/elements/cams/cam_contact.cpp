@@ -48,7 +48,7 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
   if (parts_.law || parts_.friction) channels_.push_back({"POWER_LOST", dimension::power, "by damping and friction"});
 }
 
-void Cam::commit(const State& state, std::span<double>, std::span<double> history) const {
+void Cam::count_turns(const State& state, std::span<double>, std::span<double> history) const {
   history[0] = contact<double>(motion<double>(state).node, state.history).foot.s;
   history[1] = 1;
 }
@@ -98,8 +98,11 @@ void Cam::observe(const State& state, std::span<double> values) const {
   const Contact<double> c = contact<double>(node, state.history);
   const double rate = gap_rate(c, node), force = load(c, state, rate);
   std::array<double, 13> r{};
-  residual(state, std::span(r).first(static_cast<std::size_t>(layout().slots())));
-  const Vec3 force_b = -Vec3(r[6], r[7], r[8]), moment_b = -Vec3(r[9], r[10], r[11]);
+  residual(state, std::span(r).first(sweep().slots()));
+  const auto on_b = [&](int slot) {
+    return slot < 0 ? Vec3(Vec3::Zero()) : Vec3(-Eigen::Map<const Vec3>(&r[static_cast<std::size_t>(slot)]));
+  };
+  const Vec3 force_b = on_b(sweep().translation(1)), moment_b = on_b(sweep().rotation(1));
   const NodeState &a = state.nodes[0], &b = state.nodes[1];
 
   std::size_t i = 0;

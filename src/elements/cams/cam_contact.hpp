@@ -87,7 +87,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
     balance.moment(1, rotate_back(motion.node[1].R, moment_b));
   }
 
-  void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
+  void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void switches(const State& state, std::span<Switch> values) const override;
   Energies energies(const State& state) const override;
   const std::vector<Named>& channels() const override { return channels_; }

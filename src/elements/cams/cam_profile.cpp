@@ -24,6 +24,16 @@ CamProfile::CamProfile(std::unique_ptr<CamCurve> curve, double inset, bool insid
   double area = 0;
   for (std::size_t k = 0; k < n; ++k) area += plane_cross(samples_[k], samples_[(k + 1) % n]);
   sense_ = (area > 0) == inside ? -1 : 1;
+
+  constexpr std::size_t in_group = 16;
+  for (std::size_t k = 0; k < n; ++k) longest_ = std::max(longest_, (samples_[(k + 1) % n] - samples_[k]).norm());
+  for (std::size_t begin = 0; begin < n; begin += in_group) {
+    Group group{begin, std::min(begin + in_group, n), Vec2::Zero(), 0};
+    for (std::size_t k = begin; k < group.end; ++k) group.center += samples_[k] / static_cast<double>(group.end - begin);
+    for (std::size_t k = begin; k < group.end; ++k) group.radius = std::max(group.radius, (samples_[k] - group.center).norm());
+    group.radius *= 1 + 1e-6;  // rounding rules nothing out
+    groups_.push_back(group);
+  }
 }
 
 CamFoot CamProfile::at(double s) const {
@@ -64,11 +74,21 @@ CamFoot CamProfile::nearest(const Vec2& q, std::optional<double> last) const {
   const auto counts = [&](std::size_t k) {
     return !last || std::abs(difference(step_ * static_cast<double>(k), *last)) <= whole_turn / 3;
   };
-  std::vector<double> distance(n);  // squared
-  for (std::size_t k = 0; k < n; ++k) distance[k] = (samples_[k] - q).squaredNorm();
+  const auto square = [&](std::size_t k) { return (samples_[k] - q).squaredNorm(); };
+  // the nearest sample, which is no farther than the far side of any group that counts as a whole
+  double reach = std::numeric_limits<double>::infinity();
+  for (const Group& group : groups_)
+    if (counts(group.begin) && counts(group.end - 1)) reach = std::min(reach, (group.center - q).norm() + group.radius);
   double best = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < n; ++k)
-    if (counts(k)) best = std::min(best, distance[k]);
+  std::size_t best_sample = 0;
+  for (const Group& group : groups_) {
+    if ((group.center - q).norm() - group.radius > reach) continue;
+    for (std::size_t k = group.begin; k < group.end; ++k)
+      if (const double here = square(k); here < best && counts(k)) {
+        best = here;
+        best_sample = k;
+      }
+  }
 
   // between samples the curve may come nearer by less than their spacing: every valley as deep as that is a candidate
   const auto slope = [&](double s) {
@@ -78,32 +98,37 @@ CamFoot CamProfile::nearest(const Vec2& q, std::optional<double> last) const {
   };
   CamFoot foot;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
-    if (!counts(k) || distance[k] > distance[before] || distance[k] >= distance[after]) continue;
-    if (std::sqrt(distance[k]) - std::sqrt(best) > (samples_[k] - samples_[after]).norm()) continue;
-    const CamFoot found = at(settle(k, slope));
-    const double d = (found.p - q).norm();
-    if (d < least) {
-      least = d;
-      foot = found;
+  const double nearest = std::sqrt(best);
+  for (const Group& group : groups_) {
+    if ((group.center - q).norm() - group.radius > nearest + longest_) continue;
+    for (std::size_t k = group.begin; k < group.end; ++k) {
+      const std::size_t before = (k + n - 1) % n, after = (k + 1) % n;
+      const double here = square(k);
+      if (!counts(k) || here > square(before) || here >= square(after)) continue;
+      if (std::sqrt(here) - nearest > (samples_[k] - samples_[after]).norm()) continue;
+      const CamFoot found = at(settle(k, slope));
+      const double d = (found.p - q).norm();
+      if (d < least) {
+        least = d;
+        foot = found;
+      }
     }
   }
-  if (!std::isfinite(least)) {  // the least is at the edge of the window, or the curve is a circle about q
-    const auto k = static_cast<std::size_t>(std::find(distance.begin(), distance.end(), best) - distance.begin());
-    return at(settle(std::min(k, n - 1), slope));
-  }
-  return foot;
+  // the least is at the edge of the window, or the curve is a circle about q
+  return std::isfinite(least) ? foot : at(settle(best_sample, slope));
 }
 
 CamFoot CamProfile::farthest(const Vec2& m) const {
   std::size_t best = 0;
   double reach = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < samples_.size(); ++k)
-    if (const double here = samples_[k].dot(m); here > reach) {
-      reach = here;
-      best = k;
-    }
+  for (const Group& group : groups_) {
+    if (group.center.dot(m) + group.radius < reach) continue;
+    for (std::size_t k = group.begin; k < group.end; ++k)
+      if (const double here = samples_[k].dot(m); here > reach) {
+        reach = here;
+        best = k;
+      }
+  }
   return at(settle(best, [&](double s) {
     const CamCurve::Point c = curve_->at(s);
     return std::pair(-c.d1.dot(m), -c.d2.dot(m));

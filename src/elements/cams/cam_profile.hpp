@@ -72,6 +72,15 @@ class CamProfile {
   double sense_;  ///< 1: t runs with s
   double step_;   ///< of s between samples
   std::vector<Vec2> samples_;
+  /// Neighbouring samples and a circle around them: a search looks into those groups only that the circle does not rule out,
+  /// and finds what a look at every sample would find.
+  struct Group {
+    std::size_t begin, end;
+    Vec2 center;
+    double radius;
+  };
+  std::vector<Group> groups_;
+  double longest_ = 0;  ///< distance of neighbouring samples
 };
 
 }  // namespace engrane::elements::cams

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "elements/common/building.hpp"
 #include "model/templated_element.hpp"
@@ -19,6 +20,12 @@ struct LineEnds {
   /// a direction, or when `at` is given and neither end is on the ground.
   static std::optional<LineEnds> of(const BuildContext& context, const std::array<int, 2>& nodes,
                                     const std::optional<std::array<double, 3>>& at, std::string_view cure);
+
+  /// The ground's end asks for its moment where it is not at the ground's node, so that reactions are whole.
+  std::vector<NodeNeed> needs() const {
+    const auto need = [](const Vec3& arm) { return arm.isZero(0) ? NodeNeed::translation : NodeNeed::both; };
+    return {need(anchor[0]), need(anchor[1])};
+  }
 
   double reference_length(const BuildContext& context) const {
     return (context.nodes.at(nodes[1]) + anchor[1] - context.nodes.at(nodes[0]) - anchor[0]).norm();
@@ -49,8 +56,8 @@ struct LineEnds {
     balance.force(0, Vec3T<T>(-tension));
     balance.force(1, tension);
     // the ground takes its force at the anchor
-    balance.moment(0, Vec3T<T>(cross(tension, Vec3T<T>(anchor[0].template cast<T>()))));
-    balance.moment(1, Vec3T<T>(cross(Vec3T<T>(anchor[1].template cast<T>()), tension)));
+    if (!anchor[0].isZero(0)) balance.moment(0, Vec3T<T>(cross(tension, Vec3T<T>(anchor[0].template cast<T>()))));
+    if (!anchor[1].isZero(0)) balance.moment(1, Vec3T<T>(cross(Vec3T<T>(anchor[1].template cast<T>()), tension)));
   }
 };
 

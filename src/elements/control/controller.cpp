@@ -88,7 +88,7 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
     for (int i = 0; i < law_.order(); ++i) scalars[at(i)] = law_.start[i] / law_.pace[i];
   }
 
-  void commit(const State& state, std::span<double>, std::span<double> history) const override {
+  void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
     input_.commit(state, history);
     output_.commit(state, history);
   }
@@ -377,7 +377,7 @@ ElementType controller_type() {
   card.add("TAU", &ControllerData::lag, "time constant with which the drive follows the command")
       .unit(dimension::time)
       .positive();
-  return element_type(card, build);
+  return element_type(card, build, 1);
 }
 
 }  // namespace engrane::elements::control

@@ -71,7 +71,7 @@ ContactGeometry contact_geometry(const GearDesign& design, double width) {
   return g;
 }
 
-void GearPair::commit(const State& state, std::span<double> scalars, std::span<double> history) const {
+void GearPair::count_turns(const State& state, std::span<double> scalars, std::span<double> history) const {
   for (std::size_t i = 0; i < 2; ++i) {
     const double turns = std::round(state.scalars[i] / turn);
     scalars[i] = state.scalars[i] - turns * turn;

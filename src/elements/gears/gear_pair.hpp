@@ -35,7 +35,7 @@ class GearPair final : public ToothedPair<GearPair> {
   const GearDesign& design() const { return design_; }
   const PitchFrames& frames() const { return frames_; }
 
-  void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
+  void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void observe(const State& state, std::span<double> values) const override;
   std::vector<Derived> derived() const override;
   Drawing drawing() const override;

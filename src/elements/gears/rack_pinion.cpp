@@ -62,7 +62,7 @@ RackPinion::RackPinion(int id, std::array<int, 2> nodes, const Geometry& geometr
       tooth_a_(tooth_axes(0, geometry.design.helix[0])),
       tooth_b_(mating_tooth_axes(0, geometry.design.helix[1])) {}
 
-void RackPinion::commit(const State& state, std::span<double> scalars, std::span<double> history) const {
+void RackPinion::count_turns(const State& state, std::span<double> scalars, std::span<double> history) const {
   const double turns = std::round(state.scalars[0] / turn);
   scalars[0] = state.scalars[0] - turns * turn;
   history[0] = state.history[0] + turns;

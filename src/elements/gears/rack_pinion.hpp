@@ -44,7 +44,7 @@ class RackPinion final : public ToothedPair<RackPinion> {
 
   const Geometry& geometry() const { return geometry_; }
 
-  void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
+  void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void observe(const State& state, std::span<double> values) const override;
   std::vector<Derived> derived() const override;
   Drawing drawing() const override;

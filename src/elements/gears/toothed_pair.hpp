@@ -20,7 +20,7 @@ namespace engrane::elements::gears {
 template <class Derived>
 class ToothedPair : public TemplatedElement<Derived, 2, 18> {
  public:
-  ToothedPair(int id, std::array<int, 2> nodes, const ToothContact& contact, std::array<Named, 2> motions, int history,
+  ToothedPair(int id, std::array<int, 2> nodes, const ToothContact& contact, std::array<Scalar, 2> motions, int history,
               std::vector<Named> channels)
       : TemplatedElement<Derived, 2, 18>(id), contact_(contact), channels_(std::move(channels)) {
     add_contact_channels(channels_, contact_);

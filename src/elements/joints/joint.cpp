@@ -181,48 +181,42 @@ void Joint::tangent(const State& state, Weights weights, std::span<double> r, st
   constexpr std::size_t places = 0, turns_a = 3, turns_b = 6;
   using D = Dual<9>;
   Motion<D, 2> moved = motion<D>(state);
-  seed_translation(moved.node[1], weights, places);
-  seed_rotation(moved.node[0], state.nodes[0], weights, turns_a);
-  seed_rotation(moved.node[1], state.nodes[1], weights, turns_b);
+  sweep().seed_translation(moved.node[1], weights, places);
+  if (parts_.frame.turns_a) sweep().seed_rotation(moved.node[0], state.nodes[0], weights, turns_a);
+  if (parts_.frame.turns_b) sweep().seed_rotation(moved.node[1], state.nodes[1], weights, turns_b);
   Balance<D, 2> balance(state);
   act(moved, state, balance, nullptr);
 
-  const std::size_t n = r.size(), multipliers = layout().multipliers.size(), first = n - multipliers;
+  const std::size_t n = sweep().slots(), first = sweep().first_multiplier();
+  const auto moves = [&](std::size_t node, int slot) { return layout().nodes[node] != 0 && slot >= 0; };
+  const int place_a = sweep().translation(0), turn_a = sweep().rotation(0), place_b = sweep().translation(1),
+            turn_b = sweep().rotation(1);
   std::fill(k.begin(), k.end(), 0.0);
-  const auto write = [&](std::size_t row, const D& value, double sign) {
-    r[row] = sign * value.value;
-    const auto copy = [&](std::size_t node, NodeNeed need, std::size_t lane, double factor) {
-      if (layout().nodes[node] == 0 || !needs(node, need)) return;
-      double* to = &k[row * n + 6 * node + (need == NodeNeed::rotation ? 3 : 0)];
-      for (std::size_t c = 0; c < 3; ++c) to[c] = factor * value.d[lane + c];
+  sweep().each_row(balance, [&](std::size_t row, const D& value) {
+    r[row] = value.value;
+    const auto copy = [&](int slot, std::size_t lane, double sign) {
+      double* to = &k[row * n + static_cast<std::size_t>(slot)];
+      for (std::size_t c = 0; c < 3; ++c) to[c] = sign * value.d[lane + c];
     };
-    copy(0, NodeNeed::translation, places, -sign);
-    copy(0, NodeNeed::rotation, turns_a, sign);
-    copy(1, NodeNeed::translation, places, sign);
-    copy(1, NodeNeed::rotation, turns_b, sign);
-  };
-  for (int node = 0; node < 2; ++node)
-    for (int c = 0; c < 3; ++c) {
-      const auto row = static_cast<std::size_t>(6 * node + c);
-      write(row, balance.force_at(node)[c], 1);
-      write(row + 3, balance.moment_at(node)[c], 1);
-    }
-  for (std::size_t i = 0; i < multipliers; ++i) write(first + i, balance.constraint_at(static_cast<int>(i)), -1);
+    if (moves(0, place_a)) copy(place_a, places, -1);
+    if (moves(0, turn_a)) copy(turn_a, turns_a, 1);
+    if (moves(1, place_b)) copy(place_b, places, 1);
+    if (moves(1, turn_b)) copy(turn_b, turns_b, 1);
+  });
+  if (weights.multipliers == 0) return;
 
   const NodeState &a = state.nodes[0], &b = state.nodes[1];
   const JointPose<double> pose(parts_.frame, a, b, whole_b_);
   std::size_t column = first;
+  const auto write = [&](int slot, const Vec3& v) {
+    for (Eigen::Index c = 0; c < 3; ++c) k[static_cast<std::size_t>(slot + c) * n + column] = weights.multipliers * v[c];
+  };
   const auto put = [&](Measure what) {
     const Measured<double> m = measure(what, parts_.frame, pose);
-    const Vec3 on_a = a.R.transpose() * (cross(Vec3(pose.gap + pose.arm_a), m.force) + m.moment);
-    const Vec3 on_b = b.R.transpose() * (-cross(pose.arm_b, m.force) - m.moment);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto i = static_cast<Eigen::Index>(c);
-      k[c * n + column] = m.force[i];
-      k[(6 + c) * n + column] = -m.force[i];
-      if (parts_.frame.turns_a) k[(3 + c) * n + column] = on_a[i];
-      if (parts_.frame.turns_b) k[(9 + c) * n + column] = on_b[i];
-    }
+    write(place_a, m.force);
+    write(place_b, -m.force);
+    if (turn_a >= 0) write(turn_a, a.R.transpose() * (cross(Vec3(pose.gap + pose.arm_a), m.force) + m.moment));
+    if (turn_b >= 0) write(turn_b, b.R.transpose() * (-cross(pose.arm_b, m.force) - m.moment));
     ++column;
   };
   for (const JointConstraint& c : parts_.constraints) put(c.measure);
@@ -268,7 +262,7 @@ int Joint::counted(Measure what) const {
   return found == angles_.end() ? -1 : turn_count::history * static_cast<int>(found - angles_.begin());
 }
 
-void Joint::commit(const State& state, std::span<double>, std::span<double> history) const {
+void Joint::count_turns(const State& state, std::span<double>, std::span<double> history) const {
   const JointPose<double> pose(parts_.frame, state.nodes[0], state.nodes[1]);
   for (std::size_t i = 0; i < angles_.size(); ++i) {
     const std::size_t at = i * turn_count::history;
@@ -318,11 +312,13 @@ Energies Joint::energies(const State& state) const {
 
 void Joint::observe(const State& state, std::span<double> values) const {
   std::array<double, 18> r{};
-  residual(state, std::span(r).first(static_cast<std::size_t>(layout().slots())));
+  residual(state, std::span(r).first(sweep().slots()));
   const NodeState& b = state.nodes[1];
   const JointPose<double> pose(parts_.frame, state.nodes[0], b);
-  const Vec3 force = -Vec3(r[6], r[7], r[8]);
-  const Vec3 moment = parts_.frame.turns_b ? Vec3(-b.R * Vec3(r[9], r[10], r[11]) - cross(pose.arm_b, force)) : Vec3::Zero();
+  const auto at_b = [&](int slot) { return Vec3(Eigen::Map<const Vec3>(&r[static_cast<std::size_t>(slot)])); };
+  const Vec3 force = -at_b(sweep().translation(1));
+  const Vec3 moment =
+      parts_.frame.turns_b ? Vec3(-b.R * at_b(sweep().rotation(1)) - cross(pose.arm_b, force)) : Vec3(Vec3::Zero());
 
   std::size_t i = 0;
   for (const JointCoordinate& c : parts_.coordinates) {
@@ -368,6 +364,13 @@ void Joint::observe(const State& state, std::span<double> values) const {
     if (rubs_round(parts_.friction[f])) values[i++] = report[f].moment.norm();
     values[i++] = report[f].power;
   }
+}
+
+std::vector<Coordinate> Joint::coordinates() const {
+  std::vector<Coordinate> all;
+  for (const JointCoordinate& c : parts_.coordinates)
+    all.push_back({c.names.value, parts_.nodes, parts_.frame, c.measure, parts_.point});
+  return all;
 }
 
 Drawing Joint::drawing() const {

@@ -8,6 +8,7 @@
 #include "elements/common/drive.hpp"
 #include "elements/common/spring_law.hpp"
 #include "elements/common/stop_range.hpp"
+#include "elements/joints/coordinate.hpp"
 #include "elements/joints/joint_friction.hpp"
 #include "elements/joints/joint_measures.hpp"
 #include "model/templated_element.hpp"
@@ -68,7 +69,7 @@ struct JointParts {
 
 /// Any joint between two nodes that is a list of constraints and free coordinates (joint_measures.hpp). The multipliers
 /// are forces and moments on B in the joint axes that A carries.
-class Joint final : public TemplatedElement<Joint, 2, 18> {
+class Joint final : public TemplatedElement<Joint, 2, 18>, public CoordinateOwner {
  public:
   Joint(int id, JointParts parts);
   ~Joint() override;  // where the class is compiled, and nowhere else: it is large
@@ -77,7 +78,7 @@ class Joint final : public TemplatedElement<Joint, 2, 18> {
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const;
 
   void tangent(const State& state, Weights weights, std::span<double> r, std::span<double> k) const override;
-  void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
+  void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void switches(const State& state, std::span<Switch> values) const override;
   Energies energies(const State& state) const override;
   const std::vector<Named>& channels() const override { return channels_; }
@@ -86,8 +87,8 @@ class Joint final : public TemplatedElement<Joint, 2, 18> {
   std::vector<Release> releases() const override;
   Drawing drawing() const override;
 
-  /// For elements that act on the joint's coordinates (joint_coordinate.hpp).
-  const JointParts& parts() const { return parts_; }
+  /// The free ones.
+  std::vector<Coordinate> coordinates() const override;
 
  private:
   /// Friction of each pair of surfaces, for channels.

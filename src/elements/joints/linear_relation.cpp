@@ -69,7 +69,7 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
     }
   }
 
-  void commit(const State& state, std::span<double>, std::span<double> history) const override {
+  void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
     for (const Term& t : terms_)
       if (t.turns())
         turn_count::commit(angle<double>(t, state.nodes[t.node].R).angle, committed(t, state),

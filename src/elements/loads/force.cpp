@@ -16,7 +16,7 @@ class LineForce final : public TemplatedElement<LineForce, 2, 6> {
       : TemplatedElement(id), ends_(ends), value_(value), function_(function) {
     Layout layout;
     layout.nodes.assign(ends.nodes.begin(), ends.nodes.end());
-    layout.needs = {NodeNeed::translation, NodeNeed::translation};
+    layout.needs = ends.needs();
     set_layout(std::move(layout));
   }
 

@@ -4,35 +4,32 @@
 #include <fmt/format.h>
 
 #include "elements/common/line.hpp"
+#include "model/templated_block.hpp"
 
 namespace engrane::elements::springs {
 
 namespace {
 
-/// Along the line of its ends, exact for any motion.
-class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
- public:
-  LineSpring(int id, const LineEnds& ends, const SpringLaw& law, double natural)
-      : TemplatedElement(id), ends_(ends), law_(law), natural_(natural) {
-    Layout layout;
-    layout.nodes.assign(ends.nodes.begin(), ends.nodes.end());
-    layout.needs = {NodeNeed::translation, NodeNeed::translation};
-    set_layout(std::move(layout));
-  }
+/// One spring along the line of its ends, exact for any motion; `Law` as SpringLaw.
+template <class Law>
+struct SpringOnLine {
+  LineEnds ends;
+  Law law;
+  double natural;
 
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
-    const auto reach = ends_.reach<T>(motion.node);
-    const T tension = law_.force(T(reach.length - natural_), reach.rate, state.time);
-    ends_.pull(Vec3T<T>(reach.direction * tension), balance);
+    const auto reach = ends.reach<T>(motion.node);
+    const T tension = law.force(T(reach.length - natural), reach.rate, state.time);
+    ends.pull(Vec3T<T>(reach.direction * tension), balance);
   }
 
-  Energies energies(const State& state) const override {
-    const auto reach = ends_.reach<double>(state.nodes);
-    return law_.energies(reach.length - natural_, reach.rate, state.time);
+  Energies energies(const State& state) const {
+    const auto reach = ends.reach<double>(state.nodes);
+    return law.energies(reach.length - natural, reach.rate, state.time);
   }
 
-  const std::vector<Named>& channels() const override {
+  static const std::vector<Named>& channels() {
     static const std::vector<Named> all = {{"LENGTH", dimension::length, "distance of the ends"},
                                            {"ELONGATION", dimension::length, "length less natural length"},
                                            {"SPEED", dimension::velocity, "rate of the length"},
@@ -42,26 +39,86 @@ class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
     return all;
   }
 
-  void observe(const State& state, std::span<double> values) const override {
-    const auto reach = ends_.reach<double>(state.nodes);
+  void observe(const State& state, std::span<double> values) const {
+    const auto reach = ends.reach<double>(state.nodes);
     const Energies e = energies(state);
     values[0] = reach.length;
-    values[1] = reach.length - natural_;
+    values[1] = reach.length - natural;
     values[2] = reach.rate;
-    values[3] = law_.force(values[1], reach.rate, state.time);
+    values[3] = law.force(values[1], reach.rate, state.time);
     values[4] = e.potential;
     values[5] = e.dissipated;
   }
 
-  std::vector<Derived> derived() const override { return {{"natural length", natural_, dimension::length}}; }
+  std::vector<Derived> derived() const { return {{"natural length", natural, dimension::length}}; }
+  Drawing drawing() const {
+    return {fmt::format(R"("shape": "coil", "points": {})", json(std::vector(ends.nodes.begin(), ends.nodes.end())))};
+  }
+};
 
-  Drawing drawing() const override { return {fmt::format(R"("shape": "coil", "points": {})", json(layout().nodes))}; }
+/// With a law of its own.
+class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
+ public:
+  LineSpring(int id, const SpringOnLine<SpringLaw>& spring) : TemplatedElement(id), spring_(spring) {
+    Layout layout;
+    layout.nodes.assign(spring.ends.nodes.begin(), spring.ends.nodes.end());
+    layout.needs = spring.ends.needs();
+    set_layout(std::move(layout));
+  }
+
+  template <class T>
+  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
+    spring_.evaluate(motion, state, balance);
+  }
+  Energies energies(const State& state) const override { return spring_.energies(state); }
+  const std::vector<Named>& channels() const override { return spring_.channels(); }
+  void observe(const State& state, std::span<double> values) const override { spring_.observe(state, values); }
+  std::vector<Derived> derived() const override { return spring_.derived(); }
+  Drawing drawing() const override { return spring_.drawing(); }
 
  private:
-  LineEnds ends_;
-  SpringLaw law_;
-  double natural_;
+  SpringOnLine<SpringLaw> spring_;
 };
+
+/// Force in proportion to elongation and rate: what thousands of springs have.
+struct LinearLaw {
+  double stiffness, damping;
+
+  template <class T>
+  T force(const T& stretch, const T& rate, double) const {
+    return stiffness * stretch + damping * rate;
+  }
+  Energies energies(double stretch, double rate, double) const {
+    Energies e;
+    e.potential = stretch * stretch * (stiffness / 2);
+    e.dissipated = damping * rate * rate;
+    return e;
+  }
+};
+
+class LinearSprings final : public TemplatedBlock<SpringOnLine<LinearLaw>, 2, 6> {
+ public:
+  using TemplatedBlock::TemplatedBlock;
+
+  Energies energies(std::size_t e, const State& state) const override { return data(e).energies(state); }
+  const std::vector<Named>& channels() const override { return SpringOnLine<LinearLaw>::channels(); }
+  void observe(std::size_t e, const State& state, std::span<double> values) const override { data(e).observe(state, values); }
+  std::vector<Derived> derived(std::size_t e) const override { return data(e).derived(); }
+  Drawing drawing(std::size_t e) const override { return data(e).drawing(); }
+};
+
+std::unique_ptr<Element> linear_spring(BuildContext& context, const SpringOnLine<LinearLaw>& spring) {
+  Layout layout;
+  layout.needs = spring.ends.needs();
+  std::string options;
+  for (std::size_t i = 0; i < 2; ++i) {
+    layout.nodes.push_back(spring.ends.nodes[i] == 0 ? 0 : -1);
+    options += fmt::format("{} {} ", layout.nodes[i], static_cast<int>(layout.needs[i]));
+  }
+  BlockStore alone;
+  const auto block = (context.blocks ? *context.blocks : alone).block<LinearSprings>(options, layout);
+  return LinearSprings::add(block, context.record.id, spring.ends.nodes, spring);
+}
 
 /// Three springs in the global directions on the relative displacement: a support, or a joint's compliance.
 class DirectionalSpring final : public TemplatedElement<DirectionalSpring, 2, 6> {
@@ -154,7 +211,8 @@ std::unique_ptr<Element> build(const SpringData& data, BuildContext& context) {
     const auto law = SpringLaw::of(context, data, k.empty() ? 0 : k[0], c.empty() ? 0 : c[0], start - natural,
                                    0.01 * std::max(start, natural));
     if (!law) return nullptr;
-    return std::make_unique<LineSpring>(id, *ends, *law, natural);
+    if (!lawful) return linear_spring(context, {*ends, {law->k1, law->damping}, natural});
+    return std::make_unique<LineSpring>(id, SpringOnLine<SpringLaw>{*ends, *law, natural});
   }
   if (lawful) {
     context.error(data.law.given() ? "LAW" : "CLAW",

@@ -136,6 +136,7 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
     Layout layout;
     layout.nodes.assign(coordinate.nodes().begin(), coordinate.nodes().end());
     layout.needs = {Coordinate::need, Coordinate::need};
+    if constexpr (std::is_same_v<Coordinate, DistanceCoordinate>) layout.needs = coordinate.ends.needs();
     if constexpr (std::is_same_v<Coordinate, HeightCoordinate>)
       if (coordinate.point.isZero(0)) layout.needs[1] = NodeNeed::translation;
     layout.history = Coordinate::history;
@@ -156,7 +157,7 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
     coordinate_.template resist<T>(at, motion.node, T(-range_.push(at.value, at.rate, balance.contact_homotopy())), balance);
   }
 
-  void commit(const State& state, std::span<double>, std::span<double> history) const override {
+  void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
     if constexpr (std::is_same_v<Coordinate, AngleCoordinate>)
       turn_count::commit(axis_angle(coordinate_.triad, state.nodes[0].R, state.nodes[1].R).angle, state.history, history);
   }

@@ -36,7 +36,7 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
     balance.moment(1, rotate_back(b.R, moment));
   }
 
-  void commit(const State& state, std::span<double>, std::span<double> history) const override {
+  void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
     turn_count::commit(turn(state).angle, state.history, history);
   }
 

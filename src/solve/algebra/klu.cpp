@@ -13,8 +13,11 @@ static_assert(sizeof(PetscInt) == sizeof(int), "KLU's int interface takes PETSc'
 
 /// A solution as good as this is that of a matrix that nobody can tell from the given one.
 constexpr double good = 1e-14;
-/// Where one refinement leaves more, the old pivots serve no longer.
+/// Where neither the first solution nor its refinement is as good as this, the old pivots serve no longer.
 constexpr double worst_kept = 1e-11;
+/// After old pivots were useless n times in a row they are not tried for the next 2ⁿ matrices, but not longer than for this many:
+/// a trial costs a factorisation and two solutions, and is worth a third of a factorisation when it succeeds.
+constexpr int longest_wait = 64;
 
 /// The values of a sequential matrix, for as long as this lives.
 class Values {
@@ -50,19 +53,56 @@ void Klu::serve(PC pc) {
 void Klu::forget() {
   klu_free_numeric(&numeric_, &common_);
   klu_free_symbolic(&symbolic_, &common_);
+  trials_lost_ = wait_ = 0;
 }
 
-bool Klu::factor(bool fresh) {
+void Klu::find_pattern() {
+  if (begin_) return;
+  PetscBool done = PETSC_FALSE;
+  PetscInt rows = 0;
+  check_petsc(MatGetRowIJ(matrix_, 0, PETSC_FALSE, PETSC_FALSE, &rows, &begin_, &column_, &done));
+  size_ = rows;
+  residual_.resize(static_cast<std::size_t>(rows));
+}
+
+bool Klu::refactor() {
+  if (!numeric_ || wait_ > 0) return false;
   const Values values(matrix_);
+  stale_ = klu_refactor(const_cast<PetscInt*>(begin_), const_cast<PetscInt*>(column_), values.get(), symbolic_, numeric_,
+                        &common_) == 1 &&
+           common_.status == KLU_OK;
+  return stale_;
+}
+
+bool Klu::factor() {
+  const Values values(matrix_);
+  chosen_for_.assign(values.get(), values.get() + begin_[size_]);
+  return factor_chosen();
+}
+
+bool Klu::factor_chosen() {
+  stale_ = false;
   auto *begin = const_cast<PetscInt*>(begin_), *column = const_cast<PetscInt*>(column_);
   if (!symbolic_) symbolic_ = klu_analyze(size_, begin, column, &common_);
   if (!symbolic_) return false;
-  stale_ = !fresh && numeric_ && klu_refactor(begin, column, values.get(), symbolic_, numeric_, &common_) == 1 &&
-           common_.status == KLU_OK;
-  if (stale_) return true;
   klu_free_numeric(&numeric_, &common_);
-  numeric_ = klu_factor(begin, column, values.get(), symbolic_, &common_);
+  numeric_ = klu_factor(begin, column, chosen_for_.data(), symbolic_, &common_);
   return numeric_ && common_.status == KLU_OK;
+}
+
+void Klu::save(Snapshot& snapshot) const {
+  snapshot.put("klu/chosen_for", numeric_ ? chosen_for_ : std::vector<double>());
+  snapshot.put("klu/trials_lost", trials_lost_);
+  snapshot.put("klu/wait", wait_);
+}
+
+void Klu::load(const Snapshot& snapshot) {
+  forget();
+  find_pattern();
+  chosen_for_ = snapshot.array("klu/chosen_for");
+  if (chosen_for_.size() == static_cast<std::size_t>(begin_[size_])) factor_chosen();
+  trials_lost_ = static_cast<int>(snapshot.number("klu/trials_lost"));
+  wait_ = static_cast<int>(snapshot.number("klu/wait"));
 }
 
 double Klu::backward_error(const double* right, const double* solution) {
@@ -91,21 +131,17 @@ double Klu::solve(const double* right, double* solution) {
   if (error <= good || !std::isfinite(error)) return error;
   klu_tsolve(symbolic_, numeric_, size_, 1, residual_.data(), &common_);
   for (int i = 0; i < size_; ++i) solution[i] += residual_[static_cast<std::size_t>(i)];
-  return backward_error(right, solution);
+  // what was good enough before is so after it
+  return error <= worst_kept ? error : backward_error(right, solution);
 }
 
 PetscErrorCode Klu::set_up(PC pc) {
   Klu* self = nullptr;
   PetscCall(PCShellGetContext(pc, &self));
-  if (!self->begin_) {
-    PetscBool done = PETSC_FALSE;
-    PetscInt rows = 0;
-    PetscCall(MatGetRowIJ(self->matrix_, 0, PETSC_FALSE, PETSC_FALSE, &rows, &self->begin_, &self->column_, &done));
-    self->size_ = rows;
-    self->residual_.resize(static_cast<std::size_t>(rows));
-  }
+  self->find_pattern();
   PetscCall(PetscLogEventBegin(self->factoring_, pc, nullptr, nullptr, nullptr));
-  const bool regular = self->factor(false);
+  const bool regular = self->refactor() || self->factor();
+  if (self->wait_ > 0) --self->wait_;
   PetscCall(PetscLogEventEnd(self->factoring_, pc, nullptr, nullptr, nullptr));
   PetscCall(PCSetFailedReason(pc, regular ? PC_NOERROR : PC_FACTOR_NUMERIC_ZEROPIVOT));
   return 0;
@@ -120,8 +156,12 @@ PetscErrorCode Klu::apply(PC pc, Vec right, Vec solution) {
   PetscCall(VecGetArrayWrite(solution, &x));
   PetscCall(PetscLogEventBegin(self->solving_, pc, nullptr, nullptr, nullptr));
   double error = self->solve(b, x);
-  if (self->stale_ && !(error <= worst_kept))
-    error = self->factor(true) ? self->solve(b, x) : std::numeric_limits<double>::infinity();
+  if (self->stale_ && error <= worst_kept) self->trials_lost_ = 0;
+  if (self->stale_ && !(error <= worst_kept)) {
+    self->wait_ = std::min(1 << ++self->trials_lost_, longest_wait);
+    self->trials_lost_ = std::min(self->trials_lost_, 16);
+    error = self->factor() ? self->solve(b, x) : std::numeric_limits<double>::infinity();
+  }
   PetscCall(PetscLogEventEnd(self->solving_, pc, nullptr, nullptr, nullptr));
   PetscCall(VecRestoreArrayRead(right, &b));
   PetscCall(VecRestoreArrayWrite(solution, &x));

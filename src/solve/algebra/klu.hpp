@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "assembly/petsc.hpp"
+#include "base/snapshot.hpp"
 
 namespace engrane::solve {
 
 /// KLU on one sequential matrix whose pattern never changes, as a preconditioner of PETSc (PCSHELL). The pivots of one
 /// factorisation serve the next ones too, which makes these two to four times faster than a factorisation that looks for its own;
 /// every solution is judged by its backward error, component by component (Oettli and Prager), refined where that helps
-/// and found with new pivots where it does not. Davis and Palamadai Natarajan, ACM Trans. Math. Softw. 37 (2010) 36.
+/// and found with new pivots where it does not. Where old pivots do not serve, as in a machine whose matrix changes much from
+/// step to step, they are not tried for a while. Davis and Palamadai Natarajan, ACM Trans. Math. Softw. 37 (2010) 36.
 class Klu {
  public:
   explicit Klu(Mat matrix);
@@ -25,13 +27,22 @@ class Klu {
   void serve(PC pc);
   /// Gives up pattern analysis and pivots.
   void forget();
+  /// The pivots, by the matrix that they were chosen for, and for how long old ones are not tried.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
   /// Memory of the factors.
   double bytes() const { return common_.memusage > 0 ? static_cast<double>(common_.memusage) : 0; }
 
  private:
   static PetscErrorCode set_up(PC pc);
   static PetscErrorCode apply(PC pc, Vec right, Vec solution);
-  bool factor(bool fresh);
+  void find_pattern();
+  /// With the pivots there are, where there are any.
+  bool refactor();
+  /// With pivots of its own.
+  bool factor();
+  /// The same for the values in chosen_for_.
+  bool factor_chosen();
   /// Solves, refines once where the backward error asks for it, and returns the backward error.
   double solve(const double* right, double* solution);
   /// The remainder right − A solution goes to residual_; returns its size, each row over that of its terms.
@@ -43,7 +54,10 @@ class Klu {
   klu_common common_{};
   klu_symbolic* symbolic_ = nullptr;
   klu_numeric* numeric_ = nullptr;
-  bool stale_ = false;  ///< pivots are those of an earlier matrix
+  std::vector<double> chosen_for_;  ///< values of the matrix that the pivots were chosen for
+  bool stale_ = false;              ///< pivots are those of an earlier matrix
+  int trials_lost_ = 0;             ///< old pivots in a row that did not serve
+  int wait_ = 0;                    ///< matrices for which old pivots are not tried
   PetscLogEvent factoring_ = -1, solving_ = -1;
   std::vector<double> residual_;
 };

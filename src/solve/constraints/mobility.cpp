@@ -118,7 +118,9 @@ std::string describe_direction(Assembler& assembler, const Configuration& c, con
   part.element->tangent(assembler.view(u.part, c), {1, 0, 0}, r, k);
   const std::size_t row = n - layout.multipliers.size() + static_cast<std::size_t>(u.item);
   for (std::size_t i = nodes; i-- > 0;) {
-    const double* g = k.data() + row * n + 6 * i + (force ? 0 : 3);
+    const int slot = layout.node_slot(i, force ? NodeNeed::translation : NodeNeed::rotation);
+    if (slot < 0) continue;
+    const double* g = k.data() + row * n + static_cast<std::size_t>(slot);
     Vec3 direction(g[0], g[1], g[2]);
     if (direction.norm() < 1e-9) continue;
     if (moment) direction = c.nodes[static_cast<std::size_t>(part.nodes[i])].R * direction;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assembly/assembler.hpp"
+#include "base/snapshot.hpp"
 #include "solve/constraints/motion.hpp"
 
 namespace engrane::solve {
@@ -73,6 +74,10 @@ class Redundancy {
   /// change are not unique. Two combinations of all that there are, so that what one leaves alone by chance the other
   /// changes, the largest entry 1; none where all is determined.
   std::vector<Eigen::VectorXd> undetermined(const Configuration& c);
+
+  /// What the last analysis found, for a restart. The assembler keeps what is released.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
 
  private:
   /// "make the places and axes agree, or make HINGE 3 a SPHERICAL": the end of a message about constraints that conflict.

@@ -294,7 +294,7 @@ int Start::follow(Configuration& c, std::span<const int> held) {
       continue;
     }
     c = std::move(tried);
-    assembler_.commit(c);  // turns count on the way to drives that begin more than half a turn away
+    assembler_.count_turns(c);  // turns count on the way to drives that begin more than half a turn away
     if (next == 1) return steps;
     done = next;
     if (closing.iterations < 5) part *= 1.5;

@@ -51,6 +51,7 @@ bool Runner::run(const Observer& observer, const std::function<void(const StartR
   context_.assembler.commit(now_);
   if (locator_.active()) locator_.switches().take(now_);
   next_ = now_;
+  started_ = true;
   return observer(now_, step_) && march();
 }
 
@@ -58,13 +59,14 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   observer_ = &observer;
   load_configuration(snapshot, now_);
   next_ = now_;
-  context_.load(snapshot, now_);
+  context_.load(snapshot);
   scheme_.load(snapshot);
   locator_.load(snapshot);
   h_ = std::min(snapshot.number("runner/h"), options_.step);
   step_.number = static_cast<int>(snapshot.number("runner/number"));
   renewed_ = snapshot.number("runner/renewed") != 0;
   pending_drift_ = snapshot.number("runner/pending_drift");
+  started_ = true;
   return march();
 }
 

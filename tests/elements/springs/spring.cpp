@@ -171,6 +171,56 @@ TEST(Spring, NaturalLength) {
   EXPECT_NEAR(-r[6], -18, 1e-13);
 }
 
+TEST(Spring, ABlockOfSpringsIsWhatTheyAreAlone) {
+  // those with a law of their own are no members of a block: a linear law makes the same spring
+  BlockStore store;
+  std::vector<std::unique_ptr<Element>> members, alone, lawful;
+  for (int i = 0; i < 12; ++i) {
+    SpringData data;
+    data.nodes = {i % 3 == 0 ? 0 : 1, 2};
+    if (data.nodes[0] == 0 && i % 2 == 0) data.at = {{0.3, -0.6, 0.2 * i}};
+    data.stiffness = {40.0 + i};
+    data.damping = {3.0 / (1 + i)};
+    members.push_back(build(spring_type(), data, places, {.blocks = &store}));
+    alone.push_back(build(spring_type(), data, places));
+    data.stiffness.clear();
+    data.law = {"POLY", {40.0 + i}};
+    lawful.push_back(build(spring_type(), data, places));
+  }
+  const auto* block = dynamic_cast<const BlockMember*>(members[1].get());
+  ASSERT_NE(block, nullptr);
+  EXPECT_EQ(block->block().size(), 8u) << "springs between nodes share one block, those on the ground others";
+  EXPECT_EQ(&block->layout(), &members[4]->layout());
+
+  Random random(5);
+  const Subject subject = line({0, 2}, 1, 1);
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const StateBuffer state = random_state(subject, *members[i], random);
+    const Weights weights{1, 20, 400};
+    for (const auto& other : {alone[i].get(), lawful[i].get()}) {
+      EXPECT_EQ(residual_of(*members[i], state), residual_of(*other, state));
+      EXPECT_EQ(tangent_of(*members[i], state, weights), tangent_of(*other, state, weights));
+      EXPECT_EQ(channel_of(*members[i], state, "SPRING_ENERGY"), channel_of(*other, state, "SPRING_ENERGY"));
+      EXPECT_EQ(channel_of(*members[i], state, "DAMPER_POWER"), channel_of(*other, state, "DAMPER_POWER"));
+      EXPECT_EQ(members[i]->drawing(), other->drawing());
+    }
+  }
+  // several at a time
+  std::vector<State> states;
+  std::vector<StateBuffer> buffers;
+  for (const std::size_t i : {1, 2, 4, 5}) buffers.push_back(random_state(subject, *members[i], random));
+  for (const StateBuffer& buffer : buffers) states.push_back(buffer.view());
+  std::vector<double> r(4 * 6), k(4 * 36), one_r(6), one_k(36);
+  block->block().tangent(0, states, {1, 20, 400}, r, k);
+  std::size_t at = 0;
+  for (const std::size_t i : {1, 2, 4, 5}) {
+    members[i]->tangent(states[at], {1, 20, 400}, one_r, one_k);
+    EXPECT_EQ(one_r, std::vector<double>(&r[6 * at], &r[6 * at] + 6));
+    EXPECT_EQ(one_k, std::vector<double>(&k[36 * at], &k[36 * at] + 36));
+    ++at;
+  }
+}
+
 TEST(Spring, FaultsOfTheCard) {
   const NodeMap nodes = {{0, Vec3::Zero()}, {1, {1, 0, 0}}, {2, {1, 0, 0}}};
   const auto message = [&](const SpringData& data) {

@@ -86,6 +86,9 @@ TEST(Results, HoldEverythingWritten) {
   EXPECT_EQ(file.numbers("/fields/time").size(), 10u);
   EXPECT_EQ(file.numbers("/fields/rotation/000009")[11], 9.11);
   EXPECT_TRUE(file.has("/checks"));
+  // the line of three points is two cells of one element
+  EXPECT_EQ(file.numbers("/fields/STRESS/000009"), (std::vector<double>{1, 1, 2, 3, 9}));
+  EXPECT_EQ(file.attribute("/fields/STRESS", "center"), "Cell");
   // a line of three points is two lines, a point a line to itself; then a triangle and a quadrilateral
   const std::vector<double> topology = file.numbers("/mesh/topology");
   EXPECT_EQ(topology, (std::vector<double>{2, 2, 0, 1, 2, 2, 1, 2, 2, 2, 3, 3, 4, 0, 1, 2, 5, 0, 1, 2, 3}));
@@ -93,6 +96,7 @@ TEST(Results, HoldEverythingWritten) {
   const std::string index = read_text(scratch / "run.xdmf");
   EXPECT_NE(index.find("run.h5:/fields/displacement/000009"), std::string::npos);
   EXPECT_EQ(index.find("000010"), std::string::npos);
+  EXPECT_NE(index.find("Name=\"STRESS\" AttributeType=\"Scalar\" Center=\"Cell\""), std::string::npos);
 }
 
 TEST(Results, AreThereFromTheStartAndWithoutAnEnd) {
