@@ -48,7 +48,8 @@ std::vector<Coordinate> coordinates_of(const joints::JointParts& parts) {
 /// The coordinates of the element that a record describes. Its own faults are its own to report: `faulty` then.
 std::vector<Coordinate> coordinates_of(const BuildContext& context, const deck::Record& record, bool& faulty) {
   Diagnostics unheard;
-  BuildContext other{context.nodes, context.functions, unheard, record, context.wheel_inertia, context.records};
+  BuildContext other{context.nodes,         context.functions, unheard, record,
+                     context.wheel_inertia, context.records,   nullptr, context.notes};
   if (const auto* sensor = record.get<SensorData>()) {
     const auto coordinate = sensor_coordinate(*sensor, other);
     faulty = !coordinate;
