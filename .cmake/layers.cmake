@@ -3,7 +3,7 @@
 # `app` as the executable. A layer without sources yet passes its dependencies on.
 function(engrane_layer name)
   cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "USES;WITH")
-  if(ENGRANE_FUZZ AND name MATCHES "^(assembly|solve|output|app)$")
+  if(ENGRANE_FUZZ AND name MATCHES "^(assembly|observe|solve|output|app)$")
     return()  # what is fuzzed reads decks: it needs neither PETSc nor HDF5, and clang builds it faster without
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)

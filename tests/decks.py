@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs a deck on 1, 2 and 3 ranks: each run must pass its own .CHK, and all must give the same results.
 
+A run on one rank that is interrupted at a third of the way and gone on from must give every bit of the whole
+run. Every channel must be what version 0.3.0 gave: last value and root of the mean square, from
+tests/verify/results_0.3.0.json.
+
     decks.py --binary engrane --mpiexec mpiexec --work folder deck.dat
 
 A deck may say in a comment what its test is:
@@ -9,11 +13,12 @@ A deck may say in a comment what its test is:
     ! test: tolerance 1e-4   results of two runs may differ by so much (default 1e-6), relative to the largest
                              number of the same unit: teeth that rattle enlarge the last digit's noise
     ! test: short TF 1 H 0.1 the whole deck on one rank only; all ranks are compared over this much of it
-    ! test: slow             labelled slow, so that `ctest -LE slow` leaves it out
+    ! test: slow             labelled slow, so that `ctest -LE slow` leaves it out; not interrupted
     ! test: part             not run: other decks INPUT it
 """
 
 import argparse
+import json
 import re
 import subprocess
 import sys
@@ -22,8 +27,13 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "post"))
+
+from engrane_post import Results
+
+REFERENCE = Path(__file__).parent / "verify" / "results_0.3.0.json"
 # How many steps and iterations a run takes is its own affair.
-NOT_COMPARED = re.compile(r"^(history/run/(STEP|ITERATIONS)|checks|deck|model)$")
+NOT_COMPARED = re.compile(r"^(run/(STEP|ITERATIONS)|checks|deck|model|history/.*|restart/.*)$")
 
 
 def wishes(deck: Path) -> dict[str, list[str]]:
@@ -33,8 +43,8 @@ def wishes(deck: Path) -> dict[str, list[str]]:
 
 
 def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
-    """Dataset -> (unit, values): all numbers of the mesh, fields and histories. Under "" stands the noise of
-    accelerations, which are differences of rounded positions over the square of the step."""
+    """Dataset or channel -> (unit, values): all numbers of mesh, fields and histories. Under "" stands the
+    noise of accelerations, which are differences of rounded positions over the square of the step."""
     found = {}
 
     def keep(name, item):
@@ -44,8 +54,13 @@ def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
 
     with h5py.File(path, "r") as file:
         file.visititems(keep)
-        steps = file["history/run/STEP"][1:]
-        extent = float(np.max(np.abs(file["mesh/points"][()]), initial=1.0))
+    with Results(path) as results:
+        for name, channel in results.channels.items():
+            if not NOT_COMPARED.match(name):
+                found[name] = (channel.unit, results.history(channel)[1])
+        found["time"] = (results.time_unit, results.times())
+        steps = results.history("run/STEP")[1][1:]
+        extent = float(np.max(np.abs(results.points), initial=1.0))
     found[""] = ("", np.array(np.finfo(float).eps * extent / np.min(steps, initial=1.0) ** 2))
     return found
 
@@ -87,6 +102,70 @@ def shortened(arguments, stepping: list[str]) -> Path:
     return short
 
 
+def tables(path: Path) -> dict[str, bytes]:
+    """Every dataset of histories and fields, as its bytes."""
+    found = {}
+
+    def keep(name, item):
+        if isinstance(item, h5py.Dataset) and name.startswith(("history/", "fields/")):
+            found[name] = item[()].tobytes() if item.dtype.kind in "fiu" else repr(item[()]).encode()
+
+    with h5py.File(path, "r") as file:
+        file.visititems(keep)
+    return found
+
+
+def interrupted(arguments, deck: Path, whole: Path) -> list[str]:
+    """What a run that was interrupted and gone on from has otherwise than the whole one."""
+    with Results(whole) as results:
+        times = results.times()
+    prefix = arguments.work / f"{deck.stem}_interrupted"
+    for old in arguments.work.glob(f"{prefix.name}.*"):
+        old.unlink()
+    command = [arguments.binary, "-q", str(deck), "-o", str(prefix)]
+    cut = [*command, "--until", repr(float(times[len(times) // 3]))]
+    print("+", " ".join(cut), flush=True)
+    status = subprocess.run(cut, check=False, stderr=subprocess.DEVNULL).returncode
+    if status != 2:
+        return [f"interrupted: exit status {status}"]
+    status = subprocess.run(
+        [*command, "--restart", str(prefix)], check=False, stdout=subprocess.DEVNULL
+    ).returncode
+    if status != 0:
+        return [f"gone on from: exit status {status}"]
+    one, other = tables(whole), tables(prefix.with_name(prefix.name + ".h5"))
+    faults = [
+        f"interrupted and gone on from: {name} is only in one" for name in sorted(one.keys() ^ other.keys())
+    ]
+    return faults + [
+        f"interrupted and gone on from: {name} has other bits"
+        for name in sorted(one.keys() & other.keys())
+        if one[name] != other[name]
+    ]
+
+
+def changed(deck: Path, results: dict, tolerance: float) -> list[str]:
+    """Channels that version 0.3.0 had otherwise, by more than the tolerance times the largest of the unit."""
+    reference = json.loads(REFERENCE.read_text(encoding="utf-8")).get(deck.stem, {})
+    scale = {}
+    for name, (last, rms) in reference.items():
+        if name in results:
+            unit = results[name][0]
+            scale[unit] = max(scale.get(unit, 0.0), abs(last), abs(rms))
+    faults = []
+    for name, (last, rms) in reference.items():
+        if name not in results:
+            continue
+        unit, values = results[name]
+        gap = max(abs(values[-1] - last), abs(np.sqrt(np.mean(np.square(values))) - rms))
+        allowed = tolerance * max(scale[unit], 1e-9 * max(scale.values()))
+        if re.search("(s|time)²", unit):
+            allowed = max(allowed, float(results[""][1]))
+        if not gap <= allowed:
+            faults.append(f"{name}: differs from 0.3.0 by {gap:.3g} {unit}, allowed {allowed:.3g}")
+    return faults
+
+
 def run(arguments, deck: Path, ranks: int) -> Path:
     """The results on one rank keep the deck's name: tests/verify reads them."""
     prefix = arguments.work / (deck.stem + (f"_np{ranks}" if ranks > 1 else ""))
@@ -120,14 +199,19 @@ def main() -> int:
     if "short" in wanted:
         run(arguments, deck, 1)
         deck = shortened(arguments, wanted["short"])
-    first = read_results(run(arguments, deck, ranks[0]))
-    faults = []
+    whole = run(arguments, deck, ranks[0])
+    first = read_results(whole)
+    faults = interrupted(arguments, deck, whole) if ranks[0] == 1 and "slow" not in wanted else []
+    faults += changed(arguments.deck, first, tolerance) if "short" not in wanted else []
     for n in ranks[1:]:
         faults += [
             f"{n} ranks against {ranks[0]}: {fault}"
             for fault in differences(first, read_results(run(arguments, deck, n)), tolerance)
         ]
-    print("\n".join(faults) or f"{arguments.deck.name}: ranks {ranks} agree in {len(first)} datasets")
+    print(
+        "\n".join(faults)
+        or f"{arguments.deck.name}: ranks {ranks} agree in {len(first)} datasets and channels"
+    )
     return 1 if faults else 0
 
 

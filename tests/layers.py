@@ -2,11 +2,11 @@
 """Holds every file to the house rules that a compiler does not see.
 
     layers.py [root]
+    layers.py --graph [root]    draws which room includes which, as a Mermaid graph (docs/adding.md)
 
-Which layer may include which, and which foreign library, stands in src/CMakeLists.txt and nowhere else. The
-rest: rooms (folders of a layer) include only the rooms that their line names, open the namespace of their own, and
-none holds more than a fifth of the source; no code file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, and no
-layers that use each other in a circle.
+Which layer and room may include which, and which foreign library, stands in src/CMakeLists.txt and nowhere
+else. The rest: every file opens the namespace of its room, no room holds more than a fifth of the source, no
+code file over 600 lines, an SPDX line at the top of each, no path of somebody's machine, and no circles.
 """
 
 import re
@@ -25,6 +25,7 @@ FOREIGN = {
     "PkgConfig::PETSC": re.compile(r"petsc|slepc"),
     "MPI::MPI_CXX": re.compile(r"mpi\.h$"),
     "KLU::KLU": re.compile(r"^klu\.h$"),
+    "SPQR::SPQR": re.compile(r"^(SuiteSparseQR|cholmod)"),
     "PkgConfig::HDF5": re.compile(r"hdf5|H5"),
     "CLI11::CLI11": re.compile(r"CLI/"),
 }
@@ -61,7 +62,8 @@ def circular_rooms(rooms) -> list[str]:
     above = set()
     for name, uses in rooms.items():
         faults += [
-            f"src/CMakeLists.txt: {name} uses {other}, which is not above it" for other in sorted(uses - above)
+            f"src/CMakeLists.txt: {name} uses {other}, which is not above it"
+            for other in sorted(uses - above)
         ]
         above.add(name)
     return faults
@@ -108,7 +110,11 @@ def check_shares(root: Path) -> list[str]:
             room = file.parent.relative_to(root / "src").as_posix()
             lines[room] = lines.get(room, 0) + len(file.read_text(encoding="utf-8").splitlines())
     total = sum(lines.values())
-    return [f"src/{room} is {100 * n / total:.0f} % of the source; split it" for room, n in lines.items() if 5 * n > total]
+    return [
+        f"src/{room} is {100 * n / total:.0f} % of the source; split it"
+        for room, n in lines.items()
+        if 5 * n > total
+    ]
 
 
 def circular(table) -> list[str]:
@@ -122,6 +128,29 @@ def circular(table) -> list[str]:
         ]
         above.add(name)
     return faults
+
+
+IMPORT = re.compile(r"^\s*from \.(\w*) import ([\w, ]+)|^\s*from engrane_post\.(\w+) import", re.MULTILINE)
+
+
+def circular_modules(package: Path) -> list[str]:
+    """Modules of a package that import each other in a circle, wherever in the file the import stands."""
+    names = {file.stem for file in package.glob("*.py")}
+    uses = {}
+    for file in package.glob("*.py"):
+        found = set()
+        for module, words, absolute in IMPORT.findall(file.read_text(encoding="utf-8")):
+            found |= {module or absolute} if module or absolute else {w.strip() for w in words.split(",")}
+        uses[file.stem] = (found & names) - {file.stem}
+    # take away what uses nothing that is left, until only circles are left
+    while free := [name for name, others in uses.items() if not others]:
+        for name in free:
+            del uses[name]
+        uses = {name: others - set(free) for name, others in uses.items()}
+    return [
+        f"{package.name}/{name}.py: in a circle of imports with {', '.join(sorted(others))}"
+        for name, others in uses.items()
+    ]
 
 
 def check_includes(file: Path, root: Path, table) -> list[str]:
@@ -181,16 +210,53 @@ def text_files(root: Path):
             yield entry
 
 
+def graph(root: Path) -> str:
+    """Rooms and their includes, without arrows that follow from others."""
+    uses: dict[str, set[str]] = {}
+    for file in sorted((root / "src").rglob("*.[ch]pp")):
+        room = file.parent.relative_to(root / "src").as_posix()
+        others = {
+            m.group(2).rsplit("/", 1)[0]
+            for m in map(INCLUDE.match, file.read_text(encoding="utf-8").splitlines())
+            if m
+        }
+        uses.setdefault(room, set()).update(
+            o for o in others if o != room and (root / "src" / o).is_dir() and o
+        )
+
+    def reached(room: str, seen: set[str]) -> set[str]:
+        for other in uses.get(room, set()) - seen:
+            seen.add(other)
+            reached(other, seen)
+        return seen
+
+    lines = ["graph BT"]
+    for room, direct in sorted(uses.items()):
+        further = set().union(*(reached(other, set()) for other in direct)) if direct else set()
+        lines += [
+            f'  {room.replace("/", "_")}["{room}"] --> {other.replace("/", "_")}["{other}"]'
+            for other in sorted(direct - further)
+        ]
+    return "\n".join(lines)
+
+
 def main() -> int:
+    if sys.argv[1:2] == ["--graph"]:
+        print(graph(Path(sys.argv[2] if len(sys.argv) > 2 else Path(__file__).parent.parent).resolve()))
+        return 0
     root = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent).resolve()
     cmake = (root / "src/CMakeLists.txt").read_text(encoding="utf-8")
     table, rooms = read_table(cmake), read_rooms(cmake)
     faults = circular(table) + circular_rooms(rooms) + check_shares(root)
+    faults += circular_modules(root / "post/engrane_post")
     for file in sorted((root / "src").rglob("*.[ch]pp")):
         faults += check_includes(file, root, table) + check_room(file, root, rooms)
     for file in text_files(root):
         faults += check_text(file, root)
-    print("\n".join(faults) or f"{len(table)} layers, {len(rooms)} rooms: every include, length and licence line is in order")
+    print(
+        "\n".join(faults)
+        or f"{len(table)} layers, {len(rooms)} rooms: every include, length and licence line is in order"
+    )
     return 1 if faults else 0
 
 

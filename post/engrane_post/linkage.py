@@ -7,16 +7,13 @@ plates with a ball, balls, crosses of universal joints, rods."""
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
 from . import shapes
 from .graphics import pv
-from .results import Element
-
-if TYPE_CHECKING:
-    from .scene import Scene
+from .results import Element, Frame, Results
 
 KINDS = {
     "HINGE": "pin",
@@ -32,6 +29,21 @@ KINDS = {
     "DISTANCE": "rod",
 }
 LINK_COLORS = ("#5d7fa3", "#b98545", "#6f9763", "#9a6f99", "#a9655a", "#568f90", "#7d7a52", "#7b6ba0")
+
+
+class Places(Protocol):
+    """What joints need to know of the scene that they are drawn in."""
+
+    result: Results
+    row: dict[int, int]  # of nodes
+    points: dict[int, np.ndarray]  # of nodes, in the reference configuration
+    size: float
+
+    def transform(self, node: int, frame: Frame) -> np.ndarray: ...
+
+    def axle(
+        self, node: int, element: Element, center: np.ndarray, axis: np.ndarray
+    ) -> tuple[float, float]: ...
 
 
 @dataclass
@@ -50,7 +62,7 @@ class Joint:
         return [(self.a, self.place_a), (self.b, self.place_b)]
 
 
-def joint(scene: Scene, element: Element) -> Joint | None:
+def joint(scene: Places, element: Element) -> Joint | None:
     """The joint that an element is, or None. Places not given are found as the program does."""
     kind = KINDS.get(element.type.upper())
     if kind is None or len(element.nodes) != 2:
@@ -69,7 +81,7 @@ def joint(scene: Scene, element: Element) -> Joint | None:
     return Joint(element, kind, a, b, place_a, place_b, axis)
 
 
-def path(scene: Scene, j: Joint) -> np.ndarray:
+def path(scene: Places, j: Joint) -> np.ndarray:
     """Where b's joint point has been, seen from a (n x 3, in the reference configuration)."""
     out = [np.zeros(3)]
     count = len(scene.result.frame_times)
@@ -81,7 +93,7 @@ def path(scene: Scene, j: Joint) -> np.ndarray:
     return np.array(out)
 
 
-def links(scene: Scene, joints: list[Joint]) -> list[tuple[int, pv.PolyData]]:
+def links(scene: Places, joints: list[Joint]) -> list[tuple[int, pv.PolyData]]:
     """Bars from nodes to the joints on their bodies: flat arms across parallel pins, else round ones."""
     out, done = [], []
     for j in joints:
@@ -105,7 +117,7 @@ def links(scene: Scene, joints: list[Joint]) -> list[tuple[int, pv.PolyData]]:
     return out
 
 
-def rail(scene: Scene, j: Joint) -> tuple[pv.PolyData, pv.PolyData]:
+def rail(scene: Places, j: Joint) -> tuple[pv.PolyData, pv.PolyData]:
     """A bar along the axis, as long as the joint travels, and the block on it (a bead for a point)."""
     radius = 0.008 * scene.size
     travel = path(scene, j) @ j.axis
@@ -119,7 +131,7 @@ def rail(scene: Scene, j: Joint) -> tuple[pv.PolyData, pv.PolyData]:
     return bar, shapes.ball(j.place_b, 1.6 * radius)
 
 
-def plate(scene: Scene, j: Joint) -> tuple[pv.PolyData, pv.PolyData]:
+def plate(scene: Places, j: Joint) -> tuple[pv.PolyData, pv.PolyData]:
     """A thin plate as large as the joint's travel on it, and a ball where the joint is."""
     radius = 0.008 * scene.size
     u, v = shapes.square_to(j.axis)
@@ -141,7 +153,7 @@ def plate(scene: Scene, j: Joint) -> tuple[pv.PolyData, pv.PolyData]:
     return mesh.transform(frame, inplace=False), shapes.ball(j.place_b, 1.6 * radius)
 
 
-def cross(scene: Scene, j: Joint) -> tuple[pv.PolyData, pv.PolyData]:
+def cross(scene: Places, j: Joint) -> tuple[pv.PolyData, pv.PolyData]:
     """The two pins of a universal joint, one for each body."""
     second = shapes.unit(np.asarray(j.element.parameters.get("AXIS2", [1, 0, 0]), float))
     radius = 0.007 * scene.size
@@ -149,6 +161,6 @@ def cross(scene: Scene, j: Joint) -> tuple[pv.PolyData, pv.PolyData]:
     return pins[0], pins[1]
 
 
-def foot(scene: Scene, place: np.ndarray) -> pv.PolyData:
+def foot(scene: Places, place: np.ndarray) -> pv.PolyData:
     """What holds a joint without an axis to the ground: a small block."""
     return shapes.box(place, 0.028 * scene.size)

@@ -83,7 +83,7 @@ def print_list(result: Results) -> None:
     if not channels:
         print("  no histories")
         return
-    t = result.file["history/time"][()]
+    t = result.times()
     if len(t):
         print(
             f"  {len(t)} samples, t = {t[0]:g} to {t[-1]:g} {result.time_unit}; "

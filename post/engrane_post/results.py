@@ -1,40 +1,41 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Opens a result file (docs/format.md, version 1) and hands out its parts; works on partial files too."""
+"""Opens a result file (docs/format.md) and hands out its parts; works on partial files too."""
 
 from __future__ import annotations
 
 import json
-import os
 import textwrap
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from types import TracebackType
-from typing import Any
-
-# Readers must not lock: the run may still be writing, and some file systems have no locks.
-os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
+from typing import Any, TypeVar
 
 import h5py
 import numpy as np
 
 from .channels import resolve
 from .errors import UserError
+from .reading import GrowingFile, text
 
-FORMAT_VERSION = 1
+T = TypeVar("T")
 AXIS_WIDTH = 36  # characters along the shortest diagram
 
 
 @dataclass(frozen=True)
 class Channel:
     """One history: its full name (`element/7/NORMAL_FORCE`), a few words, its unit, the owner's type and
-    name, and whether its values are the only ones that balance the loads."""
+    name, whether its values are the only ones that balance the loads, and where they stand: the table below
+    /history and its column."""
 
     name: str
     label: str
     unit: str
     owner: str = ""
     unique: bool = True
+    table: str = ""
+    column: int = 0
 
     @property
     def axis_label(self) -> str:
@@ -85,13 +86,6 @@ def bracketed(unit: str) -> str:
     return unit if unit.startswith("[") else f"[{unit}]"
 
 
-def text(value: Any) -> str:
-    """A string attribute or scalar dataset, however it was stored."""
-    if isinstance(value, np.ndarray):
-        value = value.item() if value.size == 1 else b"".join(value.ravel().tolist())
-    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
-
-
 def find(path: str | Path) -> Path:
     """The result file meant by a file, a prefix, a deck (`.dat`), an index (`.xdmf`) or a listing
     (`.lst`)."""
@@ -118,8 +112,7 @@ class Results:
 
     def __init__(self, path: str | Path) -> None:
         self.path = find(path)
-        self.file = self._open(self.path)
-        self._check()
+        self._file = GrowingFile(self.path)
 
     def __enter__(self) -> Results:
         return self
@@ -131,41 +124,18 @@ class Results:
 
     def close(self) -> None:
         """Closes the file; arrays already handed out stay valid."""
-        self.file.close()
+        self._file.close()
 
-    @staticmethod
-    def _open(path: Path) -> h5py.File:
-        try:
-            return h5py.File(path, "r")
-        except (OSError, RuntimeError) as first:
-            # A killed writer can leave the mark "open for writing"; a reader beside the writer may still
-            # look.
-            try:
-                return h5py.File(path, "r", swmr=True)
-            except (OSError, RuntimeError):
-                pass
-            if not h5py.is_hdf5(path):
-                raise UserError(f"{path} is not an HDF5 file, so it is not a result of engrane.") from first
-            reason = str(first).strip().splitlines()[-1]
-            raise UserError(f"{path} cannot be opened: {reason}") from first
+    def read(self, look: Callable[[h5py.File], T]) -> T:
+        """What `look` finds in the HDF5 file, even while a run writes it: `look` may be called again."""
+        return self._file.read(look)
 
-    def _check(self) -> None:
-        attributes = self.file.attrs
-        if "format" not in attributes or text(attributes["format"]) != "engrane":
-            raise UserError(
-                f"{self.path} is an HDF5 file but not a result of engrane (no attribute format = engrane)."
-            )
-        version = int(attributes.get("format_version", 0))
-        if version > FORMAT_VERSION:
-            raise UserError(
-                f"{self.path} has format version {version}; this program reads up to {FORMAT_VERSION}. "
-                "Use the engrane that wrote it, or a newer one."
-            )
-        if version < 1:
-            raise UserError(f"{self.path} has no valid format version.")
+    def dataset(self, name: str) -> np.ndarray | None:
+        """All of a dataset, or None."""
+        return self.read(lambda f: f[name][()] if name in f else None)
 
     def _attribute(self, name: str) -> str:
-        return text(self.file.attrs[name]) if name in self.file.attrs else ""
+        return self.read(lambda f: text(f.attrs[name]) if name in f.attrs else "")
 
     @property
     def title(self) -> str:
@@ -187,63 +157,54 @@ class Results:
 
     @cached_property
     def elements(self) -> list[Element]:
-        """Elements of the model; empty when the file was cut before the model was written."""
-        if "model" not in self.file:
+        """Elements of the model."""
+        raw = self.dataset("model")
+        if raw is None:
             return []
-        raw = self.file["model"]
         try:
-            data = json.loads(text(raw[()]))
+            data = json.loads(text(raw))
         except ValueError as error:
             raise UserError(f"{self.path}: /model is not valid JSON ({error}).") from error
-        out = []
-        for e in data.get("elements", []):
-            group = self.file.get(f"history/element/{e['id']}")
-            name = (
-                text(group.attrs["name"])
-                if group is not None and "name" in group.attrs
-                else e.get("name", "")
+        return [
+            Element(
+                int(e["id"]),
+                e.get("type", "?"),
+                [int(n) for n in e.get("nodes", [])],
+                e.get("parameters") or {},
+                e.get("drawing") or [],
+                e.get("name") or "",
             )
-            out.append(
-                Element(
-                    int(e["id"]),
-                    e.get("type", "?"),
-                    [int(n) for n in e.get("nodes", [])],
-                    e.get("parameters") or {},
-                    e.get("drawing") or [],
-                    name or "",
-                )
-            )
-        return out
+            for e in data.get("elements", [])
+        ]
 
     # Histories
 
     @cached_property
     def channels(self) -> dict[str, Channel]:
-        """All histories by full name, elements first, in the order of their numbers."""
-        history = self.file.get("history")
-        if history is None:
-            return {}
-        out: dict[str, Channel] = {}
-        types = {str(e.id): e for e in self.elements}
-        for kind in ("element", "node"):
-            groups = history.get(kind, {})
-            for key in sorted(groups, key=lambda k: (0, int(k), k) if k.isdigit() else (1, 0, k)):
-                owner = f"node {key}"
-                if kind == "element":
-                    kind_name = text(groups[key].attrs["type"]) if "type" in groups[key].attrs else ""
-                    owner = types[key].title if key in types else f"{kind_name or 'element'} {key}"
-                for channel in groups[key]:
-                    self._add_channel(out, f"{kind}/{key}/{channel}", groups[key][channel], owner)
-        for channel in history.get("run", {}):
-            self._add_channel(out, f"run/{channel}", history["run"][channel], "run")
-        return out
-
-    @staticmethod
-    def _add_channel(out: dict[str, Channel], name: str, data: h5py.Dataset, owner: str) -> None:
-        if isinstance(data, h5py.Dataset) and data.ndim == 1:
-            label = text(data.attrs["label"]) if "label" in data.attrs else ""
-            unit = text(data.attrs["unit"]) if "unit" in data.attrs else ""
-            out[name] = Channel(name, label, unit, owner, bool(data.attrs.get("unique", 1)))
+        """All histories by full name: elements, then nodes, in the order of their numbers, then the run."""
+        titles = {e.id: e.title for e in self.elements}
+        found: list[tuple[int, int, Channel]] = []
+        for table in self.read(_tables):
+            kind = table.path.split("/")[0]
+            rank = {"element": 0, "node": 1}.get(kind, 2)
+            width = len(table.names)
+            for column, unique in enumerate(table.unique):
+                k = column % width
+                owner = table.ids[column // width] if table.ids else 0
+                prefix = f"{kind}/{owner}" if table.ids else kind
+                title = titles.get(owner, f"{table.type or 'element'} {owner}") if rank == 0 else prefix
+                channel = Channel(
+                    f"{prefix}/{table.names[k]}",
+                    table.labels[k],
+                    table.units[k],
+                    title.replace("/", " "),
+                    unique,
+                    table.path,
+                    column,
+                )
+                found.append((rank, owner, channel))
+        found.sort(key=lambda entry: entry[:2])
+        return {channel.name: channel for _, _, channel in found}
 
     def find_channels(self, wanted: str) -> list[Channel]:
         """Channels meant by a name as a user types it; a pattern such as `element/*/NORMAL_FORCE` may give
@@ -252,12 +213,20 @@ class Results:
             raise UserError(f"{self.path} holds no histories{self._unfinished()}.")
         return [self.channels[n] for n in resolve(wanted, list(self.channels), str(self.path))]
 
-    @property
+    @cached_property
     def time_unit(self) -> str:
-        for name in ("history/time", "fields/time"):
-            if name in self.file and "unit" in self.file[name].attrs:
-                return text(self.file[name].attrs["unit"])
-        return ""
+        def look(file: h5py.File) -> str:
+            for name in ("history/time", "fields/time"):
+                if name in file and "unit" in file[name].attrs:
+                    return text(file[name].attrs["unit"])
+            return ""
+
+        return self.read(look)
+
+    def times(self) -> np.ndarray:
+        """Times of the samples."""
+        t = self.dataset("history/time")
+        return np.empty(0) if t is None else np.asarray(t, float)
 
     def history(
         self, channel: Channel | str, start: float | None = None, end: float | None = None
@@ -268,16 +237,15 @@ class Results:
             if len(found) != 1:
                 raise UserError(f"{channel} names {len(found)} channels; name one.")
             channel = found[0]
-        try:
-            t = np.asarray(self.file["history/time"][()], float)
-            y = np.asarray(self.file[f"history/{channel.name}"][()], float)
-        except (OSError, KeyError) as error:
-            raise UserError(f"{self.path}: {channel.name} cannot be read ({error}).") from error
-        # A killed run may have written the time of a sample but not yet all its channels.
-        n = min(len(t), len(y))
-        if n == 0:
+        where = channel
+
+        def look(file: h5py.File) -> tuple[np.ndarray, np.ndarray]:
+            values = file[f"history/{where.table}/values"]
+            return np.asarray(file["history/time"][()], float), np.asarray(values[:, where.column], float)
+
+        t, y = self.read(look)
+        if len(t) == 0:
             raise UserError(f"{self.path}: {channel.name} has no samples yet{self._unfinished()}.")
-        t, y = t[:n], y[:n]
         low = -np.inf if start is None else start
         high = np.inf if end is None else end
         # Times are sums of steps: an end given as a round number may lie a rounding past the last sample.
@@ -303,23 +271,24 @@ class Results:
         return np.asarray(self._mesh("points"), float).reshape(-1, 3)
 
     def _mesh(self, name: str) -> np.ndarray:
-        if f"mesh/{name}" not in self.file:
+        data = self.dataset(f"mesh/{name}")
+        if data is None:
             raise UserError(f"{self.path} holds no mesh (/mesh/{name} is missing){self._unfinished()}.")
-        return self.file[f"mesh/{name}"][()]
+        return data
 
     @cached_property
     def frame_times(self) -> np.ndarray:
-        fields = self.file.get("fields")
-        if fields is None or "time" not in fields:
-            return np.empty(0)
-        n = [len(fields[k]) for k in ("displacement", "rotation") if k in fields]
-        return np.asarray(fields["time"][()], float)[: min(n, default=0)]
+        times = self.dataset("fields/time")
+        return np.empty(0) if times is None else np.asarray(times, float)
+
+    def has_fields(self, *names: str) -> bool:
+        """Whether the run archives all these fields."""
+        return self.read(lambda f: all(f"fields/{name}" in f for name in names))
 
     def field(self, name: str, index: int) -> np.ndarray | None:
         """One field (n x 3) of frame `index` >= 0, or None when the run did not archive it."""
-        group = self.file.get(f"fields/{name}")
-        key = f"{index:06d}"
-        return np.asarray(group[key][()], float) if group is not None and key in group else None
+        data = self.dataset(f"fields/{name}/{index:06d}")
+        return None if data is None else np.asarray(data, float)
 
     def reference(self) -> Frame:
         """The undeformed model."""
@@ -354,3 +323,34 @@ class Results:
         if len(self.frame_times) == 0:
             return self.frame(0)
         return self.frame(int(np.argmin(np.abs(self.frame_times - time))))
+
+
+@dataclass(frozen=True)
+class _Table:
+    """Histories of owners that have the same channels: a group below /history."""
+
+    path: str
+    type: str
+    ids: list[int]
+    names: list[str]
+    units: list[str]
+    labels: list[str]
+    unique: list[bool]
+
+
+def _tables(file: h5py.File) -> list[_Table]:
+    found: list[_Table] = []
+
+    def keep(path: str, group: h5py.Group | h5py.Dataset) -> None:
+        if not isinstance(group, h5py.Group) or "values" not in group:
+            return
+        words = {k: [text(w) for w in group[k][()]] for k in ("channels", "units", "labels")}
+        ids = [int(i) for i in group["ids"][()]] if "ids" in group else []
+        count = group["values"].shape[1]
+        unique = [bool(u) for u in group["unique"][()]] if "unique" in group else [True] * count
+        kind = text(group.attrs["type"]) if "type" in group.attrs else ""
+        found.append(_Table(path, kind, ids, words["channels"], words["units"], words["labels"], unique))
+
+    if "history" in file:
+        file["history"].visititems(keep)
+    return found

@@ -305,11 +305,11 @@ class Scene:
 
     def _cells(self, drawn: set[int]) -> None:
         """Cells of elements that bring no drawing (beams, membranes); surfaces and solids always."""
-        f = self.result.file
-        if "mesh/topology" not in f:
+        topology = self.result.dataset("mesh/topology")
+        if topology is None:
             return
-        owner = f["mesh/cell_elements"][()] if "mesh/cell_elements" in f else None
-        cells = shapes.cells(np.asarray(f["mesh/topology"][()], int))
+        owner = self.result.dataset("mesh/cell_elements")
+        cells = shapes.cells(np.asarray(topology, int))
         lines, faces = [], []
         for i, (code, nodes) in enumerate(cells):
             mine = owner is not None and i < len(owner) and int(owner[i]) in drawn

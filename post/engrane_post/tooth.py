@@ -85,9 +85,8 @@ def _from_nodes(result: Results, element: Element, start: float, end: float) -> 
 def _from_frames(result: Results, element: Element, start: float, end: float) -> tuple[float, str] | None:
     """Speed of the wheel less that of the line of centres (which turns in planetary trains), averaged over
     the frames."""
-    fields = result.file.get("fields")
     names = ("displacement", "rotation", "velocity", "angular_velocity")
-    if fields is None or any(n not in fields for n in names):
+    if not result.has_fields(*names):
         return None
     times = result.frame_times
     inside = np.flatnonzero((times >= start) & (times <= end))[:2000]

@@ -10,6 +10,7 @@
 #include "app/solve_deck.hpp"
 #include "assembly/petsc.hpp"
 #include "deck/manual/manual.hpp"
+#include "output/hdf5_handle.hpp"
 
 namespace engrane::app {
 
@@ -71,6 +72,7 @@ int main(int argc, char** argv) {
       const auto early = parse_command_line(argc, argv, false, done);
       if (early && early->task != Options::Task::run && early->task != Options::Task::check) return perform(*early, true);
     }
+    output::hdf5::prepare();  // before MPI
     PetscSession session(argc, argv);
     int rank = 0;
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank);

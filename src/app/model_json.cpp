@@ -17,7 +17,7 @@ std::string model_json(const Model& model) {
   for (const Model::Part& part : model.parts) {
     const auto nodes = part.element->node_ids();
     json += fmt::format("{}\n  {{\"id\": {}, \"type\": {}, \"nodes\": [{}], \"parameters\": {}, \"drawing\": [", first ? "" : ",",
-                        part.element->id(), json_string(part.type), fmt::join(nodes, ", "), part.parameters);
+                        part.element->id(), json_string(part.type), fmt::join(nodes, ", "), parameters_json(part));
     first = false;
     const Drawing shapes = part.element->drawing();
     for (std::size_t i = 0; i < shapes.size(); ++i) json += fmt::format("{}{{{}}}", i ? ", " : "", shapes[i]);

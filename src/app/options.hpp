@@ -11,9 +11,12 @@ namespace engrane::app {
 struct Options {
   enum class Task { run, check, help, make_template, manual, schema } task = Task::run;
   std::string deck;
-  std::string prefix;  ///< of the results; empty: the deck's name in the working directory
-  std::string card;    ///< of help and template; empty: the overview
-  bool quiet = false;  ///< no progress
+  std::string prefix;           ///< of the results; empty: the deck's name in the working directory
+  std::string card;             ///< of help and template; empty: the overview
+  bool quiet = false;           ///< no progress
+  std::optional<double> until;  ///< the run is interrupted at the first step that ends then or later
+  std::string restart;          ///< prefix of the results to go on from, whatever the deck says; empty: what the deck says
+  std::optional<double> restart_time;
 };
 
 /// Exit statuses of the program.

@@ -4,28 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
-
-#include "model/element_at_rest.hpp"
 
 namespace engrane::app {
 
 namespace {
 
 constexpr double earth = 9.81;  // m/s²
-
-/// Mass that an element gives to the translation of its first node, from its residual under a unit acceleration.
-double mass_of(const Model& model, const Model::Part& part) {
-  ElementAtRest body(model, part);
-  const auto n = static_cast<std::size_t>(part.element->layout().slots());
-  std::vector<double> still(n), moved(n);
-  part.element->residual(body.view(), still);
-  body.nodes[0].a = Vec3::UnitX();
-  part.element->residual(body.view(), moved);
-  return moved[0] - still[0];
-}
 
 /// A body whose radius of gyration has nothing to do with the size of the mechanism.
 void look_at_bodies(const Model& model, double extent, Diagnostics& diagnostics) {
@@ -34,9 +23,9 @@ void look_at_bodies(const Model& model, double extent, Diagnostics& diagnostics)
   for (const Model::Part& part : model.parts) {
     if (part.type != "INERTIA" && part.type != "RIGID") continue;
     if (part.nodes.empty() || part.nodes[0] == 0) continue;
-    const double mass = mass_of(model, part);
     const double moment = part.element->inertia_at(model.nodes[static_cast<std::size_t>(part.nodes[0])].id).diagonal().maxCoeff();
-    if (!(mass > 0) || !(moment > 0)) continue;
+    const double mass = moment > 0 ? mass_at_first_node(model, part) : 0;
+    if (!(mass > 0)) continue;
     const double radius = std::sqrt(moment / mass);
     if (radius < too_large * extent && radius * too_small > extent) continue;
     const std::string unit = model.units.label(dimension::length);
@@ -50,32 +39,42 @@ void look_at_bodies(const Model& model, double extent, Diagnostics& diagnostics)
   }
 }
 
-/// How far nodes are from the middle of all; the two farthest last.
-std::vector<std::pair<double, std::size_t>> distances(const Model& model) {
+/// A node and how far it is from the middle of all.
+struct Away {
+  double distance = 0;
+  std::size_t node = 0;
+};
+
+/// The two nodes that are farthest from the middle, the farthest first. There are two nodes at least, the ground aside.
+std::array<Away, 2> farthest_nodes(const Model& model) {
   const std::size_t count = model.nodes.size() - 1;
   // the median does not follow a stray
   Vec3 middle;
+  std::vector<double> x(count);
   for (int k = 0; k < 3; ++k) {
-    std::vector<double> x;
-    for (std::size_t i = 1; i <= count; ++i) x.push_back(model.nodes[i].x[k]);
+    for (std::size_t i = 0; i < count; ++i) x[i] = model.nodes[i + 1].x[k];
     std::nth_element(x.begin(), x.begin() + static_cast<long>(count / 2), x.end());
     middle[k] = x[count / 2];
   }
-  std::vector<std::pair<double, std::size_t>> away;
-  for (std::size_t i = 1; i <= count; ++i) away.emplace_back((model.nodes[i].x - middle).norm(), i);
-  std::sort(away.begin(), away.end());
-  return away;
+  std::array<Away, 2> two;
+  for (std::size_t i = 1; i <= count; ++i) {
+    const Away one{(model.nodes[i].x - middle).norm(), i};
+    if (one.distance >= two[0].distance)
+      two = {one, two[0]};
+    else if (one.distance > two[1].distance)
+      two[1] = one;
+  }
+  return two;
 }
 
 /// Warns of a node that lies 300 times as far away as all others are apart; returns the size of the mechanism without it.
 double look_at_nodes(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   constexpr double far = 300;
   if (model.nodes.size() < 4) return model.extent();
-  const auto away = distances(model);
-  const auto [farthest, stray] = away[away.size() - 1];
-  const double others = away[away.size() - 2].first;
+  const auto [away, second] = farthest_nodes(model);
+  const double farthest = away.distance, others = second.distance;
   if (!(others > 0) || farthest < far * others) return model.extent();
-  const int id = model.nodes[stray].id;
+  const int id = model.nodes[away.node].id;
   for (const deck::Record& record : deck.records)
     if (record.get<deck::NodeCard>() && record.id == id)
       diagnostics.warning(record.location,

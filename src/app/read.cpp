@@ -3,41 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/plausibility.hpp"
+#include "app/selection.hpp"
 
 namespace engrane::app {
 
 namespace {
-
-/// Rows of `.CHK` and others that name what only the built model knows.
-void check_targets(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
-  for (const deck::Record& record : deck.records) {
-    const auto* check = record.get<deck::CheckCard>();
-    if (!check || !check->element) continue;
-    const Model::Part* found = nullptr;
-    std::vector<std::string> names;
-    for (const Model::Part& part : model.parts)
-      if (part.element->id() == *check->element && part.type != "CHA") found = &part;
-    if (!found) {
-      diagnostics.error(record.where("ELEMENT"), fmt::format("there is no element {}", *check->element));
-      continue;
-    }
-    bool known = false;
-    for (const Named& channel : found->element->channels()) {
-      names.push_back(channel.name);
-      known = known || channel.name == check->quantity;
-    }
-    if (known) continue;
-    std::string list;
-    for (const std::string& name : names) list += (list.empty() ? "" : " ") + name;
-    const std::string near = nearest(check->quantity, names);
-    diagnostics.error(record.where("QUANTITY"),
-                      fmt::format("{} {} has no output {}", found->type, *check->element, check->quantity),
-                      near.empty() ? "it has " + list : fmt::format("did you mean {}? It has {}", near, list));
-  }
-}
 
 /// Constraints at index 3 need some damping at high frequency: without, rounding grows with the square of the number of
 /// steps (Cardona and Géradin 1989).

@@ -4,19 +4,26 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 
+#include "app/layout.hpp"
+#include "app/model_difference.hpp"
 #include "app/model_json.hpp"
-#include "app/recorder.hpp"
+#include "app/schedule.hpp"
+#include "app/selection.hpp"
 #include "app/summary.hpp"
 #include "app/times.hpp"
 #include "app/version.hpp"
 #include "output/checks.hpp"
 #include "output/listing.hpp"
 #include "output/progress.hpp"
+#include "output/restart_file.hpp"
+#include "solve/constraints/start_report.hpp"
+#include "solve/run/runner.hpp"
 #include "user/routine.hpp"
 
 namespace engrane::app {
@@ -30,15 +37,46 @@ volatile std::sig_atomic_t interrupted = 0;
 void interrupt(int) { interrupted = 1; }
 
 /// Checks of the deck, each tied to its channel. The reader has made sure that the channels exist.
-Checks resolve_checks(const Model& model, const Recorder& recorder) {
+Checks resolve_checks(const Model& model, const observe::Observer& observer) {
   std::vector<Checks::Resolved> all;
   for (const deck::CheckCard& card : model.commands.checks) {
     const std::string owner = card.element ? fmt::format("element/{}", *card.element)
                               : card.node  ? fmt::format("node/{}", *card.node)
                                            : std::string("run");
-    all.push_back({card, static_cast<std::size_t>(recorder.channel(owner, card.quantity))});
+    all.push_back({card, static_cast<std::size_t>(observer.channel(owner, card.quantity))});
   }
   return Checks(std::move(all));
+}
+
+/// An earlier run, and the point of it that this run goes on from.
+struct Resumption {
+  RestartFile earlier;
+  RestartPoint point;
+};
+
+/// Opens what `.SAM RESTART` names, on every rank. Throws RestartError, also when its model is another than that of `reading`.
+std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Options& options) {
+  const deck::AnalysisCard& card = reading.model.commands.analysis;
+  const bool overruled = !options.restart.empty();
+  const std::string& prefix = overruled ? options.restart : card.restart;
+  const std::optional<double> time = overruled ? options.restart_time : card.restart_time;
+  if (prefix.empty()) return nullptr;
+  RestartFile earlier(prefix);
+  SourceMap sources;
+  Diagnostics diagnostics;
+  const deck::Deck before =
+      deck::read_text(earlier.path(), earlier.deck_text(), catalogue(element_types()), sources, diagnostics);
+  if (const std::string difference = model_difference(before, reading.deck); !difference.empty())
+    throw RestartError(
+        fmt::format("{} is the result of another model: {}. A restart may change .SUB, .SAM, .SAI, checks, loads and "
+                    "functions of time",
+                    earlier.path(), difference));
+  RestartPoint point = earlier.load(time);
+  if (point.time >= reading.model.commands.stepping.end)
+    throw RestartError(
+        fmt::format("{} goes on from t = {:.10g}, and .SUB ends at TF = {:.10g}: give a later TF, or RESTART an earlier T",
+                    earlier.path(), point.time, reading.model.commands.stepping.end));
+  return std::make_unique<Resumption>(std::move(earlier), std::move(point));
 }
 
 /// More events than this are counted only.
@@ -47,12 +85,15 @@ constexpr long most_listed_events = 100;
 /// Everything that rank 0 writes during a run.
 class Writer {
  public:
-  Writer(const Reading& reading, const Recorder& recorder, const Options& options, const std::string& prefix)
+  /// `resumed`: what this run goes on from, or nullptr.
+  Writer(const Reading& reading, const observe::Observer& observer, const Schedule& schedule, const Options& options,
+         const std::string& prefix, const Resumption* resumed)
       : reading_(reading),
-        recorder_(recorder),
-        results_(prefix, recorder.layout()),
+        observer_(observer),
+        schedule_(schedule),
+        results_(make_results(prefix, results_layout(reading, observer, schedule.expected_samples()), resumed)),
         listing_(results_.name()),
-        checks_(resolve_checks(reading.model, recorder)),
+        checks_(resolve_checks(reading.model, observer)),
         progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
                   options.quiet ? Progress::Style::silent : Progress::suitable()) {}
 
@@ -64,7 +105,39 @@ class Writer {
     listing_.write(listing_built(summarize(model, context.numbering)));
     listing_.write(describe_geometry(model));
     listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
+    if (const std::string text = left_out_histories(model); !text.empty()) {
+      listing_.write(fmt::format("\n  {}\n", text));
+      progress_.note("engrane: " + text);
+    }
     listing_.write(listing_section("Start"));
+  }
+
+  void resumed(const Resumption& from) {
+    checks_.load(from.point.memory);
+    const std::vector<double>& counts = from.point.memory.array("writer/counts");
+    steps_ = static_cast<long>(counts.at(0));
+    iterations_ = static_cast<long>(counts.at(1));
+    cuts_ = static_cast<long>(counts.at(2));
+    locating_ = static_cast<long>(counts.at(3));
+    event_count_ = static_cast<long>(counts.at(4));
+    marked_ = observer_.not_unique().size();
+    results_.mark_not_unique(observer_.not_unique());
+    listing_.write(fmt::format("  goes on from {} at t = {:.10g}\n", from.earlier.path(), from.point.time));
+    if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
+  }
+
+  /// Gives the results what the run could go on from now: with a batch, where the deck asks for it, and at the end.
+  void remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
+    if (!kept && !last && !results_.due()) return;
+    Snapshot memory;
+    runner.save(memory);
+    observer_.save(memory);
+    schedule_.save(memory);
+    checks_.save(memory);
+    memory.put("writer/counts", {static_cast<double>(steps_), static_cast<double>(iterations_), static_cast<double>(cuts_),
+                                 static_cast<double>(locating_), static_cast<double>(event_count_)});
+    results_.restart_point(c.time, std::move(memory), kept);
+    if (results_.due()) results_.flush();
   }
 
   void started(const StartReport& start) {
@@ -78,17 +151,17 @@ class Writer {
     if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
   }
 
-  void step(const Configuration& c, const StepReport& step, const Numbering& numbering) {
+  void step(const Configuration& c, const StepReport& step, const Schedule::Due& due, const Numbering& numbering) {
     const bool last = c.time >= reading_.model.commands.stepping.end;
-    checks_.observe(c.time, recorder_.values(), step.regular);
-    if (recorder_.not_unique().size() != marked_) {
-      marked_ = recorder_.not_unique().size();
-      results_.mark_not_unique(recorder_.not_unique());
+    if (!checks_.empty()) checks_.observe(c.time, observer_.values(), step.regular);
+    if (observer_.not_unique().size() != marked_) {
+      marked_ = observer_.not_unique().size();
+      results_.mark_not_unique(observer_.not_unique());
     }
-    if (recorder_.sample_due()) results_.sample(c.time, recorder_.values());
-    if (recorder_.frame_due()) {
-      results_.frame(c.time, recorder_.frame());
-      const EnergyBalance& e = recorder_.energies();
+    if (due.sample) results_.sample(c.time, observer_.values());
+    if (due.frame) {
+      results_.frame(c.time, frame_values(reading_.model, observer_));
+      const observe::EnergyBalance& e = observer_.energies();
       energies_.push_back({c.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error()});
     }
     ++steps_;
@@ -110,7 +183,7 @@ class Writer {
     listing_.write(listing_section("Energies"));
     listing_.write(listing_energies(thinned_energies(), units));
     std::vector<ReactionRow> reactions;
-    for (const Recorder::Reaction& r : recorder_.reactions())
+    for (const observe::Reaction& r : observer_.reactions())
       reactions.push_back({reading_.model.nodes[static_cast<std::size_t>(r.node)].id, r.force, r.torque});
     if (!reactions.empty()) {
       listing_.write(listing_section("Reactions at the end"));
@@ -118,7 +191,7 @@ class Writer {
     }
     if (marked_ > 0) {
       listing_.write(listing_section("Not unique"));
-      listing_.write(listing_not_unique(recorder_.groups(), recorder_.not_unique()));
+      listing_.write(listing_not_unique(results_.layout().history, observer_.not_unique()));
     }
     if (event_count_ > 0) {
       listing_.write(listing_section("Events"));
@@ -188,8 +261,14 @@ class Writer {
     return rows;
   }
 
+  static Results make_results(const std::string& prefix, ResultsLayout layout, const Resumption* resumed) {
+    if (resumed) return {prefix, std::move(layout), resumed->earlier, resumed->point};
+    return {prefix, std::move(layout)};
+  }
+
   const Reading& reading_;
-  const Recorder& recorder_;
+  const observe::Observer& observer_;
+  const Schedule& schedule_;
   Results results_;
   Listing listing_;
   Checks checks_;
@@ -225,6 +304,17 @@ bool asked_to_stop(MPI_Comm comm, int ranks) {
   return stop != 0;
 }
 
+/// Lets the observer see an accepted step; what is not unique is looked for at the start, after 1, 2, 4, … steps and at the end.
+void observe_step(SolverContext& context, observe::Observer& observer, const Configuration& c, const StepReport& step,
+                  const Schedule::Due& due) {
+  const Model& model = context.model;
+  const int iterations = step.newton ? step.newton->iterations : 0;
+  observer.observe(c, {step.step, iterations, step.events.size()}, due.sample || !model.commands.checks.empty(), due.frame);
+  const bool last = c.time >= model.commands.stepping.end;
+  if (context.redundancy.active() && (last || (step.number & (step.number - 1)) == 0))
+    observer.find_not_unique(c, context.redundancy.undetermined(c));
+}
+
 }  // namespace
 
 int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
@@ -233,15 +323,24 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   MPI_Comm_size(comm, &ranks);
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end of the program
 
   Times times;
+  std::unique_ptr<Resumption> resumption;
+  try {
+    resumption = find_resumption(reading, options);
+  } catch (const RestartError& e) {
+    if (rank == 0) std::cerr << "engrane: " << e.what() << '\n';
+    return exit_status::wrong_deck;
+  }
   SolverContext context(reading.model, comm);
-  Recorder recorder(reading, context);
+  observe::Observer observer(context.assembler, moves(reading.model), select_histories(reading.model));
+  Schedule schedule(reading.model.commands.stepping, reading.model.commands.archive);
   std::optional<Writer> writer;
   // the other ranks must hear of it when the files cannot be made
   std::string trouble;
   if (rank == 0) try {
-      writer.emplace(reading, recorder, options, default_prefix(options));
+      writer.emplace(reading, observer, schedule, options, default_prefix(options), resumption.get());
       writer->begin(context, options, ranks);
     } catch (const OutputError& e) {
       trouble = e.what();
@@ -257,31 +356,44 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
 
   std::string failure;
   bool complete = false;
+  const auto scheme = make_scheme(context);
+  Runner runner(context, *scheme);
+  const Observer after_step = [&](const Configuration& c, const StepReport& step) {
+    const auto watch = times.output();
+    user::forget_failures();  // those of attempts that were cut
+    const Schedule::Due due = schedule.at(c.time, step.number == 0 ? 0.0 : step.step, step.regular);
+    observe_step(context, observer, c, step, due);
+    int stop = 0;
+    if (rank == 0) try {
+        writer->step(c, step, due, context.numbering);
+        writer->remember(c, runner, due.restart, false);
+      } catch (const OutputError& e) {
+        failure = e.what();
+        stop = 1;
+      }
+    if (ranks > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, comm);
+    const bool far_enough = options.until && c.time >= *options.until && c.time < reading.model.commands.stepping.end;
+    if (asked_to_stop(comm, ranks) || far_enough) {
+      failure = fmt::format("interrupted at t = {:.6g}", c.time);
+      stop = 1;
+    }
+    return stop == 0;
+  };
   try {
-    const auto scheme = make_scheme(context);
-    Runner runner(context, *scheme);
-    complete = runner.run(
-        [&](const Configuration& c, const StepReport& step) {
-          const auto watch = times.output();
-          user::forget_failures();  // those of attempts that were cut
-          int stop = 0;
-          if (rank == 0) try {
-              recorder.observe(c, step);
-              writer->step(c, step, context.numbering);
-            } catch (const OutputError& e) {
-              failure = e.what();
-              stop = 1;
-            }
-          if (ranks > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, comm);
-          if (asked_to_stop(comm, ranks)) {
-            failure = fmt::format("interrupted at t = {:.6g}", c.time);
-            stop = 1;
-          }
-          return stop == 0;
-        },
-        [&](const StartReport& start) {
-          if (rank == 0) writer->started(start);
-        });
+    if (resumption) {
+      observer.load(resumption->point.memory);
+      schedule.load(resumption->point.memory);
+      if (rank == 0) writer->resumed(*resumption);
+      complete = runner.resume(resumption->point.memory, after_step);
+    } else {
+      complete = runner.run(after_step, [&](const StartReport& start) {
+        if (rank == 0) writer->started(start);
+      });
+    }
+  } catch (const std::out_of_range& e) {
+    // of the restart point: its arrays do not fit this model
+    if (!resumption) throw;
+    failure = fmt::format("cannot go on from {}: {}", resumption->earlier.path(), e.what());
   } catch (const SolutionFailure& e) {
     failure = e.what();
   }
@@ -290,6 +402,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {
     try {
+      if (runner.started()) writer->remember(runner.now(), runner, false, true);
       status = writer->finish(complete ? RunStatus::complete : RunStatus::failed, failure, times.split(context.solver));
     } catch (const OutputError& e) {
       failure = e.what();

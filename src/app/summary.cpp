@@ -5,7 +5,7 @@
 
 #include <cmath>
 #include <map>
-#include <set>
+#include <vector>
 
 namespace engrane::app {
 
@@ -40,19 +40,19 @@ BuiltSummary summarize(const Model& model, const Numbering& numbering) {
       ++summary.rotations;
   }
   // supports take unknowns away only where some element needs them
-  std::set<int> needed;
+  std::vector<bool> needed(6 * model.nodes.size(), false);
   for (const Model::Part& part : model.parts)
     for (std::size_t i = 0; i < part.nodes.size(); ++i)
       for (int c = 0; c < 6; ++c) {
         const NodeNeed need = c < 3 ? NodeNeed::translation : NodeNeed::rotation;
         if (static_cast<unsigned>(part.element->layout().needs[i]) & static_cast<unsigned>(need))
-          needed.insert(6 * part.nodes[i] + c);
+          needed[static_cast<std::size_t>(6 * part.nodes[i] + c)] = true;
       }
-  std::set<int> held;
-  for (const Support& s : model.supports)
-    if (const int slot = 6 * s.node + s.component; needed.contains(slot)) held.insert(slot);
-  for (const int slot : held) ++(slot % 6 < 3 ? summary.translations : summary.rotations);
-  summary.prescribed = held.size();
+  for (const Support& s : model.supports) {  // each component of a node once
+    if (!needed[static_cast<std::size_t>(6 * s.node + s.component)]) continue;
+    ++(s.component < 3 ? summary.translations : summary.rotations);
+    ++summary.prescribed;
+  }
   const auto motions = summary.translations + summary.rotations + summary.scalars - summary.prescribed;
   summary.choices.emplace_back("motions less constraints",
                                std::to_string(static_cast<long>(motions) - static_cast<long>(summary.multipliers)));

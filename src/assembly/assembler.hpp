@@ -33,6 +33,9 @@ class Assembler {
   const Model& model() const { return model_; }
   const Numbering& numbering() const { return numbering_; }
   int rank() const { return rank_; }
+  /// This rank's share of Model::parts: from first_part() to before end_part().
+  int first_part() const { return first_part_; }
+  int end_part() const { return end_part_; }
   Mat matrix() const { return matrix_; }
   Vec new_vector() const { return scatter_.new_vector(); }
   /// A matrix like matrix(), of the caller's.

@@ -18,10 +18,11 @@ void Scatter::find_pattern() {
   check_petsc(MatSetSizes(pattern_, PETSC_DECIDE, PETSC_DECIDE, n, n));
   check_petsc(MatSetType(pattern_, MATAIJ));
   check_petsc(MatSetFromOptions(pattern_));
-  PetscLayout layout = nullptr;
-  check_petsc(MatGetLayouts(pattern_, &layout, nullptr));
-  check_petsc(PetscLayoutSetUp(layout));
-  check_petsc(PetscLayoutGetRange(layout, &first_row_, &end_row_));
+  PetscLayout rows_of_ranks = nullptr, columns_of_ranks = nullptr;
+  check_petsc(MatGetLayouts(pattern_, &rows_of_ranks, &columns_of_ranks));
+  check_petsc(PetscLayoutSetUp(rows_of_ranks));
+  check_petsc(PetscLayoutSetUp(columns_of_ranks));
+  check_petsc(PetscLayoutGetRange(rows_of_ranks, &first_row_, &end_row_));
 
   // the elements of each row; every rank knows all elements, and so the whole of its own rows
   const auto rows = static_cast<std::size_t>(end_row_ - first_row_);

@@ -11,6 +11,7 @@ namespace engrane {
 
 int SourceMap::add(std::string path, std::string text, Location included_from) {
   std::vector<std::size_t> starts;
+  starts.reserve(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
   if (!text.empty()) starts.push_back(0);
   for (std::size_t i = 0; i + 1 < text.size(); ++i)
     if (text[i] == '\n') starts.push_back(i + 1);

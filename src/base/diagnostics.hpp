@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <iosfwd>
 #include <string>
 #include <string_view>
@@ -19,7 +20,8 @@ struct Location {
   bool known() const { return file >= 0; }
 };
 
-/// The texts a deck was read from, kept so that a message can show the offending line.
+/// The texts a deck was read from, kept so that a message can show the offending line. Texts stay where they are while files
+/// are added and while the map is moved.
 class SourceMap {
  public:
   /// Adds a file and returns its index. `included_from` is the INPUT record that named it.
@@ -41,7 +43,7 @@ class SourceMap {
     Location included_from;
     std::vector<std::size_t> line_starts;
   };
-  std::vector<File> files_;
+  std::deque<File> files_;
 };
 
 enum class Severity { warning, error };

@@ -46,10 +46,19 @@ std::string join(const std::vector<std::string>& words, std::string_view last) {
   return result;
 }
 
-std::string format_number(double value) {
+void append_number(std::string& text, double value) {
   std::array<char, 32> buffer{};
   const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return error == std::errc() ? std::string(buffer.data(), end) : std::string("?");
+  if (error == std::errc())
+    text.append(buffer.data(), end);
+  else
+    text += '?';
+}
+
+std::string format_number(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
 }
 
 std::string counted(std::size_t count, std::string_view noun) {

@@ -22,6 +22,7 @@ std::string join(const std::vector<std::string>& words, std::string_view last = 
 
 /// The shortest spelling that reads back as exactly the same number: `0.1`, `2.1e+08`, `-3`.
 std::string format_number(double value);
+void append_number(std::string& text, double value);
 
 /// `1 value`, `3 values`.
 std::string counted(std::size_t count, std::string_view noun);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
+#include <unordered_map>
+#include <utility>
 
 #include "model/frames.hpp"
 #include "model/groups.hpp"
@@ -19,50 +22,78 @@ namespace {
 class Builder {
  public:
   Builder(const deck::Deck& deck, const std::vector<ElementType>& types, Diagnostics& diagnostics)
-      : deck_(deck), types_(types), diagnostics_(diagnostics), groups_(positions_, diagnostics) {}
+      : deck_(deck), types_(types), diagnostics_(diagnostics), groups_(nodes_, diagnostics) {}
 
   Model build() {
-    positions_[0] = Vec3::Zero();
-    for (const deck::Record& record : deck_.records)
-      if (const auto* card = record.get<deck::FrameCard>()) frames_.add(record, *card, diagnostics_);
     for (const deck::Record& record : deck_.records) {
-      if (const auto* card = record.get<deck::NodeCard>()) add_node(record, *card);
-      if (record.get<deck::FunctionCard>()) add_function(record);
+      if (const auto* card = record.get<deck::FrameCard>()) frames_.add(record, *card, diagnostics_);
+      if (const auto* card = record.get<deck::SteppingCard>()) stepping_ = card;
+      if (const ElementType* type = type_of(record)) elements_.push_back({&record, type});
     }
-    for (const deck::Record& record : deck_.records) place_node(record);
-    for (const auto& [id, x] : positions_) model_.nodes.push_back({id, x});
+    add_nodes();
+    for (const deck::Record& record : deck_.records)
+      if (record.get<deck::FunctionCard>()) add_function(record);
+    for (const ElementRecord& element : elements_) place_node(element);
     for (const deck::Record& record : deck_.records) add_command(record);
+    others_are_asked_for_ =
+        std::any_of(elements_.begin(), elements_.end(), [](const ElementRecord& e) { return e.type->stage == 1; });
     for (int stage = 0; stage < 2; ++stage)
-      for (const deck::Record& record : deck_.records) add_element(record, stage);
+      for (const ElementRecord& element : elements_)
+        if (element.type->stage == stage) add_element(element);
     std::stable_sort(model_.parts.begin(), model_.parts.end(),
                      [](const Model::Part& a, const Model::Part& b) { return a.element->id() < b.element->id(); });
     add_loads();
+    model_.nodes = nodes_.release();
     for (Model::Part& part : model_.parts)
       for (const int id : part.element->node_ids()) part.nodes.push_back(model_.node_index(id));
     check_rotation_supports();
+    model_.measure();
     return std::move(model_);
   }
 
  private:
-  void add_node(const deck::Record& record, const deck::NodeCard& card) {
-    if (record.id <= 0) {
-      diagnostics_.error(record.location, fmt::format("node number {}: numbers start at 1", record.id),
-                         "node 0 is the ground and need not be declared");
-      return;
+  /// An element of the deck and its type.
+  struct ElementRecord {
+    const deck::Record* record;
+    const ElementType* type;
+  };
+
+  /// The element type of a record; nullptr when it is of another card.
+  const ElementType* type_of(const deck::Record& record) {
+    const auto [entry, fresh] = types_by_schema_.try_emplace(record.schema, nullptr);
+    if (fresh) {
+      const auto same = [&](const ElementType& type) { return type.schema.name == record.schema->name; };
+      if (const auto type = std::find_if(types_.begin(), types_.end(), same); type != types_.end()) entry->second = &*type;
     }
-    positions_[record.id] = frames_.to_global(record, card, diagnostics_);
+    return entry->second;
+  }
+
+  void add_nodes() {
+    std::size_t count = 1;
+    for (const deck::Record& record : deck_.records) count += record.get<deck::NodeCard>() != nullptr;
+    std::vector<NodePositions::Node> nodes;
+    nodes.reserve(count);
+    nodes.push_back({0, Vec3::Zero()});
+    for (const deck::Record& record : deck_.records)
+      if (const auto* card = record.get<deck::NodeCard>()) {
+        if (record.id > 0)
+          nodes.push_back({record.id, frames_.to_global(record, *card, diagnostics_)});
+        else
+          diagnostics_.error(record.location, fmt::format("node number {}: numbers start at 1", record.id),
+                             "node 0 is the ground and need not be declared");
+      }
+    nodes_ = NodePositions(std::move(nodes));
   }
 
   void add_function(const deck::Record& record) {
     FunctionSetting setting;
     if (const int file = record.location.file; file >= 0 && file < static_cast<int>(deck_.folders.size()))
       setting.folder = deck_.folders[static_cast<std::size_t>(file)];
-    for (const deck::Record& other : deck_.records)
-      if (const auto* stepping = other.get<deck::SteppingCard>()) {
-        setting.start = stepping->start;
-        setting.end = stepping->end;
-        setting.step = stepping->step;
-      }
+    if (stepping_) {
+      setting.start = stepping_->start;
+      setting.end = stepping_->end;
+      setting.step = stepping_->step;
+    }
     if (auto function = make_function(record, diagnostics_, setting))
       model_.functions[record.id] = std::move(function);
     else
@@ -76,7 +107,7 @@ class Builder {
     if (const auto* analysis = record.get<deck::AnalysisCard>()) model_.commands.analysis = *analysis;
     if (const auto* stepping = record.get<deck::SteppingCard>()) set_stepping(record, *stepping);
     if (const auto* archive = record.get<deck::ArchiveCard>()) {
-      model_.commands.archive = *archive;
+      add_archive(record, *archive);
       if (!archive->codes.empty())
         diagnostics_.warning(record.where("STYP"), "STYP selects nothing in this version: all fields and histories are archived");
     }
@@ -95,6 +126,27 @@ class Builder {
       model_.gravity.push_back({Vec3(g[0], g[1], g[2]), function(record, gravity->function)});
     }
     if (const auto* initial = record.get<deck::InitialCard>()) add_initial(record, *initial);
+  }
+
+  /// Puts the members of the card's groups to its nodes and elements.
+  void add_archive(const deck::Record& record, const deck::ArchiveCard& card) {
+    deck::ArchiveCard& archive = model_.commands.archive = card;
+    deck::NodeTarget nodes{card.nodes, {}};
+    for (const std::string& name : card.groups) {
+      const deck::GroupCard* elements = nullptr;
+      for (const deck::Record& other : deck_.records)
+        if (const auto* group = other.get<deck::GroupCard>();
+            group && group->kind.is("ELEMENTS") && (group->name == name || std::to_string(group->number) == name))
+          elements = group;
+      if (!elements) {
+        nodes.groups.push_back(name);
+        continue;
+      }
+      archive.elements.insert(archive.elements.end(), elements->ids.begin(), elements->ids.end());
+      for (const deck::Record& other : deck_.records)
+        if (elements->all && other.schema->command() == ".MCE") archive.elements.push_back(other.id);
+    }
+    archive.nodes = groups_.resolve(record, nodes);
   }
 
   void set_stepping(const deck::Record& record, const deck::SteppingCard& card) {
@@ -139,15 +191,18 @@ class Builder {
                     const std::vector<double>& values, int function_id) {
     const auto each = values_of(record, components, values, true);
     const Function* f = function(record, function_id);
+    if (support_of_.empty()) support_of_.assign(nodes_.by_number().size(), {none, none, none, none, none, none});
     for (const int id : groups_.resolve(record, target))
       for (std::size_t i = 0; i < components.size(); ++i) {
-        const Support support{model_.node_index(id), components[i] - 1, each[i], f};
-        const auto same = [&](const Support& s) { return s.node == support.node && s.component == support.component; };
-        const auto old = std::find_if(model_.supports.begin(), model_.supports.end(), same);
-        if (old == model_.supports.end()) {
+        if (components[i] < 1 || components[i] > 6) continue;  // as values_of() has said
+        const Support support{nodes_.index(id), components[i] - 1, each[i], f};
+        int& index = support_of_[static_cast<std::size_t>(support.node)][static_cast<std::size_t>(support.component)];
+        if (index == none) {
+          index = static_cast<int>(model_.supports.size());
           model_.supports.push_back(support);
           support_locations_.push_back(record.location);
-        } else if (old->value != support.value || old->function != support.function) {
+        } else if (const Support& old = model_.supports[static_cast<std::size_t>(index)];
+                   old.value != support.value || old.function != support.function) {
           diagnostics_.error(record.location,
                              fmt::format("component {} of node {} is already prescribed otherwise", components[i], id));
         }
@@ -160,8 +215,12 @@ class Builder {
     for (std::size_t i = 0; i < model_.supports.size(); ++i) {
       const Support& s = model_.supports[i];
       if (s.component < 3) continue;
-      const auto held = std::count_if(model_.supports.begin(), model_.supports.end(),
-                                      [&](const Support& other) { return other.node == s.node && other.component >= 3; });
+      int held = 0, moved = 0;
+      for (std::size_t c = 3; c < 6; ++c)
+        if (const int other = support_of_[static_cast<std::size_t>(s.node)][c]; other != none) {
+          ++held;
+          moved += model_.supports[static_cast<std::size_t>(other)].value != 0;
+        }
       const int id = model_.nodes[static_cast<std::size_t>(s.node)].id;
       if (held == 1)
         diagnostics_.error(support_locations_[i],
@@ -169,14 +228,9 @@ class Builder {
                                        "rotations of any size",
                                        id, s.component + 1),
                            "prescribe two or three of the components 4 5 6, or join the node to the ground with a HINGE");
-      if (s.value != 0 && held == 3) {
-        const auto moved = std::count_if(model_.supports.begin(), model_.supports.end(), [&](const Support& other) {
-          return other.node == s.node && other.component >= 3 && other.value != 0;
-        });
-        if (moved > 1)
-          diagnostics_.error(support_locations_[i], fmt::format("node {} is turned about more than one axis at once", id),
-                             "prescribe one rotation and hold the other two at zero");
-      }
+      if (s.value != 0 && held == 3 && moved > 1)
+        diagnostics_.error(support_locations_[i], fmt::format("node {} is turned about more than one axis at once", id),
+                           "prescribe one rotation and hold the other two at zero");
     }
   }
 
@@ -190,7 +244,7 @@ class Builder {
         if (c < 1 || c > 6) continue;
         (c <= 3 ? force : moment)[(c - 1) % 3] += each[i];
       }
-      loads_.push_back({id, force, moment, f, record.location, deck::record_json(record)});
+      loads_.push_back({id, force, moment, f, &record});
     }
   }
 
@@ -198,10 +252,10 @@ class Builder {
     int id = 0;
     for (const Model::Part& part : model_.parts) id = std::max(id, part.element->id());
     for (const Load& load : loads_)
-      model_.parts.push_back({make_node_load(++id, load.node, positions_.at(load.node), load.force, load.moment, load.function),
+      model_.parts.push_back({make_node_load(++id, load.node, nodes_.at(load.node), load.force, load.moment, load.function),
                               "CHA",
-                              load.parameters,
-                              load.location,
+                              load.record,
+                              load.record->location,
                               {}});
   }
 
@@ -210,71 +264,85 @@ class Builder {
     const auto each = values_of(record, card.components, card.values, !velocity);
     for (const int id : groups_.resolve(record, card))
       for (std::size_t i = 0; i < card.components.size(); ++i)
-        model_.initial.push_back({model_.node_index(id), card.components[i] - 1, each[i], velocity, card.imposed});
+        model_.initial.push_back({nodes_.index(id), card.components[i] - 1, each[i], velocity, card.imposed});
   }
 
-  void add_element(const deck::Record& record, int stage) {
-    for (const ElementType& type : types_) {
-      if (type.stage != stage || record.schema->name != type.schema.name) continue;
-      if (!check_references(record, diagnostics_)) return;
-      const bool command = type.schema.name.front() == '.';
-      if (command && taken(record)) return;
-      BuildContext context = context_of(record, diagnostics_);
-      if (auto element = type.build(context))
-        model_.parts.push_back(
-            {std::move(element), type.schema.name.substr(command ? 1 : 0), deck::record_json(record), record.location, {}});
+  void add_element(const ElementRecord& element) {
+    const deck::Record& record = *element.record;
+    if (!check_references(record, diagnostics_)) return;
+    const std::string& name = element.type->schema.name;
+    const bool command = name.front() == '.';
+    if (command && taken(record)) return;
+    BuildContext context = context_of(record, diagnostics_);
+    auto built = element.type->build(context);
+    if (BuildContext::Found* one = element.type->stage == 0 && others_are_asked_for_ ? find_in_mechanism(record.id) : nullptr) {
+      one->element = built.get();
+      one->faulty = !built;
     }
+    if (built) model_.parts.push_back({std::move(built), name.substr(command ? 1 : 0), &record, record.location, {}});
+  }
+
+  BuildContext::Found* find_in_mechanism(int id) {
+    if (mechanism_.empty())
+      for (const deck::Record& other : deck_.records)
+        if (other.schema->command() == ".MCE") mechanism_.try_emplace(other.id, BuildContext::Found{&other});
+    const auto found = mechanism_.find(id);
+    return found == mechanism_.end() ? nullptr : &found->second;
   }
 
   /// Results name elements by their numbers, so those of .MCE and of commands such as .LIA must differ.
   bool taken(const deck::Record& record) {
-    const auto same = [&](const deck::Record& other) {
-      return &other != &record && other.id == record.id && other.schema->command() == ".MCE";
-    };
-    const auto other = std::find_if(deck_.records.begin(), deck_.records.end(), same);
-    if (other == deck_.records.end()) return false;
-    diagnostics_.error(record.location, fmt::format("number {} is that of {} {}", record.id, other->schema->name, other->id),
+    const BuildContext::Found* found = find_in_mechanism(record.id);
+    if (!found) return false;
+    const deck::Record& other = *found->record;
+    diagnostics_.error(record.location, fmt::format("number {} is that of {} {}", record.id, other.schema->name, other.id),
                        "results name elements by their numbers: give another");
     return true;
   }
 
   BuildContext context_of(const deck::Record& record, Diagnostics& diagnostics) {
-    return {positions_,
+    return {nodes_,
             model_.functions,
             diagnostics,
             record,
             [this](int node, const Vec3& axis) { return inertia_about(node, axis); },
             &deck_.records,
+            [this](int id) {
+              const BuildContext::Found* found = find_in_mechanism(id);
+              return found ? *found : BuildContext::Found{};
+            },
             &blocks_};
   }
 
   /// Lets an element put a node where it needs it: one after another in the order of the deck.
-  void place_node(const deck::Record& record) {
-    for (const ElementType& type : types_) {
-      if (!type.place || record.schema->name != type.schema.name) continue;
-      Diagnostics unheard;  // the element says it again when it is built
-      if (!check_references(record, unheard)) continue;
-      const auto placed = type.place(context_of(record, unheard));
-      if (!placed) continue;
-      const auto old = placed_by_.find(placed->node);
-      const double size = (placed->x - positions_.at(placed->from)).norm();
-      if (old == placed_by_.end()) {
-        for (const auto& [node, other] : placed_by_)
-          if (other.from == placed->node)
-            diagnostics_.error(record.where("PLACE"),
-                               fmt::format("node {} moves only here, but {} {} has already placed node {} from it", placed->node,
-                                           other.record->schema->name, other.record->id, node),
-                               "write the elements of a chain in its order");
-        positions_[placed->node] = placed->x;
-        placed_by_[placed->node] = {&record, placed->from};
-      } else if (const Vec3& x = positions_[placed->node]; (placed->x - x).norm() > 1e-6 * size) {
-        diagnostics_.error(
-            record.where("PLACE"),
-            fmt::format("node {} is placed at ({:.10g}, {:.10g}, {:.10g}) here and at ({:.10g}, {:.10g}, {:.10g}) by {} {}",
-                        placed->node, placed->x[0], placed->x[1], placed->x[2], x[0], x[1], x[2],
-                        old->second.record->schema->name, old->second.record->id),
-            "keep PLACE in one of them");
-      }
+  void place_node(const ElementRecord& element) {
+    if (!element.type->place) return;
+    const deck::Record& record = *element.record;
+    Diagnostics unheard;  // the element says it again when it is built
+    if (!check_references(record, unheard)) return;
+    const auto placed = element.type->place(context_of(record, unheard));
+    if (!placed) return;
+    const auto [old, fresh] = placed_by_.try_emplace(placed->node, &record);
+    const Vec3& x = nodes_.at(placed->node);
+    const double size = (placed->x - nodes_.at(placed->from)).norm();
+    if (fresh) {
+      if (const auto earlier = placed_from_.find(placed->node); earlier != placed_from_.end())
+        for (const int node : earlier->second) {
+          const deck::Record& other = *placed_by_.at(node);
+          diagnostics_.error(record.where("PLACE"),
+                             fmt::format("node {} moves only here, but {} {} has already placed node {} from it", placed->node,
+                                         other.schema->name, other.id, node),
+                             "write the elements of a chain in its order");
+        }
+      nodes_.move(placed->node, placed->x);
+      placed_from_[placed->from].push_back(placed->node);
+    } else if ((placed->x - x).norm() > 1e-6 * size) {
+      diagnostics_.error(
+          record.where("PLACE"),
+          fmt::format("node {} is placed at ({:.10g}, {:.10g}, {:.10g}) here and at ({:.10g}, {:.10g}, {:.10g}) by {} {}",
+                      placed->node, placed->x[0], placed->x[1], placed->x[2], x[0], x[1], x[2], old->second->schema->name,
+                      old->second->id),
+          "keep PLACE in one of them");
     }
   }
 
@@ -284,7 +352,7 @@ class Builder {
       if (field.reference != deck::Reference::node) continue;
       for (const double value : field.load(record.data).numbers) {
         const int id = static_cast<int>(value);
-        if (positions_.contains(id)) continue;
+        if (nodes_.contains(id)) continue;
         diagnostics.error(record.where(field.keyword),
                           fmt::format("node {} of {} {} does not exist", id, record.schema->name, record.id));
         good = false;
@@ -293,9 +361,13 @@ class Builder {
     return good;
   }
 
-  double inertia_about(int node, const Vec3& axis) const {
+  double inertia_about(int node, const Vec3& axis) {
+    for (; indexed_ < model_.parts.size(); ++indexed_)
+      for (const int id : model_.parts[indexed_].element->layout().nodes) parts_at_[id].push_back(indexed_);
     double sum = 0;
-    for (const Model::Part& part : model_.parts) sum += axis.dot(part.element->inertia_at(node) * axis);
+    std::size_t last = model_.parts.size();
+    for (const std::size_t part : parts_at_[node])  // an element that names the node twice counts once
+      if (std::exchange(last, part) != part) sum += axis.dot(model_.parts[part].element->inertia_at(node) * axis);
     return sum;
   }
 
@@ -303,25 +375,29 @@ class Builder {
     int node;
     Vec3 force, moment;
     const Function* function;
-    Location location;
-    std::string parameters;
+    const deck::Record* record;
   };
 
-  /// Which element placed a node, and from which other node.
-  struct Placed {
-    const deck::Record* record;
-    int from;
-  };
+  static constexpr int none = -1;
 
   const deck::Deck& deck_;
   const std::vector<ElementType>& types_;
   Diagnostics& diagnostics_;
-  std::map<int, Vec3> positions_;
-  std::map<int, Placed> placed_by_;
+  NodePositions nodes_;
+  std::unordered_map<const deck::Schema*, const ElementType*> types_by_schema_;
+  std::vector<ElementRecord> elements_;                         ///< in the order of the deck
+  std::unordered_map<int, BuildContext::Found> mechanism_;      ///< of .MCE by number, once asked for
+  bool others_are_asked_for_ = false;                           ///< some element is of stage 1
+  std::unordered_map<int, const deck::Record*> placed_by_;      ///< which element placed a node
+  std::unordered_map<int, std::vector<int>> placed_from_;       ///< nodes placed from a node, in the order of the deck
+  std::unordered_map<int, std::vector<std::size_t>> parts_at_;  ///< elements at a node, of the first `indexed_`
+  std::size_t indexed_ = 0;
+  const deck::SteppingCard* stepping_ = nullptr;  ///< the last
   Frames frames_;
   NodeGroups groups_;
   BlockStore blocks_;
   std::vector<Load> loads_;
+  std::vector<std::array<int, 6>> support_of_;  ///< by node and component: which of the supports, or none
   std::vector<Location> support_locations_;
   Model model_;
 };

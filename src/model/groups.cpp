@@ -4,70 +4,113 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <numeric>
+#include <utility>
 
 namespace engrane {
 
+namespace {
+
+void sort_and_unite(std::vector<int>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+}  // namespace
+
 void NodeGroups::add(const deck::Record& record, const deck::GroupCard& card) {
   if (card.kind.is("ELEMENTS")) return;  // nothing refers to groups of elements yet
-  std::set<int> members;
+  Group group;
+  group.all = card.all && nodes_.by_number().size() > 1;
   for (const int id : card.ids) {
     if (nodes_.contains(id))
-      members.insert(id);
+      group.nodes.push_back(id);
     else
       diagnostics_.error(record.location, fmt::format("node {} of this group does not exist", id));
   }
-  if (card.all)
-    for (const auto& [id, x] : nodes_)
-      if (id != 0) members.insert(id);
   for (const std::string& name : card.united) {
-    if (const auto* other = find(name))
-      members.insert(other->begin(), other->end());
-    else
+    const auto other = find(name);
+    if (!other)
       report_unknown_group(record, "UNION", name);
+    else if (!groups_[*other].empty())
+      group.united.push_back(*other);
   }
   if (!card.box.empty()) {
-    for (const auto& [id, x] : nodes_) {
-      bool inside = id != 0;
-      for (int c = 0; c < 3; ++c) {
-        const auto i = static_cast<std::size_t>(2 * c);
-        inside = inside && x[c] >= card.box[i] && x[c] <= card.box[i + 1];
-      }
-      if (inside) members.insert(id);
-    }
+    const std::vector<int> inside = nodes_in(card.box);
+    group.nodes.insert(group.nodes.end(), inside.begin(), inside.end());
   }
-  if (members.empty()) diagnostics_.warning(record.location, "this group has no nodes");
-  const std::vector<int> ids(members.begin(), members.end());
-  if (card.number != 0) groups_[std::to_string(card.number)] = ids;
-  if (!card.name.empty()) groups_[card.name] = ids;
+  sort_and_unite(group.nodes);
+  if (group.empty()) diagnostics_.warning(record.location, "this group has no nodes");
+  const bool another_name = group.nodes.empty() && !group.all && group.united.size() == 1;
+  const std::size_t index = another_name ? group.united.front() : groups_.size();
+  if (!another_name) groups_.push_back(std::move(group));
+  if (card.number != 0) declared_[std::to_string(card.number)] = index;
+  if (!card.name.empty()) declared_[card.name] = index;
 }
 
-std::vector<int> NodeGroups::resolve(const deck::Record& record, const deck::NodeTarget& target) const {
-  std::set<int> ids;
+/// Nodes in a box, its faces included; the ground is in none.
+std::vector<int> NodeGroups::nodes_in(const std::vector<double>& box) {
+  const auto& nodes = nodes_.by_number();
+  const auto at = [&](int i) -> const NodePositions::Node& { return nodes[static_cast<std::size_t>(i)]; };
+  if (by_x_.size() != nodes.size()) {
+    by_x_.resize(nodes.size());
+    std::iota(by_x_.begin(), by_x_.end(), 0);
+    std::sort(by_x_.begin(), by_x_.end(), [&](int a, int b) { return at(a).x[0] < at(b).x[0]; });
+  }
+  const auto first = std::lower_bound(by_x_.begin(), by_x_.end(), box[0], [&](int i, double x) { return at(i).x[0] < x; });
+  std::vector<int> inside;
+  for (auto i = first; i != by_x_.end() && at(*i).x[0] <= box[1]; ++i) {
+    const auto& [id, x] = at(*i);
+    if (id != 0 && x[1] >= box[2] && x[1] <= box[3] && x[2] >= box[4] && x[2] <= box[5]) inside.push_back(id);
+  }
+  return inside;
+}
+
+std::vector<int> NodeGroups::resolve(const deck::Record& record, const deck::NodeTarget& target) {
+  std::vector<int> ids;
   for (const int id : target.nodes) {
     if (id != 0 && nodes_.contains(id))
-      ids.insert(id);
+      ids.push_back(id);
     else
       diagnostics_.error(record.where("NOEUD"), id == 0 ? std::string("node 0 is the ground: it is fixed and takes no load")
                                                         : fmt::format("node {} does not exist", id));
   }
+  ++searches_;
   for (const std::string& name : target.groups) {
-    if (const auto* group = find(name))
-      ids.insert(group->begin(), group->end());
+    if (const auto group = find(name))
+      append(*group, ids);
     else
       report_unknown_group(record, "GROUP", name);
   }
-  return {ids.begin(), ids.end()};
+  sort_and_unite(ids);
+  return ids;
 }
 
-const std::vector<int>* NodeGroups::find(const std::string& name) const {
-  const auto it = groups_.find(name);
-  return it == groups_.end() ? nullptr : &it->second;
+/// Appends the nodes of a group and of those it unites, of each group once in a search.
+void NodeGroups::append(std::size_t group, std::vector<int>& ids) {
+  std::vector<std::size_t> open{group};
+  while (!open.empty()) {
+    const std::size_t index = open.back();
+    open.pop_back();
+    Group& g = groups_[index];
+    if (std::exchange(g.search, searches_) == searches_) continue;
+    ids.insert(ids.end(), g.nodes.begin(), g.nodes.end());
+    if (g.all)
+      for (const auto& node : nodes_.by_number())
+        if (node.id != 0) ids.push_back(node.id);
+    open.insert(open.end(), g.united.begin(), g.united.end());
+  }
+}
+
+std::optional<std::size_t> NodeGroups::find(const std::string& name) const {
+  const auto it = declared_.find(name);
+  return it == declared_.end() ? std::nullopt : std::optional(it->second);
 }
 
 void NodeGroups::report_unknown_group(const deck::Record& record, std::string_view keyword, const std::string& name) const {
   std::vector<std::string> known;
-  for (const auto& [key, ids] : groups_) known.push_back(key);
+  for (const auto& [key, group] : declared_) known.push_back(key);
+  std::sort(known.begin(), known.end());  // of several as near the first is named
   const std::string near = nearest(name, known);
   diagnostics_.error(record.where(keyword), fmt::format("there is no group \"{}\" above this line", name),
                      near.empty() ? "declare it with .SEL GROUP" : fmt::format("did you mean \"{}\"?", near));

@@ -2,7 +2,11 @@
 #include "model/model.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
+#include "model/element_at_rest.hpp"
 #include "model/user_function.hpp"
 
 namespace engrane {
@@ -18,15 +22,78 @@ Vec3 Model::gravity_at(double time) const {
   return g;
 }
 
-double Model::extent() const {
-  if (nodes.size() < 2) return 1;
-  Vec3 low = nodes[1].x, high = nodes[1].x;
-  for (std::size_t i = 1; i < nodes.size(); ++i) {
-    low = low.cwiseMin(nodes[i].x);
-    high = high.cwiseMax(nodes[i].x);
+namespace {
+
+/// Nodes nearer to one another than this part of their distance from the origin are in one place: coordinates that were
+/// computed differ in their last digits.
+constexpr double rounding = 1e-12;
+
+/// Diagonal of the box around the nodes that elements use, the ground aside; 0 where that is rounding.
+double size_of_nodes(const Model& model) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Model::Part& part : model.parts)
+    for (const int node : part.nodes) {
+      if (node <= 0) continue;
+      const Vec3& x = model.nodes[static_cast<std::size_t>(node)].x;
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+  const double size = (high - low).norm();  // infinite when no node is used
+  const double away = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  return std::isfinite(size) && size > rounding * away ? size : 0;
+}
+
+/// Radius of gyration of a body about its first node; 0 when the element has no mass there.
+double radius_of_gyration(const Model& model, const Model::Part& part) {
+  if (part.nodes.empty() || part.nodes.front() <= 0) return 0;
+  const Mat3 inertia = part.element->inertia_at(model.nodes[static_cast<std::size_t>(part.nodes.front())].id);
+  const double moment = inertia.diagonal().maxCoeff();
+  const double mass = moment > 0 ? mass_at_first_node(model, part) : 0;
+  return mass > 0 ? std::sqrt(moment / mass) : 0;
+}
+
+/// The largest length that an element knows; 0 when none knows any.
+double largest_length(const Model& model) {
+  double largest = 0;
+  for (const Model::Part& part : model.parts) {
+    largest = std::max(largest, radius_of_gyration(model, part));
+    for (const Derived& d : part.element->derived())
+      if (d.dimension == dimension::length && std::isfinite(d.value)) largest = std::max(largest, std::abs(d.value));
   }
-  const double size = (high - low).norm();
-  return size > 0 ? size : 1;
+  return largest;
+}
+
+}  // namespace
+
+void Model::measure() {
+  extent_ = size_of_nodes(*this);
+  if (extent_ == 0) extent_ = largest_length(*this);
+  if (extent_ == 0) extent_ = 1;
+}
+
+double mass_at_first_node(const Model& model, const Model::Part& part) {
+  ElementAtRest body(model, part);
+  const auto n = static_cast<std::size_t>(part.element->layout().slots());
+  std::vector<double> still(n), moved(n);
+  part.element->residual(body.view(), still);
+  body.nodes[0].a = Vec3::UnitX();
+  part.element->residual(body.view(), moved);
+  return moved[0] - still[0];
+}
+
+std::string parameters_json(const Model::Part& part) {
+  const auto* load = part.record->get<deck::LoadCard>();
+  if (!load || load->nodes.size() + load->groups.size() < 2) return deck::record_json(*part.record);
+  deck::LoadCard here;
+  here.nodes = part.element->layout().nodes;
+  here.components = load->components;
+  here.values = load->values;
+  here.function = load->function;
+  deck::Record record;
+  record.schema = part.record->schema;
+  record.id = part.record->id;
+  record.data = std::move(here);
+  return deck::record_json(record);
 }
 
 deck::Catalogue catalogue(const std::vector<ElementType>& types) {

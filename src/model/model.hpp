@@ -12,6 +12,7 @@
 #include "deck/read/reader.hpp"
 #include "model/element.hpp"
 #include "model/function.hpp"
+#include "model/node_positions.hpp"
 #include "model/registry.hpp"
 
 namespace engrane {
@@ -51,14 +52,11 @@ struct Commands {
 
 /// The mechanism as the deck describes it: constant while it is solved.
 struct Model {
-  struct Node {
-    int id = 0;
-    Vec3 x = Vec3::Zero();
-  };
+  using Node = NodePositions::Node;
   struct Part {
     std::unique_ptr<Element> element;
-    std::string type;        ///< card name, such as `GEAR`; `CHA` for a nodal load
-    std::string parameters;  ///< record as JSON, for the results file
+    std::string type;                      ///< card name, such as `GEAR`; `CHA` for a nodal load
+    const deck::Record* record = nullptr;  ///< of the deck that the model was built from, which lives as long
     Location location;
     std::vector<int> nodes;  ///< indices of the element's nodes
   };
@@ -75,14 +73,28 @@ struct Model {
 
   int node_index(int id) const;  ///< -1 when there is no such node
   Vec3 gravity_at(double time) const;
-  /// Largest distance between nodes: the length that tolerances are measured with; 1 for a single point.
-  double extent() const;
+  /// The length that tolerances are measured with: the diagonal of the box around the nodes that elements use. Where all of
+  /// them are in one place, but for rounding, the largest length that an element knows (radius of gyration, pitch radius,
+  /// natural length); 1 where no length exists at all.
+  double extent() const { return extent_; }
+  /// Finds the extent. build_model() has done so.
+  void measure();
+
+ private:
+  double extent_ = 1;
 };
+
+/// Mass that an element gives to the translation of its first node, from its residual under a unit acceleration.
+double mass_at_first_node(const Model& model, const Model::Part& part);
+
+/// The record of an element as JSON, for the results file. That of a load on several nodes speaks of the one it is on.
+std::string parameters_json(const Model::Part& part);
 
 /// All cards of the language: general commands and registered elements.
 deck::Catalogue catalogue(const std::vector<ElementType>& types);
 
-/// Builds the model of a deck. Faults go to `diagnostics`; the result is to be used only when there are none.
+/// Builds the model of a deck, to whose records it points. Faults go to `diagnostics`; the result is to be used only when there
+/// are none.
 Model build_model(const deck::Deck& deck, const std::vector<ElementType>& types, Diagnostics& diagnostics);
 
 }  // namespace engrane

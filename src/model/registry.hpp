@@ -12,13 +12,14 @@
 #include "model/block.hpp"
 #include "model/element.hpp"
 #include "model/function.hpp"
+#include "model/node_positions.hpp"
 
 namespace engrane {
 
 /// What an element may look up while it is built from its record. Faults of the deck go to `diagnostics`, at the
 /// location of the keyword that is wrong (`record.where("MN")`); an element that cannot be built is nullptr.
 struct BuildContext {
-  const std::map<int, Vec3>& nodes;  ///< reference positions; the ground, node 0, is at the origin
+  const NodePositions& nodes;  ///< in the reference configuration; the ground, node 0, is at the origin
   const std::map<int, std::unique_ptr<Function>>& functions;
   Diagnostics& diagnostics;
   const deck::Record& record;
@@ -26,6 +27,13 @@ struct BuildContext {
   std::function<double(int node, const Vec3& axis)> wheel_inertia;
   /// All records of the deck, for elements that depend on others of their kind; nullptr: this one stands alone.
   const std::vector<deck::Record>* records = nullptr;
+  /// An element of `.MCE` by its number, for elements of stage 1. No record: there is none of that number.
+  struct Found {
+    const deck::Record* record = nullptr;
+    const Element* element = nullptr;  ///< those of stage 0
+    bool faulty = false;               ///< of stage 0, and could not be built
+  };
+  std::function<Found(int id)> find_element = nullptr;
   /// Where elements of a kind meet in blocks; nullptr: each is alone in its own.
   BlockStore* blocks = nullptr;
 

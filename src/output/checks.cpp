@@ -42,7 +42,7 @@ std::string check_title(const deck::CheckCard& card) {
   return title;
 }
 
-Checks::Checks(std::vector<Resolved> checks) : last_values_(checks.size(), 0.0) {
+Checks::Checks(std::vector<Resolved> checks) {
   for (Resolved& check : checks) {
     checks_.emplace_back();
     checks_.back().resolved = std::move(check);
@@ -56,10 +56,9 @@ double Checks::slack(double time) const {
 void Checks::observe(double time, std::span<const double> values, bool regular) {
   // a time said twice: the first word of it has gone into measures already, and only a jump there makes them differ
   const bool repeated = started_ && time <= last_time_;
-  if (!started_) first_time_ = time;
   if (started_ && !repeated) last_step_ = time - last_time_;
-  for (std::size_t i = 0; i < checks_.size(); ++i) {
-    Measured& m = checks_[i];
+  for (Measured& m : checks_) {
+    if (!m.seen) m.first_time = time;
     assert(m.resolved.channel < values.size());
     const Sample sample{time, values[m.resolved.channel]};
     if (is_value(m.resolved.card)) {
@@ -67,7 +66,8 @@ void Checks::observe(double time, std::span<const double> values, bool regular) 
     } else {
       observe_window(m, sample);
     }
-    last_values_[i] = sample.value;
+    m.last_value = sample.value;
+    m.seen = true;
   }
   last_time_ = time;
   started_ = true;
@@ -104,9 +104,8 @@ void Checks::observe_window(Measured& m, Sample sample) const {
     m.any = true;
   };
   const auto inside = [&](double t) { return t >= from - slack(from) && t <= to + slack(to); };
-  const std::size_t index = static_cast<std::size_t>(&m - checks_.data());
-  const Sample last{last_time_, last_values_[index]};
-  if (started_ && sample.time > last.time) {
+  const Sample last{last_time_, m.last_value};
+  if (m.seen && sample.time > last.time) {
     const double a = std::max(from, last.time), b = std::min(to, sample.time);
     if (b > a) {
       const double slope = (sample.value - last.value) / (sample.time - last.time);
@@ -123,9 +122,8 @@ void Checks::observe_window(Measured& m, Sample sample) const {
 
 double Checks::value(const Measured& m, std::string& remark) const {
   const deck::CheckCard& card = m.resolved.card;
-  const auto index = static_cast<std::size_t>(&m - checks_.data());
   const double nothing = std::numeric_limits<double>::quiet_NaN();
-  if (!started_) {
+  if (!m.seen) {
     remark = "the run has no results";
     return nothing;
   }
@@ -135,12 +133,12 @@ double Checks::value(const Measured& m, std::string& remark) const {
     return true;
   };
   const auto too_early = [&](double t) {
-    if (first_time_ <= t + slack(t)) return false;
-    remark = "the run started at t = " + format_number(first_time_);
+    if (m.first_time <= t + slack(t)) return false;
+    remark = "the run started at t = " + format_number(m.first_time);
     return true;
   };
   if (is_value(card)) {
-    if (!card.time) return last_values_[index];
+    if (!card.time) return m.last_value;
     if (too_late(*card.time) || too_early(*card.time)) return nothing;
     // two on either side, or more of one side near the ends of the run
     if (m.exact) return m.before.front().value;
@@ -155,7 +153,7 @@ double Checks::value(const Measured& m, std::string& remark) const {
   if (card.measure.is("MAX")) return m.largest;
   if (card.measure.is("AMPLITUDE")) return (m.largest - m.least) / 2;
   // a single instant is its own mean
-  if (m.covered == 0) return card.measure.is("RMS") ? std::abs(last_values_[index]) : last_values_[index];
+  if (m.covered == 0) return card.measure.is("RMS") ? std::abs(m.last_value) : m.last_value;
   return card.measure.is("RMS") ? std::sqrt(m.squares / m.covered) : m.area / m.covered;
 }
 
@@ -172,6 +170,47 @@ CheckResult Checks::result(const Measured& m) const {
   r.passed = std::abs(r.value - r.expected) <= r.tolerance;
   if (!std::isfinite(r.value) && r.remark.empty()) r.remark = "the value is not a finite number";
   return r;
+}
+
+void Checks::save(Snapshot& snapshot) const {
+  if (!started_) return;
+  snapshot.put("checks/times", {last_time_, last_step_});
+  for (const Measured& m : checks_) {
+    std::vector<double> state{
+        m.first_time, m.last_value, m.least,           m.largest,           m.area,
+        m.squares,    m.covered,    m.any ? 1.0 : 0.0, m.exact ? 1.0 : 0.0, static_cast<double>(m.before.size())};
+    for (const auto* samples : {&m.before, &m.after})
+      for (const Sample& sample : *samples) state.insert(state.end(), {sample.time, sample.value});
+    snapshot.put("checks/" + check_title(m.resolved.card), std::move(state));
+  }
+}
+
+void Checks::load(const Snapshot& snapshot) {
+  if (!snapshot.has("checks/times")) return;
+  const std::vector<double>& times = snapshot.array("checks/times");
+  last_time_ = times.at(0);
+  last_step_ = times.at(1);
+  started_ = true;
+  for (Measured& m : checks_) {
+    const std::string name = "checks/" + check_title(m.resolved.card);
+    if (!snapshot.has(name)) continue;
+    const std::vector<double>& state = snapshot.array(name);
+    m.seen = true;
+    m.first_time = state.at(0);
+    m.last_value = state.at(1);
+    m.least = state.at(2);
+    m.largest = state.at(3);
+    m.area = state.at(4);
+    m.squares = state.at(5);
+    m.covered = state.at(6);
+    m.any = state.at(7) != 0;
+    m.exact = state.at(8) != 0;
+    const auto before = static_cast<std::size_t>(state.at(9));
+    m.before.clear();
+    m.after.clear();
+    for (std::size_t i = 10; i + 1 < state.size(); i += 2)
+      (m.before.size() < before ? m.before : m.after).push_back({state[i], state[i + 1]});
+  }
 }
 
 std::vector<CheckResult> Checks::results() const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/snapshot.hpp"
 #include "deck/cards/cards.hpp"
 #include "output/results_layout.hpp"
 
@@ -37,6 +38,11 @@ class Checks {
   std::vector<CheckResult> results() const;
   bool empty() const { return checks_.empty(); }
 
+  /// What the checks remember, for a restart. A check that the snapshot does not know begins with the restart, and fails when
+  /// it asks for an earlier time.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
+
  private:
   struct Sample {
     double time = 0;
@@ -46,6 +52,8 @@ class Checks {
     Resolved resolved;
     std::vector<Sample> before, after;  ///< VALUE: the last three before its time, the first three after it
     bool exact = false;                 ///< `before` holds the sample at that time, and nothing else
+    bool seen = false;
+    double first_time = 0, last_value = 0;  ///< when seen
     // measures over a window
     double least = 0, largest = 0, area = 0, squares = 0, covered = 0;
     bool any = false;
@@ -59,8 +67,7 @@ class Checks {
   double slack(double time) const;
 
   std::vector<Measured> checks_;
-  std::vector<double> last_values_;  ///< of the checks' channels
-  double first_time_ = 0, last_time_ = 0, last_step_ = 0;
+  double last_time_ = 0, last_step_ = 0;
   bool started_ = false;
 };
 

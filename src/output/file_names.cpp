@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "output/error.hpp"
 #include "output/hdf5_handle.hpp"
@@ -19,47 +20,63 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path) { throw OutputError(path, std::strerror(errno)); }
 
-/// A text attribute of the root, empty when it has none.
-std::string root_attribute(hid_t file, const char* name) {
-  const hdf5::Handle attribute(H5Aexists(file, name) > 0 ? H5Aopen(file, name, H5P_DEFAULT) : -1);
-  if (attribute.id() < 0) return "";
-  const hdf5::Handle type(H5Aget_type(attribute.id()));
-  if (H5Tis_variable_str(type.id()) <= 0) return "";
-  char* text = nullptr;
-  if (H5Aread(attribute.id(), type.id(), &text) < 0 || !text) return "";
-  std::string result(text);
-  H5free_memory(text);
-  return result;
-}
-
 }  // namespace
 
 bool worth_keeping(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0 || status.st_size == 0) return false;
-  hdf5::prepare();
-  const hdf5::Handle access(H5Pcreate(H5P_FILE_ACCESS));
-  H5Pset_file_locking(access.id(), false, true);
-  const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()));
+  const hdf5::Handle file = hdf5::open_for_reading(path);
   if (file.id() < 0) return true;
-  return root_attribute(file.id(), "format") != "engrane" || root_attribute(file.id(), "status") == "complete";
+  return hdf5::read_text_attribute(file.id(), "format") != "engrane" ||
+         hdf5::read_text_attribute(file.id(), "status") == "complete";
 }
 
 OutputName::OutputName(std::string prefix) : prefix_(std::move(prefix)), partial_(worth_keeping(prefix_ + ".h5")) {}
 
-FileLock::FileLock(const std::string& path) : descriptor_(open(path.c_str(), O_RDWR | O_CLOEXEC)) {
-  if (descriptor_ < 0) return;
+namespace {
+
+/// Takes the lock of an open file; false when another process has it. Where the file system has no locks it is taken.
+bool take(int descriptor) {
   struct flock lock {};
   lock.l_type = F_WRLCK;
   lock.l_whence = SEEK_SET;
   // a byte far outside: HDF5 readers lock their files too, and are welcome
   lock.l_start = off_t{1} << 60;
   lock.l_len = 1;
-  if (fcntl(descriptor_, F_OFD_SETLK, &lock) != 0 && (errno == EAGAIN || errno == EACCES)) {
-    ::close(std::exchange(descriptor_, -1));
-    throw OutputError(path, "another run is writing it");
+  return fcntl(descriptor, F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
+}
+
+/// Whether the open file still bears the name.
+bool is_called(int descriptor, const std::string& path) {
+  struct stat open {
+  }, named{};
+  return fstat(descriptor, &open) == 0 && stat(path.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
+         open.st_dev == named.st_dev;
+}
+
+}  // namespace
+
+FileLock::FileLock(const std::string& path) : descriptor_(open(path.c_str(), O_RDWR | O_CLOEXEC)) {
+  if (descriptor_ < 0 || take(descriptor_)) return;
+  ::close(std::exchange(descriptor_, -1));
+  throw OutputError(path, "another run is writing it");
+}
+
+FileLock FileLock::create(const std::string& path, const std::string& shown_as) {
+  for (;;) {
+    FileLock lock;
+    lock.descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (lock.descriptor_ < 0) fail(shown_as);
+    if (!take(lock.descriptor_)) throw OutputError(shown_as, "another run is writing it");
+    // between opening and locking another run may have given the file another name, or none
+    if (is_called(lock.descriptor_, path)) return lock;
   }
 }
+
+void FileLock::sync(const std::string& path) const {
+  if (descriptor_ >= 0 && fdatasync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail(path);
+}
+
 FileLock::~FileLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
@@ -67,6 +84,21 @@ FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.
 FileLock& FileLock::operator=(FileLock&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
   return *this;
+}
+
+void copy_contents(const std::string& from, const std::string& to) {
+  const int source = open(from.c_str(), O_RDONLY | O_CLOEXEC), target = open(to.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  bool good = source >= 0 && target >= 0;
+  std::vector<char> block(std::size_t{1} << 20);
+  for (ssize_t size = 1; good && size > 0;) {
+    size = read(source, block.data(), block.size());
+    good = size >= 0 && write(target, block.data(), static_cast<std::size_t>(size)) == size;
+  }
+  const int reason = errno;
+  if (source >= 0) ::close(source);
+  if (target >= 0 && ::close(target) != 0) good = false;
+  errno = reason;
+  if (!good) fail(to);
 }
 
 void rename_over(const std::string& from, const std::string& to) {

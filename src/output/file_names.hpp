@@ -33,13 +33,22 @@ class FileLock {
   FileLock() = default;
   /// Throws OutputError when another process holds it. Where the file system has no locks, or no such file, it locks nothing.
   explicit FileLock(const std::string& path);
+  /// Opens a file, or makes an empty one, and locks it before anything else is done with it. Throws OutputError, which calls
+  /// the file `shown_as`.
+  static FileLock create(const std::string& path, const std::string& shown_as);
   ~FileLock();
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
 
+  /// Waits until what was written to the file is on the disk. Throws OutputError, which calls it `path`.
+  void sync(const std::string& path) const;
+
  private:
   int descriptor_ = -1;
 };
+
+/// Makes the contents of one file those of another, which exists. Throws OutputError.
+void copy_contents(const std::string& from, const std::string& to);
 
 /// Gives `from` the name `to`, over any file of that name, in one step. Throws OutputError.
 void rename_over(const std::string& from, const std::string& to);

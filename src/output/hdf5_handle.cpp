@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "output/hdf5_handle.hpp"
 
+#include <algorithm>
+
 #include "output/error.hpp"
 
 namespace engrane::output::hdf5 {
@@ -9,7 +11,25 @@ void prepare() {
   // At exit the library closes what is still open, and crashes on a file that a full disk kept it from closing. We close
   // our files ourselves.
   H5dont_atexit();
+  H5open();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Handle open_for_reading(const std::string& path) {
+  prepare();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_file_locking(access.id(), false, true);
+  return Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()));
+}
+
+Handle file_access(const std::string& path) {
+  prepare();
+  Handle access(check(H5Pcreate(H5P_FILE_ACCESS), path));
+  // the oldest format: every reader knows it, and it has no mark "open for writing" that a killed run would leave
+  check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), path);
+  check(H5Pset_file_locking(access.id(), false, true), path);  // readers may look while the run goes on
+  check(H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG), path);
+  return access;
 }
 
 std::string reason_of_failure() {
@@ -53,12 +73,38 @@ void write_attribute(const Place& place, const char* name, hid_t type, const voi
   check(H5Awrite(attribute.id(), type, value), place.file);
 }
 
-Handle write_array(const Place& place, const std::string& name, hid_t type, const void* values, std::span<const hsize_t> shape) {
-  const Handle space(check(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), place.file));
-  Handle set(check(H5Dcreate2(place.id, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), place.file));
+/// Smaller arrays stand in the header of their object, larger ones are compressed.
+constexpr std::size_t small = 4096;
+/// Bytes of a chunk of a compressed array.
+constexpr std::size_t most_of_chunk = std::size_t{1} << 20;
+
+/// How an array is stored: `size` is of one element.
+Handle storage(const Place& place, std::span<const hsize_t> shape, std::size_t size) {
+  Handle creation(check(H5Pcreate(H5P_DATASET_CREATE), place.file));
+  check(H5Pset_obj_track_times(creation.id(), false), place.file);
   hsize_t count = 1;
   for (const hsize_t n : shape) count *= n;
-  if (count > 0) check(H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), place.file);
+  if (count * size <= small) {
+    if (count > 0) check(H5Pset_layout(creation.id(), H5D_COMPACT), place.file);
+    return creation;
+  }
+  if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) <= 0) return creation;
+  std::vector<hsize_t> chunk(shape.begin(), shape.end());
+  chunk[0] = std::clamp<hsize_t>(most_of_chunk / (count / shape[0] * size), 1, shape[0]);
+  check(H5Pset_chunk(creation.id(), static_cast<int>(chunk.size()), chunk.data()), place.file);
+  check(H5Pset_shuffle(creation.id()), place.file);
+  check(H5Pset_deflate(creation.id(), 1), place.file);
+  return creation;
+}
+
+Handle write_array(const Place& place, const std::string& name, hid_t type, const void* values, std::span<const hsize_t> shape) {
+  const Handle space(check(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), place.file));
+  const Handle creation = storage(place, shape, H5Tget_size(type));
+  const Handle links(check(H5Pcreate(H5P_LINK_CREATE), place.file));
+  check(H5Pset_create_intermediate_group(links.id(), 1), place.file);
+  Handle set(check(H5Dcreate2(place.id, name.c_str(), type, space.id(), links.id(), creation.id(), H5P_DEFAULT), place.file));
+  if (H5Sget_simple_extent_npoints(space.id()) > 0)
+    check(H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), place.file);
   return set;
 }
 
@@ -78,22 +124,92 @@ void Place::attribute(const char* name, const std::string& content) const {
 void Place::attribute(const char* name, double number) const { write_attribute(*this, name, H5T_NATIVE_DOUBLE, &number); }
 void Place::attribute(const char* name, int number) const { write_attribute(*this, name, H5T_NATIVE_INT, &number); }
 
-Handle Place::text(const std::string& name, const std::string& content) const {
-  const Handle type = text_type();
-  const Handle space(check(H5Screate(H5S_SCALAR), file));
-  Handle set(check(H5Dcreate2(id, name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), file));
-  const char* text = content.c_str();
-  check(H5Dwrite(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &text), file);
-  return set;
+Handle Place::text(const std::string& name, const std::string& content) const { return texts(name, std::span(&content, 1)); }
+
+Handle Place::texts(const std::string& name, std::span<const std::string> contents) const {
+  std::size_t width = 1;
+  for (const std::string& text : contents) width = std::max(width, text.size());
+  std::string block(width * contents.size(), '\0');
+  for (std::size_t i = 0; i < contents.size(); ++i) contents[i].copy(block.data() + i * width, width);
+  const Handle type(check(H5Tcopy(H5T_C_S1), file));
+  check(H5Tset_size(type.id(), width), file);
+  check(H5Tset_strpad(type.id(), H5T_STR_NULLPAD), file);
+  check(H5Tset_cset(type.id(), H5T_CSET_UTF8), file);
+  const hsize_t shape[1] = {contents.size()};
+  return write_array(*this, name, type.id(), block.data(), shape);
 }
 
 Handle Place::numbers(const std::string& name, std::span<const double> values, std::span<const hsize_t> shape) const {
   return write_array(*this, name, H5T_NATIVE_DOUBLE, values.data(), shape);
 }
 
+Handle Place::plain_numbers(const std::string& name, std::span<const double> values) const {
+  const hsize_t count = values.size();
+  const Handle space(check(H5Screate_simple(1, &count, nullptr), file));
+  const Handle links(check(H5Pcreate(H5P_LINK_CREATE), file));
+  check(H5Pset_create_intermediate_group(links.id(), 1), file);
+  Handle set(check(H5Dcreate2(id, name.c_str(), H5T_NATIVE_DOUBLE, space.id(), links.id(), H5P_DEFAULT, H5P_DEFAULT), file));
+  if (count > 0) check(H5Dwrite(set.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), file);
+  return set;
+}
+
 Handle Place::integers(const std::string& name, std::span<const std::int32_t> values) const {
   const hsize_t shape[1] = {values.size()};
   return write_array(*this, name, H5T_NATIVE_INT32, values.data(), shape);
+}
+
+std::vector<hsize_t> read_shape(hid_t place, const std::string& name) {
+  const Handle set(H5Dopen2(place, name.c_str(), H5P_DEFAULT));
+  const Handle space(set.id() < 0 ? -1 : H5Dget_space(set.id()));
+  if (space.id() < 0) return {};
+  std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.id()))));
+  H5Sget_simple_extent_dims(space.id(), shape.data(), nullptr);
+  return shape;
+}
+
+std::vector<double> read_numbers(hid_t place, const std::string& name) {
+  const Handle set(H5Dopen2(place, name.c_str(), H5P_DEFAULT));
+  const Handle space(set.id() < 0 ? -1 : H5Dget_space(set.id()));
+  if (space.id() < 0) return {};
+  std::vector<double> values(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id()))));
+  if (!values.empty() && H5Dread(set.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) return {};
+  return values;
+}
+
+std::vector<std::string> read_texts(hid_t place, const std::string& name) {
+  const Handle set(H5Dopen2(place, name.c_str(), H5P_DEFAULT));
+  const Handle space(set.id() < 0 ? -1 : H5Dget_space(set.id()));
+  const Handle type(set.id() < 0 ? -1 : H5Dget_type(set.id()));
+  if (space.id() < 0 || type.id() < 0 || H5Tis_variable_str(type.id()) != 0) return {};
+  const std::size_t width = H5Tget_size(type.id());
+  const auto count = static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id())));
+  std::string block(width * count, '\0');
+  if (count > 0 && H5Dread(set.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) < 0) return {};
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < count; ++i) {
+    texts.push_back(block.substr(i * width, width));
+    texts.back().erase(texts.back().find_last_not_of('\0') + 1);
+  }
+  return texts;
+}
+
+std::string read_text_attribute(hid_t object, const char* name) {
+  const Handle attribute(H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1);
+  if (attribute.id() < 0) return "";
+  const Handle type(H5Aget_type(attribute.id()));
+  if (H5Tis_variable_str(type.id()) <= 0) return "";
+  char* text = nullptr;
+  if (H5Aread(attribute.id(), type.id(), &text) < 0 || !text) return "";
+  std::string result(text);
+  H5free_memory(text);
+  return result;
+}
+
+double read_number_attribute(hid_t object, const char* name, double missing) {
+  const Handle attribute(H5Aexists(object, name) > 0 ? H5Aopen(object, name, H5P_DEFAULT) : -1);
+  double value = missing;
+  if (attribute.id() >= 0 && H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value) < 0) return missing;
+  return value;
 }
 
 }  // namespace engrane::output::hdf5

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <ctime>
+#include <set>
 #include <sstream>
 
 #include "base/text.hpp"
@@ -130,22 +131,23 @@ std::string listing_reactions(std::span<const ReactionRow> rows, const UnitSyste
   return table.text();
 }
 
-std::string listing_not_unique(const std::vector<ChannelGroup>& groups, std::span<const int> channels) {
+std::string listing_not_unique(const std::vector<HistoryTable>& tables, std::span<const int> columns) {
   std::string out =
       "  Redundant constraints leave the share of a load between these open. The least were given; a real machine's follow from "
       "its\n"
-      "  clearances and compliances. In the results they have the attribute unique = 0.\n\n";
-  int first = 0;
-  for (const ChannelGroup& group : groups) {
-    std::string names;
-    for (const int channel : channels)
-      if (channel >= first && channel < first + static_cast<int>(group.channels.size()))
-        names += " " + group.channels[static_cast<std::size_t>(channel - first)].name;
-    first += static_cast<int>(group.channels.size());
-    if (names.empty()) continue;
-    const auto type = group.attributes.find("type");
-    const std::string id = group.path.substr(group.path.find('/') + 1);
-    out += fmt::format("  {:<20}{}\n", type == group.attributes.end() ? "node " + id : type->second + " " + id, names);
+      "  clearances and compliances. In the results they have unique = 0.\n\n";
+  const std::set<int> open(columns.begin(), columns.end());
+  auto column = open.begin();
+  std::size_t first = 0;
+  for (const HistoryTable& table : tables) {
+    for (std::size_t i = 0; i < table.owners(); ++i, first += table.channels.size()) {
+      std::string names;
+      for (; column != open.end() && static_cast<std::size_t>(*column) < first + table.channels.size(); ++column)
+        names += " " + table.channels[static_cast<std::size_t>(*column) - first].name;
+      if (names.empty()) continue;
+      const std::string owner = table.type.empty() ? "node" : table.type;
+      out += fmt::format("  {:<20}{}\n", table.ids.empty() ? table.path : fmt::format("{} {}", owner, table.ids[i]), names);
+    }
   }
   return out;
 }

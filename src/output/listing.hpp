@@ -81,8 +81,8 @@ std::string listing_warnings(const Diagnostics& diagnostics, const SourceMap& so
 std::string listing_newton(std::span<const IterationRow> rows, bool with_heading);
 std::string listing_energies(std::span<const EnergyRow> rows, const UnitSystem& units);
 std::string listing_reactions(std::span<const ReactionRow> rows, const UnitSystem& units);
-/// Channels (places in the order of all groups' channels) whose values are one choice of many.
-std::string listing_not_unique(const std::vector<ChannelGroup>& groups, std::span<const int> channels);
+/// Channels (columns, counted over all tables) whose values are one choice of many.
+std::string listing_not_unique(const std::vector<HistoryTable>& tables, std::span<const int> columns);
 /// The table of checks, with PASS or FAIL, and a line that counts them. Also what the program prints at its end.
 std::string listing_checks(std::span<const CheckResult> checks);
 std::string listing_times(const TimeSplit& split);

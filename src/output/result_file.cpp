@@ -14,12 +14,20 @@ using hdf5::Handle;
 
 namespace {
 
-/// Bytes that the first chunks of all channels may take together: short runs must not leave large files.
-constexpr std::size_t first_chunks = std::size_t{4} << 20;
+/// Bytes of a chunk of a table.
+constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
+/// Rows of a chunk: so many samples of one channel are read in one piece.
+constexpr hsize_t most_chunk_rows = 1024;
 
-hsize_t chunk_of_channels(std::size_t channels) {
-  return std::clamp<hsize_t>(first_chunks / sizeof(double) / std::max<std::size_t>(channels, 1), 64, 1024);
+/// Sizes of equal pieces, each at most `most`: chunks are stored whole, and a last one that is nearly empty is waste.
+hsize_t even_pieces(hsize_t total, hsize_t most) {
+  const hsize_t pieces = (total + most - 1) / most;
+  return pieces == 0 ? 1 : (total + pieces - 1) / pieces;
 }
+
+std::string table_place(const HistoryTable& table) { return "history/" + table.path; }
+
+std::string frame_name(std::size_t index) { return fmt::format("{:06}", index); }
 
 }  // namespace
 
@@ -39,7 +47,12 @@ std::vector<FieldInfo> frame_fields(const ResultsLayout& layout) {
 
 std::size_t Batch::bytes() const {
   std::size_t numbers = times.size() + values.size();
-  for (const Frame& frame : frames) numbers += frame.values.size();
+  for (const Frame& frame : frames) {
+    numbers += frame.values.size();
+    for (const std::vector<double>& field : frame.cells) numbers += field.size();
+  }
+  for (const RestartPoint& point : restarts)
+    for (const auto& [name, array] : point.memory.arrays()) numbers += array.size();
   return numbers * sizeof(double);
 }
 
@@ -51,7 +64,8 @@ MixedTopology mixed_topology(const ResultsLayout& layout) {
     topology.data.insert(topology.data.end(), {polyline, 2, a, b});
     topology.elements.push_back(element);
   };
-  for (const Cell& cell : layout.cells) {
+  for (std::size_t c = 0; c < layout.cells.size(); ++c) {
+    const Cell& cell = layout.cells[c];
     const std::size_t n = cell.points.size();
     if (cell.surface && (n == 3 || n == 4)) {
       topology.data.push_back(n == 3 ? triangle : quadrilateral);
@@ -62,6 +76,7 @@ MixedTopology mixed_topology(const ResultsLayout& layout) {
     } else {
       for (std::size_t i = 0; i + 1 < n; ++i) line(cell.points[i], cell.points[i + 1], cell.element);
     }
+    topology.cells.resize(topology.elements.size(), c);
   }
   // readers refuse a mesh without cells
   if (topology.elements.empty())
@@ -69,20 +84,23 @@ MixedTopology mixed_topology(const ResultsLayout& layout) {
   return topology;
 }
 
-ResultFile::ResultFile(const std::string& path, const ResultsLayout& layout, std::string shown_as)
+ResultFile::ResultFile(const std::string& path, const ResultsLayout& layout, std::string shown_as, Mode mode)
     : path_(std::move(shown_as)), layout_(&layout) {
-  hdf5::prepare();
   assert(layout.node_ids.size() == layout.points.size());
-  const Handle access(check(H5Pcreate(H5P_FILE_ACCESS), path_));
-  // the oldest format: every reader knows it, and it has no mark "open for writing" that a killed run would leave
-  check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), path_);
-  check(H5Pset_file_locking(access.id(), false, true), path_);  // readers may look while the run goes on
-  check(H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG), path_);
-  file_ = Handle(check(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), path_));
+  const Handle access = hdf5::file_access(path_);
+  file_ = Handle(check(mode == Mode::create ? H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id())
+                                            : H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()),
+                       path_));
+  if (mode == Mode::create) create_all();
+}
 
+ResultFile::~ResultFile() = default;
+
+void ResultFile::create_all() {
+  const ResultsLayout& layout = *layout_;
   const hdf5::Place root = at(file_);
   root.attribute("format", "engrane");
-  root.attribute("format_version", 1);
+  root.attribute("format_version", format_version);
   root.attribute("program", "engrane " + layout.version);
   root.attribute("libraries", layout.libraries);
   root.attribute("title", layout.title);
@@ -100,6 +118,7 @@ ResultFile::ResultFile(const std::string& path, const ResultsLayout& layout, std
   create_mesh();
   create_histories();
   create_fields();
+  root.group("restart");
 }
 
 void ResultFile::create_mesh() {
@@ -122,88 +141,191 @@ void ResultFile::create_mesh() {
 void ResultFile::create_histories() {
   const ResultsLayout& layout = *layout_;
   const Handle history = at(file_).group("history");
-  const hsize_t chunk = chunk_of_channels(layout.channel_count());
-  time_ = create_growing(history.id(), "time", layout.units.label(dimension::time), "time", chunk);
-  channels_.reserve(layout.channel_count());
-  for (const ChannelGroup& owner : layout.history) {
-    const Handle group = at(history).group(owner.path);
-    for (const auto& [name, text] : owner.attributes) at(group).attribute(name.c_str(), text);
-    for (const Named& channel : owner.channels)
-      channels_.push_back(create_growing(group.id(), channel.name, layout.units.label(channel.dimension), channel.help, chunk));
+  const hsize_t rows = even_pieces(layout.expected_samples, most_chunk_rows);
+  create_growing(history.id(), "time", {}, rows, layout.units.label(dimension::time), "time");
+  for (const HistoryTable& table : layout.history) {
+    const Handle group = at(history).group(table.path);
+    if (!table.type.empty()) at(group).attribute("type", table.type);
+    if (!table.ids.empty()) at(group).integers("ids", std::vector<std::int32_t>(table.ids.begin(), table.ids.end()));
+    std::vector<std::string> names, units, labels;
+    for (const Named& channel : table.channels) {
+      names.push_back(channel.name);
+      units.push_back(layout.units.label(channel.dimension));
+      labels.push_back(channel.help);
+    }
+    at(group).texts("channels", names);
+    at(group).texts("units", units);
+    at(group).texts("labels", labels);
+    create_growing(group.id(), "values", table.columns(), rows, "", "a row per sample, the channels of each owner side by side");
   }
 }
 
 void ResultFile::create_fields() {
   const ResultsLayout& layout = *layout_;
   const Handle fields = at(file_).group("fields");
-  frame_time_ = create_growing(fields.id(), "time", layout.units.label(dimension::time), "time of the frame", 64);
+  create_growing(fields.id(), "time", {}, 64, layout.units.label(dimension::time), "time of the frame");
   for (const FieldInfo& field : frame_fields(layout)) {
-    Handle group = at(fields).group(field.name);
+    const Handle group = at(fields).group(field.name);
     at(group).attribute("unit", layout.units.label(field.dimension));
     at(group).attribute("label", field.label);
-    field_groups_.push_back(std::move(group));
+  }
+  for (const CellField& field : layout.cell_fields) {
+    const Handle group = at(fields).group(field.named.name);
+    at(group).attribute("unit", layout.units.label(field.named.dimension));
+    at(group).attribute("label", field.named.help);
+    at(group).attribute("center", "Cell");
+    if (!field.components.empty()) at(group).attribute("components", fmt::format("{}", fmt::join(field.components, " ")));
   }
 }
 
-ResultFile::Growing ResultFile::create_growing(hid_t group, const std::string& name, const std::string& unit,
-                                               const std::string& label, hsize_t chunk) const {
-  const hsize_t start[1] = {0}, unlimited[1] = {H5S_UNLIMITED};
-  const Handle space(check(H5Screate_simple(1, start, unlimited), path_));
+void ResultFile::create_growing(hid_t group, const std::string& name, std::optional<hsize_t> columns, hsize_t chunk_rows,
+                                const std::string& unit, const std::string& label) const {
+  const int rank = columns ? 2 : 1;
+  const hsize_t start[2] = {0, columns.value_or(1)}, limit[2] = {H5S_UNLIMITED, columns.value_or(1)};
+  const hsize_t chunk[2] = {chunk_rows,
+                            even_pieces(columns.value_or(1), std::max<hsize_t>(1, chunk_bytes / sizeof(double) / chunk_rows))};
+  const Handle space(check(H5Screate_simple(rank, start, limit), path_));
   const Handle creation(check(H5Pcreate(H5P_DATASET_CREATE), path_));
-  check(H5Pset_chunk(creation.id(), 1, &chunk), path_);
+  check(H5Pset_chunk(creation.id(), rank, chunk), path_);
   check(H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER), path_);
   check(H5Pset_obj_track_times(creation.id(), false), path_);
-  // batches are written once and whole: a cache would only copy them, and there may be thousands of channels
+  const Handle set(
+      check(H5Dcreate2(group, name.c_str(), H5T_NATIVE_DOUBLE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), path_));
+  if (!columns) at(set).attribute("unit", unit);
+  at(set).attribute("label", label);
+}
+
+ResultFile::Growing ResultFile::open_growing(const std::string& name) const {
+  // rows are written once and whole: a cache would only copy them
   const Handle access(check(H5Pcreate(H5P_DATASET_ACCESS), path_));
   check(H5Pset_chunk_cache(access.id(), 1, 0, 1), path_);
   Growing growing;
-  growing.set = Handle(
-      check(H5Dcreate2(group, name.c_str(), H5T_NATIVE_DOUBLE, space.id(), H5P_DEFAULT, creation.id(), access.id()), path_));
-  at(growing.set).attribute("unit", unit);
-  at(growing.set).attribute("label", label);
+  growing.set = Handle(check(H5Dopen2(file_.id(), name.c_str(), access.id()), path_));
+  const Handle space(check(H5Dget_space(growing.set.id()), path_));
+  hsize_t extent[2] = {0, 1};
+  check(H5Sget_simple_extent_dims(space.id(), extent, nullptr), path_);
+  growing.rows = extent[0];
+  growing.columns = extent[1];
   return growing;
 }
 
-void ResultFile::grow(Growing& target, std::span<const double> values) const {
-  const hsize_t count = values.size(), size = target.size + count;
-  check(H5Dset_extent(target.set.id(), &size), path_);
+void ResultFile::grow(Growing& target, const double* values, std::size_t rows) const {
+  const hsize_t count[2] = {rows, target.columns}, start[2] = {target.rows, 0}, size[2] = {target.rows + rows, target.columns};
+  check(H5Dset_extent(target.set.id(), size), path_);
   const Handle space(check(H5Dget_space(target.set.id()), path_));
-  check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, &target.size, nullptr, &count, nullptr), path_);
-  const Handle memory(check(H5Screate_simple(1, &count, nullptr), path_));
-  check(H5Dwrite(target.set.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, values.data()), path_);
-  target.size = size;
+  check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start, nullptr, count, nullptr), path_);
+  const Handle memory(check(H5Screate_simple(H5Sget_simple_extent_ndims(space.id()), count, nullptr), path_));
+  check(H5Dwrite(target.set.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, values), path_);
+  target.rows += rows;
 }
 
 void ResultFile::append(const Batch& batch) {
   if (!batch.times.empty()) append_samples(batch);
   for (const Batch::Frame& frame : batch.frames) append_frame(frame);
+  for (const RestartPoint& point : batch.restarts) write_restart(frame_name(kept_restarts(file_.id()).size()), point, true);
 }
 
 void ResultFile::append_samples(const Batch& batch) {
-  const std::size_t samples = batch.times.size(), channels = channels_.size();
-  assert(batch.values.size() == samples * channels);
-  std::vector<double> column(samples);
-  for (std::size_t c = 0; c < channels; ++c) {
-    for (std::size_t s = 0; s < samples; ++s) column[s] = batch.values[s * channels + c];
-    grow(channels_[c], column);
+  const std::size_t samples = batch.times.size(), width = layout_->channel_count();
+  assert(batch.values.size() == samples * width);
+  std::vector<double> block;
+  std::size_t first = 0;
+  for (const HistoryTable& table : layout_->history) {
+    const std::size_t columns = table.columns();
+    block.resize(samples * columns);
+    for (std::size_t s = 0; s < samples; ++s)
+      std::copy_n(batch.values.data() + s * width + first, columns, block.data() + s * columns);
+    Growing target = open_growing(table_place(table) + "/values");
+    grow(target, block.data(), samples);
+    first += columns;
   }
-  grow(time_, batch.times);
+  Growing time = open_growing("history/time");
+  grow(time, batch.times.data(), samples);
 }
 
 void ResultFile::append_frame(const Batch::Frame& frame) {
   const std::size_t numbers = 3 * layout_->points.size();
-  assert(frame.values.size() == numbers * field_groups_.size());
-  const std::string name = fmt::format("{:06}", frame_time_.size);
+  const std::vector<FieldInfo> fields = frame_fields(*layout_);
+  assert(frame.values.size() == numbers * fields.size());
+  Growing time = open_growing("fields/time");
+  const std::string name = frame_name(time.rows);
   const hsize_t shape[2] = {layout_->points.size(), 3};
-  for (std::size_t f = 0; f < field_groups_.size(); ++f)
-    at(field_groups_[f]).numbers(name, std::span(frame.values).subspan(f * numbers, numbers), shape);
-  const double time[1] = {frame.time};
-  grow(frame_time_, time);
+  for (std::size_t f = 0; f < fields.size(); ++f)
+    at(file_).numbers(fmt::format("fields/{}/{}", fields[f].name, name), std::span(frame.values).subspan(f * numbers, numbers),
+                      shape);
+  append_cell_fields(frame, name);
+  grow(time, &frame.time, 1);
 }
 
-void ResultFile::mark_not_unique(std::span<const int> channels) {
-  for (const int channel : channels)
-    if (not_unique_.insert(channel).second) at(channels_[static_cast<std::size_t>(channel)].set).attribute("unique", 0);
+void ResultFile::append_cell_fields(const Batch::Frame& frame, const std::string& name) {
+  if (layout_->cell_fields.empty()) return;
+  const std::vector<std::size_t> cells = mixed_topology(*layout_).cells;
+  for (std::size_t f = 0; f < layout_->cell_fields.size(); ++f) {
+    const CellField& field = layout_->cell_fields[f];
+    assert(frame.cells[f].size() == layout_->cells.size() * field.width());
+    std::vector<double> rows;
+    for (const std::size_t cell : cells)
+      for (std::size_t k = 0; k < field.width(); ++k) rows.push_back(frame.cells[f][cell * field.width() + k]);
+    const hsize_t shape[2] = {cells.size(), field.width()};
+    at(file_).numbers(fmt::format("fields/{}/{}", field.named.name, name), rows, shape);
+  }
+}
+
+void ResultFile::write_restart(const std::string& name, const RestartPoint& point, bool compressed) {
+  const Handle group = at(file_).group("restart/" + name);
+  at(group).attribute("time", point.time);
+  at(group).attribute("samples", static_cast<double>(point.samples));
+  at(group).attribute("frames", static_cast<double>(point.frames));
+  for (const auto& [array, values] : point.memory.arrays()) {
+    const hsize_t shape[1] = {values.size()};
+    if (compressed)
+      at(group).numbers(array, values, shape);
+    else
+      at(group).plain_numbers(array, values);
+  }
+}
+
+void ResultFile::write_latest(const RestartPoint& point, bool last) {
+  // what is written over every second must not change its size, or the file grows with every batch
+  const Handle before(
+      H5Lexists(file_.id(), "restart/latest", H5P_DEFAULT) > 0 ? H5Gopen2(file_.id(), "restart/latest", H5P_DEFAULT) : -1);
+  bool fits = before.id() >= 0 && !last;
+  for (const auto& [array, values] : point.memory.arrays()) {
+    if (!fits) break;
+    const std::vector<hsize_t> shape = hdf5::read_shape(before.id(), array);
+    fits = shape.size() == 1 && shape[0] == values.size();
+  }
+  if (!fits) {
+    if (before.id() >= 0) check(H5Ldelete(file_.id(), "restart/latest", H5P_DEFAULT), path_);
+    write_restart("latest", point, last);
+    return;
+  }
+  at(before).attribute("time", point.time);
+  at(before).attribute("samples", static_cast<double>(point.samples));
+  at(before).attribute("frames", static_cast<double>(point.frames));
+  for (const auto& [array, values] : point.memory.arrays()) {
+    const Handle set(check(H5Dopen2(before.id(), array.c_str(), H5P_DEFAULT), path_));
+    if (!values.empty()) check(H5Dwrite(set.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path_);
+  }
+}
+
+void ResultFile::mark_not_unique(std::span<const int> columns) {
+  std::size_t first = 0;
+  for (const HistoryTable& table : layout_->history) {
+    const std::size_t count = table.columns();
+    std::vector<std::int32_t> unique(count, 1);
+    bool all = true;
+    for (const int column : columns)
+      if (const auto c = static_cast<std::size_t>(column); c >= first && c < first + count) {
+        unique[c - first] = 0;
+        all = false;
+      }
+    first += count;
+    if (all) continue;
+    const std::string name = table_place(table) + "/unique";
+    if (H5Lexists(file_.id(), name.c_str(), H5P_DEFAULT) > 0) check(H5Ldelete(file_.id(), name.c_str(), H5P_DEFAULT), path_);
+    at(at(file_).integers(name, unique)).attribute("label", "0: the least of many values that balance the same loads");
+  }
 }
 
 void ResultFile::write_checks(std::span<const CheckResult> checks) {
@@ -233,23 +355,15 @@ void ResultFile::write_checks(std::span<const CheckResult> checks) {
 
 void ResultFile::set_status(const std::string& status) { at(file_).attribute("status", status); }
 
-void ResultFile::flush() { check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), path_); }
-
 void ResultFile::close() {
-  flush();
-  channels_.clear();
-  time_ = {};
-  frame_time_ = {};
-  field_groups_.clear();
+  check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), path_);
   check(H5Fclose(file_.release()), path_);
 }
 
-void ResultFile::abandon() noexcept {
-  channels_.clear();
-  time_.set.close();
-  frame_time_.set.close();
-  field_groups_.clear();
-  file_.close();
+std::vector<std::string> kept_restarts(hid_t file) {
+  std::vector<std::string> names;
+  for (;; names.push_back(frame_name(names.size())))
+    if (H5Lexists(file, ("restart/" + frame_name(names.size())).c_str(), H5P_DEFAULT) <= 0) return names;
 }
 
 }  // namespace engrane::output

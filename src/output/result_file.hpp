@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <set>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/snapshot.hpp"
 #include "output/hdf5_handle.hpp"
 #include "output/results_layout.hpp"
 
@@ -23,17 +24,26 @@ struct FieldInfo {
 /// The fields that frames of this layout have.
 std::vector<FieldInfo> frame_fields(const ResultsLayout& layout);
 
-/// Samples and frames waiting to be written.
+/// What a run goes on from: everything that it remembers at an accepted step, and how much of the results belong to it.
+struct RestartPoint {
+  double time = 0;
+  std::size_t samples = 0, frames = 0;  ///< written up to there
+  Snapshot memory;
+};
+
+/// What waits to be written.
 struct Batch {
   struct Frame {
     double time = 0;
-    std::vector<double> values;  ///< the fields in the order of frame_fields(), each n × 3
+    std::vector<double> values;              ///< the fields in the order of frame_fields(), each n × 3
+    std::vector<std::vector<double>> cells;  ///< in the order of ResultsLayout::cell_fields
   };
   std::vector<double> times;
   std::vector<double> values;  ///< a row of channel_count() per sample
   std::vector<Frame> frames;
+  std::vector<RestartPoint> restarts;  ///< that are kept
 
-  bool empty() const { return times.empty() && frames.empty(); }
+  bool empty() const { return times.empty() && frames.empty() && restarts.empty(); }
   std::size_t bytes() const;
 };
 
@@ -41,51 +51,67 @@ struct Batch {
 struct MixedTopology {
   std::vector<std::int32_t> data;
   std::vector<std::int32_t> elements;
+  std::vector<std::size_t> cells;  ///< the place in ResultsLayout::cells that each of its cells stands for
 };
 MixedTopology mixed_topology(const ResultsLayout& layout);
 
-/// One HDF5 file with the layout of docs/format.md. Knows nothing of names that change or of spares; see Results.
+/// The version of the layout of docs/format.md; files of another are not read.
+constexpr int format_version = 2;
+
+/// One open HDF5 file with the layout of docs/format.md. Knows nothing of names that change or of spares; see Results.
+/// Everything throws OutputError, which calls the file `shown_as`.
 class ResultFile {
  public:
-  /// Creates the file, over any that is there. The layout must outlive it. Everything throws OutputError, which calls the
-  /// file `shown_as`.
-  ResultFile(const std::string& path, const ResultsLayout& layout, std::string shown_as);
+  enum class Mode : unsigned char { create, append };
+  /// Creates the file, over any that is there, with everything but steps; or opens it to add steps. The layout must outlive it.
+  ResultFile(const std::string& path, const ResultsLayout& layout, std::string shown_as, Mode mode);
+  /// Closes without caring whether that succeeds.
+  ~ResultFile();
+  ResultFile(const ResultFile&) = delete;
+  ResultFile& operator=(const ResultFile&) = delete;
 
+  /// Adds samples, frames and kept restart points.
   void append(const Batch& batch);
-  /// Writes the attribute `unique` = 0 on these channels, but for those that have it.
-  void mark_not_unique(std::span<const int> channels);
+  /// Brings over what an earlier run's file holds up to a restart point: its histories as far as this layout has them (other
+  /// columns are not a number), its frames (fields that it lacks are zero) and its kept restart points. Returns the frames'
+  /// times.
+  std::vector<double> copy_from(hid_t earlier, std::size_t samples, std::size_t frames);
+  /// Writes the restart point `latest` over the one before. The last one of a run is compressed.
+  void write_latest(const RestartPoint& point, bool last);
+  /// Sets `unique` to 0 for these columns, counted over all tables.
+  void mark_not_unique(std::span<const int> columns);
   void write_checks(std::span<const CheckResult> checks);
   void set_status(const std::string& status);
-  /// Hands everything to the operating system: from here on the file opens with all that was appended.
-  void flush();
-  /// Flushes and closes; the file takes nothing more.
+  /// Hands everything to the operating system and closes: the file opens with all that was appended.
   void close();
-  /// Closes without caring whether that succeeds.
-  void abandon() noexcept;
 
  private:
   struct Growing {
     hdf5::Handle set;
-    hsize_t size = 0;
+    hsize_t rows = 0, columns = 1;
   };
-  Growing create_growing(hid_t group, const std::string& name, const std::string& unit, const std::string& label,
-                         hsize_t chunk) const;
-  void grow(Growing& target, std::span<const double> values) const;
+  /// A dataset of rows that can be added to; without `columns` a plain list of numbers.
+  void create_growing(hid_t group, const std::string& name, std::optional<hsize_t> columns, hsize_t chunk_rows,
+                      const std::string& unit, const std::string& label) const;
+  Growing open_growing(const std::string& name) const;
+  void grow(Growing& target, const double* values, std::size_t rows) const;
+  void create_all();
   void create_mesh();
   void create_histories();
   void create_fields();
   void append_samples(const Batch& batch);
   void append_frame(const Batch::Frame& frame);
+  void append_cell_fields(const Batch::Frame& frame, const std::string& name);
+  void write_restart(const std::string& name, const RestartPoint& point, bool compressed);
+  void copy_histories(hid_t earlier, std::size_t samples);
   hdf5::Place at(const hdf5::Handle& handle) const { return {handle.id(), path_}; }
 
   std::string path_;  ///< for messages
   const ResultsLayout* layout_;
   hdf5::Handle file_;
-  Growing time_;
-  std::vector<Growing> channels_;
-  std::set<int> not_unique_;
-  Growing frame_time_;
-  std::vector<hdf5::Handle> field_groups_;
 };
+
+/// Names of the kept restart points of a file, in the order they were written.
+std::vector<std::string> kept_restarts(hid_t file);
 
 }  // namespace engrane::output

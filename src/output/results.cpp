@@ -3,14 +3,23 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cassert>
 #include <filesystem>
 #include <utility>
 
+#include "output/restart_file.hpp"
 #include "output/result_file.hpp"
 #include "output/xdmf.hpp"
 
 namespace engrane::output {
+
+namespace {
+
+/// The part of a run's time that writing may take: a batch waits so many times as long as the last one took.
+constexpr int share_of_time = 20;
+
+}  // namespace
 
 Results::Results(const std::string& prefix, ResultsLayout layout)
     : layout_(std::move(layout)),
@@ -18,43 +27,64 @@ Results::Results(const std::string& prefix, ResultsLayout layout)
       path_(name_.path(".h5")),
       gathered_(std::make_unique<Batch>()),
       last_(std::make_unique<Batch>()) {
-  // the locks of another run, if it holds any, are on the files of its own
-  { const FileLock mine_too(path_), and_spare(spare_path()); }
+  create(nullptr, nullptr);
+}
+
+Results::Results(const std::string& prefix, ResultsLayout layout, const RestartFile& earlier, const RestartPoint& from)
+    : layout_(std::move(layout)),
+      name_(prefix),
+      path_(name_.path(".h5")),
+      gathered_(std::make_unique<Batch>()),
+      last_(std::make_unique<Batch>()) {
+  create(&earlier, &from);
+}
+
+void Results::create(const RestartFile* earlier, const RestartPoint* from) {
+  // another run that writes these files holds a lock on the one that bears the name; ours is taken before anything is written
+  { const FileLock nobody_else(path_); }
+  shown_lock_ = FileLock::create(spare_path(), path_);
   try {
+    { const FileLock nobody_came_first(path_); }
+    ResultFile file(spare_path(), layout_, path_, ResultFile::Mode::create);
+    if (earlier) {
+      frame_times_ = file.copy_from(earlier->id(), from->samples, from->frames);
+      samples_ = from->samples;
+      frames_ = frame_times_.size();
+      file.write_latest(*from, false);
+    }
+    file.close();
+    if (earlier) shown_lock_.sync(path_);  // it may take the place of what it was copied from
     unlink(name_.path(".xdmf").c_str());
-    shown_ = std::make_unique<ResultFile>(spare_path(), layout_, path_);
-    shown_->flush();
     rename_over(spare_path(), path_);
-    spare_ = std::make_unique<ResultFile>(spare_path(), layout_, path_);
-    spare_->flush();
-    locks_[0] = FileLock(path_);
-    locks_[1] = FileLock(spare_path());
   } catch (...) {
-    if (shown_) shown_->abandon();
-    if (spare_) spare_->abandon();
     unlink(spare_path().c_str());
     throw;
   }
+  // known to the file from now on, and large
+  layout_.deck_text = layout_.model_json = {};
+  set_pace(pace_);
+}
+
+void Results::set_pace(Pace pace) {
+  pace_ = pace;
+  due_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(pace_.time);
 }
 
 Results::~Results() {
-  if (!over_) {
-    try {
-      write_batch();
-    } catch (const OutputError&) {
-      // whoever destroys an unfinished run has an error of his own to tell
-    }
-    spare_->abandon();
-    shown_->abandon();
-    unlink(spare_path().c_str());
+  if (over_) return;
+  try {
+    write_batch();
+  } catch (const OutputError&) {
+    // whoever destroys an unfinished run has an error of his own to tell
   }
+  if (has_spare_) unlink(spare_path().c_str());
 }
 
 void Results::sample(double time, std::span<const double> values) {
   assert(values.size() == layout_.channel_count());
   gathered_->times.push_back(time);
   gathered_->values.insert(gathered_->values.end(), values.begin(), values.end());
-  write_if_due();
+  ++samples_;
 }
 
 void Results::frame(double time, const FrameValues& values) {
@@ -72,48 +102,78 @@ void Results::frame(double time, const FrameValues& values) {
   }
   add(values.reaction_force);
   add(values.reaction_torque);
+  assert(values.cells.size() == layout_.cell_fields.size());
+  frame.cells = values.cells;
   gathered_->frames.push_back(std::move(frame));
-  write_if_due();
+  ++frames_;
 }
 
-void Results::write_if_due() {
-  if (gathered_->times.size() >= pace_.samples || gathered_->bytes() >= pace_.bytes || Clock::now() - written_ >= pace_.time)
-    flush();
+void Results::restart_point(double time, Snapshot memory, bool keep) {
+  RestartPoint point{time, samples_, frames_, std::move(memory)};
+  if (keep)
+    gathered_->restarts.push_back(std::move(point));
+  else
+    latest_ = std::make_unique<RestartPoint>(std::move(point));
+}
+
+bool Results::due() const {
+  return gathered_->times.size() >= pace_.samples || gathered_->bytes() >= pace_.bytes || Clock::now() >= due_;
 }
 
 void Results::flush() {
   if (over_) return;
+  const Clock::time_point start = Clock::now();
   try {
     write_batch();
-    if (frame_times_.size() > indexed_frames_ && Clock::now() >= index_due_) {
-      const Clock::time_point start = Clock::now();
+    if (frame_times_.size() > indexed_frames_ && start >= index_due_) {
+      const Clock::time_point index_start = Clock::now();
       write_index(path_, name_.path(".xdmf"));
       // the index of a long run is large and always written whole: give it a small share of the time
-      index_due_ = Clock::now() + 50 * (Clock::now() - start);
+      index_due_ = Clock::now() + 50 * (Clock::now() - index_start);
     }
   } catch (...) {
-    over_ = true;
-    spare_->abandon();
-    shown_->abandon();
-    unlink(spare_path().c_str());
+    give_up();
     throw;
   }
-  written_ = Clock::now();
+  const Clock::duration pause = std::chrono::duration_cast<Clock::duration>(pace_.time);
+  due_ = Clock::now() + std::max(pause, share_of_time * (Clock::now() - start));
+}
+
+void Results::give_up() {
+  over_ = true;
+  if (has_spare_) unlink(spare_path().c_str());
+}
+
+void Results::write_spare(const char* status) {
+  if (!has_spare_) {
+    spare_lock_ = FileLock::create(spare_path(), path_);
+    has_spare_ = true;
+    copy_contents(path_, spare_path());
+    marked_spare_ = marked_shown_;
+  }
+  ResultFile file(spare_path(), layout_, path_, ResultFile::Mode::append);
+  file.append(*last_);
+  file.append(*gathered_);
+  if (latest_) file.write_latest(*latest_, status != nullptr);
+  if (not_unique_.size() != marked_spare_) file.mark_not_unique(not_unique_);
+  if (status) {
+    file.write_checks(checks_);
+    file.set_status(status);
+  }
+  file.close();
+  spare_lock_.sync(path_);
+  marked_spare_ = not_unique_.size();
+  for (const Batch::Frame& frame : gathered_->frames) frame_times_.push_back(frame.time);
 }
 
 void Results::write_batch() {
-  if (gathered_->empty()) return;
-  spare_->append(*last_);
-  spare_->append(*gathered_);
-  spare_->mark_not_unique(not_unique_);
-  spare_->flush();
+  if (gathered_->empty() && !latest_) return;
+  write_spare(nullptr);
   exchange_names(path_, spare_path());
-  std::swap(shown_, spare_);
+  std::swap(shown_lock_, spare_lock_);
+  std::swap(marked_shown_, marked_spare_);
   std::swap(last_, gathered_);
-  for (const Batch::Frame& frame : last_->frames) frame_times_.push_back(frame.time);
-  gathered_->times.clear();
-  gathered_->values.clear();
-  gathered_->frames.clear();
+  *gathered_ = {};
 }
 
 void Results::write_index(const std::string& h5_path, const std::string& xdmf_path) {
@@ -126,20 +186,13 @@ void Results::write_index(const std::string& h5_path, const std::string& xdmf_pa
 void Results::finish(RunStatus status) {
   if (over_) return;
   const bool complete = status == RunStatus::complete;
-  const std::string spare = spare_path();
   try {
-    spare_->append(*last_);
-    spare_->append(*gathered_);
-    for (const Batch::Frame& frame : gathered_->frames) frame_times_.push_back(frame.time);
-    spare_->mark_not_unique(not_unique_);
-    spare_->write_checks(checks_);
-    spare_->set_status(complete ? "complete" : "failed");
-    spare_->close();
+    write_spare(complete ? "complete" : "failed");
     const std::string before = path_, index_before = name_.path(".xdmf");
     const std::string after = complete ? name_.final_path(".h5") : before;
     const std::string index_after = complete ? name_.final_path(".xdmf") : index_before;
-    rename_over(spare, after);
-    shown_->abandon();
+    rename_over(spare_path(), after);
+    has_spare_ = false;
     over_ = true;
     if (after != before) {
       unlink(before.c_str());
@@ -150,11 +203,7 @@ void Results::finish(RunStatus status) {
     if (frame_times_.empty()) unlink(index_after.c_str());
     write_index(after, index_after);
   } catch (...) {
-    if (!std::exchange(over_, true)) {
-      spare_->abandon();
-      shown_->abandon();
-      unlink(spare.c_str());
-    }
+    if (!over_) give_up();
     throw;
   }
 }

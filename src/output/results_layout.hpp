@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -11,11 +10,20 @@
 
 namespace engrane::output {
 
-/// Histories of one owner: a group below /history.
-struct ChannelGroup {
-  std::string path;                               ///< `element/7`, `node/4` or `run`
-  std::map<std::string, std::string> attributes;  ///< `type` and `name` of an element
+/// Histories of elements or nodes that have the same channels: a group below /history with one table, a row for each sample and
+/// a column for each channel of each owner. The channels of one owner stand side by side.
+struct HistoryTable {
+  std::string path;      ///< `element/GEAR`, `node/NODE` or `run`
+  std::string type;      ///< of elements: the card's name
+  std::vector<int> ids;  ///< of the owners; empty for `run`, which is one owner
   std::vector<Named> channels;
+
+  std::size_t owners() const { return ids.empty() ? 1 : ids.size(); }
+  std::size_t columns() const { return owners() * channels.size(); }
+  /// `element/7`, `node/4` or `run`.
+  std::string owner(std::size_t index) const {
+    return ids.empty() ? path : path.substr(0, path.find('/') + 1) + std::to_string(ids[index]);
+  }
 };
 
 /// What stands for (a part of) an element in the mesh: a point, a polyline, a triangle or a quadrilateral.
@@ -23,6 +31,14 @@ struct Cell {
   std::vector<int> points;  ///< 0-based places in ResultsLayout::points
   int element = 0;          ///< id
   bool surface = false;     ///< three or four points are a face, not a line
+};
+
+/// A field over the cells, beside those over the nodes.
+struct CellField {
+  Named named;
+  std::vector<std::string> components;  ///< none: a scalar
+
+  std::size_t width() const { return components.empty() ? 1 : components.size(); }
 };
 
 /// Everything about a result file that is known before the first step (docs/format.md).
@@ -37,13 +53,15 @@ struct ResultsLayout {
   std::vector<int> node_ids;
   std::vector<Vec3> points;  ///< reference positions, one per node
   std::vector<Cell> cells;
-  std::vector<ChannelGroup> history;
-  bool velocities = false;  ///< frames carry velocities
+  std::vector<CellField> cell_fields;
+  std::vector<HistoryTable> history;
+  bool velocities = false;              ///< frames carry velocities
+  std::size_t expected_samples = 1024;  ///< about how many there will be: tables are laid out for so many rows at a time
 
-  /// Channels of all groups together: how many values a sample has.
+  /// Columns of all tables together: how many values a sample has.
   std::size_t channel_count() const {
     std::size_t n = 0;
-    for (const ChannelGroup& group : history) n += group.channels.size();
+    for (const HistoryTable& table : history) n += table.columns();
     return n;
   }
 };

@@ -28,6 +28,10 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+const char* attribute_type(std::size_t width) {
+  return width == 1 ? "Scalar" : width == 3 ? "Vector" : width == 6 ? "Tensor6" : width == 9 ? "Tensor" : "Matrix";
+}
+
 }  // namespace
 
 std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, std::span<const double> frame_times) {
@@ -59,6 +63,12 @@ std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, 
                      "<DataItem Dimensions=\"{1} 3\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">"
                      "{2}:/fields/{0}/{3:06}</DataItem></Attribute>\n",
                      field.name, points, file, i);
+    for (const CellField& field : layout.cell_fields)
+      fmt::format_to(std::back_inserter(out),
+                     "<Attribute Name=\"{0}\" AttributeType=\"{4}\" Center=\"Cell\">"
+                     "<DataItem Dimensions=\"{1} {5}\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">"
+                     "{2}:/fields/{0}/{3:06}</DataItem></Attribute>\n",
+                     field.named.name, topology.cells.size(), file, i, attribute_type(field.width()), field.width());
     out += "</Grid>\n";
   }
   return out + "</Grid>\n</Domain>\n</Xdmf>\n";

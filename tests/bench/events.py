@@ -16,10 +16,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verify"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "post"))
+from engrane_post import Results
 from oracles import spur_transmission as oracle
 
 DECKS = Path(__file__).resolve().parents[2] / "decks/paper"
@@ -61,9 +62,9 @@ def main() -> None:
                 error, cost = {}, {"NO": [], "YES": []}
                 for events in cost:
                     path, _ = run(binary, folder, deck, events, step, END)
-                    with h5py.File(path) as f:
-                        t = f["history/time"][()]  # with more instants where a step was cut
-                        u = f["history/element/7/U_M"][()][np.searchsorted(t, times - 1e-12)]
+                    with Results(path) as result:
+                        t, u = result.history("element/7/U_M")  # with more instants where a step was cut
+                    u = u[np.searchsorted(t, times - 1e-12)]
                     error[events] = float(np.sqrt(np.mean((u - right) ** 2)) / (np.ptp(right) / 2))
                 for _ in range(arguments.runs):
                     for events, list_ in cost.items():

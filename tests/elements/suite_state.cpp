@@ -2,6 +2,7 @@
 // States, elements and functions to test with.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -210,9 +211,23 @@ std::unique_ptr<Element> build_record(const ElementType& type, std::any data, co
   record.data = std::move(data);
   Diagnostics own;
   Diagnostics& diagnostics = options.diagnostics ? *options.diagnostics : own;
-  BuildContext context{
-      nodes,         options.functions ? *options.functions : none, diagnostics, record, options.wheel_inertia, options.records,
-      options.blocks};
+  const FunctionMap& functions = options.functions ? *options.functions : none;
+  BuildContext context{nodes, functions, diagnostics, record, options.wheel_inertia, options.records, {}, options.blocks};
+  std::vector<std::unique_ptr<Element>> others;
+  context.find_element = [&](int id) -> BuildContext::Found {
+    if (!options.records) return {};
+    for (const deck::Record& other : *options.records) {
+      if (other.id != id) continue;
+      const auto& types = element_types();
+      const auto its =
+          std::find_if(types.begin(), types.end(), [&](const auto& t) { return t.schema.name == other.schema->name; });
+      Diagnostics unheard;
+      BuildContext alone{nodes, functions, unheard, other, options.wheel_inertia};
+      others.push_back(its == types.end() ? nullptr : its->build(alone));
+      return {&other, others.back().get(), !others.back()};
+    }
+    return {};
+  };
   auto element = type.build(context);
   for (const Diagnostic& d : own.all())
     if (d.severity == Severity::error) ADD_FAILURE() << type.schema.name << ": " << d.message << " (" << d.hint << ")";

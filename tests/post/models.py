@@ -55,7 +55,7 @@ def write(
     with h5py.File(path, "w") as f:
         f.attrs.update(
             format="engrane",
-            format_version=1,
+            format_version=2,
             program="engrane test",
             title=title,
             status=status,
@@ -90,13 +90,30 @@ def write(
         if history is not None and history_time is not None:
             f["history/time"] = history_time
             f["history/time"].attrs["unit"] = "s" if units else "[time]"
-            for name, (values, unit, label) in history.items():
-                f[f"history/{name}"] = values
-                f[f"history/{name}"].attrs["unit"] = unit
-                f[f"history/{name}"].attrs["label"] = label
-            for e in elements:
-                if f"history/element/{e['id']}" in f:
-                    f[f"history/element/{e['id']}"].attrs.update(type=e["type"], name=e.get("name", ""))
+            types = {e["id"]: e["type"] for e in elements}
+            tables: dict[tuple[str, tuple[str, ...]], dict[int, list[tuple[np.ndarray, str, str]]]] = {}
+            owners_of: dict[str, list[str]] = {}
+            for name in history:
+                owner, _, channel = name.rpartition("/")
+                owners_of.setdefault(owner, []).append(channel)
+            for owner, channels in owners_of.items():
+                kind, _, number = owner.partition("/")
+                path_of = {"element": f"element/{types.get(int(number or 0))}", "node": "node/NODE"}.get(
+                    kind, kind
+                )
+                columns = [history[f"{owner}/{c}"] for c in channels]
+                tables.setdefault((path_of, tuple(channels)), {})[int(number or 0)] = columns
+            for i, ((place, channels), members) in enumerate(tables.items()):
+                group = f.create_group(f"history/{place}" + (f"_{i}" if f"history/{place}" in f else ""))
+                group["values"] = np.stack([c[0] for columns in members.values() for c in columns], axis=1)
+                group["channels"] = np.array(channels, "S")
+                first = next(iter(members.values()))
+                group["units"] = np.array([c[1].encode() for c in first], "S")
+                group["labels"] = np.array([c[2].encode() for c in first], "S")
+                if "/" in place:
+                    group["ids"] = np.array(list(members), np.int32)
+                if place.startswith("element/"):
+                    group.attrs["type"] = place.split("/")[1]
     return path
 
 

@@ -67,8 +67,10 @@ def test_nan(tmp_path: Path, command, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     path = models.two_wheels(tmp_path / "n.h5")
     with h5py.File(path, "a") as f:
-        f["history/element/7/U_M"][3000:] = np.nan
-        f["history/node/2/UX"][:] = np.nan
+        f["history/element/GEAR/values"][3000:, 1] = np.nan
+        for name, table in f["history/node"].items():
+            if table["ids"][0] == 2:
+                f[f"history/node/{name}/values"][:] = np.nan
     status, out, _ = command("plot", path, "7.u_m", "-o", "a.png")
     assert status == 0 and "not a number from t = 0.03 on" in out
     status, _, err = command("spectrum", path, "7.u_m")

@@ -3,11 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace engrane {
 namespace {
+
+const deck::Schema& function_schema() {
+  const auto& cards = deck::general_commands();
+  return *std::find_if(cards.begin(), cards.end(), [](const deck::Schema& card) { return card.name == ".FCT"; });
+}
 
 deck::Record record(deck::FunctionCard card) {
   deck::Record r;
@@ -157,13 +163,13 @@ TEST(Function, Faults) {
 
 TEST(Function, FaultsPointIntoTheText) {
   deck::Record r = record(formula("2*U"));
-  r.field_locations["EXPR"] = {0, 4, 20, 5};
+  r.field_locations = {{function_schema().find("EXPR"), {0, 4, 20, 5}}};
   Diagnostics diagnostics;
   make_function(r, diagnostics);
   ASSERT_EQ(diagnostics.errors(), 1);
   EXPECT_EQ(diagnostics.all()[0].location.column, 23);
   r = record(table({0, 0, 0, 1}));
-  r.field_locations["TABLE"] = {0, 5, 9, 1};
+  r.field_locations = {{function_schema().find("TABLE"), {0, 5, 9, 1}}};
   make_function(r, diagnostics);
   EXPECT_EQ(diagnostics.all()[1].location.line, 5);
 }

@@ -18,13 +18,13 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import h5py
 import numpy as np
+from engrane_post import Results
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from oracles import spur_transmission as oracle
 
-CHANNEL = "history/element/7/NORMAL_FORCE"
+CHANNEL = "element/7/NORMAL_FORCE"
 PERIODS = 100  # tooth periods at the end of the run that are compared
 AMPLITUDE_TOLERANCE = 0.002
 SMOOTH_STATISTICS_TOLERANCE = 0.002
@@ -58,20 +58,11 @@ def result_path(folder: Path, case: str, variant: str = "") -> Path:
 def load(path: Path, case: str, damping: str | None = None) -> Run:
     """Reads one result. The load's sense is that of the mean force; the law is the card's (CONTACT with
     backlash by default)."""
-    import json
-
-    with h5py.File(path, "r") as f:
-        t, normal = f["history/time"][()], f[CHANNEL][()]
-        name = "history/element/7/TRANSMISSION_ERROR"
-        approach = f[name][()] if name in f else None
-        parameters: dict = {}
-        if "model" in f:
-            raw = f["model"][()]
-            model = json.loads(raw.decode() if isinstance(raw, bytes) else str(raw))
-            parameters = next((e.get("parameters", {}) for e in model["elements"] if e["id"] == 7), {})
-    n = min(len(t), len(normal))
-    t, normal = t[:n], normal[:n]
-    approach = approach[:n] if approach is not None else None
+    with Results(path) as result:
+        t, normal = result.history(CHANNEL)
+        name = "element/7/TRANSMISSION_ERROR"
+        approach = result.history(name)[1] if name in result.channels else None
+        parameters: dict = next((e.parameters for e in result.elements if e.id == 7), {})
     if not np.isfinite(normal).all():
         raise ValueError(f"{path}: the normal force is not a number at t = {t[~np.isfinite(normal)][0]:g}")
     model = oracle.CASES[case]

@@ -7,23 +7,23 @@ import os
 import subprocess
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
+from engrane_post import Results
 
 
 class Run:
-    """Histories of a finished run: run["3/NORMAL_FORCE"], run["node/2/UX"], run.t."""
+    """Histories of a run: run["3/NORMAL_FORCE"], run["node/2/UX"], run.t."""
 
     def __init__(self, file: Path) -> None:
         self.file = file
-        with h5py.File(file) as f:
-            self.t = f["history/time"][()]
+        with Results(file) as r:
+            self.t = r.times()
 
     def __getitem__(self, channel: str) -> np.ndarray:
         path = channel if channel.split("/")[0] in ("node", "run", "element") else f"element/{channel}"
-        with h5py.File(self.file) as f:
-            return f[f"history/{path}"][()]
+        with Results(self.file) as r:
+            return r.history(path)[1]
 
 
 def run(text: str, folder: Path, name: str = "deck", timeout: float = 300) -> Run:

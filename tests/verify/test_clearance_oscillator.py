@@ -17,10 +17,10 @@ from pathlib import Path
 
 import pytest
 
-h5py = pytest.importorskip("h5py")
 np = pytest.importorskip("numpy")
 
 from oracles import clearance_oscillator as oracle  # noqa: E402
+from runs import Run  # noqa: E402
 
 RATE = 8e-5  # of the frequency, per unit of time: 0.0006 a period
 STEP = 0.05
@@ -59,8 +59,8 @@ def swing(deck: str, folder: Path) -> tuple[np.ndarray, np.ndarray]:
         pytest.skip("the variable ENGRANE names no program")
     (folder / "swing.dat").write_text(deck)
     subprocess.run([program, "-q", "swing.dat"], cwd=folder, check=True, timeout=300)
-    with h5py.File(folder / "swing.h5") as f:
-        return f["history/time"][()], 1 + f["history/element/2/U_M"][()]
+    result = Run(folder / "swing.h5")
+    return result.t, 1 + result["2/U_M"]
 
 
 def sweep(first: float, last: float, start: tuple[float, float], folder: Path) -> dict[str, np.ndarray]:
@@ -127,8 +127,7 @@ def test_contact_is_lost_where_the_lower_branch_ends(offset: float, tmp_path: Pa
     frequency = LOSS_OF_CONTACT + offset
     force = f"0.1 + {0.05 * frequency**2!r}*cos({frequency!r}*T)"
     t, x = swing(oscillator("held", force, oracle.linear_start(frequency), 600), tmp_path)
-    with h5py.File(tmp_path / "swing.h5") as f:
-        events = f["history/run/EVENTS"][-1]
+    events = Run(tmp_path / "swing.h5")["run/EVENTS"][-1]
     if offset < 0:
         assert events == 0
         assert x[t > 500].std() == pytest.approx(oracle.linear_rms(frequency), rel=2e-3)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import h5py
 import pytest
+from engrane_post import Results
 
 BINARY = os.environ["ENGRANE"]
 
@@ -70,9 +71,9 @@ def test_failed_run_keeps_its_results_and_says_why(tmp_path, ranks):
     assert ended.returncode == 2
     assert "t = 0.5" in ended.stderr and "TORQUE 3" in ended.stderr and "cut 10 times" in ended.stderr
     assert ended.stderr.count("the step was cut") == 1, "only one rank speaks"
-    with h5py.File(tmp_path / "deck.h5") as file:
-        assert file.attrs["status"] in ("failed", b"failed")
-        assert file["history/time"][-1] == pytest.approx(0.5, abs=1e-3)
+    with Results(tmp_path / "deck.h5") as result:
+        assert result.status == "failed"
+        assert result.times()[-1] == pytest.approx(0.5, abs=1e-3)
 
 
 def test_singular_model_names_the_free_motion(tmp_path):

@@ -66,17 +66,28 @@ def frames(prefix):
         return times, [file[f"fields/displacement/{i:06d}"][()] for i in range(len(times))]
 
 
+def tables(file):
+    """Groups with histories, by path."""
+    found = {}
+
+    def keep(path, item):
+        if "values" in (item if isinstance(item, h5py.Group) else ()):
+            found[path] = item
+
+    file["history"].visititems(keep)
+    return found
+
+
 def test_layout(prefix):
     with h5py.File(f"{prefix}.h5", "r") as file:
         samples = len(file["history/time"])
         assert samples > 0
-        histories = []
-        file["history"].visititems(
-            lambda name, item: histories.append(item) if hasattr(item, "shape") else None
-        )
-        for history in histories:
-            assert history.shape == (samples,), history.name
-            assert {"unit", "label"} <= set(history.attrs), history.name
+        assert {"unit", "label"} <= set(file["history/time"].attrs)
+        for path, table in tables(file).items():
+            owners = len(table["ids"]) if "ids" in table else 1
+            channels = len(table["channels"])
+            assert table["values"].shape == (samples, owners * channels), path
+            assert len(table["units"]) == len(table["labels"]) == channels, path
         count = len(file["mesh/node_ids"])
         assert file["mesh/points"].shape == (count, 3)
         for name, group in file["fields"].items():
@@ -153,9 +164,7 @@ def test_killed_run_opens(tmp_path):
             most = max(most, samples)
             times = file["history/time"][()]
             assert np.all(np.diff(times) > 0)
-            lengths = []
-            file["history"].visititems(lambda _, item, to=lengths: to.append(getattr(item, "shape", None)))
-            assert {shape for shape in lengths if shape is not None} == {(samples,)}
+            assert {len(table["values"]) for table in tables(file).values()} == {samples}
             count = len(file["fields/time"])
             assert all(len(group) == count for name, group in file["fields"].items() if name != "time")
     assert most > 1

@@ -7,8 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-import h5py
 import pytest
+from engrane_post import Results
 
 BINARY = os.environ["ENGRANE"]
 
@@ -107,15 +107,8 @@ def test_run_says_that_reactions_are_not_unique(tmp_path):
 
 
 def not_unique(folder: Path) -> dict[str, bool]:
-    found = {}
-
-    def keep(name, item):
-        if isinstance(item, h5py.Dataset) and name.startswith("history/"):
-            found[name.removeprefix("history/")] = item.attrs.get("unique", 1) == 0
-
-    with h5py.File(folder / "deck.h5") as file:
-        file.visititems(keep)
-    return found
+    with Results(folder / "deck.h5") as result:
+        return {name: not channel.unique for name, channel in result.channels.items()}
 
 
 def test_reactions_that_are_not_unique_are_marked(tmp_path):

@@ -6,9 +6,9 @@ import re
 import subprocess
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
+from engrane_post import Results
 
 BINARY = os.environ["ENGRANE"]
 
@@ -59,8 +59,8 @@ def rocker_angles(crank: float) -> tuple[float, float]:
 
 
 def last(folder: Path, channel: str) -> float:
-    with h5py.File(folder / "deck.h5") as file:
-        return file[f"history/{channel}"][0]
+    with Results(folder / "deck.h5") as result:
+        return result.history(channel)[1][0]
 
 
 def same_angle(a: float, b: float) -> bool:

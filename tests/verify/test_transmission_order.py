@@ -13,10 +13,10 @@ from pathlib import Path
 
 import pytest
 
-h5py = pytest.importorskip("h5py")
 np = pytest.importorskip("numpy")
 
 from oracles import spur_transmission as oracle  # noqa: E402
+from runs import Run  # noqa: E402
 
 DECKS = Path(__file__).resolve().parents[2] / "decks" / "paper"
 END = 1e-3  # five tooth periods
@@ -37,9 +37,9 @@ def run(case: str, step: float, folder: Path) -> dict[str, np.ndarray]:
     subprocess.run(
         [program, f"{name}.dat", "-o", name], cwd=folder, check=True, stdout=subprocess.DEVNULL, timeout=300
     )
-    with h5py.File(folder / f"{name}.h5") as f:
-        out = {key: f[f"history/element/7/{name}"][()] for key, name in CHANNELS.items()}
-        out["t"] = f["history/time"][()]
+    result = Run(folder / f"{name}.h5")
+    out = {key: result[f"7/{channel}"] for key, channel in CHANNELS.items()}
+    out["t"] = result.t
     assert len(out["t"]) == round(END / step) + 1
     return out
 

@@ -126,6 +126,8 @@ struct AnalysisCard {
   Tagged events{"YES", {}};       ///< EVENTS YES [tolerance] or NO: steps end where contact begins and ends
   std::optional<double> scale;    ///< k of the augmented Lagrangian; automatic when not given
   std::optional<double> penalty;  ///< p; automatic when not given
+  std::string restart;            ///< RESTART: prefix of the results that this run goes on from; empty: a new run
+  std::optional<double> restart_time;  ///< T: of the restart point; the last when not given
 };
 
 /// `.SUB TF tf H h [TI ti]`: from, to, step.
@@ -135,12 +137,17 @@ struct SteppingCard {
   double step = 0.1;
 };
 
-/// `.SAI` what is archived: rate of the fields, rate of the histories, or a selection by result code.
-struct ArchiveCard {
+/// `.SAI` what is archived: rate of the fields, rate of the histories, whose histories and which, and restart points.
+struct ArchiveCard : NodeTarget {
   std::optional<double> field_step;    ///< CHAMPS/FIELDS DT: time between archived fields
   std::optional<double> history_step;  ///< HISTORY DT: time between history samples; 0 or missing: every step
   std::vector<int> codes;              ///< STYP codes
   bool newton = false;                 ///< NEWTON: the listing shows every iteration
+  std::vector<int> elements;           ///< ELEMENT ids and ranges whose histories are kept
+  std::vector<std::string> kinds;      ///< TYPE names of cards whose elements' histories are kept
+  std::vector<std::string> channels;   ///< CHANNEL: of those, only these
+  Tagged keep;                         ///< KEEP ALL, NONE: histories of all elements and nodes, or of none
+  std::optional<double> restart_step;  ///< RESTART DT: time between restart points that stay in the file
 };
 
 /// `.CHK`: what the run must give.

@@ -20,6 +20,9 @@ void check_analysis(AnalysisCard& analysis, Record& record, Diagnostics& diagnos
     diagnostics.error(record.where("ALPHA"), "ALPHA belongs to the schemes HHT and BOSSAK, not to " + analysis.scheme.tag);
   if (!analysis.events.values.empty() && !(analysis.events.values[0] > 0 && analysis.events.values[0] <= 0.01))
     diagnostics.error(record.where("EVENTS"), "the tolerance of EVENTS is a fraction of H, from above 0 to 0.01");
+  if (analysis.restart_time && analysis.restart.empty())
+    diagnostics.error(record.where("T"), "T is the time of a restart point, and there is no RESTART",
+                      "give RESTART \"prefix\" T t");
   if (analysis.type.is("DYNAMIC")) return;
   for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START", "EVENTS"})
     if (record.given(keyword))
@@ -72,8 +75,19 @@ Schema analysis_card() {
   card.add("PENALTY", &AnalysisCard::penalty, "penalty of the constraint equations; automatic when not given")
       .synonyms({"PENALITE"})
       .at_least(0);
+  card.add("RESTART", &AnalysisCard::restart,
+           "go on from a restart point of these results (a path without .h5) instead of starting; `.SUB`, `.SAM`, `.SAI`, "
+           "checks, loads "
+           "and functions may differ from the run that wrote them, the model may not")
+      .synonyms({"REPRISE"});
+  card.add("T", &AnalysisCard::restart_time,
+           "RESTART: time of the restart point, the last one up to then; the last of all when not given")
+      .synonyms({"TIME", "TEMPS"})
+      .unit(dimension::time);
   card.finish(check_analysis);
-  card.example(".SAM TYPE STATIC").example(".SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.8");
+  card.example(".SAM TYPE STATIC")
+      .example(".SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.8")
+      .example(".SAM TYPE DYNAMIC RESTART \"first_run\" T 0.5");
   return card.schema();
 }
 
@@ -96,10 +110,19 @@ Schema stepping_card() {
   return card.schema();
 }
 
+void check_archive(ArchiveCard& archive, Record& record, Diagnostics& diagnostics) {
+  if (!archive.keep.given()) return;
+  for (const char* keyword : {"ELEMENT", "TYPE", "NOEUD", "GROUP"})
+    if (record.given(keyword))
+      diagnostics.error(record.where(keyword),
+                        std::string(keyword) + " selects histories, and KEEP " + archive.keep.tag + " does too",
+                        "leave one of them out");
+}
+
 Schema archive_card() {
   Card<ArchiveCard> card(".SAI", {".ARCHIVE", ".SAVE"}, "What is archived, and how often");
   card.chapter(result_chapter).once();
-  card.add("FIELDS", &ArchiveCard::field_step, "time between archived fields; every step when not given")
+  card.add("FIELDS", &ArchiveCard::field_step, "time between archived fields; a 200th of the time span when not given")
       .synonyms({"CHAMPS"})
       .filler({"DT"})
       .unit(dimension::time)
@@ -126,8 +149,41 @@ Schema archive_card() {
               {1438, "normal moment"},
               {1524, "force vector"},
               {1525, "moment vector"}});
+  card.add("ELEMENT", &ArchiveCard::elements, "elements whose histories are kept: ids and ranges")
+      .synonyms({"MCE", "ELEMENTS"})
+      .refers(Reference::element)
+      .at_least(1);
+  card.add("TYPE", &ArchiveCard::kinds, "types of elements whose histories are kept: GEAR, HINGE, …");
+  card.add("NOEUD", &ArchiveCard::nodes, "nodes whose histories are kept: ids and ranges")
+      .synonyms({"NODE", "NODES", "NOE"})
+      .refers(Reference::node)
+      .at_least(1);
+  card.add("GROUP", &ArchiveCard::groups, "groups of nodes whose histories are kept: names or numbers")
+      .synonyms({"GROUPE"})
+      .refers(Reference::group);
+  card.add("CHANNEL", &ArchiveCard::channels, "of those, only these histories: NORMAL_FORCE, UX, …")
+      .synonyms({"GRANDEUR", "CHANNELS"});
+  card.add("KEEP", &ArchiveCard::keep,
+           "whose histories are kept where nothing selects them; with no more than 300 elements and nodes all")
+      .synonyms({"GARDER"})
+      .option({"ALL", {"TOUT"}, "of all elements and nodes, however many"})
+      .option({"NONE", {"RIEN"}, "only of the run and of what .CHK asks for"});
+  card.add("RESTART", &ArchiveCard::restart_step,
+           "time between restart points that stay in the results; there is always one at the end")
+      .synonyms({"REPRISE"})
+      .filler({"DT"})
+      .unit(dimension::time)
+      .positive();
   card.add("NEWTON", &ArchiveCard::newton, "the listing shows every Newton iteration");
+  card.describe(
+      "Histories are kept of all elements and nodes while these are no more than 300 together. Of larger models only those of "
+      "the "
+      "run, those that .CHK compares, and those that ELEMENT, TYPE, NOEUD and GROUP select. Where these select, nothing else is "
+      "kept, in "
+      "small models too; CHANNEL alone selects from all elements and nodes.");
+  card.finish(check_archive);
   card.example(".SAI FIELDS DT 0.001 HISTORY DT 0.0001 NEWTON");
+  card.example(".SAI TYPE GEAR NOEUD 4 10 A 20 CHANNEL NORMAL_FORCE UX UY RESTART DT 0.1");
   return card.schema();
 }
 

@@ -17,6 +17,8 @@ class Abbreviations {
   /// Defines a name (again: the last text counts).
   void define(std::string name, std::string text);
 
+  bool empty() const { return texts_.empty(); }
+
   /// The longest defined name that `text` starts with, or nothing.
   std::string_view longest_at(std::string_view text) const;
 

@@ -2,6 +2,7 @@
 #include "deck/language/lexer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -17,7 +18,14 @@ namespace {
 /// Control characters count as blanks: tabs, the carriage return of CRLF, the end-of-file mark of DOS.
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == '\x1a'; }
 
-bool ends_word(char c) { return is_blank(c) || c == '"' || c == '\'' || c == '(' || c == ')' || c == '!'; }
+bool ends_word(char c) {
+  static constexpr auto table = [] {
+    std::array<bool, 256> ends{};
+    for (const char end : std::string_view(" \t\r\f\v\x1a\"'()!")) ends[static_cast<unsigned char>(end)] = true;
+    return ends;
+  }();
+  return table[static_cast<unsigned char>(c)];
+}
 
 bool is_name_character(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
 
@@ -27,11 +35,56 @@ bool nothing_left(std::string_view rest) {
   return first == rest.end() || *first == '!';
 }
 
-/// Copies lines of a file into a LogicalLine.
+/// A line as it is read: comments gone, abbreviations replaced, continuation lines appended.
+struct LogicalLine {
+  /// Where bytes of the text come from.
+  struct Origin {
+    int line;
+    int column;
+    int length;
+  };
+  int file = 0;
+  int first_line = 1;
+  std::string_view text;
+  std::vector<Origin> origins;  ///< of every byte; empty when the text is the beginning of its line in the file
+
+  Origin origin(std::size_t i) const { return origins.empty() ? Origin{first_line, static_cast<int>(i) + 1, 1} : origins[i]; }
+
+  Location at(std::size_t first, std::size_t size) const {
+    if (text.empty()) return {file, 1, 1, 1};
+    first = std::min(first, text.size() - 1);
+    std::size_t last = std::min(first + std::max<std::size_t>(size, 1), text.size()) - 1;
+    const Origin start = origin(first);
+    while (last > first && origin(last).line != start.line) --last;  // a caret marks one line only
+    const Origin stop = origin(last);
+    return {file, start.line, start.column, stop.column + stop.length - start.column};
+  }
+};
+
+/// The part of a line before its comment, where that is all there is to reading it: no continuation, no abbreviation that could
+/// stand in it, nothing past the last column. npos otherwise.
+std::size_t plain_size(std::string_view source, int columns, const Abbreviations& abbreviations) {
+  if (source.size() > static_cast<std::size_t>(columns)) return std::string_view::npos;
+  char quote = '\0';
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const char c = source[i];
+    if (c == '$' || (c == '/' && !abbreviations.empty())) return std::string_view::npos;
+    if (quote != '\0') {
+      if (c == quote) quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '!') {
+      return i;
+    }
+  }
+  return source.size();
+}
+
+/// Puts a LogicalLine together from lines of a file.
 class LineBuilder {
  public:
-  LineBuilder(LogicalLine& line, const Abbreviations& abbreviations, Diagnostics& diagnostics)
-      : line_(line), abbreviations_(abbreviations), diagnostics_(diagnostics) {}
+  LineBuilder(std::string& text, LogicalLine& line, const Abbreviations& abbreviations, Diagnostics& diagnostics)
+      : text_(text), line_(line), abbreviations_(abbreviations), diagnostics_(diagnostics) {}
 
   /// Appends one line of the file; true when a `$` says that the next one continues it.
   bool append(std::string_view source, int number, int columns) {
@@ -77,7 +130,7 @@ class LineBuilder {
   static int column(std::size_t offset) { return static_cast<int>(offset) + 1; }
 
   void put(char c, LogicalLine::Origin origin) {
-    line_.text += c;
+    text_ += c;
     line_.origins.push_back(origin);
   }
 
@@ -113,6 +166,7 @@ class LineBuilder {
     }
   }
 
+  std::string& text_;
   LogicalLine& line_;
   const Abbreviations& abbreviations_;
   Diagnostics& diagnostics_;
@@ -122,10 +176,11 @@ class LineBuilder {
 /// Cuts tokens out of a logical line.
 class Tokenizer {
  public:
-  Tokenizer(const LogicalLine& line, const Abbreviations& abbreviations)
-      : line_(line), text_(line.text), abbreviations_(abbreviations) {}
+  Tokenizer(const LogicalLine& line, const Abbreviations& abbreviations, std::deque<TokenFault>& faults,
+            std::vector<Token>& tokens)
+      : line_(line), text_(line.text), abbreviations_(abbreviations), faults_(faults), tokens_(tokens) {}
 
-  std::vector<Token> run() {
+  void run() {
     if (begins_with_word(text_, "\xef\xbb\xbf")) at_ = 3;  // the byte order mark that some editors write
     for (;;) {
       while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
@@ -136,7 +191,6 @@ class Tokenizer {
       tokens_.front().starts_line = tokens_.front().may_start_row = true;
       if (tokens_.front().is_command() && tokens_.size() > 1) tokens_[1].may_start_row = true;
     }
-    return std::move(tokens_);
   }
 
  private:
@@ -147,7 +201,7 @@ class Tokenizer {
     if (c == '(') return parenthesis();
     if (c == ')') {
       Token& token = add(Token::Kind::word, at_, 1);
-      token.fault = "this ) closes nothing";
+      blame(token, "this ) closes nothing");
       ++at_;
       return;
     }
@@ -155,12 +209,15 @@ class Tokenizer {
   }
 
   Token& add(Token::Kind kind, std::size_t first, std::size_t size) {
-    Token token;
+    Token& token = tokens_.emplace_back();
     token.kind = kind;
     token.text = text_.substr(first, size);
     token.where = line_.at(first, size);
-    tokens_.push_back(std::move(token));
-    return tokens_.back();
+    return token;
+  }
+
+  void blame(Token& token, std::string message, std::string hint = {}) {
+    token.fault = &faults_.emplace_back(TokenFault{std::move(message), std::move(hint)});
   }
 
   void quoted(Token::Kind kind, const char* unclosed) {
@@ -169,7 +226,7 @@ class Tokenizer {
     const std::size_t size = (closed ? end + 1 : text_.size()) - at_;
     Token& token = add(kind, at_, size);
     token.text = text_.substr(at_ + 1, closed ? size - 2 : size - 1);
-    if (!closed) token.fault = unclosed;
+    if (!closed) blame(token, unclosed);
     at_ += size;
   }
 
@@ -187,17 +244,16 @@ class Tokenizer {
     const std::size_t size = parenthesis_size(at_);
     if (size == 0) {
       Token& token = add(Token::Kind::number, at_, 1);
-      token.fault = "this ( is not closed";
+      blame(token, "this ( is not closed");
       at_ = text_.size();
       return;
     }
     Token& token = add(Token::Kind::number, at_, size);
     const Expression::Parsed result = Expression::parse(text_.substr(at_ + 1, size - 2), false);
     if (result.good()) token.value = result.expression.value(0);
-    if (result.good() && !std::isfinite(token.value)) token.fault = "this is not a finite number";
+    if (result.good() && !std::isfinite(token.value)) blame(token, "this is not a finite number");
     if (!result.good()) {
-      token.fault = result.fault.message;
-      token.hint = result.fault.hint;
+      blame(token, result.fault.message, result.fault.hint);
       token.where = line_.at(at_ + 1 + result.fault.at, result.fault.length);
     }
     at_ += size;
@@ -219,54 +275,52 @@ class Tokenizer {
       if (word.front() == '/') undefined_abbreviation(token);
       return;
     }
-    const Number number = parse_number(word);
+    Number number = parse_number(word);
     Token& token = add(Token::Kind::number, first, word.size());
     token.value = number.value;
     token.repeat = number.repeat;
-    token.fault = number.fault;
-    token.hint = number.hint;
+    if (!number.good()) blame(token, std::move(number.fault), std::move(number.hint));
   }
 
-  void undefined_abbreviation(Token& token) const {
-    token.fault = "no ABRE defines `" + token.text + "`";
+  void undefined_abbreviation(Token& token) {
     const std::string near = nearest(token.text, abbreviations_.names());
-    token.hint = near.empty() ? "" : "did you mean `" + near + "`?";
+    blame(token, "no ABRE defines " + token.quoted(), near.empty() ? "" : "did you mean `" + near + "`?");
   }
 
   const LogicalLine& line_;
   std::string_view text_;
   const Abbreviations& abbreviations_;
+  std::deque<TokenFault>& faults_;
+  std::vector<Token>& tokens_;
   std::size_t at_ = 0;
-  std::vector<Token> tokens_;
 };
 
 }  // namespace
 
-Location LogicalLine::at(std::size_t first, std::size_t size) const {
-  if (origins.empty()) return {file, 1, 1, 1};
-  first = std::min(first, origins.size() - 1);
-  std::size_t last = std::min(first + std::max<std::size_t>(size, 1), origins.size()) - 1;
-  while (last > first && origins[last].line != origins[first].line) --last;  // a caret marks one line only
-  const Origin& start = origins[first];
-  const Origin& stop = origins[last];
-  return {file, start.line, start.column, stop.column + stop.length - start.column};
+std::string Token::quoted() const {
+  const char mark = kind == Kind::text ? '"' : '`';
+  return mark + std::string(text) + mark;
 }
 
-LogicalLine logical_line(const SourceMap& sources, int file, int first_line, int columns, const Abbreviations& abbreviations,
-                         Diagnostics& diagnostics) {
+int Lexer::read(int file, int first_line, int columns, const Abbreviations& abbreviations, std::vector<Token>& tokens) {
   LogicalLine line;
   line.file = file;
-  LineBuilder builder(line, abbreviations, diagnostics);
-  bool continued = true;
-  while (continued && first_line + line.lines <= sources.line_count(file)) {
-    const int number = first_line + line.lines++;
-    continued = builder.append(sources.line(file, number), number, columns);
+  line.first_line = first_line;
+  int lines = 1;
+  const std::string_view source = sources_.line(file, first_line);
+  if (const std::size_t size = plain_size(source, columns, abbreviations); size != std::string_view::npos) {
+    line.text = source.substr(0, size);
+  } else {
+    std::string& text = composed_.emplace_back();
+    LineBuilder builder(text, line, abbreviations, diagnostics_);
+    bool continued = builder.append(source, first_line, columns);
+    for (; continued && first_line + lines <= sources_.line_count(file); ++lines)
+      continued = builder.append(sources_.line(file, first_line + lines), first_line + lines, columns);
+    line.text = text;
   }
-  return line;
-}
-
-std::vector<Token> tokenize(const LogicalLine& line, const Abbreviations& abbreviations) {
-  return Tokenizer(line, abbreviations).run();
+  tokens.clear();
+  Tokenizer(line, abbreviations, faults_, tokens).run();
+  return lines;
 }
 
 }  // namespace engrane::deck

@@ -47,8 +47,18 @@ Number malformed(std::string_view word) {
   return fault(word, "is not a number");
 }
 
+/// A number spelled as from_chars spells it: nearly all are. False when it is not, or not in range.
+bool parse_usual(std::string_view word, double& value) {
+  if (!looks_like_number(word)) return false;      // from_chars knows inf and nan, decks do not
+  if (word.front() == '+') word.remove_prefix(1);  // from_chars knows no plus sign
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  return error == std::errc() && stop == end;
+}
+
 /// The part behind a repeat count.
 Number parse_plain(std::string_view word) {
+  if (double value = 0; parse_usual(word, value)) return {value, 1, {}, {}};
   Scanner scan(word);
   if (is_sign(scan.next())) {
     if (scan.next() == '+')

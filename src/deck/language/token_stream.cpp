@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -26,10 +25,13 @@ bool read_plain_file(const fs::path& path, std::string& text, std::string& fault
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) return fault = "does not exist", false;
   if (!fs::is_regular_file(status)) return fault = "is not a plain file", false;
-  if (fs::file_size(path, error) > largest_file || error) return fault = "is larger than 1 GiB", false;
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (size > largest_file || error) return fault = "is larger than 1 GiB", false;
   std::ifstream in(path, std::ios::binary);
   if (!in) return fault = "cannot be opened", false;
-  text.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  text.resize(static_cast<std::size_t>(size));
+  in.read(text.data(), static_cast<std::streamsize>(size));
+  text.resize(static_cast<std::size_t>(in.gcount()));  // should it have become shorter
   if (in.bad()) return fault = "cannot be read", false;
   return true;
 }
@@ -61,6 +63,7 @@ void TokenStream::open_text(std::string name, std::string text) {
 }
 
 const Token& TokenStream::peek(std::size_t ahead) {
+  if (ahead == 0 && !tokens_.empty()) return tokens_.front();
   static const Token end;
   while (tokens_.size() <= ahead && read_line()) {
   }
@@ -79,8 +82,8 @@ void TokenStream::skip() {
 }
 
 bool TokenStream::report(const Token& token) {
-  if (token.fault.empty()) return false;
-  diagnostics_.error(token.where, token.fault, token.hint);
+  if (!token.fault) return false;
+  diagnostics_.error(token.where, token.fault->message, token.fault->hint);
   return true;
 }
 
@@ -92,25 +95,23 @@ bool TokenStream::read_line() {
     open_.pop_back();
     return !open_.empty();
   }
-  const LogicalLine line = logical_line(sources_, current.file, current.next_line, columns_, abbreviations_, diagnostics_);
-  current.next_line += line.lines;
-  std::vector<Token> tokens = tokenize(line, abbreviations_);
-  if (!tokens.empty() && !control(tokens)) push(std::move(tokens));
+  current.next_line += lexer_.read(current.file, current.next_line, columns_, abbreviations_, line_);
+  if (!line_.empty() && !control(line_)) push(line_);
   return true;
 }
 
-void TokenStream::push(std::vector<Token> tokens) {
-  for (Token& token : tokens) {
+void TokenStream::push(const std::vector<Token>& tokens) {
+  for (const Token& token : tokens) {
     if (token.is_word() && (token.text == "&" || begins_with_word(token.text, "#INQ"))) {
-      diagnostics_.warning(token.where, "`" + token.text + "` has no meaning here and is skipped");
+      diagnostics_.warning(token.where, token.quoted() + " has no meaning here and is skipped");
       continue;
     }
-    tokens_.push_back(std::move(token));
+    tokens_.push_back(token);
   }
 }
 
 /// Carries out a line that is an order to the reader itself; false when it is data.
-bool TokenStream::control(std::vector<Token>& tokens) {
+bool TokenStream::control(const std::vector<Token>& tokens) {
   const Token& first = tokens.front();
   if (!first.is_word()) return false;
   if (same_word(first.text, "INPUT")) return input(tokens), true;
@@ -130,7 +131,7 @@ void TokenStream::surplus(const std::vector<Token>& tokens, std::size_t first) {
   diagnostics_.error(tokens[first].where, "nothing may follow `" + upper(tokens.front().text) + "` here");
 }
 
-void TokenStream::input(std::vector<Token>& tokens) {
+void TokenStream::input(const std::vector<Token>& tokens) {
   const Token& word = tokens.front();
   if (tokens.size() < 2 || tokens[1].kind != Token::Kind::text || tokens[1].text.empty())
     return diagnostics_.error(word.where, "INPUT needs the name of a file in double quotes", "INPUT \"nodes.dat\"");
@@ -141,9 +142,9 @@ void TokenStream::input(std::vector<Token>& tokens) {
     return diagnostics_.error(name.where, "INPUT is nested more than " + std::to_string(deepest_input) + " deep");
   if (sources_.size() >= most_files)
     return diagnostics_.error(name.where, "INPUT reads more than " + std::to_string(most_files) + " files");
-  if (name.text.find('\0') != std::string::npos) return diagnostics_.error(name.where, "this is no name of a file");
+  if (name.text.find('\0') != std::string_view::npos) return diagnostics_.error(name.where, "this is no name of a file");
 
-  const fs::path path = resolve_input(sources_.path(name.where.file), name.text);
+  const fs::path path = resolve_input(sources_.path(name.where.file), std::string(name.text));
   std::error_code error;
   const fs::path identity = fs::weakly_canonical(path, error);
   for (const OpenFile& open : open_)
@@ -157,7 +158,7 @@ void TokenStream::input(std::vector<Token>& tokens) {
   open_.push_back({sources_.add(path.string(), std::move(text), word.where), 1, identity});
 }
 
-void TokenStream::abbreviation(std::vector<Token>& tokens) {
+void TokenStream::abbreviation(const std::vector<Token>& tokens) {
   if (tokens.size() < 3)
     return diagnostics_.error(tokens.front().where, "ABRE needs a name and a text in single quotes", "ABRE '/radius' '0.25'");
   for (std::size_t i = 1; i < tokens.size(); i += 2) {
@@ -166,16 +167,16 @@ void TokenStream::abbreviation(std::vector<Token>& tokens) {
       return diagnostics_.error(tokens[i].where, "ABRE takes pairs of a name and a text, each in single quotes",
                                 "ABRE '/radius' '0.25'");
     if (report(tokens[i + 1])) return;
-    const std::string& name = tokens[i].text;
+    const std::string_view name = tokens[i].text;
     const auto blank = [](char c) { return static_cast<unsigned char>(c) <= ' '; };
     if (name.size() < 2 || name.size() > 64 || name.front() != '/' || std::any_of(name.begin(), name.end(), blank))
       return diagnostics_.error(tokens[i].where, "the name of an abbreviation is `/` and one word of at most 63 characters",
                                 "ABRE '/radius' '0.25'");
-    abbreviations_.define(name, tokens[i + 1].text);
+    abbreviations_.define(std::string(name), std::string(tokens[i + 1].text));
   }
 }
 
-void TokenStream::mode(std::vector<Token>& tokens) {
+void TokenStream::mode(const std::vector<Token>& tokens) {
   if (tokens.size() > 1 && same_word(tokens[1].text, "LECT")) {
     if (tokens.size() < 3 || !tokens[2].is_number() || tokens[2].value < 1 || tokens[2].value > most_columns ||
         tokens[2].value != static_cast<int>(tokens[2].value))
@@ -186,7 +187,7 @@ void TokenStream::mode(std::vector<Token>& tokens) {
     return surplus(tokens, 3);
   }
   std::string setting = "MODE";
-  if (tokens.size() > 1) setting += " " + tokens[1].text;
+  if (tokens.size() > 1) setting += " " + std::string(tokens[1].text);
   diagnostics_.warning(tokens.front().where, "`" + setting + "` has no meaning here and is skipped");
 }
 

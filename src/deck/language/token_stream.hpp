@@ -16,7 +16,8 @@ namespace engrane::deck {
 /// The words of a deck across its files. Carries out what has no dot (INPUT, RETURN, EXIT, ABRE, MODE) and stops at `.FIN`.
 class TokenStream {
  public:
-  TokenStream(SourceMap& sources, Diagnostics& diagnostics) : sources_(sources), diagnostics_(diagnostics) {}
+  TokenStream(SourceMap& sources, Diagnostics& diagnostics)
+      : sources_(sources), diagnostics_(diagnostics), lexer_(sources, diagnostics) {}
 
   /// Opens the main file; false (and an error) when it cannot be read.
   bool open_file(const std::filesystem::path& path);
@@ -37,11 +38,11 @@ class TokenStream {
   };
 
   bool read_line();
-  void push(std::vector<Token> tokens);
-  bool control(std::vector<Token>& tokens);
-  void input(std::vector<Token>& tokens);
-  void abbreviation(std::vector<Token>& tokens);
-  void mode(std::vector<Token>& tokens);
+  void push(const std::vector<Token>& tokens);
+  bool control(const std::vector<Token>& tokens);
+  void input(const std::vector<Token>& tokens);
+  void abbreviation(const std::vector<Token>& tokens);
+  void mode(const std::vector<Token>& tokens);
   void leave_file(const Token& word);
   void finish(const Token& word);
   void warn_of_rest(const OpenFile& open, const Token& word);
@@ -50,8 +51,10 @@ class TokenStream {
 
   SourceMap& sources_;
   Diagnostics& diagnostics_;
+  Lexer lexer_;
   Abbreviations abbreviations_;
   std::vector<OpenFile> open_;
+  std::vector<Token> line_;  ///< of the line being read
   std::deque<Token> tokens_;
   int columns_ = 256;
 };

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/text.hpp"
@@ -20,19 +21,22 @@ constexpr std::size_t columns_read = 256;  ///< without MODE LECT
 /// Writes words, breaking lines with `$` where they get long.
 class Writer {
  public:
-  void line(const std::string& first) {
+  void line(std::string_view first) {
     end_line();
     line_ = first;
+    width_ = character_count(first);
   }
 
-  void word(const std::string& text) {
+  void word(std::string_view text) {
     const std::size_t size = character_count(text);
-    if (width_of_line() + 1 + size > line_width) {
+    if (width_ + 1 + size > line_width) {
       line_ += " $";
-      end_line();
-      line_ = "  ";
+      width_ += 2;
+      line("  ");
     }
-    line_ += ' ' + text;
+    line_ += ' ';
+    line_ += text;
+    width_ += 1 + size;
   }
 
   void comment(const std::string& text) {
@@ -46,17 +50,17 @@ class Writer {
   }
 
  private:
-  std::size_t width_of_line() const { return character_count(line_); }
-
   void end_line() {
     if (line_.empty()) return;
-    longest_ = std::max(longest_, width_of_line());
-    text_ += line_ + "\n";
+    longest_ = std::max(longest_, width_);
+    text_ += line_;
+    text_ += '\n';
     line_.clear();
   }
 
   std::string text_;
   std::string line_;
+  std::size_t width_ = 0;  ///< of the line, in characters
   std::size_t longest_ = 0;
 };
 
@@ -69,9 +73,9 @@ void write_fields(Writer& writer, const Record& record) {
     Field::Values values = field.load(record.data);
     const bool ids =
         ranges_allowed && field.type == FieldType::integer && field.reference != Reference::nothing && field.max_values > 1;
-    if (!record.given(field.keyword)) {
+    if (!record.given(field)) {
       if (!has_default(field, values)) continue;
-      for (const std::string& word : deck_words(field, values, ids)) defaults += word + " ";
+      for (const std::string& word : deck_words(field, values, ids)) defaults.append(word).append(1, ' ');
       continue;
     }
     if (field.type == FieldType::text && values.texts.empty()) values.texts.emplace_back();  // an empty text was given
@@ -117,7 +121,9 @@ std::string record_json(const Record& record) {
   text += "\"type\": " + json_string(record.schema->name);
   for (const Field& field : record.schema->fields) {
     const Field::Values values = field.load(record.data);
-    if (values.present) text += ", " + json_string(field.keyword) + ": " + json_value(field, values);
+    if (!values.present) continue;
+    text.append(", ").append(json_string(field.keyword)).append(": ");
+    append_json(text, field, values);
   }
   return text + "}";
 }

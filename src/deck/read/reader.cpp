@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "base/text.hpp"
@@ -70,7 +71,10 @@ class CommandTable {
     Command& command = commands_[entry->second];
     command.schemas.push_back(&schema);
     command.keys.command = command.name;
-    if (!schema.key().empty()) command.keys.keyed.push_back(&schema);
+    if (!schema.key().empty()) {
+      command.keys.keyed.push_back(&schema);
+      command.keys.elsewhere = recognised_keys(command.name);
+    }
     if (schema.numbered) command.keys.number_key = schema.record_key;
     command.keys.rows = command.keys.rows || schema.rows;
   }
@@ -78,6 +82,31 @@ class CommandTable {
   std::vector<Command> commands_;
   std::map<std::string, std::size_t, std::less<>> index_;
   std::vector<std::string> words_;
+};
+
+/// In which line each number of a command was given. Ascending numbers, the rule, are kept in order of coming.
+class NumbersGiven {
+ public:
+  /// The line in which the number was given before; nothing when it is new, and then it is noted.
+  std::optional<int> add(int number, int line) {
+    if (ascending_.empty() || number > ascending_.back().number) {
+      ascending_.push_back({number, line});
+      return {};
+    }
+    const auto found = std::lower_bound(ascending_.begin(), ascending_.end(), number,
+                                        [](const Given& given, int wanted) { return given.number < wanted; });
+    if (found->number == number) return found->line;
+    const auto [entry, fresh] = others_.try_emplace(number, line);
+    return fresh ? std::nullopt : std::optional<int>(entry->second);
+  }
+
+ private:
+  struct Given {
+    int number;
+    int line;
+  };
+  std::vector<Given> ascending_;
+  std::unordered_map<int, int> others_;
 };
 
 /// Reads a deck command by command.
@@ -96,18 +125,23 @@ class Reader {
       const Token token = tokens_.peek();
       tokens_.skip();
       if (!complained)
-        diagnostics_.error(token.where, "`" + token.text + "` stands before the first command",
+        diagnostics_.error(token.where, "`" + std::string(token.text) + "` stands before the first command",
                            "a deck starts with a command such as .NOE");
       complained = true;
     }
-    const auto first_faulty =
-        std::stable_partition(deck_.records.begin(), deck_.records.end(), [](const Record& record) { return !record.faulty; });
-    std::move(first_faulty, deck_.records.end(), std::back_inserter(deck_.faulty));
-    deck_.records.erase(first_faulty, deck_.records.end());
+    set_faulty_apart();
     return std::move(deck_);
   }
 
  private:
+  void set_faulty_apart() {
+    const auto good = [](const Record& record) { return !record.faulty; };
+    if (std::all_of(deck_.records.begin(), deck_.records.end(), good)) return;
+    const auto first_faulty = std::stable_partition(deck_.records.begin(), deck_.records.end(), good);
+    std::move(first_faulty, deck_.records.end(), std::back_inserter(deck_.faulty));
+    deck_.records.erase(first_faulty, deck_.records.end());
+  }
+
   void read_command() {
     const Token word = tokens_.take();
     if (begins_with_word(word.text, ".DEL")) return delete_records(word);
@@ -125,7 +159,7 @@ class Reader {
     } else {
       std::string hint = did_you_mean(word.text, commands_.words());
       if (hint.empty()) hint = "`engrane help` lists the commands; its data is skipped";
-      diagnostics_.error(word.where, "unknown command `" + word.text + "`", hint);
+      diagnostics_.error(word.where, "unknown command " + word.quoted(), hint);
     }
     skip_command();
   }
@@ -143,14 +177,14 @@ class Reader {
 
   /// `.DEL.CLM` forgets what `.CLM` gave so far, `.DEL.*` everything.
   void delete_records(const Token& word) {
-    const std::string_view target = std::string_view(word.text).substr(4);
+    const std::string_view target = word.text.substr(4);
     const Command* command = target.empty() ? nullptr : commands_.find(target);
     if (target == ".*")
       forget(nullptr);
     else if (command)
       forget(command);
     else if (target.empty() || !find_recognised(target))
-      diagnostics_.error(word.where, "`" + word.text + "` does not say which command to delete",
+      diagnostics_.error(word.where, word.quoted() + " does not say which command to delete",
                          target.empty() ? "write .DEL.CLM, or .DEL.* for all" : did_you_mean(target, commands_.words()));
     const Token rest = tokens_.peek();
     if (rest.is_end() || rest.is_command()) return;
@@ -161,6 +195,7 @@ class Reader {
   int forget(const Command* command) {
     const auto gone = [&](const Record& record) { return !command || record.schema->command() == command->name; };
     const auto removed = std::erase_if(deck_.records, gone);
+    std::erase_if(once_, [&](const auto& entry) { return !command || entry.first->command() == command->name; });
     if (command)
       ids_.erase(command->name);
     else
@@ -194,7 +229,7 @@ class Reader {
         records_.skip_record(command.keys);
         continue;
       }
-      record.schema = command.elements ? element_type(record) : &command.only();
+      record.schema = command.elements ? element_type(command, record) : &command.only();
       if (!record.schema) {
         records_.skip_record(command.keys);
         continue;
@@ -216,8 +251,8 @@ class Reader {
   void expect_key(const Command& command) {
     if (at_boundary(tokens_, command.keys)) return;
     const Token token = tokens_.take();
-    if (token.fault.empty())
-      diagnostics_.error(token.where, "expected `I` and a number instead of `" + token.text + "`",
+    if (!token.fault)
+      diagnostics_.error(token.where, "expected `I` and a number instead of `" + std::string(token.text) + "`",
                          "an element is given as I 1 GEAR N 1 2 …");
     records_.skip_record(command.keys);
   }
@@ -228,13 +263,13 @@ class Reader {
     if (!token.is_number()) {
       tokens_.skip();
       if (!tokens_.peek().is_number()) {
-        diagnostics_.error(token.where, "`" + token.text + "` needs a number behind it",
+        diagnostics_.error(token.where, token.quoted() + " needs a number behind it",
                            "records are numbered: " + command.keys.number_key + " 1");
         return false;
       }
     }
     token = tokens_.take();
-    if (!token.fault.empty()) return false;
+    if (token.fault) return false;
     record.id = id_of(token);
     if (record.id == 0) return false;
     span(record.location, token.where);
@@ -263,7 +298,7 @@ class Reader {
   int id_of(const Token& token) {
     if (token.value >= 1 && token.value <= 999'999'999 && token.value == static_cast<int>(token.value) && token.repeat == 1)
       return static_cast<int>(token.value);
-    diagnostics_.error(token.where, "`" + token.text + "` cannot number a record", "numbers are whole, from 1 to 999999999");
+    diagnostics_.error(token.where, token.quoted() + " cannot number a record", "numbers are whole, from 1 to 999999999");
     return 0;
   }
 
@@ -271,7 +306,7 @@ class Reader {
     if (end.file == location.file && end.line == location.line) location.length = end.column + end.length - location.column;
   }
 
-  const Schema* element_type(Record& record) {
+  const Schema* element_type(const Command& command, Record& record) {
     const Token& next = tokens_.peek();
     const bool keyword =
         next.is_word() && (same_word(next.text, "N") || same_word(next.text, "NOEUDS") || same_word(next.text, "NODES"));
@@ -281,29 +316,29 @@ class Reader {
       return nullptr;
     }
     const Token word = tokens_.take();
-    if (!word.fault.empty()) return nullptr;
-    const std::vector<const Schema*>& elements = commands_.find(".MCE")->schemas;
+    if (word.fault) return nullptr;
+    const std::vector<const Schema*>& elements = command.schemas;
     const Match<Schema> match = match_schema(elements, word.text);
     span(record.location, word.where);
     if (match.entry) return match.entry;
     if (match.ambiguous()) {
-      diagnostics_.error(word.where, "`" + word.text + "` is short for several element types",
-                         "write " + join(match.candidates, " or "));
+      diagnostics_.error(word.where, word.quoted() + " is short for several element types",
+                         "write " + join(candidate_names(match), " or "));
       return nullptr;
     }
     std::string hint = did_you_mean(word.text, schema_words(elements));
     if (hint.empty()) hint = "`engrane help` lists the element types";
-    diagnostics_.error(word.where, "unknown element type `" + word.text + "`", hint);
+    diagnostics_.error(word.where, "unknown element type " + word.quoted(), hint);
     return nullptr;
   }
 
   void check_new_id(const Command& command, Record& record, std::vector<int>& copies) {
     auto& known = ids_[command.name];
     const auto check = [&](int id) {
-      const auto [entry, fresh] = known.try_emplace(id, record.location);
-      if (fresh) return true;
+      const std::optional<int> first = known.add(id, record.location.line);
+      if (!first) return true;
       diagnostics_.error(record.location, command.name + " " + std::to_string(id) + " is given twice",
-                         "first in line " + std::to_string(entry->second.line));
+                         "first in line " + std::to_string(*first));
       return false;
     };
     bool good = check(record.id);
@@ -332,16 +367,17 @@ class Reader {
   }
 
   void unknown_key(const Command& command, const Token& token) {
-    const bool faulty = !token.fault.empty();
+    const bool faulty = token.fault != nullptr;
     tokens_.take();
     if (const Recognised* known = token.is_word() ? find_recognised(command.name, token.text) : nullptr)
       report(*known, token);
     else if (!faulty)
-      diagnostics_.error(token.where, "`" + token.text + "` starts no record of " + command.name, key_hint(command, token.text));
+      diagnostics_.error(token.where, "`" + std::string(token.text) + "` starts no record of " + command.name,
+                         key_hint(command, token.text));
     records_.skip_to_line(command.keys);
   }
 
-  static std::string key_hint(const Command& command, const std::string& word) {
+  static std::string key_hint(const Command& command, std::string_view word) {
     std::string hint = did_you_mean(word, schema_words(command.keys.keyed));
     if (!hint.empty()) return hint;
     std::vector<std::string> names;
@@ -363,10 +399,9 @@ class Reader {
     record.location = where;
     record.data = schema.make();
     if (schema.once) {
-      const auto same = [&](const Record& other) { return other.schema == &schema; };
-      const auto first = std::find_if(deck_.records.begin(), deck_.records.end(), same);
-      if (first != deck_.records.end()) {
-        diagnostics_.error(where, schema.name + " is given twice", "first in line " + std::to_string(first->location.line));
+      const auto [first, fresh] = once_.try_emplace(&schema, where);
+      if (!fresh) {
+        diagnostics_.error(where, schema.name + " is given twice", "first in line " + std::to_string(first->second.line));
         record.faulty = true;
       }
     }
@@ -379,7 +414,8 @@ class Reader {
   Diagnostics& diagnostics_;
   RecordReader records_;
   Deck deck_;
-  std::map<std::string, std::map<int, Location>> ids_;  ///< by command: where each number was given
+  std::map<std::string, NumbersGiven> ids_;  ///< by command
+  std::map<const Schema*, Location> once_;   ///< where the cards were given that a deck has but once
 };
 
 }  // namespace

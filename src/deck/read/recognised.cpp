@@ -2,6 +2,8 @@
 #include "deck/read/recognised.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
 #include "base/text.hpp"
 #include "deck/schema/matching.hpp"
@@ -29,14 +31,34 @@ const std::vector<Recognised>& recognised_commands() {
   return all;
 }
 
+namespace {
+
+/// `.CLM` and `PRE` of `.CLM PRE`; the key of a whole command is empty.
+std::pair<std::string_view, std::string_view> parts_of(const Recognised& entry) {
+  const std::string_view name = entry.name;
+  const std::size_t blank = name.find(' ');
+  if (blank == std::string_view::npos) return {name, {}};
+  return {name.substr(0, blank), name.substr(blank + 1)};
+}
+
+}  // namespace
+
+std::vector<RecognisedKey> recognised_keys(std::string_view command) {
+  const std::string name = significant(command);
+  std::vector<RecognisedKey> keys;
+  for (const Recognised& entry : recognised_commands())
+    if (const auto [known, key] = parts_of(entry); known == name && !key.empty()) keys.push_back(key);
+  return keys;
+}
+
+bool starts_recognised(std::string_view word, RecognisedKey key) { return word.size() >= 3 && begins_with_word(word, key); }
+
 const Recognised* find_recognised(std::string_view command, std::string_view key) {
   const std::string name = significant(command);
   const auto& all = recognised_commands();
   const auto found = std::find_if(all.begin(), all.end(), [&](const Recognised& entry) {
-    const std::size_t blank = entry.name.find(' ');
-    if (key.empty()) return entry.name == name;
-    return blank != std::string::npos && entry.name.substr(0, blank) == name && key.size() >= 3 &&
-           begins_with_word(key, std::string_view(entry.name).substr(blank + 1));
+    const auto [known, known_key] = parts_of(entry);
+    return known == name && (key.empty() ? known_key.empty() : !known_key.empty() && starts_recognised(key, known_key));
   });
   return found == all.end() ? nullptr : &*found;
 }

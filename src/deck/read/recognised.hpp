@@ -18,6 +18,15 @@ struct Recognised {
 
 const std::vector<Recognised>& recognised_commands();
 
+/// The word that begins such a record within its command: `PRE` of `.CLM PRE`.
+using RecognisedKey = std::string_view;
+
+/// Of all records known of a command: `.CLM`.
+std::vector<RecognisedKey> recognised_keys(std::string_view command);
+
+/// Does a word of a deck, three letters or more, begin with the key?
+bool starts_recognised(std::string_view word, RecognisedKey key);
+
 /// By command word and record key (`.CLM`, `PRE`; the key is empty for a whole command); nullptr when unknown.
 const Recognised* find_recognised(std::string_view command, std::string_view key = {});
 

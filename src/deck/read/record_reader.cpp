@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
 #include <utility>
 
 #include "base/text.hpp"
@@ -28,22 +27,38 @@ struct RecordReader::Reading {
   Record& record;
   const Schema& schema;
   const RecordKeys& keys;
-  std::map<std::string, Location, std::less<>> given;      ///< keyword → where its values are
-  std::map<std::string, std::size_t, std::less<>> counts;  ///< how many numbers a keyword had, for wholes and parts
-  bool past_leads = false;                                 ///< a keyword that does not lead was given
+  bool past_leads = false;  ///< a keyword that does not lead was given
 };
 
 std::string record_title(const Schema& schema, int id) { return id == 0 ? schema.name : schema.name + " " + std::to_string(id); }
 
 void RecordReader::read(Record& record, const RecordKeys& keys, const std::vector<Heading>& headings) {
-  Reading reading{record, *record.schema, keys, {}, {}};
+  given_.clear();
+  locations_.clear();
+  Reading reading{record, *record.schema, keys};
   while (!at_boundary(tokens_, keys) && !begins_next(reading)) read_item(reading);
   for (const Heading& heading : headings) {
-    if (reading.given.contains(heading.field->keyword)) continue;
+    if (given(*heading.field)) continue;
     heading.field->store(record.data, heading.values);
-    record.field_locations[heading.field->keyword] = heading.where;
+    locate(*heading.field, heading.where);
   }
+  record.field_locations = locations_;
   finish(reading);
+}
+
+const RecordReader::Given* RecordReader::given(const Field& field) const {
+  const auto found = std::find_if(given_.begin(), given_.end(), [&](const Given& one) { return one.field == &field; });
+  return found == given_.end() ? nullptr : &*found;
+}
+
+/// Notes where a keyword's values stand; the last word counts.
+void RecordReader::locate(const Field& field, const Location& where) {
+  for (FieldLocation& known : locations_)
+    if (known.field == &field) {
+      known.where = where;
+      return;
+    }
+  locations_.push_back({&field, where});
 }
 
 /// `FIX NOEUD 1 C 1 NOEUD 2 C 3`: the second NOEUD begins another FIX.
@@ -52,14 +67,13 @@ bool RecordReader::begins_next(const Reading& reading) {
   if (!token.is_word() || !reading.past_leads || reading.schema.numbered) return false;
   const Match<Field> match = match_field(reading.schema, token.text);
   if (!match.entry || !match.entry->leads) return false;
-  return std::any_of(reading.schema.fields.begin(), reading.schema.fields.end(),
-                     [&](const Field& field) { return field.leads && reading.given.contains(field.keyword); });
+  return std::any_of(given_.begin(), given_.end(), [](const Given& one) { return one.field->leads; });
 }
 
 /// The first positional field that was not given and can take the token.
 const Field* RecordReader::positional_field(const Reading& reading, const Token& token) const {
   for (const Field& field : reading.schema.fields) {
-    if (!field.positional || reading.given.contains(field.keyword)) continue;
+    if (!field.positional || given(field)) continue;
     const bool text = field.type == FieldType::text;
     if (token.kind == Token::Kind::text && text) return &field;
     if (token.is_number() && (field.type == FieldType::integer || field.type == FieldType::real)) return &field;
@@ -75,7 +89,7 @@ const Field* RecordReader::positional_field(const Reading& reading, const Token&
 
 void RecordReader::read_item(Reading& reading) {
   const Token token = tokens_.peek();
-  if (!token.fault.empty() && token.is_word()) {
+  if (token.fault && token.is_word()) {
     tokens_.take();
     reading.record.faulty = true;
     return;
@@ -96,20 +110,23 @@ void RecordReader::read_item(Reading& reading) {
 
 void RecordReader::read_field(Reading& reading, const Field& field, const Token* keyword) {
   const Location start = keyword ? keyword->where : tokens_.peek().where;
-  FieldReading result = values_.read(field, reading.schema, reading.keys, start);
+  FieldReading& result = values_.read(field, reading.schema, reading.keys, start);
   if (!field.leads) reading.past_leads = true;
   if (appends(reading, field)) {
     const std::vector<double> before = field.load(reading.record.data).numbers;
     result.values.numbers.insert(result.values.numbers.begin(), before.begin(), before.end());
+    std::erase_if(given_, [&](const Given& one) { return one.field == &field; });
   } else if (given_twice(reading, field, result.values.numbers.size(), start)) {
     return;
   }
-  const std::size_t count = result.values.numbers.size();
-  reading.given[field.keyword] = start;
-  reading.counts[field.keyword] = count;
+  given_.push_back({&field, start, result.values.numbers.size()});
+  locate(field, result.where);
+  if (!field.whole.empty()) {
+    const Field* whole = reading.schema.find(field.whole);
+    if (std::none_of(locations_.begin(), locations_.end(), [&](const FieldLocation& one) { return one.field == whole; }))
+      locate(*whole, result.where);
+  }
   Record& record = reading.record;
-  record.field_locations[field.keyword] = result.where;
-  if (!field.whole.empty()) record.field_locations.try_emplace(field.whole, result.where);
   if (result.faulty)
     record.faulty = true;
   else
@@ -119,24 +136,22 @@ void RecordReader::read_field(Reading& reading, const Field& field, const Token*
 /// `NOEUD 3 C 1 A 2. NOEUD 4 C 1 A -1.` in a numbered record: term after term, each list goes on.
 bool RecordReader::appends(const Reading& reading, const Field& field) const {
   const auto leads = [](const Field& other) { return other.leads; };
-  return reading.schema.numbered && reading.given.contains(field.keyword) && field.max_values == detail::any_number &&
+  return reading.schema.numbered && field.max_values == detail::any_number && given(field) &&
          std::any_of(reading.schema.fields.begin(), reading.schema.fields.end(), leads);
 }
 
 /// Also `X 0 1 2 Y 3`, which gives the second coordinate twice.
 bool RecordReader::given_twice(Reading& reading, const Field& field, std::size_t count, const Location& where) {
-  const Field* clash = nullptr;
-  if (reading.given.contains(field.keyword)) clash = &field;
-  for (const Field& other : reading.schema.fields) {
-    if (!reading.given.contains(other.keyword)) continue;
-    if (other.whole == field.keyword && count > static_cast<std::size_t>(other.part)) clash = &other;
-    if (field.whole == other.keyword && reading.counts[other.keyword] > static_cast<std::size_t>(field.part)) clash = &other;
+  const Given* clash = given(field);
+  for (const Given& other : given_) {
+    if (other.field->whole == field.keyword && count > static_cast<std::size_t>(other.field->part)) clash = &other;
+    if (field.whole == other.field->keyword && other.count > static_cast<std::size_t>(field.part)) clash = &other;
   }
   if (!clash) return false;
-  const Location& first = reading.given[clash->keyword];
-  diagnostics_.error(where, field.keyword + " is given twice in " + record_title(reading.schema, reading.record.id),
-                     clash == &field ? "first in line " + std::to_string(first.line)
-                                     : "already given by " + clash->keyword + " in line " + std::to_string(first.line));
+  const std::string line = std::to_string(clash->start.line);
+  diagnostics_.error(
+      where, field.keyword + " is given twice in " + record_title(reading.schema, reading.record.id),
+      clash->field == &field ? "first in line " + line : "already given by " + clash->field->keyword + " in line " + line);
   reading.record.faulty = true;
   return true;
 }
@@ -145,14 +160,14 @@ void RecordReader::unknown_item(Reading& reading) {
   const Token token = tokens_.take();
   reading.record.faulty = true;
   if (token.is_word()) return unknown_word(reading, token);
-  if (!token.fault.empty()) return;
-  const std::string what = token.kind == Token::Kind::text ? "\"" + token.text + "\"" : "`" + token.text + "`";
-  diagnostics_.error(token.where, what + " belongs to no keyword of " + record_title(reading.schema, reading.record.id));
+  if (token.fault) return;
+  diagnostics_.error(token.where,
+                     token.quoted() + " belongs to no keyword of " + record_title(reading.schema, reading.record.id));
   skip_values(reading);
 }
 
 void RecordReader::unknown_word(Reading& reading, const Token& token) {
-  const std::string what = "`" + token.text + "` is ";
+  const std::string what = token.quoted() + " is ";
   const std::string no_keyword = what + "not a keyword of " + reading.schema.name;
   if (token.text.front() == '.') {
     diagnostics_.error(token.where, no_keyword, "a command must be the first word of its line");
@@ -162,18 +177,18 @@ void RecordReader::unknown_word(Reading& reading, const Token& token) {
   if (token.starts_line) {  // rather a record key with a slip than a keyword of the record before it
     const std::string key = did_you_mean(token.text, schema_words(reading.keys.keyed));
     if (!key.empty()) {
-      diagnostics_.error(token.where, "`" + token.text + "` starts no record of " + reading.keys.command, key);
+      diagnostics_.error(token.where, token.quoted() + " starts no record of " + reading.keys.command, key);
       return skip_to_line(reading.keys);
     }
   }
   const Match<Field> match = match_field(reading.schema, token.text);
   if (match.ambiguous()) {
     diagnostics_.error(token.where, what + "short for several keywords of " + reading.schema.name,
-                       "write " + join(match.candidates, " or "));
+                       "write " + join(candidate_names(match), " or "));
     if (tokens_.peek().is_word() && !tokens_.peek().starts_line && !at_boundary(tokens_, reading.keys) &&
         !match_field(reading.schema, tokens_.peek().text).entry)
       tokens_.skip();  // the word of a choice
-  } else if (token.text.find('=') != std::string::npos) {
+  } else if (token.text.find('=') != std::string_view::npos) {
     diagnostics_.error(token.where, no_keyword, "values follow their keyword behind a blank, without `=`");
   } else {
     std::string hint = did_you_mean(token.text, field_words(reading.schema));
@@ -200,7 +215,7 @@ void RecordReader::finish(Reading& reading) {
   std::vector<std::string> missing;
   std::vector<std::string> explained;
   for (const Field& field : reading.schema.fields) {
-    if (!field.required || record.given(field.keyword)) continue;
+    if (!field.required || record.given(field)) continue;
     missing.push_back(field.keyword);
     explained.push_back(field.keyword + ": " + field.help);
   }
@@ -222,12 +237,13 @@ std::vector<Heading> RecordReader::read_headings(const Schema& schema, const Rec
     const Token token = tokens_.take();
     const Match<Field> match = token.is_word() ? match_field(schema, token.text) : Match<Field>{};
     if (match.entry && match.entry->heading) {
-      FieldReading result = values_.read(*match.entry, schema, keys, token.where);
+      FieldReading& result = values_.read(*match.entry, schema, keys, token.where);
       if (!result.faulty) headings.push_back({match.entry, std::move(result.values), result.where});
       continue;
     }
-    if (token.fault.empty())
-      diagnostics_.error(token.where, "expected `" + keys.number_key + "` and a number instead of `" + token.text + "`",
+    if (!token.fault)
+      diagnostics_.error(token.where,
+                         "expected `" + keys.number_key + "` and a number instead of `" + std::string(token.text) + "`",
                          "a record of " + std::string(schema.command()) + " starts with `" + keys.number_key + " 1`");
     skip_record(keys);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ class RecordReader {
   void read_item(Reading& reading);
   const Field* positional_field(const Reading& reading, const Token& token) const;
   void read_field(Reading& reading, const Field& field, const Token* keyword);
+  void locate(const Field& field, const Location& where);
   bool appends(const Reading& reading, const Field& field) const;
   bool given_twice(Reading& reading, const Field& field, std::size_t count, const Location& where);
   void unknown_item(Reading& reading);
@@ -54,9 +56,20 @@ class RecordReader {
   void skip_values(const Reading& reading);
   void finish(Reading& reading);
 
+  /// A keyword of the record being read.
+  struct Given {
+    const Field* field;
+    Location start;     ///< of the keyword
+    std::size_t count;  ///< how many numbers it had
+  };
+
+  const Given* given(const Field& field) const;
+
   TokenStream& tokens_;
   Diagnostics& diagnostics_;
   ValueReader values_;
+  std::vector<Given> given_;              ///< of the record being read
+  std::vector<FieldLocation> locations_;  ///< likewise
 };
 
 }  // namespace engrane::deck

@@ -9,7 +9,6 @@
 
 #include "base/text.hpp"
 #include "deck/language/number.hpp"
-#include "deck/read/recognised.hpp"
 #include "deck/schema/matching.hpp"
 
 namespace engrane::deck {
@@ -20,11 +19,6 @@ namespace {
 constexpr int most_produced = 20'000'000;
 
 bool is_integer(double value) { return std::floor(value) == value && std::abs(value) <= std::numeric_limits<int>::max(); }
-
-/// A token as messages name it.
-std::string quoted(const Token& token) {
-  return token.kind == Token::Kind::text ? "\"" + token.text + "\"" : "`" + token.text + "`";
-}
 
 bool has_exact_field(const Schema& schema, std::string_view word) { return match_field(schema, word).exact; }
 
@@ -41,8 +35,7 @@ struct ValueReader::Work {
   const Schema& schema;
   const RecordKeys& keys;
   Location keyword;
-  FieldReading result;
-  std::string name{};  ///< the keyword, and the option of a choice
+  FieldReading& result;
   Location surplus{};  ///< the first value too many
   bool any = false;    ///< a value was taken
 };
@@ -64,7 +57,8 @@ const Schema* keyed_schema(const RecordKeys& keys, const Token& token) {
 bool at_boundary(TokenStream& tokens, const RecordKeys& keys) {
   const Token& token = tokens.peek();
   if (token.is_end() || token.is_command() || at_number_key(tokens, keys) || keyed_schema(keys, token)) return true;
-  return !keys.keyed.empty() && token.is_word() && find_recognised(keys.command, token.text);
+  return token.is_word() && std::any_of(keys.elsewhere.begin(), keys.elsewhere.end(),
+                                        [&](RecognisedKey key) { return starts_recognised(token.text, key); });
 }
 
 std::string expected_count(int least, int most) {
@@ -89,11 +83,15 @@ std::string range_text(const Field& field) {
   return text.empty() || unit.empty() ? text : text + " " + unit;
 }
 
-FieldReading ValueReader::read(const Field& field, const Schema& schema, const RecordKeys& keys, Location keyword) {
-  Work work{field, schema, keys, keyword, {}, field.keyword};
-  work.result.where = keyword;
-  work.result.values.present = true;
-  if (field.type == FieldType::flag) return std::move(work.result);
+FieldReading& ValueReader::read(const Field& field, const Schema& schema, const RecordKeys& keys, Location keyword) {
+  reading_.values.numbers.clear();
+  reading_.values.texts.clear();
+  reading_.values.tag.clear();
+  reading_.values.present = true;
+  reading_.where = keyword;
+  reading_.faulty = false;
+  Work work{field, schema, keys, keyword, reading_};
+  if (field.type == FieldType::flag) return reading_;
   const Token& next = tokens_.peek();
   if (next.is_word() && std::any_of(field.fillers.begin(), field.fillers.end(),
                                     [&](const std::string& filler) { return same_word(filler, next.text); }))
@@ -105,7 +103,7 @@ FieldReading ValueReader::read(const Field& field, const Schema& schema, const R
     case FieldType::integer:
     case FieldType::real:
       read_numbers(work);
-      check_count(work, field.keyword, field.min_values, field.max_values);
+      check_count(work, field.min_values, field.max_values);
       break;
     case FieldType::text:
       read_texts(work);
@@ -115,13 +113,13 @@ FieldReading ValueReader::read(const Field& field, const Schema& schema, const R
       break;
   }
   if (!field.codes.empty()) skip_unknown_codes(work);
-  return std::move(work.result);
+  return reading_;
 }
 
 Token ValueReader::take(Work& work) {
   Token token = tokens_.take();
   FieldReading& result = work.result;
-  if (!token.fault.empty()) result.faulty = true;
+  if (token.fault) result.faulty = true;
   if (!work.any) {
     result.where = token.where;
   } else if (token.where.file == result.where.file && token.where.line == result.where.line) {
@@ -206,7 +204,7 @@ void ValueReader::append(Work& work, double value, int count, const Location& wh
 
 void ValueReader::check_number(Work& work, const Token& token) {
   const Field& field = work.field;
-  if (!token.fault.empty()) return;
+  if (token.fault) return;
   if (field.type == FieldType::integer && !is_integer(token.value)) {
     const bool large = std::floor(token.value) == token.value;
     return error(work, token.where,
@@ -220,16 +218,19 @@ void ValueReader::check_number(Work& work, const Token& token) {
           field.keyword + " (" + field.help + ") is " + range_text(field));
 }
 
-void ValueReader::check_count(Work& work, const std::string& name, int least, int most) {
+/// `option`: the word of a choice that the numbers follow.
+void ValueReader::check_count(Work& work, int least, int most, const Option* option) {
   if (work.result.faulty) return;
   const std::size_t count = work.result.values.numbers.size();
+  if (count >= static_cast<std::size_t>(least) && count <= static_cast<std::size_t>(most)) return;
+  const std::string& keyword = work.field.keyword;
+  const std::string name = !option || option->name == keyword ? keyword : keyword + " " + option->name;
   const std::string what = name + " takes " + expected_count(least, most);
   const std::string given = what + ", " + (count == 0 ? "none" : std::to_string(count)) + " given";
   if (count > static_cast<std::size_t>(most)) return error(work, work.surplus.known() ? work.surplus : work.result.where, given);
-  if (count >= static_cast<std::size_t>(least)) return;
   if (!at_stray_value(work)) return error(work, work.keyword, given);
   const Token stray = take(work);
-  if (stray.fault.empty()) error(work, stray.where, quoted(stray) + " is not a number", what);
+  if (!stray.fault) error(work, stray.where, stray.quoted() + " is not a number", what);
   while (at_value_number(work)) take(work);
 }
 
@@ -250,15 +251,15 @@ void ValueReader::read_texts(Work& work) {
   while (texts.size() < most) {
     const Token& next = tokens_.peek();
     if (next.kind == Token::Kind::text) {
-      texts.push_back(take(work).text);
+      texts.emplace_back(take(work).text);
     } else if (field.reference == Reference::group && at_value_number(work)) {
       const Token number = take(work);
-      if (number.fault.empty() && (!is_integer(number.value) || number.value < 1 || number.repeat != 1))
+      if (!number.fault && (!is_integer(number.value) || number.value < 1 || number.repeat != 1))
         error(work, number.where, "the number of a group is a whole number, 1 or more");
       texts.push_back(format_number(number.value));
     } else if (next.is_word() && texts.empty() && !at_boundary(tokens_, work.keys) &&
                (field.positional || !match_field(work.schema, next.text).entry)) {
-      texts.push_back(take(work).text);
+      texts.emplace_back(take(work).text);
       if (most == 1) refuse_more_words(work);
     } else {
       break;
@@ -268,7 +269,7 @@ void ValueReader::read_texts(Work& work) {
   const std::string needs = field.keyword + " (" + field.help + ") needs a text in double quotes";
   if (!at_value_number(work)) return error(work, work.keyword, needs);
   const Token number = take(work);
-  if (number.fault.empty()) error(work, number.where, quoted(number) + " is not a text", needs);
+  if (!number.fault) error(work, number.where, number.quoted() + " is not a text", needs);
 }
 
 /// `.TITRE spur gear pair`: one complaint instead of one for each word.
@@ -293,8 +294,8 @@ void ValueReader::read_choice(Work& work) {
     take(work);
   } else if (match.ambiguous() && !keyword) {
     take(work);
-    error(work, next.where, "`" + next.text + "` is short for several words of " + field.keyword,
-          "give one of " + join(match.candidates, " or "));
+    error(work, next.where, next.quoted() + " is short for several words of " + field.keyword,
+          "give one of " + join(candidate_names(match), " or "));
   } else if (!field.options.empty() && field.options.front().min_values == 0 &&
              (keyword || !next.is_word() || match_field(work.schema, next.text).entry)) {
     option = &field.options.front();  // the keyword stands alone
@@ -305,15 +306,13 @@ void ValueReader::read_choice(Work& work) {
     if (hint.empty()) hint = "give " + join(names, " or ");
     if (next.is_word() && !keyword) take(work);
     error(work, next.is_word() && !keyword ? next.where : work.keyword,
-          next.is_word() && !keyword ? field.keyword + " does not know `" + next.text + "`" : field.keyword + " needs a word",
-          hint);
+          next.is_word() && !keyword ? field.keyword + " does not know " + next.quoted() : field.keyword + " needs a word", hint);
   }
   if (!option) {
     while (at_value_number(work)) take(work);
     return;
   }
   work.result.values.tag = option->name;
-  work.name = field.keyword == option->name ? option->name : field.keyword + " " + option->name;
   while (option->max_values > 0 && at_value_number(work)) {
     const Token token = take(work);
     const auto& numbers = work.result.values.numbers;
@@ -322,7 +321,7 @@ void ValueReader::read_choice(Work& work) {
       work.surplus = token.where;
     append(work, token.value, token.repeat, token.where);
   }
-  check_count(work, work.name, option->min_values, option->max_values);
+  check_count(work, option->min_values, option->max_values, option);
 }
 
 /// Result codes that translators write and this version does not know are no reason to refuse a deck.

@@ -2,20 +2,23 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/diagnostics.hpp"
 #include "deck/language/token_stream.hpp"
+#include "deck/read/recognised.hpp"
 #include "deck/schema/schema.hpp"
 
 namespace engrane::deck {
 
 /// What ends a record inside one command: the next record's key.
 struct RecordKeys {
-  std::string command;               ///< `.CLM`: its records that BACON has and this version has not are keys too
-  std::string number_key;            ///< `I`, or `GROUP` in `.SEL`; empty when records have no number
-  bool rows = false;                 ///< a number at the start of a line begins a record
-  std::vector<const Schema*> keyed;  ///< `FIX`, `DEP`, … of `.CLM`
+  std::string command;                   ///< `.CLM`
+  std::string number_key;                ///< `I`, or `GROUP` in `.SEL`; empty when records have no number
+  bool rows = false;                     ///< a number at the start of a line begins a record
+  std::vector<const Schema*> keyed;      ///< `FIX`, `DEP`, … of `.CLM`
+  std::vector<RecognisedKey> elsewhere;  ///< `PRE`: records of the command that BACON has and this version has not
 };
 
 /// Is the next token the key of a numbered record, or the number of a row?
@@ -39,8 +42,9 @@ class ValueReader {
  public:
   ValueReader(TokenStream& tokens, Diagnostics& diagnostics) : tokens_(tokens), diagnostics_(diagnostics) {}
 
-  /// `keyword` is where the field's keyword stands (or its first value, for a positional field).
-  FieldReading read(const Field& field, const Schema& schema, const RecordKeys& keys, Location keyword);
+  /// `keyword` is where the field's keyword stands (or its first value, for a positional field). What it returns is good
+  /// until the next call.
+  FieldReading& read(const Field& field, const Schema& schema, const RecordKeys& keys, Location keyword);
 
  private:
   struct Work;
@@ -57,12 +61,13 @@ class ValueReader {
   void refuse_more_words(Work& work);
   void read_choice(Work& work);
   void check_number(Work& work, const Token& token);
-  void check_count(Work& work, const std::string& name, int least, int most);
+  void check_count(Work& work, int least, int most, const Option* option = nullptr);
   void skip_unknown_codes(Work& work);
 
   TokenStream& tokens_;
   Diagnostics& diagnostics_;
-  int repeated_ = 0;  ///< values that ranges and repeat counts have produced in this deck
+  FieldReading reading_;  ///< of the field being read; kept for its memory
+  int repeated_ = 0;      ///< values that ranges and repeat counts have produced in this deck
 };
 
 /// `3 values`, `1 to 3 values`, `at least 1 value`.

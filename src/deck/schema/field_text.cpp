@@ -38,7 +38,9 @@ void append_numbers(std::vector<std::string>& words, const std::vector<double>& 
     std::size_t run = i + 1;
     while (ranges && run < numbers.size() && numbers[run] == numbers[run - 1] + 1) ++run;
     if (run - i > 2) {
-      words.insert(words.end(), {format_number(numbers[i]), "A", format_number(numbers[run - 1])});
+      words.push_back(format_number(numbers[i]));
+      words.emplace_back("A");
+      words.push_back(format_number(numbers[run - 1]));
       i = run;
     } else if (same - i > 3) {
       words.push_back(std::to_string(same - i) + "*" + format_number(numbers[i]));
@@ -90,23 +92,62 @@ std::string default_text(const Schema& schema, const Field& field) {
   return text;
 }
 
-std::string json_value(const Field& field, const Field::Values& values) {
-  std::vector<std::string> items;
-  for (double number : values.numbers) items.push_back(format_number(number));
-  for (const std::string& text : values.texts) items.push_back(json_string(text));
-  const std::string list = "[" + join(items, ", ") + "]";
+namespace {
+
+/// Numbers or texts, separated by commas.
+void append_items(std::string& json, const Field::Values& values) {
+  const char* separator = "";
+  for (const double number : values.numbers) {
+    json += separator;
+    append_number(json, number);
+    separator = ", ";
+  }
+  for (const std::string& text : values.texts) {
+    json += separator;
+    json += json_string(text);
+    separator = ", ";
+  }
+}
+
+}  // namespace
+
+void append_json(std::string& json, const Field& field, const Field::Values& values) {
+  const bool none = values.numbers.empty() && values.texts.empty();
   switch (field.type) {
     case FieldType::flag:
-      return "true";
+      json += "true";
+      return;
     case FieldType::choice:
-      return items.empty() ? json_string(values.tag) : "{" + json_string(values.tag) + ": " + list + "}";
+      if (none) {
+        json += json_string(values.tag);
+        return;
+      }
+      json += "{" + json_string(values.tag) + ": [";
+      append_items(json, values);
+      json += "]}";
+      return;
     case FieldType::integer:
     case FieldType::real:
     case FieldType::text:
       break;
   }
-  if (field.max_values > 1) return list;
-  return items.empty() ? "null" : items.front();
+  if (field.max_values > 1) {
+    json += '[';
+    append_items(json, values);
+    json += ']';
+  } else if (none) {
+    json += "null";
+  } else if (!values.numbers.empty()) {
+    append_number(json, values.numbers.front());
+  } else {
+    json += json_string(values.texts.front());
+  }
+}
+
+std::string json_value(const Field& field, const Field::Values& values) {
+  std::string json;
+  append_json(json, field, values);
+  return json;
 }
 
 }  // namespace engrane::deck

@@ -22,7 +22,8 @@ std::string default_text(const Schema& schema, const Field& field);
 /// Is the default worth showing? An absent option, an empty list and the reference 0 (none) are not.
 bool has_default(const Field& field, const Field::Values& defaults);
 
-/// The values as JSON: `20`, `[1, 2]`, `"SPEED"`, `{"COS": [0.004]}`, `true`.
+/// Appends the values as JSON: `20`, `[1, 2]`, `"SPEED"`, `{"COS": [0.004]}`, `true`.
+void append_json(std::string& json, const Field& field, const Field::Values& values);
 std::string json_value(const Field& field, const Field::Values& values);
 
 }  // namespace engrane::deck

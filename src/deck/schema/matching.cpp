@@ -2,6 +2,8 @@
 #include "deck/schema/matching.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <type_traits>
 
 #include "base/diagnostics.hpp"
 #include "base/text.hpp"
@@ -10,27 +12,53 @@ namespace engrane::deck {
 
 namespace {
 
-/// Compares a word with every spelling of every entry; `at(i)` gives entry i, `words` its spellings, `name` its own name.
-template <class Entry, class At, class Words, class Name>
-Match<Entry> match_word(std::size_t count, At at, Words words, Name name, std::string_view word) {
-  Match<Entry> match;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Entry& entry = at(i);
-    bool prefix = false;
-    for (const std::string& spelling : words(entry)) {
-      if (same_word(spelling, word)) return {&entry, true, {}};
-      prefix = prefix || begins_with_word(spelling, word);
-    }
-    if (!prefix) continue;
-    match.entry = &entry;
-    match.candidates.emplace_back(name(entry));
+/// Can the word be a beginning of the spelling? Settles nearly all comparisons by the first letter.
+bool begins_alike(std::string_view spelling, std::string_view word) {
+  constexpr char no_case = '\x20';  // letters differ in nothing else; that other characters meet does no harm
+  return !word.empty() && !spelling.empty() && (spelling.front() | no_case) == (word.front() | no_case);
+}
+
+/// Compares a word with the spellings of an entry, one after another.
+class Comparison {
+ public:
+  explicit Comparison(std::string_view word) : word_(word) {}
+
+  /// True at a full spelling, which ends the search.
+  bool operator()(std::string_view spelling) {
+    if (!begins_alike(spelling, word_) || !begins_with_word(spelling, word_)) return false;
+    prefix = true;
+    return spelling.size() == word_.size();
   }
-  if (match.candidates.size() > 1)
-    match.entry = nullptr;
-  else
-    match.candidates.clear();
+
+  bool prefix = false;
+
+ private:
+  std::string_view word_;
+};
+
+/// Full spellings go first, then the only entry of which the word is a prefix. `compare(entry, comparison)` is true at a full
+/// spelling.
+template <class Entry, class Entries, class Compare>
+Match<Entry> match_word(const Entries& entries, std::string_view word, const Compare& compare) {
+  Match<Entry> match;
+  for (const auto& item : entries) {
+    const Entry* entry = nullptr;
+    if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(item)>>)
+      entry = item;
+    else
+      entry = &item;
+    Comparison comparison(word);
+    if (compare(*entry, comparison)) return {entry, true, {}};
+    if (comparison.prefix) match.candidates.push_back(entry);
+  }
+  if (match.candidates.size() == 1) match.entry = match.candidates.front();
   return match;
 }
+
+/// The word that names a card among those of its command.
+std::string_view record_name(const Schema& schema) { return schema.key().empty() ? std::string_view(schema.name) : schema.key(); }
+
+bool names_record(const Schema& schema, const std::string& synonym) { return synonym.front() != '.' || schema.key().empty(); }
 
 std::vector<std::string> option_spellings(const Option& option) {
   std::vector<std::string> words{option.name};
@@ -41,28 +69,46 @@ std::vector<std::string> option_spellings(const Option& option) {
 }  // namespace
 
 Match<Field> match_field(const Schema& schema, std::string_view word) {
-  return match_word<Field>(
-      schema.fields.size(), [&](std::size_t i) -> const Field& { return schema.fields[i]; }, spellings,
-      [](const Field& field) { return field.keyword; }, word);
+  return match_word<Field>(schema.fields, word, [](const Field& field, Comparison& comparison) {
+    return std::any_of(field.spellings.begin(), field.spellings.end(), std::ref(comparison));
+  });
 }
 
 Match<Option> match_option(const Field& field, std::string_view word) {
-  return match_word<Option>(
-      field.options.size(), [&](std::size_t i) -> const Option& { return field.options[i]; }, option_spellings,
-      [](const Option& option) { return option.name; }, word);
+  return match_word<Option>(field.options, word, [](const Option& option, Comparison& comparison) {
+    return comparison(option.name) || std::any_of(option.synonyms.begin(), option.synonyms.end(), std::ref(comparison));
+  });
 }
 
 Match<Schema> match_schema(const std::vector<const Schema*>& schemas, std::string_view word) {
-  return match_word<Schema>(
-      schemas.size(), [&](std::size_t i) -> const Schema& { return *schemas[i]; }, record_words,
-      [](const Schema& schema) { return std::string(schema.key().empty() ? std::string_view(schema.name) : schema.key()); },
-      word);
+  return match_word<Schema>(schemas, word, [](const Schema& schema, Comparison& comparison) {
+    return comparison(record_name(schema)) ||
+           std::any_of(schema.synonyms.begin(), schema.synonyms.end(),
+                       [&](const std::string& synonym) { return names_record(schema, synonym) && comparison(synonym); });
+  });
+}
+
+std::vector<std::string> candidate_names(const Match<Field>& match) {
+  std::vector<std::string> names;
+  for (const Field* field : match.candidates) names.push_back(field->keyword);
+  return names;
+}
+
+std::vector<std::string> candidate_names(const Match<Option>& match) {
+  std::vector<std::string> names;
+  for (const Option* option : match.candidates) names.push_back(option->name);
+  return names;
+}
+
+std::vector<std::string> candidate_names(const Match<Schema>& match) {
+  std::vector<std::string> names;
+  for (const Schema* schema : match.candidates) names.emplace_back(record_name(*schema));
+  return names;
 }
 
 std::vector<std::string> field_words(const Schema& schema) {
   std::vector<std::string> words;
-  for (const Field& field : schema.fields)
-    for (std::string& word : spellings(field)) words.push_back(std::move(word));
+  for (const Field& field : schema.fields) words.insert(words.end(), field.spellings.begin(), field.spellings.end());
   return words;
 }
 
@@ -81,9 +127,9 @@ std::vector<std::string> schema_words(const std::vector<const Schema*>& schemas)
 }
 
 std::vector<std::string> record_words(const Schema& schema) {
-  std::vector<std::string> words{std::string(schema.key().empty() ? std::string_view(schema.name) : schema.key())};
+  std::vector<std::string> words{std::string(record_name(schema))};
   for (const std::string& synonym : schema.synonyms)
-    if (synonym.front() != '.' || schema.key().empty()) words.push_back(synonym);
+    if (names_record(schema, synonym)) words.push_back(synonym);
   return words;
 }
 

@@ -12,12 +12,17 @@ namespace engrane::deck {
 /// What a word may mean among the entries of a list.
 template <class Entry>
 struct Match {
-  const Entry* entry = nullptr;         ///< the one it means, if it means one
-  bool exact = false;                   ///< a full spelling, not a prefix
-  std::vector<std::string> candidates;  ///< when it is a prefix of several: their names
+  const Entry* entry = nullptr;          ///< the one it means, if it means one
+  bool exact = false;                    ///< a full spelling, not a prefix
+  std::vector<const Entry*> candidates;  ///< when it is a prefix of several
 
   bool ambiguous() const { return candidates.size() > 1; }
 };
+
+/// The names of the entries that an ambiguous word may mean.
+std::vector<std::string> candidate_names(const Match<Field>& match);
+std::vector<std::string> candidate_names(const Match<Option>& match);
+std::vector<std::string> candidate_names(const Match<Schema>& match);
 
 /// The keyword of a card: a full spelling first, then an unambiguous prefix of one.
 Match<Field> match_field(const Schema& schema, std::string_view word);

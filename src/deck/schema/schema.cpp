@@ -44,12 +44,23 @@ std::string_view Schema::key() const {
   return std::string_view(name).substr(blank + 1);
 }
 
-Location Record::where(std::string_view keyword) const {
-  const auto found = field_locations.find(keyword);
-  return found == field_locations.end() ? location : found->second;
+const FieldLocation* Record::find(std::string_view keyword) const {
+  const auto found = std::find_if(field_locations.begin(), field_locations.end(),
+                                  [&](const FieldLocation& given) { return given.field->keyword == keyword; });
+  return found == field_locations.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> spellings(const Field& field) {
+bool Record::given(const Field& field) const {
+  return std::any_of(field_locations.begin(), field_locations.end(),
+                     [&](const FieldLocation& given) { return given.field == &field; });
+}
+
+Location Record::where(std::string_view keyword) const {
+  const FieldLocation* found = find(keyword);
+  return found ? found->where : location;
+}
+
+std::vector<std::string> collect_spellings(const Field& field) {
   std::vector<std::string> words{field.keyword};
   const auto add = [&](const std::vector<std::string>& more) {
     for (const std::string& word : more)

@@ -5,7 +5,6 @@
 #include <array>
 #include <functional>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -54,6 +53,7 @@ struct Code {
 struct Field {
   std::string keyword;
   std::vector<std::string> synonyms;
+  std::vector<std::string> spellings;  ///< keyword, synonyms and those that BACON gives the keyword everywhere; by the Card
   std::string help;
   FieldType type = FieldType::real;
   int min_values = 1;
@@ -110,7 +110,10 @@ struct Schema {
 };
 
 /// Every spelling of a field: keyword, declared synonyms, and those that BACON gives this keyword everywhere (V = VAL).
-std::vector<std::string> spellings(const Field& field);
+inline const std::vector<std::string>& spellings(const Field& field) { return field.spellings; }
+
+/// What Field::spellings is to be.
+std::vector<std::string> collect_spellings(const Field& field);
 
 /// What is wrong with a schema itself (reserved or doubled words, missing help, a default out of range): for unit tests.
 std::vector<std::string> schema_faults(const Schema& schema);
@@ -124,6 +127,7 @@ class FieldBuilder {
   FieldBuilder(Schema& schema, std::size_t index) : schema_(schema), index_(index) {}
   FieldBuilder& synonyms(std::vector<std::string> words) {
     field().synonyms = std::move(words);
+    field().spellings = collect_spellings(field());
     return *this;
   }
   FieldBuilder& unit(Dimension d) {
@@ -275,23 +279,34 @@ class Card {
   Schema schema_;
 };
 
-/// One record of a deck, read, checked against its schema and stored in its struct.
+/// Where a keyword's values stand.
+struct FieldLocation {
+  const Field* field = nullptr;
+  Location where;
+};
+
+/// One record of a deck, read, checked against its schema and stored in its struct. Decks have records by the hundred thousand:
+/// what a record holds is counted in bytes.
 struct Record {
   const Schema* schema = nullptr;
-  int id = 0;  ///< the number behind `I`; 0 when the card has none
-  Location location;
-  std::map<std::string, Location, std::less<>> field_locations;  ///< by canonical keyword; only those given
-  std::any data;
+  int id = 0;           ///< the number behind `I`; 0 when the card has none
   bool faulty = false;  ///< an error was reported for it; it is then in Deck::faulty
+  Location location;
+  std::vector<FieldLocation> field_locations;  ///< of the keywords given, each once
+  std::any data;
 
   /// The card's struct, or nullptr when the record is of another card.
   template <class Data>
   const Data* get() const {
     return std::any_cast<Data>(&data);
   }
-  bool given(std::string_view keyword) const { return field_locations.contains(keyword); }
+  bool given(std::string_view keyword) const { return find(keyword) != nullptr; }
+  bool given(const Field& field) const;
   /// Where the keyword's values stand; the record itself when the keyword was not given.
   Location where(std::string_view keyword) const;
+
+ private:
+  const FieldLocation* find(std::string_view keyword) const;
 };
 
 }  // namespace engrane::deck

@@ -115,6 +115,7 @@ FieldBuilder Card<Data>::add(std::string keyword, Member Owner::*member, std::st
   static_assert(std::is_base_of_v<Owner, Data>, "a keyword binds to a member of the card's own struct");
   Field field;
   field.keyword = std::move(keyword);
+  field.spellings = collect_spellings(field);
   field.help = std::move(help);
   detail::shape_field<Member>(field);
   field.store = [member](std::any& data, const Field::Values& values) {
@@ -131,6 +132,7 @@ FieldBuilder Card<Data>::add_part(std::string keyword, std::string whole, int pa
   static_assert(detail::is_array<Member>::value, "only an array has parts");
   Field field;
   field.keyword = std::move(keyword);
+  field.spellings = collect_spellings(field);
   field.help = std::move(help);
   detail::shape_field<typename Member::value_type>(field);
   field.whole = std::move(whole);

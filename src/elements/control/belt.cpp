@@ -8,7 +8,8 @@
 #include <numbers>
 
 #include "elements/common/building.hpp"
-#include "elements/control/joint_coordinate.hpp"
+#include "elements/joints/joint_measures.hpp"
+#include "model/templated_element.hpp"
 
 namespace engrane::elements::control {
 
@@ -47,7 +48,7 @@ struct BeltLaw {
 /// and their gradients are the tangents, so that each span pulls with its tension along its own line.
 class Belt final : public TemplatedElement<Belt, 2, 13> {
  public:
-  Belt(int id, const std::array<int, 2>& nodes, const JointFrame& frame, const BeltShape& shape, const BeltLaw& law,
+  Belt(int id, const std::array<int, 2>& nodes, const joints::JointFrame& frame, const BeltShape& shape, const BeltLaw& law,
        double distance)
       : TemplatedElement(id), frame_(frame), shape_(shape), law_(law), distance_(distance), taken_(shape.taken(distance)) {
     Layout layout;
@@ -147,7 +148,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
   /// Where the spans run, and how far they are stretched.
   template <class T>
   struct Runs {
-    JointPose<T> pose;
+    joints::JointPose<T> pose;
     T distance, slack_taken, roll, taken_rate, roll_rate;
     double line_angle, turn_angle;  ///< in (−π, π]
     T speed_1, speed_2;             ///< of the pulleys, seen from the line of centres
@@ -234,7 +235,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
           {"GRIP_USED", dimension::none, "difference of the tensions over the most that friction holds; 1 slips"});
   }
 
-  JointFrame frame_;
+  joints::JointFrame frame_;
   BeltShape shape_;
   BeltLaw law_;
   double distance_, taken_;  ///< in the reference configuration
@@ -274,7 +275,7 @@ std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {
     context.error("C", "damping without a preload", "C holds at the tension PRELOAD, and follows the tension of each span");
     return nullptr;
   }
-  JointFrame frame;
+  joints::JointFrame frame;
   frame.set_axes(*axis, across / distance);
   return std::make_unique<Belt>(context.record.id, data.nodes, frame, shape, law, distance);
 }

@@ -377,7 +377,7 @@ ElementType controller_type() {
   card.add("TAU", &ControllerData::lag, "time constant with which the drive follows the command")
       .unit(dimension::time)
       .positive();
-  return element_type(card, build);
+  return element_type(card, build, 1);
 }
 
 }  // namespace engrane::elements::control

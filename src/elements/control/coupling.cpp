@@ -127,7 +127,7 @@ ElementType coupling_type() {
   card.add("SECOND", &CouplingData::second, "coordinate of the second joint").synonyms({"DEUXIEME"});
   card.add("K", &CouplingData::stiffness, "stiffness on the second coordinate: per length, or per radian").at_least(0);
   card.add("C", &CouplingData::damping, "damping on the second coordinate").at_least(0);
-  return element_type(card, build);
+  return element_type(card, build, 1);
 }
 
 }  // namespace engrane::elements::control

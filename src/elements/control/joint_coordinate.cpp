@@ -6,15 +6,7 @@
 
 #include <algorithm>
 
-#include "elements/control/sensor.hpp"
-#include "elements/joints/joint_card.hpp"
-
 namespace engrane::elements::control {
-
-void Coordinate::commit(const NodeState& a, const NodeState& b, std::span<const double> committed, std::span<double> next) const {
-  if (!is_angle()) return;
-  turn_count::commit(measure(what, frame, JointPose<double>(frame, a, b)).value, committed, next);
-}
 
 PlacedCoordinate::PlacedCoordinate(Coordinate wanted, Layout& layout)
     : coordinate(std::move(wanted)), history(static_cast<std::size_t>(layout.history)) {
@@ -36,53 +28,21 @@ void PlacedCoordinate::commit(const State& state, std::span<double> next) const 
   coordinate.commit(state.nodes[node[0]], state.nodes[node[1]], committed(state), next.subspan(history, turn_count::history));
 }
 
-namespace {
-
-std::vector<Coordinate> coordinates_of(const joints::JointParts& parts) {
-  std::vector<Coordinate> all;
-  for (const joints::JointCoordinate& c : parts.coordinates)
-    all.push_back({c.names.value, parts.nodes, parts.frame, c.measure, parts.point});
-  return all;
-}
-
-/// The coordinates of the element that a record describes. Its own faults are its own to report: `faulty` then.
-std::vector<Coordinate> coordinates_of(const BuildContext& context, const deck::Record& record, bool& faulty) {
-  Diagnostics unheard;
-  BuildContext other{context.nodes, context.functions, unheard, record, context.wheel_inertia, context.records};
-  if (const auto* sensor = record.get<SensorData>()) {
-    const auto coordinate = sensor_coordinate(*sensor, other);
-    faulty = !coordinate;
-    return coordinate ? std::vector{*coordinate} : std::vector<Coordinate>{};
-  }
-  for (const ElementType& type : element_types()) {
-    if (type.schema.name != record.schema->name) continue;
-    const auto element = type.build(other);
-    faulty = !element;
-    if (const auto* joint = dynamic_cast<const joints::Joint*>(element.get())) return coordinates_of(joint->parts());
-  }
-  return {};
-}
-
-}  // namespace
-
 std::optional<Coordinate> find_coordinate(const BuildContext& context, std::string_view keyword, int id,
                                           std::string_view name_keyword, const std::string& name) {
-  const deck::Record* found = nullptr;
-  if (context.records)
-    for (const deck::Record& record : *context.records)
-      if (record.id == id && record.schema->command() == ".MCE") found = &record;
-  if (!found) {
+  const BuildContext::Found found = context.find_element ? context.find_element(id) : BuildContext::Found{};
+  if (!found.record) {
     context.error(keyword, fmt::format("element {} does not exist", id), "name a joint or a SENSOR of .MCE by its number");
     return {};
   }
-  bool faulty = false;
-  const std::vector<Coordinate> all = coordinates_of(context, *found, faulty);
-  if (faulty) {
-    context.error(keyword, fmt::format("{} {} has faults of its own", found->schema->name, id), "mend it first");
+  if (found.faulty) {
+    context.error(keyword, fmt::format("{} {} has faults of its own", found.record->schema->name, id), "mend it first");
     return {};
   }
+  const auto* owner = dynamic_cast<const joints::CoordinateOwner*>(found.element);
+  const std::vector<Coordinate> all = owner ? owner->coordinates() : std::vector<Coordinate>{};
   if (all.empty()) {
-    context.error(keyword, fmt::format("{} {} has no coordinate", found->schema->name, id),
+    context.error(keyword, fmt::format("{} {} has no coordinate", found.record->schema->name, id),
                   "name a joint with a free coordinate, such as HINGE or PRISMATIC, or a SENSOR");
     return {};
   }
@@ -92,7 +52,7 @@ std::optional<Coordinate> find_coordinate(const BuildContext& context, std::stri
     if (c.name == name) return c;
     names.push_back(c.name);
   }
-  context.error(name_keyword, fmt::format("{} {} has no coordinate {}", found->schema->name, id, name),
+  context.error(name_keyword, fmt::format("{} {} has no coordinate {}", found.record->schema->name, id, name),
                 fmt::format("it has {}", fmt::join(names, ", ")));
   return {};
 }

@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include "elements/common/building.hpp"
+#include "elements/control/joint_coordinate.hpp"
 
 namespace engrane::elements::control {
 
 namespace {
 
-class Sensor final : public TemplatedElement<Sensor, 2, 1> {
+class Sensor final : public TemplatedElement<Sensor, 2, 1>, public joints::CoordinateOwner {
  public:
   Sensor(int id, const Coordinate& coordinate) : TemplatedElement(id), coordinate_(coordinate) {
     Layout layout;
@@ -33,6 +34,7 @@ class Sensor final : public TemplatedElement<Sensor, 2, 1> {
   }
 
   const std::vector<Named>& channels() const override { return channels_; }
+  std::vector<Coordinate> coordinates() const override { return {coordinate_}; }
 
   void observe(const State& state, std::span<double> values) const override {
     const NodeState &a = state.nodes[0], &b = state.nodes[1];
@@ -53,15 +55,8 @@ class Sensor final : public TemplatedElement<Sensor, 2, 1> {
   std::vector<Named> channels_;
 };
 
-std::unique_ptr<Element> build(const SensorData& data, BuildContext& context) {
-  const auto coordinate = sensor_coordinate(data, context);
-  if (!coordinate) return nullptr;
-  return std::make_unique<Sensor>(context.record.id, *coordinate);
-}
-
-}  // namespace
-
-std::optional<Coordinate> sensor_coordinate(const SensorData& data, const BuildContext& context) {
+/// What a sensor measures, or nothing, with errors.
+std::optional<Coordinate> measured_coordinate(const SensorData& data, const BuildContext& context) {
   if (!check_nodes(context, data.nodes)) return {};
   Coordinate c;
   c.nodes = {data.nodes.size() == 2 ? data.nodes[0] : 0, data.nodes.back()};
@@ -78,7 +73,7 @@ std::optional<Coordinate> sensor_coordinate(const SensorData& data, const BuildC
       return {};
     }
     c.name = "DISTANCE";
-    c.what = Measure::distance;
+    c.what = joints::Measure::distance;
     c.frame.turns_a = c.nodes[0] == 0;  // the ground's reaction is complete
     c.frame.turns_b = c.nodes[1] == 0;
     if (data.at) (c.nodes[0] == 0 ? c.frame.arm_a : c.frame.arm_b) = to_vector(*data.at);
@@ -101,15 +96,23 @@ std::optional<Coordinate> sensor_coordinate(const SensorData& data, const BuildC
   c.point = at_b;
   if (data.kind.is("ANGLE")) {
     c.name = "ANGLE";
-    c.what = Measure::angle;
+    c.what = joints::Measure::angle;
     return c;
   }
   c.name = "DISPLACEMENT";
-  c.what = Measure::gap_1;
+  c.what = joints::Measure::gap_1;
   c.frame.arm_a = at_b - at_a;  // the point of a's body where b was
   c.frame.turns_b = c.nodes[1] == 0;
   return c;
 }
+
+std::unique_ptr<Element> build(const SensorData& data, BuildContext& context) {
+  const auto coordinate = measured_coordinate(data, context);
+  if (!coordinate) return nullptr;
+  return std::make_unique<Sensor>(context.record.id, *coordinate);
+}
+
+}  // namespace
 
 ElementType sensor_type() {
   deck::Card<SensorData> card("SENSOR", {"CAPTEUR"}, "Observes a distance, an angle or a displacement between two nodes");

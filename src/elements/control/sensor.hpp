@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "elements/control/joint_coordinate.hpp"
+#include "model/registry.hpp"
 
 namespace engrane::elements::control {
 
@@ -17,9 +17,6 @@ struct SensorData {
   std::optional<std::array<double, 3>> axis;
   std::optional<std::array<double, 3>> at;  ///< the ground's end of a distance
 };
-
-/// What a sensor measures, or nothing, with errors.
-std::optional<Coordinate> sensor_coordinate(const SensorData& data, const BuildContext& context);
 
 /// SENSOR (CAPTEUR): observes a distance, an angle or a displacement. It has no forces and adds no unknowns.
 ElementType sensor_type();

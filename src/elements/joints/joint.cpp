@@ -366,6 +366,13 @@ void Joint::observe(const State& state, std::span<double> values) const {
   }
 }
 
+std::vector<Coordinate> Joint::coordinates() const {
+  std::vector<Coordinate> all;
+  for (const JointCoordinate& c : parts_.coordinates)
+    all.push_back({c.names.value, parts_.nodes, parts_.frame, c.measure, parts_.point});
+  return all;
+}
+
 Drawing Joint::drawing() const {
   const auto [a, b] = parts_.nodes;
   if (parts_.drawn_axis)

@@ -8,6 +8,7 @@
 #include "elements/common/drive.hpp"
 #include "elements/common/spring_law.hpp"
 #include "elements/common/stop_range.hpp"
+#include "elements/joints/coordinate.hpp"
 #include "elements/joints/joint_friction.hpp"
 #include "elements/joints/joint_measures.hpp"
 #include "model/templated_element.hpp"
@@ -68,7 +69,7 @@ struct JointParts {
 
 /// Any joint between two nodes that is a list of constraints and free coordinates (joint_measures.hpp). The multipliers
 /// are forces and moments on B in the joint axes that A carries.
-class Joint final : public TemplatedElement<Joint, 2, 18> {
+class Joint final : public TemplatedElement<Joint, 2, 18>, public CoordinateOwner {
  public:
   Joint(int id, JointParts parts);
   ~Joint() override;  // where the class is compiled, and nowhere else: it is large
@@ -86,8 +87,8 @@ class Joint final : public TemplatedElement<Joint, 2, 18> {
   std::vector<Release> releases() const override;
   Drawing drawing() const override;
 
-  /// For elements that act on the joint's coordinates (joint_coordinate.hpp).
-  const JointParts& parts() const { return parts_; }
+  /// The free ones.
+  std::vector<Coordinate> coordinates() const override;
 
  private:
   /// Friction of each pair of surfaces, for channels.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/algebra/linear.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace engrane::solve {
@@ -20,7 +21,8 @@ LinearSolver::LinearSolver(Mat matrix, const std::string& package) : package_(pa
   check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
   int size = 1;
   MPI_Comm_size(comm, &size);
-  if (size > 1) package_ = "MUMPS";
+  sequential_ = size == 1;
+  if (!sequential_) package_ = "MUMPS";
   if (package_ == "KLU") klu_ = std::make_unique<Klu>(matrix);
   check_petsc(KSPCreate(comm, ksp_.out()));
   check_petsc(KSPSetOperators(ksp_, matrix, matrix));
@@ -44,10 +46,52 @@ void LinearSolver::set_up() {
   check_petsc(KSPSetFromOptions(ksp_));
 }
 
-void LinearSolver::reset() {
+Mat LinearSolver::matrix() const {
   Mat matrix = nullptr;
-  PC pc = nullptr;
   check_petsc(KSPGetOperators(ksp_, &matrix, nullptr));
+  return matrix;
+}
+
+void LinearSolver::note_matrix() {
+  if (klu_ || !sequential_ || !analysed_for_.empty()) return;
+  const PetscScalar* values = nullptr;
+  MatInfo info{};
+  check_petsc(MatGetInfo(matrix(), MAT_LOCAL, &info));
+  check_petsc(MatSeqAIJGetArrayRead(matrix(), &values));
+  analysed_for_.assign(values, values + static_cast<std::ptrdiff_t>(info.nz_used));
+  check_petsc(MatSeqAIJRestoreArrayRead(matrix(), &values));
+}
+
+void LinearSolver::save(Snapshot& snapshot) const {
+  if (klu_)
+    klu_->save(snapshot);
+  else if (sequential_)
+    snapshot.put("solver/" + package_, analysed_for_);
+}
+
+void LinearSolver::load(const Snapshot& snapshot) {
+  if (klu_) {
+    if (snapshot.has("klu/chosen_for")) klu_->load(snapshot);
+    return;
+  }
+  // another package or another number of ranks: there is nothing to take over
+  if (!sequential_ || !snapshot.has("solver/" + package_)) return;
+  const std::vector<double>& values = snapshot.array("solver/" + package_);
+  MatInfo info{};
+  check_petsc(MatGetInfo(matrix(), MAT_LOCAL, &info));
+  if (values.empty() || values.size() != static_cast<std::size_t>(info.nz_used)) return;
+  PetscScalar* into = nullptr;
+  check_petsc(MatSeqAIJGetArray(matrix(), &into));
+  std::copy(values.begin(), values.end(), into);
+  check_petsc(MatSeqAIJRestoreArray(matrix(), &into));
+  analysed_for_ = values;
+  check_petsc(KSPSetUp(ksp_));
+}
+
+void LinearSolver::reset() {
+  Mat matrix = this->matrix();
+  PC pc = nullptr;
+  analysed_for_.clear();
   check_petsc(KSPGetPC(ksp_, &pc));
   check_petsc(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
   check_petsc(PCReset(pc));
@@ -66,6 +110,7 @@ Mat LinearSolver::factor() const {
 }
 
 bool LinearSolver::solve(Vec right, Vec solution) {
+  note_matrix();
   do {
     check_petsc(KSPSolve(ksp_, right, solution));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "solve/algebra/klu.hpp"
 
@@ -25,24 +26,27 @@ class LinearSolver {
   /// Forgets the analysis, which looks at numbers too: after a failure, or before matrices of another kind.
   void reset();
 
-  /// What the next solution owes to earlier ones: KLU's pivots. The other packages choose theirs for each matrix.
-  void save(Snapshot& snapshot) const {
-    if (klu_) klu_->save(snapshot);
-  }
-  void load(const Snapshot& snapshot) {
-    if (klu_ && snapshot.has("klu/chosen_for")) klu_->load(snapshot);
-  }
+  /// To be told of every matrix before it is factored: the first after an analysis was forgotten decides on the order of
+  /// elimination, which looks at numbers too, and is kept for save().
+  void note_matrix();
+  /// What the next solution owes to earlier ones: the matrix that the analysis was made for, and KLU's pivots. Only on one rank;
+  /// on several the analysis is made anew.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
 
   /// Memory of the factors in bytes, as the package reports it; 0 when it does not.
   double factor_bytes() const;
 
  private:
   Mat factor() const;
+  Mat matrix() const;
   void set_up();
   std::unique_ptr<Klu> klu_;  ///< before ksp_, which uses it
   Owned<KSP> ksp_;
   std::string package_;
-  int mumps_room_ = 50;  ///< ICNTL(14): per cent over the estimate
+  bool sequential_ = false;
+  std::vector<double> analysed_for_;  ///< values of that matrix; empty: none has been analysed
+  int mumps_room_ = 50;               ///< ICNTL(14): per cent over the estimate
 };
 
 }  // namespace engrane::solve

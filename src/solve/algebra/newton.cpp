@@ -106,6 +106,7 @@ PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
   try {
     // work_ is the configuration of the last residual, which SNES evaluates at the same point just before
     self.assembler_.tangent(*self.work_, self.weights_);
+    self.solver_.note_matrix();
   } catch (const std::exception& e) {
     self.failure_ = e.what();
     return PETSC_ERR_LIB;

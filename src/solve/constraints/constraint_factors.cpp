@@ -23,8 +23,18 @@ const Multiplier& multiplier_of(const Model& model, const Unknown& multiplier) {
 
 bool is_drive(const Model& model, const Unknown& multiplier) { return multiplier_of(model, multiplier).role == Role::drive; }
 
-double relative_open(const Assembler& assembler, int multiplier, double phi) {
-  return std::abs(phi) / size_of(multiplier_unknown(assembler.numbering(), multiplier), assembler.model().extent());
+Vector constraint_sizes(const Assembler& assembler) {
+  const double extent = assembler.model().extent();
+  const Numbering& numbering = assembler.numbering();
+  Vector sizes(numbering.slots() - numbering.motion_slots());
+  for (int m = 0; m < static_cast<int>(sizes.size()); ++m) sizes[m] = size_of(multiplier_unknown(numbering, m), extent);
+  return sizes;
+}
+
+Vector relative_open(const Assembler& assembler, const std::vector<double>& phi) {
+  return Eigen::Map<const Vector>(phi.data(), static_cast<Eigen::Index>(phi.size()))
+      .cwiseAbs()
+      .cwiseQuotient(constraint_sizes(assembler));
 }
 
 Configuration outside_of_steps(Configuration c) {
@@ -36,10 +46,14 @@ ConstraintMatrix::ConstraintMatrix(Assembler& assembler, const Configuration& co
   const Numbering& numbering = assembler.numbering();
   const double extent = assembler.model().extent();
   std::vector<int> row_of(static_cast<std::size_t>(numbering.motion_slots()), -1);
+  int node = -1;
   for (int e = 0; e < numbering.equations(); ++e) {
     const Unknown& u = numbering.unknown(e);
     if (u.multiplier) continue;
-    row_of[static_cast<std::size_t>(u.slot)] = static_cast<int>(row_size.size());
+    const auto row = static_cast<int>(row_size.size());
+    row_of[static_cast<std::size_t>(u.slot)] = row;
+    if (row == 0 || u.node < 0 || u.node != node) first_rows.push_back(row);
+    node = u.node;
     row_size.push_back(size_of(u, extent));
     slot.push_back(static_cast<std::size_t>(u.slot));
   }
@@ -71,59 +85,31 @@ void ConstraintMatrix::to_slots(const Vector& motion, std::vector<double>& y) co
   for (std::size_t i = 0; i < slot.size(); ++i) y[slot[i]] = motion[static_cast<Eigen::Index>(i)] * row_size[i];
 }
 
+namespace {
+
+/// Columns of length 1; those without entries stay.
+Sparse normalized(const Sparse& matrix, const Vector& length) { return matrix * length.cwiseInverse().asDiagonal(); }
+
+Vector lengths(const Sparse& matrix) {
+  Vector length(matrix.cols());
+  for (Eigen::Index m = 0; m < matrix.cols(); ++m) length[m] = matrix.col(m).norm();
+  return (length.array() > 0).select(length, 1.0);
+}
+
+}  // namespace
+
 ConstraintFactors::ConstraintFactors(Assembler& assembler, const Configuration& configuration, ConstraintColumns kind,
                                      double tolerance)
-    : gradients_(assembler, configuration, kind) {
-  Sparse matrix = gradients_.matrix;
-  length_ = Vector::Ones(matrix.cols());
-  for (Eigen::Index m = 0; m < matrix.cols(); ++m) {
-    const double length = matrix.col(m).norm();
-    if (!(length > 0)) continue;
-    length_[m] = length;
-    matrix.col(m) /= length;
-  }
-  matrix.makeCompressed();
-  if (matrix.rows() == 0 || matrix.cols() == 0 || matrix.nonZeros() == 0) return;
-  qr_.setPivotThreshold(tolerance);
-  qr_.compute(matrix);
-  rank_ = qr_.rank();
-}
+    : gradients_(assembler, configuration, kind),
+      length_(lengths(gradients_.matrix)),
+      basis_(normalized(gradients_.matrix, length_), tolerance, gradients_.first_rows) {}
 
-Eigen::MatrixXd ConstraintFactors::null_multipliers(bool scaled_back) const {
-  const Eigen::Index d = deficiency();
-  Eigen::MatrixXd null = Eigen::MatrixXd::Zero(columns(), d);
-  Eigen::MatrixXd weights(rank_, d);
-  if (rank_ > 0) {
-    const Sparse r = qr_.matrixR();
-    weights = Eigen::MatrixXd(r.topRows(rank_).rightCols(d));
-    const Sparse square = r.topLeftCorner(rank_, rank_);
-    square.triangularView<Eigen::Upper>().solveInPlace(weights);
-  }
-  for (Eigen::Index j = 0; j < d; ++j) {
-    for (Eigen::Index i = 0; i < rank_; ++i) null(pivot(i), j) = -weights(i, j);
-    null(pivot(rank_ + j), j) = 1;
-  }
-  if (scaled_back) null.array().colwise() /= length_.array();
-  return null;
-}
-
-Vector ConstraintFactors::possible_motion(const Vector& wish) const {
-  if (rank_ == 0) return wish;
-  Vector y = qr_.matrixQ().transpose() * wish;
-  y.head(rank_).setZero();
-  return qr_.matrixQ() * y;
-}
+Sparse ConstraintFactors::null_forces() const { return length_.cwiseInverse().asDiagonal() * basis_.null(); }
 
 Vector ConstraintFactors::closing_motion(const std::vector<double>& phi) const {
-  Vector y = Vector::Zero(rows());
-  if (rank_ == 0) return y;
-  Vector right(rank_);
-  for (Eigen::Index i = 0; i < rank_; ++i) right[i] = -phi[static_cast<std::size_t>(pivot(i))] / length_[pivot(i)];
-  const Sparse square = Sparse(qr_.matrixR()).topLeftCorner(rank_, rank_);
-  const Sparse lower = square.transpose();
-  lower.triangularView<Eigen::Lower>().solveInPlace(right);
-  y.head(rank_) = right;
-  return qr_.matrixQ() * y;
+  Vector right(columns());
+  for (Eigen::Index m = 0; m < columns(); ++m) right[m] = -phi[static_cast<std::size_t>(m)] / length_[m];
+  return basis_.solve_transposed(right);
 }
 
 }  // namespace engrane::solve

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The gradients of all constraints as one sparse matrix, and what a rank-revealing factorisation says of them.
+// The gradients of all constraints as one sparse matrix, and which of them are independent.
 #pragma once
 
 #include <Eigen/Dense>
-#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
-#include <Eigen/SparseQR>
 #include <vector>
 
 #include "assembly/assembler.hpp"
+#include "solve/constraints/column_basis.hpp"
 
 namespace engrane::solve {
 
@@ -26,8 +25,10 @@ const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier);
 const Multiplier& multiplier_of(const Model& model, const Unknown& multiplier);
 bool is_drive(const Model& model, const Unknown& multiplier);
 
-/// An open constraint over the extent, or in radians.
-double relative_open(const Assembler& assembler, int multiplier, double phi);
+/// Sizes of the constraints, one for each multiplier: the extent for lengths, 1 for angles.
+Eigen::VectorXd constraint_sizes(const Assembler& assembler);
+/// Open constraints over the extent, or in radians.
+Eigen::VectorXd relative_open(const Assembler& assembler, const std::vector<double>& phi);
 
 /// Tangents of elements are taken per increment of a step's rotation vector; this takes them at its start.
 Configuration outside_of_steps(Configuration c);
@@ -42,34 +43,35 @@ struct ConstraintMatrix {
   Eigen::SparseMatrix<double> matrix;
   std::vector<std::size_t> slot;  ///< of a row
   std::vector<double> row_size;
+  std::vector<int> first_rows;  ///< of the nodes, and of the elements' scalars each
 };
 
-/// The QR of a ConstraintMatrix with columns of length 1 (Eigen's SparseQR; Davis 2011).
+/// Which columns of a ConstraintMatrix are independent when all have length 1.
 class ConstraintFactors {
  public:
-  /// Columns whose remainder after all others is below `tolerance` count as dependent.
+  /// Columns whose remainder after the others is below `tolerance` count as dependent.
   ConstraintFactors(Assembler& assembler, const Configuration& configuration, ConstraintColumns kind, double tolerance);
 
-  Eigen::Index rank() const { return rank_; }
-  Eigen::Index rows() const { return gradients_.matrix.rows(); }
-  Eigen::Index columns() const { return length_.size(); }
-  Eigen::Index deficiency() const { return columns() - rank_; }
-  /// The multiplier at a place of the pivoted order: the first rank() are independent.
-  int pivot(Eigen::Index place) const { return rank_ == 0 ? static_cast<int>(place) : qr_.colsPermutation().indices()[place]; }
+  Eigen::Index rank() const { return basis_.rank(); }
+  Eigen::Index rows() const { return basis_.rows(); }
+  Eigen::Index columns() const { return basis_.columns(); }
+  Eigen::Index deficiency() const { return columns() - rank(); }
+  const std::vector<int>& dependent() const { return basis_.dependent(); }
 
-  /// A basis of the multipliers that make no force, one column for each dependent one.
-  Eigen::MatrixXd null_multipliers(bool scaled_back) const;
-  /// The part of `wish` (scaled, one entry per row) that closes no constraint: a possible motion.
-  Eigen::VectorXd possible_motion(const Eigen::VectorXd& wish) const;
-  /// The least (scaled) motion that closes the independent constraints, to first order.
+  /// A basis of the multipliers that make no force, one column for each dependent one: of columns of length 1, or in
+  /// units of force and moment.
+  const Eigen::SparseMatrix<double>& null_multipliers() const { return basis_.null(); }
+  Eigen::SparseMatrix<double> null_forces() const;
+  /// The (scaled) motion that closes no constraint and is near to `wish`.
+  Eigen::VectorXd possible_motion(const Eigen::VectorXd& wish) const { return basis_.left_null(wish); }
+  /// A (scaled) motion that closes the independent constraints, to first order.
   Eigen::VectorXd closing_motion(const std::vector<double>& phi) const;
   void to_slots(const Eigen::VectorXd& motion, std::vector<double>& y) const { gradients_.to_slots(motion, y); }
 
  private:
   ConstraintMatrix gradients_;
   Eigen::VectorXd length_;
-  Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr_;
-  Eigen::Index rank_ = 0;
+  ColumnBasis basis_;
 };
 
 }  // namespace engrane::solve

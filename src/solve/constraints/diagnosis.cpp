@@ -3,61 +3,119 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "solve/constraints/column_basis.hpp"
 
 namespace engrane::solve {
 
 namespace {
 
-constexpr int largest_dense = 1500;
+using Sparse = Eigen::SparseMatrix<double>;
+using Vector = Eigen::VectorXd;
 
-/// The matrix, whole, on every rank; its rows and columns scaled so that their sizes do not hide the null space.
-Eigen::MatrixXd dense_copy(Assembler& assembler, Eigen::VectorXd& column_scale) {
-  const int n = assembler.numbering().equations();
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+/// The same list from all ranks, one behind the other.
+template <class T>
+std::vector<T> from_all(const std::vector<T>& mine, MPI_Datatype type, MPI_Comm comm) {
+  int ranks = 1;
+  MPI_Comm_size(comm, &ranks);
+  const auto count = static_cast<int>(mine.size());
+  std::vector<int> counts(static_cast<std::size_t>(ranks)), begin(counts.size(), 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  std::partial_sum(counts.begin(), counts.end() - 1, begin.begin() + 1);
+  std::vector<T> all(static_cast<std::size_t>(begin.back() + counts.back()));
+  MPI_Allgatherv(mine.data(), count, type, all.data(), counts.data(), begin.data(), type, comm);
+  return all;
+}
+
+/// The matrix, whole, on every rank.
+Sparse whole_matrix(Assembler& assembler) {
+  std::vector<int> rows, columns;
+  std::vector<double> values;
   PetscInt first = 0, end = 0;
   check_petsc(MatGetOwnershipRange(assembler.matrix(), &first, &end));
   for (PetscInt row = first; row < end; ++row) {
     PetscInt count = 0;
-    const PetscInt* columns = nullptr;
-    const PetscScalar* values = nullptr;
-    check_petsc(MatGetRow(assembler.matrix(), row, &count, &columns, &values));
-    for (PetscInt i = 0; i < count; ++i) dense(row, columns[i]) = values[i];
-    check_petsc(MatRestoreRow(assembler.matrix(), row, &count, &columns, &values));
-  }
-  MPI_Allreduce(MPI_IN_PLACE, dense.data(), n * n, MPI_DOUBLE, MPI_SUM, assembler.comm());
-  column_scale = Eigen::VectorXd::Ones(n);
-  for (int pass = 0; pass < 4; ++pass)
-    for (int i = 0; i < n; ++i) {
-      if (const double r = dense.row(i).cwiseAbs().maxCoeff(); r > 0) dense.row(i) /= r;
-      if (const double c = dense.col(i).cwiseAbs().maxCoeff(); c > 0) {
-        dense.col(i) /= c;
-        column_scale[i] /= c;
-      }
+    const PetscInt* at = nullptr;
+    const PetscScalar* entries = nullptr;
+    check_petsc(MatGetRow(assembler.matrix(), row, &count, &at, &entries));
+    for (PetscInt i = 0; i < count; ++i) {
+      if (entries[i] == 0) continue;
+      rows.push_back(row);
+      columns.push_back(at[i]);
+      values.push_back(entries[i]);
     }
-  return dense;
+    check_petsc(MatRestoreRow(assembler.matrix(), row, &count, &at, &entries));
+  }
+  rows = from_all(rows, MPI_INT, assembler.comm());
+  columns = from_all(columns, MPI_INT, assembler.comm());
+  values = from_all(values, MPI_DOUBLE, assembler.comm());
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) entries.emplace_back(rows[i], columns[i], values[i]);
+  const int n = assembler.numbering().equations();
+  Sparse matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// Scales rows and columns so that their sizes do not hide the null space, columns to length 1 in the end; returns the factors
+/// of the columns.
+Vector equilibrate(Sparse& matrix) {
+  Vector scale = Vector::Ones(matrix.cols());
+  const auto inverse = [](const Vector& size) { return Vector((size.array() > 0).select(size.cwiseInverse(), 1.0)); };
+  constexpr int passes = 4;
+  for (int pass = 0; pass <= passes; ++pass) {
+    if (pass < passes) {
+      Vector row = Vector::Zero(matrix.rows());
+      for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+        for (Sparse::InnerIterator it(matrix, j); it; ++it) row[it.row()] = std::max(row[it.row()], std::abs(it.value()));
+      matrix = inverse(row).asDiagonal() * matrix;
+    }
+    Vector column(matrix.cols());
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) column[j] = matrix.col(j).norm();
+    matrix = matrix * inverse(column).asDiagonal();
+    scale = scale.cwiseProduct(inverse(column));
+  }
+  return scale;
+}
+
+/// A vector that the matrix all but annihilates, and how many there are like it.
+struct NullVector {
+  Vector entries;
+  Eigen::Index of = 0;
+};
+
+NullVector nearest_null_vector(Sparse matrix) {
+  const Vector scale = equilibrate(matrix);
+  for (double tolerance = 1e-12; tolerance < 1; tolerance *= 100) {
+    const ColumnBasis basis(matrix, tolerance);
+    if (!basis.dependent().empty()) return {Vector(basis.null().col(0)).cwiseProduct(scale), basis.null().cols()};
+  }
+  return {};
 }
 
 /// What to do about a motion that nothing resists; `order`: equations, those that move most first.
-std::string advice(const Assembler& assembler, const std::vector<int>& order, const Eigen::VectorXd& null) {
+std::string advice(const Assembler& assembler, const std::vector<int>& order, const Vector& null, Resistance resistance) {
   const Model& model = assembler.model();
   const double largest = std::abs(null[order[0]]);
-  if (model.commands.analysis.type.is("STATIC"))
+  if (resistance == Resistance::at_rest)
     return ". Statics needs something that holds every motion: a support (.CLM FIX), a joint, a spring or a drive; what is to "
            "move freely needs TYPE DYNAMIC";
+  std::vector<bool> bodies(model.nodes.size(), false);
+  for (const Model::Part& part : model.parts)
+    if (part.element->is_body())
+      for (const int node : part.nodes) bodies[static_cast<std::size_t>(node)] = true;
   std::string nodes;
   int last = -1;
   for (const int e : order) {
     if (std::abs(null[e]) < 0.1 * largest) break;
     const Unknown& u = assembler.numbering().unknown(e);
     if (u.multiplier || u.node < 0 || u.node == last) continue;
-    bool inert = false;
-    for (const Model::Part& part : model.parts)
-      if (part.element->is_body()) inert = inert || std::find(part.nodes.begin(), part.nodes.end(), u.node) != part.nodes.end();
-    if (inert) continue;
+    if (bodies[static_cast<std::size_t>(u.node)]) continue;
     last = u.node;
     nodes += fmt::format("{}node {}", nodes.empty() ? "" : ", ", model.nodes[static_cast<std::size_t>(u.node)].id);
   }
@@ -71,15 +129,14 @@ std::string advice(const Assembler& assembler, const std::vector<int>& order, co
 
 }  // namespace
 
-std::string explain_singular(Assembler& assembler, const std::string& what) {
+std::string explain_singular(Assembler& assembler, const std::string& what, Resistance resistance) {
   const Numbering& numbering = assembler.numbering();
   const int n = numbering.equations();
-  if (n == 0 || n > largest_dense) return what;
-  Eigen::VectorXd scale;
-  const Eigen::MatrixXd dense = dense_copy(assembler, scale);
-  if (!dense.allFinite()) return what + ": the matrix is not finite";
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(dense, Eigen::ComputeThinV);
-  const Eigen::VectorXd null = svd.matrixV().col(n - 1).cwiseProduct(scale);
+  if (n == 0) return what;
+  const Sparse matrix = whole_matrix(assembler);
+  if (!Vector::Map(matrix.valuePtr(), matrix.nonZeros()).allFinite()) return what + ": the matrix is not finite";
+  const auto [null, of] = nearest_null_vector(matrix);
+  if (of == 0) return what;
   std::vector<int> order(static_cast<std::size_t>(n));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(null[a]) > std::abs(null[b]); });
@@ -96,9 +153,9 @@ std::string explain_singular(Assembler& assembler, const std::string& what) {
     if (!moves && !numbering.unknown(e).multiplier) continue;
     names += fmt::format("{}{}", listed++ ? ", " : "", numbering.describe(e));
   }
-  const auto deficient = (svd.singularValues().array() < 1e-12 * svd.singularValues()[0]).count();
-  const std::string more = deficient > 1 ? fmt::format(" (one of {} such)", deficient) : "";
-  return moves ? fmt::format("{}: nothing resists a motion of {}{}{}", what, names, more, advice(assembler, order, null))
+  const std::string more = of > 1 ? fmt::format(" (one of {} such)", of) : "";
+  return moves ? fmt::format("{}: nothing resists a motion of {}{}{}", what, names, more,
+                             advice(assembler, order, null, resistance))
                : fmt::format("{}: the reactions {} are not determined{}", what, names, more);
 }
 

@@ -8,9 +8,12 @@
 
 namespace engrane::solve {
 
+/// What resists a motion: forces that depend on the position alone, or inertia too.
+enum class Resistance { at_rest, in_motion };
+
 /// Says which motion or which reactions make the matrix of `assembler` singular: `what`, then the unknowns of its
-/// nearest null vector by name. Larger systems than about 1500 unknowns only get the first part. Collective.
-std::string explain_singular(Assembler& assembler, const std::string& what);
+/// nearest null vector by name. Collective.
+std::string explain_singular(Assembler& assembler, const std::string& what, Resistance resistance = Resistance::in_motion);
 
 /// Says where a Newton iteration got stuck: "largest residual at node 57 (rz) from HINGE 3".
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report);

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/redundancy_advice.hpp"
@@ -15,6 +18,7 @@ namespace engrane::solve {
 
 namespace {
 
+using Sparse = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
 /// A little along a possible motion, closed again. False when it does not close: then the motion is only one of first order.
@@ -35,41 +39,56 @@ bool move_along(Assembler& assembler, const MotionSlots& motion, const Constrain
     c = outside_of_steps(std::move(moved));
   };
   move(here, way * (0.02 / largest));
+  std::optional<ConstraintFactors> factors;
+  double before = 0;
   for (int iteration = 0; iteration < 12; ++iteration) {
     assembler.constraint_rates(c, phi, rate, second);
-    double open = 0;
-    for (std::size_t m = 0; m < phi.size(); ++m) open = std::max(open, relative_open(assembler, static_cast<int>(m), phi[m]));
+    const double open = relative_open(assembler, phi).lpNorm<Eigen::Infinity>();
     if (!std::isfinite(open)) return false;
     if (open < 1e-13) return true;
-    const ConstraintFactors factors(assembler, c, ConstraintColumns::gradients, tolerance);
-    const Vector by = factors.closing_motion(phi);
+    // factors serve on while the gap shrinks by decades
+    if (open > 1e-2 * before) factors.emplace(assembler, c, ConstraintColumns::gradients, tolerance);
+    before = open;
+    const Vector by = factors->closing_motion(phi);
     if (!(by.lpNorm<Eigen::Infinity>() < 0.05)) return false;
-    move(factors, by);
+    move(*factors, by);
     if (by.lpNorm<Eigen::Infinity>() < 1e-14) return open < 1e-11;
   }
   return false;
 }
 
+/// The largest entry of a column that has one, and its size.
+std::pair<int, double> largest_entry(const Sparse& a, Eigen::Index column) {
+  std::pair<int, double> largest{-1, 0.0};
+  for (Sparse::InnerIterator it(a, column); it; ++it)
+    if (std::abs(it.value()) > largest.second) largest = {static_cast<int>(it.row()), std::abs(it.value())};
+  return largest;
+}
+
 /// Which constraints hang together: those that a null vector combines.
-std::vector<RedundantGroup> group(const Eigen::MatrixXd& null) {
+std::vector<RedundantGroup> group(const Sparse& null) {
   std::vector<int> leader(static_cast<std::size_t>(null.rows()));
   std::iota(leader.begin(), leader.end(), 0);
   const auto find = [&](int m) {
-    while (leader[static_cast<std::size_t>(m)] != m) m = leader[static_cast<std::size_t>(m)];
+    while (leader[static_cast<std::size_t>(m)] != m) {
+      int& up = leader[static_cast<std::size_t>(m)];
+      m = up = leader[static_cast<std::size_t>(up)];
+    }
     return m;
   };
   std::vector<int> first_of(static_cast<std::size_t>(null.cols()), -1);
   std::vector<bool> takes_part(leader.size(), false);
   for (Eigen::Index j = 0; j < null.cols(); ++j) {
-    const double size = null.col(j).lpNorm<Eigen::Infinity>();
-    for (Eigen::Index m = 0; m < null.rows(); ++m) {
-      if (std::abs(null(m, j)) < 1e-6 * size) continue;
+    const double size = largest_entry(null, j).second;
+    for (Sparse::InnerIterator it(null, j); it; ++it) {
+      if (std::abs(it.value()) < 1e-6 * size) continue;
+      const auto m = static_cast<int>(it.row());
       takes_part[static_cast<std::size_t>(m)] = true;
       int& first = first_of[static_cast<std::size_t>(j)];
       if (first < 0)
-        first = static_cast<int>(m);
+        first = m;
       else
-        leader[static_cast<std::size_t>(find(static_cast<int>(m)))] = find(first);
+        leader[static_cast<std::size_t>(find(m))] = find(first);
     }
   }
   std::map<int, RedundantGroup> groups;
@@ -141,6 +160,40 @@ std::string names(Assembler& assembler, const Configuration& c, const std::vecto
 
 std::string counted(int number, const char* what) { return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s"); }
 
+/// The part of `x` in the space of the columns of `basis`, which are independent.
+Vector projection(Sparse basis, const Vector& x) {
+  for (Eigen::Index j = 0; j < basis.cols(); ++j) basis.col(j) /= basis.col(j).norm();
+  const Eigen::SimplicialLDLT<Sparse> normal(Sparse(basis.transpose() * basis));
+  Vector part = Vector::Zero(x.size());
+  // the second pass takes back what the square of the condition cost the first
+  for (int pass = 0; pass < 2; ++pass) part += basis * normal.solve(basis.transpose() * (x - part));
+  return part;
+}
+
+/// What the forces in each motion slot change by when the multipliers are those of `to` instead of those of `from`, and all
+/// else is the same.
+Vector change_of_forces(Assembler& assembler, const Configuration& from, const Configuration& to) {
+  Vector change = Vector::Zero(assembler.numbering().slots());
+  std::vector<double> before, after;
+  const auto& parts = assembler.model().parts;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto part = static_cast<int>(p);
+    const auto begin = static_cast<std::size_t>(assembler.numbering().multiplier_begin(part));
+    const std::size_t count = parts[p].element->layout().multipliers.size();
+    if (std::equal(from.multipliers.begin() + static_cast<long>(begin),
+                   from.multipliers.begin() + static_cast<long>(begin + count),
+                   to.multipliers.begin() + static_cast<long>(begin)))
+      continue;
+    const auto& slots = assembler.numbering().part_slots(part);
+    before.assign(slots.size(), 0);
+    after.assign(slots.size(), 0);
+    parts[p].element->residual(assembler.view(part, from), before);
+    parts[p].element->residual(assembler.view(part, to), after);
+    for (std::size_t i = 0; i < slots.size(); ++i) change[slots[i]] += after[i] - before[i];
+  }
+  return change;
+}
+
 constexpr const char* usual_cure =
     "leave one of these directions free in one of the joints, or give it a stiffness instead (KM for teeth)";
 
@@ -155,10 +208,8 @@ Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const
   found.constraints = static_cast<int>(here.columns());
   found.rank = static_cast<int>(here.rank());
   const auto take = [&](const ConstraintFactors& factors) {
-    found.dependent.clear();
-    for (Eigen::Index i = factors.rank(); i < factors.columns(); ++i) found.dependent.push_back(factors.pivot(i));
-    std::sort(found.dependent.begin(), found.dependent.end());
-    found.null = factors.null_multipliers(false);
+    found.dependent = factors.dependent();
+    found.null = factors.null_multipliers();
     found.groups = group(found.null);
   };
   if (here.deficiency() == 0) return found;
@@ -173,24 +224,15 @@ Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const
       take(there);
     }
   }
+  const Vector relative = relative_open(assembler, phi);
   for (RedundantGroup& one : found.groups)
     for (const int m : one.members) {
-      const double relative = relative_open(assembler, m, phi[static_cast<std::size_t>(m)]);
-      if (relative < one.relative) continue;
-      one.relative = relative;
+      if (relative[m] < one.relative) continue;
+      one.relative = relative[m];
       one.open = std::abs(phi[static_cast<std::size_t>(m)]);
       one.widest = m;
     }
   return found;
-}
-
-std::string describe_groups(Assembler& assembler, const Configuration& configuration, const Mobility& mobility) {
-  const Configuration c = outside_of_steps(configuration);
-  std::string text;
-  for (const RedundantGroup& one : mobility.groups)
-    text += fmt::format("{}{} among {}", text.empty() ? "" : "\n", counted(one.redundant, "redundant constraint"),
-                        names(assembler, c, one.members));
-  return text;
 }
 
 std::string describe_mobility(Assembler& assembler, const Configuration& configuration, const Mobility& mobility) {
@@ -200,9 +242,9 @@ std::string describe_mobility(Assembler& assembler, const Configuration& configu
   if (mobility.lost_here > 0)
     text += fmt::format("  the start is a singular position: {} more there alone\n", mobility.lost_here);
   if (mobility.redundant() == 0) return text;
-  std::string groups = describe_groups(assembler, configuration, mobility);
-  for (std::size_t at = groups.find('\n'); at != std::string::npos; at = groups.find('\n', at + 3)) groups.replace(at, 1, "\n  ");
-  text += "  " + groups + "\n";
+  const Configuration c = outside_of_steps(configuration);
+  for (const RedundantGroup& one : mobility.groups)
+    text += fmt::format("  {} among {}\n", counted(one.redundant, "redundant constraint"), names(assembler, c, one.members));
   text +=
       "  They agree with one another. The motion and the sums of forces are determined; how these reactions share a load is not "
       "unique: the least ones are given.\n";
@@ -210,9 +252,7 @@ std::string describe_mobility(Assembler& assembler, const Configuration& configu
   return text + fmt::format("  For reactions of a real machine {}.\n", cure.empty() ? usual_cure : cure);
 }
 
-bool Redundancy::analyse(const Configuration& c, double tolerance, bool whatever_size) {
-  const int constraints = assembler_.numbering().slots() - assembler_.numbering().motion_slots();
-  if (constraints > most_analysed && !whatever_size) return false;
+bool Redundancy::analyse(const Configuration& c, double tolerance) {
   std::vector<int> before = mobility_.dependent;
   mobility_ = analyse_mobility(assembler_, motion_, c, tolerance);
   assembler_.release(mobility_.dependent, c.multipliers);
@@ -223,12 +263,13 @@ std::string Redundancy::conflict(const Configuration& c) {
   if (!active()) return {};
   std::vector<double> phi, rate, second;
   assembler_.constraint_rates(c, phi, rate, second);
+  const Vector relative = relative_open(assembler_, phi);
   const Numbering& numbering = assembler_.numbering();
   for (const RedundantGroup& one : mobility_.groups)
     for (const int m : one.members) {
       const double open = phi[static_cast<std::size_t>(m)];
       if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
-      if (relative_open(assembler_, m, open) <= consistent) continue;
+      if (relative[m] <= consistent) continue;
       const Unknown& u = multiplier_unknown(numbering, m);
       const bool length = u.measure == Measure::length;
       return fmt::format("conflicting constraints: {} stays open by {:.3g} {} when the others are closed; {} among {}: {}",
@@ -251,26 +292,23 @@ std::string Redundancy::cure_of(const RedundantGroup& one) const {
         "or leave out the drive of {} {}",
         part.type, part.element->id());
   }
-  Eigen::MatrixXd null(mobility_.null.rows(), one.redundant);
+  Sparse null(mobility_.null.rows(), one.redundant);
   Eigen::Index count = 0;
   // a combination belongs to the group that its largest part belongs to
-  for (Eigen::Index j = 0; j < mobility_.null.cols() && count < one.redundant; ++j) {
-    Eigen::Index largest = 0;
-    mobility_.null.col(j).cwiseAbs().maxCoeff(&largest);
-    if (std::find(one.members.begin(), one.members.end(), static_cast<int>(largest)) != one.members.end())
+  for (Eigen::Index j = 0; j < mobility_.null.cols() && count < one.redundant; ++j)
+    if (std::binary_search(one.members.begin(), one.members.end(), largest_entry(mobility_.null, j).first))
       null.col(count++) = mobility_.null.col(j);
-  }
   const std::string cure = count == one.redundant ? suggest_releases(assembler_, null) : "";
   return "make the places and axes agree, or " + (cure.empty() ? "free that direction in one of the joints" : cure);
 }
 
 std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<double>& rate, double speed) {
   const Numbering& numbering = assembler_.numbering();
+  const Vector relative = relative_open(assembler_, rate);
   for (const RedundantGroup& one : mobility_.groups)
     for (const int m : one.members) {
       if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
-      const double open = relative_open(assembler_, m, rate[static_cast<std::size_t>(m)]);
-      if (open <= 1e-8 * speed) continue;
+      if (relative[m] <= 1e-8 * speed) continue;
       const Unknown& u = multiplier_unknown(numbering, m);
       const bool length = u.measure == Measure::length;
       return fmt::format("conflicting constraints: {} asks for a speed that the others forbid, by {:.4g} {}; {} among {}: {}",
@@ -282,9 +320,18 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
   return {};
 }
 
-Eigen::MatrixXd Redundancy::undetermined(const Configuration& c) {
+std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
   const ConstraintFactors factors(assembler_, outside_of_steps(c), ConstraintColumns::forces, rank_tolerance);
-  return factors.null_multipliers(true);
+  const Sparse null = factors.null_forces();
+  std::vector<Vector> changes;
+  if (null.cols() == 0) return changes;
+  for (const double seed : {0.7, 1.9}) {
+    Vector change = Vector::Zero(null.rows());
+    for (Eigen::Index j = 0; j < null.cols(); ++j)
+      change += std::cos(seed + 2.3 * static_cast<double>(j)) / largest_entry(null, j).second * null.col(j);
+    changes.push_back(change / std::max(change.lpNorm<Eigen::Infinity>(), 1e-300));
+  }
+  return changes;
 }
 
 bool Redundancy::share(Configuration& c) {
@@ -293,31 +340,22 @@ bool Redundancy::share(Configuration& c) {
   const ConstraintFactors factors(assembler_, here, ConstraintColumns::forces, rank_tolerance);
   if (factors.deficiency() == 0) return false;
   const double extent = assembler_.model().extent();
-  const auto count = static_cast<Eigen::Index>(c.multipliers.size());
   // forces count as they are, moments over the extent
-  Vector weight(count), forces(count);
-  for (Eigen::Index m = 0; m < count; ++m) {
-    weight[m] = size_of(multiplier_unknown(assembler_.numbering(), static_cast<int>(m)), extent) == 1.0 ? 1 / extent : 1.0;
-    forces[m] = weight[m] * c.multipliers[static_cast<std::size_t>(m)];
-  }
+  const Vector weight = constraint_sizes(assembler_) / extent;
+  const Vector forces = Eigen::Map<const Vector>(c.multipliers.data(), weight.size()).cwiseProduct(weight);
   if (forces.isZero(0)) return false;
-  const Eigen::MatrixXd null = weight.asDiagonal() * factors.null_multipliers(true);
-  const Vector part = null.colPivHouseholderQr().solve(forces);
-  const Vector least = forces - null * part;
-  const std::vector<double> before = assembler_.slot_residual(here);
-  for (Eigen::Index m = 0; m < count; ++m) c.multipliers[static_cast<std::size_t>(m)] = least[m] / weight[m];
+  const Vector least = forces - projection(weight.asDiagonal() * factors.null_forces(), forces);
   Configuration shared = here;
-  shared.multipliers = c.multipliers;
-  const std::vector<double> after = assembler_.slot_residual(shared);
+  Eigen::Map<Vector>(shared.multipliers.data(), weight.size()) = least.cwiseQuotient(weight);
+  const Vector changed = change_of_forces(assembler_, here, shared);
+  c.multipliers = std::move(shared.multipliers);
   assembler_.release(mobility_.dependent, c.multipliers);
-  double changed = 0;
+  double largest = 0;
   for (int e = 0; e < assembler_.numbering().equations(); ++e) {
     const Unknown& u = assembler_.numbering().unknown(e);
-    if (u.multiplier) continue;
-    const auto slot = static_cast<std::size_t>(u.slot);
-    changed = std::max(changed, std::abs(after[slot] - before[slot]) * size_of(u, extent) / extent);
+    if (!u.multiplier) largest = std::max(largest, std::abs(changed[u.slot]) * size_of(u, extent) / extent);
   }
-  return changed > 1e-11 * forces.lpNorm<Eigen::Infinity>();
+  return largest > 1e-11 * forces.lpNorm<Eigen::Infinity>();
 }
 
 }  // namespace engrane::solve

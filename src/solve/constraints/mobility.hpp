@@ -2,10 +2,12 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCore>
 #include <string>
 #include <vector>
 
 #include "assembly/assembler.hpp"
+#include "base/snapshot.hpp"
 #include "solve/constraints/motion.hpp"
 
 namespace engrane::solve {
@@ -25,7 +27,7 @@ struct Mobility {
   int motions = 0, constraints = 0, rank = 0;
   std::vector<int> dependent;  ///< multipliers whose constraints follow from the others
   std::vector<RedundantGroup> groups;
-  Eigen::MatrixXd null;  ///< combinations of multipliers that make no force, one column for each redundant constraint
+  Eigen::SparseMatrix<double> null;  ///< combinations of multipliers that make no force, one column for each redundant constraint
   /// Independent constraints that are dependent in just the present position, for instance bars in line; 0 in most.
   int lost_here = 0;
 
@@ -37,16 +39,11 @@ struct Mobility {
 constexpr double rank_tolerance = 1e-9;
 /// Open constraints that count as closed by the independent ones: over the extent, or in radians.
 constexpr double consistent = 1e-8;
-/// Larger models are analysed only when their matrix turns singular.
-constexpr int most_analysed = 2000;
 
-/// Finds dependent constraints by a rank-revealing QR of Bᵀ (ConstraintFactors). Where there is a motion left, the rank counts
+/// Finds dependent constraints by an elimination of Bᵀ (ConstraintFactors). Where there is a motion left, the rank counts
 /// that a position a little along it shows, or a mechanism in a dead point would lose a constraint for good. Not collective:
 /// every rank finds the same.
 Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const Configuration& configuration, double tolerance);
-
-/// "2 redundant constraints among HINGE 3 (moment about y), HINGE 12 (force along z)"; one line for each group.
-std::string describe_groups(Assembler& assembler, const Configuration& configuration, const Mobility& mobility);
 
 /// The paragraph of the listing and of `engrane check`.
 std::string describe_mobility(Assembler& assembler, const Configuration& configuration, const Mobility& mobility);
@@ -61,7 +58,7 @@ class Redundancy {
   bool active() const { return !mobility_.dependent.empty(); }
 
   /// Analyses the constraints at `c` and releases the dependent ones; true when others than before are released.
-  bool analyse(const Configuration& c, double tolerance = rank_tolerance, bool whatever_size = false);
+  bool analyse(const Configuration& c, double tolerance = rank_tolerance);
 
   /// Empty when the released constraints are closed at `c`; else which conflict with one another, and by how much.
   std::string conflict(const Configuration& c);
@@ -73,9 +70,14 @@ class Redundancy {
   /// found anew with the released multipliers as they are now.
   bool share(Configuration& c);
 
-  /// Forces and moments that could be added to the multipliers of `c` without any effect on what moves, one column each:
-  /// reactions that these change are not unique.
-  Eigen::MatrixXd undetermined(const Configuration& c);
+  /// Forces and moments that could be added to the multipliers of `c` without any effect on what moves: reactions that these
+  /// change are not unique. Two combinations of all that there are, so that what one leaves alone by chance the other
+  /// changes, the largest entry 1; none where all is determined.
+  std::vector<Eigen::VectorXd> undetermined(const Configuration& c);
+
+  /// What the last analysis found, for a restart. The assembler keeps what is released.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
 
  private:
   /// "make the places and axes agree, or make HINGE 3 a SPHERICAL": the end of a message about constraints that conflict.

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -16,17 +16,35 @@ namespace engrane::solve {
 
 namespace {
 
+using Sparse = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
 /// Open constraints in comparable sizes: over the extent, or in radians.
 Vector scaled_open(Assembler& assembler, const Configuration& c) {
   std::vector<double> phi, rate, second;
   assembler.constraint_rates(c, phi, rate, second);
-  Vector open(static_cast<Eigen::Index>(phi.size()));
-  for (std::size_t m = 0; m < phi.size(); ++m)
-    open[static_cast<Eigen::Index>(m)] =
-        phi[m] / size_of(multiplier_unknown(assembler.numbering(), static_cast<int>(m)), assembler.model().extent());
-  return open;
+  const Vector sizes = constraint_sizes(assembler);
+  return Eigen::Map<const Vector>(phi.data(), sizes.size()).cwiseQuotient(sizes);
+}
+
+/// −Jᵀ(JJᵀ + μ)⁻¹ φ with Jᵀ = `gradient`, from [−1 Jᵀ; J μ] [y; z] = [0; φ]: the product JJᵀ is full where one body has many
+/// constraints.
+Vector damped_step(const Sparse& gradient, const Vector& phi, double mu) {
+  const Eigen::Index n = gradient.rows(), m = gradient.cols();
+  std::vector<Eigen::Triplet<double, Eigen::Index>> entries;
+  for (Eigen::Index i = 0; i < n; ++i) entries.emplace_back(i, i, -1.0);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    entries.emplace_back(n + j, n + j, mu);
+    for (Sparse::InnerIterator it(gradient, j); it; ++it) {
+      entries.emplace_back(it.row(), n + j, it.value());
+      entries.emplace_back(n + j, it.row(), it.value());
+    }
+  }
+  Sparse whole(n + m, n + m);
+  whole.setFromTriplets(entries.begin(), entries.end());
+  Vector right(n + m);
+  right << Vector::Zero(n), phi;
+  return -Eigen::SparseLU<Sparse>(whole).solve(right).head(n);
 }
 
 /// Moves `c` to where the weighted sum of squares of the open constraints is least: steps −Jᵀ(JJᵀ + μ)⁻¹ φ of Levenberg and
@@ -34,23 +52,16 @@ Vector scaled_open(Assembler& assembler, const Configuration& c) {
 void narrow(Assembler& assembler, const MotionSlots& motion, const Vector& weight, Configuration& c) {
   constexpr int most_steps = 300;
   constexpr double longest = 0.25;  // of the extent, or radians
-  const double extent = assembler.model().extent();
+  const Vector scale = weight.cwiseQuotient(constraint_sizes(assembler));
   double mu = 1e-3;
   Vector open = weight.cwiseProduct(scaled_open(assembler, c));
   int idle = 0;
   for (int step = 0; step < most_steps && idle < 5 && open.squaredNorm() > 1e-28; ++step) {
     const ConstraintMatrix gradients(assembler, c, ConstraintColumns::gradients);
-    Vector scale = weight;
-    for (Eigen::Index m = 0; m < scale.size(); ++m)
-      scale[m] /= size_of(multiplier_unknown(assembler.numbering(), static_cast<int>(m)), extent);
-    const Eigen::SparseMatrix<double> j = (gradients.matrix * scale.asDiagonal()).transpose();
-    Eigen::SparseMatrix<double> normal = j * j.transpose();
-    Eigen::SparseMatrix<double> identity(normal.rows(), normal.cols());
-    identity.setIdentity();
+    const Sparse gradient = gradients.matrix * scale.asDiagonal();
     bool better = false;
     for (int attempt = 0; attempt < 12 && !better; ++attempt) {
-      const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal + mu * identity);
-      Vector way = -(j.transpose() * solver.solve(open));
+      Vector way = damped_step(gradient, open, mu);
       if (const double most = way.size() > 0 ? way.lpNorm<Eigen::Infinity>() : 0; most > longest) way *= longest / most;
       std::vector<double> y(motion.size(), 0.0);
       gradients.to_slots(way, y);
@@ -94,18 +105,20 @@ std::string loop_of(const Model& model, int part) {
   const auto reach = [&](int node, Way way) {
     if (seen.try_emplace(node, way).second) front.push(node);
   };
+  std::vector<std::vector<int>> parts_at(model.nodes.size());
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    if (static_cast<int>(p) != part && !model.parts[p].element->layout().multipliers.empty())
+      for (const int node : model.parts[p].nodes) parts_at[static_cast<std::size_t>(node)].push_back(static_cast<int>(p));
+  bool supported = false;
   while (!front.empty() && !seen.contains(target)) {
     const int node = front.front();
     front.pop();
-    for (std::size_t p = 0; p < model.parts.size(); ++p) {
-      const Model::Part& other = model.parts[p];
-      if (static_cast<int>(p) == part || other.element->layout().multipliers.empty()) continue;
-      if (std::find(other.nodes.begin(), other.nodes.end(), node) == other.nodes.end()) continue;
-      for (const int next : other.nodes) reach(next, {node, static_cast<int>(p)});
-    }
-    if (node == 0 || fixed(node))
-      for (std::size_t i = 0; i < model.nodes.size(); ++i)
-        if (i == 0 || fixed(static_cast<int>(i))) reach(static_cast<int>(i), {node, -1});
+    for (const int p : parts_at[static_cast<std::size_t>(node)])
+      for (const int next : model.parts[static_cast<std::size_t>(p)].nodes) reach(next, {node, p});
+    if (supported || (node != 0 && !fixed(node))) continue;
+    supported = true;
+    for (std::size_t i = 0; i < model.nodes.size(); ++i)
+      if (i == 0 || fixed(static_cast<int>(i))) reach(static_cast<int>(i), {node, -1});
   }
   if (!seen.contains(target)) return {};
   std::string text = node_name(model, target);
@@ -129,11 +142,8 @@ std::string explain_open_loop(Assembler& assembler, const MotionSlots& motion, c
   Vector open = scaled_open(assembler, c);
   if (open.size() == 0) return "the mechanism does not close";
   if (!open.allFinite()) return "the mechanism does not close: a constraint is not a finite number where the parts are put";
-  const bool small = open.size() <= most_analysed;
-  if (small) {
-    narrow(assembler, motion, Vector::Ones(open.size()), c);
-    open = scaled_open(assembler, c);
-  }
+  narrow(assembler, motion, Vector::Ones(open.size()), c);
+  open = scaled_open(assembler, c);
   // a drive that asks for too much is more often the cause than the lengths along the loop
   Eigen::Index widest = 0;
   const double largest = open.cwiseAbs().maxCoeff(&widest);
@@ -154,7 +164,7 @@ std::string explain_open_loop(Assembler& assembler, const MotionSlots& motion, c
     members.push_back(static_cast<int>(m));
     weight[m] = 1e-4;
   }
-  if (small) narrow(assembler, motion, weight, c);
+  narrow(assembler, motion, weight, c);
   open = scaled_open(assembler, c);
   double length = 0, angle = 0;
   for (const int m : members) (multiplier_unknown(numbering, m).measure == Measure::length ? length : angle) += open[m] * open[m];

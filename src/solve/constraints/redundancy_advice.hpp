@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/SparseCore>
 #include <string>
 
 #include "assembly/assembler.hpp"
@@ -12,6 +12,6 @@ namespace engrane::solve {
 /// CYLINDRICAL instead, which releases its force along the axis". `null`: one column for each redundant constraint, the
 /// combination of multipliers that makes no force. A set of constraints can be given up exactly when its rows of `null`
 /// are independent. Joints that close loops come last in most decks and are changed first. Empty when there is no cure.
-std::string suggest_releases(const Assembler& assembler, const Eigen::MatrixXd& null);
+std::string suggest_releases(const Assembler& assembler, const Eigen::SparseMatrix<double>& null);
 
 }  // namespace engrane::solve

@@ -34,6 +34,7 @@ void note_accelerations(const Assembler& assembler, const Configuration& c, int 
   report.accelerations_found = true;
   report.acceleration_iterations = iterations;
   report.largest_acceleration = report.largest_force = 0;
+  std::size_t most = 0;
   // a node's path says more than its turning, and a force more than a moment; they have no common unit
   for (const bool turning : {false, true}) {
     if (report.largest_acceleration > 0) break;
@@ -42,18 +43,21 @@ void note_accelerations(const Assembler& assembler, const Configuration& c, int 
         const double a = std::abs((turning ? c.nodes[i].A : c.nodes[i].a)[k]);
         if (a <= report.largest_acceleration) continue;
         report.largest_acceleration = a;
-        report.accelerated_most = slot_name(assembler.model(), 6 * i + static_cast<std::size_t>(turning ? 3 + k : k));
+        most = 6 * i + static_cast<std::size_t>(turning ? 3 + k : k);
       }
   }
+  if (report.largest_acceleration > 0) report.accelerated_most = slot_name(assembler.model(), most);
+  int carried = -1;
   for (const Measure measure : {Measure::length, Measure::angle}) {
     if (report.largest_force > 0) break;
     for (std::size_t m = 0; m < c.multipliers.size(); ++m) {
       const Unknown& u = multiplier_unknown(assembler.numbering(), static_cast<int>(m));
       if (u.measure != measure || std::abs(c.multipliers[m]) <= report.largest_force) continue;
       report.largest_force = std::abs(c.multipliers[m]);
-      report.carried_most = assembler.numbering().describe(assembler.numbering().equation(u.slot));
+      carried = u.slot;
     }
   }
+  if (carried >= 0) report.carried_most = assembler.numbering().describe(assembler.numbering().equation(carried));
 }
 
 /// Angle of the rotation that leads from one to the other.
@@ -122,16 +126,18 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
     note_open(given, report);
     Closing closing = close_initial(c, report);
     std::string conflict = closing.closed ? redundancy_.conflict(c) : "";
+    bool sharp = true;
     // where the parts do not quite fit, constraints that repeat one another look independent: look again less sharply
     if (!closing.closed || !conflict.empty()) {
-      if (Configuration again = given; redundancy_.analyse(given, 1e-4, true)) {
+      if (Configuration again = given; redundancy_.analyse(given, 1e-4)) {
         closing = close_initial(again, report);
         conflict = closing.closed ? redundancy_.conflict(again) : "";
         c = std::move(again);
+        sharp = false;
       }
     }
     // joints that repeat one another do so exactly only where the mechanism is closed
-    if (closing.closed && conflict.empty() && redundancy_.analyse(c)) {
+    if (closing.closed && conflict.empty() && (closing.iterations > 0 || !sharp) && redundancy_.analyse(c)) {
       closing = close(c, imposed(false), {});
       conflict = closing.closed ? redundancy_.conflict(c) : "";
     }
@@ -221,9 +227,10 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, std::sp
 }
 
 Start::Distance Start::distance(const Configuration& from, const Configuration& to) const {
+  const double extent = assembler_.model().extent();
   Distance largest;
   for (std::size_t i = 1; i < from.nodes.size(); ++i) {
-    const double move = (to.nodes[i].x - from.nodes[i].x).norm() / assembler_.model().extent();
+    const double move = (to.nodes[i].x - from.nodes[i].x).norm() / extent;
     const double both = std::max(move, angle_between(from.nodes[i].R, to.nodes[i].R));
     if (both > largest.size) largest = {both, static_cast<int>(i)};
   }
@@ -299,11 +306,13 @@ int Start::follow(Configuration& c, std::span<const int> held) {
 int Start::orientation(const Configuration& c, std::span<const int> held) {
   const Numbering& numbering = assembler_.numbering();
   const ConstraintMatrix gradients(assembler_, outside_of_steps(c), ConstraintColumns::gradients);
+  std::vector<bool> is_held(static_cast<std::size_t>(numbering.equations()), false);
+  for (const int e : held) is_held[static_cast<std::size_t>(e)] = true;
   std::vector<int> row(gradients.slot.size(), 0);
   int rows = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const int e = numbering.equation(static_cast<int>(gradients.slot[i]));
-    row[i] = std::find(held.begin(), held.end(), e) == held.end() ? rows++ : -1;
+    row[i] = is_held[static_cast<std::size_t>(e)] ? -1 : rows++;
   }
   std::vector<Eigen::Triplet<double>> entries;
   int columns = 0;
@@ -336,9 +345,10 @@ void Start::note_open(const Configuration& given, StartReport& report) {
   const double extent = assembler_.model().extent();
   std::vector<double> phi, rate, second;
   assembler_.constraint_rates(given, phi, rate, second);
+  const Eigen::VectorXd relative = relative_open(assembler_, phi);
   std::vector<StartReport::Opened> all;
   for (std::size_t m = 0; m < phi.size(); ++m) {
-    if (relative_open(assembler_, static_cast<int>(m), phi[m]) < 1e-9) continue;
+    if (relative[static_cast<Eigen::Index>(m)] < 1e-9) continue;
     const Unknown& u = multiplier_unknown(numbering, static_cast<int>(m));
     if (all.empty() || all.back().part != u.part) all.push_back({u.part, 0, 0});
     double& sum = u.measure == Measure::length ? all.back().length : all.back().angle;
@@ -372,17 +382,19 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
   if (largest(rate) == 0) return;
   std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
   double fastest = 0;
+  std::size_t worst = 0;
+  const double extent = assembler_.model().extent();
   for (std::size_t e = 0; e < right.size(); ++e) {
     const Unknown& u = numbering.unknown(static_cast<int>(e));
     if (!u.multiplier) continue;
     const double r = rate[static_cast<std::size_t>(u.slot) - motion_.size()];
     if (!assembler_.released(u.slot - numbering.motion_slots())) right[e] = r;
-    const double relative = std::abs(r) / size_of(u, assembler_.model().extent());
-    if (initial && relative > fastest) {
-      fastest = relative;
-      report.rate_violated_most = numbering.describe(static_cast<int>(e));
-    }
+    const double relative = std::abs(r) / size_of(u, extent);
+    if (relative <= fastest) continue;
+    fastest = relative;
+    worst = e;
   }
+  if (initial && fastest > 0) report.rate_violated_most = numbering.describe(static_cast<int>(worst));
   const std::vector<double> wished = v;
   assembler_.projection(c, metric, initial ? imposed(true) : std::vector<int>{});
   if (!solve(right, change))
@@ -399,11 +411,13 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
   }
   delta.resize(6 * c.nodes.size());  // scalars follow: their change says nothing
   report.largest_velocity_change = 0;
+  std::size_t fastest_slot = 0;
   for (std::size_t i = 0; i < delta.size(); ++i) {
     if (std::abs(delta[i]) <= report.largest_velocity_change) continue;
     report.largest_velocity_change = std::abs(delta[i]);
-    if (initial) report.velocity_changed_most = slot_name(assembler_.model(), i);
+    fastest_slot = i;
   }
+  if (initial && report.largest_velocity_change > 0) report.velocity_changed_most = slot_name(assembler_.model(), fastest_slot);
   if (initial) verify_imposed(c, wished, true);
 }
 

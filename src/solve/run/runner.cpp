@@ -25,7 +25,8 @@ std::string failure_text(SolverContext& context, const Configuration& tried, con
   else if (report.conflict)
     text += report.reason;
   else if (report.singular)
-    return explain_singular(context.assembler, text + report.reason + cut);  // with advice at its end
+    return explain_singular(context.assembler, text + report.reason + cut,
+                            context.options.moves() ? Resistance::in_motion : Resistance::at_rest);  // with advice at its end
   else if (const std::string where = explain_residual(context.assembler, tried, report); !where.empty())
     text += report.reason + "; " + where;
   else
@@ -50,6 +51,7 @@ bool Runner::run(const Observer& observer, const std::function<void(const StartR
   context_.assembler.commit(now_);
   if (locator_.active()) locator_.switches().take(now_);
   next_ = now_;
+  started_ = true;
   return observer(now_, step_) && march();
 }
 
@@ -57,13 +59,14 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   observer_ = &observer;
   load_configuration(snapshot, now_);
   next_ = now_;
-  context_.load(snapshot, now_);
+  context_.load(snapshot);
   scheme_.load(snapshot);
   locator_.load(snapshot);
   h_ = std::min(snapshot.number("runner/h"), options_.step);
   step_.number = static_cast<int>(snapshot.number("runner/number"));
   renewed_ = snapshot.number("runner/renewed") != 0;
   pending_drift_ = snapshot.number("runner/pending_drift");
+  started_ = true;
   return march();
 }
 
@@ -114,7 +117,7 @@ bool Runner::reach(double target) {
     const NewtonReport& report = outcome.newton;
     if (!report.converged && found.kind != Kind::drift) {
       // other constraints may depend on the rest here than did at the start
-      if ((report.singular || report.conflict) && !renewed_ && context_.redundancy.analyse(now_, rank_tolerance, true)) {
+      if ((report.singular || report.conflict) && !renewed_ && context_.redundancy.analyse(now_)) {
         renewed_ = true;
         continue;
       }

@@ -36,6 +36,8 @@ class Runner {
   /// The last accepted configuration and everything that the steps after it depend on. May be called by the observer, and
   /// after run() has returned or thrown.
   void save(Snapshot& snapshot) const;
+  const Configuration& now() const { return now_; }
+  bool started() const { return started_; }  ///< now() is an accepted configuration
 
  private:
   bool march();
@@ -54,6 +56,7 @@ class Runner {
   const Observer* observer_ = nullptr;
   Configuration now_, next_;
   double h_;
+  bool started_ = false;
   bool renewed_ = false;      ///< constraints have been analysed anew on the way to the present target
   double pending_drift_ = 0;  ///< time to drift over the event that the last step has landed before
   StepReport step_;

@@ -24,11 +24,15 @@ SolverContext::SolverContext(const Model& m, MPI_Comm comm)
 void SolverContext::save(Snapshot& snapshot) const {
   assembler.save(snapshot);
   newton.save(snapshot);
+  redundancy.save(snapshot);
+  solver.save(snapshot);
 }
 
-void SolverContext::load(const Snapshot& snapshot, const Configuration& /*configuration*/) {
+void SolverContext::load(const Snapshot& snapshot) {
   assembler.load(snapshot);
   newton.load(snapshot);
+  redundancy.load(snapshot);
+  solver.load(snapshot);
 }
 
 }  // namespace engrane::solve

@@ -15,7 +15,7 @@ struct SolverContext {
 
   /// Everything here that the next step depends on beside the configuration, for a restart.
   void save(Snapshot& snapshot) const;
-  void load(const Snapshot& snapshot, const Configuration& configuration);
+  void load(const Snapshot& snapshot);
 
   const Model& model;
   const SolverOptions options;

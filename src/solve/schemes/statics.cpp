@@ -26,7 +26,7 @@ StartReport Statics::start(Configuration& c) {
   if (!newton.converged) {
     std::string why = fmt::format("no equilibrium at the start, t = {:.6g}: {}", c.time, newton.reason);
     if (newton.conflict) throw SolutionFailure(why);
-    if (newton.singular) throw SolutionFailure(explain_singular(context_.assembler, why));
+    if (newton.singular) throw SolutionFailure(explain_singular(context_.assembler, why, Resistance::at_rest));
     why += "; " + explain_residual(context_.assembler, balanced, newton);
     throw SolutionFailure(why + ". Loads given without NF act in full from the start: ramp them with a function of time");
   }

@@ -35,6 +35,8 @@ class ResultReader {
     return values;
   }
 
+  std::vector<std::string> texts(const std::string& name) const { return hdf5::read_texts(file_.id(), name); }
+
   std::string attribute(const std::string& object, const char* name) const {
     const hdf5::Handle owner(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT));
     const hdf5::Handle attribute(H5Aopen(owner.id(), name, H5P_DEFAULT));

@@ -32,8 +32,9 @@ class Scratch {
   std::filesystem::path path_;
 };
 
-/// Four nodes with a line of three points, a single point, a triangle and a quadrilateral; `channels` histories.
-inline ResultsLayout sample_layout(std::size_t channels = 3) {
+/// Four nodes with a line of three points, a single point, a triangle and a quadrilateral. Two gears share
+/// `channels` histories, an even number; a last one is of the run.
+inline ResultsLayout sample_layout(std::size_t channels = 2) {
   ResultsLayout layout;
   layout.title = "sample <1> & \"2\"";
   layout.analysis = "DYNAMIC";
@@ -45,10 +46,11 @@ inline ResultsLayout sample_layout(std::size_t channels = 3) {
   layout.node_ids = {10, 20, 30, 40};
   layout.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
   layout.cells = {{{0, 1, 2}, 1, false}, {{3}, 2, false}, {{0, 1, 2}, 3, true}, {{0, 1, 2, 3}, 4, true}};
+  layout.cell_fields = {{{"STRESS", dimension::pressure, "stress"}, {}}};
   layout.velocities = true;
-  ChannelGroup gear{"element/7", {{"type", "GEAR"}, {"name", "pair"}}, {}};
-  for (std::size_t i = 0; i + 1 < channels; ++i) gear.channels.push_back({"C" + std::to_string(i), dimension::force, "force"});
-  layout.history = {gear, {"run", {}, {{"KINETIC_ENERGY", dimension::energy, "kinetic energy"}}}};
+  HistoryTable gear{"element/GEAR", "GEAR", {7, 9}, {}};
+  for (std::size_t i = 0; i < channels / 2; ++i) gear.channels.push_back({"C" + std::to_string(i), dimension::force, "force"});
+  layout.history = {gear, {"run", "", {}, {{"KINETIC_ENERGY", dimension::energy, "kinetic energy"}}}};
   return layout;
 }
 
@@ -59,6 +61,7 @@ inline void write_sample(Results& results, std::size_t s) {
   std::vector<double> values(results.layout().channel_count());
   for (std::size_t c = 0; c < values.size(); ++c) values[c] = sample_value(s, c);
   results.sample(1e-3 * static_cast<double>(s), values);
+  if (results.due()) results.flush();
 }
 
 /// Frame f: every field is f plus the number's place, the displacement a tenth of it.
@@ -68,7 +71,7 @@ inline void write_frame(Results& results, std::size_t f) {
     field[i] = static_cast<double>(f) + 0.01 * static_cast<double>(i);
     small[i] = 0.1 * field[i];
   }
-  results.frame(0.1 * static_cast<double>(f), {small, field, field, field, field, field});
+  results.frame(0.1 * static_cast<double>(f), {small, field, field, field, field, field, {{1, 2, 3, static_cast<double>(f)}}});
 }
 
 }  // namespace engrane::testing

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/layout.hpp"
+
+#include <algorithm>
+
+#include "app/model_json.hpp"
+#include "app/version.hpp"
+
+namespace engrane::app {
+
+namespace {
+
+/// Whether something stands for the part in the mesh: all nodes but the ground are points of it.
+bool has_cell(const Model::Part& part) {
+  return std::any_of(part.nodes.begin(), part.nodes.end(), [](int node) { return node > 0; });
+}
+
+}  // namespace
+
+output::ResultsLayout results_layout(const Reading& reading, const observe::Observer& observer, std::size_t expected_samples) {
+  const Model& model = reading.model;
+  output::ResultsLayout layout;
+  layout.title = model.title;
+  layout.analysis = model.commands.analysis.type.tag;
+  layout.deck_text = deck::canonical_text(reading.deck);
+  layout.model_json = model_json(model);
+  layout.version = version;
+  layout.libraries = library_versions();
+  layout.units = model.units;
+  for (std::size_t i = 1; i < model.nodes.size(); ++i) {
+    layout.node_ids.push_back(model.nodes[i].id);
+    layout.points.push_back(model.nodes[i].x);
+  }
+  for (const Model::Part& part : model.parts) {
+    if (!has_cell(part)) continue;
+    output::Cell cell{{}, part.element->id(), false};
+    for (const int node : part.nodes)
+      if (node > 0 && std::find(cell.points.begin(), cell.points.end(), node - 1) == cell.points.end())
+        cell.points.push_back(node - 1);
+    layout.cells.push_back(std::move(cell));
+  }
+  for (const observe::Table& table : observer.tables())
+    layout.history.push_back({table.path, table.type, table.ids, table.channels});
+  layout.history.push_back({"run", "", {}, observer.run_channels()});
+  for (const observe::ElementField& field : observer.element_fields())
+    layout.cell_fields.push_back({field.named, field.components});
+  layout.velocities = observer.moves();
+  layout.expected_samples = expected_samples;
+  return layout;
+}
+
+output::FrameValues frame_values(const Model& model, const observe::Observer& observer) {
+  const observe::NodalFields& fields = observer.fields();
+  output::FrameValues values{fields.displacement,     fields.rotation,       fields.velocity,
+                             fields.angular_velocity, fields.reaction_force, fields.reaction_torque};
+  for (const observe::ElementField& field : observer.element_fields()) {
+    std::vector<double>& rows = values.cells.emplace_back();
+    for (std::size_t p = 0; p < model.parts.size(); ++p)
+      if (has_cell(model.parts[p]))
+        for (std::size_t k = 0; k < field.width(); ++k) rows.push_back(field.rows[p * field.width() + k]);
+  }
+  return values;
+}
+
+}  // namespace engrane::app

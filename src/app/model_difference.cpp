@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/model_difference.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "deck/schema/field_text.hpp"
+
+namespace engrane::app {
+
+namespace {
+
+/// Cards that may differ: what is done with a model.
+bool free_to_change(const deck::Schema& card) {
+  static constexpr std::array names{".SAM", ".SUB", ".SAI", ".CHK", ".TITRE", ".UNIT", ".FCT", ".CLM CHA", ".CLM STRU", ".INI"};
+  return std::any_of(names.begin(), names.end(), [&](std::string_view name) { return card.name.starts_with(name); });
+}
+
+/// Elements that are loads: their numbers may differ, not their being there.
+bool is_load(const deck::Schema& card) { return card.name == "FORCE" || card.name == "TORQUE"; }
+
+std::string name_of(const deck::Record& record) {
+  return record.id > 0 ? fmt::format("{} {}", record.schema->name, record.id) : record.schema->name;
+}
+
+/// The records that make the model, by card and number; several of one card without number in their order.
+std::multimap<std::pair<std::string_view, int>, const deck::Record*> model_records(const deck::Deck& deck) {
+  std::multimap<std::pair<std::string_view, int>, const deck::Record*> all;
+  for (const deck::Record& record : deck.records)
+    if (!free_to_change(*record.schema)) all.emplace(std::pair{std::string_view(record.schema->name), record.id}, &record);
+  return all;
+}
+
+/// "KM was 1e8 and is 2e8 now", of the first keyword that differs; empty when none does.
+std::string keyword_difference(const deck::Record& before, const deck::Record& now) {
+  for (const deck::Field& field : now.schema->fields) {
+    const deck::Field::Values was = field.load(before.data), is = field.load(now.data);
+    const std::string old_text = was.present ? deck::json_value(field, was) : "not given";
+    const std::string new_text = is.present ? deck::json_value(field, is) : "not given";
+    if (old_text != new_text) return fmt::format("{} was {} and is {} now", field.keyword, old_text, new_text);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string model_difference(const deck::Deck& before, const deck::Deck& now) {
+  const auto old_records = model_records(before), new_records = model_records(now);
+  auto was = old_records.begin();
+  auto is = new_records.begin();
+  while (was != old_records.end() && is != new_records.end()) {
+    if (was->first < is->first) return name_of(*was->second) + " was there and is not now";
+    if (is->first < was->first) return name_of(*is->second) + " is new";
+    if (!is_load(*is->second->schema))
+      if (const std::string difference = keyword_difference(*was->second, *is->second); !difference.empty())
+        return fmt::format("{}: {}", name_of(*is->second), difference);
+    ++was;
+    ++is;
+  }
+  if (was != old_records.end()) return name_of(*was->second) + " was there and is not now";
+  if (is != new_records.end()) return name_of(*is->second) + " is new";
+  return {};
+}
+
+}  // namespace engrane::app

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace engrane::app {
+
+Schedule::Schedule(const deck::SteppingCard& stepping, const deck::ArchiveCard& archive)
+    : start_(stepping.start), end_(stepping.end), step_(stepping.step) {
+  sample_ = {archive.history_step.value_or(0), start_};
+  frame_ = {archive.field_step.value_or((end_ - start_) / 200), start_};
+  if (archive.restart_step) restart_ = Interval{*archive.restart_step, start_ + *archive.restart_step};
+}
+
+bool Schedule::Interval::due(double time, double start) {
+  if (length <= 0) return true;
+  if (time < next) return false;
+  next = start + (std::floor((time - start) / length) + 1) * length;
+  // an interval below the resolution of time is over at once
+  if (next <= time) next = std::nextafter(time, INFINITY);
+  return true;
+}
+
+Schedule::Due Schedule::at(double time, double step, bool regular) {
+  const bool last = time >= end_;
+  Due due{last, last, false};
+  if (!regular) return due;
+  // half a step early is on time: sums of steps do not meet sums of intervals to the last digit
+  const double early = time + 0.5 * step;
+  asked_ = early;
+  due.sample = sample_.due(early, start_) || last;
+  due.frame = frame_.due(early, start_) || last;
+  due.restart = restart_ && restart_->due(early, start_);
+  return due;
+}
+
+std::size_t Schedule::expected_samples() const {
+  return static_cast<std::size_t>(std::min(1e9, (end_ - start_) / std::max(step_, sample_.length))) + 2;
+}
+
+void Schedule::save(Snapshot& snapshot) const { snapshot.put("schedule/next", {sample_.next, frame_.next, asked_}); }
+
+void Schedule::load(const Snapshot& snapshot) {
+  const std::vector<double>& next = snapshot.array("schedule/next");
+  sample_.next = next.at(0);
+  frame_.next = next.at(1);
+  asked_ = next.at(2);
+  if (restart_) restart_->due(asked_, start_);
+}
+
+}  // namespace engrane::app

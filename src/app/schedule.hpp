@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "base/snapshot.hpp"
+#include "deck/cards/cards.hpp"
+
+namespace engrane::app {
+
+/// When samples, frames and kept restart points are due.
+class Schedule {
+ public:
+  Schedule(const deck::SteppingCard& stepping, const deck::ArchiveCard& archive);
+
+  struct Due {
+    bool sample = false, frame = false, restart = false;
+  };
+  /// What is due at an accepted step, the start included. `regular` false: an instant between the steps, close to others; spectra
+  /// want samples at equal intervals, so what lies between multiples of H for an event is for energies and checks only.
+  Due at(double time, double step, bool regular);
+
+  /// About how many samples a run to the end has.
+  std::size_t expected_samples() const;
+
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
+
+ private:
+  /// Something that is due at even intervals from the start.
+  struct Interval {
+    double length = 0;  ///< 0: always
+    double next = 0;
+    bool due(double time, double start);
+  };
+  double start_, end_, step_;
+  double asked_ = 0;  ///< the last regular time that was asked about, with what counts as early
+  Interval sample_, frame_;
+  std::optional<Interval> restart_;
+};
+
+}  // namespace engrane::app

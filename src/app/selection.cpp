@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/selection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "observe/observer.hpp"
+
+namespace engrane::app {
+
+namespace {
+
+/// Index of the element with this id, or -1. Nodal loads stand among the parts without a number of their own.
+std::map<int, int> parts_by_id(const Model& model) {
+  std::map<int, int> parts;
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    if (model.parts[p].type != "CHA") parts[model.parts[p].element->id()] = static_cast<int>(p);
+  return parts;
+}
+
+bool selects(const deck::ArchiveCard& archive) {
+  return !archive.elements.empty() || !archive.kinds.empty() || !archive.nodes.empty() || !archive.groups.empty();
+}
+
+bool is_large(const Model& model) { return model.parts.size() + model.nodes.size() - 1 > most_with_all_histories; }
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : " ") + name;
+  return list;
+}
+
+/// Reports a channel that its owner, in words, does not have.
+void report_channel(const Location& where, const std::string& owner, const std::string& wanted,
+                    const std::vector<std::string>& names, Diagnostics& diagnostics) {
+  const std::string near = nearest(wanted, names), list = joined(names);
+  diagnostics.error(where, fmt::format("{} has no output {}", owner, wanted),
+                    near.empty() ? "it has " + list : fmt::format("did you mean {}? It has {}", near, list));
+}
+
+std::vector<std::string> names_of(const std::vector<Named>& channels) {
+  std::vector<std::string> names;
+  for (const Named& channel : channels) names.push_back(channel.name);
+  return names;
+}
+
+bool is_supported(const Model& model, int node) {
+  return std::any_of(model.supports.begin(), model.supports.end(), [node](const Support& s) { return s.node == node; });
+}
+
+void check_check(const deck::Record& record, const deck::CheckCard& check, const Model& model, const std::map<int, int>& parts,
+                 Diagnostics& diagnostics) {
+  std::string owner = "the run";
+  std::vector<std::string> names = names_of(observe::run_channels(moves(model)));
+  if (check.element) {
+    const auto found = parts.find(*check.element);
+    if (found == parts.end()) {
+      diagnostics.error(record.where("ELEMENT"), fmt::format("there is no element {}", *check.element));
+      return;
+    }
+    const Model::Part& part = model.parts[static_cast<std::size_t>(found->second)];
+    owner = fmt::format("{} {}", part.type, *check.element);
+    names = names_of(part.element->channels());
+  } else if (check.node) {
+    const int node = model.node_index(*check.node);
+    if (node <= 0) {
+      diagnostics.error(record.where("NODE"), fmt::format("there is no node {}", *check.node));
+      return;
+    }
+    owner = fmt::format("node {}", *check.node);
+    names = names_of(observe::node_channels(moves(model), is_supported(model, node)));
+  }
+  if (std::find(names.begin(), names.end(), check.quantity) == names.end())
+    report_channel(record.where("QUANTITY"), owner, check.quantity, names, diagnostics);
+}
+
+void check_archive(const deck::Record& record, const deck::ArchiveCard& said, const Model& model, const std::map<int, int>& parts,
+                   Diagnostics& diagnostics) {
+  const deck::ArchiveCard& archive = model.commands.archive;  // with the members of groups
+  for (const int id : archive.elements)
+    if (!parts.contains(id))
+      diagnostics.error(record.where(said.elements.empty() ? "GROUP" : "ELEMENT"), fmt::format("there is no element {}", id));
+  std::vector<std::string> types;
+  for (const Model::Part& part : model.parts)
+    if (std::find(types.begin(), types.end(), part.type) == types.end()) types.push_back(part.type);
+  for (const std::string& kind : archive.kinds)
+    if (std::find(types.begin(), types.end(), kind) == types.end()) {
+      const std::string near = nearest(kind, types);
+      diagnostics.error(record.where("TYPE"), fmt::format("no element is a {}", kind),
+                        near.empty() ? "there are " + joined(types) : fmt::format("did you mean {}?", near));
+    }
+  // a channel that none of the selected has
+  const observe::Selection selection = select_histories(model);
+  std::vector<std::string> names;
+  const auto add = [&names](const std::vector<Named>& channels) {
+    for (const Named& channel : channels)
+      if (std::find(names.begin(), names.end(), channel.name) == names.end()) names.push_back(channel.name);
+  };
+  for (std::size_t p = 0; p < model.parts.size() && !archive.channels.empty(); ++p)
+    if (selection.all_parts || selection.parts.contains(static_cast<int>(p))) add(model.parts[p].element->channels());
+  for (std::size_t n = 1; n < model.nodes.size() && !archive.channels.empty(); ++n)
+    if (selection.all_nodes || selection.nodes.contains(static_cast<int>(n)))
+      add(observe::node_channels(moves(model), is_supported(model, static_cast<int>(n))));
+  for (const std::string& channel : archive.channels)
+    if (std::find(names.begin(), names.end(), channel) == names.end())
+      report_channel(record.where("CHANNEL"), "nothing that is selected", channel, names, diagnostics);
+}
+
+}  // namespace
+
+bool moves(const Model& model) { return !model.commands.analysis.type.is("STATIC"); }
+
+observe::Selection select_histories(const Model& model) {
+  const deck::ArchiveCard& archive = model.commands.archive;
+  const std::map<int, int> parts = parts_by_id(model);
+  observe::Selection selection;
+  selection.all_parts = selection.all_nodes =
+      !selects(archive) && !archive.keep.is("NONE") && (archive.keep.is("ALL") || !archive.channels.empty() || !is_large(model));
+  for (const int id : archive.elements)
+    if (const auto found = parts.find(id); found != parts.end()) selection.parts.insert(found->second);
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    if (std::find(archive.kinds.begin(), archive.kinds.end(), model.parts[p].type) != archive.kinds.end())
+      selection.parts.insert(static_cast<int>(p));
+  for (const int id : archive.nodes) selection.nodes.insert(model.node_index(id));
+  selection.channels.insert(archive.channels.begin(), archive.channels.end());
+  for (const deck::CheckCard& check : model.commands.checks) {
+    if (check.element) {
+      if (const auto found = parts.find(*check.element); found != parts.end())
+        selection.singles.insert({true, found->second, check.quantity});
+    } else if (check.node) {
+      selection.singles.insert({false, model.node_index(*check.node), check.quantity});
+    }
+  }
+  return selection;
+}
+
+std::string left_out_histories(const Model& model) {
+  const deck::ArchiveCard& archive = model.commands.archive;
+  if (!is_large(model) || selects(archive) || archive.keep.given() || !archive.channels.empty()) return "";
+  return fmt::format(
+      "histories are kept of the run and of what .CHK compares only: the model has {} elements and nodes, more than {}; "
+      ".SAI selects others, or all with KEEP ALL",
+      model.parts.size() + model.nodes.size() - 1, most_with_all_histories);
+}
+
+void check_targets(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  const std::map<int, int> parts = parts_by_id(model);
+  for (const deck::Record& record : deck.records) {
+    if (const auto* check = record.get<deck::CheckCard>()) check_check(record, *check, model, parts, diagnostics);
+    if (const auto* archive = record.get<deck::ArchiveCard>()) check_archive(record, *archive, model, parts, diagnostics);
+  }
+}
+
+}  // namespace engrane::app

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "observe/energies.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/configuration_snapshot.hpp"
+#include "math/rotation.hpp"
+
+namespace engrane::observe {
+
+namespace {
+
+/// Sum of `energies` of this rank's elements.
+Energies own_energies(Assembler& assembler, const Configuration& c) {
+  Energies sum;
+  for (int p = assembler.first_part(); p < assembler.end_part(); ++p) {
+    const Energies e = assembler.model().parts[static_cast<std::size_t>(p)].element->energies(assembler.view(p, c));
+    sum.kinetic += e.kinetic;
+    sum.potential += e.potential;
+    sum.external += e.external;
+    sum.dissipated += e.dissipated;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Energies total_energies(Assembler& assembler, const Configuration& c) {
+  const Energies own = own_energies(assembler, c);
+  double sums[4] = {own.kinetic, own.potential, own.dissipated, own.external};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, assembler.comm());
+  return {sums[0], sums[1], sums[2], sums[3]};
+}
+
+double static_work(Assembler& assembler, Reactions& supports, const Configuration& from, const Configuration& to) {
+  const double time = to.time - from.time;
+  if (!(time > 0)) return 0;
+  double work = 0;
+  for (const Configuration* end : {&from, &to}) {
+    Configuration c = *end;
+    // a function of time may have a corner where the step ends: its slope is that of the step
+    c.time += (end == &from ? 1e-8 : -1e-8) * time;
+    for (std::size_t i = 0; i < c.nodes.size(); ++i) {
+      c.nodes[i].v = (to.nodes[i].x - from.nodes[i].x) / time;
+      // the rotation vector between the two is the same in the axes of either
+      c.nodes[i].W = rotation_log(from.nodes[i].R.transpose() * to.nodes[i].R) / time;
+    }
+    for (std::size_t i = 0; i < c.scalars.size(); ++i) c.scalar_rates[i] = (to.scalars[i] - from.scalars[i]) / time;
+    double power = total_energies(assembler, c).external;
+    // reactions are those of the equilibrium, which has no dampers
+    for (const Reaction& reaction : supports.at(*end)) power += reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]);
+    work += 0.5 * time * power;
+  }
+  return work;
+}
+
+EnergyLedger::EnergyLedger(Assembler& assembler, Reactions& supports, bool moves)
+    : assembler_(assembler), supports_(supports), moves_(moves) {}
+
+void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reactions) {
+  Energies sum = total_energies(assembler_, c);
+  for (const Reaction& reaction : reactions) sum.external += reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]);
+  balance_.kinetic = sum.kinetic;
+  balance_.potential = sum.potential;
+  if (!started_) {
+    balance_.initial = sum.kinetic + sum.potential;
+  } else if (!moves_) {
+    balance_.external_work += static_work(assembler_, supports_, before_, c);
+  } else {
+    const double half = 0.5 * (c.time - last_time_);
+    balance_.external_work += half * (external_power_ + sum.external);
+    balance_.dissipated += half * (dissipated_power_ + sum.dissipated);
+  }
+  started_ = true;
+  balance_.largest_error = std::max(balance_.largest_error, std::abs(balance_.error()));
+  external_power_ = sum.external;
+  dissipated_power_ = sum.dissipated;
+  last_time_ = c.time;
+  if (!moves_) before_ = c;
+}
+
+void EnergyLedger::save(Snapshot& snapshot) const {
+  snapshot.put("observe/energies", {balance_.kinetic, balance_.potential, balance_.external_work, balance_.dissipated,
+                                    balance_.initial, balance_.largest_error, external_power_, dissipated_power_, last_time_});
+}
+
+void EnergyLedger::load(const Snapshot& snapshot) {
+  const std::vector<double>& state = snapshot.array("observe/energies");
+  balance_ = {state.at(0), state.at(1), state.at(2), state.at(3), state.at(4), state.at(5)};
+  external_power_ = state.at(6);
+  dissipated_power_ = state.at(7);
+  last_time_ = state.at(8);
+  started_ = true;
+  if (moves_) return;
+  before_ = assembler_.numbering().reference_configuration(last_time_);
+  load_configuration(snapshot, before_);
+}
+
+}  // namespace engrane::observe

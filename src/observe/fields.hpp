@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+#include "observe/reactions.hpp"
+
+namespace engrane::observe {
+
+/// Fields over the nodes at one instant: three global components for each node but the ground, in the order of Model::nodes.
+struct NodalFields {
+  std::vector<double> displacement, rotation;      ///< rotation vectors, length at most π
+  std::vector<double> velocity, angular_velocity;  ///< empty where nothing moves
+  std::vector<double> reaction_force, reaction_torque;
+};
+
+/// A field that elements declare: a row for each part of the model, the mean over its nodes or points where it has several; not
+/// a number where a part does not have the field.
+struct ElementField {
+  Named named;
+  std::vector<std::string> components;  ///< none: a scalar
+  std::vector<double> rows;
+
+  std::size_t width() const { return components.empty() ? 1 : components.size(); }
+};
+
+/// The fields that the elements of a model declare. Fields of one name are one field; who declares it first says its components.
+class ElementFields {
+ public:
+  explicit ElementFields(Assembler& assembler);
+
+  /// Names, units and components; rows as evaluated last, on rank 0.
+  const std::vector<ElementField>& fields() const { return fields_; }
+  /// Each rank evaluates its own elements. Collective.
+  void evaluate(const Configuration& c);
+
+ private:
+  /// One field of one part.
+  struct Use {
+    int part = 0;
+    std::size_t field = 0;   ///< in fields_
+    std::size_t first = 0;   ///< of its numbers among all that the part evaluates
+    std::size_t places = 1;  ///< nodes or points
+  };
+  Assembler& assembler_;
+  std::vector<ElementField> fields_;
+  std::vector<Use> uses_;  ///< of all ranks, by part
+};
+
+NodalFields nodal_fields(const Model& model, const Configuration& c, const std::vector<Reaction>& reactions, bool moves);
+
+}  // namespace engrane::observe

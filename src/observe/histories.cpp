@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "observe/histories.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "math/rotation.hpp"
+
+namespace engrane::observe {
+
+namespace {
+
+void add_vector(std::vector<Named>& channels, const char* prefix, Dimension d, const char* help) {
+  for (const char axis : {'X', 'Y', 'Z'}) channels.push_back({fmt::format("{}{}", prefix, axis), d, help});
+}
+
+/// Places of the selected channels of one owner.
+std::vector<int> selected_places(const Selection& selection, bool of_part, int index, const std::vector<Named>& channels) {
+  const bool chosen =
+      of_part ? selection.all_parts || selection.parts.contains(index) : selection.all_nodes || selection.nodes.contains(index);
+  std::vector<int> places;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const std::string& name = channels[i].name;
+    if ((chosen && (selection.channels.empty() || selection.channels.contains(name))) ||
+        (!selection.singles.empty() && selection.singles.contains({of_part, index, name})))
+      places.push_back(static_cast<int>(i));
+  }
+  return places;
+}
+
+/// Two channels with the same signature may share a column's heading.
+std::string signature(int place, const Named& c) {
+  const Dimension& d = c.dimension;
+  return fmt::format("{} {} {} {} {} {} {}\n", place, c.name, c.help, d.length, d.mass, d.time, d.angle);
+}
+
+}  // namespace
+
+std::vector<Named> node_channels(bool moves, bool supported) {
+  std::vector<Named> c;
+  add_vector(c, "U", dimension::length, "displacement");
+  add_vector(c, "R", dimension::angle, "rotation vector");
+  if (moves) {
+    add_vector(c, "V", dimension::velocity, "velocity");
+    add_vector(c, "W", dimension::angular_velocity, "angular velocity");
+    add_vector(c, "A", dimension::acceleration, "acceleration");
+    add_vector(c, "E", dimension::angular_acceleration, "angular acceleration");
+  }
+  if (supported) {
+    add_vector(c, "F", dimension::force, "reaction force");
+    add_vector(c, "M", dimension::moment, "reaction torque");
+  }
+  return c;
+}
+
+Histories::Histories(Assembler& assembler, const Reactions& reactions, bool moves, const Selection& selection)
+    : assembler_(assembler), supports_(reactions), moves_(moves) {
+  add_parts(selection);
+  part_tables_ = tables_.size();
+  add_nodes(selection);
+  for (const Table& table : tables_) columns_ += table.columns();
+  values_.assign(assembler.rank() == 0 ? columns_ : 0, 0.0);
+  plan_gathering();
+}
+
+void Histories::add_parts(const Selection& selection) {
+  const Model& model = assembler_.model();
+  // owners with the same channels stand in one table; most elements of a type have the same
+  std::map<std::string, std::map<std::string, Table>> kinds;
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const Model::Part& part = model.parts[p];
+    const std::vector<Named>& channels = part.element->channels();
+    std::vector<int> places = selected_places(selection, true, static_cast<int>(p), channels);
+    if (places.empty()) continue;
+    std::string names;
+    for (const int place : places) names += signature(place, channels[static_cast<std::size_t>(place)]);
+    Table& table = kinds[part.type][names];
+    table.ids.push_back(part.element->id());
+    table.owners.push_back(static_cast<int>(p));
+    if (table.channels.empty()) {
+      for (const int place : places) table.channels.push_back(channels[static_cast<std::size_t>(place)]);
+      table.type = part.type;
+      table.places = std::move(places);
+    }
+  }
+  for (auto& [type, variants] : kinds) {
+    int number = 0;
+    for (auto& [names, table] : variants) {
+      table.path = ++number == 1 ? fmt::format("element/{}", type) : fmt::format("element/{}_{}", type, number);
+      tables_.push_back(std::move(table));
+    }
+  }
+}
+
+void Histories::add_nodes(const Selection& selection) {
+  const Model& model = assembler_.model();
+  const std::vector<Named> channels[2] = {node_channels(moves_, false), node_channels(moves_, true)};
+  std::map<std::vector<int>, Table> variants;
+  for (std::size_t n = 1; n < model.nodes.size(); ++n) {
+    const auto& all = channels[supports_.supported(static_cast<int>(n)) ? 1 : 0];
+    const std::vector<int> places = selected_places(selection, false, static_cast<int>(n), all);
+    if (places.empty()) continue;
+    Table& table = variants[places];
+    table.ids.push_back(model.nodes[n].id);
+    table.owners.push_back(static_cast<int>(n));
+    if (!table.channels.empty()) continue;
+    for (const int place : places) table.channels.push_back(all[static_cast<std::size_t>(place)]);
+    table.places = places;
+  }
+  int number = 0;
+  for (auto& [chosen, table] : variants) {
+    table.path = ++number == 1 ? "node/NODE" : fmt::format("node/NODE_{}", number);
+    tables_.push_back(std::move(table));
+  }
+}
+
+void Histories::plan_gathering() {
+  int ranks = 1;
+  MPI_Comm_size(assembler_.comm(), &ranks);
+  // each rank sends its owners' columns table by table; rank 0 knows from where the parts are cut which these are
+  std::vector<int> ends(static_cast<std::size_t>(ranks));
+  const int end = assembler_.end_part();
+  MPI_Allgather(&end, 1, MPI_INT, ends.data(), 1, MPI_INT, assembler_.comm());
+  if (assembler_.rank() != 0) return;
+  for (std::size_t r = 0; r < ends.size(); ++r) {
+    const int first = r == 0 ? 0 : ends[r - 1];
+    displacements_.push_back(static_cast<int>(destination_.size()));
+    std::size_t column = 0;
+    for (std::size_t t = 0; t < part_tables_; ++t)
+      for (const int owner : tables_[t].owners)
+        for (std::size_t k = 0; k < tables_[t].channels.size(); ++k, ++column)
+          if (owner >= first && owner < ends[r]) destination_.push_back(column);
+    counts_.push_back(static_cast<int>(destination_.size()) - displacements_.back());
+  }
+  gathered_.resize(destination_.size());
+}
+
+const std::vector<double>& Histories::evaluate(const Configuration& c, const std::vector<Reaction>& reactions) {
+  const Model& model = assembler_.model();
+  own_.clear();
+  for (std::size_t t = 0; t < part_tables_; ++t)
+    for (const int part : tables_[t].owners) {
+      if (part < assembler_.first_part() || part >= assembler_.end_part()) continue;
+      const Element& element = *model.parts[static_cast<std::size_t>(part)].element;
+      element_.resize(element.channels().size());
+      element.observe(assembler_.view(part, c), element_);
+      for (const int place : tables_[t].places) own_.push_back(element_[static_cast<std::size_t>(place)]);
+    }
+  MPI_Gatherv(own_.data(), static_cast<int>(own_.size()), MPI_DOUBLE, gathered_.data(), counts_.data(), displacements_.data(),
+              MPI_DOUBLE, 0, assembler_.comm());
+  if (assembler_.rank() != 0) return values_;
+  for (std::size_t i = 0; i < destination_.size(); ++i) values_[destination_[i]] = gathered_[i];
+
+  double* out = values_.data() + destination_.size();
+  std::vector<double> all;
+  for (std::size_t t = part_tables_; t < tables_.size(); ++t)
+    for (const int index : tables_[t].owners) {
+      const NodeState& node = c.nodes[static_cast<std::size_t>(index)];
+      all.clear();
+      const auto put = [&all](const Vec3& v) { all.insert(all.end(), v.data(), v.data() + 3); };
+      put(node.x - model.nodes[static_cast<std::size_t>(index)].x);
+      put(rotation_log(node.R));
+      if (moves_) {
+        put(node.v);
+        put(node.R * node.W);
+        put(node.a);
+        put(node.R * node.A);
+      }
+      const auto reaction = std::lower_bound(reactions.begin(), reactions.end(), index,
+                                             [](const Reaction& r, int wanted) { return r.node < wanted; });
+      if (reaction != reactions.end() && reaction->node == index) {
+        put(reaction->force);
+        put(reaction->torque);
+      }
+      for (const int place : tables_[t].places) *out++ = all[static_cast<std::size_t>(place)];
+    }
+  return values_;
+}
+
+}  // namespace engrane::observe

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "observe/observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace engrane::observe {
+
+std::vector<Named> run_channels(bool moves) {
+  std::vector<Named> channels{{"STEP", dimension::time, "time step"},
+                              {"ITERATIONS", dimension::none, "Newton iterations of the step"},
+                              {"EVENTS", dimension::none, "events met since the start: teeth that begin or cease to touch"},
+                              {"POTENTIAL_ENERGY", dimension::energy, "potential energy"}};
+  if (moves) channels.push_back({"KINETIC_ENERGY", dimension::energy, "kinetic energy"});
+  channels.push_back({"EXTERNAL_WORK", dimension::energy, "work of applied forces and drives"});
+  if (moves) channels.push_back({"DISSIPATED_ENERGY", dimension::energy, "energy lost to damping"});
+  channels.push_back({"ENERGY_ERROR", dimension::energy, "what the energy balance fails to close by"});
+  return channels;
+}
+
+Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
+    : assembler_(assembler),
+      moves_(moves),
+      supports_(assembler),
+      histories_(assembler, supports_, moves, selection),
+      ledger_(assembler, supports_, moves),
+      run_channels_(observe::run_channels(moves)),
+      values_(histories_.columns() + run_channels_.size(), 0.0),
+      element_fields_(assembler) {}
+
+int Observer::channel(const std::string& owner, const std::string& name) const {
+  const auto place = [&name](const std::vector<Named>& channels) {
+    const auto found = std::find_if(channels.begin(), channels.end(), [&](const Named& c) { return c.name == name; });
+    return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
+  };
+  if (owner == "run") {
+    const int at = place(run_channels_);
+    return at < 0 ? -1 : static_cast<int>(histories_.columns()) + at;
+  }
+  const std::size_t slash = owner.find('/');
+  int first = 0;
+  for (const Table& table : histories_.tables()) {
+    if (table.path.compare(0, slash + 1, owner, 0, slash + 1) == 0) {
+      const auto found = std::find(table.ids.begin(), table.ids.end(), std::stoi(owner.substr(slash + 1)));
+      const int at = found == table.ids.end() ? -1 : place(table.channels);
+      if (at >= 0) return first + static_cast<int>((found - table.ids.begin()) * static_cast<long>(table.channels.size())) + at;
+    }
+    first += static_cast<int>(table.columns());
+  }
+  return -1;
+}
+
+void Observer::observe(const Configuration& c, const Step& step, bool histories, bool fields) {
+  last_reactions_ = supports_.at(c);
+  ledger_.add(c, last_reactions_);
+  events_ += static_cast<double>(step.events);
+  if (fields && assembler_.rank() == 0) fields_ = nodal_fields(assembler_.model(), c, last_reactions_, moves_);
+  if (fields) element_fields_.evaluate(c);
+  if (!histories) return;
+  const std::vector<double>& values = histories_.evaluate(c, last_reactions_);
+  if (assembler_.rank() != 0) return;
+  const EnergyBalance& e = ledger_.balance();
+  auto out = std::copy(values.begin(), values.end(), values_.begin());
+  const std::vector<double> run =
+      moves_ ? std::vector{step.length,  static_cast<double>(step.iterations),
+                           events_,      e.potential,
+                           e.kinetic,    e.external_work,
+                           e.dissipated, e.error()}
+             : std::vector{step.length, static_cast<double>(step.iterations), events_, e.potential, e.external_work, e.error()};
+  std::copy(run.begin(), run.end(), out);
+}
+
+void Observer::find_not_unique(const Configuration& c, const std::vector<Eigen::VectorXd>& undetermined) {
+  if (undetermined.empty()) return;
+  double size = 0;
+  for (const double multiplier : c.multipliers) size = std::max(size, std::abs(multiplier));
+  if (size == 0) size = 1;
+  const std::vector<double> values = histories_.evaluate(c, supports_.at(c));
+  std::set<int> found(not_unique_.begin(), not_unique_.end());
+  for (const Eigen::VectorXd& change : undetermined) {
+    Configuration other = c;
+    for (std::size_t m = 0; m < other.multipliers.size(); ++m)
+      other.multipliers[m] += size * change[static_cast<Eigen::Index>(m)];
+    const std::vector<double>& changed = histories_.evaluate(other, supports_.at(other));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (std::abs(changed[i] - values[i]) > 1e-7 * (size + std::abs(values[i]))) found.insert(static_cast<int>(i));
+  }
+  not_unique_.assign(found.begin(), found.end());
+}
+
+void Observer::save(Snapshot& snapshot) const {
+  ledger_.save(snapshot);
+  snapshot.put("observe/events", events_);
+  std::vector<double> columns(not_unique_.begin(), not_unique_.end());
+  snapshot.put("observe/not_unique", std::move(columns));
+  snapshot.put("observe/columns", static_cast<double>(values_.size()));
+}
+
+void Observer::load(const Snapshot& snapshot) {
+  ledger_.load(snapshot);
+  events_ = snapshot.number("observe/events");
+  not_unique_.clear();
+  // with other histories than before the columns mean others: they are found again
+  if (snapshot.number("observe/columns") != static_cast<double>(values_.size())) return;
+  for (const double column : snapshot.array("observe/not_unique")) not_unique_.push_back(static_cast<int>(column));
+}
+
+}  // namespace engrane::observe

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "observe/energies.hpp"
+#include "observe/fields.hpp"
+#include "observe/histories.hpp"
+#include "observe/reactions.hpp"
+
+namespace engrane::observe {
+
+/// What an accepted configuration came from.
+struct Step {
+  double length = 0;
+  int iterations = 0;      ///< of Newton's method
+  std::size_t events = 0;  ///< met in it
+};
+
+/// Everything that is computed from accepted configurations: the energy balance, histories, fields, reactions, and which
+/// reactions are not unique. Each rank evaluates the elements that it owns; what is read from here is on rank 0.
+class Observer {
+ public:
+  /// Collective, like all that is not const. `moves`: the analysis has velocities.
+  Observer(Assembler& assembler, bool moves, const Selection& selection);
+
+  /// The next accepted configuration, the start first. Histories and fields are computed where they are wanted.
+  void observe(const Configuration& c, const Step& step, bool histories, bool fields);
+
+  /// Finds the channels that change when forces are added to the multipliers of `c` that have no effect on what moves; a few
+  /// such combinations, the largest entry of each 1: redundant constraints leave them undetermined. To be asked now and then,
+  /// since what is undetermined in one position may show in other components in the next.
+  void find_not_unique(const Configuration& c, const std::vector<Eigen::VectorXd>& undetermined);
+
+  const std::vector<Table>& tables() const { return histories_.tables(); }
+  /// Channels of the whole model, whose values stand behind those of all tables.
+  const std::vector<Named>& run_channels() const { return run_channels_; }
+  /// Column of a channel in values(), or -1. `owner` is `element/7`, `node/4` or `run`.
+  int channel(const std::string& owner, const std::string& name) const;
+
+  bool moves() const { return moves_; }
+  /// Of the last configuration for which histories were wanted.
+  const std::vector<double>& values() const { return values_; }
+  /// Of the last configuration for which fields were wanted.
+  const NodalFields& fields() const { return fields_; }
+  const std::vector<ElementField>& element_fields() const { return element_fields_.fields(); }
+  const EnergyBalance& energies() const { return ledger_.balance(); }
+  const std::vector<Reaction>& reactions() const { return last_reactions_; }
+  /// Columns of values() that were found not to be unique so far, ascending.
+  const std::vector<int>& not_unique() const { return not_unique_; }
+
+  /// What must be remembered for a restart, beside the configuration last observed, which load() takes from the snapshot too.
+  /// save() on rank 0, load() on all.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
+
+ private:
+  Assembler& assembler_;
+  bool moves_;
+  Reactions supports_;
+  Histories histories_;
+  EnergyLedger ledger_;
+  std::vector<Named> run_channels_;
+  std::vector<double> values_;
+  NodalFields fields_;
+  ElementFields element_fields_;
+  std::vector<Reaction> last_reactions_;
+  std::vector<int> not_unique_;
+  double events_ = 0;
+};
+
+/// Channels of the whole model.
+std::vector<Named> run_channels(bool moves);
+
+}  // namespace engrane::observe

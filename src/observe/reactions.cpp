@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "observe/reactions.hpp"
+
+#include <set>
+#include <span>
+
+namespace engrane::observe {
+
+Reactions::Reactions(Assembler& assembler) : assembler_(assembler) {
+  const Model& model = assembler.model();
+  std::set<int> supported;
+  for (const Support& support : model.supports) supported.insert(support.node);
+  nodes_.assign(supported.begin(), supported.end());
+  place_.assign(model.nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) place_[static_cast<std::size_t>(nodes_[i])] = static_cast<int>(i);
+  for (int p = assembler.first_part(); p < assembler.end_part(); ++p)
+    for (const int node : model.parts[static_cast<std::size_t>(p)].nodes)
+      if (node >= 0 && this->supported(node)) {
+        parts_.push_back(p);
+        break;
+      }
+}
+
+bool Reactions::supported(int node) const { return place_[static_cast<std::size_t>(node)] >= 0; }
+
+std::vector<Reaction> Reactions::at(const Configuration& c) {
+  std::vector<Reaction> reactions;
+  if (nodes_.empty()) return reactions;
+  const Numbering& numbering = assembler_.numbering();
+  std::vector<double> sums(6 * nodes_.size(), 0.0), r;
+  for (const int part : parts_) {
+    const std::span<const int> slots = numbering.part_slots(part);
+    r.resize(slots.size());
+    assembler_.model().parts[static_cast<std::size_t>(part)].element->residual(assembler_.view(part, c), r);
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      const auto node = static_cast<std::size_t>(slots[i] / 6);
+      if (node < place_.size() && place_[node] >= 0) sums[static_cast<std::size_t>(6 * place_[node] + slots[i] % 6)] += r[i];
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, assembler_.comm());
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    for (int i = 0; i < 6; ++i)
+      if (numbering.equation(6 * nodes_[n] + i) < 0) (i < 3 ? force : moment)[i % 3] = sums[6 * n + static_cast<std::size_t>(i)];
+    reactions.push_back({nodes_[n], force, c.nodes[static_cast<std::size_t>(nodes_[n])].R * moment});
+  }
+  return reactions;
+}
+
+}  // namespace engrane::observe

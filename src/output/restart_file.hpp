@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "output/hdf5_handle.hpp"
+#include "output/result_file.hpp"
+
+namespace engrane::output {
+
+/// A result that a run cannot go on from. The text is a sentence that names the file and the reason.
+class RestartError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The result of an earlier run, as a place to go on from (docs/format.md, /restart).
+class RestartFile {
+ public:
+  /// Opens `prefix.h5` or, when there is none, `prefix.partial.h5`; `prefix` may also be the name of a file. Throws RestartError
+  /// when there is neither, and when it is no result of this format version.
+  explicit RestartFile(const std::string& prefix);
+
+  const std::string& path() const { return path_; }
+  /// The deck as it was run, every default filled in.
+  std::string deck_text() const;
+  std::string model_json() const;
+  /// Of all restart points, ascending.
+  std::vector<double> times() const;
+  /// The last point not after `time`, or the last of all. Throws RestartError, naming the times there are, when there is none.
+  RestartPoint load(std::optional<double> time = {}) const;
+
+  hid_t id() const { return file_.id(); }
+
+ private:
+  std::string path_;
+  hdf5::Handle file_;
+};
+
+}  // namespace engrane::output

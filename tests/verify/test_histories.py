@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whose histories a run keeps, what a result costs on the disk, and what a disk without space does."""
+
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from engrane_post import Results
+
+BINARY = os.environ["ENGRANE"]
+
+
+def row(count: int, more: str = "", end: float = 0.05) -> str:
+    """Masses in a row on springs, of which the first hangs on the ground."""
+    lines = [".NOE", *(f" I {i} X {i} 0 0" for i in range(1, count + 1)), ".MCE"]
+    lines += [f" I {i} INERTIA N {i} M 1" for i in range(1, count + 1)]
+    lines += [f" I {count + i} SPRING N {i - 1} {i} K 1000 C 1" for i in range(1, count + 1)]
+    lines += [".CLM STRU ACC VAL 0 0 -9.81", ".SAM TYPE DYNAMIC SOLVER KLU", f".SUB TF {end} H 0.01"]
+    return "\n".join([*lines, more, ".FIN 1\n"])
+
+
+def run(deck: str, folder: Path, *words: str, limit: int | None = None, name: str = "deck"):
+    (folder / f"{name}.dat").write_text(deck, encoding="utf-8")
+
+    def prepare() -> None:
+        if limit is not None:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    command = [BINARY, f"{name}.dat", *words]
+    return subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, timeout=300, check=False, preexec_fn=prepare
+    )
+
+
+def names(folder: Path) -> set[str]:
+    with Results(folder / "deck.h5") as result:
+        return {name for name in result.channels if not name.startswith("run/")}
+
+
+def test_small_models_keep_all(tmp_path):
+    ended = run(row(10), tmp_path)
+    assert ended.returncode == 0 and "histories" not in ended.stderr
+    kept = names(tmp_path)
+    assert {"element/20/LENGTH", "node/1/UX", "node/10/EZ"} <= kept
+    assert len({name.split("/")[1] for name in kept if name.startswith("node/")}) == 10
+
+
+def test_large_models_say_what_they_leave_out(tmp_path):
+    checks = ".CHK\n NODE 7 UZ V 0 ATOL 1\n ELEMENT 205 LENGTH V 1 ATOL 1"
+    ended = run(row(200, checks), tmp_path)
+    assert ended.returncode == 0
+    assert ended.stderr.count("histories are kept of the run and of what .CHK compares only") == 1
+    assert "600 elements and nodes" in ended.stderr
+    assert "histories are kept of the run" in (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    assert names(tmp_path) == {"node/7/UZ", "element/205/LENGTH"}
+
+
+def test_all_of_a_large_model_if_asked(tmp_path):
+    ended = run(row(200, ".SAI KEEP ALL"), tmp_path)
+    assert ended.returncode == 0 and "histories" not in ended.stderr
+    kept = names(tmp_path)
+    assert {"node/1/UX", "node/200/EZ", "element/400/LENGTH"} <= kept
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ("ELEMENT 12 14 A 15 CHANNEL LENGTH", {f"element/{i}/LENGTH" for i in (12, 14, 15)}),
+        ("TYPE SPRING CHANNEL LENGTH", {f"element/{i}/LENGTH" for i in range(11, 21)}),
+        ("NOEUD 3 GROUP ends CHANNEL UX UZ", {f"node/{i}/{c}" for i in (1, 3, 10) for c in ("UX", "UZ")}),
+        ("GROUP springs CHANNEL LENGTH", {"element/11/LENGTH", "element/20/LENGTH"}),
+        ("CHANNEL WX", {f"node/{i}/WX" for i in range(1, 11)}),
+        ("KEEP NONE", set()),
+    ],
+)
+def test_selection(tmp_path, words, expected):
+    groups = '.SEL GROUP 1 NOM "ends" NOEUDS 1 10\n GROUP 2 NOM "springs" ELEMENTS 11 20\n'
+    ended = run(row(10, f"{groups}.SAI {words}"), tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    assert names(tmp_path) == expected
+    # a selection changes what is kept, not what it is
+    chosen = {name: history(tmp_path, name) for name in expected}
+    assert run(row(10), tmp_path).returncode == 0
+    for name, values in chosen.items():
+        np.testing.assert_array_equal(values, history(tmp_path, name))
+
+
+def history(folder: Path, name: str) -> np.ndarray:
+    with Results(folder / "deck.h5") as result:
+        return result.history(name)[1]
+
+
+def test_size_of_a_large_result(tmp_path):
+    assert run(row(8000), tmp_path, "-q").returncode == 0
+    assert (tmp_path / "deck.h5").stat().st_size < 5e6
+
+
+@pytest.mark.parametrize("limit", [1000, 20_000, 60_000, 200_000, 1_000_000])
+def test_a_limit_of_file_size_ends_with_a_message(tmp_path, limit):
+    ended = run(row(10, ".SAI KEEP ALL FIELDS DT 0.01", end=40), tmp_path, "-q", limit=limit)
+    assert ended.returncode == 2, (ended.returncode, ended.stderr)
+    assert "Cannot write" in ended.stderr and "File too large" in ended.stderr
+    assert not list(tmp_path.glob("*~"))
+
+
+@pytest.mark.parametrize("size", [0, 16, 48, 64, 128, 512])
+def test_a_full_disk_ends_with_a_message(tmp_path, size):
+    """On a small disk of its own, where one may be made; kilobytes."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", f"size={max(size, 4)}k", "tmpfs", str(disk)]
+    if (
+        os.geteuid() != 0
+        or shutil.which("mount") is None
+        or subprocess.run(mount, capture_output=True).returncode
+    ):
+        pytest.skip("no disk can be made here")
+    try:
+        if size == 0:
+            (disk / "filler").write_bytes(b"x" * 4096)
+        ended = run(row(10, ".SAI KEEP ALL FIELDS DT 0.01", end=40), tmp_path, "-q", "-o", "disk/deck")
+        assert ended.returncode == 2, (ended.returncode, ended.stderr)
+        assert "Cannot write" in ended.stderr and "No space left" in ended.stderr
+    finally:
+        subprocess.run(["umount", str(disk)], check=True)
+
+
+def test_reading_while_the_run_writes(tmp_path):
+    (tmp_path / "deck.dat").write_text(row(10, ".SAI KEEP ALL", end=100000), encoding="utf-8")
+    with subprocess.Popen([BINARY, "-q", "deck.dat"], cwd=tmp_path) as process:
+        path = tmp_path / "deck.h5"
+        deadline = time.monotonic() + 60
+        while not path.exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        lengths, stop = [], time.monotonic() + 6
+        with Results(path) as result:
+            while time.monotonic() < stop:
+                t = result.times()
+                if len(t) == 0:
+                    continue
+                when, z = result.history("node/10/UZ")
+                assert len(when) == len(z) >= len(t)
+                assert np.all(np.diff(when) > 0) and np.all(z[1:] < 0), "a row that was not written yet"
+                lengths.append(len(when))
+        process.send_signal(signal.SIGTERM)
+    assert len(set(lengths)) > 2, "the file grew while it was read"

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs that were interrupted, killed or ended go on from their results. That every deck gives the bits of the
+run that was not interrupted is a test of tests/decks.py; here are the rest of the promises."""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from engrane_post import Results
+
+ENGRANE = os.environ.get("ENGRANE", "build/bin/engrane")
+ROOT = Path(__file__).resolve().parents[2]
+
+DECK = """.TITRE "chain of two on a motor"
+.NOE
+ I 1 X 0.5 0 0
+ I 2 X 1.5 0 0
+.MCE
+ I 1 HINGE N 0 1  AXIS 0 0 1
+ I 2 HINGE N 1 2  AXIS 0 0 1  AT 1 0 0  K 20 C 0.1
+ I 3 INERTIA N 1  M 1 J 0.1 0.1 0.1
+ I 4 INERTIA N 2  M 1 J 0.1 0.1 0.1
+.FCT
+ I 1 SINUS 1 2 0 0
+.CLM
+ CHA NOEUD 2 C 2 V 3 NF 1
+ STRU ACC VAL 0 -9.81 0
+.SAM TYPE DYNAMIC SOLVER {solver} {sam}
+.SUB TF {end} H 0.001
+.SAI FIELDS DT 0.05 {sai}
+.FIN 1
+"""
+
+
+def deck(folder: Path, name: str, end=1.0, solver="KLU", sam="", sai="") -> Path:
+    path = folder / f"{name}.dat"
+    path.write_text(DECK.format(end=end, solver=solver, sam=sam, sai=sai), encoding="utf-8")
+    return path
+
+
+def run(folder: Path, *words: str, ranks: int = 1, status: int = 0) -> str:
+    command = [ENGRANE, "-q", *words]
+    if ranks > 1:
+        command = ["mpiexec", "-np", str(ranks), "--quiet", "--oversubscribe", "--bind-to", "none", *command]
+    ended = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300, check=False)
+    assert ended.returncode == status, ended.stderr
+    return ended.stderr
+
+
+def tables(path: Path) -> dict[str, bytes]:
+    found = {}
+
+    def keep(name, item):
+        if isinstance(item, h5py.Dataset) and name.startswith(("history/", "fields/")):
+            found[name] = item[()].tobytes() if item.dtype.kind in "fiu" else repr(item[()]).encode()
+
+    with h5py.File(path, "r") as file:
+        file.visititems(keep)
+    return found
+
+
+@pytest.mark.parametrize("solver", ["MUMPS", "KLU", "UMFPACK", "SUPERLU"])
+def test_bits_of_the_whole_run(tmp_path, solver):
+    run(tmp_path, str(deck(tmp_path, "whole", solver=solver)))
+    first = str(deck(tmp_path, "first", solver=solver))
+    run(tmp_path, first, "--until", "0.3", status=2)
+    run(tmp_path, first, "--restart", "first", "-o", "second", "--until", "0.31", status=2)
+    run(tmp_path, str(deck(tmp_path, "third", solver=solver, sam='RESTART "second"')))
+    assert tables(tmp_path / "whole.h5") == tables(tmp_path / "third.h5")
+
+
+def test_points_that_the_deck_asks_for(tmp_path):
+    run(tmp_path, str(deck(tmp_path, "whole", sai="RESTART DT 0.25")))
+    run(tmp_path, str(deck(tmp_path, "again", sam='RESTART "whole" T 0.6', sai="RESTART DT 0.25")))
+    assert tables(tmp_path / "whole.h5") == tables(tmp_path / "again.h5")
+    assert "goes on from whole.h5 at t = 0.5" in (tmp_path / "again.lst").read_text(encoding="utf-8")
+    message = run(tmp_path, str(deck(tmp_path, "early", sam='RESTART "whole" T 0.1')), status=1)
+    assert "0.25" in message and "0.5" in message, "the times there are"
+
+
+def test_a_longer_run_under_another_load(tmp_path):
+    run(tmp_path, str(deck(tmp_path, "begin", end=0.2)))
+    longer = deck(tmp_path, "longer", end=0.4, sam='RHO 0.9 RESTART "begin"')
+    longer.write_text(longer.read_text(encoding="utf-8").replace("V 3 NF 1", "V 5 NF 1"), encoding="utf-8")
+    run(tmp_path, str(longer))
+    with Results(tmp_path / "begin.h5") as begin, Results(tmp_path / "longer.h5") as after:
+        count = len(begin.times())
+        assert after.times()[-1] == pytest.approx(0.4)
+        assert np.array_equal(after.history("node/2/UY")[1][:count], begin.history("node/2/UY")[1])
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("K 20 C 0.1", "K 30 C 0.1", ["HINGE 2: K was", "20", "30"]),
+        (" I 4 INERTIA N 2  M 1 J 0.1 0.1 0.1\n", "", ["INERTIA 4 was there"]),
+        ("I 2 X 1.5 0 0", "I 2 X 1.5 0 0\n I 3 X 0 0 0", [".NOE 3 is new"]),
+    ],
+)
+def test_another_model_is_refused(tmp_path, old, new, words):
+    run(tmp_path, str(deck(tmp_path, "begin", end=0.1)))
+    other = deck(tmp_path, "other", end=0.2, sam='RESTART "begin"')
+    other.write_text(other.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+    message = run(tmp_path, str(other), status=1)
+    assert all(word in message for word in words), message
+    assert not (tmp_path / "other.h5").exists()
+
+
+def test_a_file_of_another_version_is_refused(tmp_path):
+    run(tmp_path, str(deck(tmp_path, "begin", end=0.1)))
+    with h5py.File(tmp_path / "begin.h5", "r+") as file:
+        file.attrs["format_version"] = 1
+    message = run(tmp_path, str(deck(tmp_path, "other", end=0.2, sam='RESTART "begin"')), status=1)
+    assert "version 1" in message
+    assert "no" in run(tmp_path, str(deck(tmp_path, "none", sam='RESTART "nothing"')), status=1)
+
+
+def test_other_numbers_of_ranks(tmp_path):
+    whole = str(deck(tmp_path, "whole", solver="MUMPS"))
+    run(tmp_path, whole)
+    run(tmp_path, whole, "-o", "a", "--until", "0.3", status=2)
+    run(tmp_path, whole, "-o", "b", "--restart", "a", "--until", "0.6", ranks=3, status=2)
+    run(tmp_path, whole, "-o", "c", "--restart", "b", ranks=2)
+    with Results(tmp_path / "whole.h5") as one, Results(tmp_path / "c.h5") as other:
+        for channel in ("node/2/UX", "node/2/UY", "node/2/VX", "element/2/ANGLE"):
+            a, b = one.history(channel)[1], other.history(channel)[1]
+            assert np.max(np.abs(a - b)) <= 1e-10 * np.max(np.abs(a)), channel
+
+
+def test_kills_lose_nothing(tmp_path):
+    """ENGRANE_KILLS=100 for the whole of it: killed at a random instant, gone on from, killed again."""
+    kills = int(os.environ.get("ENGRANE_KILLS", "6"))
+    end = 4.0 * kills
+    path = str(deck(tmp_path, "killed", end=end))
+    dice = random.Random(7)
+    reached = 0.0
+    name = "run0"
+    done = 0
+    for kill in range(1, kills + 1):
+        words = ["--restart", name] if kill > 1 else []
+        name, before = f"run{kill}", name
+        process = subprocess.Popen([ENGRANE, "-q", path, "-o", name, *words], cwd=tmp_path)
+        time.sleep(dice.uniform(0.4, 2.0))
+        process.send_signal(signal.SIGKILL)
+        if process.wait() == 0:
+            break
+        done = kill
+        file = tmp_path / f"{name}.h5"
+        point = 0.0
+        if file.exists():
+            with h5py.File(file, "r") as results:
+                if "restart/latest" in results:
+                    point = float(results["restart/latest"].attrs["time"])
+        assert point >= reached or point == 0.0
+        if point == 0.0:  # killed before its first batch: the earlier results are still there
+            if kill == 1:
+                run(tmp_path, path, "-o", name, "--until", "0.001", status=2)
+            else:
+                shutil.copy(tmp_path / f"{before}.h5", file)
+        reached = max(reached, point)
+    assert done > 0
+    last = reached + 0.5
+    whole = str(deck(tmp_path, "whole", end=end))
+    run(tmp_path, whole, "--until", repr(last), status=2)
+    run(tmp_path, path, "-o", "ended", "--restart", name, "--until", repr(last), status=2)
+    assert tables(tmp_path / "whole.h5") == tables(tmp_path / "ended.h5")
