@@ -165,7 +165,8 @@ void ColumnBasis::factor(double tolerance) {
   core.sorted = core.packed = 1;
   cholmod_sparse* factor = nullptr;
   Long* order = nullptr;
-  if (!at.empty()) SuiteSparseQR<double>(SPQR_ORDERING_COLAMD, tolerance, 0, &core, &factor, &order, cholmod.get());
+  // the order of COLAMD costs as much, but its null vectors run on through many loops
+  if (!at.empty()) SuiteSparseQR<double>(SPQR_ORDERING_AMD, tolerance, 0, &core, &factor, &order, cholmod.get());
   const auto free_factor = [&](cholmod_sparse* r) { cholmod_l_free_sparse(&r, cholmod.get()); };
   const auto free_order = [&](Long* e) { cholmod_l_free(index(n), sizeof(Long), e, cholmod.get()); };
   const std::unique_ptr<cholmod_sparse, decltype(free_factor)> r(factor, free_factor);

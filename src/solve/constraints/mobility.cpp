@@ -6,6 +6,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -63,6 +64,42 @@ std::pair<int, double> largest_entry(const Sparse& a, Eigen::Index column) {
   for (Sparse::InnerIterator it(a, column); it; ++it)
     if (std::abs(it.value()) > largest.second) largest = {static_cast<int>(it.row()), std::abs(it.value())};
   return largest;
+}
+
+/// Exchanges dependent constraints for drives that they depend on, the last in the deck first: a drive that asks for what the
+/// joints forbid is then left out, found open, and named, and no joint opens in its place.
+void prefer_drives(const Model& model, const Numbering& numbering, Sparse& null, std::vector<int>& dependent) {
+  constexpr double significant = 1e-3;
+  std::vector<int> drives;
+  for (Eigen::Index j = 0; j < null.cols(); ++j)
+    for (Sparse::InnerIterator it(null, j); it; ++it)
+      if (const auto m = static_cast<int>(it.row()); is_drive(model, multiplier_unknown(numbering, m))) drives.push_back(m);
+  std::sort(drives.begin(), drives.end(), std::greater<>());
+  drives.erase(std::unique(drives.begin(), drives.end()), drives.end());
+  if (drives.empty()) return;
+  std::vector<Eigen::SparseVector<double>> columns;
+  for (Eigen::Index j = 0; j < null.cols(); ++j) columns.emplace_back(null.col(j));
+  std::vector<bool> drives_out(columns.size(), false);
+  for (const int drive : drives) {
+    std::size_t best = columns.size();
+    double largest = significant;
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      const double part = std::abs(columns[j].coeff(drive)) / columns[j].coeffs().abs().maxCoeff();
+      if (drives_out[j] || part < largest) continue;
+      largest = part;
+      best = j;
+    }
+    if (best == columns.size()) continue;
+    drives_out[best] = true;
+    const Eigen::SparseVector<double> chosen = columns[best] / columns[best].coeff(drive);
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      if (const double part = columns[j].coeff(drive); part != 0 && j != best)
+        columns[j] = (columns[j] - part * chosen).pruned(1.0, 1e-14);
+    columns[best] = chosen;
+    dependent[best] = drive;
+  }
+  for (std::size_t j = 0; j < columns.size(); ++j) null.col(static_cast<Eigen::Index>(j)) = columns[j];
+  std::sort(dependent.begin(), dependent.end());
 }
 
 /// Which constraints hang together: those that a null vector combines.
@@ -210,6 +247,7 @@ Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const
   const auto take = [&](const ConstraintFactors& factors) {
     found.dependent = factors.dependent();
     found.null = factors.null_multipliers();
+    prefer_drives(assembler.model(), assembler.numbering(), found.null, found.dependent);
     found.groups = group(found.null);
   };
   if (here.deficiency() == 0) return found;
