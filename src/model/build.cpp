@@ -311,7 +311,8 @@ class Builder {
               const BuildContext::Found* found = find_in_mechanism(id);
               return found ? *found : BuildContext::Found{};
             },
-            &blocks_};
+            &blocks_,
+            &notes_};
   }
 
   /// Lets an element put a node where it needs it: one after another in the order of the deck.
@@ -393,6 +394,7 @@ class Builder {
   std::unordered_map<int, std::vector<std::size_t>> parts_at_;  ///< elements at a node, of the first `indexed_`
   std::size_t indexed_ = 0;
   const deck::SteppingCard* stepping_ = nullptr;  ///< the last
+  BuildNotes notes_;
   Frames frames_;
   NodeGroups groups_;
   BlockStore blocks_;

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <typeindex>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,22 @@
 #include "model/node_positions.hpp"
 
 namespace engrane {
+
+/// What elements find out about all of their kind, such as the trains that gear pairs make: found once while a model is built
+/// and shared by all of them.
+class BuildNotes {
+ public:
+  /// The note of a type; `make` gives it to whoever asks first.
+  template <class Note, class Make>
+  const Note& get(const Make& make) {
+    std::shared_ptr<void>& note = notes_[typeid(Note)];
+    if (!note) note = std::make_shared<Note>(make());
+    return *static_cast<const Note*>(note.get());
+  }
+
+ private:
+  std::map<std::type_index, std::shared_ptr<void>> notes_;
+};
 
 /// What an element may look up while it is built from its record. Faults of the deck go to `diagnostics`, at the
 /// location of the keyword that is wrong (`record.where("MN")`); an element that cannot be built is nullptr.
@@ -36,6 +53,7 @@ struct BuildContext {
   std::function<Found(int id)> find_element = nullptr;
   /// Where elements of a kind meet in blocks; nullptr: each is alone in its own.
   BlockStore* blocks = nullptr;
+  BuildNotes* notes = nullptr;  ///< of this model; nullptr: everyone finds out alone
 
   /// The function a keyword names, or nullptr with an error when it does not exist.
   const Function* function(int id, std::string_view keyword) const;

@@ -4,10 +4,10 @@
     python tests/bench/scaling.py build/bin/engrane [other/engrane] [--models chain bars springs]
         [--sizes 100 1000 10000] [--steps 1] [--runs 3] [--check]
 
-chain: n links and hinges, as in chain.py; bars: n four-bars side by side, each with three constraints too many;
-springs: n masses in a row, each on springs to its neighbours. KLU, one thread, results at the start and the end. The
-programs take turns; medians of the runs. `--check` measures `engrane check` instead, which reads and finds the
-start. Prints a Markdown table; an exponent is that from the size in the row before.
+chain: n links and hinges, as in chain.py; bars: n four-bars side by side, each with three constraints
+too many; springs: n masses in a row, each on springs to its neighbours. KLU, one thread, results at the
+start and the end. The programs take turns; medians of the runs. `--check` measures `engrane check` instead,
+which reads and finds the start. Prints a Markdown table; an exponent is that from the size in the row before.
 """
 
 import argparse
@@ -120,10 +120,8 @@ def main() -> None:
                     pairs = zip((seconds, megabytes), values, strict=True)
                     exponents = [f"{exponent(now, then, n, n_before):.2f}" for now, then in pairs]
                 before[binary] = (n, seconds, megabytes)
-                print(
-                    f"| {model} | {n} | {number} | {seconds:.2f} | {exponents[0]} | {megabytes:.0f} | {exponents[1]} |",
-                    flush=True,
-                )
+                numbers = f"{seconds:.2f} | {exponents[0]} | {megabytes:.0f} | {exponents[1]}"
+                print(f"| {model} | {n} | {number} | {numbers} |", flush=True)
 
 
 if __name__ == "__main__":

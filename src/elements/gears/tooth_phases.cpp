@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "elements/common/building.hpp"
@@ -52,7 +53,6 @@ struct Mesh {
   std::array<double, 2> contact{0, 0};  ///< θ, about the wheel's axle from its datum
   double module = 1;
   bool closes = false;  ///< its wheels are joined by earlier pairs
-  bool known = false;   ///< its teeth are taken into account
 
   bool has(std::size_t w) const { return wheel[0] == w || wheel[1] == w; }
   std::size_t other(std::size_t w) const { return wheel[0] == w ? wheel[1] : wheel[0]; }
@@ -73,7 +73,8 @@ class Trains {
       const auto* data = record.get<GearData>();
       if (!data || !context.nodes.contains(data->nodes[0]) || !context.nodes.contains(data->nodes[1])) continue;
       Diagnostics unheard;
-      const BuildContext other{context.nodes, context.functions, unheard, record, context.wheel_inertia, context.records};
+      const BuildContext other{context.nodes, context.functions, unheard, record, context.wheel_inertia, context.records, {},
+                               nullptr,       context.notes};
       if (const auto placement = place_gear(*data, other)) add(record, *data, *placement);
     }
     join();
@@ -81,9 +82,8 @@ class Trains {
   }
 
   const Mesh* find(const deck::Record& record) const {
-    for (const Mesh& m : meshes_)
-      if (m.record == &record) return &m;
-    return nullptr;
+    const auto found = mesh_of_.find(&record);
+    return found == mesh_of_.end() ? nullptr : &meshes_[found->second];
   }
 
   /// z_A times the angle from the contact point to a tooth, about the pair's axle of that wheel.
@@ -119,26 +119,37 @@ class Trains {
       w.datum = toward;
       w.tip = tip_radius(d, side);
       w.width = data.width.value_or(d.normal_module);
-      const auto known = std::find_if(wheels_.begin(), wheels_.end(), [&](const Wheel& k) { return k.same(w); });
-      m.wheel[side] = static_cast<std::size_t>(known - wheels_.begin());
-      if (known == wheels_.end()) {
+      std::vector<std::size_t>& at_node = wheels_at_[w.node];
+      const auto known = std::find_if(at_node.begin(), at_node.end(), [&](std::size_t k) { return wheels_[k].same(w); });
+      if (known == at_node.end()) {
+        m.wheel[side] = wheels_.size();
+        at_node.push_back(wheels_.size());
         wheels_.push_back(w);
+        meshes_of_.emplace_back();
       } else {
-        const Vec3 across = cross(known->axle, known->datum);
-        m.contact[side] = std::atan2(toward.dot(across), toward.dot(known->datum));
+        m.wheel[side] = *known;
+        const Wheel& k = wheels_[*known];
+        const Vec3 across = cross(k.axle, k.datum);
+        m.contact[side] = std::atan2(toward.dot(across), toward.dot(k.datum));
       }
     }
+    for (const std::size_t side : sides) meshes_of_[m.wheel[side]].push_back(meshes_.size());
+    mesh_of_.try_emplace(&record, meshes_.size());
     meshes_.push_back(m);
   }
 
   /// Tells the pairs that close a loop: those whose wheels earlier pairs of the deck have joined.
   void join() {
-    std::vector<std::size_t> train(wheels_.size());
-    std::iota(train.begin(), train.end(), std::size_t{0});
+    std::vector<std::size_t> joined_to(wheels_.size());  // a wheel of the same train; itself: the train's first
+    std::iota(joined_to.begin(), joined_to.end(), std::size_t{0});
+    const auto train = [&](std::size_t wheel) {
+      while (joined_to[wheel] != wheel) wheel = joined_to[wheel] = joined_to[joined_to[wheel]];
+      return wheel;
+    };
     for (Mesh& m : meshes_) {
-      const std::size_t a = train[m.wheel[0]], b = train[m.wheel[1]];
+      const std::size_t a = train(m.wheel[0]), b = train(m.wheel[1]);
       m.closes = a == b;
-      if (!m.closes) std::replace(train.begin(), train.end(), b, a);
+      joined_to[b] = a;
     }
   }
 
@@ -151,14 +162,19 @@ class Trains {
       if (known[founder.wheel[0]]) continue;
       known[founder.wheel[0]] = true;  // a tooth at the contact point: θ = 0 there, by the datum
       tooth_[founder.wheel[0]] = wheels_[founder.wheel[0]].teeth * founder.contact[0];
-      for (bool more = true; more;) {
-        more = false;
-        for (Mesh& m : meshes_) {
-          if (m.closes || m.known || known[m.wheel[0]] == known[m.wheel[1]]) continue;
-          const std::size_t side = known[m.wheel[0]] ? 1 : 0;  // the one to be found
+      // pairs that close no loop make a tree: there is one way to each wheel
+      for (std::vector<std::size_t> open{founder.wheel[0]}; !open.empty();) {
+        const std::size_t wheel = open.back();
+        open.pop_back();
+        for (const std::size_t index : meshes_of_[wheel]) {
+          const Mesh& m = meshes_[index];
+          if (m.closes || known[m.other(wheel)]) continue;
+          const std::size_t side = m.wheel[0] == wheel ? 1 : 0;  // the one to be found
+          const std::size_t next = m.wheel[side];
           const double phase_needed = std::numbers::pi - phase(m, 1 - side);
-          tooth_[m.wheel[side]] = wrapped(m.sense[side] * phase_needed + wheels_[m.wheel[side]].teeth * m.contact[side]);
-          known[m.wheel[side]] = m.known = more = true;
+          tooth_[next] = wrapped(m.sense[side] * phase_needed + wheels_[next].teeth * m.contact[side]);
+          known[next] = true;
+          open.push_back(next);
         }
       }
     }
@@ -166,7 +182,10 @@ class Trains {
 
   std::vector<Wheel> wheels_;
   std::vector<Mesh> meshes_;
-  std::vector<double> tooth_;  ///< z δ of each wheel, from its datum about its axle
+  std::unordered_map<const deck::Record*, std::size_t> mesh_of_;
+  std::unordered_map<int, std::vector<std::size_t>> wheels_at_;  ///< by node
+  std::vector<std::vector<std::size_t>> meshes_of_;              ///< pairs of each wheel, in the order of the deck
+  std::vector<double> tooth_;                                    ///< z δ of each wheel, from its datum about its axle
 };
 
 /// Where equal planets fit, when the pair closes a loop of two coaxial wheels and two planets: (z_s + z_r)·angle/360 must be
@@ -211,16 +230,15 @@ void Trains::warn_of_overlap(const Mesh& m, const BuildContext& context) const {
     const std::size_t self = m.wheel[side], partner = m.wheel[1 - side];
     const Wheel &w = wheels_[self], &p = wheels_[partner];
     if (!w.external_cylinder()) continue;
-    const auto first = std::find_if(meshes_.begin(), meshes_.end(), [&](const Mesh& k) { return k.has(self); });
-    if (&*first != &m) continue;
-    for (const Mesh& k : meshes_) {
+    if (&meshes_[meshes_of_[self].front()] != &m) continue;
+    for (const std::size_t index : meshes_of_[partner]) {
+      const Mesh& k = meshes_[index];
       if (&k == &m) break;  // each two wheels once
-      if (!k.has(partner)) continue;
       const std::size_t neighbour = k.other(partner);
       const Wheel& n = wheels_[neighbour];
       if (neighbour == self || n.node == w.node || !n.external_cylinder() || cross(n.axle, w.axle).norm() > 1e-6) continue;
-      const bool mesh =
-          std::any_of(meshes_.begin(), meshes_.end(), [&](const Mesh& j) { return j.has(self) && j.other(self) == neighbour; });
+      const bool mesh = std::any_of(meshes_of_[self].begin(), meshes_of_[self].end(),
+                                    [&](std::size_t j) { return meshes_[j].other(self) == neighbour; });
       const Vec3 apart = n.center - w.center;
       const double along = std::abs(apart.dot(w.axle)), across = cross(w.axle, apart).norm();
       if (mesh || along >= 0.5 * (n.width + w.width) || across >= n.tip + w.tip) continue;
@@ -241,7 +259,8 @@ void Trains::warn_of_overlap(const Mesh& m, const BuildContext& context) const {
 
 std::optional<MeshPhase> mesh_phase(const BuildContext& context, bool elastic) {
   if (!context.records) return MeshPhase{};
-  const Trains trains(context);
+  BuildNotes own;
+  const Trains& trains = (context.notes ? *context.notes : own).get<Trains>([&] { return Trains(context); });
   const Mesh* m = trains.find(context.record);
   if (!m) return MeshPhase{};
   trains.warn_of_overlap(*m, context);

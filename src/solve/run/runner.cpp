@@ -99,7 +99,7 @@ bool Runner::reach(double target) {
   // a resumed run is on its way to a target already
   if (pending_drift_ > 0 && !drift(std::exchange(pending_drift_, 0), target)) return false;
   int failures = 0;
-  double shortest = 0;
+  double whole = 0;  // what is halved
   while (now_.time < target) {
     const double left = target - now_.time;
     if (locator_.active() && left < locator_.shortest()) {
@@ -122,10 +122,10 @@ bool Runner::reach(double target) {
         continue;
       }
       // CUTS is a depth: halvings of H, or of a step that the target or an event has made shorter
-      if (failures == 0)
-        shortest = (shortened && found.attempts == 0 ? options_.step : size) * std::ldexp(1 - 1e-6, -options_.cuts);
-      if (size / 2 < shortest || now_.time + size / 2 == now_.time)
-        throw SolutionFailure(failure_text(context_, next_, report, step_.number + 1, failures));
+      if (failures == 0) whole = shortened && found.attempts == 0 ? options_.step : size;
+      if (size / 2 < whole * std::ldexp(1 - 1e-6, -options_.cuts) || now_.time + size / 2 == now_.time)
+        throw SolutionFailure(
+            failure_text(context_, next_, report, step_.number + 1, static_cast<int>(std::lround(std::log2(whole / size)))));
       ++failures;
       ++step_.cuts;
       h_ = size / 2;

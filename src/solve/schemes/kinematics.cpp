@@ -18,6 +18,7 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
   NewtonReport& report = outcome.newton;
   to = from;
   to.time = from.time + h;
+  to.h = h;
   // along the motion known so far: near enough to stay in the way the mechanism is assembled
   const auto v = context_.motion.velocities(from), a = context_.motion.accelerations(from);
   std::vector<double> y(context_.motion.size());

@@ -40,6 +40,7 @@ Outcome Statics::attempt(const Configuration& from, double h, Configuration& to)
   const std::vector<double> prescribed = y;
   to = from;
   to.time = from.time + h;
+  to.h = h;
   NewtonReport report = balance(from, y, to);
   if (!report.converged && has_contacts_) {
     Configuration other = from;

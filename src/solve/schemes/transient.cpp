@@ -127,6 +127,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   for (std::size_t i = 0; i < n; ++i) y[i] = h * (v0[i] + 0.5 * h * a0[i]);
   to = from;
   to.time = from.time + h;
+  to.h = h;
   for (std::size_t slot = 0; slot < n; ++slot)
     if (context_.numbering.equation(static_cast<int>(slot)) < 0) y[slot] = 0;
   prescribe_step(from.time, to.time, y);
