@@ -44,7 +44,8 @@ def wishes(deck: Path) -> dict[str, list[str]]:
 
 def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
     """Dataset or channel -> (unit, values): all numbers of mesh, fields and histories. Under "" stands the
-    noise of accelerations, which are differences of rounded positions over the square of the step."""
+    noise of accelerations, which are differences of rounded positions over the square of the step; under
+    "POWER" that of powers: of speeds, differences over the step, times the largest force."""
     found = {}
 
     def keep(name, item):
@@ -61,14 +62,21 @@ def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
         found["time"] = (results.time_unit, results.times())
         steps = results.history("run/STEP")[1][1:]
         extent = float(np.max(np.abs(results.points), initial=1.0))
-    found[""] = ("", np.array(np.finfo(float).eps * extent / np.min(steps, initial=1.0) ** 2))
+    shortest = float(np.min(steps, initial=1.0))
+    rounding = np.finfo(float).eps * extent
+    forces = [np.max(np.abs(values), initial=0) for name, (_, values) in found.items() if "FORCE" in name]
+    found[""] = ("", np.array(rounding / shortest**2))
+    found["POWER"] = ("", np.array(rounding / shortest * max(forces, default=0)))
     return found
 
 
 def differences(one: dict, other: dict, tolerance: float) -> list[str]:
     faults = [f"only in one of the results: {name}" for name in sorted(one.keys() ^ other.keys())]
-    noise = float(one[""][1])
-    one, other = ({name: data for name, data in results.items() if name} for results in (one, other))
+    noise, noise_of_power = (float(one[name][1]) for name in ("", "POWER"))
+    one, other = (
+        {name: data for name, data in results.items() if name not in ("", "POWER")}
+        for results in (one, other)
+    )
     # A lateral force that is noise about zero is measured against the largest force, not against itself.
     # If all forces are noise, the rounding of the largest number there is counts.
     largest = max((float(np.max(np.abs(values), initial=0)) for _, values in one.values()), default=0.0)
@@ -86,6 +94,8 @@ def differences(one: dict, other: dict, tolerance: float) -> list[str]:
         allowed = tolerance * scale[unit]
         if re.search("(s|time)²", unit):
             allowed = max(allowed, noise)
+        if name.endswith("POWER"):
+            allowed = max(allowed, noise_of_power)
         if not gap <= allowed:  # also catches NaN
             faults.append(f"{name}: differs by {gap:.3g} {unit}, allowed {allowed:.3g}")
     return faults
@@ -144,13 +154,17 @@ def interrupted(arguments, deck: Path, whole: Path) -> list[str]:
     ]
 
 
-def changed(deck: Path, results: dict, tolerance: float) -> list[str]:
-    """Channels that version 0.3.0 had otherwise, by more than the tolerance times the largest of the unit."""
+def changed(deck: Path, whole: Path, results: dict, tolerance: float) -> list[str]:
+    """Channels that version 0.3.0 had otherwise, by more than the tolerance times the largest of the unit.
+    What is not unique is left out: it depends on the length that moments are compared with forces by."""
+    with Results(whole) as run:
+        unique = {name for name, channel in run.channels.items() if channel.unique}
     owners = json.loads(REFERENCE.read_text(encoding="utf-8")).get(deck.stem, {})
     reference = {
         f"{owner}/{channel}": values or (0.0, 0.0)
         for owner, channels in owners.items()
         for channel, values in channels.items()
+        if f"{owner}/{channel}" in unique
     }
     scale = {}
     for name, (last, rms) in reference.items():
@@ -207,7 +221,7 @@ def main() -> int:
     whole = run(arguments, deck, ranks[0])
     first = read_results(whole)
     faults = interrupted(arguments, deck, whole) if ranks[0] == 1 and "slow" not in wanted else []
-    faults += changed(arguments.deck, first, tolerance) if "short" not in wanted else []
+    faults += changed(arguments.deck, whole, first, tolerance) if "short" not in wanted else []
     for n in ranks[1:]:
         faults += [
             f"{n} ranks against {ranks[0]}: {fault}"

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace engrane {
@@ -66,15 +68,16 @@ class Runs : public testing::Test {
 };
 
 TEST_F(Runs, CutsAreADepth) {
-  // 32 steps of 1/32 in each unit of time, most of them after a failed try of twice their length
+  // steps of about 1/32, most of them after a failed try of twice their length: far more failures than 5 for each H
+  const double longest = 1.02 / 32;
   options_.cuts = 5;
-  const std::vector<double> ends = run(1.0 / 32);
-  ASSERT_EQ(ends.size(), 64U);
-  EXPECT_DOUBLE_EQ(ends.back(), 2);
-  EXPECT_EQ(ends[31], 1) << "the multiples of H are met";
+  const std::vector<double> ends = run(longest);
+  EXPECT_GE(ends.size(), 62U);
+  EXPECT_EQ(ends.back(), 2);
+  EXPECT_NE(std::find(ends.begin(), ends.end(), 1.0), ends.end()) << "the multiples of H are met";
   options_.cuts = 4;
   try {
-    run(1.0 / 32);
+    run(longest);
     FAIL() << "a depth of 4 does not reach 1/32";
   } catch (const SolutionFailure& failure) {
     EXPECT_NE(std::string(failure.what()).find("the step was cut 4 times"), std::string::npos) << failure.what();

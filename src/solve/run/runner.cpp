@@ -34,9 +34,8 @@ std::string failure_text(SolverContext& context, const Configuration& tried, con
   return text + cut;
 }
 
-/// How many halvings of `whole` a step is. Steps of equal parts of what is left are up to a hundredth longer than the halvings,
-/// and may be shorter by less than another one.
-int depth_of(double size, double whole) { return static_cast<int>(std::floor(std::log2(whole / size) + 0.02)); }
+/// How many halvings of H a step is. Steps of equal parts of what is left are some hundredths longer than the halvings.
+int depth_of(double size, double step) { return static_cast<int>(std::floor(std::log2(step / size) + 0.1)); }
 
 }  // namespace
 
@@ -102,8 +101,6 @@ double Runner::next_size(double left) const { return h_ < 0.99 * left ? left / s
 bool Runner::reach(double target) {
   // a resumed run is on its way to a target already
   if (pending_drift_ > 0 && !drift(std::exchange(pending_drift_, 0), target)) return false;
-  int failures = 0;
-  double whole = 0;  // what is halved
   while (now_.time < target) {
     const double left = target - now_.time;
     if (locator_.active() && left < locator_.shortest()) {
@@ -111,7 +108,6 @@ bool Runner::reach(double target) {
       continue;
     }
     double size = next_size(left);
-    const bool shortened = h_ < 0.99 * left;
     Outcome outcome = scheme_.attempt(now_, size, next_);
     EventLocator::Finding found = locator_.inspect(now_, size, outcome.converged(), next_);
     using Kind = EventLocator::Finding::Kind;
@@ -125,17 +121,14 @@ bool Runner::reach(double target) {
         renewed_ = true;
         continue;
       }
-      // CUTS is a depth: halvings of H, or of a step that the target or an event has made shorter
-      if (failures == 0) whole = shortened && found.attempts == 0 ? options_.step : size;
-      const int depth = depth_of(size, whole);
+      // CUTS is a depth below H, whatever made the step as short as it is
+      const int depth = depth_of(size, options_.step);
       if (depth >= options_.cuts || now_.time + size / 2 == now_.time)
         throw SolutionFailure(failure_text(context_, next_, report, step_.number + 1, depth));
-      ++failures;
       ++step_.cuts;
       h_ = size / 2;
       continue;
     }
-    failures = 0;
     if (found.kind != Kind::drift) {
       if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // no drift from the sums of h
       scheme_.accept();
