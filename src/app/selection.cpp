@@ -105,7 +105,7 @@ void check_archive(const deck::Record& record, const deck::ArchiveCard& said, co
       add(observe::node_channels(moves(model), is_supported(model, static_cast<int>(n))));
   for (const std::string& channel : archive.channels)
     if (std::find(names.begin(), names.end(), channel) == names.end())
-      report_channel(record.where("CHANNEL"), "nothing that is selected", channel, names, diagnostics);
+      report_channel(record.where("CHANNEL"), "what is selected", channel, names, diagnostics);
 }
 
 }  // namespace

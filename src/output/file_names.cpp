@@ -86,19 +86,34 @@ FileLock& FileLock::operator=(FileLock&& other) noexcept {
   return *this;
 }
 
-void copy_contents(const std::string& from, const std::string& to) {
+namespace {
+
+/// All of a block: a disk that is nearly full takes a part of it first.
+bool write_all(int file, const char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = write(file, data, size);
+    if (written < 0) return false;
+    data += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+}  // namespace
+
+void copy_contents(const std::string& from, const std::string& to, const std::string& shown_as) {
   const int source = open(from.c_str(), O_RDONLY | O_CLOEXEC), target = open(to.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   bool good = source >= 0 && target >= 0;
   std::vector<char> block(std::size_t{1} << 20);
   for (ssize_t size = 1; good && size > 0;) {
     size = read(source, block.data(), block.size());
-    good = size >= 0 && write(target, block.data(), static_cast<std::size_t>(size)) == size;
+    good = size >= 0 && write_all(target, block.data(), static_cast<std::size_t>(size));
   }
   const int reason = errno;
   if (source >= 0) ::close(source);
   if (target >= 0 && ::close(target) != 0) good = false;
   errno = reason;
-  if (!good) fail(to);
+  if (!good) fail(shown_as);
 }
 
 void rename_over(const std::string& from, const std::string& to) {

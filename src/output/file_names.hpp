@@ -47,8 +47,8 @@ class FileLock {
   int descriptor_ = -1;
 };
 
-/// Makes the contents of one file those of another, which exists. Throws OutputError.
-void copy_contents(const std::string& from, const std::string& to);
+/// Makes the contents of one file those of another, which exists. Throws OutputError, which calls it `shown_as`.
+void copy_contents(const std::string& from, const std::string& to, const std::string& shown_as);
 
 /// Gives `from` the name `to`, over any file of that name, in one step. Throws OutputError.
 void rename_over(const std::string& from, const std::string& to);

@@ -148,7 +148,7 @@ void Results::write_spare(const char* status) {
   if (!has_spare_) {
     spare_lock_ = FileLock::create(spare_path(), path_);
     has_spare_ = true;
-    copy_contents(path_, spare_path());
+    copy_contents(path_, spare_path(), path_);
     marked_spare_ = marked_shown_;
   }
   ResultFile file(spare_path(), layout_, path_, ResultFile::Mode::append);

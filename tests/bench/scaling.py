@@ -7,8 +7,8 @@
 chain: n links and hinges, as in chain.py; bars: n four-bars side by side, each with three constraints
 too many; springs: n masses in a row, each on springs to its neighbours. KLU, one thread, results at the
 start and the end. The programs take turns; medians of the runs. `--check` measures `engrane check`
-instead, which reads and finds the
-start. Prints a Markdown table; an exponent is that from the size in the row before.
+instead, which reads and finds the start. Prints a Markdown table; an exponent is that from the size in the
+row before.
 """
 
 import argparse

@@ -162,8 +162,7 @@ TEST_P(Rank, AgreesWithSingularValuesOfDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(Redundancy, Rank,
                          ::testing::Values("mechanisms/door.dat", "mechanisms/bricard.dat", "mechanisms/four_bars_in_line.dat",
-                                           "trains/planetary_rigid_teeth.dat", "trains/two_stage_reducer.dat",
-                                           "gears/bevel.dat"),
+                                           "trains/planetary_rigid_teeth.dat", "trains/two_stage_reducer.dat", "gears/bevel.dat"),
                          [](const auto& instance) {
                            std::string name = instance.param;
                            name = name.substr(name.find('/') + 1);

@@ -34,6 +34,10 @@ std::string failure_text(SolverContext& context, const Configuration& tried, con
   return text + cut;
 }
 
+/// How many halvings of `whole` a step is. Steps of equal parts of what is left are up to a hundredth longer than the halvings,
+/// and may be shorter by less than another one.
+int depth_of(double size, double whole) { return static_cast<int>(std::floor(std::log2(whole / size) + 0.02)); }
+
 }  // namespace
 
 Runner::Runner(SolverContext& context, Scheme& scheme)
@@ -123,9 +127,9 @@ bool Runner::reach(double target) {
       }
       // CUTS is a depth: halvings of H, or of a step that the target or an event has made shorter
       if (failures == 0) whole = shortened && found.attempts == 0 ? options_.step : size;
-      if (size / 2 < whole * std::ldexp(1 - 1e-6, -options_.cuts) || now_.time + size / 2 == now_.time)
-        throw SolutionFailure(
-            failure_text(context_, next_, report, step_.number + 1, static_cast<int>(std::lround(std::log2(whole / size)))));
+      const int depth = depth_of(size, whole);
+      if (depth >= options_.cuts || now_.time + size / 2 == now_.time)
+        throw SolutionFailure(failure_text(context_, next_, report, step_.number + 1, depth));
       ++failures;
       ++step_.cuts;
       h_ = size / 2;
