@@ -16,7 +16,7 @@ namespace engrane::solve {
 namespace {
 
 /// Entries below this in columns of length 1 are rounding; following them would fill what is sparse.
-constexpr double rounding = 1e-15;
+constexpr double rounding = 1e-13;
 /// Columns are clearly independent in a leaf when their remainders there are longer than this.
 constexpr double clearly = 1e-3;
 
@@ -165,8 +165,8 @@ void ColumnBasis::factor(double tolerance) {
   core.sorted = core.packed = 1;
   cholmod_sparse* factor = nullptr;
   Long* order = nullptr;
-  // the order of COLAMD costs as much, but its null vectors run on through many loops
-  if (!at.empty()) SuiteSparseQR<double>(SPQR_ORDERING_AMD, tolerance, 0, &core, &factor, &order, cholmod.get());
+  // orders by degree cost as much, but their null vectors run on through many loops
+  if (!at.empty()) SuiteSparseQR<double>(SPQR_ORDERING_METIS, tolerance, 0, &core, &factor, &order, cholmod.get());
   const auto free_factor = [&](cholmod_sparse* r) { cholmod_l_free_sparse(&r, cholmod.get()); };
   const auto free_order = [&](Long* e) { cholmod_l_free(index(n), sizeof(Long), e, cholmod.get()); };
   const std::unique_ptr<cholmod_sparse, decltype(free_factor)> r(factor, free_factor);

@@ -197,13 +197,29 @@ std::string names(Assembler& assembler, const Configuration& c, const std::vecto
 
 std::string counted(int number, const char* what) { return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s"); }
 
-/// The part of `x` in the space of the columns of `basis`, which are independent.
+/// The part of `x` in the space of the columns of `basis`, which are independent: the normal equations as
+/// [1 N; Nᵀ −ε] [u; v] = [0; −Nᵀx], since NᵀN is full where all columns share a row, and the remainder again until nothing is
+/// left.
 Vector projection(Sparse basis, const Vector& x) {
-  for (Eigen::Index j = 0; j < basis.cols(); ++j) basis.col(j) /= basis.col(j).norm();
-  const Eigen::SimplicialLDLT<Sparse> normal(Sparse(basis.transpose() * basis));
-  Vector part = Vector::Zero(x.size());
-  // the second pass takes back what the square of the condition cost the first
-  for (int pass = 0; pass < 2; ++pass) part += basis * normal.solve(basis.transpose() * (x - part));
+  constexpr double epsilon = 1e-6;  // makes any order of elimination stable, and is forgotten in the passes
+  constexpr int most_passes = 20;
+  const Eigen::Index n = basis.rows(), m = basis.cols();
+  std::vector<Eigen::Triplet<double, Eigen::Index>> lower;
+  for (Eigen::Index i = 0; i < n; ++i) lower.emplace_back(i, i, 1.0);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    basis.col(j) /= basis.col(j).norm();
+    for (Sparse::InnerIterator it(basis, j); it; ++it) lower.emplace_back(n + j, it.row(), it.value());
+    lower.emplace_back(n + j, n + j, -epsilon);
+  }
+  Sparse whole(n + m, n + m);
+  whole.setFromTriplets(lower.begin(), lower.end());
+  const Eigen::SimplicialLDLT<Sparse> factors(whole);
+  Vector part = Vector::Zero(n), right = Vector::Zero(n + m);
+  for (int pass = 0; pass < most_passes; ++pass) {
+    right.tail(m) = -basis.transpose() * (x - part);
+    if (right.lpNorm<Eigen::Infinity>() <= 1e-15 * x.lpNorm<Eigen::Infinity>()) break;
+    part += basis * factors.solve(right).tail(m);
+  }
   return part;
 }
 
