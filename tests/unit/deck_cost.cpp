@@ -43,7 +43,16 @@ void* operator new(std::size_t size) {
   counters.peak = std::max(counters.peak, counters.bytes);
   return static_cast<char*>(start) + header;
 }
+// the sanitizers have one of their own, which would not count
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 void operator delete(void* block) noexcept { release(block); }
+void operator delete(void* block, const std::nothrow_t&) noexcept { release(block); }
 void operator delete(void* block, std::size_t) noexcept { release(block); }
 
 namespace engrane {
