@@ -58,10 +58,10 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
   app.set_version_flag("--version", std::string("engrane ") + version);
   app.add_option("-o,--output", options.prefix, "where the results go: prefix of .h5, .xdmf and .lst");
   app.add_flag("-q,--quiet", options.quiet, "no progress");
-  app.add_option("--until", options.until, "interrupt the run at this time; it can be gone on from")->type_name("TIME");
+  app.add_option("--until", options.until, "stop at this time; --restart continues from there")->type_name("TIME");
   auto* restart =
-      app.add_option("--restart", options.restart, "go on from these results, as .SAM RESTART does")->type_name("PREFIX");
-  app.add_option("--restart-at", options.restart_time, "from the last restart point up to this time")
+      app.add_option("--restart", options.restart, "continue these results, as .SAM RESTART does")->type_name("PREFIX");
+  app.add_option("--restart-at", options.restart_time, "continue from the last restart point up to this time")
       ->type_name("TIME")
       ->needs(restart);
   app.add_option("deck", options.deck, "the deck to solve");
