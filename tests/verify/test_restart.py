@@ -96,6 +96,29 @@ def test_a_longer_run_under_another_load(tmp_path):
         assert np.array_equal(after.history("node/2/UY")[1][:count], begin.history("node/2/UY")[1])
 
 
+def test_motion_from_an_equilibrium(tmp_path):
+    """A static run, then the motion that a load at rest does not start: the equilibrium stays."""
+    text = """.NOE
+ I 1 X 1 0 0
+.MCE
+ I 1 SPRING N 0 1  K 100
+ I 2 INERTIA N 1  M 2 J 1 1 1
+.CLM
+ FIX NOEUD 1 C 2 3 4 5 6
+ CHA NOEUD 1 C 1 V 5
+.SAM TYPE {sam}
+.SUB TF {end} H 0.1
+.FIN 1
+"""
+    (tmp_path / "rest.dat").write_text(text.format(sam="STATIC", end=1), encoding="utf-8")
+    run(tmp_path, "rest.dat")
+    (tmp_path / "move.dat").write_text(text.format(sam='DYNAMIC RESTART "rest"', end=3), encoding="utf-8")
+    run(tmp_path, "move.dat")
+    with Results(tmp_path / "move.h5") as result:
+        assert result.times()[-1] == pytest.approx(3)
+        assert np.allclose(result.history("node/1/UX")[1][-20:], 0.05, atol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [

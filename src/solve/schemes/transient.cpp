@@ -116,6 +116,11 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     scaled_for_ = h;
   }
   const auto v0 = context_.motion.velocities(from), vdot0 = context_.motion.accelerations(from);
+  // a run that goes on from another kind of analysis has no memory: the accelerations of its configuration begin it
+  if (algorithmic_.empty()) {
+    algorithmic_ = vdot0;
+    step_of_algorithmic_ = h;
+  }
   std::vector<double> a0 = algorithmic_;
   // a_n is v̇ shifted by (α_m − α_f) h: another h, another shift
   if (h != step_of_algorithmic_)
@@ -180,8 +185,7 @@ void Transient::save(Snapshot& snapshot) const {
 }
 
 void Transient::load(const Snapshot& snapshot) {
-  // a run that was not dynamic has no algorithmic acceleration: the configuration's own starts the memory
-  if (!snapshot.has("scheme/algorithmic")) return;
+  if (!snapshot.has("scheme/algorithmic")) return;  // of another kind of analysis
   algorithmic_ = snapshot.array("scheme/algorithmic");
   step_of_algorithmic_ = snapshot.number("scheme/step");
   scaled_for_ = snapshot.number("scheme/scaled_for");
