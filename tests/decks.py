@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs a deck on 1, 2 and 3 ranks: each run must pass its own .CHK, and all must give the same results.
 
-A run on one rank that is interrupted at a third of the way and gone on from must give every bit of the whole
+A run on one rank that is interrupted at a third of the way and continued must give every bit of the whole
 run. Every channel must be what version 0.3.0 gave: last value and root of the mean square, from
 tests/verify/results_0.3.0.json.
 
@@ -126,7 +126,7 @@ def tables(path: Path) -> dict[str, bytes]:
 
 
 def interrupted(arguments, deck: Path, whole: Path) -> list[str]:
-    """What a run that was interrupted and gone on from has otherwise than the whole one."""
+    """What a run that was interrupted and continued has otherwise than the whole one."""
     with Results(whole) as results:
         times = results.times()
     prefix = arguments.work / f"{deck.stem}_interrupted"
@@ -142,13 +142,13 @@ def interrupted(arguments, deck: Path, whole: Path) -> list[str]:
         [*command, "--restart", str(prefix)], check=False, stdout=subprocess.DEVNULL
     ).returncode
     if status != 0:
-        return [f"gone on from: exit status {status}"]
+        return [f"continued: exit status {status}"]
     one, other = tables(whole), tables(prefix.with_name(prefix.name + ".h5"))
     faults = [
-        f"interrupted and gone on from: {name} is only in one" for name in sorted(one.keys() ^ other.keys())
+        f"interrupted and continued: {name} is only in one" for name in sorted(one.keys() ^ other.keys())
     ]
     return faults + [
-        f"interrupted and gone on from: {name} has other bits"
+        f"interrupted and continued: {name} has other bits"
         for name in sorted(one.keys() & other.keys())
         if one[name] != other[name]
     ]

@@ -15,7 +15,7 @@ struct Options {
   std::string card;             ///< of help and template; empty: the overview
   bool quiet = false;           ///< no progress
   std::optional<double> until;  ///< the run is interrupted at the first step that ends then or later
-  std::string restart;          ///< prefix of the results to go on from, whatever the deck says; empty: what the deck says
+  std::string restart;          ///< prefix of the results to restart from, whatever the deck says; empty: what the deck says
   std::optional<double> restart_time;
 };
 

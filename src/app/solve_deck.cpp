@@ -48,7 +48,7 @@ Checks resolve_checks(const Model& model, const observe::Observer& observer) {
   return Checks(std::move(all));
 }
 
-/// An earlier run, and the point of it that this run goes on from.
+/// An earlier run, and the point of it that this run continues from.
 struct Resumption {
   RestartFile earlier;
   RestartPoint point;
@@ -73,9 +73,9 @@ std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Option
                     earlier.path(), difference));
   RestartPoint point = earlier.load(time);
   if (point.time >= reading.model.commands.stepping.end)
-    throw RestartError(
-        fmt::format("{} goes on from t = {:.10g}, and .SUB ends at TF = {:.10g}: give a later TF, or RESTART an earlier T",
-                    earlier.path(), point.time, reading.model.commands.stepping.end));
+    throw RestartError(fmt::format(
+        "{} would be continued from t = {:.10g}, but .SUB ends at TF = {:.10g}: give a later TF, or RESTART with an earlier T",
+        earlier.path(), point.time, reading.model.commands.stepping.end));
   return std::make_unique<Resumption>(std::move(earlier), std::move(point));
 }
 
@@ -85,7 +85,7 @@ constexpr long most_listed_events = 100;
 /// Everything that rank 0 writes during a run.
 class Writer {
  public:
-  /// `resumed`: what this run goes on from, or nullptr.
+  /// `resumed`: what this run continues from, or nullptr.
   Writer(const Reading& reading, const observe::Observer& observer, const Schedule& schedule, const Options& options,
          const std::string& prefix, const Resumption* resumed)
       : reading_(reading),
@@ -122,11 +122,11 @@ class Writer {
     event_count_ = static_cast<long>(counts.at(4));
     marked_ = observer_.not_unique().size();
     results_.mark_not_unique(observer_.not_unique());
-    listing_.write(fmt::format("  goes on from {} at t = {:.10g}\n", from.earlier.path(), from.point.time));
+    listing_.write(fmt::format("  restarted from {} at t = {:.10g}\n", from.earlier.path(), from.point.time));
     if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
   }
 
-  /// Gives the results what the run could go on from now: with a batch, where the deck asks for it, and at the end.
+  /// Gives the results what the run could be restarted from: with a batch, where the deck asks for it, and at the end.
   void remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
     if (!kept && !last && !results_.due()) return;
     Snapshot memory;
@@ -393,7 +393,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   } catch (const std::out_of_range& e) {
     // of the restart point: its arrays do not fit this model
     if (!resumption) throw;
-    failure = fmt::format("cannot go on from {}: {}", resumption->earlier.path(), e.what());
+    failure = fmt::format("cannot restart from {}: {}", resumption->earlier.path(), e.what());
   } catch (const SolutionFailure& e) {
     failure = e.what();
   }

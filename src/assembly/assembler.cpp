@@ -301,6 +301,7 @@ void Assembler::constraint_rates(const Configuration& configuration, std::vector
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {
     const int part = static_cast<int>(p);
     const std::size_t count = model_.parts[p].element->layout().multipliers.size();
+    if (count == 0) continue;
     const auto begin = static_cast<std::size_t>(numbering_.multiplier_begin(part));
     model_.parts[p].element->constraint_rates(view(part, configuration), std::span(phi).subspan(begin, count),
                                               std::span(rate).subspan(begin, count), std::span(second).subspan(begin, count));

@@ -16,7 +16,7 @@ namespace {
 std::string find_result(const std::string& prefix) {
   for (const char* ending : {".h5", ".partial.h5", ""})
     if (const std::string path = prefix + ending; std::filesystem::is_regular_file(path)) return path;
-  throw RestartError(fmt::format("Cannot go on from {}: there is no file {}.h5.", prefix, prefix));
+  throw RestartError(fmt::format("Cannot restart from {}: there is no file {}.h5.", prefix, prefix));
 }
 
 /// A restart point without its memory, and where it stands.
@@ -56,11 +56,11 @@ std::string list_of(const std::vector<Entry>& points) {
 
 RestartFile::RestartFile(const std::string& prefix) : path_(find_result(prefix)), file_(hdf5::open_for_reading(path_)) {
   if (file_.id() < 0 || hdf5::read_text_attribute(file_.id(), "format") != "engrane")
-    throw RestartError(fmt::format("Cannot go on from {}: it is not a result of engrane.", path_));
+    throw RestartError(fmt::format("Cannot restart from {}: it is not a result of engrane.", path_));
   const double version = hdf5::read_number_attribute(file_.id(), "format_version", 0);
   if (version != format_version)
     throw RestartError(
-        fmt::format("Cannot go on from {}: its format has version {}, this program's has {}.", path_, version, format_version));
+        fmt::format("Cannot restart from {}: its format has version {}, this program's has {}.", path_, version, format_version));
 }
 
 std::string RestartFile::deck_text() const {
@@ -81,14 +81,14 @@ std::vector<double> RestartFile::times() const {
 
 RestartPoint RestartFile::load(std::optional<double> time) const {
   const std::vector<Entry> points = entries(file_.id());
-  if (points.empty()) throw RestartError(fmt::format("Cannot go on from {}: it holds no restart point.", path_));
+  if (points.empty()) throw RestartError(fmt::format("Cannot restart from {}: it holds no restart point.", path_));
   // times are sums of steps: one that is written with fewer digits means the point all the same
   const auto after = [&](double t) { return t > *time + 1e-9 * std::max(std::abs(t), std::abs(*time)); };
   const Entry* chosen = nullptr;
   for (const Entry& point : points)
     if (!time || !after(point.time)) chosen = &point;
   if (!chosen)
-    throw RestartError(fmt::format("Cannot go on from {} at t = {}: its restart points are at t = {}.", path_,
+    throw RestartError(fmt::format("Cannot restart from {} at t = {}: its restart points are at t = {}.", path_,
                                    format_number(*time), list_of(points)));
 
   const hdf5::Handle group(H5Gopen2(file_.id(), ("restart/" + chosen->name).c_str(), H5P_DEFAULT));
@@ -109,7 +109,7 @@ RestartPoint RestartFile::load(std::optional<double> time) const {
     const std::vector<hsize_t> shape = hdf5::read_shape(group.id(), name);
     std::vector<double> values = hdf5::read_numbers(group.id(), name);
     if (shape.size() != 1 || values.size() != shape[0])
-      throw RestartError(fmt::format("Cannot go on from {}: its restart point at t = {} is damaged ({} cannot be read).", path_,
+      throw RestartError(fmt::format("Cannot restart from {}: its restart point at t = {} is damaged ({} cannot be read).", path_,
                                      format_number(result.time), name));
     result.memory.put(name, std::move(values));
   }

@@ -11,13 +11,13 @@
 
 namespace engrane::output {
 
-/// A result that a run cannot go on from. The text is a sentence that names the file and the reason.
+/// A result that a run cannot be restarted from. The text is a sentence that names the file and the reason.
 class RestartError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The result of an earlier run, as a place to go on from (docs/format.md, /restart).
+/// The result of an earlier run, as a place to restart from (docs/format.md, /restart).
 class RestartFile {
  public:
   /// Opens `prefix.h5` or, when there is none, `prefix.partial.h5`; `prefix` may also be the name of a file. Throws RestartError

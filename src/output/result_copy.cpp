@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a restarted run takes over from the file that it goes on from.
+// What a restarted run takes over from the file that it continues.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -24,7 +24,7 @@ struct FieldInfo {
 /// The fields that frames of this layout have.
 std::vector<FieldInfo> frame_fields(const ResultsLayout& layout);
 
-/// What a run goes on from: everything that it remembers at an accepted step, and how much of the results belong to it.
+/// What a run is restarted from: everything that it remembers at an accepted step, and how much of the results belong to it.
 struct RestartPoint {
   double time = 0;
   std::size_t samples = 0, frames = 0;  ///< written up to there

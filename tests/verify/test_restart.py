@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs that were interrupted, killed or ended go on from their results. That every deck gives the bits of the
-run that was not interrupted is a test of tests/decks.py; here are the rest of the promises."""
+"""Runs that were interrupted, killed or ended continue from their results. That every deck gives the bits of
+the run that was not interrupted is a test of tests/decks.py; here are the rest of the promises."""
 
 import os
 import random
@@ -80,7 +80,7 @@ def test_points_that_the_deck_asks_for(tmp_path):
     run(tmp_path, str(deck(tmp_path, "whole", sai="RESTART DT 0.25")))
     run(tmp_path, str(deck(tmp_path, "again", sam='RESTART "whole" T 0.6', sai="RESTART DT 0.25")))
     assert tables(tmp_path / "whole.h5") == tables(tmp_path / "again.h5")
-    assert "goes on from whole.h5 at t = 0.5" in (tmp_path / "again.lst").read_text(encoding="utf-8")
+    assert "restarted from whole.h5 at t = 0.5" in (tmp_path / "again.lst").read_text(encoding="utf-8")
     message = run(tmp_path, str(deck(tmp_path, "early", sam='RESTART "whole" T 0.1')), status=1)
     assert "0.25" in message and "0.5" in message, "the times there are"
 
@@ -158,7 +158,7 @@ def test_other_numbers_of_ranks(tmp_path):
 
 
 def test_kills_lose_nothing(tmp_path):
-    """ENGRANE_KILLS=100 for the whole of it: killed at a random instant, gone on from, killed again."""
+    """ENGRANE_KILLS=100 for the whole of it: killed at a random instant, continued, killed again."""
     kills = int(os.environ.get("ENGRANE_KILLS", "6"))
     end = 1e5  # never reached
     path = str(deck(tmp_path, "killed", end=end, frames=1))

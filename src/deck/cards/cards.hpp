@@ -126,7 +126,7 @@ struct AnalysisCard {
   Tagged events{"YES", {}};       ///< EVENTS YES [tolerance] or NO: steps end where contact begins and ends
   std::optional<double> scale;    ///< k of the augmented Lagrangian; automatic when not given
   std::optional<double> penalty;  ///< p; automatic when not given
-  std::string restart;            ///< RESTART: prefix of the results that this run goes on from; empty: a new run
+  std::string restart;            ///< RESTART: prefix of the results to restart from; empty: a new run
   std::optional<double> restart_time;  ///< T: of the restart point; the last when not given
 };
 

@@ -76,7 +76,7 @@ Schema analysis_card() {
       .synonyms({"PENALITE"})
       .at_least(0);
   card.add("RESTART", &AnalysisCard::restart,
-           "go on from a restart point of these results (a path without .h5) instead of starting; `.SUB`, `.SAM`, `.SAI`, "
+           "continue these results (a path without .h5) from a restart point; `.SUB`, `.SAM`, `.SAI`, "
            "checks, loads "
            "and functions may differ from the run that wrote them, the model may not")
       .synonyms({"REPRISE"});

@@ -116,7 +116,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     scaled_for_ = h;
   }
   const auto v0 = context_.motion.velocities(from), vdot0 = context_.motion.accelerations(from);
-  // a run that goes on from another kind of analysis has no memory: the accelerations of its configuration begin it
+  // a run that continues another kind of analysis has no memory: the accelerations of its configuration begin it
   if (algorithmic_.empty()) {
     algorithmic_ = vdot0;
     step_of_algorithmic_ = h;

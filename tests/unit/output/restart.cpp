@@ -72,13 +72,13 @@ TEST(Restart, PointsComeBackAsTheyWere) {
   EXPECT_EQ(kept.memory.arrays(), memory(15).arrays());
   EXPECT_EQ(file.load(0.015 * (1 - 1e-12)).time, 0.015);  // as a sum of steps it may be a digit larger than it is written
   EXPECT_EQ(message_of([&] { file.load(0.001); }),
-            "Cannot go on from " + (scratch / "run.h5") + " at t = 0.001: its restart points are at t = 0.005, 0.015, 0.019.");
+            "Cannot restart from " + (scratch / "run.h5") + " at t = 0.001: its restart points are at t = 0.005, 0.015, 0.019.");
 }
 
 TEST(Restart, ErrorsAreSentences) {
   const Scratch scratch;
   EXPECT_EQ(message_of([&] { RestartFile(scratch / "run"); }),
-            fmt::format("Cannot go on from {0}: there is no file {0}.h5.", scratch / "run"));
+            fmt::format("Cannot restart from {0}: there is no file {0}.h5.", scratch / "run"));
   std::ofstream(scratch / "diary.h5") << "dear diary";
   EXPECT_NE(message_of([&] { RestartFile(scratch / "diary"); }).find("is not a result of engrane"), std::string::npos);
   write_run(scratch / "old", 1);
@@ -88,7 +88,7 @@ TEST(Restart, ErrorsAreSentences) {
     hdf5::Place{file.id(), name}.attribute("format_version", 1);
   }
   EXPECT_EQ(message_of([&] { RestartFile(scratch / "old"); }),
-            "Cannot go on from " + (scratch / "old.h5") + ": its format has version 1, this program's has 2.");
+            "Cannot restart from " + (scratch / "old.h5") + ": its format has version 1, this program's has 2.");
 }
 
 TEST(Restart, TheContinuedFileIsThatOfTheUncutRun) {
