@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "solve/constraints/leaves.hpp"
+
 namespace engrane::solve {
 
 /// Which columns of a sparse matrix are independent, and the combinations of them that vanish.
@@ -37,7 +39,7 @@ class ColumnBasis {
   Vector solve_transposed(const Vector& b) const;
 
   /// Columns that leaves took, and entries of R for the others: what it cost.
-  std::size_t leaf_columns() const { return leaf_columns_.size(); }
+  std::size_t leaf_columns() const { return leaves_.columns.size(); }
   std::size_t factor_entries() const { return upper_.entry.size() + pivot_.size(); }
 
  private:
@@ -47,17 +49,13 @@ class ColumnBasis {
     std::vector<double> entry;
   };
 
-  void take_leaves();
   void factor(double tolerance);
-  /// Rows of a group and columns of a leaf, as a dense matrix.
-  Eigen::MatrixXd block(int group, const int* first, const int* end) const;
   /// A y near the given one, the nearest but for leaves, that has (Aᵀy)_i = b_i for the independent columns.
   Vector corrected(Vector y, const Vector& b) const;
 
   Sparse a_;
-  std::vector<int> groups_;                                      ///< first rows, and behind the last the number of rows
-  std::vector<int> leaf_groups_, leaf_begin_{0}, leaf_columns_;  ///< in the order in which they were taken
-  std::vector<int> core_;                                        ///< independent columns of the others, in the order of R
+  Leaves leaves_;
+  std::vector<int> core_;  ///< independent columns of the others, in the order of R
   std::vector<int> dependent_;
   Triangle upper_;             ///< R of them without its diagonal
   std::vector<double> pivot_;  ///< its diagonal

@@ -104,8 +104,6 @@ ConstraintFactors::ConstraintFactors(Assembler& assembler, const Configuration& 
       length_(lengths(gradients_.matrix)),
       basis_(normalized(gradients_.matrix, length_), tolerance, gradients_.first_rows) {}
 
-Sparse ConstraintFactors::null_forces() const { return length_.cwiseInverse().asDiagonal() * basis_.null(); }
-
 Vector ConstraintFactors::closing_motion(const std::vector<double>& phi) const {
   Vector right(columns());
   for (Eigen::Index m = 0; m < columns(); ++m) right[m] = -phi[static_cast<std::size_t>(m)] / length_[m];

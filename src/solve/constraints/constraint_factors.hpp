@@ -58,10 +58,8 @@ class ConstraintFactors {
   Eigen::Index deficiency() const { return columns() - rank(); }
   const std::vector<int>& dependent() const { return basis_.dependent(); }
 
-  /// A basis of the multipliers that make no force, one column for each dependent one: of columns of length 1, or in
-  /// units of force and moment.
+  /// A basis of the multipliers that make no force, one column for each dependent one, for columns of length 1.
   const Eigen::SparseMatrix<double>& null_multipliers() const { return basis_.null(); }
-  Eigen::SparseMatrix<double> null_forces() const;
   /// The (scaled) motion that closes no constraint and is near to `wish`.
   Eigen::VectorXd possible_motion(const Eigen::VectorXd& wish) const { return basis_.left_null(wish); }
   /// A (scaled) motion that closes the independent constraints, to first order.

@@ -23,10 +23,14 @@ std::vector<T> from_all(const std::vector<T>& mine, MPI_Datatype type, MPI_Comm 
   int ranks = 1;
   MPI_Comm_size(comm, &ranks);
   const auto count = static_cast<int>(mine.size());
-  std::vector<int> counts(static_cast<std::size_t>(ranks)), begin(counts.size(), 0);
+  std::vector<int> counts(static_cast<std::size_t>(ranks)), begin;
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  std::partial_sum(counts.begin(), counts.end() - 1, begin.begin() + 1);
-  std::vector<T> all(static_cast<std::size_t>(begin.back() + counts.back()));
+  int total = 0;
+  for (const int of_rank : counts) {
+    begin.push_back(total);
+    total += of_rank;
+  }
+  std::vector<T> all(static_cast<std::size_t>(total));
   MPI_Allgatherv(mine.data(), count, type, all.data(), counts.data(), begin.data(), type, comm);
   return all;
 }

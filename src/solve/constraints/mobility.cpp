@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "solve/constraints/constraint_factors.hpp"
+#include "solve/constraints/least_norm.hpp"
 #include "solve/constraints/redundancy_advice.hpp"
 
 namespace engrane::solve {
@@ -197,32 +197,6 @@ std::string names(Assembler& assembler, const Configuration& c, const std::vecto
 
 std::string counted(int number, const char* what) { return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s"); }
 
-/// The part of `x` in the space of the columns of `basis`, which are independent: the normal equations as
-/// [1 N; Nᵀ −ε] [u; v] = [0; −Nᵀx], since NᵀN is full where all columns share a row, and the remainder again until nothing is
-/// left.
-Vector projection(Sparse basis, const Vector& x) {
-  constexpr double epsilon = 1e-6;  // makes any order of elimination stable, and is forgotten in the passes
-  constexpr int most_passes = 20;
-  const Eigen::Index n = basis.rows(), m = basis.cols();
-  std::vector<Eigen::Triplet<double, Eigen::Index>> lower;
-  for (Eigen::Index i = 0; i < n; ++i) lower.emplace_back(i, i, 1.0);
-  for (Eigen::Index j = 0; j < m; ++j) {
-    basis.col(j) /= basis.col(j).norm();
-    for (Sparse::InnerIterator it(basis, j); it; ++it) lower.emplace_back(n + j, it.row(), it.value());
-    lower.emplace_back(n + j, n + j, -epsilon);
-  }
-  Sparse whole(n + m, n + m);
-  whole.setFromTriplets(lower.begin(), lower.end());
-  const Eigen::SimplicialLDLT<Sparse> factors(whole);
-  Vector part = Vector::Zero(n), right = Vector::Zero(n + m);
-  for (int pass = 0; pass < most_passes; ++pass) {
-    right.tail(m) = -basis.transpose() * (x - part);
-    if (right.lpNorm<Eigen::Infinity>() <= 1e-15 * x.lpNorm<Eigen::Infinity>()) break;
-    part += basis * factors.solve(right).tail(m);
-  }
-  return part;
-}
-
 /// What the forces in each motion slot change by when the multipliers are those of `to` instead of those of `from`, and all
 /// else is the same.
 Vector change_of_forces(Assembler& assembler, const Configuration& from, const Configuration& to) {
@@ -375,15 +349,19 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
 }
 
 std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
-  const ConstraintFactors factors(assembler_, outside_of_steps(c), ConstraintColumns::forces, rank_tolerance);
-  const Sparse null = factors.null_forces();
   std::vector<Vector> changes;
-  if (null.cols() == 0) return changes;
-  for (const double seed : {0.7, 1.9}) {
-    Vector change = Vector::Zero(null.rows());
-    for (Eigen::Index j = 0; j < null.cols(); ++j)
-      change += std::cos(seed + 2.3 * static_cast<double>(j)) / largest_entry(null, j).second * null.col(j);
-    changes.push_back(change / std::max(change.lpNorm<Eigen::Infinity>(), 1e-300));
+  if (!active()) return changes;
+  const ConstraintMatrix columns(assembler_, outside_of_steps(c), ConstraintColumns::forces);
+  const Vector weight = constraint_sizes(assembler_) / assembler_.model().extent();
+  Eigen::MatrixXd any(weight.size(), 2);
+  for (Eigen::Index m = 0; m < any.rows(); ++m)
+    for (Eigen::Index k = 0; k < any.cols(); ++k)
+      any(m, k) = std::cos(0.7 + 1.2 * static_cast<double>(k) + 2.3 * static_cast<double>(m));
+  any -= shortest_equivalent(columns.matrix * weight.cwiseInverse().asDiagonal(), any, rank_tolerance, columns.first_rows);
+  for (const auto& column : any.colwise()) {
+    const Vector change = column.cwiseQuotient(weight);
+    const double largest = change.lpNorm<Eigen::Infinity>();
+    if (largest > 0) changes.push_back(change / largest);
   }
   return changes;
 }
@@ -391,14 +369,14 @@ std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
 bool Redundancy::share(Configuration& c) {
   if (!active()) return false;
   const Configuration here = outside_of_steps(c);
-  const ConstraintFactors factors(assembler_, here, ConstraintColumns::forces, rank_tolerance);
-  if (factors.deficiency() == 0) return false;
   const double extent = assembler_.model().extent();
   // forces count as they are, moments over the extent
   const Vector weight = constraint_sizes(assembler_) / extent;
   const Vector forces = Eigen::Map<const Vector>(c.multipliers.data(), weight.size()).cwiseProduct(weight);
   if (forces.isZero(0)) return false;
-  const Vector least = forces - projection(weight.asDiagonal() * factors.null_forces(), forces);
+  const ConstraintMatrix columns(assembler_, here, ConstraintColumns::forces);
+  const Vector least =
+      shortest_equivalent(columns.matrix * weight.cwiseInverse().asDiagonal(), forces, rank_tolerance, columns.first_rows);
   Configuration shared = here;
   Eigen::Map<Vector>(shared.multipliers.data(), weight.size()) = least.cwiseQuotient(weight);
   const Vector changed = change_of_forces(assembler_, here, shared);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <random>
 
+#include "solve/constraints/least_norm.hpp"
+
 namespace engrane::solve {
 namespace {
 
@@ -71,6 +73,26 @@ TEST(ColumnBasis, RankNullVectorsAndMotionsOfRandomMatrices) {
       }
   }
   EXPECT_GT(deficient, 100) << "else this judges little";
+}
+
+TEST(LeastNorm, IsTheDensePseudoInverseOfRandomMatrices) {
+  Random random(11);
+  int shorter = 0;
+  for (int seed = 0; seed < 300; ++seed) {
+    const Sparse a = planted(random, seed);
+    std::vector<int> groups;
+    for (int row = 0; row < a.rows(); row += 1 + random.below(6)) groups.push_back(row);
+    Vector x(a.cols());
+    for (double& entry : x) entry = random.value();
+    Eigen::BDCSVD<Dense> svd(Dense(a), Eigen::ComputeThinV);
+    const auto rank = (svd.singularValues().array() > 1e-9).count();
+    const Dense v = svd.matrixV().leftCols(rank);
+    const Vector shortest = shortest_equivalent(a, x, 1e-9, groups);
+    EXPECT_LT((shortest - v * (v.transpose() * x)).norm(), 1e-10) << "matrix " << seed;
+    EXPECT_LT((a * (shortest - x)).norm(), 1e-12);
+    shorter += shortest.norm() < 0.99 * x.norm();
+  }
+  EXPECT_GT(shorter, 100) << "else this judges little";
 }
 
 /// Where the columns all but span their space the nearest motion has a meaning: least squares by another way.

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+#include <span>
+#include <vector>
+
+namespace engrane::solve {
+
+/// Columns of a sparse matrix that clearly depend on no others, found without a factorisation: where the columns that touch a
+/// group of rows are no more than its rows and independent there, they are a leaf, and the matrix goes on without them.
+struct Leaves {
+  std::vector<int> group_rows;         ///< first rows of the groups, and behind the last the number of rows
+  std::vector<int> groups;             ///< of each leaf, in the order in which they were taken
+  std::vector<int> begin{0}, columns;  ///< of leaf k: columns from begin[k] to begin[k + 1]
+  std::vector<int> rest;               ///< columns of no leaf, ascending
+
+  std::span<const int> of(std::size_t leaf) const { return {columns.data() + begin[leaf], columns.data() + begin[leaf + 1]}; }
+  Eigen::Index first_row(std::size_t leaf) const { return group_rows[static_cast<std::size_t>(groups[leaf])]; }
+  /// The rows of a group and some columns, as a dense matrix.
+  Eigen::MatrixXd block(const Eigen::SparseMatrix<double>& a, int group, std::span<const int> columns) const;
+};
+
+/// Columns of `a`, compressed, are of length 1, or empty. `group_rows`: first rows of the groups, ascending from 0; each row is
+/// one when there are none.
+Leaves take_leaves(const Eigen::SparseMatrix<double>& a, std::vector<int> group_rows);
+
+}  // namespace engrane::solve
