@@ -44,15 +44,14 @@ output::ResultsLayout results_layout(const Reading& reading, const observe::Obse
   layout.history.push_back({"run", "", {}, observer.run_channels()});
   for (const observe::ElementField& field : observer.element_fields())
     layout.cell_fields.push_back({field.named, field.components});
-  layout.velocities = observer.moves();
+  layout.node_fields = observe::nodal_field_names(observer.moves());
   layout.expected_samples = expected_samples;
   return layout;
 }
 
 output::FrameValues frame_values(const Model& model, const observe::Observer& observer) {
-  const observe::NodalFields& fields = observer.fields();
-  output::FrameValues values{fields.displacement,     fields.rotation,       fields.velocity,
-                             fields.angular_velocity, fields.reaction_force, fields.reaction_torque};
+  output::FrameValues values;
+  for (const observe::NodalField& field : observer.fields()) values.nodes.emplace_back(field.rows);
   for (const observe::ElementField& field : observer.element_fields()) {
     std::vector<double>& rows = values.cells.emplace_back();
     for (std::size_t p = 0; p < model.parts.size(); ++p)

@@ -8,6 +8,41 @@
 
 namespace engrane::observe {
 
+namespace {
+
+/// A kind of field over the nodes. To have another, add a row to the table.
+struct NodalKind {
+  Named named;
+  bool of_motion;  ///< for analyses in which something moves
+  Vec3 (*value)(const Vec3& reference, const NodeState& node, const Reaction& reaction);
+};
+
+const std::vector<NodalKind>& nodal_kinds() {
+  static const std::vector<NodalKind> kinds = {
+      {{"displacement", dimension::length, "displacement"},
+       false,
+       [](const Vec3& reference, const NodeState& node, const Reaction&) -> Vec3 { return node.x - reference; }},
+      {{"rotation", dimension::angle, "rotation vector"},
+       false,
+       [](const Vec3&, const NodeState& node, const Reaction&) -> Vec3 { return rotation_log(node.R); }},
+      {{"velocity", dimension::velocity, "velocity"},
+       true,
+       [](const Vec3&, const NodeState& node, const Reaction&) -> Vec3 { return node.v; }},
+      {{"angular_velocity", dimension::angular_velocity, "angular velocity"},
+       true,
+       [](const Vec3&, const NodeState& node, const Reaction&) -> Vec3 { return node.R * node.W; }},
+      {{"reaction_force", dimension::force, "reaction force"},
+       false,
+       [](const Vec3&, const NodeState&, const Reaction& reaction) -> Vec3 { return reaction.force; }},
+      {{"reaction_torque", dimension::moment, "reaction torque"},
+       false,
+       [](const Vec3&, const NodeState&, const Reaction& reaction) -> Vec3 { return reaction.torque; }},
+  };
+  return kinds;
+}
+
+}  // namespace
+
 ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler) {
   const Model& model = assembler.model();
   std::map<std::string, std::size_t> known;
@@ -59,24 +94,26 @@ void ElementFields::evaluate(const Configuration& c) {
   }
 }
 
-NodalFields nodal_fields(const Model& model, const Configuration& c, const std::vector<Reaction>& reactions, bool moves) {
-  NodalFields fields;
-  const auto put = [](std::vector<double>& field, const Vec3& v) { field.insert(field.end(), v.data(), v.data() + 3); };
-  for (std::size_t i = 1; i < c.nodes.size(); ++i) {
-    const NodeState& node = c.nodes[i];
-    put(fields.displacement, node.x - model.nodes[i].x);
-    put(fields.rotation, rotation_log(node.R));
-    if (!moves) continue;
-    put(fields.velocity, node.v);
-    put(fields.angular_velocity, node.R * node.W);
-  }
-  fields.reaction_force.assign(fields.displacement.size(), 0.0);
-  fields.reaction_torque.assign(fields.displacement.size(), 0.0);
-  for (const Reaction& reaction : reactions) {
-    const auto at = 3 * static_cast<std::size_t>(reaction.node - 1);
-    for (std::size_t k = 0; k < 3; ++k) {
-      fields.reaction_force[at + k] = reaction.force[static_cast<Eigen::Index>(k)];
-      fields.reaction_torque[at + k] = reaction.torque[static_cast<Eigen::Index>(k)];
+std::vector<Named> nodal_field_names(bool moves) {
+  std::vector<Named> names;
+  for (const NodalKind& kind : nodal_kinds())
+    if (moves || !kind.of_motion) names.push_back(kind.named);
+  return names;
+}
+
+std::vector<NodalField> nodal_fields(const Model& model, const Configuration& c, const std::vector<Reaction>& reactions,
+                                     bool moves) {
+  std::vector<const Reaction*> reaction_of(c.nodes.size(), nullptr);
+  for (const Reaction& reaction : reactions) reaction_of[static_cast<std::size_t>(reaction.node)] = &reaction;
+  const Reaction none;
+  std::vector<NodalField> fields;
+  for (const NodalKind& kind : nodal_kinds()) {
+    if (kind.of_motion && !moves) continue;
+    NodalField& field = fields.emplace_back(NodalField{kind.named, {}});
+    field.rows.reserve(3 * (c.nodes.size() - 1));
+    for (std::size_t i = 1; i < c.nodes.size(); ++i) {
+      const Vec3 value = kind.value(model.nodes[i].x, c.nodes[i], reaction_of[i] ? *reaction_of[i] : none);
+      field.rows.insert(field.rows.end(), value.data(), value.data() + 3);
     }
   }
   return fields;

@@ -9,11 +9,10 @@
 
 namespace engrane::observe {
 
-/// Fields over the nodes at one instant: three global components for each node but the ground, in the order of Model::nodes.
-struct NodalFields {
-  std::vector<double> displacement, rotation;      ///< rotation vectors, length at most π
-  std::vector<double> velocity, angular_velocity;  ///< empty where nothing moves
-  std::vector<double> reaction_force, reaction_torque;
+/// A field over the nodes at one instant: three global components for each node but the ground, in the order of Model::nodes.
+struct NodalField {
+  Named named;
+  std::vector<double> rows;
 };
 
 /// A field that elements declare: a row for each part of the model, the mean over its nodes or points where it has several; not
@@ -49,6 +48,10 @@ class ElementFields {
   std::vector<Use> uses_;  ///< of all ranks, by part
 };
 
-NodalFields nodal_fields(const Model& model, const Configuration& c, const std::vector<Reaction>& reactions, bool moves);
+/// Names and units of the fields over the nodes; velocities are among them where something moves.
+std::vector<Named> nodal_field_names(bool moves);
+/// The fields in that order.
+std::vector<NodalField> nodal_fields(const Model& model, const Configuration& c, const std::vector<Reaction>& reactions,
+                                     bool moves);
 
 }  // namespace engrane::observe

@@ -44,7 +44,7 @@ class Observer {
   /// Of the last configuration for which histories were wanted.
   const std::vector<double>& values() const { return values_; }
   /// Of the last configuration for which fields were wanted.
-  const NodalFields& fields() const { return fields_; }
+  const std::vector<NodalField>& fields() const { return fields_; }
   const std::vector<ElementField>& element_fields() const { return element_fields_.fields(); }
   const EnergyBalance& energies() const { return ledger_.balance(); }
   const std::vector<Reaction>& reactions() const { return last_reactions_; }
@@ -64,7 +64,7 @@ class Observer {
   EnergyLedger ledger_;
   std::vector<Named> run_channels_;
   std::vector<double> values_;
-  NodalFields fields_;
+  std::vector<NodalField> fields_;
   ElementFields element_fields_;
   std::vector<Reaction> last_reactions_;
   std::vector<int> not_unique_;

@@ -124,7 +124,7 @@ std::vector<double> ResultFile::copy_from(hid_t earlier, std::size_t samples, st
   const hsize_t shape[2] = {layout_->points.size(), 3};
   const std::vector<double> nothing(3 * layout_->points.size(), 0.0);
   for (std::size_t f = 0; f < times.size(); ++f)
-    for (const FieldInfo& field : frame_fields(*layout_)) {
+    for (const Named& field : layout_->node_fields) {
       const std::string name = fmt::format("fields/{}/{:06}", field.name, f);
       if (hdf5::read_shape(earlier, name).size() == 2)
         check(H5Ocopy(earlier, name.c_str(), file_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_);

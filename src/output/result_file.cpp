@@ -31,20 +31,6 @@ std::string frame_name(std::size_t index) { return fmt::format("{:06}", index); 
 
 }  // namespace
 
-std::vector<FieldInfo> frame_fields(const ResultsLayout& layout) {
-  std::vector<FieldInfo> fields{
-      {FrameField::displacement, "displacement", "displacement", dimension::length},
-      {FrameField::rotation, "rotation", "rotation vector", dimension::angle},
-  };
-  if (layout.velocities) {
-    fields.push_back({FrameField::velocity, "velocity", "velocity", dimension::velocity});
-    fields.push_back({FrameField::angular_velocity, "angular_velocity", "angular velocity", dimension::angular_velocity});
-  }
-  fields.push_back({FrameField::reaction_force, "reaction_force", "reaction force", dimension::force});
-  fields.push_back({FrameField::reaction_torque, "reaction_torque", "reaction torque", dimension::moment});
-  return fields;
-}
-
 std::size_t Batch::bytes() const {
   std::size_t numbers = times.size() + values.size();
   for (const Frame& frame : frames) {
@@ -164,10 +150,10 @@ void ResultFile::create_fields() {
   const ResultsLayout& layout = *layout_;
   const Handle fields = at(file_).group("fields");
   create_growing(fields.id(), "time", {}, 64, layout.units.label(dimension::time), "time of the frame");
-  for (const FieldInfo& field : frame_fields(layout)) {
+  for (const Named& field : layout.node_fields) {
     const Handle group = at(fields).group(field.name);
     at(group).attribute("unit", layout.units.label(field.dimension));
-    at(group).attribute("label", field.label);
+    at(group).attribute("label", field.help);
   }
   for (const CellField& field : layout.cell_fields) {
     const Handle group = at(fields).group(field.named.name);
@@ -245,7 +231,7 @@ void ResultFile::append_samples(const Batch& batch) {
 
 void ResultFile::append_frame(const Batch::Frame& frame) {
   const std::size_t numbers = 3 * layout_->points.size();
-  const std::vector<FieldInfo> fields = frame_fields(*layout_);
+  const std::vector<Named>& fields = layout_->node_fields;
   assert(frame.values.size() == numbers * fields.size());
   Growing time = open_growing("fields/time");
   const std::string name = frame_name(time.rows);

@@ -12,18 +12,6 @@
 
 namespace engrane::output {
 
-/// The fields of a frame, in the order they are stored; velocities may be left out.
-enum class FrameField : unsigned char { displacement, rotation, velocity, angular_velocity, reaction_force, reaction_torque };
-
-struct FieldInfo {
-  FrameField field;
-  const char* name;
-  const char* label;
-  Dimension dimension;
-};
-/// The fields that frames of this layout have.
-std::vector<FieldInfo> frame_fields(const ResultsLayout& layout);
-
 /// What a run is restarted from: everything that it remembers at an accepted step, and how much of the results belong to it.
 struct RestartPoint {
   double time = 0;
@@ -35,7 +23,7 @@ struct RestartPoint {
 struct Batch {
   struct Frame {
     double time = 0;
-    std::vector<double> values;              ///< the fields in the order of frame_fields(), each n × 3
+    std::vector<double> values;              ///< in the order of ResultsLayout::node_fields, each n × 3
     std::vector<std::vector<double>> cells;  ///< in the order of ResultsLayout::cell_fields
   };
   std::vector<double> times;

@@ -90,18 +90,11 @@ void Results::sample(double time, std::span<const double> values) {
 void Results::frame(double time, const FrameValues& values) {
   Batch::Frame frame;
   frame.time = time;
-  const auto add = [&](std::span<const double> field) {
+  assert(values.nodes.size() == layout_.node_fields.size());
+  for (const std::span<const double> field : values.nodes) {
     assert(field.size() == 3 * layout_.points.size());
     frame.values.insert(frame.values.end(), field.begin(), field.end());
-  };
-  add(values.displacement);
-  add(values.rotation);
-  if (layout_.velocities) {
-    add(values.velocity);
-    add(values.angular_velocity);
   }
-  add(values.reaction_force);
-  add(values.reaction_torque);
   assert(values.cells.size() == layout_.cell_fields.size());
   frame.cells = values.cells;
   gathered_->frames.push_back(std::move(frame));

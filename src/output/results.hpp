@@ -20,10 +20,10 @@ struct RestartPoint;
 
 enum class RunStatus : unsigned char { complete, failed };
 
-/// The fields of a frame: one row of three global components per node of the layout. Velocities stay empty when the layout
-/// has none.
+/// The fields of a frame.
 struct FrameValues {
-  std::span<const double> displacement, rotation, velocity, angular_velocity, reaction_force, reaction_torque;
+  /// Those of ResultsLayout::node_fields: a row of three global components for each node of the layout.
+  std::vector<std::span<const double>> nodes;
   /// Those of ResultsLayout::cell_fields: a row of CellField::width() for each of ResultsLayout::cells.
   std::vector<std::vector<double>> cells = {};
 };

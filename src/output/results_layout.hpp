@@ -53,9 +53,9 @@ struct ResultsLayout {
   std::vector<int> node_ids;
   std::vector<Vec3> points;  ///< reference positions, one per node
   std::vector<Cell> cells;
+  std::vector<Named> node_fields;  ///< three global components each
   std::vector<CellField> cell_fields;
   std::vector<HistoryTable> history;
-  bool velocities = false;              ///< frames carry velocities
   std::size_t expected_samples = 1024;  ///< about how many there will be: tables are laid out for so many rows at a time
 
   /// Columns of all tables together: how many values a sample has.

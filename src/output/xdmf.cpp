@@ -49,7 +49,6 @@ std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, 
       "<DataItem Dimensions=\"{0}\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">{3}:/mesh/cell_elements</DataItem>"
       "</Attribute>\n",
       topology.elements.size(), topology.data.size(), points, file);
-  const std::vector<FieldInfo> fields = frame_fields(layout);
 
   std::string out =
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
@@ -57,7 +56,7 @@ std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, 
   for (std::size_t i = 0; i < frame_times.size(); ++i) {
     fmt::format_to(std::back_inserter(out), "<Grid Name=\"frame {}\" GridType=\"Uniform\">\n<Time Value=\"{}\"/>\n{}", i,
                    frame_times[i], mesh);
-    for (const FieldInfo& field : fields)
+    for (const Named& field : layout.node_fields)
       fmt::format_to(std::back_inserter(out),
                      "<Attribute Name=\"{0}\" AttributeType=\"Vector\" Center=\"Node\">"
                      "<DataItem Dimensions=\"{1} 3\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">"

@@ -47,7 +47,9 @@ inline ResultsLayout sample_layout(std::size_t channels = 2) {
   layout.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
   layout.cells = {{{0, 1, 2}, 1, false}, {{3}, 2, false}, {{0, 1, 2}, 3, true}, {{0, 1, 2, 3}, 4, true}};
   layout.cell_fields = {{{"STRESS", dimension::pressure, "stress"}, {}}};
-  layout.velocities = true;
+  for (const char* name : {"displacement", "rotation", "velocity"}) layout.node_fields.push_back({name, dimension::length, name});
+  layout.node_fields.push_back({"angular_velocity", dimension::angular_velocity, "angular velocity"});
+  for (const char* name : {"reaction_force", "reaction_torque"}) layout.node_fields.push_back({name, dimension::force, name});
   HistoryTable gear{"element/GEAR", "GEAR", {7, 9}, {}};
   for (std::size_t i = 0; i < channels / 2; ++i) gear.channels.push_back({"C" + std::to_string(i), dimension::force, "force"});
   layout.history = {gear, {"run", "", {}, {{"KINETIC_ENERGY", dimension::energy, "kinetic energy"}}}};
@@ -71,7 +73,7 @@ inline void write_frame(Results& results, std::size_t f) {
     field[i] = static_cast<double>(f) + 0.01 * static_cast<double>(i);
     small[i] = 0.1 * field[i];
   }
-  results.frame(0.1 * static_cast<double>(f), {small, field, field, field, field, field, {{1, 2, 3, static_cast<double>(f)}}});
+  results.frame(0.1 * static_cast<double>(f), {{small, field, field, field, field, field}, {{1, 2, 3, static_cast<double>(f)}}});
 }
 
 }  // namespace engrane::testing
