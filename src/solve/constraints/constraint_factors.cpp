@@ -87,9 +87,6 @@ void ConstraintMatrix::to_slots(const Vector& motion, std::vector<double>& y) co
 
 namespace {
 
-/// Columns of length 1; those without entries stay.
-Sparse normalized(const Sparse& matrix, const Vector& length) { return matrix * length.cwiseInverse().asDiagonal(); }
-
 Vector lengths(const Sparse& matrix) {
   Vector length(matrix.cols());
   for (Eigen::Index m = 0; m < matrix.cols(); ++m) length[m] = matrix.col(m).norm();
@@ -102,7 +99,7 @@ ConstraintFactors::ConstraintFactors(Assembler& assembler, const Configuration& 
                                      double tolerance)
     : gradients_(assembler, configuration, kind),
       length_(lengths(gradients_.matrix)),
-      basis_(normalized(gradients_.matrix, length_), tolerance, gradients_.first_rows) {}
+      basis_(with_columns_scaled(gradients_.matrix, length_.cwiseInverse()), tolerance, gradients_.first_rows) {}
 
 Vector ConstraintFactors::closing_motion(const std::vector<double>& phi) const {
   Vector right(columns());

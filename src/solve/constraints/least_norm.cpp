@@ -17,7 +17,7 @@ using Dense = Eigen::MatrixXd;
 Dense shortest_equivalent(const Sparse& a, const Dense& x, double tolerance, std::vector<int> groups) {
   Vector length(a.cols());
   for (Eigen::Index j = 0; j < a.cols(); ++j) length[j] = a.col(j).norm();
-  Sparse unit = a * (length.array() > 0).select(length.cwiseInverse(), 1.0).matrix().asDiagonal();
+  Sparse unit = with_columns_scaled(a, (length.array() > 0).select(length.cwiseInverse(), 1.0));
   unit.makeCompressed();
   const Leaves leaves = take_leaves(unit, std::move(groups));
 

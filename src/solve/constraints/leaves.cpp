@@ -17,6 +17,12 @@ std::size_t index(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
+Sparse with_columns_scaled(Sparse a, const Eigen::VectorXd& factor) {
+  for (Eigen::Index j = 0; j < a.cols(); ++j)
+    for (Sparse::InnerIterator it(a, j); it; ++it) it.valueRef() *= factor[j];
+  return a;
+}
+
 Eigen::MatrixXd Leaves::block(const Sparse& a, int group, std::span<const int> some) const {
   const int first = group_rows[index(group)];
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(group_rows[index(group) + 1] - first, static_cast<Eigen::Index>(some.size()));

@@ -8,6 +8,9 @@
 
 namespace engrane::solve {
 
+/// The matrix with each column times its factor; in place, since a product with a diagonal grows entry by entry.
+Eigen::SparseMatrix<double> with_columns_scaled(Eigen::SparseMatrix<double> a, const Eigen::VectorXd& factor);
+
 /// Columns of a sparse matrix that clearly depend on no others, found without a factorisation: where the columns that touch a
 /// group of rows are no more than its rows and independent there, they are a leaf, and the matrix goes on without them.
 struct Leaves {

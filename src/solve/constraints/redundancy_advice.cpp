@@ -107,7 +107,8 @@ std::string suggest_releases(const Assembler& assembler, const Eigen::SparseMatr
   Eigen::VectorXd size = Eigen::VectorXd::Constant(needed, 1e-300);
   for (Eigen::Index i = 0; i < rows.rows(); ++i)
     for (Rows::InnerIterator it(rows, i); it; ++it) size[it.col()] = std::max(size[it.col()], std::abs(it.value()));
-  rows = rows * size.cwiseInverse().asDiagonal();
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+    for (Rows::InnerIterator it(rows, i); it; ++it) it.valueRef() /= size[it.col()];
   IndependentRows taken;
   // a second pass changes more of a joint that the first has changed already
   for (int pass = 0; pass < 2; ++pass)
