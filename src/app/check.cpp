@@ -29,6 +29,8 @@ int print_model(const Model& model, std::ostream& out) {
     // drives may agree on the place and not on the speed; supports move nodes only where there is motion
     context.start.fit_velocities(c, Assembler::Metric::geometric, report, moves);
     if (!moves) report.velocities_fitted = false;
+    if (context.options.analysis == SolverOptions::Analysis::dynamics)
+      if (const std::string unheld = explain_unheld(context.assembler, c); !unheld.empty()) throw SolutionFailure(unheld);
   } catch (const SolutionFailure& failure) {
     out << "\n  " << failure.what() << '\n';
     return exit_status::solution_failed;

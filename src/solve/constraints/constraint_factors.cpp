@@ -42,21 +42,26 @@ Configuration outside_of_steps(Configuration c) {
   return c;
 }
 
-ConstraintMatrix::ConstraintMatrix(Assembler& assembler, const Configuration& configuration, ConstraintColumns kind) {
+MotionRows::MotionRows(const Assembler& assembler) {
   const Numbering& numbering = assembler.numbering();
   const double extent = assembler.model().extent();
-  std::vector<int> row_of(static_cast<std::size_t>(numbering.motion_slots()), -1);
+  row.assign(static_cast<std::size_t>(numbering.motion_slots()), -1);
   int node = -1;
   for (int e = 0; e < numbering.equations(); ++e) {
     const Unknown& u = numbering.unknown(e);
     if (u.multiplier) continue;
-    const auto row = static_cast<int>(row_size.size());
-    row_of[static_cast<std::size_t>(u.slot)] = row;
-    if (row == 0 || u.node < 0 || u.node != node) first_rows.push_back(row);
+    const auto next = static_cast<int>(slot.size());
+    row[static_cast<std::size_t>(u.slot)] = next;
+    if (next == 0 || u.node < 0 || u.node != node) first_rows.push_back(next);
     node = u.node;
-    row_size.push_back(size_of(u, extent));
+    size.push_back(size_of(u, extent));
     slot.push_back(static_cast<std::size_t>(u.slot));
   }
+}
+
+ConstraintMatrix::ConstraintMatrix(Assembler& assembler, const Configuration& configuration, ConstraintColumns kind)
+    : rows(assembler) {
+  const Numbering& numbering = assembler.numbering();
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> r, k;
   const auto& parts = assembler.model().parts;
@@ -70,19 +75,19 @@ ConstraintMatrix::ConstraintMatrix(Assembler& assembler, const Configuration& co
     parts[p].element->tangent(assembler.view(static_cast<int>(p), configuration), {1, 0, 0}, r, k);
     for (std::size_t m = first; m < n; ++m)
       for (std::size_t i = 0; i < first; ++i) {
-        const int row = row_of[static_cast<std::size_t>(slots[i])];
+        const int row = rows.row[static_cast<std::size_t>(slots[i])];
         const double value = kind == ConstraintColumns::gradients ? -k[m * n + i] : k[i * n + m];
         if (row < 0 || value == 0) continue;
-        entries.emplace_back(row, slots[m] - numbering.motion_slots(), value * row_size[static_cast<std::size_t>(row)]);
+        entries.emplace_back(row, slots[m] - numbering.motion_slots(), value * rows.size[static_cast<std::size_t>(row)]);
       }
   }
-  matrix.resize(static_cast<Eigen::Index>(row_size.size()),
+  matrix.resize(static_cast<Eigen::Index>(rows.slot.size()),
                 static_cast<Eigen::Index>(numbering.slots() - numbering.motion_slots()));
   matrix.setFromTriplets(entries.begin(), entries.end());
 }
 
 void ConstraintMatrix::to_slots(const Vector& motion, std::vector<double>& y) const {
-  for (std::size_t i = 0; i < slot.size(); ++i) y[slot[i]] = motion[static_cast<Eigen::Index>(i)] * row_size[i];
+  for (std::size_t i = 0; i < rows.slot.size(); ++i) y[rows.slot[i]] = motion[static_cast<Eigen::Index>(i)] * rows.size[i];
 }
 
 namespace {
@@ -99,7 +104,7 @@ ConstraintFactors::ConstraintFactors(Assembler& assembler, const Configuration& 
                                      double tolerance)
     : gradients_(assembler, configuration, kind),
       length_(lengths(gradients_.matrix)),
-      basis_(with_columns_scaled(gradients_.matrix, length_.cwiseInverse()), tolerance, gradients_.first_rows) {}
+      basis_(with_columns_scaled(gradients_.matrix, length_.cwiseInverse()), tolerance, gradients_.rows.first_rows) {}
 
 Vector ConstraintFactors::closing_motion(const std::vector<double>& phi) const {
   Vector right(columns());

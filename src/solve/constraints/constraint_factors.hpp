@@ -33,6 +33,16 @@ Eigen::VectorXd relative_open(const Assembler& assembler, const std::vector<doub
 /// Tangents of elements are taken per increment of a step's rotation vector; this takes them at its start.
 Configuration outside_of_steps(Configuration c);
 
+/// The free motions as rows of a matrix, scaled with their size.
+struct MotionRows {
+  explicit MotionRows(const Assembler& assembler);
+
+  std::vector<std::size_t> slot;  ///< of a row
+  std::vector<int> row;           ///< of a motion slot; -1: held
+  std::vector<double> size;       ///< of a row: the extent for translations, 1 for rotations
+  std::vector<int> first_rows;    ///< of the nodes, and of the elements' scalars each
+};
+
 /// One column per multiplier, one row per free motion; rows are scaled with the size of their motion.
 struct ConstraintMatrix {
   ConstraintMatrix(Assembler& assembler, const Configuration& configuration, ConstraintColumns kind);
@@ -40,10 +50,8 @@ struct ConstraintMatrix {
   /// Writes a scaled motion, one entry per row, into `y`, one entry per motion slot.
   void to_slots(const Eigen::VectorXd& motion, std::vector<double>& y) const;
 
+  MotionRows rows;
   Eigen::SparseMatrix<double> matrix;
-  std::vector<std::size_t> slot;  ///< of a row
-  std::vector<double> row_size;
-  std::vector<int> first_rows;  ///< of the nodes, and of the elements' scalars each
 };
 
 /// Which columns of a ConstraintMatrix are independent when all have length 1.

@@ -358,7 +358,7 @@ std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
   for (Eigen::Index m = 0; m < any.rows(); ++m)
     for (Eigen::Index k = 0; k < any.cols(); ++k)
       any(m, k) = std::cos(0.7 + 1.2 * static_cast<double>(k) + 2.3 * static_cast<double>(m));
-  any -= shortest_equivalent(with_columns_scaled(columns.matrix, weight.cwiseInverse()), any, rank_tolerance, columns.first_rows);
+  any -= RowSpace(with_columns_scaled(columns.matrix, weight.cwiseInverse()), rank_tolerance, columns.rows.first_rows).part(any);
   for (const auto& column : any.colwise()) {
     const Vector change = column.cwiseQuotient(weight);
     const double largest = change.lpNorm<Eigen::Infinity>();
@@ -377,7 +377,7 @@ bool Redundancy::share(Configuration& c) {
   if (forces.isZero(0)) return false;
   const ConstraintMatrix columns(assembler_, here, ConstraintColumns::forces);
   const Vector least =
-      shortest_equivalent(with_columns_scaled(columns.matrix, weight.cwiseInverse()), forces, rank_tolerance, columns.first_rows);
+      RowSpace(with_columns_scaled(columns.matrix, weight.cwiseInverse()), rank_tolerance, columns.rows.first_rows).part(forces);
   Configuration shared = here;
   Eigen::Map<Vector>(shared.multipliers.data(), weight.size()) = least.cwiseQuotient(weight);
   const Vector changed = change_of_forces(assembler_, here, shared);

@@ -308,10 +308,10 @@ int Start::orientation(const Configuration& c, std::span<const int> held) {
   const ConstraintMatrix gradients(assembler_, outside_of_steps(c), ConstraintColumns::gradients);
   std::vector<bool> is_held(static_cast<std::size_t>(numbering.equations()), false);
   for (const int e : held) is_held[static_cast<std::size_t>(e)] = true;
-  std::vector<int> row(gradients.slot.size(), 0);
+  std::vector<int> row(gradients.rows.slot.size(), 0);
   int rows = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
-    const int e = numbering.equation(static_cast<int>(gradients.slot[i]));
+    const int e = numbering.equation(static_cast<int>(gradients.rows.slot[i]));
     row[i] = is_held[static_cast<std::size_t>(e)] ? -1 : rows++;
   }
   std::vector<Eigen::Triplet<double>> entries;
@@ -421,16 +421,17 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
   if (initial) verify_imposed(c, wished, true);
 }
 
-void Start::balance_accelerations(Configuration& c, int most_iterations, StartReport* report) {
+void Start::balance_accelerations(Configuration& c, int most_iterations, StartReport* report, const MasslessMotions* massless) {
   const Numbering& numbering = assembler_.numbering();
   std::vector<double> a = motion_.accelerations(c);
   for (const auto& p : motion_.prescribed(c.time)) a[p.slot] = p.a;
   motion_.set_accelerations(a, c);
-  std::vector<double> phi, rate, second, change;
+  std::vector<double> phi, rate, second, change, change_of_motion(a.size(), 0.0);
   double before = std::numeric_limits<double>::infinity();
   // linear but for forces that follow the multipliers (|λ| of the separating force), hence a short iteration
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const std::vector<double> r = assembler_.slot_residual(c);
+    std::vector<double> r = assembler_.slot_residual(c);
+    if (massless) massless->remove_forces(r);
     assembler_.constraint_rates(c, phi, rate, second);
     std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
     for (std::size_t e = 0; e < right.size(); ++e) {
@@ -460,8 +461,10 @@ void Start::balance_accelerations(Configuration& c, int most_iterations, StartRe
       if (u.multiplier)
         c.multipliers[static_cast<std::size_t>(u.slot) - motion_.size()] += change[e];
       else
-        a[static_cast<std::size_t>(u.slot)] += change[e];
+        change_of_motion[static_cast<std::size_t>(u.slot)] = change[e];
     }
+    if (massless) massless->remove(change_of_motion);
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] += change_of_motion[i];
     motion_.set_accelerations(a, c);
   }
   redundancy_.share(c);

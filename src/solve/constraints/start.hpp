@@ -8,6 +8,7 @@
 
 #include "assembly/assembler.hpp"
 #include "solve/algebra/linear.hpp"
+#include "solve/constraints/massless.hpp"
 #include "solve/constraints/mobility.hpp"
 #include "solve/constraints/motion.hpp"
 #include "solve/constraints/start_report.hpp"
@@ -31,8 +32,10 @@ class Start {
   /// Changes the velocities in `c` as little as possible (in kinetic energy, or geometrically) until they fit.
   void fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report, bool initial = true);
   /// Sets accelerations and multipliers from the equations of motion and the constraints' second derivatives. With those in `c`
-  /// close to right, few iterations are enough. Fills its phase of a report when there is one.
-  void balance_accelerations(Configuration& c, int most_iterations = 12, StartReport* report = nullptr);
+  /// close to right, few iterations are enough. Fills its phase of a report when there is one. Accelerations of `massless`
+  /// motions stay as they are, since no balance of forces gives them.
+  void balance_accelerations(Configuration& c, int most_iterations = 12, StartReport* report = nullptr,
+                             const MasslessMotions* massless = nullptr);
 
  private:
   /// What one closing came to.

@@ -54,6 +54,9 @@ std::string describe_start(const Model& model, const StartReport& report) {
       text += fmt::format("changed by up to {:.4g}, at {}, to fit joints and drives; those given opened {} fastest\n",
                           report.largest_velocity_change, report.velocity_changed_most, report.rate_violated_most);
   }
+  if (report.massless > 0)
+    text += fmt::format("     {} without mass, such as {}: in equilibrium with springs and dampers\n",
+                        report.massless == 1 ? "1 motion" : fmt::format("{} motions", report.massless), report.massless_example);
   if (report.accelerations_found) {
     text += fmt::format("  3. accelerations and multipliers: {}", iterations(report.acceleration_iterations));
     if (!report.accelerated_most.empty())

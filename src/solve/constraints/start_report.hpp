@@ -42,6 +42,9 @@ struct StartReport {
   double largest_force = 0;         ///< multiplier that is a force, or a moment when there are no forces
   std::string carried_most;         ///< "HINGE 3 (FORCE_1)"
 
+  int massless = 0;              ///< motions without mass, in equilibrium with springs and dampers
+  std::string massless_example;  ///< "node 2 (x)"
+
   int redundant = 0;     ///< constraints that follow from others
   std::string mobility;  ///< degrees of freedom and redundant constraints, as a paragraph
 };

@@ -2,8 +2,7 @@
 #include "solve/schemes/transient.hpp"
 
 #include <cmath>
-
-#include "solve/schemes/statics.hpp"
+#include <optional>
 
 namespace engrane::solve {
 
@@ -47,35 +46,6 @@ Transient::Transient(SolverContext& context) : Scheme(context), scheme_(coeffici
   *unknowns_.out() = context.assembler.new_vector();
 }
 
-StartReport Transient::start(Configuration& c) {
-  StartReport report;
-  if (context_.options.static_start) {
-    report = Statics(context_).start(c);
-  } else {
-    apply_initial_displacements(context_, c);
-    context_.start.assemble(c, report);
-  }
-  apply_initial_velocities(context_, c);
-  context_.start.fit_velocities(c, Assembler::Metric::mass, report);
-  context_.start.balance_accelerations(c, 12, &report);
-  const double h = context_.options.step;
-  start_algorithmic_accelerations(c, h, h);
-  return report;
-}
-
-void Transient::start_algorithmic_accelerations(const Configuration& c, double h, double ahead) {
-  // a_0 = v̇(t_0 + (α_m − α_f) h) to second order, or multipliers lose an order at first (Arnold, Brüls and Cardona
-  // 2015); the slope of v̇ is taken from a consistent acceleration a little ahead
-  algorithmic_ = context_.motion.accelerations(c);
-  step_of_algorithmic_ = h;
-  if (scheme_.alpha_m == scheme_.alpha_f) return;
-  Configuration later = glide(c, ahead);
-  context_.start.balance_accelerations(later, ahead < h ? 1 : 12);
-  const auto next = context_.motion.accelerations(later);
-  const double shift = (scheme_.alpha_m - scheme_.alpha_f) * h / ahead;
-  for (std::size_t i = 0; i < next.size(); ++i) algorithmic_[i] += shift * (next[i] - algorithmic_[i]);
-}
-
 Configuration Transient::glide(const Configuration& c, double h) const {
   const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
   std::vector<double> y(v.size()), ahead(v.size());
@@ -97,14 +67,16 @@ void Transient::drift(Configuration& c, double h) {
   // a hundredth of a step at most, and the next step closes them.
   const auto before = context_.motion.accelerations(c);
   c = glide(c, h);
-  context_.start.balance_accelerations(c, 2);
+  std::optional<MasslessMotions> massless;
+  if (has_massless_) massless.emplace(context_.assembler, c);
+  context_.start.balance_accelerations(c, 2, nullptr, massless ? &*massless : nullptr);
   auto v = context_.motion.velocities(c);
   const auto after = context_.motion.accelerations(c);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
   for (const auto& p : context_.motion.prescribed(c.time)) v[p.slot] = p.v;
   context_.motion.set_velocities(v, c);
   const double step = context_.options.step;
-  start_algorithmic_accelerations(c, step, slope_span * step);
+  start_algorithmic_accelerations(c, step, slope_span * step, massless ? &*massless : nullptr);
 }
 
 Outcome Transient::attempt(const Configuration& from, double h, Configuration& to) {
@@ -182,6 +154,7 @@ void Transient::save(Snapshot& snapshot) const {
   snapshot.put("scheme/algorithmic", algorithmic_);
   snapshot.put("scheme/step", step_of_algorithmic_);
   snapshot.put("scheme/scaled_for", scaled_for_);
+  snapshot.put("scheme/has_massless", has_massless_ ? 1.0 : 0.0);
 }
 
 void Transient::load(const Snapshot& snapshot) {
@@ -189,6 +162,7 @@ void Transient::load(const Snapshot& snapshot) {
   algorithmic_ = snapshot.array("scheme/algorithmic");
   step_of_algorithmic_ = snapshot.number("scheme/step");
   scaled_for_ = snapshot.number("scheme/scaled_for");
+  has_massless_ = snapshot.number("scheme/has_massless") != 0;
 }
 
 }  // namespace engrane::solve

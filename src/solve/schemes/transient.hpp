@@ -37,7 +37,18 @@ class Transient final : public Scheme {
 
  private:
   /// Starts the scheme's memory for steps of h; the slope of v̇ is looked for over the time `ahead`.
-  void start_algorithmic_accelerations(const Configuration& c, double h, double ahead);
+  void start_algorithmic_accelerations(const Configuration& c, double h, double ahead, const MasslessMotions* massless);
+
+  /// What balance asks of motions without mass at one instant.
+  struct Relaxed {
+    std::vector<double> jump;   ///< of springs: to where their forces balance; one entry per motion slot
+    std::vector<double> speed;  ///< of dampers: what is to be added to the velocity
+  };
+  /// Moves what has no mass to where its forces balance, while all else stands still. Velocities and accelerations of `c` stay.
+  /// Both results are the parts along the massless motions where `c` then is; `massless` becomes these.
+  Relaxed relax(Configuration& c, MasslessMotions& massless);
+  /// Positions, velocities and accelerations of motions without mass that fit their balance at the start and a little later.
+  void settle(Configuration& c, MasslessMotions& massless, StartReport& report);
 
   /// `c` moved by h with the accelerations it has; these and the multipliers do not change.
   Configuration glide(const Configuration& c, double h) const;
@@ -49,6 +60,7 @@ class Transient final : public Scheme {
   std::vector<double> algorithmic_;  ///< a_n of the scheme: v̇ shifted by (α_m − α_f) h
   std::vector<double> tried_;        ///< its value at the end of the last attempt
   double tried_step_ = 0;
+  bool has_massless_ = false;  ///< the model has motions without mass
 };
 
 }  // namespace engrane::solve

@@ -75,7 +75,7 @@ TEST(ColumnBasis, RankNullVectorsAndMotionsOfRandomMatrices) {
   EXPECT_GT(deficient, 100) << "else this judges little";
 }
 
-TEST(LeastNorm, IsTheDensePseudoInverseOfRandomMatrices) {
+TEST(RowSpace, IsThatOfTheDensePseudoInverseOfRandomMatrices) {
   Random random(11);
   int shorter = 0;
   for (int seed = 0; seed < 300; ++seed) {
@@ -87,7 +87,9 @@ TEST(LeastNorm, IsTheDensePseudoInverseOfRandomMatrices) {
     Eigen::BDCSVD<Dense> svd(Dense(a), Eigen::ComputeThinV);
     const auto rank = (svd.singularValues().array() > 1e-9).count();
     const Dense v = svd.matrixV().leftCols(rank);
-    const Vector shortest = shortest_equivalent(a, x, 1e-9, groups);
+    const RowSpace space(a, 1e-9, groups);
+    EXPECT_EQ(space.rank(), rank);
+    const Vector shortest = space.part(x);
     EXPECT_LT((shortest - v * (v.transpose() * x)).norm(), 1e-10) << "matrix " << seed;
     EXPECT_LT((a * (shortest - x)).norm(), 1e-12);
     shorter += shortest.norm() < 0.99 * x.norm();

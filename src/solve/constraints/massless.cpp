@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/constraints/massless.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "solve/constraints/leaves.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using Vector = Eigen::VectorXd;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// Of a matrix with columns of length 1: a motion along which all are shorter than this is one that the matrix does not see.
+constexpr double unseen = 1e-11;
+
+/// The block of a tangent that belongs to the motions, scaled like them on both sides.
+Triplets motion_block(Assembler& assembler, const Configuration& c, const MotionRows& rows, Weights weights) {
+  Triplets entries;
+  std::vector<double> r, k;
+  const auto& parts = assembler.model().parts;
+  weights.multipliers = 0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& slots = assembler.numbering().part_slots(static_cast<int>(p));
+    const std::size_t n = slots.size(), motions = n - parts[p].element->layout().multipliers.size();
+    r.assign(n, 0);
+    k.assign(n * n, 0);
+    parts[p].element->tangent(assembler.view(static_cast<int>(p), c), weights, r, k);
+    for (std::size_t i = 0; i < motions; ++i)
+      for (std::size_t j = 0; j < motions; ++j) {
+        const int row = rows.row[static_cast<std::size_t>(slots[i])], column = rows.row[static_cast<std::size_t>(slots[j])];
+        if (row < 0 || column < 0 || k[i * n + j] == 0) continue;
+        entries.emplace_back(
+            row, column, k[i * n + j] * rows.size[static_cast<std::size_t>(row)] * rows.size[static_cast<std::size_t>(column)]);
+      }
+  }
+  return entries;
+}
+
+/// Matrices side by side, the columns of length 1.
+class SideBySide {
+ public:
+  explicit SideBySide(Eigen::Index rows) : rows_(rows) {}
+
+  /// A block of as many columns as rows.
+  void add(const Triplets& block, bool transposed = false) {
+    for (const auto& entry : block)
+      all_.emplace_back(transposed ? entry.col() : entry.row(),
+                        static_cast<int>(columns_) + (transposed ? entry.row() : entry.col()), entry.value());
+    columns_ += rows_;
+  }
+  void add(const Sparse& block) {
+    for (Eigen::Index j = 0; j < block.cols(); ++j)
+      for (Sparse::InnerIterator it(block, j); it; ++it)
+        all_.emplace_back(static_cast<int>(it.row()), static_cast<int>(columns_ + j), it.value());
+    columns_ += block.cols();
+  }
+
+  Sparse matrix() const {
+    Sparse sum(rows_, columns_);
+    sum.setFromTriplets(all_.begin(), all_.end());
+    Vector factor(columns_);
+    for (Eigen::Index j = 0; j < columns_; ++j) factor[j] = 1 / std::max(sum.col(j).norm(), 1e-300);
+    return with_columns_scaled(std::move(sum), factor);
+  }
+
+ private:
+  Eigen::Index rows_, columns_ = 0;
+  Triplets all_;
+};
+
+/// Whether each node's and each scalar's own block of M is positive: then there is nothing to look for.
+bool all_have_mass(const Triplets& mass, const MotionRows& rows) {
+  const std::size_t groups = rows.first_rows.size();
+  std::vector<std::size_t> group_of(rows.slot.size());
+  std::vector<Eigen::MatrixXd> blocks;
+  for (std::size_t g = 0; g < groups; ++g) {
+    const int end = g + 1 < groups ? rows.first_rows[g + 1] : static_cast<int>(rows.slot.size());
+    for (int i = rows.first_rows[g]; i < end; ++i) group_of[static_cast<std::size_t>(i)] = g;
+    blocks.emplace_back(Eigen::MatrixXd::Zero(end - rows.first_rows[g], end - rows.first_rows[g]));
+  }
+  for (const auto& entry : mass) {
+    const std::size_t g = group_of[static_cast<std::size_t>(entry.row())];
+    if (group_of[static_cast<std::size_t>(entry.col())] == g)
+      blocks[g](entry.row() - rows.first_rows[g], entry.col() - rows.first_rows[g]) += entry.value();
+  }
+  for (const Eigen::MatrixXd& block : blocks) {
+    if (!(block.diagonal().array() > 0).all()) return false;
+    const Vector size = block.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::LDLT<Eigen::MatrixXd> factors(size.asDiagonal() * block * size.asDiagonal());
+    if (!(factors.vectorD().minCoeff() > unseen)) return false;
+  }
+  return true;
+}
+
+/// The slot with the largest part of one of the motions outside of `determined`.
+std::string largest_part(const Assembler& assembler, const MotionRows& rows, const RowSpace& determined) {
+  Vector any(static_cast<Eigen::Index>(rows.slot.size()));
+  for (Eigen::Index i = 0; i < any.size(); ++i) any[i] = 1 + 0.5 * std::sin(2.3 * static_cast<double>(i + 1));
+  any -= Vector(determined.part(any));
+  // rather a node than a number of an element
+  const Numbering& numbering = assembler.numbering();
+  const double enough = 0.1 * any.cwiseAbs().maxCoeff();
+  Eigen::Index most = 0, node = -1;
+  any.cwiseAbs().maxCoeff(&most);
+  for (Eigen::Index i = 0; i < any.size(); ++i) {
+    const Unknown& u = numbering.unknown(numbering.equation(static_cast<int>(rows.slot[static_cast<std::size_t>(i)])));
+    if (u.part < 0 && std::abs(any[i]) > enough && (node < 0 || std::abs(any[i]) > std::abs(any[node]))) node = i;
+  }
+  if (node >= 0) most = node;
+  return numbering.describe(numbering.equation(static_cast<int>(rows.slot[static_cast<std::size_t>(most)])));
+}
+
+}  // namespace
+
+MasslessMotions::MasslessMotions(Assembler& assembler, const Configuration& configuration) : rows_(assembler) {
+  const Configuration c = outside_of_steps(configuration);
+  const Triplets mass = motion_block(assembler, c, rows_, {0, 0, 1});
+  if (all_have_mass(mass, rows_)) return;
+  const auto n = static_cast<Eigen::Index>(rows_.slot.size());
+  SideBySide seen(n);
+  seen.add(mass);
+  seen.add(mass, true);  // of a controller it is not symmetric
+  seen.add(ConstraintMatrix(assembler, c, ConstraintColumns::gradients).matrix);
+  seen_ = seen.matrix();
+  determined_.emplace(seen_.transpose(), unseen);
+  count_ = static_cast<int>(n - determined_->rank());
+  if (count_ > 0) example_ = largest_part(assembler, rows_, *determined_);
+}
+
+MasslessMotions::Unheld MasslessMotions::unheld(Assembler& assembler, const Configuration& configuration) const {
+  const Configuration c = outside_of_steps(configuration);
+  const auto n = static_cast<Eigen::Index>(rows_.slot.size());
+  SideBySide seen(n);
+  seen.add(seen_);
+  seen.add(motion_block(assembler, c, rows_, {1, 0, 0}));
+  seen.add(motion_block(assembler, c, rows_, {0, 1, 0}));
+  const RowSpace held(seen.matrix().transpose(), unseen);
+  Unheld found;
+  found.count = static_cast<int>(n - held.rank());
+  if (found.count > 0) found.where = largest_part(assembler, rows_, held);
+  return found;
+}
+
+void MasslessMotions::remove(std::span<double> slots) const {
+  if (!any()) return;
+  Vector x(static_cast<Eigen::Index>(rows_.slot.size()));
+  for (std::size_t i = 0; i < rows_.slot.size(); ++i) x[static_cast<Eigen::Index>(i)] = slots[rows_.slot[i]] / rows_.size[i];
+  x = determined_->part(x);
+  for (std::size_t i = 0; i < rows_.slot.size(); ++i) slots[rows_.slot[i]] = x[static_cast<Eigen::Index>(i)] * rows_.size[i];
+}
+
+void MasslessMotions::keep(std::span<double> slots) const {
+  std::vector<double> others(slots.begin(), slots.end());
+  remove(others);
+  for (std::size_t i = 0; i < slots.size(); ++i) slots[i] -= others[i];
+}
+
+void MasslessMotions::remove_forces(std::span<double> slots) const {
+  if (!any()) return;
+  // scaled like motions: a force times the size of its motion
+  std::vector<double> scaled(slots.begin(), slots.end());
+  for (std::size_t i = 0; i < rows_.slot.size(); ++i) scaled[rows_.slot[i]] *= rows_.size[i] * rows_.size[i];
+  remove(scaled);
+  for (std::size_t i = 0; i < rows_.slot.size(); ++i)
+    slots[rows_.slot[i]] = scaled[rows_.slot[i]] / (rows_.size[i] * rows_.size[i]);
+}
+
+std::string explain_unheld(Assembler& assembler, const Configuration& configuration) {
+  const MasslessMotions massless(assembler, configuration);
+  if (!massless.any()) return {};
+  const MasslessMotions::Unheld unheld = massless.unheld(assembler, configuration);
+  if (unheld.count == 0) return {};
+  return fmt::format(
+      "{} moves no mass, and no joint, spring or damper holds it there{}: give it a mass or a moment of inertia about the axis "
+      "that it turns about (INERTIA), make it part of a body (RIGID), or hold it by a support, spring or damper",
+      unheld.where, unheld.count > 1 ? fmt::format(" (one of {} such motions)", unheld.count) : "");
+}
+
+}  // namespace engrane::solve
