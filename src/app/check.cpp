@@ -7,6 +7,7 @@
 
 #include "app/options.hpp"
 #include "app/summary.hpp"
+#include "solve/constraints/diagnosis.hpp"
 #include "solve/schemes/scheme.hpp"
 
 namespace engrane::app {
@@ -29,6 +30,10 @@ int print_model(const Model& model, std::ostream& out) {
     // drives may agree on the place and not on the speed; supports move nodes only where there is motion
     context.start.fit_velocities(c, Assembler::Metric::geometric, report, moves);
     if (!moves) report.velocities_fitted = false;
+    if (context.options.analysis == SolverOptions::Analysis::kinematics)
+      if (const std::string free = explain_free_motion(context.assembler, c, context.redundancy.mobility().freedom());
+          !free.empty())
+        throw SolutionFailure(free);
     if (context.options.analysis == SolverOptions::Analysis::dynamics)
       if (const std::string unheld = explain_unheld(context.assembler, c); !unheld.empty()) throw SolutionFailure(unheld);
   } catch (const SolutionFailure& failure) {

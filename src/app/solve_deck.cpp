@@ -304,6 +304,26 @@ bool asked_to_stop(MPI_Comm comm, int ranks) {
   return stop != 0;
 }
 
+/// Why the run must end when its energies say that it is wrong; empty when they do not.
+std::string energy_failure(const SolverContext& context, const observe::Observer& observer, const Configuration& c) {
+  const double allowed = context.options.energy_error;
+  if (context.options.analysis != SolverOptions::Analysis::dynamics || allowed == 0) return {};
+  const observe::EnergyBalance& balance = observer.energies();
+  // what Newton's iteration leaves of forces in a machine at rest does work too
+  const double rounding = 1e-6 * context.newton.largest_force() * context.model.extent();
+  if (std::abs(balance.error()) <= allowed * std::max(balance.handled(), rounding)) return {};
+  const std::string unit = context.model.units.label(dimension::energy);
+  return fmt::format(
+      "the energy balance fails to close by {:.4g} {} at t = {:.6g}, more than the {:.4g} {} that were in the machine or passed "
+      "through it: the results are wrong from some time before on. Take a smaller step H{}; with ENERGY 0 in .SAM the run goes "
+      "on "
+      "all the same",
+      balance.error(), unit, c.time, balance.handled(), unit,
+      context.options.family == SolverOptions::Family::newmark || context.options.damping > 0.99
+          ? ", or a scheme that damps (RHO below 1): without damping, constraints swing up from rounding"
+          : "");
+}
+
 /// Lets the observer see an accepted step; what is not unique is looked for at the start, after 1, 2, 4, … steps and at the end.
 void observe_step(SolverContext& context, observe::Observer& observer, const Configuration& c, const StepReport& step,
                   const Schedule::Due& due) {
@@ -372,6 +392,10 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
         stop = 1;
       }
     if (ranks > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, comm);
+    if (const std::string wrong = energy_failure(context, observer, c); !wrong.empty() && stop == 0) {
+      failure = wrong;
+      stop = 1;
+    }
     const bool far_enough = options.until && c.time >= *options.until && c.time < reading.model.commands.stepping.end;
     if (asked_to_stop(comm, ranks) || far_enough) {
       failure = fmt::format("interrupted at t = {:.6g}", c.time);

@@ -24,6 +24,7 @@ SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::Ste
   o.precision = analysis.precision;
   o.iterations = analysis.iterations;
   o.scale = analysis.scale.value_or(0);
+  o.energy_error = analysis.energy;
   o.penalty = analysis.penalty.value_or(0);
   o.events = !analysis.events.is("NO");
   if (!analysis.events.values.empty()) o.event_tolerance = analysis.events.values[0];

@@ -28,6 +28,7 @@ struct SolverOptions {
   double penalty = 0;             ///< p of the augmented Lagrangian
   bool events = true;             ///< steps end where a law of an element changes
   double event_tolerance = 1e-6;  ///< how sharply, as a part of H
+  double energy_error = 1;        ///< most that the energy balance may be off, over EnergyBalance::handled(); 0: any
 
   bool moves() const { return analysis != Analysis::statics; }
 };

@@ -65,14 +65,18 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
   balance_.potential = sum.potential;
   if (!started_) {
     balance_.initial = sum.kinetic + sum.potential;
+    initial_potential_ = sum.potential;
   } else if (!moves_) {
     balance_.external_work += static_work(assembler_, supports_, before_, c);
   } else {
     const double half = 0.5 * (c.time - last_time_);
     balance_.external_work += half * (external_power_ + sum.external);
     balance_.dissipated += half * (dissipated_power_ + sum.dissipated);
+    balance_.passed +=
+        half * (std::abs(external_power_) + std::abs(sum.external) + std::abs(dissipated_power_) + std::abs(sum.dissipated));
   }
   started_ = true;
+  balance_.exchanged = std::max(balance_.exchanged, std::abs(sum.potential - initial_potential_));
   balance_.largest_error = std::max(balance_.largest_error, std::abs(balance_.error()));
   external_power_ = sum.external;
   dissipated_power_ = sum.dissipated;
@@ -82,7 +86,8 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
 
 void EnergyLedger::save(Snapshot& snapshot) const {
   snapshot.put("observe/energies", {balance_.kinetic, balance_.potential, balance_.external_work, balance_.dissipated,
-                                    balance_.initial, balance_.largest_error, external_power_, dissipated_power_, last_time_});
+                                    balance_.initial, balance_.largest_error, external_power_, dissipated_power_, last_time_,
+                                    balance_.passed, balance_.exchanged, initial_potential_});
 }
 
 void EnergyLedger::load(const Snapshot& snapshot) {
@@ -91,6 +96,9 @@ void EnergyLedger::load(const Snapshot& snapshot) {
   external_power_ = state.at(6);
   dissipated_power_ = state.at(7);
   last_time_ = state.at(8);
+  balance_.passed = state.at(9);
+  balance_.exchanged = state.at(10);
+  initial_potential_ = state.at(11);
   started_ = true;
   if (moves_) return;
   before_ = assembler_.numbering().reference_configuration(last_time_);

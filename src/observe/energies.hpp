@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "assembly/assembler.hpp"
@@ -15,7 +16,11 @@ struct EnergyBalance {
   double external_work = 0, dissipated = 0;
   double initial = 0;        ///< kinetic + potential at the start
   double largest_error = 0;  ///< largest |error()| so far
+  double passed = 0;         ///< the integral of all power in and out, whatever its sign
+  double exchanged = 0;      ///< largest change of the potential energy since the start
 
+  /// What was in the machine at the start, has gone through it or changed its form there: more than this cannot be amiss.
+  double handled() const { return std::abs(initial) + passed + exchanged; }
   /// What the balance fails to close by: E − E₀ − W + D.
   double error() const { return kinetic + potential - initial - external_work + dissipated; }
 };
@@ -46,6 +51,7 @@ class EnergyLedger {
   bool moves_;
   bool started_ = false;
   EnergyBalance balance_;
+  double initial_potential_ = 0;
   double external_power_ = 0, dissipated_power_ = 0, last_time_ = 0;
   Configuration before_;  ///< of statics: the last equilibrium
 };

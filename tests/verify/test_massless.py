@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Quasi-static parts of dynamic models: motions without mass that springs, dampers, gears hold. Each model against the
-ordinary differential equation that remains when the balance of the massless part is solved by hand or by scipy: positions
-and velocities are of order 2, from the first step on.
+"""Quasi-static parts of dynamic models: motions without mass that springs, dampers, gears hold. Each model
+against the ordinary differential equation that remains when the balance of the massless part is solved by
+hand or by scipy: positions and velocities are of order 2, from the first step on.
 """
 
 from __future__ import annotations
@@ -155,8 +155,8 @@ def expect_gears(t: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def lever(scheme: str, h: float) -> str:
-    """A bell crank of massless bodies on a torsion spring, its end node held to it by RIGID; a mass hangs on a spring from
-    the end and slides along y. It starts out of balance: the crank jumps."""
+    """A bell crank of massless bodies on a torsion spring, its end node held to it by RIGID; a mass hangs on
+    a spring from the end and slides along y. It starts out of balance: the crank jumps."""
     return f"""
 .NOE
  I 1 X 0 0 0

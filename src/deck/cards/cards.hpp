@@ -124,6 +124,7 @@ struct AnalysisCard {
   int iterations = 20;            ///< most Newton iterations before the step is cut
   int cuts = 10;                  ///< most halvings of one step
   Tagged events{"YES", {}};       ///< EVENTS YES [tolerance] or NO: steps end where contact begins and ends
+  double energy = 1;              ///< ENERGY: largest error of the energy balance, over the energy there was; 0: any
   std::optional<double> scale;    ///< k of the augmented Lagrangian; automatic when not given
   std::optional<double> penalty;  ///< p; automatic when not given
   std::string restart;            ///< RESTART: prefix of the results to restart from; empty: a new run

@@ -24,7 +24,7 @@ void check_analysis(AnalysisCard& analysis, Record& record, Diagnostics& diagnos
     diagnostics.error(record.where("T"), "T is the time of a restart point, and there is no RESTART",
                       "give RESTART \"prefix\" T t");
   if (analysis.type.is("DYNAMIC")) return;
-  for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START", "EVENTS"})
+  for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START", "EVENTS", "ENERGY"})
     if (record.given(keyword))
       diagnostics.warning(record.where(keyword), std::string(keyword) + " has no effect on a " + analysis.type.tag + " analysis");
 }
@@ -69,6 +69,12 @@ Schema analysis_card() {
       .synonyms({"EVENEMENTS"})
       .option({"YES", {"OUI"}, "each such instant is located, to a fraction of H that may follow (1E-6)", 0, 1})
       .option({"NO", {"NON"}, "steps pass over them"});
+  card.add("ENERGY", &AnalysisCard::energy,
+           "a DYNAMIC analysis ends with an error when its energy balance fails to close by more than this part of the energy "
+           "that "
+           "was in the machine at the start or has gone through it since; 0: never")
+      .synonyms({"ENERGIE"})
+      .at_least(0);
   card.add("SCALE", &AnalysisCard::scale, "scale factor of the constraint equations; automatic when not given")
       .synonyms({"ECHELLE"})
       .positive();

@@ -40,6 +40,9 @@ class Newton {
   /// Solves r = 0 from the guess `x`, which it overwrites; `work` ends as the last configuration tried.
   NewtonReport solve(Vec x, Weights weights, const Apply& apply, Configuration& work);
 
+  /// The largest force that an element has contributed so far.
+  double largest_force() const { return largest_[Measure::force]; }
+
   /// The largest contributions so far, which residuals are compared with, for a restart.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);

@@ -73,6 +73,8 @@ class ConstraintFactors {
   /// A (scaled) motion that closes the independent constraints, to first order.
   Eigen::VectorXd closing_motion(const std::vector<double>& phi) const;
   void to_slots(const Eigen::VectorXd& motion, std::vector<double>& y) const { gradients_.to_slots(motion, y); }
+  /// The motion slot of a row.
+  std::size_t slot_of(Eigen::Index row) const { return gradients_.rows.slot[static_cast<std::size_t>(row)]; }
 
  private:
   ConstraintMatrix gradients_;

@@ -15,6 +15,9 @@ enum class Resistance { at_rest, in_motion };
 /// nearest null vector by name. Collective.
 std::string explain_singular(Assembler& assembler, const std::string& what, Resistance resistance = Resistance::in_motion);
 
+/// Which motion no drive determines, of a mechanism with so much freedom; empty when there is none.
+std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, int freedom);
+
 /// Says where a Newton iteration got stuck: "largest residual at node 57 (rz) from HINGE 3".
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report);
 

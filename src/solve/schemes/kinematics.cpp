@@ -1,44 +1,108 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/schemes/kinematics.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "solve/constraints/constraint_factors.hpp"
+#include "solve/constraints/diagnosis.hpp"
+
 namespace engrane::solve {
 
 StartReport Kinematics::start(Configuration& c) {
   StartReport report;
   apply_initial_displacements(context_, c);
   context_.start.assemble(c, report);
+  if (const std::string free = explain_free_motion(context_.assembler, c, context_.redundancy.mobility().freedom());
+      !free.empty())
+    throw SolutionFailure(free);
   apply_initial_velocities(context_, c);
   context_.start.fit_velocities(c, Assembler::Metric::geometric, report);
   context_.start.balance_accelerations(c, 12, &report);
   return report;
 }
 
+int Kinematics::solve(Configuration& to) {
+  StartReport assembly;
+  context_.start.assemble(to, assembly, false);
+  context_.start.fit_velocities(to, Assembler::Metric::geometric, assembly, false);
+  context_.start.balance_accelerations(to);
+  return assembly.position_iterations;
+}
+
+Kinematics::Sizes Kinematics::sizes(const Configuration& c) const {
+  const double extent = context_.model.extent();
+  Sizes s;
+  const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
+  for (std::size_t i = 0; i < 6 * c.nodes.size(); ++i) {
+    const double size = i % 6 < 3 ? extent : 1.0;
+    s.velocity = std::max(s.velocity, std::abs(v[i]) / size);
+    s.acceleration = std::max(s.acceleration, std::abs(a[i]) / size);
+  }
+  const Eigen::VectorXd weight = constraint_sizes(context_.assembler) / extent;
+  for (std::size_t m = 0; m < c.multipliers.size(); ++m)
+    s.force = std::max(s.force, std::abs(c.multipliers[m]) * weight[static_cast<Eigen::Index>(m)]);
+  return s;
+}
+
 Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& to) {
+  constexpr double suspicious = 1e4;  // growth in a step after which a position is looked at from beside
+  constexpr double singular = 100;    // growth against the position beside it that no motion through it has
+  constexpr double beside = 1e-6;     // of a step
   Outcome outcome;
   NewtonReport& report = outcome.newton;
-  to = from;
-  to.time = from.time + h;
-  to.h = h;
   // along the motion known so far: near enough to stay in the way the mechanism is assembled
   const auto v = context_.motion.velocities(from), a = context_.motion.accelerations(from);
   std::vector<double> y(context_.motion.size());
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] = h * (v[i] + 0.5 * h * a[i]);
-  prescribe_step(from.time, to.time, y);
-  context_.motion.move(from, y, to);
+  const auto predict = [&](double length, Configuration& c) {
+    c = from;
+    c.time = from.time + length;
+    c.h = length;
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = length * (v[i] + 0.5 * length * a[i]);
+    prescribe_step(from.time, c.time, y);
+    context_.motion.move(from, y, c);
+  };
+  predict(h, to);
   report.converged = true;
   refuse_half_turns(y, report);
   if (!report.converged) return outcome;
+  std::string failure;
   try {
-    StartReport assembly;
-    context_.start.assemble(to, assembly, false);
-    context_.start.fit_velocities(to, Assembler::Metric::geometric, assembly, false);
-    context_.start.balance_accelerations(to);
-    report.iterations = assembly.position_iterations;
-  } catch (const SolutionFailure& failure) {
+    report.iterations = solve(to);
+  } catch (const SolutionFailure& e) {
+    failure = e.what();
+  }
+  const Sizes before = sizes(from), now = failure.empty() ? sizes(to) : Sizes{};
+  if (failure.empty() && !now.beyond(before, suspicious)) return outcome;
+  // In a singular position (bars in line, a dead point) the equations do not say how the motion goes on. A little farther on they
+  // do; the limit is the same where there is one.
+  Configuration near, farther;
+  bool found = true;
+  try {
+    predict(h * (1 + beside), near);
+    report.iterations += solve(near);
+    if (failure.empty() && !now.beyond(sizes(near), singular)) return outcome;
+    predict(h * (1 + 1000 * beside), farther);
+    solve(farther);
+  } catch (const SolutionFailure& e) {
+    if (failure.empty()) failure = e.what();
+    found = false;
+  }
+  if (!found || sizes(near).beyond(sizes(farther), singular)) {
     report.converged = false;
     report.conflict = true;
-    report.reason = failure.what();
+    report.reason = fmt::format(
+        "singular position: bars stand in line, or a drive in a dead point, where speeds or forces have no bound{}. Choose steps "
+        "that pass over it, or see whether a drive belongs to another joint",
+        failure.empty() ? "" : " (" + failure + ")");
+    return outcome;
   }
+  near.time = to.time;
+  near.h = h;
+  to = std::move(near);
   return outcome;
 }
 

@@ -6,13 +6,26 @@
 namespace engrane::solve {
 
 /// Positions, velocities and accelerations from constraints and drives alone; then the multipliers that this motion
-/// needs, inertia and applied forces included. What the drives leave free follows with least movement.
+/// needs, inertia and applied forces included. A model with a motion that nothing drives is refused.
 class Kinematics final : public Scheme {
  public:
   explicit Kinematics(SolverContext& context) : Scheme(context) {}
 
   StartReport start(Configuration& c) override;
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
+
+ private:
+  /// Closes `to`, which is near, at its time, with all that follows; returns the iterations of the positions.
+  int solve(Configuration& to);
+  /// Largest velocities, accelerations and multipliers, lengths over the extent and moments over it.
+  struct Sizes {
+    double velocity = 0, acceleration = 0, force = 0;
+
+    bool beyond(const Sizes& other, double factor) const {
+      return velocity > factor * other.velocity || acceleration > factor * other.acceleration || force > factor * other.force;
+    }
+  };
+  Sizes sizes(const Configuration& c) const;
 };
 
 }  // namespace engrane::solve
