@@ -18,6 +18,7 @@
 #include "app/summary.hpp"
 #include "app/times.hpp"
 #include "app/version.hpp"
+#include "model/function_failure.hpp"
 #include "output/checks.hpp"
 #include "output/listing.hpp"
 #include "output/progress.hpp"
@@ -284,9 +285,8 @@ std::string default_prefix(const Options& options) {
   return std::filesystem::path(options.deck).stem().string();
 }
 
-/// What a user routine complained of last, on whichever rank; empty when none did. Collective.
-std::string user_failure(MPI_Comm comm, int rank, int ranks) {
-  std::string text = user::last_failure();
+/// The text of the first rank that has one; empty when none has. Collective.
+std::string first_text(std::string text, MPI_Comm comm, int rank, int ranks) {
   int teller = text.empty() ? ranks : rank;
   MPI_Allreduce(MPI_IN_PLACE, &teller, 1, MPI_INT, MPI_MIN, comm);
   if (teller == ranks) return {};
@@ -295,6 +295,18 @@ std::string user_failure(MPI_Comm comm, int rank, int ranks) {
   text.resize(static_cast<std::size_t>(size));
   MPI_Bcast(text.data(), size, MPI_CHAR, teller, comm);
   return text;
+}
+
+/// The failure with what user routines and formulas, on whichever rank, complained of last. Collective.
+std::string with_causes(std::string failure, MPI_Comm comm, int rank, int ranks) {
+  const std::string routine = first_text(user::last_failure(), comm, rank, ranks);
+  const std::string function = first_text(last_function_failure(), comm, rank, ranks);
+  if (failure.empty()) return failure;
+  if (!routine.empty()) failure += ". The user routine " + routine;
+  if (function.empty()) return failure;
+  // what a formula without a value was part of is not finite either, and not to blame
+  const bool consequence = failure.find("finite") != std::string::npos || failure.find("nan") != std::string::npos;
+  return consequence ? function + "; hence " + failure : failure + ". Note that " + function;
 }
 
 /// Has any rank been asked to stop? Collective, so that all stop at the same step.
@@ -361,6 +373,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   const Observer after_step = [&](const Configuration& c, const StepReport& step) {
     const auto watch = times.output();
     user::forget_failures();  // those of attempts that were cut
+    forget_function_failures();
     const Schedule::Due due = schedule.at(c.time, step.number == 0 ? 0.0 : step.step, step.regular);
     observe_step(context, observer, c, step, due);
     int stop = 0;
@@ -397,8 +410,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   } catch (const SolutionFailure& e) {
     failure = e.what();
   }
-  if (const std::string routine = user_failure(comm, rank, ranks); !failure.empty() && !routine.empty())
-    failure += ". The user routine " + routine;
+  failure = with_causes(std::move(failure), comm, rank, ranks);
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {
     try {
