@@ -88,8 +88,10 @@ class Writer {
  public:
   /// `resumed`: what this run continues from, or nullptr.
   Writer(const Reading& reading, const observe::Observer& observer, const Schedule& schedule, const Options& options,
-         const std::string& prefix, const Resumption* resumed)
+         const std::string& prefix, const Resumption* resumed, RunSummary& summary)
       : reading_(reading),
+        options_(options),
+        summary_(summary),
         observer_(observer),
         schedule_(schedule),
         results_(make_results(prefix, results_layout(reading, observer, schedule.expected_samples()), resumed)),
@@ -98,9 +100,11 @@ class Writer {
         progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
                   options.quiet ? Progress::Style::silent : Progress::suitable()) {}
 
-  void begin(const SolverContext& context, const Options& options, int ranks) {
+  void begin(const SolverContext& context, int ranks) {
     const Model& model = reading_.model;
-    listing_.write(listing_header({version, library_versions(), model.title, options.deck, describe_analysis(model),
+    std::string deck = summary_.deck;
+    for (const auto& [name, text] : summary_.definitions) deck += fmt::format(" -D {}={}", name.substr(1), text);
+    listing_.write(listing_header({version, library_versions(), model.title, deck, describe_analysis(model),
                                    fmt::format("{} process{}", ranks, ranks == 1 ? "" : "es")}));
     listing_.write(listing_section("What was built"));
     listing_.write(listing_built(summarize(model, context.numbering)));
@@ -165,6 +169,7 @@ class Writer {
       const observe::EnergyBalance& e = observer_.energies();
       energies_.push_back({c.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error()});
     }
+    summary_.time = c.time;
     ++steps_;
     cuts_ += step.cuts;
     locating_ += step.locating;
@@ -206,18 +211,29 @@ class Writer {
       listing_.write("  " + failure + "\n");
       exit = exit_status::solution_failed;
     }
-    if (!checks_.empty()) {
-      const auto results = checks_.results();
+    std::vector<CheckResult> results = checks_.results();
+    const auto first_wanted = results.end() - static_cast<std::ptrdiff_t>(reading_.wanted);
+    summary_.results.assign(first_wanted, results.end());
+    results.erase(first_wanted, results.end());
+    if (!results.empty()) {
       results_.checks(results);
       const std::string table = listing_checks(results);
       listing_.write(listing_section("Checks"));
       listing_.write(table);
       if (failure.empty()) {
-        std::cout << table;
+        if (!options_.json) std::cout << table;
         for (const CheckResult& r : results)
           if (!r.passed) exit = exit_status::check_failed;
       }
     }
+    if (!summary_.results.empty()) {
+      const std::string table = wanted_table();
+      listing_.write(listing_section("Results asked for"));
+      listing_.write(table);
+      if (!options_.json) std::cout << table;
+    }
+    summary_.checks = std::move(results);
+    summary_.energies = observer_.energies();
     listing_.write(listing_section("Effort"));
     listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1,
                                iterations_, steps_ > 1 ? static_cast<double>(iterations_) / static_cast<double>(steps_ - 1) : 0.0,
@@ -225,13 +241,29 @@ class Writer {
     listing_.write(listing_times(times));
     results_.finish(status);
     listing_.finish(status == RunStatus::complete);
+    summary_.steps = std::max(0L, steps_ - 1);
+    summary_.iterations = iterations_;
+    summary_.cuts = cuts_;
+    summary_.events = event_count_;
+    summary_.seconds = times.total;
     return exit;
   }
 
   const std::string& path() const { return results_.path(); }
+  /// Results, their index and the listing, as they are called now.
+  std::vector<std::string> paths() const {
+    const std::string stem = path().substr(0, path().size() - std::string_view(".h5").size());
+    return {path(), stem + ".xdmf", stem + ".lst"};
+  }
   void note(const std::string& text) { progress_.note(text); }
 
  private:
+  std::string wanted_table() const {
+    std::string table;
+    for (const CheckResult& r : summary_.results)
+      table += fmt::format("  {}: {}\n", r.text, r.remark.empty() ? fmt::format("{:.10g}", r.value) : r.remark);
+    return table;
+  }
   void note_events(const Configuration& c, const StepReport& step) {
     for (const Event& e : step.events) {
       if (++event_count_ > most_listed_events) continue;
@@ -268,6 +300,8 @@ class Writer {
   }
 
   const Reading& reading_;
+  const Options& options_;
+  RunSummary& summary_;
   const observe::Observer& observer_;
   const Schedule& schedule_;
   Results results_;
@@ -279,11 +313,6 @@ class Writer {
   std::size_t marked_ = 0;  ///< channels marked as not unique so far
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;
 };
-
-std::string default_prefix(const Options& options) {
-  if (!options.prefix.empty()) return options.prefix;
-  return std::filesystem::path(options.deck).stem().string();
-}
 
 /// The text of the first rank that has one; empty when none has. Collective.
 std::string first_text(std::string text, MPI_Comm comm, int rank, int ranks) {
@@ -329,7 +358,9 @@ void observe_step(SolverContext& context, observe::Observer& observer, const Con
 
 }  // namespace
 
-int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
+bool was_interrupted() { return interrupted != 0; }
+
+int solve_deck(const Reading& reading, const Options& options, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
@@ -342,6 +373,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   try {
     resumption = find_resumption(reading, options);
   } catch (const RestartError& e) {
+    summary.failure = e.what();
     if (rank == 0) std::cerr << "engrane: " << e.what() << '\n';
     return exit_status::wrong_deck;
   }
@@ -352,14 +384,15 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   // the other ranks must hear of it when the files cannot be made
   std::string trouble;
   if (rank == 0) try {
-      writer.emplace(reading, observer, schedule, options, default_prefix(options), resumption.get());
-      writer->begin(context, options, ranks);
+      writer.emplace(reading, observer, schedule, options, prefix, resumption.get(), summary);
+      writer->begin(context, ranks);
     } catch (const OutputError& e) {
       trouble = e.what();
     }
   int bad = !trouble.empty();
   MPI_Bcast(&bad, 1, MPI_INT, 0, comm);
   if (bad) {
+    summary.failure = trouble;
     if (rank == 0) std::cerr << "engrane: " << trouble << '\n';
     return exit_status::solution_failed;
   }
@@ -420,6 +453,8 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
       failure = e.what();
       status = exit_status::solution_failed;
     }
+    summary.failure = failure;
+    summary.files = writer->paths();
     if (!failure.empty())
       std::cerr << "engrane: " << failure << "\n         results up to there are in " << writer->path() << '\n';
     else if (const std::string advice = times.advice(context.solver, ranks); !advice.empty() && !options.quiet)

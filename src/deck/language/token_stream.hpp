@@ -19,6 +19,11 @@ class TokenStream {
   TokenStream(SourceMap& sources, Diagnostics& diagnostics)
       : sources_(sources), diagnostics_(diagnostics), lexer_(sources, diagnostics) {}
 
+  /// Texts that stand for those of ABRE, before the first token is read.
+  void overrule(Definitions definitions) { abbreviations_.overrule(std::move(definitions)); }
+  /// All names that ABRE has defined so far.
+  std::vector<std::string> abbreviations() const { return abbreviations_.names(); }
+
   /// Opens the main file; false (and an error) when it cannot be read.
   bool open_file(const std::filesystem::path& path);
   void open_text(std::string name, std::string text);

@@ -443,10 +443,22 @@ Deck read(TokenStream& tokens, const Catalogue& catalogue, const SourceMap& sour
 
 }  // namespace
 
-Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics) {
+Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics,
+               const Definitions& definitions) {
   TokenStream tokens(sources, diagnostics);
+  tokens.overrule(definitions);
   if (!tokens.open_file(path)) return {};
-  return read(tokens, catalogue, sources, diagnostics);
+  Deck deck = read(tokens, catalogue, sources, diagnostics);
+  const std::vector<std::string> known = tokens.abbreviations();
+  for (const auto& [name, text] : definitions) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = nearest(name, known);
+    diagnostics.error({}, "-D " + name.substr(1) + ": " + path.string() + " has no abbreviation `" + name + "`",
+                      known.empty()  ? "it has none at all; ABRE '" + name + "' '" + text + "' would make it one"
+                      : near.empty() ? "it has " + join(known)
+                                     : "did you mean " + near.substr(1) + "? It has " + join(known));
+  }
+  return deck;
 }
 
 Deck read_text(std::string name, std::string text, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/diagnostics.hpp"
+#include "deck/language/abbreviations.hpp"
 #include "deck/schema/schema.hpp"
 
 namespace engrane::deck {
@@ -27,8 +28,10 @@ struct Deck {
   std::vector<std::string> folders;  ///< in which each file of the SourceMap stands; empty: the working directory
 };
 
-/// Reads a deck and everything it includes. All faults go to `diagnostics`; never throws on bad input.
-Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics);
+/// Reads a deck and everything it includes. All faults go to `diagnostics`; never throws on bad input. `definitions` stand for
+/// the texts of the deck's own ABRE; one that the deck has no ABRE for is an error.
+Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics,
+               const Definitions& definitions = {});
 
 /// The same for a text in memory, as `name`; INPUT is looked up in the working directory.
 Deck read_text(std::string name, std::string text, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics);
