@@ -8,6 +8,7 @@
 #include "app/check.hpp"
 #include "app/options.hpp"
 #include "app/read.hpp"
+#include "app/session_folder.hpp"
 #include "app/solve_deck.hpp"
 #include "assembly/petsc.hpp"
 #include "deck/manual/manual.hpp"
@@ -105,6 +106,7 @@ int main(int argc, char** argv) {
       if (early && early->task != Options::Task::run && early->task != Options::Task::check) return perform(*early, true);
     }
     output::hdf5::prepare();  // before MPI
+    const SessionFolder folder;
     PetscSession session(argc, argv);
     int rank = 0;
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
