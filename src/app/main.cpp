@@ -33,6 +33,12 @@ int print_about_cards(const Options& options) {
     std::cout << deck::help_overview(all);
     return exit_status::fine;
   }
+  if (options.task == Options::Task::help) {
+    if (const std::string text = deck::help_for(all, options.card); !text.empty()) {
+      std::cout << text;
+      return exit_status::fine;
+    }
+  }
   const deck::Schema* card = all.find(options.card);
   if (!card) {
     std::vector<std::string> names;
@@ -43,7 +49,7 @@ int print_about_cards(const Options& options) {
               << (near.empty() ? "; `engrane help` lists all" : "; did you mean " + near + "?") << '\n';
     return exit_status::wrong_deck;
   }
-  std::cout << (options.task == Options::Task::help ? deck::help_card(*card) : deck::template_card(*card));
+  std::cout << deck::template_card(*card);
   return exit_status::fine;
 }
 
@@ -63,7 +69,7 @@ int perform(const std::string& deck, const Options& options, bool talk, RunSumma
   if (!reading.good()) return exit_status::wrong_deck;
   run.time = reading.model.commands.stepping.start;
   run.end = reading.model.commands.stepping.end;
-  if (options.task == Options::Task::check) return talk ? print_model(reading.model, std::cout) : exit_status::fine;
+  if (options.task == Options::Task::check) return talk ? print_model(reading, std::cout) : exit_status::fine;
   const std::string prefix = results_prefix(options, deck);
   if (talk && prefix != options.prefix) make_folder(prefix);
   return solve_deck(reading, options, prefix, PETSC_COMM_WORLD, run);

@@ -89,6 +89,7 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
       "  engrane deck.dat -D A=0.3     the same with another text for the deck's abbreviation /A\n"
       "  engrane check deck.dat        read and verify only, and say what would be built\n"
       "  engrane help GEAR             what a card takes; without a word, all cards\n"
+      "  engrane help friction         which cards have to do with it\n"
       "  engrane template GEAR         a card to fill in\n"};
   app.name("engrane");
   app.footer(
@@ -121,7 +122,8 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
   check->add_option("deck", options.decks, "the decks")->required();
   define(*check);
   auto* help = app.add_subcommand("help", "explain a card, or list all cards");
-  help->add_option("card", options.card, "GEAR, HINGE, .SAM, \".CLM FIX\" ...");
+  std::vector<std::string> words;
+  help->add_option("card", words, "GEAR, HINGE, .SAM, .CLM FIX ..., or words to look for: friction, gravity");
   auto* blank = app.add_subcommand("template", "print a card to fill in");
   blank->add_option("card", options.card, "GEAR, HINGE, .SAM ...")->required();
   auto* manual = app.add_subcommand("manual", "print the reference manual (Markdown)");
@@ -137,6 +139,7 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
     if (schema->parsed()) options.task = Options::Task::schema;
     if (options.task == Options::Task::run && options.decks.empty())
       throw CLI::RequiredError("a deck to solve, or one of check, help, template, manual, schema,");
+    for (const std::string& word : words) options.card += (options.card.empty() ? "" : " ") + word;
     for (const std::string& text : definitions) add_definition(options, text);
     if (options.task == Options::Task::run) check_prefixes(options);
     return options;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "app/plausibility.hpp"
@@ -51,6 +52,17 @@ void add_wanted(Reading& reading, const std::vector<std::string>& results, Diagn
   }
 }
 
+/// A record that could not be read leaves a hole: that something refers to it is no fault of its own.
+bool is_echo(const std::string& message, const deck::Deck& deck) {
+  if (message.find("does not exist") == std::string::npos && message.find("there is no ") == std::string::npos) return false;
+  if (deck.incomplete.contains(".*")) return true;
+  static constexpr std::array<std::array<std::string_view, 2>, 5> kinds{
+      {{"node", ".NOE"}, {"element", ".MCE"}, {"function", ".FCT"}, {"group", ".SEL"}, {"frame", ".FRAME"}}};
+  return std::any_of(kinds.begin(), kinds.end(), [&](const auto& kind) {
+    return deck.incomplete.contains(kind[1]) && message.find(kind[0]) != std::string::npos;
+  });
+}
+
 }  // namespace
 
 Reading read_deck(const std::string& path, const Wishes& wishes) {
@@ -62,21 +74,29 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
   const bool syntax_good = reading.good();
   Diagnostics building;
   reading.model = build_model(reading.deck, element_types(), building);
-  if (syntax_good) check_targets(reading.deck, reading.model, building);
-  if (syntax_good) add_wanted(reading, wishes.results, building);
+  if (syntax_good && reading.deck.records.empty())
+    building.error({}, "the deck `" + file.string() + "` is empty", "docs/guide.md begins with a small one");
+  check_targets(reading.deck, reading.model, building);
+  if (syntax_good && !building.has_errors()) add_wanted(reading, wishes.results, building);
   if (!building.has_errors()) warn_of_undamped_constraints(reading.deck, reading.model, building);
   if (syntax_good && !building.has_errors()) warn_of_unit_slips(reading.deck, reading.model, building);
   // a record that could not be read leaves a hole: what the model then misses is an echo, not a fault of its own. But
   // what is wrong with records that were read is wrong all the same
   for (const Diagnostic& d : building.all()) {
-    const bool echo = !syntax_good && d.message.find("does not exist") != std::string::npos;
-    if (echo) continue;
+    if (is_echo(d.message, reading.deck)) continue;
     if (d.severity == Severity::error)
       reading.diagnostics.error(d.location, d.message, d.hint);
     else
       reading.diagnostics.warning(d.location, d.message, d.hint);
   }
   return reading;
+}
+
+std::string Reading::assumptions() const {
+  for (const deck::Record& record : deck.records)
+    if (record.get<deck::SteppingCard>()) return {};
+  const deck::SteppingCard& s = model.commands.stepping;
+  return fmt::format("the deck has no .SUB: t = {:g} to {:g} in steps of {:g}", s.start, s.end, s.step);
 }
 
 }  // namespace engrane::app

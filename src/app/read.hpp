@@ -16,6 +16,8 @@ struct Reading {
   Model model;
   std::size_t wanted = 0;  ///< the last of model.commands.checks only ask for a number: what `--result` names
 
+  /// A sentence about what holds because the deck says nothing of it; empty when it says all.
+  std::string assumptions() const;
   bool good() const { return !diagnostics.has_errors(); }
 };
 

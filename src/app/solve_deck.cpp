@@ -110,6 +110,10 @@ class Writer {
     listing_.write(listing_built(summarize(model, context.numbering)));
     listing_.write(describe_geometry(model));
     listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
+    if (const std::string text = reading_.assumptions(); !text.empty()) {
+      listing_.write(fmt::format("\n  {}\n", text));
+      progress_.note("engrane: " + text);
+    }
     if (const std::string text = left_out_histories(model); !text.empty()) {
       listing_.write(fmt::format("\n  {}\n", text));
       progress_.note("engrane: " + text);

@@ -28,6 +28,11 @@ class TokenStream {
   bool open_file(const std::filesystem::path& path);
   void open_text(std::string name, std::string text);
 
+  /// The words of all commands, with their dots, for mend_command().
+  void know_commands(std::vector<std::string> words) { commands_ = std::move(words); }
+  /// Is the next token the first of its line and a command without its dot? Then that is reported and the dot put there.
+  bool mend_command();
+
   /// The token `ahead` places on; of kind end behind the last one.
   const Token& peek(std::size_t ahead = 0);
   /// Takes the next token and reports its fault if it has one.
@@ -61,6 +66,9 @@ class TokenStream {
   std::vector<OpenFile> open_;
   std::vector<Token> line_;  ///< of the line being read
   std::deque<Token> tokens_;
+  std::vector<std::string> commands_;
+  std::deque<std::string> mended_;  ///< texts of tokens that got their dot
+  bool told_of_comment_ = false;
   int columns_ = 256;
 };
 

@@ -7,8 +7,13 @@
 
 namespace engrane::deck {
 
-std::string help_overview(const Catalogue& catalogue);    ///< `engrane help`: all cards, a line each
-std::string help_card(const Schema& schema);              ///< `engrane help GEAR`
+std::string help_overview(const Catalogue& catalogue);  ///< `engrane help`: all cards, a line each
+std::string help_card(const Schema& schema);            ///< `engrane help GEAR`
+/// `engrane help friction`: cards and keywords whose texts speak of the words, in English, Spanish or French, the nearest first;
+/// empty when none do.
+std::string help_search(const Catalogue& catalogue, const std::string& text);
+/// The card of this name, or what the search finds.
+std::string help_for(const Catalogue& catalogue, const std::string& text);
 std::string template_card(const Schema& schema);          ///< `engrane template GEAR`: a deck fragment to fill in
 std::string manual_markdown(const Catalogue& catalogue);  ///< `engrane manual`: docs/reference.md
 std::string json_schema(const Catalogue& catalogue);      ///< `engrane schema`

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,9 @@ struct Deck {
   /// Records about which an error was reported, apart: whoever builds a model from the good ones neither trips over them
   /// nor complains again. That something refers to their numbers is no fault of its own.
   std::vector<Record> faulty;
+  /// Commands of which something could not be read (`.NOE`), `.*` for one that is none: what is missing of them was perhaps
+  /// given.
+  std::set<std::string, std::less<>> incomplete;
   std::vector<std::string> folders;  ///< in which each file of the SourceMap stands; empty: the working directory
 };
 
