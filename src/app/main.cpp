@@ -13,6 +13,7 @@
 #include "assembly/petsc.hpp"
 #include "deck/manual/manual.hpp"
 #include "output/hdf5_handle.hpp"
+#include "user/library.hpp"
 
 namespace engrane::app {
 
@@ -62,6 +63,7 @@ void make_folder(const std::string& prefix) {
 
 /// Checks or solves one deck.
 int perform(const std::string& deck, const Options& options, bool talk, RunSummary& run) {
+  if (options.task == Options::Task::check && !options.allow_user) user::Library::trust_only_neighbours();
   const Reading reading = read_deck(deck, options.wishes);
   if (talk) reading.diagnostics.print(std::cerr, reading.sources);
   run.diagnostics = reading.diagnostics.all();

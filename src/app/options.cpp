@@ -121,6 +121,9 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
   auto* check = app.add_subcommand("check", "read and verify a deck, and say what would be built");
   check->add_option("deck", options.decks, "the decks")->required();
   define(*check);
+  check->add_flag(
+      "--allow-user", options.allow_user,
+      "load user libraries that lie elsewhere than beside the deck or in ENGRANE_USER_PATH; this runs what is in them");
   auto* help = app.add_subcommand("help", "explain a card, or list all cards");
   std::vector<std::string> words;
   help->add_option("card", words, "GEAR, HINGE, .SAM, .CLM FIX ..., or words to look for: friction, gravity");

@@ -14,6 +14,7 @@ struct Options {
   enum class Task { run, check, help, make_template, manual, schema } task = Task::run;
   std::vector<std::string> decks;
   Wishes wishes;                ///< `-D` and `--result`, for every deck
+  bool allow_user = false;      ///< `check` may load user libraries from anywhere
   bool json = false;            ///< a summary for programs, alone on standard output
   std::string prefix;           ///< of the results, or a folder for them; empty: the deck's name in the working directory
   std::string card;             ///< of help and template; empty: the overview

@@ -16,6 +16,7 @@
 #include "app/schedule.hpp"
 #include "app/selection.hpp"
 #include "app/summary.hpp"
+#include "app/terminal.hpp"
 #include "app/times.hpp"
 #include "app/version.hpp"
 #include "model/function_failure.hpp"
@@ -225,7 +226,7 @@ class Writer {
       listing_.write(listing_section("Checks"));
       listing_.write(table);
       if (failure.empty()) {
-        if (!options_.json) std::cout << table;
+        if (!options_.json) std::cout << terminal_text(table);
         for (const CheckResult& r : results)
           if (!r.passed) exit = exit_status::check_failed;
       }
@@ -234,7 +235,7 @@ class Writer {
       const std::string table = wanted_table();
       listing_.write(listing_section("Results asked for"));
       listing_.write(table);
-      if (!options_.json) std::cout << table;
+      if (!options_.json) std::cout << terminal_text(table);
     }
     summary_.checks = std::move(results);
     summary_.energies = observer_.energies();
@@ -378,7 +379,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     resumption = find_resumption(reading, options);
   } catch (const RestartError& e) {
     summary.failure = e.what();
-    if (rank == 0) std::cerr << "engrane: " << e.what() << '\n';
+    if (rank == 0) std::cerr << "engrane: " << terminal_text(e.what()) << '\n';
     return exit_status::wrong_deck;
   }
   SolverContext context(reading.model, comm);
@@ -397,7 +398,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   MPI_Bcast(&bad, 1, MPI_INT, 0, comm);
   if (bad) {
     summary.failure = trouble;
-    if (rank == 0) std::cerr << "engrane: " << trouble << '\n';
+    if (rank == 0) std::cerr << "engrane: " << terminal_text(trouble) << '\n';
     return exit_status::solution_failed;
   }
   if (rank == 0 && context.solver.package() != reading.model.commands.analysis.solver.tag)
@@ -460,7 +461,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     summary.failure = failure;
     summary.files = writer->paths();
     if (!failure.empty())
-      std::cerr << "engrane: " << failure << "\n         results up to there are in " << writer->path() << '\n';
+      std::cerr << "engrane: " << terminal_text(failure) << "\n         results up to there are in " << writer->path() << '\n';
     else if (const std::string advice = times.advice(context.solver, ranks); !advice.empty() && !options.quiet)
       std::cerr << advice;
   }

@@ -3,9 +3,12 @@
 
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "post"))
 
 PENDULUM = """! A pendulum of length /L and mass /M.
 .UNIT SI
