@@ -10,6 +10,7 @@
 #include "app/read.hpp"
 #include "app/session_folder.hpp"
 #include "app/solve_deck.hpp"
+#include "app/version.hpp"
 #include "assembly/petsc.hpp"
 #include "deck/manual/manual.hpp"
 #include "output/hdf5_handle.hpp"
@@ -28,6 +29,14 @@ int print_about_cards(const Options& options) {
   }
   if (options.task == Options::Task::schema) {
     std::cout << deck::json_schema(all);
+    return exit_status::fine;
+  }
+  if (options.task == Options::Task::completion) {
+    std::cout << deck::bash_completion(all, options.tasks, options.words);
+    return exit_status::fine;
+  }
+  if (options.task == Options::Task::man) {
+    std::cout << deck::man_page(all, version, options.usage);
     return exit_status::fine;
   }
   if (options.card.empty()) {

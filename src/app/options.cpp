@@ -131,8 +131,11 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
   blank->add_option("card", options.card, "GEAR, HINGE, .SAM ...")->required();
   auto* manual = app.add_subcommand("manual", "print the reference manual (Markdown)");
   auto* schema = app.add_subcommand("schema", "print all cards as a JSON schema");
+  auto* completion = app.add_subcommand("completion", "print completions for bash: source <(engrane completion)");
+  auto* man = app.add_subcommand("man", "print the manual page: engrane man > engrane.1");
   app.require_subcommand(0, 1);
 
+  const std::string usage = app.help();  // afterwards it is that of the subcommand
   try {
     app.parse(own_words(argc, argv));
     if (check->parsed()) options.task = Options::Task::check;
@@ -140,6 +143,20 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
     if (blank->parsed()) options.task = Options::Task::make_template;
     if (manual->parsed()) options.task = Options::Task::manual;
     if (schema->parsed()) options.task = Options::Task::schema;
+    if (man->parsed()) {
+      options.task = Options::Task::man;
+      options.usage = usage;
+    }
+    if (completion->parsed()) {
+      options.task = Options::Task::completion;
+      for (const CLI::App* task : app.get_subcommands({})) options.tasks.push_back(task->get_name());
+      // the launcher's own
+      for (const char* task :
+           {"plot", "spectrum", "orders", "picture", "animate", "sweep", "inertia", "figures", "gallery", "demo", "test"})
+        options.tasks.emplace_back(task);
+      for (const CLI::Option* option : app.get_options())
+        if (!option->get_lnames().empty()) options.words.push_back("--" + option->get_lnames().front());
+    }
     if (options.task == Options::Task::run && options.decks.empty())
       throw CLI::RequiredError("a deck to solve, or one of check, help, template, manual, schema,");
     for (const std::string& word : words) options.card += (options.card.empty() ? "" : " ") + word;

@@ -11,16 +11,18 @@ namespace engrane::app {
 
 /// What the command line asks for.
 struct Options {
-  enum class Task { run, check, help, make_template, manual, schema } task = Task::run;
+  enum class Task { run, check, help, make_template, manual, schema, completion, man } task = Task::run;
   std::vector<std::string> decks;
-  Wishes wishes;                ///< `-D` and `--result`, for every deck
-  bool allow_user = false;      ///< `check` may load user libraries from anywhere
-  bool json = false;            ///< a summary for programs, alone on standard output
-  std::string prefix;           ///< of the results, or a folder for them; empty: the deck's name in the working directory
-  std::string card;             ///< of help and template; empty: the overview
-  bool quiet = false;           ///< no progress
-  std::optional<double> until;  ///< the run is interrupted at the first step that ends then or later
-  std::string restart;          ///< prefix of the results to restart from, whatever the deck says; empty: what the deck says
+  Wishes wishes;            ///< `-D` and `--result`, for every deck
+  bool allow_user = false;  ///< `check` may load user libraries from anywhere
+  bool json = false;        ///< a summary for programs, alone on standard output
+  std::string prefix;       ///< of the results, or a folder for them; empty: the deck's name in the working directory
+  std::string card;         ///< of help and template; empty: the overview
+  std::string usage;        ///< of man: what --help prints
+  std::vector<std::string> tasks, words;  ///< of completion: subcommands, and options of a run
+  bool quiet = false;                     ///< no progress
+  std::optional<double> until;            ///< the run is interrupted at the first step that ends then or later
+  std::string restart;  ///< prefix of the results to restart from, whatever the deck says; empty: what the deck says
   std::optional<double> restart_time;
 };
 
