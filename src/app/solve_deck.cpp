@@ -373,6 +373,8 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   std::signal(SIGTERM, interrupt);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end of the program
 
+  user::forget_failures();  // those of another deck
+  forget_function_failures();
   Times times;
   std::unique_ptr<Resumption> resumption;
   try {

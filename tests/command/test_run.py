@@ -2,6 +2,7 @@
 """Running decks: definitions, several decks, results asked for, the summary for programs."""
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -111,3 +112,12 @@ def test_quiet_says_nothing(engrane, pendulum):
     (engrane.folder / "plain2.dat").write_text(text[: text.index(".CHK")])
     done = engrane("plain.dat", "plain2.dat", "-q")
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_a_failure_does_not_speak_of_the_deck_before(engrane):
+    wrong = Path(__file__).resolve().parents[1] / "errors/run"
+    done = engrane(wrong / "function_not_a_number.dat", wrong / "open_loop.dat", "-q")
+    assert done.returncode == 2
+    first, second = (block for block in done.stderr.split("engrane: ") if block.strip())
+    assert first.startswith('function 3, EXPR "sqrt(T-1)", is not a number at T = 0; hence ')
+    assert "function" not in second and "does not close" in second
