@@ -28,6 +28,7 @@ FOREIGN = {
     "SPQR::SPQR": re.compile(r"^(SuiteSparseQR|cholmod)"),
     "PkgConfig::HDF5": re.compile(r"hdf5|H5"),
     "CLI11::CLI11": re.compile(r"CLI/"),
+    "nlohmann_json::nlohmann_json": re.compile(r"nlohmann/"),
 }
 LAYER_LINE = re.compile(r"^engrane_layer\((\w+)([^)]*)\)", re.MULTILINE)
 ROOM_LINE = re.compile(r"^engrane_room\((\w+)/(\w+)([^)]*)\)", re.MULTILINE)

@@ -4,15 +4,14 @@
 from __future__ import annotations
 
 import argparse
-import os
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
 from . import options
 from .errors import UserError
+from .program import ROOT, find_program
 
-ROOT = Path(__file__).resolve().parents[2]
 SIZE = "900x640"
 EXAMPLES = """  engrane gallery                        all pictures, into docs/figures/gallery
   engrane gallery worm_drive             one of them
@@ -96,11 +95,9 @@ def run(args: argparse.Namespace) -> None:
 def result_of(shot: Shot, folder: Path) -> Path:
     """The deck's result, computed anew when it is missing or old."""
     deck = ROOT / "decks" / shot.folder / f"{shot.deck}.dat"
-    program = Path(os.environ.get("ENGRANE") or ROOT / "build" / "bin" / "engrane")
-    if not deck.is_file() or not program.is_file():
-        raise UserError(
-            f"The gallery needs engrane's source tree and program; there is no {deck} or no {program}."
-        )
+    program = find_program()
+    if not deck.is_file():
+        raise UserError(f"The gallery needs engrane's source tree; there is no {deck}.")
     result = folder / f"{shot.deck}.h5"
     made = [p.stat().st_mtime for p in (program, *deck.parent.glob("*.dat"))]
     if not result.is_file() or result.stat().st_mtime < max(made):

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import re
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -22,6 +23,8 @@ ATTEMPTS = 40
 PAUSE = 0.1  # seconds between attempts
 READING_ERRORS = (OSError, RuntimeError, KeyError, ValueError)
 
+CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+
 T = TypeVar("T")
 
 
@@ -29,7 +32,9 @@ def text(value: Any) -> str:
     """A string attribute or dataset of one string, however it was stored."""
     if isinstance(value, np.ndarray):
         value = value.item() if value.size == 1 else b"".join(value.ravel().tolist())
-    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+    words = value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+    # a title must not steer the terminal that it is printed on
+    return CONTROL.sub("?", words)
 
 
 class GrowingFile:

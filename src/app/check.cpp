@@ -7,19 +7,26 @@
 
 #include "app/options.hpp"
 #include "app/summary.hpp"
+#include "app/terminal.hpp"
+#include "base/text.hpp"
 #include "solve/constraints/diagnosis.hpp"
 #include "solve/schemes/scheme.hpp"
+#include "user/library.hpp"
 
 namespace engrane::app {
 
 using namespace output;
 using namespace solve;
 
-int print_model(const Model& model, std::ostream& out) {
+int print_model(const Reading& reading, std::ostream& out) {
+  const Model& model = reading.model;
   SolverContext context(model, PETSC_COMM_SELF);
-  if (!model.title.empty()) out << model.title << '\n';
+  if (!model.title.empty()) out << printable(model.title) << '\n';
   out << describe_analysis(model) << "\n\n" << listing_built(summarize(model, context.numbering)) << describe_geometry(model);
   if (!model.commands.checks.empty()) out << fmt::format("\n  {} checks (.CHK) will be made\n", model.commands.checks.size());
+  for (const std::string& file : user::Library::loaded())
+    out << terminal_text(fmt::format("\n  user routines were loaded from {}, and tried\n", file));
+  if (const std::string text = reading.assumptions(); !text.empty()) out << fmt::format("\n  {}\n", text);
   Configuration c = context.numbering.reference_configuration(model.commands.stepping.start);
   StartReport report;
   try {

@@ -2,15 +2,19 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 
 #include "app/check.hpp"
 #include "app/options.hpp"
 #include "app/read.hpp"
+#include "app/session_folder.hpp"
 #include "app/solve_deck.hpp"
+#include "app/version.hpp"
 #include "assembly/petsc.hpp"
 #include "deck/manual/manual.hpp"
 #include "output/hdf5_handle.hpp"
+#include "user/library.hpp"
 
 namespace engrane::app {
 
@@ -27,9 +31,23 @@ int print_about_cards(const Options& options) {
     std::cout << deck::json_schema(all);
     return exit_status::fine;
   }
+  if (options.task == Options::Task::completion) {
+    std::cout << deck::bash_completion(all, options.tasks, options.words);
+    return exit_status::fine;
+  }
+  if (options.task == Options::Task::man) {
+    std::cout << deck::man_page(all, version, options.usage);
+    return exit_status::fine;
+  }
   if (options.card.empty()) {
     std::cout << deck::help_overview(all);
     return exit_status::fine;
+  }
+  if (options.task == Options::Task::help) {
+    if (const std::string text = deck::help_for(all, options.card); !text.empty()) {
+      std::cout << text;
+      return exit_status::fine;
+    }
   }
   const deck::Schema* card = all.find(options.card);
   if (!card) {
@@ -41,20 +59,52 @@ int print_about_cards(const Options& options) {
               << (near.empty() ? "; `engrane help` lists all" : "; did you mean " + near + "?") << '\n';
     return exit_status::wrong_deck;
   }
-  std::cout << (options.task == Options::Task::help ? deck::help_card(*card) : deck::template_card(*card));
+  std::cout << deck::template_card(*card);
   return exit_status::fine;
+}
+
+/// Makes the folder that the results are to stand in, as far as it is missing; whoever writes there says what is wrong.
+void make_folder(const std::string& prefix) {
+  std::error_code error;
+  if (const auto folder = std::filesystem::path(prefix).parent_path(); !folder.empty())
+    std::filesystem::create_directories(folder, error);
+}
+
+/// Checks or solves one deck.
+int perform(const std::string& deck, const Options& options, bool talk, RunSummary& run) {
+  if (options.task == Options::Task::check && !options.allow_user) user::Library::trust_only_neighbours();
+  const Reading reading = read_deck(deck, options.wishes);
+  if (talk) reading.diagnostics.print(std::cerr, reading.sources);
+  run.diagnostics = reading.diagnostics.all();
+  for (int file = 0; file < reading.sources.size(); ++file) run.sources.push_back(reading.sources.path(file));
+  if (!reading.good()) return exit_status::wrong_deck;
+  run.time = reading.model.commands.stepping.start;
+  run.end = reading.model.commands.stepping.end;
+  if (options.task == Options::Task::check) return talk ? print_model(reading, std::cout) : exit_status::fine;
+  const std::string prefix = results_prefix(options, deck);
+  if (talk && prefix != options.prefix) make_folder(prefix);
+  return solve_deck(reading, options, prefix, PETSC_COMM_WORLD, run);
 }
 
 int perform(const Options& options, bool talk) {
   if (options.task != Options::Task::run && options.task != Options::Task::check)
     return talk ? print_about_cards(options) : exit_status::fine;
-  const Reading reading = read_deck(options.deck);
-  if (talk) reading.diagnostics.print(std::cerr, reading.sources);
-  if (!reading.good()) return exit_status::wrong_deck;
-  if (options.task == Options::Task::check) {
-    return talk ? print_model(reading.model, std::cout) : exit_status::fine;
+  std::vector<RunSummary> runs;
+  int status = exit_status::fine;
+  for (const std::string& deck : options.decks) {
+    RunSummary& run = runs.emplace_back();
+    run.deck = deck;
+    run.definitions = options.wishes.definitions;
+    run.status = perform(deck, options, talk, run);
+    status = worse_status(status, run.status);
+    if (was_interrupted()) break;
   }
-  return solve_deck(reading, options, PETSC_COMM_WORLD);
+  if (options.task == Options::Task::check || !talk) return status;
+  if (options.json)
+    std::cout << summary_json(runs, status);
+  else if (options.decks.size() > 1 && !options.quiet)
+    std::cout << summary_table(runs);
+  return status;
 }
 
 }  // namespace
@@ -73,6 +123,7 @@ int main(int argc, char** argv) {
       if (early && early->task != Options::Task::run && early->task != Options::Task::check) return perform(*early, true);
     }
     output::hdf5::prepare();  // before MPI
+    const SessionFolder folder;
     PetscSession session(argc, argv);
     int rank = 0;
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank);

@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iostream>
+#include <map>
 #include <string_view>
 
 #include "app/version.hpp"
@@ -40,15 +42,54 @@ std::vector<std::string> own_words(int argc, char** argv) {
   return words;
 }
 
+/// NAME=VALUE, with or without the slash of ABRE.
+void add_definition(Options& options, const std::string& text) {
+  const std::size_t sign = text.find('=');
+  const bool slash = text.starts_with('/');
+  const auto control = [](char c) { return static_cast<unsigned char>(c) < ' '; };
+  if (sign == std::string::npos || sign == (slash ? 1U : 0U) || std::any_of(text.begin(), text.end(), control))
+    throw CLI::ValidationError("-D " + text, "takes the name of an abbreviation, = and its text: -D RADIUS=0.25");
+  options.wishes.definitions[(slash ? "" : "/") + text.substr(0, sign)] = text.substr(sign + 1);
+}
+
+/// Several decks must not write the same files.
+void check_prefixes(const Options& options) {
+  if (options.decks.size() < 2) return;
+  if (!options.restart.empty()) throw CLI::ValidationError("--restart", "continues one run, not several decks");
+  std::map<std::string, std::string> writers;
+  for (const std::string& deck : options.decks) {
+    const std::string prefix = results_prefix(options, deck);
+    const auto [other, fresh] = writers.try_emplace(prefix, deck);
+    if (fresh) continue;
+    if (prefix == options.prefix)
+      throw CLI::ValidationError("-o " + prefix, "is the name of one result; several decks need a folder, -o " + prefix + "/");
+    throw CLI::ValidationError("deck", other->second + " and " + deck + " would both write " + prefix + ".h5");
+  }
+}
+
 }  // namespace
+
+std::string results_prefix(const Options& options, const std::string& deck) {
+  namespace fs = std::filesystem;
+  const std::string name = fs::path(deck).stem().string();
+  if (options.prefix.empty()) return name;
+  const fs::path prefix = options.prefix, last = prefix.filename();
+  std::error_code error;
+  const bool folder =
+      last.empty() || last == "." || last == ".." || (options.decks.size() > 1 && fs::is_directory(prefix, error));
+  return folder ? (prefix / name).string() : options.prefix;
+}
 
 std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int& status) {
   Options options;
   CLI::App app{
       "engrane: flexible multibody mechanisms with gears, from a SAMCEF/MECANO-like deck\n\n"
       "  engrane deck.dat              solve; writes deck.h5, deck.xdmf and deck.lst here\n"
+      "  engrane a.dat b.dat           solve one after the other; a summary ends it\n"
+      "  engrane deck.dat -D A=0.3     the same with another text for the deck's abbreviation /A\n"
       "  engrane check deck.dat        read and verify only, and say what would be built\n"
       "  engrane help GEAR             what a card takes; without a word, all cards\n"
+      "  engrane help friction         which cards have to do with it\n"
       "  engrane template GEAR         a card to fill in\n"};
   app.name("engrane");
   app.footer(
@@ -56,26 +97,45 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
       "PETSc's options (-snes_monitor, -ksp_view, -mat_mumps_icntl_14 80, -log_view ...) reach PETSc unchanged.\n"
       "Under MPI: mpiexec -n 2 engrane deck.dat");
   app.set_version_flag("--version", std::string("engrane ") + version);
-  app.add_option("-o,--output", options.prefix, "where the results go: prefix of .h5, .xdmf and .lst");
-  app.add_flag("-q,--quiet", options.quiet, "no progress");
+  std::vector<std::string> definitions;
+  const auto define = [&definitions](CLI::App& to) {
+    to.add_option("-D,--define", definitions, "text that stands for the abbreviation /NAME of the deck, whatever its ABRE says")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+  };
+  app.add_option("-o,--output", options.prefix, "where the results go: prefix of .h5, .xdmf and .lst, or a folder/");
+  app.add_flag("-q,--quiet", options.quiet, "no progress, no advice, no summary of several decks");
+  app.add_flag("--json", options.json, "print status, effort, checks, energies and files as JSON, and nothing else");
+  define(app);
+  app.add_option("--result", options.wishes.results, "print this number: \"ELEMENT 3 NORMAL_FORCE MAX\", as in .CHK")
+      ->type_name("QUANTITY")
+      ->allow_extra_args(false);
   app.add_option("--until", options.until, "stop at this time; --restart continues from there")->type_name("TIME");
   auto* restart =
       app.add_option("--restart", options.restart, "continue these results, as .SAM RESTART does")->type_name("PREFIX");
   app.add_option("--restart-at", options.restart_time, "continue from the last restart point up to this time")
       ->type_name("TIME")
       ->needs(restart);
-  app.add_option("deck", options.deck, "the deck to solve");
+  app.add_option("deck", options.decks, "the decks to solve");
 
   auto* check = app.add_subcommand("check", "read and verify a deck, and say what would be built");
-  check->add_option("deck", options.deck, "the deck")->required();
+  check->add_option("deck", options.decks, "the decks")->required();
+  define(*check);
+  check->add_flag(
+      "--allow-user", options.allow_user,
+      "load user libraries that lie elsewhere than beside the deck or in ENGRANE_USER_PATH; this runs what is in them");
   auto* help = app.add_subcommand("help", "explain a card, or list all cards");
-  help->add_option("card", options.card, "GEAR, HINGE, .SAM, \".CLM FIX\" ...");
+  std::vector<std::string> words;
+  help->add_option("card", words, "GEAR, HINGE, .SAM, .CLM FIX ..., or words to look for: friction, gravity");
   auto* blank = app.add_subcommand("template", "print a card to fill in");
   blank->add_option("card", options.card, "GEAR, HINGE, .SAM ...")->required();
   auto* manual = app.add_subcommand("manual", "print the reference manual (Markdown)");
   auto* schema = app.add_subcommand("schema", "print all cards as a JSON schema");
+  auto* completion = app.add_subcommand("completion", "print completions for bash: source <(engrane completion)");
+  auto* man = app.add_subcommand("man", "print the manual page: engrane man > engrane.1");
   app.require_subcommand(0, 1);
 
+  const std::string usage = app.help();  // afterwards it is that of the subcommand
   try {
     app.parse(own_words(argc, argv));
     if (check->parsed()) options.task = Options::Task::check;
@@ -83,8 +143,25 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
     if (blank->parsed()) options.task = Options::Task::make_template;
     if (manual->parsed()) options.task = Options::Task::manual;
     if (schema->parsed()) options.task = Options::Task::schema;
-    if (options.task == Options::Task::run && options.deck.empty())
+    if (man->parsed()) {
+      options.task = Options::Task::man;
+      options.usage = usage;
+    }
+    if (completion->parsed()) {
+      options.task = Options::Task::completion;
+      for (const CLI::App* task : app.get_subcommands({})) options.tasks.push_back(task->get_name());
+      // the launcher's own
+      for (const char* task :
+           {"plot", "spectrum", "orders", "picture", "animate", "sweep", "inertia", "figures", "gallery", "demo", "test"})
+        options.tasks.emplace_back(task);
+      for (const CLI::Option* option : app.get_options())
+        if (!option->get_lnames().empty()) options.words.push_back("--" + option->get_lnames().front());
+    }
+    if (options.task == Options::Task::run && options.decks.empty())
       throw CLI::RequiredError("a deck to solve, or one of check, help, template, manual, schema,");
+    for (const std::string& word : words) options.card += (options.card.empty() ? "" : " ") + word;
+    for (const std::string& text : definitions) add_definition(options, text);
+    if (options.task == Options::Task::run) check_prefixes(options);
     return options;
   } catch (const CLI::ParseError& e) {
     std::ostream silent(nullptr);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "app/plausibility.hpp"
@@ -30,31 +31,72 @@ void warn_of_undamped_constraints(const deck::Deck& deck, const Model& model, Di
                           "RHO 0.9 or less costs almost no accuracy at the frequencies that the step resolves");
 }
 
+/// Adds what `--result` asks for to the checks of the model. Faults are shown in a text that bears the option's name.
+void add_wanted(Reading& reading, const std::vector<std::string>& results, Diagnostics& diagnostics) {
+  for (const std::string& text : results) {
+    const bool one_line = text.find_first_of("\r\n") == std::string::npos;
+    const int errors = reading.diagnostics.errors();
+    // a value and a tolerance make it a record of .CHK; nobody compares with them
+    deck::Deck deck = deck::read_text("--result", ".CHK " + (one_line ? text : "") + " V 0 ATOL 0", catalogue(element_types()),
+                                      reading.sources, reading.diagnostics);
+    if (reading.diagnostics.errors() > errors) continue;
+    const deck::CheckCard* check = deck.records.size() == 1 ? deck.records.front().get<deck::CheckCard>() : nullptr;
+    if (!check) {
+      diagnostics.error({}, "--result takes one quantity, not `" + text + "`",
+                        "--result \"ELEMENT 3 NORMAL_FORCE MAX\", as in .CHK without V and tolerance");
+      continue;
+    }
+    check_targets(deck, reading.model, diagnostics);
+    reading.model.commands.checks.push_back(*check);
+    ++reading.wanted;
+  }
+}
+
+/// A record that could not be read leaves a hole: that something refers to it is no fault of its own.
+bool is_echo(const std::string& message, const deck::Deck& deck) {
+  if (message.find("does not exist") == std::string::npos && message.find("there is no ") == std::string::npos) return false;
+  if (deck.incomplete.contains(".*")) return true;
+  static constexpr std::array<std::array<std::string_view, 2>, 5> kinds{
+      {{"node", ".NOE"}, {"element", ".MCE"}, {"function", ".FCT"}, {"group", ".SEL"}, {"frame", ".FRAME"}}};
+  return std::any_of(kinds.begin(), kinds.end(), [&](const auto& kind) {
+    return deck.incomplete.contains(kind[1]) && message.find(kind[0]) != std::string::npos;
+  });
+}
+
 }  // namespace
 
-Reading read_deck(const std::string& path) {
+Reading read_deck(const std::string& path, const Wishes& wishes) {
   Reading reading;
   std::filesystem::path file = path;
   // `engrane gear` finds gear.dat, as INPUT does
   if (!std::filesystem::exists(file) && !file.has_extension()) file += ".dat";
-  reading.deck = deck::read_file(file, catalogue(element_types()), reading.sources, reading.diagnostics);
+  reading.deck = deck::read_file(file, catalogue(element_types()), reading.sources, reading.diagnostics, wishes.definitions);
   const bool syntax_good = reading.good();
   Diagnostics building;
   reading.model = build_model(reading.deck, element_types(), building);
-  if (syntax_good) check_targets(reading.deck, reading.model, building);
+  if (syntax_good && reading.deck.records.empty())
+    building.error({}, "the deck `" + file.string() + "` is empty", "docs/guide.md begins with a small one");
+  check_targets(reading.deck, reading.model, building);
+  if (syntax_good && !building.has_errors()) add_wanted(reading, wishes.results, building);
   if (!building.has_errors()) warn_of_undamped_constraints(reading.deck, reading.model, building);
   if (syntax_good && !building.has_errors()) warn_of_unit_slips(reading.deck, reading.model, building);
   // a record that could not be read leaves a hole: what the model then misses is an echo, not a fault of its own. But
   // what is wrong with records that were read is wrong all the same
   for (const Diagnostic& d : building.all()) {
-    const bool echo = !syntax_good && d.message.find("does not exist") != std::string::npos;
-    if (echo) continue;
+    if (is_echo(d.message, reading.deck)) continue;
     if (d.severity == Severity::error)
       reading.diagnostics.error(d.location, d.message, d.hint);
     else
       reading.diagnostics.warning(d.location, d.message, d.hint);
   }
   return reading;
+}
+
+std::string Reading::assumptions() const {
+  for (const deck::Record& record : deck.records)
+    if (record.get<deck::SteppingCard>()) return {};
+  const deck::SteppingCard& s = model.commands.stepping;
+  return fmt::format("the deck has no .SUB: t = {:g} to {:g} in steps of {:g}", s.start, s.end, s.step);
 }
 
 }  // namespace engrane::app

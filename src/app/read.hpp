@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "model/model.hpp"
 
@@ -13,11 +14,20 @@ struct Reading {
   Diagnostics diagnostics;
   deck::Deck deck;
   Model model;
+  std::size_t wanted = 0;  ///< the last of model.commands.checks only ask for a number: what `--result` names
 
+  /// A sentence about what holds because the deck says nothing of it; empty when it says all.
+  std::string assumptions() const;
   bool good() const { return !diagnostics.has_errors(); }
 };
 
+/// What the command line has to say about a deck.
+struct Wishes {
+  deck::Definitions definitions;     ///< `-D NAME=VALUE`
+  std::vector<std::string> results;  ///< `--result "ELEMENT 3 NORMAL_FORCE MAX"`: the beginnings of records of .CHK
+};
+
 /// Reads a deck and builds its model. Everything wrong is in `diagnostics`.
-Reading read_deck(const std::string& path);
+Reading read_deck(const std::string& path, const Wishes& wishes = {});
 
 }  // namespace engrane::app

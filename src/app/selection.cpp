@@ -12,6 +12,14 @@ namespace engrane::app {
 
 namespace {
 
+/// Is an element of this number in the deck? One that is wrong was not built, and was reported.
+bool is_in_deck(const deck::Deck& deck, int id) {
+  for (const auto* records : {&deck.records, &deck.faulty})
+    for (const deck::Record& record : *records)
+      if (record.id == id && record.schema->command() == ".MCE") return true;
+  return false;
+}
+
 /// Index of the element with this id, or -1. Nodal loads stand among the parts without a number of their own.
 std::map<int, int> parts_by_id(const Model& model) {
   std::map<int, int> parts;
@@ -50,14 +58,15 @@ bool is_supported(const Model& model, int node) {
   return std::any_of(model.supports.begin(), model.supports.end(), [node](const Support& s) { return s.node == node; });
 }
 
-void check_check(const deck::Record& record, const deck::CheckCard& check, const Model& model, const std::map<int, int>& parts,
-                 Diagnostics& diagnostics) {
+void check_check(const deck::Record& record, const deck::CheckCard& check, const deck::Deck& deck, const Model& model,
+                 const std::map<int, int>& parts, Diagnostics& diagnostics) {
   std::string owner = "the run";
   std::vector<std::string> names = names_of(observe::run_channels(moves(model)));
   if (check.element) {
     const auto found = parts.find(*check.element);
     if (found == parts.end()) {
-      diagnostics.error(record.where("ELEMENT"), fmt::format("there is no element {}", *check.element));
+      if (!is_in_deck(deck, *check.element))
+        diagnostics.error(record.where("ELEMENT"), fmt::format("there is no element {}", *check.element));
       return;
     }
     const Model::Part& part = model.parts[static_cast<std::size_t>(found->second)];
@@ -76,11 +85,11 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
     report_channel(record.where("QUANTITY"), owner, check.quantity, names, diagnostics);
 }
 
-void check_archive(const deck::Record& record, const deck::ArchiveCard& said, const Model& model, const std::map<int, int>& parts,
-                   Diagnostics& diagnostics) {
+void check_archive(const deck::Record& record, const deck::ArchiveCard& said, const deck::Deck& deck, const Model& model,
+                   const std::map<int, int>& parts, Diagnostics& diagnostics) {
   const deck::ArchiveCard& archive = model.commands.archive;  // with the members of groups
   for (const int id : archive.elements)
-    if (!parts.contains(id))
+    if (!parts.contains(id) && !is_in_deck(deck, id))
       diagnostics.error(record.where(said.elements.empty() ? "GROUP" : "ELEMENT"), fmt::format("there is no element {}", id));
   std::vector<std::string> types;
   for (const Model::Part& part : model.parts)
@@ -148,8 +157,8 @@ std::string left_out_histories(const Model& model) {
 void check_targets(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   const std::map<int, int> parts = parts_by_id(model);
   for (const deck::Record& record : deck.records) {
-    if (const auto* check = record.get<deck::CheckCard>()) check_check(record, *check, model, parts, diagnostics);
-    if (const auto* archive = record.get<deck::ArchiveCard>()) check_archive(record, *archive, model, parts, diagnostics);
+    if (const auto* check = record.get<deck::CheckCard>()) check_check(record, *check, deck, model, parts, diagnostics);
+    if (const auto* archive = record.get<deck::ArchiveCard>()) check_archive(record, *archive, deck, model, parts, diagnostics);
   }
 }
 

@@ -16,8 +16,10 @@
 #include "app/schedule.hpp"
 #include "app/selection.hpp"
 #include "app/summary.hpp"
+#include "app/terminal.hpp"
 #include "app/times.hpp"
 #include "app/version.hpp"
+#include "model/function_failure.hpp"
 #include "output/checks.hpp"
 #include "output/listing.hpp"
 #include "output/progress.hpp"
@@ -87,8 +89,10 @@ class Writer {
  public:
   /// `resumed`: what this run continues from, or nullptr.
   Writer(const Reading& reading, const observe::Observer& observer, const Schedule& schedule, const Options& options,
-         const std::string& prefix, const Resumption* resumed)
+         const std::string& prefix, const Resumption* resumed, RunSummary& summary)
       : reading_(reading),
+        options_(options),
+        summary_(summary),
         observer_(observer),
         schedule_(schedule),
         results_(make_results(prefix, results_layout(reading, observer, schedule.expected_samples()), resumed)),
@@ -97,14 +101,20 @@ class Writer {
         progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
                   options.quiet ? Progress::Style::silent : Progress::suitable()) {}
 
-  void begin(const SolverContext& context, const Options& options, int ranks) {
+  void begin(const SolverContext& context, int ranks) {
     const Model& model = reading_.model;
-    listing_.write(listing_header({version, library_versions(), model.title, options.deck, describe_analysis(model),
+    std::string deck = summary_.deck;
+    for (const auto& [name, text] : summary_.definitions) deck += fmt::format(" -D {}={}", name.substr(1), text);
+    listing_.write(listing_header({version, library_versions(), model.title, deck, describe_analysis(model),
                                    fmt::format("{} process{}", ranks, ranks == 1 ? "" : "es")}));
     listing_.write(listing_section("What was built"));
     listing_.write(listing_built(summarize(model, context.numbering)));
     listing_.write(describe_geometry(model));
     listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
+    if (const std::string text = reading_.assumptions(); !text.empty()) {
+      listing_.write(fmt::format("\n  {}\n", text));
+      progress_.note("engrane: " + text);
+    }
     if (const std::string text = left_out_histories(model); !text.empty()) {
       listing_.write(fmt::format("\n  {}\n", text));
       progress_.note("engrane: " + text);
@@ -164,6 +174,7 @@ class Writer {
       const observe::EnergyBalance& e = observer_.energies();
       energies_.push_back({c.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error()});
     }
+    summary_.time = c.time;
     ++steps_;
     cuts_ += step.cuts;
     locating_ += step.locating;
@@ -205,18 +216,29 @@ class Writer {
       listing_.write("  " + failure + "\n");
       exit = exit_status::solution_failed;
     }
-    if (!checks_.empty()) {
-      const auto results = checks_.results();
+    std::vector<CheckResult> results = checks_.results();
+    const auto first_wanted = results.end() - static_cast<std::ptrdiff_t>(reading_.wanted);
+    summary_.results.assign(first_wanted, results.end());
+    results.erase(first_wanted, results.end());
+    if (!results.empty()) {
       results_.checks(results);
       const std::string table = listing_checks(results);
       listing_.write(listing_section("Checks"));
       listing_.write(table);
       if (failure.empty()) {
-        std::cout << table;
+        if (!options_.json) std::cout << terminal_text(table);
         for (const CheckResult& r : results)
           if (!r.passed) exit = exit_status::check_failed;
       }
     }
+    if (!summary_.results.empty()) {
+      const std::string table = wanted_table();
+      listing_.write(listing_section("Results asked for"));
+      listing_.write(table);
+      if (!options_.json) std::cout << terminal_text(table);
+    }
+    summary_.checks = std::move(results);
+    summary_.energies = observer_.energies();
     listing_.write(listing_section("Effort"));
     listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1,
                                iterations_, steps_ > 1 ? static_cast<double>(iterations_) / static_cast<double>(steps_ - 1) : 0.0,
@@ -224,13 +246,29 @@ class Writer {
     listing_.write(listing_times(times));
     results_.finish(status);
     listing_.finish(status == RunStatus::complete);
+    summary_.steps = std::max(0L, steps_ - 1);
+    summary_.iterations = iterations_;
+    summary_.cuts = cuts_;
+    summary_.events = event_count_;
+    summary_.seconds = times.total;
     return exit;
   }
 
   const std::string& path() const { return results_.path(); }
+  /// Results, their index and the listing, as they are called now.
+  std::vector<std::string> paths() const {
+    const std::string stem = path().substr(0, path().size() - std::string_view(".h5").size());
+    return {path(), stem + ".xdmf", stem + ".lst"};
+  }
   void note(const std::string& text) { progress_.note(text); }
 
  private:
+  std::string wanted_table() const {
+    std::string table;
+    for (const CheckResult& r : summary_.results)
+      table += fmt::format("  {}: {}\n", r.text, r.remark.empty() ? fmt::format("{:.10g}", r.value) : r.remark);
+    return table;
+  }
   void note_events(const Configuration& c, const StepReport& step) {
     for (const Event& e : step.events) {
       if (++event_count_ > most_listed_events) continue;
@@ -267,6 +305,8 @@ class Writer {
   }
 
   const Reading& reading_;
+  const Options& options_;
+  RunSummary& summary_;
   const observe::Observer& observer_;
   const Schedule& schedule_;
   Results results_;
@@ -279,14 +319,8 @@ class Writer {
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;
 };
 
-std::string default_prefix(const Options& options) {
-  if (!options.prefix.empty()) return options.prefix;
-  return std::filesystem::path(options.deck).stem().string();
-}
-
-/// What a user routine complained of last, on whichever rank; empty when none did. Collective.
-std::string user_failure(MPI_Comm comm, int rank, int ranks) {
-  std::string text = user::last_failure();
+/// The text of the first rank that has one; empty when none has. Collective.
+std::string first_text(std::string text, MPI_Comm comm, int rank, int ranks) {
   int teller = text.empty() ? ranks : rank;
   MPI_Allreduce(MPI_IN_PLACE, &teller, 1, MPI_INT, MPI_MIN, comm);
   if (teller == ranks) return {};
@@ -295,6 +329,18 @@ std::string user_failure(MPI_Comm comm, int rank, int ranks) {
   text.resize(static_cast<std::size_t>(size));
   MPI_Bcast(text.data(), size, MPI_CHAR, teller, comm);
   return text;
+}
+
+/// The failure with what user routines and formulas, on whichever rank, complained of last. Collective.
+std::string with_causes(std::string failure, MPI_Comm comm, int rank, int ranks) {
+  const std::string routine = first_text(user::last_failure(), comm, rank, ranks);
+  const std::string function = first_text(last_function_failure(), comm, rank, ranks);
+  if (failure.empty()) return failure;
+  if (!routine.empty()) failure += ". The user routine " + routine;
+  if (function.empty()) return failure;
+  // what a formula without a value was part of is not finite either, and not to blame
+  const bool consequence = failure.find("finite") != std::string::npos || failure.find("nan") != std::string::npos;
+  return consequence ? function + "; hence " + failure : failure + ". Note that " + function;
 }
 
 /// Has any rank been asked to stop? Collective, so that all stop at the same step.
@@ -337,7 +383,9 @@ void observe_step(SolverContext& context, observe::Observer& observer, const Con
 
 }  // namespace
 
-int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
+bool was_interrupted() { return interrupted != 0; }
+
+int solve_deck(const Reading& reading, const Options& options, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
@@ -345,12 +393,15 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   std::signal(SIGTERM, interrupt);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end of the program
 
+  user::forget_failures();  // those of another deck
+  forget_function_failures();
   Times times;
   std::unique_ptr<Resumption> resumption;
   try {
     resumption = find_resumption(reading, options);
   } catch (const RestartError& e) {
-    if (rank == 0) std::cerr << "engrane: " << e.what() << '\n';
+    summary.failure = e.what();
+    if (rank == 0) std::cerr << "engrane: " << terminal_text(e.what()) << '\n';
     return exit_status::wrong_deck;
   }
   SolverContext context(reading.model, comm);
@@ -360,15 +411,16 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   // the other ranks must hear of it when the files cannot be made
   std::string trouble;
   if (rank == 0) try {
-      writer.emplace(reading, observer, schedule, options, default_prefix(options), resumption.get());
-      writer->begin(context, options, ranks);
+      writer.emplace(reading, observer, schedule, options, prefix, resumption.get(), summary);
+      writer->begin(context, ranks);
     } catch (const OutputError& e) {
       trouble = e.what();
     }
   int bad = !trouble.empty();
   MPI_Bcast(&bad, 1, MPI_INT, 0, comm);
   if (bad) {
-    if (rank == 0) std::cerr << "engrane: " << trouble << '\n';
+    summary.failure = trouble;
+    if (rank == 0) std::cerr << "engrane: " << terminal_text(trouble) << '\n';
     return exit_status::solution_failed;
   }
   if (rank == 0 && context.solver.package() != reading.model.commands.analysis.solver.tag)
@@ -381,6 +433,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   const Observer after_step = [&](const Configuration& c, const StepReport& step) {
     const auto watch = times.output();
     user::forget_failures();  // those of attempts that were cut
+    forget_function_failures();
     const Schedule::Due due = schedule.at(c.time, step.number == 0 ? 0.0 : step.step, step.regular);
     observe_step(context, observer, c, step, due);
     int stop = 0;
@@ -421,8 +474,7 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
   } catch (const SolutionFailure& e) {
     failure = e.what();
   }
-  if (const std::string routine = user_failure(comm, rank, ranks); !failure.empty() && !routine.empty())
-    failure += ". The user routine " + routine;
+  failure = with_causes(std::move(failure), comm, rank, ranks);
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {
     try {
@@ -432,8 +484,10 @@ int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm) {
       failure = e.what();
       status = exit_status::solution_failed;
     }
+    summary.failure = failure;
+    summary.files = writer->paths();
     if (!failure.empty())
-      std::cerr << "engrane: " << failure << "\n         results up to there are in " << writer->path() << '\n';
+      std::cerr << "engrane: " << terminal_text(failure) << "\n         results up to there are in " << writer->path() << '\n';
     else if (const std::string advice = times.advice(context.solver, ranks); !advice.empty() && !options.quiet)
       std::cerr << advice;
   }

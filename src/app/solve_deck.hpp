@@ -3,11 +3,16 @@
 
 #include "app/options.hpp"
 #include "app/read.hpp"
+#include "app/run_summary.hpp"
 #include "assembly/petsc.hpp"
 
 namespace engrane::app {
 
-/// Solves a good deck on all ranks of `comm`; rank 0 writes results and listing and speaks. Returns the exit status.
-int solve_deck(const Reading& reading, const Options& options, MPI_Comm comm);
+/// Solves a good deck on all ranks of `comm`; rank 0 writes results and listing as `prefix`, speaks, and fills in the summary.
+/// Returns the exit status.
+int solve_deck(const Reading& reading, const Options& options, const std::string& prefix, MPI_Comm comm, RunSummary& summary);
+
+/// Has a signal asked the program to end?
+bool was_interrupted();
 
 }  // namespace engrane::app

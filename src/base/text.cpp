@@ -91,11 +91,13 @@ std::string printable(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t size = character_size(text, i);
     const unsigned char c = byte_at(text, i);
-    if (size > 1) {
+    if (c == 0xc2 && size == 2 && byte_at(text, i + 1) < 0xa0) {
+      result += '?';  // C1 codes steer terminals as well
+    } else if (size > 1) {
       result += text.substr(i, size);
     } else if (c == '\t') {
       result += ' ';
-    } else if (is_control(c) || (c >= 0x80 && c < 0xa0)) {  // C1 codes steer terminals as well
+    } else if (is_control(c) || (c >= 0x80 && c < 0xa0)) {
       result += '?';
     } else if (c >= 0xa0) {
       append_latin1(result, c);

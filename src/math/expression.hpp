@@ -14,11 +14,15 @@ namespace engrane {
 /// the time T, such as `2E4*D*(1 + 0.3*V)`.
 ///
 /// Grammar, as in Fortran: `+ - * / **` and `( )`, a sign before any operand (`-2**2` is -4, `2**-1` is 0.5), `**` from
-/// the right, numbers with E or D exponents, PI, and sin cos tan asin acos atan (radians), atan2(y, x), sqrt, exp, log,
-/// abs, min and max of one or more. The variable is called T or X, whichever the text uses; case does not matter.
+/// the right, numbers with E or D exponents, PI, and sin cos tan asin acos atan (radians), atan2(y, x), sqrt, exp, log, tanh,
+/// abs, min and max of one or more, sign(a) (-1, 0 or 1) and Fortran's sign(a, b) (|a| with the sign of b), and if(c, a, b): a
+/// where c is not 0, b elsewhere. Comparisons `< <= > >= == /=`, also written `.LT. .LE. .GT. .GE. .EQ. .NE.`, and `.NOT.`,
+/// `.AND.`, `.OR.` give 1 where they hold and 0 where not; they bind less than `+`, in this order. The variable is called T or X,
+/// whichever the text uses; case does not matter.
 ///
-/// Derivatives are exact: truncated Taylor series of order three go through the same operations as the value. At the
-/// kinks of abs, min and max they are those on the right. Outside a function's domain the value is not a number.
+/// Derivatives are exact: truncated Taylor series of order three go through the same operations as the value. at() gives at
+/// corners and jumps what is on their right. Outside a function's domain the value is not a number, and so is all that is made
+/// of it, except by an `if` that does not choose it.
 class Expression {
  public:
   /// What is wrong with a text, and where.
@@ -42,6 +46,8 @@ class Expression {
   /// Does the text use D or V, or the time T? A formula without D and V is no law.
   bool is_law() const { return uses_law_; }
   bool uses_time() const { return uses_time_; }
+  /// The name that the text gives its variable: T or X.
+  char variable() const { return variable_; }
   struct Law {
     double value = 0, by_elongation = 0, by_rate = 0;
   };
@@ -52,25 +58,41 @@ class Expression {
     enum class Code : unsigned char {
       number,
       variable,
+      // of one operand
       negate,
-      add,
-      subtract,
-      multiply,
-      divide,
-      power,
       sine,
       cosine,
       tangent,
       arcsine,
       arccosine,
       arctangent,
-      arctangent2,
       square_root,
       exponential,
       logarithm,
+      hyperbolic_tangent,
       absolute,
+      sign,
+      logical_not,
+      // of two
+      add,
+      subtract,
+      multiply,
+      divide,
+      power,
+      arctangent2,
       minimum,
-      maximum
+      maximum,
+      transfer_sign,
+      less,
+      less_or_equal,
+      greater,
+      greater_or_equal,
+      equal,
+      not_equal,
+      logical_and,
+      logical_or,
+      // of three
+      choice
     };
     Code code = Code::number;
     double number = 0;  ///< of a variable: 0 for T or X, 1 for D, 2 for V
@@ -79,6 +101,7 @@ class Expression {
  private:
   std::vector<Instruction> program_;
   bool constant_ = true, uses_law_ = false, uses_time_ = false;
+  char variable_ = 'T';
 };
 
 /// A formula, or why there is none.

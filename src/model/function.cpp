@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/function.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -8,6 +11,7 @@
 
 #include "base/text.hpp"
 #include "math/spline.hpp"
+#include "model/function_failure.hpp"
 #include "model/function_integral.hpp"
 #include "model/user_function.hpp"
 
@@ -78,14 +82,46 @@ class StepFunction final : public Function {
 
 class FormulaFunction final : public Function {
  public:
-  explicit FormulaFunction(Expression formula)
-      : formula_(std::move(formula)), integral_([this](double x) { return formula_.value(x); }) {}
-  Jet at(double x) const override { return formula_.at(x); }
-  double integral(double x) const override { return integral_(x); }
+  /// `name`: "function 3", for messages.
+  FormulaFunction(Expression formula, std::string name, std::string text)
+      : formula_(std::move(formula)),
+        name_(std::move(name)),
+        text_(std::move(text)),
+        integral_([this](double x) { return formula_.value(x); }) {}
+
+  Jet at(double x) const override {
+    const Jet j = formula_.at(x);
+    const std::array values{j.f, j.d1, j.d2, j.d3};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!std::isfinite(values[i])) {
+        note(static_cast<int>(i), values[i], x);
+        break;
+      }
+    return j;
+  }
+  double integral(double x) const override {
+    const double area = integral_(x);
+    if (!std::isfinite(area)) {
+      const double value = formula_.value(x);
+      if (std::isfinite(value))
+        note_function_failure(0, fmt::format("{}, EXPR \"{}\", {} somewhere between 0 and {:.10g}, which its integral needs",
+                                             name_, text_, describe_not_finite(area), x));
+      else
+        note(0, value, x);
+    }
+    return area;
+  }
   const Expression* law() const override { return formula_.is_law() ? &formula_ : nullptr; }
 
  private:
+  void note(int order, double value, double x) const {
+    static constexpr std::array of{"", "the derivative of ", "the second derivative of ", "the third derivative of "};
+    note_function_failure(order, fmt::format("{}{}, EXPR \"{}\", {} at {} = {:.10g}", of[static_cast<std::size_t>(order)], name_,
+                                             text_, describe_not_finite(value), formula_.variable(), x));
+  }
+
   Expression formula_;
+  std::string name_, text_;
   PanelIntegral integral_;
 };
 
@@ -181,7 +217,9 @@ class Builder {
 
   std::unique_ptr<Function> formula() {
     Expression::Parsed parsed = Expression::parse(card_.expression);
-    if (parsed.good()) return std::make_unique<FormulaFunction>(std::move(parsed.expression));
+    if (parsed.good())
+      return std::make_unique<FormulaFunction>(std::move(parsed.expression), fmt::format("function {}", record_.id),
+                                               card_.expression);
     const Expression::Fault& fault = parsed.fault;
     Location where = record_.where("EXPR");
     std::string message = fault.message;

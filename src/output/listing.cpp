@@ -44,7 +44,7 @@ std::string listing_header(const ListingHeader& header) {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   localtime_r(&now, &local);
-  out += entry("title", header.title) + entry("deck", header.deck) + entry("analysis", header.analysis) +
+  out += entry("title", printable(header.title)) + entry("deck", header.deck) + entry("analysis", header.analysis) +
          entry("date", fmt::format("{:%Y-%m-%d %H:%M:%S %z}", local)) + entry("machine", header.machine) +
          entry("libraries", header.libraries);
   return out;
@@ -165,9 +165,10 @@ std::string listing_checks(std::span<const CheckResult> checks) {
   for (const CheckResult& c : checks) {
     passed += c.passed ? 1 : 0;
     // with few digits a value could look like the one expected although it fails
-    table.row({c.text, shown(c.value, 10), shown(c.expected, 10), magnitude(std::abs(c.value - c.expected)),
+    const std::string reference = printable(c.reference);
+    table.row({printable(c.text), shown(c.value, 10), shown(c.expected, 10), magnitude(std::abs(c.value - c.expected)),
                magnitude(c.tolerance), c.passed ? "PASS" : "FAIL",
-               c.remark.empty() ? c.reference : c.remark + (c.reference.empty() ? "" : "; " + c.reference)});
+               c.remark.empty() ? reference : c.remark + (reference.empty() ? "" : "; " + reference)});
   }
   const std::string sum = passed == checks.size()
                               ? (passed == 1 ? "The check passed." : fmt::format("All {} checks passed.", passed))

@@ -37,6 +37,17 @@ std::vector<fs::path> folders(const std::string& deck_folder) {
   return all;
 }
 
+bool only_neighbours = false;
+std::vector<std::string> loaded_files;
+
+/// Is the file, wherever links lead, in the folder or one below it? An absolute path was looked for in no folder.
+bool lies_below(const fs::path& file, const fs::path& folder) {
+  if (folder.empty()) return false;
+  std::error_code error;
+  const std::string relative = fs::canonical(file, error).lexically_relative(fs::canonical(folder, error)).string();
+  return !error && !relative.empty() && !relative.starts_with("..");
+}
+
 /// Number of entries of the symbol table: no section says so at run time, but the GNU hash table reaches the last of them.
 std::size_t symbol_count(const std::uint32_t* hash) {
   const std::uint32_t buckets = hash[0], first = hash[1], bloom = hash[2];
@@ -51,6 +62,9 @@ std::size_t symbol_count(const std::uint32_t* hash) {
 
 }  // namespace
 
+void Library::trust_only_neighbours() { only_neighbours = true; }
+std::vector<std::string> Library::loaded() { return loaded_files; }
+
 std::shared_ptr<const Library> Library::open(const std::string& name, const std::string& folder, Fault& fault) {
   std::vector<fs::path> places;
   if (name.empty() || name.find('\0') != std::string::npos) {
@@ -59,12 +73,15 @@ std::shared_ptr<const Library> Library::open(const std::string& name, const std:
   }
   const fs::path wanted(name);
   const std::vector<fs::path> bases = wanted.is_absolute() ? std::vector<fs::path>{""} : folders(folder);
+  fs::path found_in;  // the folder that the first of `places` was looked for in
   for (const fs::path& base : bases)
     for (const char* prefix : {"", "lib"})
       for (const char* suffix : {"", ".so"}) {
         const fs::path place = base / wanted.parent_path() / (prefix + wanted.filename().string() + suffix);
         std::error_code ignored;
-        if (fs::is_regular_file(place, ignored)) places.push_back(place);
+        if (!fs::is_regular_file(place, ignored)) continue;
+        if (places.empty()) found_in = base;
+        places.push_back(place);
       }
   if (places.empty()) {
     fault.message = "there is no library \"" + name + "\"";
@@ -80,8 +97,15 @@ std::shared_ptr<const Library> Library::open(const std::string& name, const std:
   }
   // without its folder dlopen() would search the linker's
   const fs::path file = fs::absolute(places.front());
+  if (only_neighbours && !lies_below(file, found_in)) {
+    fault = {"the library " + file.string() + " lies neither beside the deck nor in a folder of ENGRANE_USER_PATH",
+             "checking the deck would run what is in it; engrane check --allow-user does"};
+    return nullptr;
+  }
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle) {
+    if (std::find(loaded_files.begin(), loaded_files.end(), file.string()) == loaded_files.end())
+      loaded_files.push_back(file.string());
     watch_for_crashes();
     return std::shared_ptr<const Library>(new Library(handle, file.filename().string()));
   }

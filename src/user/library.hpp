@@ -25,6 +25,12 @@ class Library {
   /// linker's own folders are left out, so that one deck does not mean two things. nullptr with a fault.
   static std::shared_ptr<const Library> open(const std::string& name, const std::string& folder, Fault& fault);
 
+  /// From now on open() loads only what lies beside or below `folder` or in a folder of ENGRANE_USER_PATH, and is a fault for
+  /// anything else: loading runs what is in a library.
+  static void trust_only_neighbours();
+  /// The files that open() has loaded, with their folders, in that order.
+  static std::vector<std::string> loaded();
+
   /// The routine of a name as the deck spells it, or as Fortran compilers do: in lower case, with an underscore behind it.
   /// nullptr with a fault that says what the library has.
   engrane_routine* routine(const std::string& name, Fault& fault) const;

@@ -233,7 +233,9 @@ def test_gallery(command, tmp_path: Path, monkeypatch) -> None:
     assert (out / "idler.png").read_bytes()[:4] == b"\x89PNG"
     (tmp_path / "idler.h5").unlink()
     monkeypatch.setenv("ENGRANE", "/no/program")
-    assert "needs engrane's source tree" in command("gallery", "idler", "--results", tmp_path, "-o", out)[2]
+    assert (
+        "There is no program /no/program" in command("gallery", "idler", "--results", tmp_path, "-o", out)[2]
+    )
 
 
 @pytest.mark.parametrize("helix", [0.0, 15.0, -15.0])

@@ -26,6 +26,10 @@ TEST(Text, CharactersOfAnyEncoding) {
   EXPECT_EQ(character_count("\xc0\xaf"), 2U);      // overlong forms are no characters
   EXPECT_EQ(character_count("\xed\xa0\x80"), 3U);  // nor are surrogates
   EXPECT_EQ(printable("a\tb\x1b[31m\xe9\x9b"), "a b?[31mé?");
+  EXPECT_EQ(printable("a\xc2\x9b"
+                      "b\xc3\xa9"),
+            "a?bé")
+      << "C1 codes in UTF-8";
 }
 
 TEST(Text, Json) { EXPECT_EQ(json_string("a\"b\\c\n\x01\xe9é"), "\"a\\\"b\\\\c\\n\\u0001éé\""); }

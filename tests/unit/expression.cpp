@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace engrane {
 namespace {
@@ -103,10 +104,30 @@ void expect_series(std::string_view text, double t) {
 
 TEST(Expression, DerivativesAreThoseOfTheFunction) {
   for (const double t : {0.3, 0.71}) {
-    for (const std::string_view text :
-         {"sin(3*T)",     "cos(T**2)", "tan(T)",        "asin(T/2)", "acos(T/3)",     "atan(4*T)",   "atan2(T, 1-T)",
-          "sqrt(1+T**3)", "exp(-T)*T", "log(2+sin(T))", "abs(T-2)",  "min(T, T**2)",  "max(T, 1/T)", "T**2.5",
-          "T**T",         "2**T",      "T**-2",         "1/(1+T)",   "(1+T)/(2-T*T)", "X*(1-X)",     "3"})
+    for (const std::string_view text : {"sin(3*T)",
+                                        "cos(T**2)",
+                                        "tan(T)",
+                                        "asin(T/2)",
+                                        "acos(T/3)",
+                                        "atan(4*T)",
+                                        "atan2(T, 1-T)",
+                                        "sqrt(1+T**3)",
+                                        "exp(-T)*T",
+                                        "log(2+sin(T))",
+                                        "abs(T-2)",
+                                        "min(T, T**2)",
+                                        "max(T, 1/T)",
+                                        "T**2.5",
+                                        "T**T",
+                                        "2**T",
+                                        "T**-2",
+                                        "tanh(2*T)",
+                                        "if(T < 0.5, T**3, exp(T))",
+                                        "sign(T**3, 1-T)",
+                                        "1/(1+T)",
+                                        "(1+T)/(2-T*T)",
+                                        "X*(1-X)",
+                                        "3"})
       expect_series(text, t);
   }
 }
@@ -131,6 +152,90 @@ TEST(Expression, CornersTakeTheRight) {
   EXPECT_EQ(formula("min(0, T-1)").at(1).d1, 0);
   EXPECT_EQ(formula("min(T-1, 0)").at(1).d1, 0);
   EXPECT_EQ(formula("max(0, T**3)").at(0).d3, 6);
+}
+
+TEST(Expression, ComparisonsAndLogicGiveOneAndNought) {
+  EXPECT_EQ(constant("1 < 2"), 1);
+  EXPECT_EQ(constant("2 <= 2"), 1);
+  EXPECT_EQ(constant("1 > 2"), 0);
+  EXPECT_EQ(constant("2 >= 3"), 0);
+  EXPECT_EQ(constant("2 == 2"), 1);
+  EXPECT_EQ(constant("2 /= 2"), 0);
+  EXPECT_EQ(constant("1.LT.2"), 1);
+  EXPECT_EQ(constant("1.5.ge.1.d0"), 1);
+  EXPECT_EQ(constant("1.E1 .eq. 10."), 1);
+  EXPECT_EQ(constant("3.NE.3.OR.2.GT.1"), 1);
+  EXPECT_EQ(constant(".NOT. 1 > 2"), 1);
+  EXPECT_EQ(constant("1 < 2 .AND. .NOT. 2 < 3"), 0);
+  EXPECT_EQ(constant("1 > 2 .AND. 0 < 1 .OR. 1 < 2"), 1) << ".AND. binds before .OR.";
+  EXPECT_EQ(constant("1 + 2 < 2*2"), 1);
+  EXPECT_EQ(constant("(1 < 2)*5 - 6/3/2"), 4);
+  EXPECT_EQ(constant("6/(2)/3"), 1);
+}
+
+TEST(Expression, Choices) {
+  EXPECT_EQ(constant("if(1 < 2, 3, 4)"), 3);
+  EXPECT_EQ(constant("IF(0, 3, 4)"), 4);
+  EXPECT_EQ(constant("sign(-3)"), -1);
+  EXPECT_EQ(constant("sign(0)"), 0);
+  EXPECT_EQ(constant("sign(-3, 2)"), 3) << "as in Fortran";
+  EXPECT_EQ(constant("sign(3, -2)"), -3);
+  EXPECT_EQ(constant("sign(3, 0)"), 3);
+  EXPECT_EQ(constant("tanh(0.5)"), std::tanh(0.5));
+  const Expression ramp = formula("if(T < 1, 0, if(T < 2, (T-1)**2, 1))");
+  EXPECT_EQ(ramp.value(0.5), 0);
+  EXPECT_EQ(ramp.value(1.5), 0.25);
+  EXPECT_EQ(ramp.value(3), 1);
+  EXPECT_EQ(ramp.at(1.5).d1, 1);
+  EXPECT_EQ(ramp.at(1.5).d2, 2);
+  EXPECT_EQ(formula("if(T < 1, 0, sqrt(T-1))").at(0.5).f, 0) << "what is not chosen may be undefined";
+  EXPECT_TRUE(std::isnan(formula("if(sqrt(T) < 1, 0, 1)").at(-1).f));
+  EXPECT_TRUE(std::isnan(formula("max(0, sqrt(T))").value(-1)));
+  EXPECT_TRUE(std::isnan(formula("max(0, sqrt(T))").at(-1).f));
+  EXPECT_TRUE(std::isnan(formula("min(sqrt(T), 0)").at(-1).f));
+  EXPECT_TRUE(std::isnan(formula("sign(sqrt(T))").at(-1).f));
+  EXPECT_TRUE(std::isnan(formula("1 .OR. sqrt(T)").at(-1).f));
+}
+
+TEST(Expression, JumpsTakeTheRight) {
+  for (const auto& [text, right] : {std::pair{"if(T > 1, 5, 0)", 5.0},
+                                    {"if(T <= 1, 0, 5)", 5.0},
+                                    {"if(T < 1, 0, 5)", 5.0},
+                                    {"5*(T > 1)", 5.0},
+                                    {"if(T == 1, 0, 5)", 5.0},
+                                    {"sign(T-1)", 1.0},
+                                    {"sign(5, 1-T)", -5.0},
+                                    {"if(.NOT. T > 1, 0, 5)", 5.0},
+                                    {"if(T > 1 .AND. T < 2, 5, 0)", 5.0},
+                                    {"if(T >= 1 .OR. T < 0, 5, 0)", 5.0},
+                                    {"if((T-1)**2 > 0, 5, 0)", 5.0}}) {
+    EXPECT_EQ(formula(text).at(1).f, right) << text;
+    EXPECT_EQ(formula(text).at(1).d1, 0) << text;
+  }
+  EXPECT_EQ(formula("if(T > 1, T-1, 0)").at(1).d1, 1);
+  EXPECT_EQ(formula("abs(sign(T))").at(0).f, 1);
+  const Expression rest = formula("3*sign(V) + 2*D");
+  EXPECT_EQ(rest.law(1, 0, 0).value, 2) << "at rest a sign is none";
+  EXPECT_EQ(rest.law(1, -2, 0).value, -1);
+}
+
+TEST(Expression, FaultsOfComparisons) {
+  EXPECT_NE(fault("1 < T < 2").hint.find(".AND."), std::string::npos);
+  EXPECT_EQ(fault("1 < T < 2").at, 6);
+  EXPECT_NE(fault("T = 2").hint.find("=="), std::string::npos);
+  EXPECT_NE(fault("T != 2").hint.find("/="), std::string::npos);
+  EXPECT_NE(fault("T^2").hint.find("**"), std::string::npos);
+  EXPECT_NE(fault("T && X").hint.find(".AND."), std::string::npos);
+  EXPECT_NE(fault("T > 1 ? 2 : 3").hint.find("if("), std::string::npos);
+  EXPECT_EQ(fault("if(T, 1)").message, "if takes 3 arguments");
+  EXPECT_EQ(fault("sign(1, 2, 3)").message, "sign takes 1 or 2 arguments");
+  EXPECT_EQ(fault("tanh(1, 2)").message, "tanh takes 1 argument");
+  fault("if(1,2,");
+  fault("T <");
+  fault(".NOT.");
+  std::string deep = "T";
+  for (int i = 0; i < 70; ++i) deep = "if(T, 1, " + deep + ")";
+  EXPECT_NE(fault(deep).message.find("deep"), std::string::npos);
 }
 
 TEST(Expression, LawsOfElongationRateAndTime) {

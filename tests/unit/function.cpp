@@ -128,6 +128,8 @@ TEST(Function, FormulaIntegralIsExactToRounding) {
   expect("exp(-((T-5)*20)**2)", 10, std::sqrt(pi) / 20, 1e-14);
   expect("3", 1e6, 3e6, 1e-6);
   EXPECT_TRUE(std::isnan(make(formula("sqrt(1-T)"))->integral(2)));
+  EXPECT_NEAR(make(formula("if(T < 0.37, 0, 1)"))->integral(1), 0.63, 1e-9);
+  EXPECT_NEAR(make(formula("sign(T - 1) + 3*(T > 2)"))->integral(3), 4, 1e-9);
   for (const double x : {-2.0, 0.3, 1.0, 5.0}) expect_consistent(*make(formula("cos(T)*exp(-T/3)")), x);
 }
 

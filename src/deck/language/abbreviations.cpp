@@ -65,6 +65,7 @@ class Expansion {
 
 void Abbreviations::define(std::string name, std::string text) {
   longest_name_ = std::max(longest_name_, name.size());
+  if (const auto given = overruling_.find(name); given != overruling_.end()) text = given->second;
   texts_[std::move(name)] = std::move(text);
 }
 

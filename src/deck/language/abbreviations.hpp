@@ -5,17 +5,22 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostics.hpp"
 
 namespace engrane::deck {
 
+/// Texts that the command line gives instead of those of the deck, `-D NAME=VALUE`; names as in ABRE, with their slash.
+using Definitions = std::map<std::string, std::string, std::less<>>;
+
 /// The `ABRE '/name' 'text'` definitions of a deck. A text may use other names; they are looked up when it is used.
 class Abbreviations {
  public:
-  /// Defines a name (again: the last text counts).
+  /// Defines a name (again: the last text counts), with the text of a definition that overrules the deck where there is one.
   void define(std::string name, std::string text);
+  void overrule(Definitions definitions) { overruling_ = std::move(definitions); }
 
   bool empty() const { return texts_.empty(); }
 
@@ -32,7 +37,7 @@ class Abbreviations {
   std::vector<std::string> names() const;
 
  private:
-  std::map<std::string, std::string, std::less<>> texts_;
+  Definitions texts_, overruling_;
   std::size_t longest_name_ = 0;
 };
 

@@ -33,6 +33,10 @@ bool read_plain_file(const fs::path& path, std::string& text, std::string& fault
   in.read(text.data(), static_cast<std::streamsize>(size));
   text.resize(static_cast<std::size_t>(in.gcount()));  // should it have become shorter
   if (in.bad()) return fault = "cannot be read", false;
+  const std::string_view start = std::string_view(text).substr(0, 2);
+  if (start == "\xff\xfe" || start == "\xfe\xff")
+    return fault = "is UTF-16; save it as UTF-8 or ASCII (iconv -f UTF-16 -t UTF-8)", false;
+  if (text.find('\0') < 200) return fault = "is no text: it holds zero bytes (UTF-16 without its mark?)", false;
   return true;
 }
 
@@ -100,8 +104,35 @@ bool TokenStream::read_line() {
   return true;
 }
 
+bool TokenStream::mend_command() {
+  const Token& token = peek();
+  if (!token.is_word() || !token.starts_line) return false;
+  const auto same = [&](const std::string& word) { return same_word(word.substr(1), token.text); };
+  if (std::none_of(commands_.begin(), commands_.end(), same)) return false;
+  mended_.push_back("." + std::string(token.text));
+  diagnostics_.error(token.where, token.quoted() + " lacks its dot", "a command is written `" + mended_.back() + "`");
+  tokens_.front().text = mended_.back();
+  return true;
+}
+
+namespace {
+
+/// What begins a comment in other languages.
+bool begins_foreign_comment(const Token& token) {
+  if (!token.is_word() || begins_with_word(token.text, "#INQ")) return false;
+  return token.text.front() == '#' || token.text.front() == '%' || token.text.starts_with("//");
+}
+
+}  // namespace
+
 void TokenStream::push(const std::vector<Token>& tokens) {
   for (const Token& token : tokens) {
+    if (begins_foreign_comment(token)) {
+      if (!told_of_comment_)
+        diagnostics_.error(token.where, token.quoted() + " begins no comment", "a comment begins with `!`; this is said once");
+      told_of_comment_ = true;
+      return;
+    }
     if (token.is_word() && (token.text == "&" || begins_with_word(token.text, "#INQ"))) {
       diagnostics_.warning(token.where, token.quoted() + " has no meaning here and is skipped");
       continue;

@@ -19,9 +19,19 @@ class TokenStream {
   TokenStream(SourceMap& sources, Diagnostics& diagnostics)
       : sources_(sources), diagnostics_(diagnostics), lexer_(sources, diagnostics) {}
 
+  /// Texts that stand for those of ABRE, before the first token is read.
+  void overrule(Definitions definitions) { abbreviations_.overrule(std::move(definitions)); }
+  /// All names that ABRE has defined so far.
+  std::vector<std::string> abbreviations() const { return abbreviations_.names(); }
+
   /// Opens the main file; false (and an error) when it cannot be read.
   bool open_file(const std::filesystem::path& path);
   void open_text(std::string name, std::string text);
+
+  /// The words of all commands, with their dots, for mend_command().
+  void know_commands(std::vector<std::string> words) { commands_ = std::move(words); }
+  /// Is the next token the first of its line and a command without its dot? Then that is reported and the dot put there.
+  bool mend_command();
 
   /// The token `ahead` places on; of kind end behind the last one.
   const Token& peek(std::size_t ahead = 0);
@@ -56,6 +66,9 @@ class TokenStream {
   std::vector<OpenFile> open_;
   std::vector<Token> line_;  ///< of the line being read
   std::deque<Token> tokens_;
+  std::vector<std::string> commands_;
+  std::deque<std::string> mended_;  ///< texts of tokens that got their dot
+  bool told_of_comment_ = false;
   int columns_ = 256;
 };
 

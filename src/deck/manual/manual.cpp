@@ -36,7 +36,10 @@ A deck is a text of **commands** and **records**, in the style of SAMCEF BACON a
 - **Numbers** are written in any way of Fortran: `3`, `.5`, `3.`, `2.1E+08`, `1.5D3`, `1.5d-3`, `1.5+3`. `3*0.` stands for three
   zeros. The whole word must be a number; what does not fit a double is an error.
 - **Arithmetic** stands in parentheses, with `+ - * / **`, `PI` and the functions sin, cos, tan, asin, acos, atan, atan2, sqrt, exp, log,
-  abs, min and max; the functions take and give radians: `(1000/cos(20*PI/180))`.
+  tanh, abs, min, max, sign and if; the functions take and give radians: `(1000/cos(20*PI/180))`. `sign(a)` is -1, 0 or 1 and
+  `sign(a, b)`, as in Fortran, |a| with the sign of b; `if(c, a, b)` is a where c is not 0 and b elsewhere. Comparisons
+  `< <= > >= == /=` (or `.LT. .LE. .GT. .GE. .EQ. .NE.`) and `.NOT.`, `.AND.`, `.OR.` give 1 where they hold and 0 where not:
+  `EXPR "if(T < 1, T**2, 1) + 2"`.
 - **Ranges** of numbers: `751 A 2249`, or `I 1 J 5000 K 2` (from, to, step), where a list of nodes or elements is expected.
 - **Angles** are in degrees, in the deck; angular velocities are in radians per unit of time.
 - A **node 0**, where an element allows it, is the ground.

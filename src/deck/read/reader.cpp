@@ -113,7 +113,11 @@ class NumbersGiven {
 class Reader {
  public:
   Reader(const Catalogue& catalogue, TokenStream& tokens, Diagnostics& diagnostics)
-      : commands_(catalogue), tokens_(tokens), diagnostics_(diagnostics), records_(tokens, diagnostics) {}
+      : commands_(catalogue), tokens_(tokens), diagnostics_(diagnostics), records_(tokens, diagnostics) {
+    std::vector<std::string> words = commands_.words();
+    std::erase_if(words, [](const std::string& word) { return word == ".FIN" || word == ".DEL"; });
+    tokens_.know_commands(std::move(words));
+  }
 
   Deck run() {
     bool complained = false;
@@ -122,14 +126,17 @@ class Reader {
         read_command();
         continue;
       }
+      if (tokens_.mend_command()) continue;
       const Token token = tokens_.peek();
       tokens_.skip();
+      deck_.incomplete.insert(".*");
       if (!complained)
         diagnostics_.error(token.where, "`" + std::string(token.text) + "` stands before the first command",
                            "a deck starts with a command such as .NOE");
       complained = true;
     }
     set_faulty_apart();
+    for (const Record& record : deck_.faulty) deck_.incomplete.emplace(record.schema->command());
     return std::move(deck_);
   }
 
@@ -157,9 +164,10 @@ class Reader {
     if (const Recognised* known = find_recognised(word.text)) {
       report(*known, word);
     } else {
-      std::string hint = did_you_mean(word.text, commands_.words());
+      std::string hint = did_you_mean_card(word.text, commands_.words());
       if (hint.empty()) hint = "`engrane help` lists the commands; its data is skipped";
       diagnostics_.error(word.where, "unknown command " + word.quoted(), hint);
+      deck_.incomplete.insert(".*");
     }
     skip_command();
   }
@@ -185,7 +193,7 @@ class Reader {
       forget(command);
     else if (target.empty() || !find_recognised(target))
       diagnostics_.error(word.where, word.quoted() + " does not say which command to delete",
-                         target.empty() ? "write .DEL.CLM, or .DEL.* for all" : did_you_mean(target, commands_.words()));
+                         target.empty() ? "write .DEL.CLM, or .DEL.* for all" : did_you_mean_card(target, commands_.words()));
     const Token rest = tokens_.peek();
     if (rest.is_end() || rest.is_command()) return;
     diagnostics_.error(rest.where, "nothing may follow `" + upper(word.text) + "`");
@@ -226,11 +234,13 @@ class Reader {
       Record record;
       std::vector<int> copies;
       if (!read_id(command, record, copies)) {
+        deck_.incomplete.insert(command.name);
         records_.skip_record(command.keys);
         continue;
       }
       record.schema = command.elements ? element_type(command, record) : &command.only();
       if (!record.schema) {
+        deck_.incomplete.insert(command.name);
         records_.skip_record(command.keys);
         continue;
       }
@@ -249,7 +259,8 @@ class Reader {
   }
 
   void expect_key(const Command& command) {
-    if (at_boundary(tokens_, command.keys)) return;
+    if (at_boundary(tokens_, command.keys) || tokens_.mend_command()) return;
+    deck_.incomplete.insert(command.name);
     const Token token = tokens_.take();
     if (!token.fault)
       diagnostics_.error(token.where, "expected `I` and a number instead of `" + std::string(token.text) + "`",
@@ -326,7 +337,7 @@ class Reader {
                          "write " + join(candidate_names(match), " or "));
       return nullptr;
     }
-    std::string hint = did_you_mean(word.text, schema_words(elements));
+    std::string hint = did_you_mean_card(word.text, schema_words(elements));
     if (hint.empty()) hint = "`engrane help` lists the element types";
     diagnostics_.error(word.where, "unknown element type " + word.quoted(), hint);
     return nullptr;
@@ -367,6 +378,8 @@ class Reader {
   }
 
   void unknown_key(const Command& command, const Token& token) {
+    if (tokens_.mend_command()) return;
+    deck_.incomplete.insert(command.name);
     const bool faulty = token.fault != nullptr;
     tokens_.take();
     if (const Recognised* known = token.is_word() ? find_recognised(command.name, token.text) : nullptr)
@@ -378,7 +391,7 @@ class Reader {
   }
 
   static std::string key_hint(const Command& command, std::string_view word) {
-    std::string hint = did_you_mean(word, schema_words(command.keys.keyed));
+    std::string hint = did_you_mean_card(word, schema_words(command.keys.keyed), command.name);
     if (!hint.empty()) return hint;
     std::vector<std::string> names;
     for (const Schema* schema : command.keys.keyed) names.emplace_back(schema->key());
@@ -421,15 +434,20 @@ class Reader {
 }  // namespace
 
 const Schema* Catalogue::find(std::string_view name) const {
-  for (const Schema* schema : commands)
-    if (same_word(schema->name, name) ||
-        (name.starts_with('.') && significant(name) == significant(schema->name) && name.find(' ') == name.npos))
-      return schema;
-  if (const Match<Schema> match = match_schema(elements, name); match.entry) return match.entry;
+  for (const auto* list : {&commands, &elements})
+    for (const Schema* schema : *list) {
+      const auto words = record_words(*schema);
+      if (same_word(schema->name, name) ||
+          std::any_of(words.begin(), words.end(), [&](const std::string& word) { return same_word(word, name); }))
+        return schema;
+    }
   for (const Schema* schema : commands)
     for (const std::string& word : command_words(*schema))
-      if (same_word(significant(word), significant("." + std::string(name)))) return schema;
-  return match_schema(commands, name).entry;
+      if (name.find(' ') == name.npos && significant(word) == significant(name.starts_with('.') ? name : "." + std::string(name)))
+        return schema;
+  const Match<Schema> command = match_schema(commands, name), element = match_schema(elements, name);
+  if (command.candidates.size() + element.candidates.size() > 1) return nullptr;
+  return command.entry ? command.entry : element.entry;
 }
 
 namespace {
@@ -443,10 +461,22 @@ Deck read(TokenStream& tokens, const Catalogue& catalogue, const SourceMap& sour
 
 }  // namespace
 
-Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics) {
+Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics,
+               const Definitions& definitions) {
   TokenStream tokens(sources, diagnostics);
+  tokens.overrule(definitions);
   if (!tokens.open_file(path)) return {};
-  return read(tokens, catalogue, sources, diagnostics);
+  Deck deck = read(tokens, catalogue, sources, diagnostics);
+  const std::vector<std::string> known = tokens.abbreviations();
+  for (const auto& [name, text] : definitions) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = nearest(name, known);
+    diagnostics.error({}, "-D " + name.substr(1) + ": " + path.string() + " has no abbreviation `" + name + "`",
+                      known.empty()  ? "it has none at all; ABRE '" + name + "' '" + text + "' would make it one"
+                      : near.empty() ? "it has " + join(known)
+                                     : "did you mean " + near.substr(1) + "? It has " + join(known));
+  }
+  return deck;
 }
 
 Deck read_text(std::string name, std::string text, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics) {

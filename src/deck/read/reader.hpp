@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "base/diagnostics.hpp"
+#include "deck/language/abbreviations.hpp"
 #include "deck/schema/schema.hpp"
 
 namespace engrane::deck {
@@ -24,11 +27,16 @@ struct Deck {
   /// Records about which an error was reported, apart: whoever builds a model from the good ones neither trips over them
   /// nor complains again. That something refers to their numbers is no fault of its own.
   std::vector<Record> faulty;
+  /// Commands of which something could not be read (`.NOE`), `.*` for one that is none: what is missing of them was perhaps
+  /// given.
+  std::set<std::string, std::less<>> incomplete;
   std::vector<std::string> folders;  ///< in which each file of the SourceMap stands; empty: the working directory
 };
 
-/// Reads a deck and everything it includes. All faults go to `diagnostics`; never throws on bad input.
-Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics);
+/// Reads a deck and everything it includes. All faults go to `diagnostics`; never throws on bad input. `definitions` stand for
+/// the texts of the deck's own ABRE; one that the deck has no ABRE for is an error.
+Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics,
+               const Definitions& definitions = {});
 
 /// The same for a text in memory, as `name`; INPUT is looked up in the working directory.
 Deck read_text(std::string name, std::string text, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics);

@@ -100,6 +100,7 @@ void RecordReader::read_item(Reading& reading) {
     tokens_.take();
     return read_field(reading, *match.entry, &token);
   }
+  if (!match.entry && tokens_.mend_command()) return;
   if (const Field* field = positional_field(reading, token)) return read_field(reading, *field, nullptr);
   if (match.entry) {
     tokens_.take();
@@ -233,7 +234,7 @@ void RecordReader::finish(Reading& reading) {
 
 std::vector<Heading> RecordReader::read_headings(const Schema& schema, const RecordKeys& keys) {
   std::vector<Heading> headings;
-  while (!at_boundary(tokens_, keys)) {
+  while (!at_boundary(tokens_, keys) && !tokens_.mend_command()) {
     const Token token = tokens_.take();
     const Match<Field> match = token.is_word() ? match_field(schema, token.text) : Match<Field>{};
     if (match.entry && match.entry->heading) {

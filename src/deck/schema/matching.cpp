@@ -7,6 +7,7 @@
 
 #include "base/diagnostics.hpp"
 #include "base/text.hpp"
+#include "deck/schema/thesaurus.hpp"
 
 namespace engrane::deck {
 
@@ -64,6 +65,11 @@ std::vector<std::string> option_spellings(const Option& option) {
   std::vector<std::string> words{option.name};
   words.insert(words.end(), option.synonyms.begin(), option.synonyms.end());
   return words;
+}
+
+std::string did_you_mean_spelling(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string near = nearest(word, candidates);
+  return near.empty() ? std::string() : "did you mean `" + near + "`?";
 }
 
 }  // namespace
@@ -147,8 +153,26 @@ std::string significant(std::string_view command_word) {
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
-  const std::string near = nearest(word, candidates);
-  return near.empty() ? std::string() : "did you mean `" + near + "`?";
+  for (const Concept* c : find_concepts(word)) {
+    std::vector<std::string> names;
+    for (const std::string_view keyword : c->keywords)
+      if (std::find(candidates.begin(), candidates.end(), keyword) != candidates.end())
+        names.push_back("`" + std::string(keyword) + "`");
+    if (!names.empty()) return "did you mean " + join(names, " or ") + "?";
+  }
+  return did_you_mean_spelling(word, candidates);
+}
+
+std::string did_you_mean_card(std::string_view word, const std::vector<std::string>& candidates, std::string_view command) {
+  const auto found = find_concepts(word.starts_with('.') ? word.substr(1) : word);
+  for (const Concept* c : found) {
+    std::vector<std::string> names;
+    for (const std::string_view card : c->cards)
+      if (card.starts_with(command)) names.push_back("`" + std::string(card) + "`");
+    if (names.empty()) continue;
+    return "did you mean " + join(names, " or ") + "?" + (c->advice.empty() ? "" : " " + std::string(c->advice));
+  }
+  return did_you_mean_spelling(word, candidates);
 }
 
 }  // namespace engrane::deck

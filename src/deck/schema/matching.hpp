@@ -47,7 +47,11 @@ std::vector<std::string> command_words(const Schema& schema);
 /// The significant part of a command word: the dot and three letters, four after a leading digit; upper case.
 std::string significant(std::string_view command_word);
 
-/// "did you mean `GEAR`?" or nothing.
+/// "did you mean `ALPHA`?" or nothing: of the candidates those that the word is another name of, else the one it is spelt like.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+
+/// The same for names of cards; what other programs and languages call a card leads to it even when it is no candidate. With
+/// `command` only cards of that command count.
+std::string did_you_mean_card(std::string_view word, const std::vector<std::string>& candidates, std::string_view command = {});
 
 }  // namespace engrane::deck

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "model/function_failure.hpp"
 #include "model/user_function.hpp"
 
 namespace engrane::elements {
@@ -53,6 +54,7 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
     if (data.law.is("EXPR")) {
       law.formula = find_formula(context, "LAW" + suffix, static_cast<int>(id));
       if (!law.formula) return {};
+      law.formula_id_ = static_cast<int>(id);
       if (!law.formula->uses_time())
         law.of_formula_ = std::make_shared<PanelIntegral>([f = law.formula](double e) { return f->law(e, 0, 0).value; });
     } else {
@@ -80,7 +82,18 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
 }
 
 Expression::Law SpringLaw::of_both(double stretch, double rate, double time) const {
-  if (formula) return formula->law(stretch, rate, time);
+  if (formula) {
+    const Expression::Law y = formula->law(stretch, rate, time);
+    for (const double value : {y.value, y.by_elongation, y.by_rate})
+      if (!std::isfinite(value)) {
+        const bool whole = !std::isfinite(y.value);
+        note_function_failure(whole ? 0 : 1, fmt::format("{}function {} {} at D = {:.10g}, V = {:.10g}, T = {:.10g}",
+                                                         whole ? "" : "a derivative of ", formula_id_, describe_not_finite(value),
+                                                         stretch, rate, time));
+        break;
+      }
+    return y;
+  }
   const user::Results y = user->at({stretch, rate, time});
   return {y[0], y[1], y[2]};
 }

@@ -64,6 +64,7 @@ struct SpringLaw {
     return stretch * stretch * (k1 / 2 + stretch * (k2 / 3 + stretch * (k3 / 4)));
   }
 
+  int formula_id_ = 0;                               ///< the function that `formula` is
   bool user_stores_ = false;                         ///< the routine gives the energy
   std::shared_ptr<const PanelIntegral> of_formula_;  ///< ∫f(e, 0) of a formula without time
 };

@@ -1,0 +1,294 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`engrane sweep`: runs a deck for many values of its abbreviations; a table and a diagram of the results."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import itertools
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from . import options
+from .errors import UserError
+from .program import find_program
+
+MOST_VARIANTS = 100_000
+MOST_LINES = 10
+# from fine to worst: as the program ranks the statuses of several decks
+STATUSES = (0, 4, 1, 2, 3)
+EXAMPLES = """  engrane sweep gear.dat -D KM=1E8:1E9:1E8 --result "ELEMENT 7 NORMAL_FORCE MAX"
+  engrane sweep gear.dat -D JEU=0,1E-5,1E-4 -D SPEED=100:500:50 --result "ELEMENT 7 TE RMS WINDOW 0.1 0.2"
+  engrane sweep gear.dat -D KM=1E8:1E9:1E8 -D J=0.3 -j 2 --keep runs
+
+-D NAME=from:to:step gives the deck's abbreviation /NAME each of these values, NAME=a,b,c those listed, NAME=a
+one; every combination is run, in a process of its own. --result names a number as .CHK does, without what it
+should be; without --result the values of the deck's own .CHK are taken."""
+
+
+@dataclass
+class Variant:
+    """One combination of values and what came of it."""
+
+    values: dict[str, str]
+    status: int = 3
+    outcome: str = "not run"
+    message: str = ""
+    results: dict[str, float | None] = field(default_factory=dict)
+    seconds: float = 0.0
+
+    @property
+    def title(self) -> str:
+        return ", ".join(f"{name} = {value}" for name, value in self.values.items())
+
+
+def add(commands: argparse._SubParsersAction) -> None:
+    """Declares the command."""
+    p = options.subcommand(
+        commands,
+        "sweep",
+        "a deck for many values of its abbreviations",
+        "Runs a deck for every combination of the values given by -D, several at a time, and writes a table "
+        "(.csv) and a diagram (.png) of the numbers asked for.",
+        EXAMPLES,
+    )
+    p.add_argument("deck", help="the deck; what varies must be an abbreviation, ABRE '/NAME' '...'")
+    p.add_argument(
+        "-D",
+        dest="define",
+        action="append",
+        required=True,
+        metavar="NAME=VALUES",
+        help="from:to:step, a list a,b,c or one value; may be repeated",
+    )
+    p.add_argument(
+        "--result", action="append", default=[], metavar="QUANTITY", help="as in .CHK; may be repeated"
+    )
+    p.add_argument("-j", dest="jobs", type=int, metavar="n", help="runs at a time (default: one per core)")
+    p.add_argument(
+        "-o", "--output", metavar="prefix", help="of the .csv and .png (default: the deck's name and _sweep)"
+    )
+    p.add_argument("--keep", metavar="folder", help="keep the result files of all runs there")
+    p.set_defaults(run=run)
+
+
+def values_of(text: str) -> tuple[str, list[str]]:
+    """NAME and its values from NAME=from:to:step, NAME=a,b,c or NAME=a."""
+    name, sign, values = text.partition("=")
+    name = name.strip().removeprefix("/")
+    if not sign or not name or not values.strip():
+        raise UserError(f"-D {text} is not NAME=from:to:step, NAME=a,b,c or NAME=a.")
+    if ":" not in values:
+        if "(" in values:  # commas between arguments
+            return name, [values]
+        return name, [v.strip() for v in values.split(",") if v.strip()]
+    try:
+        first, last, step = (float(re.sub("[dD]", "e", v)) for v in values.split(":"))
+    except ValueError:
+        raise UserError(f"-D {text}: a range is from:to:step, three numbers.") from None
+    if step == 0 or (last - first) * step < 0:
+        raise UserError(f"-D {text}: steps of {step:g} do not lead from {first:g} to {last:g}.")
+    steps = (last - first) / step
+    if not steps < MOST_VARIANTS:
+        raise UserError(f"-D {text} stands for more than {MOST_VARIANTS} values.")
+    return name, [f"{first + i * step:.12g}" for i in range(int(steps + 1e-9) + 1)]
+
+
+def combinations(definitions: list[str]) -> list[Variant]:
+    """Every combination; the last name varies fastest."""
+    names: dict[str, list[str]] = {}
+    for text in definitions:
+        name, values = values_of(text)
+        if name in names:
+            raise UserError(f"-D {name} is given twice.")
+        names[name] = values
+    count = 1
+    for values in names.values():
+        count *= len(values)
+    if count > MOST_VARIANTS:
+        raise UserError(f"These are {count} combinations; {MOST_VARIANTS} are the most.")
+    return [Variant(dict(zip(names, row, strict=True))) for row in itertools.product(*names.values())]
+
+
+class Pool:
+    """Runs variants, a few at a time."""
+
+    def __init__(self, program: Path, deck: str, results: list[str], folder: Path) -> None:
+        self.command = [str(program), deck, "--json", "-q"]
+        for result in results:
+            self.command += ["--result", result]
+        self.folder = folder
+        self.running: set[subprocess.Popen] = set()
+        self.lock = threading.Lock()
+        self.stopped = False
+        self.done = 0
+
+    def run(self, variants: list[Variant], jobs: int) -> None:
+        width = len(str(len(variants)))
+        show = sys.stderr.isatty()
+        with ThreadPoolExecutor(jobs) as pool:
+            tasks = []
+            for i, variant in enumerate(variants):
+                tasks.append(pool.submit(self._run, variant, self.folder / f"{i + 1:0{width}}"))
+                if show:
+                    tasks[-1].add_done_callback(lambda _: self._tell(len(variants)))
+            try:
+                finished, _ = wait(tasks, return_when=FIRST_EXCEPTION)
+                for task in finished:
+                    task.result()
+            except BaseException:
+                self.stop()
+                raise
+            finally:
+                pool.shutdown(cancel_futures=True)
+                if show:
+                    print(file=sys.stderr)
+
+    def stop(self) -> None:
+        """Ends the runs that are going on and lets no other begin."""
+        with self.lock:
+            self.stopped = True
+            for process in self.running:
+                process.terminate()
+
+    def _tell(self, count: int) -> None:
+        with self.lock:
+            self.done += 1
+            print(f"\r{self.done} of {count}", end="", file=sys.stderr, flush=True)
+
+    def _run(self, variant: Variant, prefix: Path) -> None:
+        words = [f"-D{name}={value}" for name, value in variant.values.items()]
+        # one thread each: the runs themselves share the cores
+        environment = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"} | dict(os.environ)
+        with self.lock:
+            if self.stopped:
+                return
+            process = subprocess.Popen(
+                [*self.command, *words, "-o", str(prefix)],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                env=environment,
+                text=True,
+                errors="replace",
+            )
+            self.running.add(process)
+        out, errors = process.communicate()
+        with self.lock:
+            self.running.discard(process)
+        read_summary(variant, process.returncode, out, errors)
+
+
+def read_summary(variant: Variant, status: int, out: str, errors: str) -> None:
+    """What the program said of a variant. What is wrong with the command itself ends the sweep."""
+    variant.status = status if status in STATUSES else 3
+    variant.message = errors.strip()
+    try:
+        one = json.loads(out)["runs"][0]
+    except (ValueError, LookupError):
+        variant.outcome = f"ended by signal {-status}" if status < 0 else "no summary"
+        return
+    variant.outcome = one["outcome"]
+    variant.seconds = one["seconds"]
+    faults = [d for d in one["diagnostics"] if d["severity"] == "error"]
+    if any(d.get("file") == "--result" or d["message"].startswith("-D ") for d in faults):
+        raise UserError("the command is wrong:\n" + errors.strip())
+    wanted = one["results"] or one["checks"]
+    variant.results = {r["name"]: r["value"] for r in wanted}
+
+
+def run(args: argparse.Namespace) -> int:
+    """Runs all, writes table and diagram; the worst status."""
+    variants = combinations(args.define)
+    deck = args.deck if Path(args.deck).is_file() else args.deck + ".dat"
+    if not Path(deck).is_file():
+        raise UserError(f"There is no deck {args.deck}.")
+    output = re.sub(r"\.(csv|png)$", "", args.output or f"{Path(deck).stem}_sweep")
+    options.check_output(output + ".csv", (".csv",))
+    jobs = args.jobs or len(os.sched_getaffinity(0))
+    folder = Path(args.keep or tempfile.mkdtemp(prefix="engrane_sweep"))
+    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        Pool(find_program(), deck, args.result, folder).run(variants, max(1, min(jobs, len(variants))))
+    finally:
+        if not args.keep:
+            shutil.rmtree(folder, ignore_errors=True)
+    names = list(dict.fromkeys(name for v in variants for name in v.results))
+    bad = [v for v in variants if v.status not in (0, 4)]
+    if len(bad) == len(variants):
+        raise UserError(f"no variant was solved. {bad[0].title}:\n{bad[0].message}")
+    if not names:
+        raise UserError("Name a number by --result; the deck has no .CHK.")
+    write_table(output + ".csv", variants, names)
+    draw(output + ".png", variants, names, Path(deck).stem)
+    for variant in bad[:5]:
+        first = variant.message.splitlines()[0] if variant.message else variant.outcome
+        print(f"{variant.title}: {first}", file=sys.stderr)
+    if bad:
+        print(f"{len(bad)} of {len(variants)} variants have no result", file=sys.stderr)
+    return max((v.status for v in variants), key=STATUSES.index)
+
+
+def write_table(path: str, variants: list[Variant], names: list[str]) -> None:
+    """A column for each name and result, and what came of the run."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow([*variants[0].values, *names, "outcome", "seconds"])
+        for v in variants:
+            numbers = ["" if v.results.get(n) is None else repr(v.results[n]) for n in names]
+            table.writerow([*v.values.values(), *numbers, v.outcome, f"{v.seconds:.3f}"])
+    print(f"wrote {path}")
+
+
+def number(text: str) -> float | None:
+    """The number that a value is, or None: `(2*PI)` and words are places on the axis by their order."""
+    try:
+        return float(re.sub("[dD]", "e", text))
+    except ValueError:
+        return None
+
+
+def draw(path: str, variants: list[Variant], names: list[str], title: str) -> None:
+    """A diagram of each result over the first name that varies; lines for combinations of the others."""
+    from . import style
+
+    values = {n: list(dict.fromkeys(v.values[n] for v in variants)) for n in variants[0].values}
+    varying = [n for n in values if len(values[n]) > 1] or list(values)[:1]
+    across, others = varying[0], varying[1:]
+    numeric = all(number(x) is not None for x in values[across])
+    place = {x: number(x) if numeric else i for i, x in enumerate(values[across])}
+    lines: dict[str, list[Variant]] = {}
+    for v in variants:
+        lines.setdefault(", ".join(f"{n} = {v.values[n]}" for n in others), []).append(v)
+    figure, axes = style.panels(len(names), height=3.0)
+    for axis, name in zip(axes, names, strict=True):
+        for i, (label, members) in enumerate(lines.items()):
+            solved = [v for v in members if v.results.get(name) is not None]
+            points = [(place[v.values[across]], v.results[name]) for v in solved]
+            color = style.plt.get_cmap("viridis")(i / max(1, len(lines) - 1))
+            if len(lines) <= len(style.COLORS):
+                color = style.COLORS[i]
+            if points:
+                axis.plot(*zip(*points, strict=True), marker="o", markersize=3, color=color, label=label)
+        axis.set_title(name, fontsize=9, loc="left", color="#444444")
+        if not numeric:
+            axis.set_xticks(list(place.values()), list(place))
+    if 1 < len(lines) <= MOST_LINES:
+        axes[0].legend(fontsize=8)
+    elif len(lines) > MOST_LINES:
+        first, *_, last = lines
+        handles = axes[0].get_lines()
+        if len(handles) > 1:
+            axes[0].legend([handles[0], handles[-1]], [first, last], fontsize=8)
+    axes[-1].set_xlabel(across)
+    figure.suptitle(title, fontsize=11)
+    style.save(figure, path)

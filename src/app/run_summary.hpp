@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.hpp"
+#include "deck/language/abbreviations.hpp"
+#include "observe/energies.hpp"
+#include "output/results_layout.hpp"
+
+namespace engrane::app {
+
+/// What came of one deck, for the summary of several and for `--json`. Quantities in the units of the deck.
+struct RunSummary {
+  std::string deck;
+  deck::Definitions definitions;  ///< `-D`
+  int status = 0;                 ///< exit status of this deck alone
+  std::string failure;            ///< why the run stopped; empty when it did not
+  std::vector<Diagnostic> diagnostics;
+  std::vector<std::string> sources;  ///< paths of the files that locations of `diagnostics` count from
+  long steps = 0, iterations = 0, cuts = 0, events = 0;
+  double time = 0, end = 0;                        ///< reached, and asked for by .SUB
+  double seconds = 0;                              ///< of the clock on the wall
+  std::vector<output::CheckResult> checks;         ///< of .CHK
+  std::vector<output::CheckResult> results;        ///< of --result: only what was computed counts
+  std::optional<observe::EnergyBalance> energies;  ///< at the last step
+  std::vector<std::string> files;
+
+  /// `complete`, `wrong deck`, …: what the status means.
+  std::string outcome() const;
+};
+
+/// The worst of two exit statuses: a fault of the program, a failed solution, a wrong deck, a failed check, all fine.
+int worse_status(int a, int b);
+
+/// A table, a line for each deck.
+std::string summary_table(const std::vector<RunSummary>& runs);
+
+/// All that is known of the runs, as one JSON object (docs/format.md).
+std::string summary_json(const std::vector<RunSummary>& runs, int status);
+
+}  // namespace engrane::app

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/schema/thesaurus.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "base/text.hpp"
+
+namespace engrane::deck {
+
+const std::vector<Concept>& concepts() {
+  static const std::vector<Concept> all{
+      // elements
+      {{"ENGRANAJE", "ENGRENAJE", "RUEDA_DENTADA", "ROUE_DENTEE", "PIGNON", "PINON", "PINION", "COG", "COGWHEEL", "WHEEL", "WORM",
+        "SINFIN", "TORNILLO_SINFIN", "VIS_SANS_FIN", "HYPOID", "HIPOIDE", "BEVEL", "SPUR"},
+       {"GEAR"},
+       {},
+       {"gear", "tooth", "teeth", "worm"},
+       {}},
+      {{"CREMALLERA"}, {"RACK"}, {}, {"rack"}, {}},
+      {{"REVOLUTE", "REVOLUTE_JOINT", "PIVOT", "PIN", "PIN_JOINT", "BISAGRA", "CHARNELA", "ARTICULACION", "ARTICULATION",
+        "ROTOIDE", "GOZNE"},
+       {"HINGE"},
+       {},
+       {"hinge", "revolute"},
+       {}},
+      {{"BEARING", "COJINETE", "RODAMIENTO", "PALIER", "ROULEMENT"},
+       {"HINGE", "BUSHING"},
+       {},
+       {"bearing"},
+       "A rigid bearing is a HINGE, an elastic one a BUSHING"},
+      {{"MOTOR", "MOTEUR", "ENGINE", "ACTUATOR", "ACTUADOR", "ACTIONNEUR", "VERIN", "SERVO"},
+       {"HINGE", "TORQUE", "CONTROLLER"},
+       {"DRIVE"},
+       {"motor", "drive"},
+       "A motor whose motion is known is DRIVE in a HINGE or PRISMATIC, one whose moment is known a TORQUE"},
+      {{"BRAKE", "CLUTCH", "FRENO", "FREIN", "EMBRAGUE", "EMBRAYAGE"},
+       {"HINGE", "TORQUE"},
+       {"FRICTION"},
+       {"brake", "clutch"},
+       "A brake is FRICTION in a HINGE, or a TORQUE that follows a function"},
+      {{"TRANSLATIONAL", "TRANSLATION", "CORREDERA", "COULISSE", "COULISSEAU", "PISTON", "GUIDE", "GUIA"},
+       {"PRISMATIC"},
+       {},
+       {"slide", "prismatic"},
+       {}},
+      {{"CILINDRICA", "CILINDRICO", "SLEEVE"}, {"CYLINDRICAL"}, {}, {"cylindrical"}, {}},
+      {{"TORNILLO", "HUSILLO", "LEADSCREW", "BALLSCREW"}, {"SCREW"}, {}, {"screw"}, {}},
+      {{"ROTULA", "ESFERICA", "BALL_JOINT", "SPHERE"}, {"SPHERICAL"}, {}, {"spherical"}, {}},
+      {{"HOOKE", "U_JOINT", "JUNTA_CARDAN", "CARDANICA", "CROSS"}, {"UNIVERSAL"}, {}, {"universal"}, {}},
+      {{"HOMOCINETICA", "CVJOINT", "RZEPPA"}, {"CONSTANT_VELOCITY"}, {}, {"constant velocity"}, {}},
+      {{"SOLDADURA", "SOUDURE", "EMPOTRAMIENTO", "CLAMP", "GLUE", "RIGID_JOINT"}, {"WELD", ".CLM FIX"}, {}, {"weld"}, {}},
+      {{"BIELA", "LINK", "BAR", "BARRA", "BARRE", "TIRANTE", "STRUT"},
+       {"DISTANCE", "RIGID"},
+       {},
+       {"rod"},
+       "A massless rod is DISTANCE, a bar with mass RIGID"},
+      {{"BODY", "RIGID_BODY", "CUERPO", "CORPS", "SOLIDO", "SOLIDE", "PART", "PIEZA", "PIECE"}, {"RIGID"}, {}, {"rigid bod"}, {}},
+      {{"MASS", "MASA", "POINT_MASS", "MASSE", "INERCIA", "FLYWHEEL", "VOLANTE", "VOLANT"},
+       {"INERTIA", "RIGID"},
+       {"M"},
+       {"mass", "inertia"},
+       {}},
+      {{"MUELLE", "RESORTE", "STIFFENER"}, {"SPRING", "TSPRING"}, {}, {"spring"}, {}},
+      {{"DAMPER", "DASHPOT", "SHOCK_ABSORBER", "AMORTIGUADOR", "AMORTISSEUR"},
+       {"SPRING", "TSPRING"},
+       {"C"},
+       {"damp"},
+       "A damper is a SPRING or TSPRING with C and without K"},
+      {{"SHAFT", "AXLE", "ARBRE", "ARBOL", "TORSION", "TORSION_BAR", "RESORTE_TORSION"},
+       {"TSPRING"},
+       {},
+       {"shaft", "torsion"},
+       "The elasticity of a shaft is a TSPRING; a rigid shaft is one node, or RIGID"},
+      {{"CASQUILLO", "SILENTBLOCK", "MOUNT", "RUBBER"}, {"BUSHING"}, {}, {"bush"}, {}},
+      {{"TOPE", "CONTACT", "CONTACTO", "BUMPER", "IMPACT", "CHOC", "CHOQUE", "UNILATERAL"},
+       {"STOP"},
+       {},
+       {"stop", "contact", "impact"},
+       {}},
+      {{"LEVA", "FOLLOWER"}, {"CAM"}, {}, {"cam"}, {}},
+      {{"CORREA", "PULLEY", "POLEA", "POULIE", "CHAIN", "CADENA", "CHAINE"}, {"BELT"}, {}, {"belt", "pulley"}, {}},
+      {{"MOMENT", "MOMENTO", "PAR"}, {"TORQUE", ".CLM CHA"}, {}, {"moment", "torque"}, {}},
+      {{"FUERZA"}, {"FORCE", ".CLM CHA"}, {}, {"force"}, {}},
+      {{"PROBE", "MEDIDA", "MESURE", "SONDE", "SENSOR_DE_POSICION"}, {"SENSOR"}, {}, {"sensor", "observes"}, {}},
+      {{"PID", "CONTROL", "CONTROLADOR", "REGULADOR", "FEEDBACK"}, {"CONTROLLER"}, {}, {"control", "PID"}, {}},
+      {{"ACOPLAMIENTO", "ACCOUPLEMENT", "RATIO_CONSTRAINT"}, {"COUPLING"}, {}, {"ratio"}, {}},
+      // commands
+      {{"SUPPORT", "APOYO", "APPUI", "GROUND", "TIERRA", "FIJAR", "FIJO", "BLOQUEAR", "BLOQUER"}, {".CLM FIX"}, {}, {"held"}, {}},
+      {{"CARGA", "LOADS"}, {".CLM CHA", "FORCE", "TORQUE"}, {}, {"load", "forces"}, {}},
+      {{"GRAVITY", "GRAVEDAD", "GRAVITE", "WEIGHT", "PESO", "POIDS", "PESANTEUR"},
+       {".CLM STRU"},
+       {},
+       {"gravity"},
+       "Gravity is .CLM STRU ACC VAL 0 0 -9.81"},
+      {{"FUNCION", "CURVE", "CURVA", "COURBE"}, {".FCT"}, {}, {"function"}, {}},
+      {{"NODO", "NODOS", "NODE", "NUDO", "NOEUD", "PUNTO", "POINT", "COORDINATES"}, {".NOE"}, {"N", "NOEUD"}, {"node"}, {}},
+      {{"ELEMENT", "ELEMENTS", "ELEMENTO", "ELEMENTOS", "MECANISMO", "MECANISME"}, {".MCE"}, {}, {"element"}, {}},
+      {{"GROUP", "GRUPO", "GROUPE", "SET"}, {".SEL"}, {"GROUP"}, {"group"}, {}},
+      {{"TIMESTEP", "TIME_STEP", "PASO", "PAS", "STEP"}, {".SUB"}, {"H"}, {"step"}, {}},
+      {{"ANALISIS", "INTEGRATOR", "INTEGRADOR", "SOLVER", "DYNAMICS", "DINAMICA", "DYNAMIQUE", "STATICS"},
+       {".SAM"},
+       {},
+       {"integration", "analysis"},
+       {}},
+      {{"OUTPUT", "SALIDA", "SORTIE", "RESULTS", "RESULTADOS", "RESULTATS", "HISTORY"}, {".SAI"}, {}, {"archive", "histor"}, {}},
+      {{"COMPROBACION", "ASSERT", "EXPECT"}, {".CHK"}, {}, {"check"}, {}},
+      {{"UNIDADES", "UNITES", "UNITS"}, {".UNIT"}, {}, {"unit"}, {}},
+      {{"INITIAL", "INICIAL", "INITIAL_VELOCITY", "VELOCIDAD_INICIAL"}, {".INI VIT", ".INI DEP"}, {}, {"initial"}, {}},
+      // keywords and matters
+      {{"FRICTION", "FRICCION", "ROZAMIENTO", "FROTTEMENT", "FROTTEMENTS", "COULOMB", "MU", "ADHERENCE"},
+       {},
+       {"FRICTION"},
+       {"friction", "coulomb"},
+       {}},
+      {{"BACKLASH", "JUEGO", "HOLGURA", "CLEARANCE", "PLAY", "JEU"}, {}, {"JEU"}, {"backlash", "play", "clearance"}, {}},
+      {{"STIFFNESS", "RIGIDEZ", "RAIDEUR", "RIGIDITE"}, {}, {"K", "KM", "KT"}, {"stiffness"}, {}},
+      {{"DAMPING", "AMORTIGUAMIENTO", "AMORTISSEMENT"}, {}, {"C", "DAMP"}, {"damping"}, {}},
+      {{"TEETH", "DIENTES", "DENTS", "DIENTE", "DENT"}, {}, {"Z"}, {"tooth", "teeth"}, {}},
+      {{"MODULE", "MODULO", "NORMAL_MODULE"}, {}, {"MN"}, {"module"}, {}},
+      {{"ALFA", "PRESSURE_ANGLE", "ANGULO_DE_PRESION", "ANGLE_DE_PRESSION"}, {}, {"ALPHA"}, {"pressure angle"}, {}},
+      {{"BETA", "HELIX_ANGLE", "HELICE"}, {}, {"HELIX"}, {"helix"}, {}},
+      {{"EJE", "AXE", "DIRECTION"}, {}, {"AXIS"}, {"axis"}, {}},
+      {{"SPEED", "VELOCIDAD", "VITESSE", "VELOCITY"}, {}, {"DRIVE"}, {"speed", "velocit"}, {}},
+      {{"TRANSMISSION_ERROR", "ERROR_DE_TRANSMISION"}, {}, {"ERR"}, {"transmission error"}, {}},
+      {{"RESTART", "REPRISE", "REINICIO", "CONTINUE"}, {".SAM"}, {"RESTART"}, {"restart"}, {}},
+  };
+  return all;
+}
+
+std::string plain_word(std::string_view word) {
+  // the letters of Latin-1 from À on, without what stands above and below them
+  static constexpr std::string_view letters = "AAAAAAACEEEEIIIIDNOOOOOxOUUUUYTsaaaaaaaceeeeiiiidnooooo/ouuuuyty";
+  std::string plain;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(word[i]);
+    if (byte == 0xC3 && i + 1 < word.size()) {
+      const auto next = static_cast<std::size_t>(static_cast<unsigned char>(word[i + 1]) & 0x3F);
+      plain += letters[next];
+      ++i;
+    } else {
+      plain += word[i] == '-' || word[i] == ' ' ? '_' : word[i];
+    }
+  }
+  return upper(plain);
+}
+
+std::vector<const Concept*> find_concepts(std::string_view word) {
+  std::string plain = plain_word(word);
+  const auto having = [](const std::string& wanted) {
+    std::vector<const Concept*> found;
+    for (const Concept& c : concepts())
+      if (std::find(c.words.begin(), c.words.end(), wanted) != c.words.end()) found.push_back(&c);
+    return found;
+  };
+  auto found = having(plain);
+  if (found.empty() && plain.size() > 3 && plain.back() == 'S') found = having(plain.substr(0, plain.size() - 1));
+  return found;
+}
+
+}  // namespace engrane::deck

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "math/expression.hpp"
+
+namespace engrane {
+
+/// A Taylor series in one variable, cut after the third power: value c0 and c1 = f′, c2 = f″/2, c3 = f‴/6.
+struct Series {
+  double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
+
+  bool constant() const { return c1 == 0 && c2 == 0 && c3 == 0; }
+};
+
+/// Operands that may wait on the stack of an evaluation.
+inline constexpr std::size_t most_waiting_operands = 64;
+
+/// How many operands an operation takes from the stack, 1 to 3.
+std::size_t operand_count(Expression::Instruction::Code code);
+
+/// The result of one operation; operands that it does not take are not read.
+double apply(Expression::Instruction::Code code, double a, double b = 0, double c = 0);
+/// The same on series: at corners and jumps those on the right.
+Series apply(Expression::Instruction::Code code, const Series& a, const Series& b = {}, const Series& c = {});
+
+/// Runs a program on doubles or series; variables in the order of Instruction::number. The parser has checked that the stack
+/// suffices.
+template <class T>
+T evaluate_program(const std::vector<Expression::Instruction>& program, const std::array<T, 3>& variables) {
+  using Code = Expression::Instruction::Code;
+  std::array<T, most_waiting_operands> stack;
+  std::size_t top = 0;
+  for (const Expression::Instruction& i : program) {
+    if (i.code == Code::number) {
+      stack[top++] = T{i.number};
+    } else if (i.code == Code::variable) {
+      stack[top++] = variables[static_cast<std::size_t>(i.number)];
+    } else {
+      const std::size_t count = operand_count(i.code);
+      top -= count - 1;
+      T& result = stack[top - 1];
+      result = count == 1   ? apply(i.code, result)
+               : count == 2 ? apply(i.code, result, stack[top])
+                            : apply(i.code, result, stack[top], stack[top + 1]);
+    }
+  }
+  return stack[0];
+}
+
+}  // namespace engrane

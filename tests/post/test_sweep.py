@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`engrane sweep`, with the program itself."""
+
+from __future__ import annotations
+
+import csv
+import os
+from pathlib import Path
+
+import pytest
+from engrane_post.errors import UserError
+from engrane_post.sweep import combinations, values_of
+
+PENDULUM = """.UNIT SI
+ABRE '/L' '0.5' '/M' '2.'
+.NOE
+ I 1 X /L 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 1 0 AT 0 0 0
+ I 2 INERTIA N 1 M /M J (/M*0.01)
+.CLM STRU ACC VAL 0 0 -9.81
+.SAM TYPE DYNAMIC
+.SUB TF 0.05 H 0.01
+.CHK
+ RUN ENERGY_ERROR V 0 ATOL 1E-2
+"""
+
+
+@pytest.fixture
+def deck(tmp_path: Path, monkeypatch) -> Path:
+    if not Path(os.environ.get("ENGRANE", "")).is_file():
+        pytest.skip("the variable ENGRANE names no program")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "pendulum.dat").write_text(PENDULUM)
+    return tmp_path / "pendulum.dat"
+
+
+def table(path: Path) -> list[dict[str, str]]:
+    with open(path, encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_values() -> None:
+    assert values_of("A=1:3:1") == ("A", ["1", "2", "3"])
+    assert values_of("/A=0.1:0.5:0.1") == ("A", ["0.1", "0.2", "0.3", "0.4", "0.5"])
+    assert values_of("A=1D3:0:-5e2") == ("A", ["1000", "500", "0"])
+    assert values_of("A=1,2.5, 4") == ("A", ["1", "2.5", "4"])
+    assert values_of("A=(max(1,2))") == ("A", ["(max(1,2))"])
+    assert [v.title for v in combinations(["A=1,2", "B=x,y"])] == [
+        "A = 1, B = x",
+        "A = 1, B = y",
+        "A = 2, B = x",
+        "A = 2, B = y",
+    ]
+    for wrong in ("A", "=1", "A=", "A=1:2", "A=1:2:x", "A=1:2:-1", "A=1:2:0", "A=0:1:1e-9"):
+        with pytest.raises(UserError):
+            values_of(wrong)
+    with pytest.raises(UserError, match="twice"):
+        combinations(["A=1", "A=2"])
+    with pytest.raises(UserError, match="most"):
+        combinations(["A=1:1000:1", "B=1:1000:1"])
+
+
+def test_table_and_diagram(deck: Path, command) -> None:
+    words = ("-D", "L=0.1:0.3:0.1", "-D", "M=1,2", "--result", "NODE 1 EY MAX WINDOW 0 0.01", "-j", "2")
+    status, out, err = command("sweep", deck, *words)
+    assert (status, err) == (0, "")
+    assert out == "wrote pendulum_sweep.csv\nwrote pendulum_sweep.png\n"
+    rows = table(Path("pendulum_sweep.csv"))
+    assert [(r["L"], r["M"]) for r in rows] == [(x, m) for x in ("0.1", "0.2", "0.3") for m in ("1", "2")]
+    for row in rows:
+        length = float(row["L"])
+        value = float(row["MAX of NODE 1 EY from t = 0 to 0.01"])
+        assert value == pytest.approx(9.81 * length / (length**2 + 0.01), rel=1e-3)
+        assert row["outcome"] == "complete"
+    assert Path("pendulum_sweep.png").read_bytes()[:4] == b"\x89PNG"
+    assert not list(deck.parent.glob("**/*.h5")), "runs leave nothing unless they are kept"
+
+
+def test_checks_are_the_results_and_runs_are_kept(deck: Path, command) -> None:
+    status, _, _ = command("sweep", "pendulum", "-D", "L=0.2,0.4", "--keep", "runs", "-o", "table.csv")
+    assert status == 0
+    assert sorted(p.name for p in Path("runs").glob("*.h5")) == ["1.h5", "2.h5"]
+    assert (
+        len([r for r in table(Path("table.csv")) if abs(float(r["RUN ENERGY_ERROR at the end"])) < 1e-3]) == 2
+    )
+
+
+def test_a_variant_that_fails_leaves_a_gap(deck: Path, command) -> None:
+    status, _, err = command("sweep", deck, "-D", "M=1,-1,x", "--result", "NODE 1 VZ MIN")
+    assert status == 1, "two of the decks are wrong"
+    assert "M = -1: " in err and "2 of 3 variants have no result" in err
+    rows = table(Path("pendulum_sweep.csv"))
+    assert [r["outcome"] for r in rows] == ["complete", "wrong deck", "wrong deck"]
+    assert [bool(r["MIN of NODE 1 VZ"]) for r in rows] == [True, False, False]
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("-D", "LENGTH=1,2"), "has no abbreviation `/LENGTH`"),
+        (("-D", "L=1,2", "--result", "NODE 9 UX"), "there is no node 9"),
+        (("-D", "M=-1,-2"), "no variant was solved. M = -1:"),
+        (("-D", "L=1", "-o", "nowhere/x"), "there is no folder nowhere"),
+    ],
+)
+def test_wrong_commands(deck: Path, command, words, sentence) -> None:
+    status, _, err = command("sweep", deck, *words)
+    assert status == 1
+    assert sentence in err
+    assert not list(deck.parent.glob("*.csv"))
+
+
+def test_a_deck_that_is_not_there(deck: Path, command) -> None:
+    status, _, err = command("sweep", "other", "-D", "A=1")
+    assert (status, "There is no deck other" in err) == (1, True)
