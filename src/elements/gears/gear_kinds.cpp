@@ -27,9 +27,9 @@ constexpr double right_angle = std::numbers::pi / 2;
 /// The keywords that some kinds take and others do not, by kind.
 const std::vector<std::pair<std::string_view, std::vector<std::string_view>>>& keywords_by_kind() {
   static const std::vector<std::pair<std::string_view, std::vector<std::string_view>>> table{
-      {"SPUR", {"MN", "MT", "DISTANCE"}},
-      {"HELICAL", {"MN", "MT", "HELIX", "HAND", "DISTANCE"}},
-      {"INTERNAL", {"MN", "MT", "HELIX", "HAND", "DISTANCE", "INTERNAL"}},
+      {"SPUR", {"MN", "MT", "DISTANCE", "X", "ADDENDUM", "DEDENDUM", "TIP", "TIPALTER"}},
+      {"HELICAL", {"MN", "MT", "HELIX", "HAND", "DISTANCE", "X", "ADDENDUM", "DEDENDUM", "TIP", "TIPALTER"}},
+      {"INTERNAL", {"MN", "MT", "HELIX", "HAND", "DISTANCE", "INTERNAL", "X", "ADDENDUM", "DEDENDUM", "TIP", "TIPALTER"}},
       {"BEVEL", {"MN", "MT", "DIAMETER", "SHAFT"}},
       {"SPIRAL", {"MN", "MT", "DIAMETER", "SHAFT", "HELIX"}},
       {"CROSSED", {"MN", "DISTANCE", "HELIX", "SHAFT"}},
@@ -40,22 +40,24 @@ const std::vector<std::pair<std::string_view, std::vector<std::string_view>>>& k
 
 /// Those keywords, with whether the card has them.
 std::vector<std::pair<std::string_view, bool>> given_keywords(const GearData& data) {
-  return {{"MN", data.normal_module.has_value()},
-          {"MT", data.transverse_module.has_value()},
-          {"MX", data.axial_module.has_value()},
-          {"STARTS", data.starts.has_value()},
-          {"HELIX", !data.helix.empty()},
-          {"HAND", data.hand.given()},
-          {"DISTANCE", data.center_distance.has_value()},
-          {"DIAMETER", data.diameter.has_value()},
-          {"OFFSET", data.offset.has_value()},
-          {"RINGCONE", data.ring_cone.has_value()},
-          {"LAMBDA", data.lead_angle.has_value()},
-          {"LEAD", data.lead.has_value()},
-          {"Q", data.quotient.has_value()},
-          {"CONE", data.cone.has_value()},
-          {"SHAFT", data.shaft_angle.has_value()},
-          {"INTERNAL", data.internal}};
+  auto given = given_cut_keywords(data);
+  given.insert(given.begin(), {{"MN", data.normal_module.has_value()},
+                               {"MT", data.transverse_module.has_value()},
+                               {"MX", data.axial_module.has_value()},
+                               {"STARTS", data.starts.has_value()},
+                               {"HELIX", !data.helix.empty()},
+                               {"HAND", data.hand.given()},
+                               {"DISTANCE", data.center_distance.has_value()},
+                               {"DIAMETER", data.diameter.has_value()},
+                               {"OFFSET", data.offset.has_value()},
+                               {"RINGCONE", data.ring_cone.has_value()},
+                               {"LAMBDA", data.lead_angle.has_value()},
+                               {"LEAD", data.lead.has_value()},
+                               {"Q", data.quotient.has_value()},
+                               {"CONE", data.cone.has_value()},
+                               {"SHAFT", data.shaft_angle.has_value()},
+                               {"INTERNAL", data.internal}});
+  return given;
 }
 
 /// Builds the design of one card.
@@ -148,31 +150,49 @@ class KindBuilder {
     }
     if (!data_.helix.empty() && data_.hand.given())
       return fail("HAND", "HELIX has a sign and HAND is given as well", "right hand is positive: leave HAND out");
+    const bool shifted = !data_.shift.empty(), shift_follows = data_.shift.size() == 1;
+    const int sizes = (data_.normal_module ? 1 : 0) + (data_.transverse_module ? 1 : 0) + (data_.center_distance ? 1 : 0);
     const bool straight =
-        data_.kind.is("SPUR") ||
-        (data_.kind.is("INTERNAL") && data_.helix.empty() &&
-         (data_.normal_module ? 1 : 0) + (data_.transverse_module ? 1 : 0) + (data_.center_distance ? 1 : 0) < 2);
+        data_.kind.is("SPUR") || (data_.kind.is("INTERNAL") && data_.helix.empty() && (sizes < 2 || shift_follows));
     if (straight || !data_.helix.empty()) {
       set_helices(straight ? 0 : helix_a());
       if (!check_second_helix()) return false;
-      const auto keyword = one_of({{"MN", data_.normal_module.has_value()},
-                                   {"MT", data_.transverse_module.has_value()},
-                                   {"DISTANCE", data_.center_distance.has_value()}},
-                                  "the module");
+      // with X the distance may be given as well: it decides the other shift, or is checked
+      const bool module = data_.normal_module || data_.transverse_module;
+      std::vector<std::pair<std::string_view, bool>> choice{{"MN", data_.normal_module.has_value()},
+                                                            {"MT", data_.transverse_module.has_value()}};
+      if (!shifted || (!module && !shift_follows)) choice.emplace_back("DISTANCE", data_.center_distance.has_value());
+      const auto keyword = one_of(choice, "the module");
       if (!keyword) return false;
       const double cosine = std::cos(design_.helix[0]);
       if (*keyword == "MN") design_.normal_module = *data_.normal_module;
       if (*keyword == "MT") design_.normal_module = *data_.transverse_module * cosine;
-      if (*keyword == "DISTANCE") design_.normal_module = 2 * *data_.center_distance * cosine / teeth_across();
+      if (*keyword == "DISTANCE") {
+        const auto per_module = distance_per_module(std::abs(design_.helix[0]));
+        if (!per_module) return false;
+        design_.normal_module = *data_.center_distance / *per_module;
+      }
       return true;
     }
     return helix_that_fits();
   }
 
-  /// Teeth on twice the centre distance of parallel axles: the sum, or the difference in a ring.
-  double teeth_across() const {
-    const double sum = data_.kind.is("INTERNAL") ? design_.teeth[0] - design_.teeth[1] : design_.teeth[0] + design_.teeth[1];
-    return std::abs(sum);
+  /// Centre distance over m_n of parallel axles at the helix β, profile shifts considered.
+  std::optional<double> distance_per_module(double helix) const {
+    GearDesign one = design_;
+    one.normal_module = 1;
+    one.helix = {helix, -helix};
+    CutTeeth cut = reference_cut(one, data_);
+    const double sum = cut.shift[0] + cut.shift[1];
+    if (data_.shift.empty() || sum == 0) return cut.reference_distance();
+    const auto angle = cut.working_angle_of(sum);
+    if (!angle) {
+      fail("X", fmt::format("a sum of shifts of {}: the base circles would touch", number(sum)),
+           "take a sum of shifts nearer to zero, or a larger ALPHA");
+      return {};
+    }
+    cut.working_pressure_angle = *angle;
+    return cut.distance();
   }
 
   /// cosβ = m_n/m_t, where m_t may come from the centre distance, and that from the places of the nodes.
@@ -190,20 +210,41 @@ class KindBuilder {
       distance = *data_.center_distance;
     else if (!data_.transverse_module)
       distance = cross(site_.axle, Vec3(*site_.x_b - site_.x_a)).norm();
-    const double m_t = data_.transverse_module ? *data_.transverse_module : 2 * distance / teeth_across();
-    const double cosine = *data_.normal_module / m_t;
-    if (cosine > 1 + typing_tolerance) {
-      if (data_.transverse_module)
+    if (data_.transverse_module) {
+      const double m_t = *data_.transverse_module, cosine = *data_.normal_module / m_t;
+      if (cosine > 1 + typing_tolerance)
         return fail("MT",
                     fmt::format("transverse module {} below the normal module {}", number(m_t), number(*data_.normal_module)),
                     "m_t = m_n/cos(helix) is never smaller");
+      design_.normal_module = *data_.normal_module;
+      set_helices(hand() * std::acos(std::min(cosine, 1.0)));
+      return true;
+    }
+    if (data_.shift.size() == 1)
+      return fail("X", "the centre distance cannot decide both the helix and the second shift",
+                  "give HELIX, or MT, or X two values");
+    const auto straight = distance_per_module(0);
+    if (!straight) return false;
+    const double wanted = distance / *data_.normal_module;
+    if (*straight > wanted * (1 + typing_tolerance))
       return fail(data_.center_distance ? "DISTANCE" : "N",
                   fmt::format("centre distance {}: even straight teeth of module {} need {}", number(distance),
-                              number(*data_.normal_module), number(*data_.normal_module * teeth_across() / 2)),
+                              number(*data_.normal_module), number(*data_.normal_module * *straight)),
                   "no helix makes the wheels smaller: take fewer teeth, a smaller module or a larger distance");
-    }
     design_.normal_module = *data_.normal_module;
-    set_helices(hand() * std::acos(std::min(cosine, 1.0)));
+    double helix = 0;
+    if (data_.shift.empty()) {
+      helix = std::acos(std::min(*straight / wanted, 1.0));
+    } else {  // the distance grows with the helix: bisection
+      double low = 0, high = right_angle * (1 - 1e-9);
+      for (int i = 0; i < 200 && high - low > 1e-16 * high; ++i) {
+        helix = 0.5 * (low + high);
+        const auto here = distance_per_module(helix);
+        if (!here) return false;
+        (*here < wanted ? low : high) = helix;
+      }
+    }
+    set_helices(hand() * helix);
     return true;
   }
 
@@ -421,7 +462,8 @@ std::optional<GearDesign> design_of_kind(const GearData& data, const GearSite& s
 }
 
 bool check_long_form(const GearData& data, const BuildContext& context) {
-  constexpr std::array<std::string_view, 5> long_form{"MN", "HELIX", "CONE", "SHAFT", "INTERNAL"};
+  constexpr std::array<std::string_view, 10> long_form{"MN", "HELIX",    "CONE",     "SHAFT", "INTERNAL",
+                                                       "X",  "ADDENDUM", "DEDENDUM", "TIP",   "TIPALTER"};
   bool good = true;
   for (const auto& [keyword, given] : given_keywords(data)) {
     if (!given || std::find(long_form.begin(), long_form.end(), keyword) != long_form.end()) continue;

@@ -68,6 +68,10 @@ ContactGeometry contact_geometry(const GearDesign& design, double width) {
   g.base_pitch = std::numbers::pi * design.transverse_module(0) * c;
   g.approach = path_of_contact(design, 1).value_or(0);
   g.recess = path_of_contact(design, 0).value_or(0);
+  if (design.cut) {  // half the tooth of A at the working pitch circle, of the pitch there
+    const double r = design.radius(0);
+    g.flank = design.cut->thickness_at(0, r) * design.teeth[0] / (4 * std::numbers::pi * r);
+  }
   return g;
 }
 
@@ -141,6 +145,12 @@ Drawing GearPair::drawing() const {
                      format_number(paper_helix(design_.helix[i], design_.cone[i]) / degree) + R"(, "teeth": )" +
                      std::to_string(design_.teeth[i]) + R"(, "module": )" + format_number(design_.normal_module) +
                      R"(, "width": )" + format_number(contact_.geometry().width));
+    if (!design_.cut) continue;
+    const CutTeeth& cut = *design_.cut;
+    shapes.back() += R"(, "addendum": )" + format_number(std::abs(cut.tip[i] - radius_[i])) + R"(, "dedendum": )" +
+                     format_number(std::abs(radius_[i] - cut.root_radius(i))) + R"(, "thickness": )" +
+                     format_number(cut.thickness_at(i, radius_[i])) + R"(, "pressure_angle": )" +
+                     format_number(cut.working_pressure_angle / degree);
   }
   return shapes;
 }
@@ -152,7 +162,7 @@ std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& con
   if (!placement) return nullptr;
   const GearDesign& design = placement->design;
   const int kind = design.parallel_kind();
-  const double width = data.width.value_or(10 * design.normal_module);
+  const double width = data.width.value_or(10 * design.cut_module());
   TeethOwner owner;
   owner.nodes = data.nodes;
   owner.axle = {placement->frames.mu.col(0), placement->frames.xi.col(0)};
@@ -161,6 +171,7 @@ std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& con
   owner.lever = {design.lever(0), design.lever(1)};
   owner.parallel = kind != 0;
   owner.geometry = contact_geometry(design, width);
+  owner.cut = design.cut;
   const auto mesh = mesh_phase(context, data.stiffness || data.course.is("ISO"));
   if (!mesh) return nullptr;
   owner.mesh = *mesh;

@@ -11,11 +11,11 @@
 
 namespace engrane::elements::gears {
 
+/// Adds diameters, thicknesses, clearances and angles of teeth whose cut the card describes; a rack has none of its own.
+void put_cut(std::vector<Derived>& list, const CutTeeth& cut, const std::array<std::string, 2>& names);
+
 /// Every quantity that follows from the card. `width` is the face width, 0 when not given.
 std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth, double width);
-
-/// Tip radius with addendum m_n: r + m_n cosγ, so r − m_n on a ring.
-double tip_radius(const GearDesign& design, std::size_t wheel);
 
 /// Teeth of the cylindrical wheel that has the tooth shape of a bevel wheel (Tredgold), z/cosγ; negative for a ring.
 double virtual_teeth(const GearDesign& design, std::size_t wheel);

@@ -74,6 +74,7 @@ struct ToothLaw {
     contact  ///< only while they touch, and never more than would make the flank pull
   };
   double stiffness = 0;  ///< k_m
+  IsoStiffness iso;      ///< from which k_m was computed, with STIFF ISO; otherwise 0
   double damping = 0;    ///< c_m
   double backlash = 0;   ///< b along the circumference; 0: the teeth touch on both flanks at once
   double onset = 0;      ///< width over which contact comes on, at most b

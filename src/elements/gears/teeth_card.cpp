@@ -99,7 +99,16 @@ bool set_iso(ToothLaw& law, const TeethData& data, const TeethOwner& owner, cons
   mesh.E = {data.moduli.front(), data.moduli.back()};
   if (!(mesh.contact_ratio > 1))
     return refuse("STIFF", fmt::format("contact ratio {:.3g}: teeth would lose touch", mesh.contact_ratio), "choose more teeth");
+  if (owner.cut) {
+    mesh.helix = owner.cut->helix[0];
+    mesh.pressure_angle = owner.cut->pressure_angle;
+    mesh.shift = owner.cut->shift;
+    mesh.dedendum = owner.cut->dedendum;
+    mesh.working_helix = g.helix;
+    mesh.working_pressure_angle = g.transverse_pressure_angle;
+  }
   law.stiffness = iso_mesh_stiffness(mesh);
+  law.iso = iso_stiffness(mesh);
   return true;
 }
 
@@ -179,6 +188,8 @@ bool set_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, c
       return false;
     }
     course.edge = std::min({edge, fraction, 1 - fraction});
+    // the place, from the pitch point, of the later flank where both ends of the path are equally far
+    if (owner.cut && values.empty()) course.middle = 0.5 * fraction - g.approach / g.base_pitch - g.flank;
     if (course.edge < 1e-6) course.kind = MeshStiffness::Kind::constant;  // a whole number of pairs at all times
   }
   double least = 1;
@@ -190,10 +201,13 @@ bool set_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, c
 
 /// Backlash along the circumference, in whichever way it is given.
 bool set_backlash(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
-  const int ways = (data.backlash ? 1 : 0) + (data.normal_backlash ? 1 : 0) + (data.center_backlash ? 1 : 0);
+  const int ways = (data.backlash ? 1 : 0) + (data.normal_backlash ? 1 : 0) + (data.center_backlash ? 1 : 0) +
+                   (data.thickness_allowance.empty() ? 0 : 1);
   if (ways > 1) {
-    context.error(data.normal_backlash ? "JEUN" : "JEUA", "JEU, JEUN and JEUA exclude each other: each fixes the backlash",
-                  "keep one of them");
+    context.error(!data.thickness_allowance.empty() ? "ASN"
+                  : data.normal_backlash            ? "JEUN"
+                                                    : "JEUA",
+                  "JEU, JEUN, JEUA and ASN exclude each other: each fixes the backlash", "keep one of them");
     return false;
   }
   const double alpha = owner.geometry.pressure_angle;
@@ -202,6 +216,10 @@ bool set_backlash(ToothLaw& law, const TeethData& data, const TeethOwner& owner,
   if (data.center_backlash)
     law.backlash =
         2 * (owner.parallel ? owner.geometry.flank_opening(*data.center_backlash).f : *data.center_backlash * std::tan(alpha));
+  if (const auto& a = data.thickness_allowance; !a.empty()) {
+    const double cut_alpha = owner.cut ? owner.cut->pressure_angle : alpha;
+    law.backlash = -(a.front() + a.back()) * std::cos(cut_alpha) / std::cos(alpha);  // j_bn = −ΣA_sn cosα_n
+  }
   law.onset = data.onset.value_or(1e-3 * law.backlash);
   if (!data.onset || law.onset <= law.backlash) return true;
   context.error("SMOOTH", fmt::format("SMOOTH {} is wider than the backlash {}", number(law.onset), number(law.backlash)),
@@ -239,11 +257,12 @@ bool set_damping(ToothLaw& law, const TeethData& data, const TeethOwner& owner, 
 
 /// What describes elastic teeth means nothing for rigid ones.
 bool refuse_of_rigid_teeth(const TeethData& data, const BuildContext& context) {
-  const std::array<std::pair<std::string_view, bool>, 15> elastic{{{"XI", data.damping_ratio.has_value()},
+  const std::array<std::pair<std::string_view, bool>, 16> elastic{{{"XI", data.damping_ratio.has_value()},
                                                                    {"CM", data.damping.has_value()},
                                                                    {"JEU", data.backlash.has_value()},
                                                                    {"JEUN", data.normal_backlash.has_value()},
                                                                    {"JEUA", data.center_backlash.has_value()},
+                                                                   {"ASN", !data.thickness_allowance.empty()},
                                                                    {"SMOOTH", data.onset.has_value()},
                                                                    {"DAMP", data.damping_mode.given()},
                                                                    {"ERR", data.error.given()},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "elements/common/friction_card.hpp"
+#include "elements/gears/profile_shift.hpp"
 #include "elements/gears/tooth_contact.hpp"
 #include "model/registry.hpp"
 
@@ -23,6 +24,7 @@ struct TeethData {
   std::optional<double> damping;
   deck::Tagged damping_mode;
   std::optional<double> backlash, normal_backlash, center_backlash;
+  std::vector<double> thickness_allowance;  ///< ASN of A and B, one value for both; not above 0
   std::optional<double> onset;
   deck::Tagged error;
   std::vector<double> eccentricity_a, eccentricity_b;  ///< amplitude and phase
@@ -47,6 +49,7 @@ struct TeethOwner {
   bool parallel = true;               ///< are the axles, so that involute relations hold?
   ContactGeometry geometry;
   MeshPhase mesh;
+  std::optional<CutTeeth> cut;  ///< where the card describes the teeth
 };
 
 /// How teeth touch, as a card says.
@@ -103,6 +106,12 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .synonyms({"CENTRE_BACKLASH", "CENTER_BACKLASH"})
       .unit(length)
       .at_least(0);
+  c.add("ASN", &TeethData::thickness_allowance,
+        "tooth-thickness allowances A_sn of A and B, or one of both: normal, at the reference circle, negative; instead of JEU")
+      .synonyms({"ALLOWANCE", "ECART_EPAISSEUR"})
+      .unit(length)
+      .values(1, 2)
+      .at_most(0);
   c.add("SMOOTH", &TeethData::onset, "width over which contact comes on; JEU/1000 when not given")
       .synonyms({"LISSAGE"})
       .unit(length)

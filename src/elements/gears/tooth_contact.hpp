@@ -33,6 +33,8 @@ struct ContactGeometry {
   /// −approach to recess. Only of parallel axles.
   double approach = 0, recess = 0;
   double base_pitch = 0;  ///< transverse
+  /// Front flank of A from the middle of its tooth, in pitches, at the working pitch circle: a quarter without profile shift.
+  double flank = 0.25;
 
   /// cosα_t′ = (a₀/a) cosα_t. `opening` is by how far the wheels have moved apart across the teeth.
   double working_pressure_angle(double opening) const;

@@ -288,7 +288,7 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
       line[k] = cos_t * 0.5 * (a.forward[k] - b.forward[k]) + sense * sin_t * across[k];
       flank_normal[k] = cos_alpha_ * normal[k] + sense * sin_alpha_ * across[k];
     }
-    const T cycle = (motion.scalar[0] * geometry_.teeth + law_.mesh.phase) * (0.5 / std::numbers::pi) + 0.25 * sense;
+    const T cycle = (motion.scalar[0] * geometry_.teeth + law_.mesh.phase) * (0.5 / std::numbers::pi) + geometry_.flank * sense;
     struct Flank {
       T place, share;
     };
