@@ -59,7 +59,15 @@ ContactGeometry contact_geometry(const GearDesign& design, double width) {
   g.radius = design.radius(0);
   g.width = width;
   const int kind = design.parallel_kind();
-  if (kind == 0) return g;
+  if (kind == 0) {
+    // axles that meet: the virtual wheels at the middle of the face (Tredgold), which roll as the cones do
+    if (contact_ratio(design)) {
+      g.base_pitch = std::numbers::pi * design.transverse_module(0) * std::cos(g.transverse_pressure_angle);
+      g.approach = virtual_path_of_contact(design, 1).value_or(0);
+      g.recess = virtual_path_of_contact(design, 0).value_or(0);
+    }
+    return g;
+  }
   g.side = g.axle_sense = kind > 0 ? 1 : -1;
   const double c = std::cos(g.transverse_pressure_angle);
   const double sign_a = kind == -2 ? -1 : 1, sign_b = kind == -1 ? -1 : 1;
@@ -170,6 +178,7 @@ std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& con
   owner.ring = {kind == -2, kind == -1};
   owner.lever = {design.lever(0), design.lever(1)};
   owner.parallel = kind != 0;
+  owner.path_known = owner.parallel || contact_ratio(design);
   owner.geometry = contact_geometry(design, width);
   owner.cut = design.cut;
   const auto mesh = mesh_phase(context, data.stiffness || data.course.is("ISO"));

@@ -295,6 +295,7 @@ std::unique_ptr<Element> build_rack_pinion(const RackData& data, BuildContext& c
   owner.teeth = {data.teeth, 0};
   owner.lever = {geometry->design.lever(0), 1};
   owner.parallel = std::abs(geometry->design.helix[0] + geometry->design.helix[1]) < 1e-9;
+  owner.path_known = owner.parallel;
   owner.geometry = contact_geometry(*geometry, width);
   owner.cut = geometry->design.cut;
   if (owner.cut)

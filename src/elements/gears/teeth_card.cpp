@@ -303,8 +303,9 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
   friction.rolling = data.rolling;
   friction.profile = data.sliding.is("PROFILE");
   const ContactGeometry& g = owner.geometry;
-  if (friction.profile && !owner.parallel) {
-    context.error("SLIDING", "the path of contact is only known of parallel axles", "SLIDING PITCH slides at the pitch point");
+  if (friction.profile && !owner.path_known) {
+    context.error("SLIDING", "the path of contact is only known of axles that are parallel or meet",
+                  "SLIDING PITCH slides at the pitch point, as most of the sliding of such teeth does");
     return false;
   }
   if (friction.profile && !(g.approach + g.recess > 1.01 * g.base_pitch)) {

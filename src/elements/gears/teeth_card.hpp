@@ -47,6 +47,7 @@ struct TeethOwner {
   std::array<bool, 2> ring{false, false};
   std::array<double, 2> lever{1, 1};  ///< r cosβ, along which u_m is measured; 1 for a rack
   bool parallel = true;               ///< are the axles, so that involute relations hold?
+  bool path_known = true;  ///< is the path of contact: of parallel axles, and of the virtual wheels of axles that meet?
   ContactGeometry geometry;
   MeshPhase mesh;
   std::optional<CutTeeth> cut;  ///< where the card describes the teeth
@@ -145,7 +146,7 @@ void add_teeth_keywords(deck::Card<Data>& c) {
   c.add("SLIDING", &TeethData::sliding, "where the flanks slide")
       .synonyms({"GLISSEMENT"})
       .option({"PITCH", {"PRIMITIF"}, "at the pitch point: axles that cross or pass each other"})
-      .option({"PROFILE", {"PROFIL"}, "each pair of flanks along the path of contact (parallel axles)"});
+      .option({"PROFILE", {"PROFIL"}, "each pair of flanks along the path of contact (axles that are parallel or meet)"});
   c.add("ROLLING", &TeethData::rolling, "lever of the rolling resistance").synonyms({"ROULEMENT"}).unit(length).at_least(0);
   c.add("SEPARATION", &TeethData::separation, "the radial part of the tooth force, which pushes the wheels apart")
       .option({"YES", {"OUI"}, "with it"})

@@ -30,7 +30,7 @@ struct ContactGeometry {
   double side = 1;             ///< κ: 1 outside, −1 inside
   double axle_sense = 1;       ///< σ: ξ₁ = σ μ₁
   /// Path of contact from the pitch point, along the direction in which A moves: while flanks in front touch from
-  /// −approach to recess. Only of parallel axles.
+  /// −approach to recess. Of parallel axles, and of the virtual wheels of axles that meet.
   double approach = 0, recess = 0;
   double base_pitch = 0;  ///< transverse
   /// Front flank of A from the middle of its tooth, in pitches, at the working pitch circle: a quarter without profile shift.

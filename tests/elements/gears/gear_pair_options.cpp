@@ -127,7 +127,7 @@ TEST(GearOptions, SuiteOfFriction) {
 }
 
 TEST(GearOptions, SuiteOfSlidingProfiles) {
-  for (const Case& kind : {spur(), helical(), internal()})
+  for (const Case& kind : {spur(), helical(), internal(), bevel()})
     for (const bool elastic : {false, true}) {
       Case c = kind;
       c.name += " profile";
