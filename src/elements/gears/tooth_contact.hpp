@@ -2,9 +2,11 @@
 // What acts where teeth meet, whatever they are cut on: two wheels, or a pinion and a rack.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "elements/common/friction_law.hpp"
@@ -130,6 +132,12 @@ class ToothContact {
   const ToothLaw& law() const { return law_; }
   const ContactOptions& options() const { return options_; }
   bool elastic() const { return law_.stiffness > 0; }
+  /// Is the onset of contact rounded, so that the law differs from (28) where the teeth are hardly pressed in?
+  bool rounds_contact() const { return elastic() && law_.exponent == 1 && law_.onset > 0; }
+  /// Force of the more pressed flank along the circumference over k_m.
+  double deflection(const ContactReport& report) const { return std::max(law_.flank(report.front).f, law_.flank(report.back).f); }
+  /// What a run should be told in which no flank was ever pressed in by more than `deflection`.
+  std::vector<std::string> remarks(double deflection) const;
   double cos_alpha() const { return cos_alpha_; }
   double sin_alpha() const { return sin_alpha_; }
 
