@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "elements/common/building.hpp"
 #include "elements/gears/contact_channels.hpp"
+#include "elements/gears/gear_bearings.hpp"
 #include "elements/gears/gear_place.hpp"
 #include "elements/gears/gear_report.hpp"
 #include "elements/gears/tooth_phases.hpp"
@@ -166,6 +167,7 @@ Drawing GearPair::drawing() const {
 namespace {
 
 std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& context) {
+  warn_of_radians(data.pressure_angle, context);
   const auto placement = place_gear(data, context);
   if (!placement) return nullptr;
   const GearDesign& design = placement->design;
@@ -181,6 +183,7 @@ std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& con
   owner.path_known = owner.parallel || contact_ratio(design);
   owner.geometry = contact_geometry(design, width);
   owner.cut = design.cut;
+  if (!check_bearings(data.nodes, owner.axle, context)) return nullptr;
   const auto mesh = mesh_phase(context, data.stiffness || data.course.is("ISO"));
   if (!mesh) return nullptr;
   owner.mesh = *mesh;

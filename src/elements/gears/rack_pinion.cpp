@@ -13,6 +13,7 @@
 #include "base/text.hpp"
 #include "elements/common/building.hpp"
 #include "elements/gears/contact_channels.hpp"
+#include "elements/gears/gear_bearings.hpp"
 #include "elements/gears/gear_report.hpp"
 
 namespace engrane::elements::gears {
@@ -286,6 +287,7 @@ std::optional<RackPinion::Geometry> place_rack(const RackData& data, const Build
 }
 
 std::unique_ptr<Element> build_rack_pinion(const RackData& data, BuildContext& context) {
+  warn_of_radians(data.pressure_angle, context);
   const auto geometry = place_rack(data, context);
   if (!geometry) return nullptr;
   const double width = data.width.value_or(10 * data.normal_module);
@@ -297,6 +299,7 @@ std::unique_ptr<Element> build_rack_pinion(const RackData& data, BuildContext& c
   owner.parallel = std::abs(geometry->design.helix[0] + geometry->design.helix[1]) < 1e-9;
   owner.path_known = owner.parallel;
   owner.geometry = contact_geometry(*geometry, width);
+  if (!check_bearings(data.nodes, {owner.axle[0], Vec3::Zero()}, context)) return nullptr;
   owner.cut = geometry->design.cut;
   if (owner.cut)
     warn_about_cut(*owner.cut, data, {"the pinion", "the rack"}, context);

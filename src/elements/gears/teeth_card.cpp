@@ -199,6 +199,17 @@ bool set_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, c
   return false;
 }
 
+/// Backlash that leaves nothing of the teeth: beyond half the pitch along the tooth normal, where teeth and gaps are as wide.
+void warn_of_wide_backlash(const ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  const double gap = std::numbers::pi * owner.lever[0] / owner.teeth[0];
+  if (law.backlash <= gap) return;
+  const char* keyword = data.backlash ? "JEU" : data.normal_backlash ? "JEUN" : data.center_backlash ? "JEUA" : "ASN";
+  context.diagnostics.warning(context.record.where(keyword),
+                              fmt::format("a backlash of {} along the circumference is wider than the gap between two teeth, {}",
+                                          number(law.backlash), number(gap)),
+                              "is it in the deck's unit of length? Teeth have backlash of a few hundredths of the module");
+}
+
 /// Backlash along the circumference, in whichever way it is given.
 bool set_backlash(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   const int ways = (data.backlash ? 1 : 0) + (data.normal_backlash ? 1 : 0) + (data.center_backlash ? 1 : 0) +
@@ -220,6 +231,7 @@ bool set_backlash(ToothLaw& law, const TeethData& data, const TeethOwner& owner,
     const double cut_alpha = owner.cut ? owner.cut->pressure_angle : alpha;
     law.backlash = -(a.front() + a.back()) * std::cos(cut_alpha) / std::cos(alpha);  // j_bn = −ΣA_sn cosα_n
   }
+  warn_of_wide_backlash(law, data, owner, context);
   law.onset = data.onset.value_or(1e-3 * law.backlash);
   if (!data.onset || law.onset <= law.backlash) return true;
   context.error("SMOOTH", fmt::format("SMOOTH {} is wider than the backlash {}", number(law.onset), number(law.backlash)),
@@ -300,6 +312,10 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
   FrictionLaw& law = friction.law;
   law.width = data.friction_width.value_or(1e-3 * owner.geometry.radius);
   if (!read_friction(context, data.friction, law)) return false;
+  if ((data.friction.is("CONST") || data.friction.is("STRIBECK")) && law.mu > 1)
+    context.diagnostics.warning(context.record.where("FRICTION"),
+                                fmt::format("a coefficient of friction of {} between the flanks", number(law.mu)),
+                                "lubricated teeth have 0.03 to 0.15, dry ones 0.2 to 0.5: is it in per cent?");
   friction.rolling = data.rolling;
   friction.profile = data.sliding.is("PROFILE");
   const ContactGeometry& g = owner.geometry;
@@ -342,6 +358,13 @@ bool set_options(ContactOptions& options, const TeethData& data, const TeethOwne
 }
 
 }  // namespace
+
+void warn_of_radians(double alpha, const BuildContext& context) {
+  constexpr double least = 1;  // degree
+  if (alpha <= 0 || alpha >= least) return;
+  context.diagnostics.warning(context.record.where("ALPHA"), fmt::format("a pressure angle of {} degrees", number(alpha)),
+                              fmt::format("angles are in degrees: {} radians are {:.4g} degrees", number(alpha), alpha / degree));
+}
 
 std::optional<Teeth> read_teeth(const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   Teeth teeth;

@@ -61,6 +61,9 @@ struct Teeth {
 /// Faults go to the context's diagnostics; then there is no result.
 std::optional<Teeth> read_teeth(const TeethData& data, const TeethOwner& owner, const BuildContext& context);
 
+/// Warns of a pressure angle, in degrees, that looks as if it were in radians.
+void warn_of_radians(double alpha, const BuildContext& context);
+
 /// Adds the keywords of TeethData to a card.
 template <class Data>
 void add_teeth_keywords(deck::Card<Data>& c) {
