@@ -269,7 +269,7 @@ bool set_damping(ToothLaw& law, const TeethData& data, const TeethOwner& owner, 
 
 /// What describes elastic teeth means nothing for rigid ones.
 bool refuse_of_rigid_teeth(const TeethData& data, const BuildContext& context) {
-  const std::array<std::pair<std::string_view, bool>, 16> elastic{{{"XI", data.damping_ratio.has_value()},
+  const std::array<std::pair<std::string_view, bool>, 21> elastic{{{"XI", data.damping_ratio.has_value()},
                                                                    {"CM", data.damping.has_value()},
                                                                    {"JEU", data.backlash.has_value()},
                                                                    {"JEUN", data.normal_backlash.has_value()},
@@ -284,6 +284,11 @@ bool refuse_of_rigid_teeth(const TeethData& data, const BuildContext& context) {
                                                                    {"PITCHB", data.pitch_b != 0},
                                                                    {"STIFF", data.course.given()},
                                                                    {"EXPONENT", !data.exponent.empty()},
+                                                                   {"TIPRELA", !data.tip_relief_a.empty()},
+                                                                   {"TIPRELB", !data.tip_relief_b.empty()},
+                                                                   {"ROOTRELA", !data.root_relief_a.empty()},
+                                                                   {"ROOTRELB", !data.root_relief_b.empty()},
+                                                                   {"CROWN", data.crown.has_value()},
                                                                    {"SLICES", data.slices > 1}}};
   bool rigid = true;
   for (const auto& [keyword, given] : elastic)
@@ -366,6 +371,68 @@ void warn_of_radians(double alpha, const BuildContext& context) {
                               fmt::format("angles are in degrees: {} radians are {:.4g} degrees", number(alpha), alpha / degree));
 }
 
+/// Relief and crowning: what is taken off normal to the flanks, along the circumference.
+bool set_relief(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  const ContactGeometry& g = owner.geometry;
+  const double along = std::cos(g.helix) / std::cos(g.transverse_pressure_angle);
+  struct Given {
+    const char* keyword;
+    const std::vector<double>& values;
+    bool at_recess;
+  };
+  const std::array<Given, 4> all{{{"TIPRELA", data.tip_relief_a, true},
+                                  {"ROOTRELB", data.root_relief_b, true},
+                                  {"TIPRELB", data.tip_relief_b, false},
+                                  {"ROOTRELA", data.root_relief_a, false}}};
+  const auto refuse = [&](std::string_view keyword, std::string message, std::string hint) {
+    context.error(keyword, std::move(message), std::move(hint));
+    return false;
+  };
+  const char* first = nullptr;
+  ToothRelief& relief = law.relief;
+  relief.approach = g.approach;
+  relief.recess = g.recess;
+  relief.base_pitch = g.base_pitch;
+  relief.flank = g.flank;
+  const double path = g.approach + g.recess;
+  for (const Given& one : all) {
+    if (one.values.empty()) continue;
+    if (!owner.parallel)
+      return refuse(one.keyword, "relief follows the path of contact of parallel axles, and these cross or meet", "leave it out");
+    first = one.keyword;
+    const double exponent = one.values.size() > 2 ? one.values[2] : 2;
+    if (exponent < 1 || exponent > 4)
+      return refuse(one.keyword, fmt::format("relief that grows with the power {}", number(exponent)), "give 1 (linear) to 4");
+    if (one.values[1] > path)
+      return refuse(one.keyword,
+                    fmt::format("relief over {}, and the path of contact is {} long", number(one.values[1]), number(path)),
+                    "tip relief is usual over a fifth to a third of it");
+    relief.ramps.push_back({one.at_recess, one.values[0] * along, one.values[1], exponent});
+  }
+  if (data.crown) {
+    if (!owner.parallel) return refuse("CROWN", "crowning is for parallel axles, and these cross or meet", "leave it out");
+    law.crown = *data.crown * along;
+    if (!data.exponent.empty())
+      return refuse("CROWN", "CROWN and EXPONENT both make the teeth softer at first", "keep one of them");
+    if (law.course.loaded)
+      return refuse("CROWN", "CROWN does not go with a stiffness that depends on the deflection", "keep one of them");
+  }
+  if (!relief.active()) return true;
+  if (!(relief.contact_ratio() > 1))
+    return refuse(first, fmt::format("contact ratio {:.4g}: between two teeth nothing would touch", relief.contact_ratio()),
+                  "choose more teeth");
+  relief.edge = std::min(0.05 * g.base_pitch, 0.5 * (path - g.base_pitch));
+  for (const auto& [keyword, given] : {std::pair<std::string_view, bool>{"RUNNING", data.running},
+                                       {"SLICES", data.slices > 1},
+                                       {"EXPONENT", !data.exponent.empty()},
+                                       {"STIFF", law.course.varies()}})
+    if (given)
+      return refuse(keyword,
+                    fmt::format("{} does not go with {}: with relief each pair of teeth is a spring of its own", keyword, first),
+                    fmt::format("leave {} out", keyword));
+  return true;
+}
+
 std::optional<Teeth> read_teeth(const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   Teeth teeth;
   bool good = set_options(teeth.options, data, owner, context);
@@ -396,6 +463,7 @@ std::optional<Teeth> read_teeth(const TeethData& data, const TeethOwner& owner, 
   good = set_error(law, data, owner, context) && good;
   good = set_wheel_errors(law, data, context) && good;
   good = set_damping(law, data, owner, context) && good;
+  good = set_relief(law, data, owner, context) && good;
   if (!good) return {};
   return teeth;
 }

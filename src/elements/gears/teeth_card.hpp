@@ -2,6 +2,8 @@
 // What a card says of the teeth of a gear pair, or of a pinion and its rack.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <optional>
 #include <vector>
@@ -17,9 +19,11 @@ namespace engrane::elements::gears {
 struct TeethData {
   std::optional<double> width;
   std::optional<double> stiffness;
-  deck::Tagged course;           ///< STIFF
-  std::vector<double> moduli;    ///< E of A and B, one value for both
-  std::vector<double> exponent;  ///< p and x₀
+  deck::Tagged course;                                                           ///< STIFF
+  std::vector<double> moduli;                                                    ///< E of A and B, one value for both
+  std::vector<double> exponent;                                                  ///< p and x₀
+  std::vector<double> tip_relief_a, tip_relief_b, root_relief_a, root_relief_b;  ///< amount, length, exponent
+  std::optional<double> crown;
   std::optional<double> damping_ratio;
   std::optional<double> damping;
   deck::Tagged damping_mode;
@@ -98,6 +102,28 @@ void add_teeth_keywords(deck::Card<Data>& c) {
   c.add("EXPONENT", &TeethData::exponent, "p x0: the force grows with x^p, and is KM x0 at the deflection x0")
       .synonyms({"EXPOSANT"})
       .values(2, 2)
+      .positive();
+  const char* const relief =
+      "C L [p]: {} relief of {}, C normal to the flank over L of the path of contact, growing with power p (2)";
+  c.add("TIPRELA", &TeethData::tip_relief_a, fmt::format(fmt::runtime(relief), "tip", "A"))
+      .synonyms({"DEPOUILLE_TETE_A"})
+      .values(2, 3)
+      .positive();
+  c.add("TIPRELB", &TeethData::tip_relief_b, fmt::format(fmt::runtime(relief), "tip", "B"))
+      .synonyms({"DEPOUILLE_TETE_B"})
+      .values(2, 3)
+      .positive();
+  c.add("ROOTRELA", &TeethData::root_relief_a, fmt::format(fmt::runtime(relief), "root", "A"))
+      .synonyms({"DEPOUILLE_PIED_A"})
+      .values(2, 3)
+      .positive();
+  c.add("ROOTRELB", &TeethData::root_relief_b, fmt::format(fmt::runtime(relief), "root", "B"))
+      .synonyms({"DEPOUILLE_PIED_B"})
+      .values(2, 3)
+      .positive();
+  c.add("CROWN", &TeethData::crown, "crowning of both wheels together, normal to the flank at the ends of the face")
+      .synonyms({"BOMBE"})
+      .unit(length)
       .positive();
   c.add("XI", &TeethData::damping_ratio, "damping ratio of the teeth against the inertia of both wheels").at_least(0);
   c.add("CM", &TeethData::damping, "tooth damping along the circumference, instead of XI").unit(dimension::damping).at_least(0);

@@ -54,7 +54,7 @@ std::vector<std::string> ToothContact::remarks(double deflection) const {
 
 std::vector<SwitchNames> ToothContact::switch_names() const {
   std::vector<SwitchNames> list;
-  if (!elastic() || law_.backlash == 0 || options_.slices > 1) return list;
+  if (!elastic() || law_.backlash == 0 || options_.slices > 1 || law_.relief.active()) return list;
   for (const char* side : {"front", "back"}) {
     const std::string flank = side + std::string(" flank");
     list.push_back({flank + " touches", flank + " parts"});

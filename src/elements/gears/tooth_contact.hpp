@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "elements/common/friction_law.hpp"
@@ -126,14 +127,16 @@ class ToothContact {
         options_(options),
         cos_alpha_(std::cos(geometry.pressure_angle)),
         sin_alpha_(std::sin(geometry.pressure_angle)),
-        cos_beta_(std::cos(geometry.helix)) {}
+        cos_beta_(std::cos(geometry.helix)) {
+    if (options_.slices > 1) slice_crown_ = std::exchange(law_.crown, 0);
+  }
 
   const ContactGeometry& geometry() const { return geometry_; }
   const ToothLaw& law() const { return law_; }
   const ContactOptions& options() const { return options_; }
   bool elastic() const { return law_.stiffness > 0; }
   /// Is the onset of contact rounded, so that the law differs from (28) where the teeth are hardly pressed in?
-  bool rounds_contact() const { return elastic() && law_.exponent == 1 && law_.onset > 0; }
+  bool rounds_contact() const { return elastic() && law_.exponent == 1 && law_.crown == 0 && law_.onset > 0; }
   /// Force of the more pressed flank along the circumference over k_m.
   double deflection(const ContactReport& report) const { return std::max(law_.flank(report.front).f, law_.flank(report.back).f); }
   /// What a run should be told in which no flank was ever pressed in by more than `deflection`.
@@ -166,6 +169,7 @@ class ToothContact {
   ToothLaw law_;
   ContactOptions options_;
   double cos_alpha_, sin_alpha_, cos_beta_;
+  double slice_crown_ = 0;  ///< crowning that slices see for themselves
 };
 
 }  // namespace engrane::elements::gears

@@ -68,14 +68,14 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
     slope = compose(psi_a, z * f.d1, z * z * f.d2, z * z * z * f.d3);
   };
   T factor(1), factor_slope(0);
-  if (law_.course.varies() && !law_.course.loaded) course(0, factor, factor_slope);
+  if (law_.course.varies() && !law_.by_load()) course(0, factor, factor_slope);
 
   T net(0), by_turn(0);  // ∂V/∂x, ∂V/∂ψ_A at constant x
   T front = x, back = -law_.backlash - x;
   double potential = 0;
-  if (law_.course.loaded) {  // V = k ∫ f(τ, |[[x]]|) [[x]] dx; never with `running`
+  if (law_.by_load()) {  // V = k ∫ f(τ, |[[x]]|) [[x]] dx, or the sum over pairs with relief; never with `running`
     const double tau = z * value_of(psi_a) + law_.mesh.phase;
-    const ToothLaw::Pressed f = law_.pressed(tau, value_of(front)), g = law_.pressed(tau, value_of(back));
+    const ToothLaw::Pressed f = law_.pressed(tau, value_of(front)), g = law_.pressed(tau, value_of(back), true);
     const double by_phase = z * (f.by_phase - g.by_phase);
     net = k * (compose(x, f.force - g.force, std::max(f.by_depth + g.by_depth, ToothLaw::least_slope), 0) +
                compose(psi_a, 0, by_phase, 0));
@@ -114,7 +114,8 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
       const Function::Jet d = geometry_.flank_opening(value_of(local));
       const T open = compose(local, d.f, d.d1, d.d2), slope = compose(local, d.d1, d.d2, d.d3);
       const T shift = (y * cos_beta_) * tilt_along;
-      const T in_front = x + shift - open, behind = -law_.backlash - x - shift - open;
+      const double crowned = slice_crown_ * std::pow(2 * y / geometry_.width, 2);
+      const T in_front = x + shift - open - crowned, behind = -law_.backlash - x - shift - open - crowned;
       const auto flank = [&](const T& depth) {
         const Function::Jet f = law_.flank(value_of(depth));
         return T((k / n) * compose(depth, f.f, f.d1, f.d2));
