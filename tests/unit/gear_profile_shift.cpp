@@ -241,6 +241,26 @@ TEST(ProfileShift, EveryClosingCombinationGivesTheSamePair) {
   }
 }
 
+// Z of one value: the teeth of B follow from module, shifts and centre distance, of DISTANCE or of the nodes.
+TEST(ProfileShift, TeethOfACentreDistance) {
+  for (const Case& c : cases()) {
+    if (c.internal && c.teeth[0] > c.teeth[1]) continue;  // the one value is the pinion's
+    for (const bool shifted : {true, false}) {
+      const std::string helix = c.helix == 0 ? "" : fmt::format(" HELIX {}", c.helix);
+      const std::string kind = c.internal ? " KIND INTERNAL" : c.helix == 0 ? " KIND SPUR" : " KIND HELICAL";
+      const std::string x = shifted ? fmt::format(" X {} {}", c.shift[0], c.shift[1]) : "", m = fmt::format(" MN {}", c.module);
+      Deck first(" I 1\n I 2\n",
+                 fmt::format(" I 1 GEAR N 1 2 AXIS 0 0 1 Z {} {} PLACE 1 0 0", c.teeth[0], c.teeth[1]) + kind + helix + m + x);
+      const double a = first.node(2)[0] < 0 ? -first.node(2)[0] : first.node(2)[0];
+      const std::string head = fmt::format(" I 1 GEAR N 1 2 AXIS 0 0 1 Z {}", c.teeth[0]),
+                        at = fmt::format(" I 1\n I 2 X {:.12g}\n", a);
+      Deck nodes(at, head + kind + helix + m + x), long_form(at, head + (c.internal ? " INTERNAL" : "") + helix + m + x);
+      Deck distance(" I 1\n I 2\n", head + kind + helix + m + x + fmt::format(" DISTANCE {:.12g} PLACE 1 0 0", a));
+      for (const Deck* deck : {&nodes, &long_form, &distance}) EXPECT_EQ(deck->pair(1).design().teeth, c.teeth);
+    }
+  }
+}
+
 TEST(ProfileShift, NoShiftIsThePairWithoutX) {
   for (const char* rest : {" Z 20 40 MN 2", " Z 20 40 MN 2 HELIX 15", " Z 20 60 MN 2 INTERNAL"}) {
     Deck with(" I 1\n I 2\n", std::string(" I 1 GEAR N 1 2 AXIS 0 0 1 PLACE 1 0 0 X 0 0") + rest);

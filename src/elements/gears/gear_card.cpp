@@ -35,7 +35,9 @@ const deck::Card<GearData>& gear_card() {
         .option({"CROSSED", {"CROISE"}, "cylinders on crossed axles: Z, one of MN DISTANCE, HELIX twice or HELIX once and SHAFT"})
         .option({"HYPOID", {"HYPOIDE"}, "cones on axles that pass: Z, HELIX of A, OFFSET, SHAFT (90), one of MN DIAMETER"})
         .option({"WORM", {"VIS"}, "A is the worm: STARTS, Z of the wheel, two of LAMBDA LEAD Q DIAMETER DISTANCE MN MX"});
-    c.add("Z", &GearData::teeth, "numbers of teeth (threads of a worm); one value with STARTS: of the wheel")
+    c.add("Z", &GearData::teeth,
+          "numbers of teeth (threads of a worm); one value with STARTS: of the wheel; else of A, and the centre distance decides "
+          "B's")
         .synonyms({"DENTS", "TEETH"})
         .values(1, 2)
         .at_least(1)

@@ -152,8 +152,8 @@ class KindBuilder {
       return fail("HAND", "HELIX has a sign and HAND is given as well", "right hand is positive: leave HAND out");
     const bool shifted = !data_.shift.empty(), shift_follows = data_.shift.size() == 1;
     const int sizes = (data_.normal_module ? 1 : 0) + (data_.transverse_module ? 1 : 0) + (data_.center_distance ? 1 : 0);
-    const bool straight =
-        data_.kind.is("SPUR") || (data_.kind.is("INTERNAL") && data_.helix.empty() && (sizes < 2 || shift_follows));
+    const bool straight = data_.kind.is("SPUR") || (data_.kind.is("INTERNAL") && data_.helix.empty() &&
+                                                    (sizes < 2 || shift_follows || data_.teeth.size() == 1));
     if (straight || !data_.helix.empty()) {
       set_helices(straight ? 0 : helix_a());
       if (!check_second_helix()) return false;
@@ -161,7 +161,9 @@ class KindBuilder {
       const bool module = data_.normal_module || data_.transverse_module;
       std::vector<std::pair<std::string_view, bool>> choice{{"MN", data_.normal_module.has_value()},
                                                             {"MT", data_.transverse_module.has_value()}};
-      if (!shifted || (!module && !shift_follows)) choice.emplace_back("DISTANCE", data_.center_distance.has_value());
+      const bool teeth_follow = data_.teeth.size() == 1;
+      if ((!shifted && !teeth_follow) || (!module && !shift_follows))
+        choice.emplace_back("DISTANCE", data_.center_distance.has_value());
       const auto keyword = one_of(choice, "the module");
       if (!keyword) return false;
       const double cosine = std::cos(design_.helix[0]);
@@ -430,8 +432,60 @@ class KindBuilder {
 
 }  // namespace
 
-std::optional<std::array<int, 2>> gear_teeth_numbers(const GearData& data, const BuildContext& context) {
+namespace {
+
+/// The teeth of wheel B that close a pair on parallel axles: the centre distance grows with them outside a ring and inside.
+std::optional<std::array<int, 2>> teeth_that_close(const GearData& data, double distance, const BuildContext& context) {
+  const bool internal = data.internal || data.kind.is("INTERNAL");
+  const double helix = data.helix.empty() ? 0 : data.helix[0] * degree;
+  GearDesign design;
+  design.normal_module = data.normal_module ? *data.normal_module : *data.transverse_module * std::cos(helix);
+  design.pressure_angle = data.pressure_angle * degree;
+  design.helix = {helix, -helix};
+  if (internal) design.cone[1] = std::numbers::pi;
+  const auto distance_with = [&](int z) {
+    design.teeth = {data.teeth[0], z};
+    CutTeeth cut = reference_cut(design, data);
+    const double sum = cut.shift[0] + cut.shift[1];
+    if (sum != 0) cut.working_pressure_angle = cut.working_angle_of(sum).value_or(0);
+    return cut.distance();
+  };
+  const int first = internal ? data.teeth[0] + 1 : 1;
+  constexpr int most = 100000;
+  if (distance_with(most) < distance) {
+    context.error("Z", fmt::format("no number of teeth of wheel B makes a centre distance of {}", number(distance)),
+                  "have the module and the centre distance one unit of length?");
+    return {};
+  }
+  int low = first, high = most;
+  while (low < high) {  // the first number of teeth that reaches the distance
+    const int middle = (low + high) / 2;
+    if (distance_with(middle) < distance * (1 - typing_tolerance))
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  if (std::abs(distance_with(low) - distance) <= typing_tolerance * distance) return std::array<int, 2>{data.teeth[0], low};
+  context.error("Z",
+                fmt::format("no whole number of teeth of wheel B makes a centre distance of {}: {} make {}{}", number(distance),
+                            low, number(distance_with(low)),
+                            low > first ? fmt::format(", {} make {}", low - 1, number(distance_with(low - 1))) : ""),
+                "give Z two values and X one: the shift of wheel B then follows");
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::array<int, 2>> gear_teeth_numbers(const GearData& data, const GearSite& site, const BuildContext& context) {
   const bool starts = data.starts && data.kind.is("WORM");
+  const bool parallel = data.kind.given()
+                            ? data.kind.is("SPUR") || data.kind.is("INTERNAL") || (data.kind.is("HELICAL") && !data.helix.empty())
+                            : !data.cone && !data.shaft_angle && !data.axis_b && data.helix.size() < 2;
+  if (parallel && data.teeth.size() == 1 && data.shift.size() != 1 && (data.normal_module || data.transverse_module)) {
+    std::optional<double> distance = data.center_distance;
+    if (!distance && site.x_b) distance = cross(site.axle, Vec3(*site.x_b - site.x_a)).norm();
+    if (distance) return teeth_that_close(data, *distance, context);
+  }
   if (data.teeth.size() == 2 && !starts) return std::array<int, 2>{data.teeth[0], data.teeth[1]};
   if (data.teeth.size() == 1 && starts) return std::array<int, 2>{*data.starts, data.teeth[0]};
   if (starts)
@@ -456,7 +510,7 @@ std::array<double, 2> bevel_cones(double shaft, const std::array<int, 2>& teeth,
 }
 
 std::optional<GearDesign> design_of_kind(const GearData& data, const GearSite& site, const BuildContext& context) {
-  const auto teeth = gear_teeth_numbers(data, context);
+  const auto teeth = gear_teeth_numbers(data, site, context);
   if (!teeth) return {};
   return KindBuilder(data, site, context, *teeth).build();
 }

@@ -151,7 +151,7 @@ bool check_axle_b(const GearDesign& design, const GearData& data, const PitchFra
 
 /// The design without KIND, from cones and helices.
 std::optional<GearDesign> design_of_angles(const GearData& data, const GearSite& site, const BuildContext& context) {
-  const auto teeth = gear_teeth_numbers(data, context);
+  const auto teeth = gear_teeth_numbers(data, site, context);
   if (!check_long_form(data, context) || !teeth) return {};
   const auto cones = cones_of(data, *teeth, site, context);
   if (!cones) return {};
