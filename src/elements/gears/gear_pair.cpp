@@ -152,14 +152,9 @@ Drawing GearPair::drawing() const {
                      R"(, "axis": )" + json(Vec3(triad_[i].col(0))) + R"(, "toward": )" + json(toward) + R"(, "radius": )" +
                      format_number(radius_[i]) + R"(, "cone": )" + format_number(design_.cone[i] / degree) + R"(, "helix": )" +
                      format_number(paper_helix(design_.helix[i], design_.cone[i]) / degree) + R"(, "teeth": )" +
-                     std::to_string(design_.teeth[i]) + R"(, "module": )" + format_number(design_.normal_module) +
+                     std::to_string(design_.teeth[i]) + R"(, "module": )" + format_number(design_.cut_module()) +
                      R"(, "width": )" + format_number(contact_.geometry().width));
-    if (!design_.cut) continue;
-    const CutTeeth& cut = *design_.cut;
-    shapes.back() += R"(, "addendum": )" + format_number(std::abs(cut.tip[i] - radius_[i])) + R"(, "dedendum": )" +
-                     format_number(std::abs(radius_[i] - cut.root_radius(i))) + R"(, "thickness": )" +
-                     format_number(cut.thickness_at(i, radius_[i])) + R"(, "pressure_angle": )" +
-                     format_number(cut.working_pressure_angle / degree);
+    if (design_.cut) shapes.back() += drawn_cut(*design_.cut, i, radius_[i]);
   }
   return shapes;
 }

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/text.hpp"
 #include "elements/common/building.hpp"
 
 namespace engrane::elements::gears {
@@ -106,6 +107,13 @@ void put_cut(std::vector<Derived>& list, const CutTeeth& cut, const std::array<s
   }
   put("transverse pressure angle", cut.transverse_pressure_angle(), angle);
   if (!rack) put("working transverse pressure angle", cut.working_pressure_angle, angle);
+}
+
+std::string drawn_cut(const CutTeeth& cut, std::size_t wheel, double radius) {
+  return R"(, "addendum": )" + format_number(std::abs(cut.tip[wheel] - radius)) + R"(, "dedendum": )" +
+         format_number(std::abs(radius - cut.root_radius(wheel))) + R"(, "thickness": )" +
+         format_number(cut.thickness_at(wheel, radius)) + R"(, "pressure_angle": )" +
+         format_number(cut.working_pressure_angle / degree);
 }
 
 std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth, double width) {

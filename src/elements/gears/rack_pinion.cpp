@@ -155,13 +155,16 @@ Drawing RackPinion::drawing() const {
   const GearDesign& d = geometry_.design;
   const PitchFrames& f = geometry_.frames;
   const double width = contact_.geometry().width;
+  Vec3 reference = f.contact;  // in the plane where the rack's teeth are as thick as their spaces
+  if (d.cut) reference += d.cut->shift[0] * d.normal_module * f.mu.col(1);
   const std::string common =
       R"(, "module": )" + format_number(d.normal_module) + R"(, "width": )" + format_number(width) + R"(, "helix": )";
   return {R"("shape": "wheel", "node": )" + std::to_string(layout().nodes[0]) + R"(, "center": )" +
               json(Vec3(f.contact - d.radius(0) * f.mu.col(1))) + R"(, "axis": )" + json(Vec3(f.mu.col(0))) + R"(, "toward": )" +
               json(Vec3(f.mu.col(1))) + R"(, "radius": )" + format_number(d.radius(0)) + R"(, "cone": 0, "teeth": )" +
-              std::to_string(d.teeth[0]) + common + format_number(-d.helix[0] / degree),
-          R"("shape": "rack", "node": )" + std::to_string(layout().nodes[1]) + R"(, "center": )" + json(f.contact) +
+              std::to_string(d.teeth[0]) + common + format_number(-d.helix[0] / degree) +
+              (d.cut ? drawn_cut(*d.cut, 0, d.radius(0)) : ""),
+          R"("shape": "rack", "node": )" + std::to_string(layout().nodes[1]) + R"(, "center": )" + json(reference) +
               R"(, "direction": )" + json(Vec3(geometry_.sense * f.xi.col(2))) + R"(, "toward": )" + json(Vec3(f.xi.col(1))) +
               common + format_number(-d.helix[1] / degree)};
 }
