@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -22,7 +22,8 @@ class WheelShape:
 
     radius (pitch, at the contact point), teeth, module, cone (radians; 0 cylinder, pi ring gear), helix
     (radians, right hand positive), width (along the teeth), phase (turn of the nearest tooth's middle from +y
-    about +x, radians)."""
+    about +x, radians). Of teeth with profile shift: addendum and dedendum (heights from the pitch
+    circle), thickness (of the tooth along it) and pressure angle (radians, there); zero without."""
 
     radius: float
     teeth: int
@@ -31,6 +32,10 @@ class WheelShape:
     helix: float = 0.0
     width: float = 0.0
     phase: float = 0.0
+    addendum: float = 0.0
+    dedendum: float = 0.0
+    thickness: float = 0.0
+    pressure: float = PRESSURE
 
     @classmethod
     def from_drawing(cls, d: dict[str, Any]) -> WheelShape:
@@ -44,7 +49,14 @@ class WheelShape:
         width = abs(float(d.get("width") or 0.0)) or min(10 * module, 0.6 * radius)
         cone = np.radians(float(d.get("cone") or 0.0))
         helix = np.radians(np.clip(float(d.get("helix") or 0.0), -85.0, 85.0))
-        return cls(radius, teeth, module, float(cone), float(helix), width)
+        shape = cls(radius, teeth, module, float(cone), float(helix), width)
+        heights = [abs(float(d.get(name) or 0.0)) for name in ("addendum", "dedendum", "thickness")]
+        if not (0 < max(heights[:2]) < 4 * module and 0 < heights[2] < 2 * np.pi * radius / teeth):
+            return shape
+        angle = np.radians(np.clip(float(d.get("pressure_angle") or 20.0), 1.0, 60.0))
+        return replace(
+            shape, addendum=heights[0], dedendum=heights[1], thickness=heights[2], pressure=float(angle)
+        )
 
     @property
     def ring(self) -> bool:
@@ -90,14 +102,15 @@ class WheelShape:
         m = 2 * self.radius / self.teeth
         cg = np.cos(self.cone)
         # Across the axle a tooth is wider than across itself, by 1/cos(helix).
-        straight = SLIM * np.pi * m / 4 - v * np.tan(PRESSURE) / np.cos(self.helix)
+        half = SLIM * (self.thickness or np.pi * m / 2) / 2
+        straight = half - v * np.tan(PRESSURE) / np.cos(self.helix)
         if cg < 0.05 or abs(self.helix) > STEEP:
             return np.maximum(straight, 0.08 * m)
         r = self.radius / cg
-        angle = np.arccos(np.clip(r * np.cos(PRESSURE) / (r + v), 0, 1))
+        angle = np.arccos(np.clip(r * np.cos(self.pressure) / (r + v), 0, 1))
         involute = np.tan(angle) - angle
-        at_pitch = np.tan(PRESSURE) - PRESSURE
-        return np.maximum((r + v) * (SLIM * np.pi * m / (4 * r) + at_pitch - involute), 0.08 * m)
+        at_pitch = np.tan(self.pressure) - self.pressure
+        return np.maximum((r + v) * (half / r + at_pitch - involute), 0.08 * m)
 
 
 def profile(shape: WheelShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -105,6 +118,10 @@ def profile(shape: WheelShape) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     counterclockwise."""
     m = shape.module
     heights = np.array([-DEDENDUM, -0.7, 0.0, 0.55, ADDENDUM]) * m
+    if shape.thickness > 0:
+        heights = (
+            np.array([-1, -0.56, 0, 0, 0]) * shape.dedendum + np.array([0, 0, 0, 0.55, 1]) * shape.addendum
+        )
     _, radial = shape.place(np.zeros_like(heights), heights)
     half = shape.half_thickness(heights) / np.maximum(radial, 0.1 * shape.radius)
     # A root as wide as the pitch would close the gap between neighbours.

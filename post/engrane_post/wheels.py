@@ -30,10 +30,13 @@ class Wheel:
 
 def _same(w: Wheel, node: int, center: np.ndarray, frame: np.ndarray, shape: WheelShape) -> bool:
     scale = max(shape.radius, 1e-300)
+    # With profile shift a planet has a working pitch circle of its own in each mesh.
+    cut = w.shape.thickness > 0 and shape.thickness > 0
+    one, other = (w.shape.module, shape.module) if cut else (w.shape.radius, shape.radius)
     return (
         w.node == node
         and w.shape.teeth == shape.teeth
-        and abs(w.shape.radius - shape.radius) < 1e-6 * scale
+        and abs(one - other) < 1e-6 * max(other, 1e-300)
         and np.linalg.norm(w.center - center) < 1e-6 * scale
         and abs(w.frame[:, 0] @ frame[:, 0]) > 1 - 1e-6
         and w.shape.ring == shape.ring

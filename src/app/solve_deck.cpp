@@ -20,6 +20,7 @@
 #include "app/times.hpp"
 #include "app/version.hpp"
 #include "model/function_failure.hpp"
+#include "model/remarks.hpp"
 #include "output/checks.hpp"
 #include "output/listing.hpp"
 #include "output/progress.hpp"
@@ -184,7 +185,9 @@ class Writer {
       if (reading_.model.commands.archive.newton) write_newton(c, step, numbering);
     }
     progress_.update(c.time, step.step, step.number);
-    if (last) progress_.finish();
+    if (!last) return;
+    progress_.finish();
+    collect_remarks(c, numbering);
   }
 
   /// Ends listing and results; returns the exit status.
@@ -209,6 +212,10 @@ class Writer {
       listing_.write(events_);
       if (event_count_ > most_listed_events) listing_.write(fmt::format("  and {} more\n", event_count_ - most_listed_events));
       listing_.write(fmt::format("  {} in all, located by {} attempts beyond those of the steps\n", event_count_, locating_));
+    }
+    if (!remarks_.empty()) {
+      listing_.write(listing_section("Remarks"));
+      listing_.write(remarks_);
     }
     int exit = exit_status::fine;
     if (!failure.empty()) {
@@ -283,6 +290,21 @@ class Writer {
     events_ += "  warning: " + text + "\n";
     progress_.note("engrane: " + text);
   }
+  /// What elements remember of the run and its user should know.
+  void collect_remarks(const Configuration& c, const Numbering& numbering) {
+    for (int p = 0; p < numbering.parts(); ++p) {
+      const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(p)];
+      const auto* teller = dynamic_cast<const RemarksOnRun*>(part.element.get());
+      if (!teller) continue;
+      const auto size = static_cast<std::size_t>(part.element->layout().history);
+      for (const std::string& remark :
+           teller->remarks(std::span(c.history).subspan(static_cast<std::size_t>(numbering.history_begin(p)), size))) {
+        const std::string text = fmt::format("{} {}: {}", part.type, part.element->id(), remark);
+        remarks_ += "  warning: " + text + "\n";
+        progress_.note("engrane: " + text);
+      }
+    }
+  }
   void write_newton(const Configuration& c, const StepReport& step, const Numbering& numbering) {
     std::vector<IterationRow> rows;
     for (const NewtonRow& r : step.newton->rows)
@@ -314,7 +336,7 @@ class Writer {
   Checks checks_;
   Progress progress_;
   std::vector<EnergyRow> energies_;
-  std::string events_;
+  std::string events_, remarks_;
   std::size_t marked_ = 0;  ///< channels marked as not unique so far
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;
 };

@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 from engrane_post import Results
 from engrane_post.gear_mesh import WheelShape, teeth_mesh
+from engrane_post.results import Element
 from engrane_post.shapes import cells, plate
+from engrane_post.wheels import collect
 
 
 def scene(path: Path):
@@ -33,6 +35,35 @@ def test_teeth_stand_on_the_pitch_circle(cone: float, low: float, high: float) -
     edge = np.sort(np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)]), axis=1)
     _, count = np.unique(edge, axis=0, return_counts=True)
     assert (count == 2).all()  # a closed surface
+
+
+def test_profile_shift() -> None:
+    """Teeth reach from root to tip circle, as thick as the result says; a planet that meets sun and ring on
+    different working pitch circles is one wheel."""
+    drawn = {
+        "shape": "wheel",
+        "node": 3,
+        "center": [1, 0, 0],
+        "axis": [0, 0, 1],
+        "toward": [1, 0, 0],
+        "teeth": 12,
+        "module": 0.003,
+        "radius": 0.0188333,
+        "addendum": 0.0035867,
+        "dedendum": 0.0027833,
+        "thickness": 0.0056,
+        "pressure_angle": 26.09,
+    }
+    shape = WheelShape.from_drawing(drawn)
+    points, _, _ = teeth_mesh(shape)
+    outside = points[: len(points) // 2]
+    r = np.hypot(outside[:, 1], outside[:, 2])
+    assert [r.min(), r.max()] == pytest.approx([0.01605, 0.02242], rel=1e-9)
+    assert 2 * shape.half_thickness(np.zeros(1))[0] == pytest.approx(0.95 * 0.0056)
+    other = drawn | {"radius": 0.0185, "addendum": 0.00392, "toward": [-1, 0, 0]}
+    elements = [Element(i, "GEAR", [3, 4], drawing=[d]) for i, d in enumerate((drawn, other))]
+    assert len(collect(elements)) == 1
+    assert len(collect([elements[0], Element(2, "GEAR", [3, 4], drawing=[other | {"teeth": 13}])])) == 2
 
 
 def test_right_hand_helix() -> None:

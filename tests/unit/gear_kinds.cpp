@@ -216,6 +216,26 @@ bool tips_strike(int z_1, int z_2, double alpha) {
   return false;
 }
 
+// Warnings about the teeth of equal pairs, such as those of planets, are given once; any datum that may change them counts.
+TEST(GearReport, EqualPairsAreSpokenOfOnce) {
+  const auto warnings = [](const std::string& one, const std::string& other) {
+    const std::string head = " GEAR AXIS 0 0 1 MN 2 PLACE 1 0 0 ";
+    Deck deck(" I 1\n I 2\n I 3\n", " I 1" + head + "N 1 2 " + one + "\n I 2" + head + "N 1 3 " + other);
+    int count = 0;
+    for (const Diagnostic& d : deck.diagnostics.all()) count += d.message.find("wheel A") == 0 ? 1 : 0;
+    return count;
+  };
+  const std::string pair = "Z 12 40 ";
+  EXPECT_EQ(warnings(pair, pair), 1);
+  EXPECT_EQ(warnings("KIND HELICAL HELIX 10 " + pair, "KIND HELICAL HELIX 10 " + pair), 1);
+  EXPECT_EQ(warnings(pair + "X 0.1 0", pair + "X 0.1 0"), 1);
+  for (const char* different :
+       {"Z 13 40", "Z 12 41", "Z 12 40 ALPHA 19", "Z 12 40 HELIX 10", "Z 12 40 CONE 30 60", "Z 12 40 SHAFT 90",
+        "Z 12 40 INTERNAL", "Z 12 40 KIND SPUR", "Z 12 40 X 0.1 0", "Z 12 40 X 0.1 0 ADDENDUM 0.9"})
+    EXPECT_EQ(warnings(pair, different), 2) << different;
+  EXPECT_EQ(warnings(pair + "X 0.1 0", pair + "X 0.1 0 DEDENDUM 1.3"), 2);
+}
+
 TEST(GearReport, TipsOfInternalPairs) {
   for (const double alpha : {20.0, 25.0})
     for (const int ring : {45, 60, 90, 150})

@@ -13,7 +13,9 @@ const deck::Card<GearData>& gear_card() {
         "Two toothed wheels, each at a node that is its centre. The pair passes the normal tooth force between them, with its "
         "tangential, radial and axial parts; bearings and shafts are other elements. The places of the nodes must agree with "
         "Z, MN, HELIX and the cones, unless PLACE puts B where it belongs. KIND is the short way to all common pairs. Teeth are "
-        "rigid unless KM is given; XI, CM, JEU, SMOOTH, DAMP and ERR need it. "
+        "rigid unless KM is given; XI, CM, JEU, SMOOTH, DAMP and ERR need it. With profile shift X the wheels roll on their "
+        "working "
+        "pitch circles, and the places of the nodes must agree with the working centre distance. "
         "Right-hand helices are positive. Cone angles are the paper's: 0 an external cylinder, 180 a ring gear, positive "
         "when the wheel widens along its axle.");
     c.add("N", &GearData::nodes, "centres of wheel A and wheel B")
@@ -22,7 +24,7 @@ const deck::Card<GearData>& gear_card() {
         .required();
     c.add("KIND", &GearData::kind, "short form: geometry from what a designer has; without it CONE, SHAFT or INTERNAL and HELIX")
         .synonyms({"GENRE"})
-        .option({"SPUR", {"DROIT"}, "parallel axles, straight teeth: Z and one of MN MT DISTANCE"})
+        .option({"SPUR", {"DROIT"}, "parallel axles, straight teeth: Z and one of MN MT DISTANCE; X"})
         .option(
             {"HELICAL", {"HELICOIDAL"}, "parallel axles: Z, two of MN MT HELIX DISTANCE; the nodes' distance may be the second"})
         .option({"INTERNAL",
@@ -33,7 +35,9 @@ const deck::Card<GearData>& gear_card() {
         .option({"CROSSED", {"CROISE"}, "cylinders on crossed axles: Z, one of MN DISTANCE, HELIX twice or HELIX once and SHAFT"})
         .option({"HYPOID", {"HYPOIDE"}, "cones on axles that pass: Z, HELIX of A, OFFSET, SHAFT (90), one of MN DIAMETER"})
         .option({"WORM", {"VIS"}, "A is the worm: STARTS, Z of the wheel, two of LAMBDA LEAD Q DIAMETER DISTANCE MN MX"});
-    c.add("Z", &GearData::teeth, "numbers of teeth (threads of a worm); one value with STARTS: of the wheel")
+    c.add("Z", &GearData::teeth,
+          "numbers of teeth (threads of a worm); one value with STARTS: of the wheel; else of A, and the centre distance decides "
+          "B's")
         .synonyms({"DENTS", "TEETH"})
         .values(1, 2)
         .at_least(1)
@@ -91,10 +95,12 @@ const deck::Card<GearData>& gear_card() {
         .positive();
     c.add("PLACE", &GearData::place, "direction from A's centre to the contact point: B's node is put where the pair closes")
         .synonyms({"PLACER"});
+    add_cut_keywords(c);
     add_teeth_keywords(c);
     c.example("I 1 GEAR N 1 2 AXIS 0 0 1 Z 20 40 MN 2 HELIX 15");
     c.example("I 2 GEAR N 2 3 AXIS 0 0 1 Z 25 25 MN 0.15748 KM 1.477E7 XI 0.1 ERR COS 0.003937 JEU 0.001968");
     c.example("I 3 GEAR N 1 2 AXIS 0 1 0 Z 50 10 MN 0.2 SHAFT 90");
+    c.example("I 5 GEAR N 1 2 KIND SPUR Z 12 24 MN 3 X 0.6 0.36 AXIS 0 0 1 PLACE 1 0 0");
     c.example("I 4 GEAR N 1 2 KIND WORM STARTS 2 Z 30 MX 4 Q 10 AXIS 1 0 0 PLACE 0 1 0");
     return c;
   }();

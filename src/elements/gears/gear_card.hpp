@@ -6,12 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "elements/gears/cut_card.hpp"
 #include "elements/gears/teeth_card.hpp"
 
 namespace engrane::elements::gears {
 
 /// `I id GEAR …`, as the deck gives it: angles in degrees, helices in the trade's sign.
-struct GearData : TeethData {
+struct GearData : TeethData, CutData {
   std::array<int, 2> nodes{0, 0};
   std::vector<int> teeth;  ///< of A and B; one value with `starts`: of the worm wheel
   std::optional<double> normal_module;

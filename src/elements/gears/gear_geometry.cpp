@@ -102,11 +102,27 @@ std::optional<double> shaft_angle_of_axles(const Vec3& x_a, const Vec3& axle_a, 
   return std::acos(std::clamp((s * t > 0 ? 1 : -1) * axle_a.dot(axle_b), -1.0, 1.0));
 }
 
+double tip_radius(const GearDesign& design, std::size_t wheel) {
+  if (design.cut) return design.cut->tip[wheel];
+  return design.radius(wheel) + design.normal_module * std::cos(design.cone[wheel]);
+}
+
+GearDesign working_design(const GearDesign& reference, const CutTeeth& cut) {
+  GearDesign design = reference;
+  const double widening = std::cos(cut.transverse_pressure_angle()) / std::cos(cut.working_pressure_angle);  // r_w/r
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) design.helix[i] = std::atan(widening * std::tan(cut.helix[i]));
+  const double cosine = std::cos(design.helix[0]);
+  design.normal_module = cut.transverse_module() * widening * cosine;
+  design.pressure_angle = std::atan(std::tan(cut.working_pressure_angle) * cosine);
+  design.cut = cut;
+  return design;
+}
+
 std::optional<double> virtual_path_of_contact(const GearDesign& design, std::size_t wheel) {
   const double alpha = design.transverse_pressure_angle(wheel), m_n = design.normal_module, cosine = std::cos(design.cone[wheel]);
   if (std::abs(cosine) < angular_rounding) return m_n / std::sin(alpha);  // a crown wheel: its virtual wheel is a rack
   const double r = design.radius(wheel) / std::abs(cosine), base = r * std::cos(alpha);
-  const double tip = cosine < 0 ? r - m_n : r + m_n;
+  const double tip = design.cut ? design.cut->tip[wheel] : cosine < 0 ? r - m_n : r + m_n;
   if (tip <= base) return {};  // the ring's tip lies inside its base circle: no involute there
   const double side = std::sqrt(tip * tip - base * base) - r * std::sin(alpha);
   return cosine < 0 ? -side : side;

@@ -6,19 +6,26 @@
 #include <cstddef>
 #include <optional>
 
+#include "elements/gears/profile_shift.hpp"
 #include "math/vector.hpp"
 
 namespace engrane::elements::gears {
 
 /// What fixes the pitch surfaces and teeth of a pair, in the paper's conventions (figures 1 and 2). Entry 0 is wheel A,
-/// entry 1 wheel B. Angles in radians.
+/// entry 1 wheel B. Angles in radians. With profile shift these are the *working* pitch surfaces, which roll on each other:
+/// module, pressure angle and helix are those there, and `cut` has what the teeth are cut with.
 struct GearDesign {
   std::array<int, 2> teeth{1, 1};
   double normal_module = 1;
   double pressure_angle = 0;      ///< α_n, in the plane normal to the tooth
   std::array<double, 2> cone{};   ///< γ: 0 an external cylinder, π a ring gear
   std::array<double, 2> helix{};  ///< β of the paper, see paper_helix()
+  std::optional<CutTeeth> cut;    ///< where the card describes the teeth; else addendum m_n and no shift
 
+  /// m_n of the tool, which is the module of the pitch surface without profile shift.
+  double cut_module() const { return cut ? cut->normal_module : normal_module; }
+  /// Helix at the reference cylinder, β of the paper.
+  double cut_helix(std::size_t wheel) const { return cut ? cut->helix[wheel] : helix[wheel]; }
   /// r cosβ = z m_n/2: the lever of the tooth force, and what turns ψ into motion along the tooth normal (21).
   double lever(std::size_t wheel) const { return 0.5 * teeth[wheel] * normal_module; }
   /// Pitch radius r, from 2 r cosβ = z m_n.
@@ -82,13 +89,20 @@ std::array<double, 2> cones_of_shaft_angle(double shaft, const std::array<int, 2
 /// each other, or meet in one of the centres.
 std::optional<double> shaft_angle_of_axles(const Vec3& x_a, const Vec3& axle_a, const Vec3& x_b, const Vec3& axle_b);
 
-/// Length of the path of contact from the pitch point to the tip circle of a wheel with addendum m_n, without profile shift, of
-/// the virtual cylindrical wheel r/cosγ at the middle of the face (Tredgold). Nothing where the tip of a ring lies inside its
+/// Tip radius: as cut, or with addendum m_n: r + m_n cosγ, so r − m_n on a ring.
+double tip_radius(const GearDesign& design, std::size_t wheel);
+
+/// The pair that `cut` makes: its working pitch surfaces, m_nw = 2 r_w cosβ_w/z, tanβ_w = tanβ r_w/r, tanα_nw = tanα_wt cosβ_w
+/// (ISO 21771, 5.3). Cones and numbers of teeth are those of `reference`.
+GearDesign working_design(const GearDesign& reference, const CutTeeth& cut);
+
+/// Length of the path of contact from the pitch point to the tip circle of a wheel (tip_radius(); of cones with addendum m_n,
+/// of the virtual cylindrical wheel r/cosγ at the middle of the face, Tredgold). Nothing where the tip of a ring lies inside its
 /// base circle.
 std::optional<double> virtual_path_of_contact(const GearDesign& design, std::size_t wheel);
 /// The same, only for parallel axles.
 std::optional<double> path_of_contact(const GearDesign& design, std::size_t wheel);
-/// Transverse contact ratio of involute teeth with addendum m_n, without profile shift. For axles that meet, of the virtual
+/// Transverse contact ratio of involute teeth. For axles that meet, of the virtual
 /// cylindrical wheels r/cosγ at the middle of the face (Tredgold). Nothing for axles that pass each other, nor where the tip
 /// of a ring lies inside its base circle.
 std::optional<double> contact_ratio(const GearDesign& design);

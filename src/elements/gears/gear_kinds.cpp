@@ -27,9 +27,9 @@ constexpr double right_angle = std::numbers::pi / 2;
 /// The keywords that some kinds take and others do not, by kind.
 const std::vector<std::pair<std::string_view, std::vector<std::string_view>>>& keywords_by_kind() {
   static const std::vector<std::pair<std::string_view, std::vector<std::string_view>>> table{
-      {"SPUR", {"MN", "MT", "DISTANCE"}},
-      {"HELICAL", {"MN", "MT", "HELIX", "HAND", "DISTANCE"}},
-      {"INTERNAL", {"MN", "MT", "HELIX", "HAND", "DISTANCE", "INTERNAL"}},
+      {"SPUR", {"MN", "MT", "DISTANCE", "X", "ADDENDUM", "DEDENDUM", "TIP", "TIPALTER"}},
+      {"HELICAL", {"MN", "MT", "HELIX", "HAND", "DISTANCE", "X", "ADDENDUM", "DEDENDUM", "TIP", "TIPALTER"}},
+      {"INTERNAL", {"MN", "MT", "HELIX", "HAND", "DISTANCE", "INTERNAL", "X", "ADDENDUM", "DEDENDUM", "TIP", "TIPALTER"}},
       {"BEVEL", {"MN", "MT", "DIAMETER", "SHAFT"}},
       {"SPIRAL", {"MN", "MT", "DIAMETER", "SHAFT", "HELIX"}},
       {"CROSSED", {"MN", "DISTANCE", "HELIX", "SHAFT"}},
@@ -40,22 +40,24 @@ const std::vector<std::pair<std::string_view, std::vector<std::string_view>>>& k
 
 /// Those keywords, with whether the card has them.
 std::vector<std::pair<std::string_view, bool>> given_keywords(const GearData& data) {
-  return {{"MN", data.normal_module.has_value()},
-          {"MT", data.transverse_module.has_value()},
-          {"MX", data.axial_module.has_value()},
-          {"STARTS", data.starts.has_value()},
-          {"HELIX", !data.helix.empty()},
-          {"HAND", data.hand.given()},
-          {"DISTANCE", data.center_distance.has_value()},
-          {"DIAMETER", data.diameter.has_value()},
-          {"OFFSET", data.offset.has_value()},
-          {"RINGCONE", data.ring_cone.has_value()},
-          {"LAMBDA", data.lead_angle.has_value()},
-          {"LEAD", data.lead.has_value()},
-          {"Q", data.quotient.has_value()},
-          {"CONE", data.cone.has_value()},
-          {"SHAFT", data.shaft_angle.has_value()},
-          {"INTERNAL", data.internal}};
+  auto given = given_cut_keywords(data);
+  given.insert(given.begin(), {{"MN", data.normal_module.has_value()},
+                               {"MT", data.transverse_module.has_value()},
+                               {"MX", data.axial_module.has_value()},
+                               {"STARTS", data.starts.has_value()},
+                               {"HELIX", !data.helix.empty()},
+                               {"HAND", data.hand.given()},
+                               {"DISTANCE", data.center_distance.has_value()},
+                               {"DIAMETER", data.diameter.has_value()},
+                               {"OFFSET", data.offset.has_value()},
+                               {"RINGCONE", data.ring_cone.has_value()},
+                               {"LAMBDA", data.lead_angle.has_value()},
+                               {"LEAD", data.lead.has_value()},
+                               {"Q", data.quotient.has_value()},
+                               {"CONE", data.cone.has_value()},
+                               {"SHAFT", data.shaft_angle.has_value()},
+                               {"INTERNAL", data.internal}});
+  return given;
 }
 
 /// Builds the design of one card.
@@ -148,31 +150,51 @@ class KindBuilder {
     }
     if (!data_.helix.empty() && data_.hand.given())
       return fail("HAND", "HELIX has a sign and HAND is given as well", "right hand is positive: leave HAND out");
-    const bool straight =
-        data_.kind.is("SPUR") ||
-        (data_.kind.is("INTERNAL") && data_.helix.empty() &&
-         (data_.normal_module ? 1 : 0) + (data_.transverse_module ? 1 : 0) + (data_.center_distance ? 1 : 0) < 2);
+    const bool shifted = !data_.shift.empty(), shift_follows = data_.shift.size() == 1;
+    const int sizes = (data_.normal_module ? 1 : 0) + (data_.transverse_module ? 1 : 0) + (data_.center_distance ? 1 : 0);
+    const bool straight = data_.kind.is("SPUR") || (data_.kind.is("INTERNAL") && data_.helix.empty() &&
+                                                    (sizes < 2 || shift_follows || data_.teeth.size() == 1));
     if (straight || !data_.helix.empty()) {
       set_helices(straight ? 0 : helix_a());
       if (!check_second_helix()) return false;
-      const auto keyword = one_of({{"MN", data_.normal_module.has_value()},
-                                   {"MT", data_.transverse_module.has_value()},
-                                   {"DISTANCE", data_.center_distance.has_value()}},
-                                  "the module");
+      // with X the distance may be given as well: it decides the other shift, or is checked
+      const bool module = data_.normal_module || data_.transverse_module;
+      std::vector<std::pair<std::string_view, bool>> choice{{"MN", data_.normal_module.has_value()},
+                                                            {"MT", data_.transverse_module.has_value()}};
+      const bool teeth_follow = data_.teeth.size() == 1;
+      if ((!shifted && !teeth_follow) || (!module && !shift_follows))
+        choice.emplace_back("DISTANCE", data_.center_distance.has_value());
+      const auto keyword = one_of(choice, "the module");
       if (!keyword) return false;
       const double cosine = std::cos(design_.helix[0]);
       if (*keyword == "MN") design_.normal_module = *data_.normal_module;
       if (*keyword == "MT") design_.normal_module = *data_.transverse_module * cosine;
-      if (*keyword == "DISTANCE") design_.normal_module = 2 * *data_.center_distance * cosine / teeth_across();
+      if (*keyword == "DISTANCE") {
+        const auto per_module = distance_per_module(std::abs(design_.helix[0]));
+        if (!per_module) return false;
+        design_.normal_module = *data_.center_distance / *per_module;
+      }
       return true;
     }
     return helix_that_fits();
   }
 
-  /// Teeth on twice the centre distance of parallel axles: the sum, or the difference in a ring.
-  double teeth_across() const {
-    const double sum = data_.kind.is("INTERNAL") ? design_.teeth[0] - design_.teeth[1] : design_.teeth[0] + design_.teeth[1];
-    return std::abs(sum);
+  /// Centre distance over m_n of parallel axles at the helix β, profile shifts considered.
+  std::optional<double> distance_per_module(double helix) const {
+    GearDesign one = design_;
+    one.normal_module = 1;
+    one.helix = {helix, -helix};
+    CutTeeth cut = reference_cut(one, data_);
+    const double sum = cut.shift[0] + cut.shift[1];
+    if (data_.shift.empty() || sum == 0) return cut.reference_distance();
+    const auto angle = cut.working_angle_of(sum);
+    if (!angle) {
+      fail("X", fmt::format("a sum of shifts of {}: the base circles would touch", number(sum)),
+           "take a sum of shifts nearer to zero, or a larger ALPHA");
+      return {};
+    }
+    cut.working_pressure_angle = *angle;
+    return cut.distance();
   }
 
   /// cosβ = m_n/m_t, where m_t may come from the centre distance, and that from the places of the nodes.
@@ -190,20 +212,41 @@ class KindBuilder {
       distance = *data_.center_distance;
     else if (!data_.transverse_module)
       distance = cross(site_.axle, Vec3(*site_.x_b - site_.x_a)).norm();
-    const double m_t = data_.transverse_module ? *data_.transverse_module : 2 * distance / teeth_across();
-    const double cosine = *data_.normal_module / m_t;
-    if (cosine > 1 + typing_tolerance) {
-      if (data_.transverse_module)
+    if (data_.transverse_module) {
+      const double m_t = *data_.transverse_module, cosine = *data_.normal_module / m_t;
+      if (cosine > 1 + typing_tolerance)
         return fail("MT",
                     fmt::format("transverse module {} below the normal module {}", number(m_t), number(*data_.normal_module)),
                     "m_t = m_n/cos(helix) is never smaller");
+      design_.normal_module = *data_.normal_module;
+      set_helices(hand() * std::acos(std::min(cosine, 1.0)));
+      return true;
+    }
+    if (data_.shift.size() == 1)
+      return fail("X", "the centre distance cannot decide both the helix and the second shift",
+                  "give HELIX, or MT, or X two values");
+    const auto straight = distance_per_module(0);
+    if (!straight) return false;
+    const double wanted = distance / *data_.normal_module;
+    if (*straight > wanted * (1 + typing_tolerance))
       return fail(data_.center_distance ? "DISTANCE" : "N",
                   fmt::format("centre distance {}: even straight teeth of module {} need {}", number(distance),
-                              number(*data_.normal_module), number(*data_.normal_module * teeth_across() / 2)),
+                              number(*data_.normal_module), number(*data_.normal_module * *straight)),
                   "no helix makes the wheels smaller: take fewer teeth, a smaller module or a larger distance");
-    }
     design_.normal_module = *data_.normal_module;
-    set_helices(hand() * std::acos(std::min(cosine, 1.0)));
+    double helix = 0;
+    if (data_.shift.empty()) {
+      helix = std::acos(std::min(*straight / wanted, 1.0));
+    } else {  // the distance grows with the helix: bisection
+      double low = 0, high = right_angle * (1 - 1e-9);
+      for (int i = 0; i < 200 && high - low > 1e-16 * high; ++i) {
+        helix = 0.5 * (low + high);
+        const auto here = distance_per_module(helix);
+        if (!here) return false;
+        (*here < wanted ? low : high) = helix;
+      }
+    }
+    set_helices(hand() * helix);
     return true;
   }
 
@@ -389,8 +432,60 @@ class KindBuilder {
 
 }  // namespace
 
-std::optional<std::array<int, 2>> gear_teeth_numbers(const GearData& data, const BuildContext& context) {
+namespace {
+
+/// The teeth of wheel B that close a pair on parallel axles: the centre distance grows with them outside a ring and inside.
+std::optional<std::array<int, 2>> teeth_that_close(const GearData& data, double distance, const BuildContext& context) {
+  const bool internal = data.internal || data.kind.is("INTERNAL");
+  const double helix = data.helix.empty() ? 0 : data.helix[0] * degree;
+  GearDesign design;
+  design.normal_module = data.normal_module ? *data.normal_module : *data.transverse_module * std::cos(helix);
+  design.pressure_angle = data.pressure_angle * degree;
+  design.helix = {helix, -helix};
+  if (internal) design.cone[1] = std::numbers::pi;
+  const auto distance_with = [&](int z) {
+    design.teeth = {data.teeth[0], z};
+    CutTeeth cut = reference_cut(design, data);
+    const double sum = cut.shift[0] + cut.shift[1];
+    if (sum != 0) cut.working_pressure_angle = cut.working_angle_of(sum).value_or(0);
+    return cut.distance();
+  };
+  const int first = internal ? data.teeth[0] + 1 : 1;
+  constexpr int most = 100000;
+  if (distance_with(most) < distance) {
+    context.error("Z", fmt::format("no number of teeth of wheel B makes a centre distance of {}", number(distance)),
+                  "have the module and the centre distance one unit of length?");
+    return {};
+  }
+  int low = first, high = most;
+  while (low < high) {  // the first number of teeth that reaches the distance
+    const int middle = (low + high) / 2;
+    if (distance_with(middle) < distance * (1 - typing_tolerance))
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  if (std::abs(distance_with(low) - distance) <= typing_tolerance * distance) return std::array<int, 2>{data.teeth[0], low};
+  context.error("Z",
+                fmt::format("no whole number of teeth of wheel B makes a centre distance of {}: {} make {}{}", number(distance),
+                            low, number(distance_with(low)),
+                            low > first ? fmt::format(", {} make {}", low - 1, number(distance_with(low - 1))) : ""),
+                "give Z two values and X one: the shift of wheel B then follows");
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::array<int, 2>> gear_teeth_numbers(const GearData& data, const GearSite& site, const BuildContext& context) {
   const bool starts = data.starts && data.kind.is("WORM");
+  const bool parallel = data.kind.given()
+                            ? data.kind.is("SPUR") || data.kind.is("INTERNAL") || (data.kind.is("HELICAL") && !data.helix.empty())
+                            : !data.cone && !data.shaft_angle && !data.axis_b && data.helix.size() < 2;
+  if (parallel && data.teeth.size() == 1 && data.shift.size() != 1 && (data.normal_module || data.transverse_module)) {
+    std::optional<double> distance = data.center_distance;
+    if (!distance && site.x_b) distance = cross(site.axle, Vec3(*site.x_b - site.x_a)).norm();
+    if (distance) return teeth_that_close(data, *distance, context);
+  }
   if (data.teeth.size() == 2 && !starts) return std::array<int, 2>{data.teeth[0], data.teeth[1]};
   if (data.teeth.size() == 1 && starts) return std::array<int, 2>{*data.starts, data.teeth[0]};
   if (starts)
@@ -415,13 +510,14 @@ std::array<double, 2> bevel_cones(double shaft, const std::array<int, 2>& teeth,
 }
 
 std::optional<GearDesign> design_of_kind(const GearData& data, const GearSite& site, const BuildContext& context) {
-  const auto teeth = gear_teeth_numbers(data, context);
+  const auto teeth = gear_teeth_numbers(data, site, context);
   if (!teeth) return {};
   return KindBuilder(data, site, context, *teeth).build();
 }
 
 bool check_long_form(const GearData& data, const BuildContext& context) {
-  constexpr std::array<std::string_view, 5> long_form{"MN", "HELIX", "CONE", "SHAFT", "INTERNAL"};
+  constexpr std::array<std::string_view, 10> long_form{"MN", "HELIX",    "CONE",     "SHAFT", "INTERNAL",
+                                                       "X",  "ADDENDUM", "DEDENDUM", "TIP",   "TIPALTER"};
   bool good = true;
   for (const auto& [keyword, given] : given_keywords(data)) {
     if (!given || std::find(long_form.begin(), long_form.end(), keyword) != long_form.end()) continue;

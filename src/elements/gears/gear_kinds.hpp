@@ -17,8 +17,10 @@ struct GearSite {
   Vec3 axle = Vec3::UnitZ();  ///< μ₁, of length 1
 };
 
-/// Numbers of teeth, from Z and STARTS; an error when one is missing.
-std::optional<std::array<int, 2>> gear_teeth_numbers(const GearData& data, const BuildContext& context);
+/// Numbers of teeth, from Z and STARTS. Of parallel axles Z may have one value where module, helix and centre distance (DISTANCE,
+/// or of the nodes) are known: wheel B has the teeth with which they close, profile shifts considered. An error when one is
+/// missing or no whole number fits.
+std::optional<std::array<int, 2>> gear_teeth_numbers(const GearData& data, const GearSite& site, const BuildContext& context);
 
 /// The design of a card with `KIND`. Data that are missing, that contradict each other or that the kind does not take go to
 /// the context's diagnostics; then there is no result.

@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "elements/common/building.hpp"
 #include "elements/gears/contact_channels.hpp"
+#include "elements/gears/gear_bearings.hpp"
 #include "elements/gears/gear_place.hpp"
 #include "elements/gears/gear_report.hpp"
 #include "elements/gears/tooth_phases.hpp"
@@ -59,7 +60,15 @@ ContactGeometry contact_geometry(const GearDesign& design, double width) {
   g.radius = design.radius(0);
   g.width = width;
   const int kind = design.parallel_kind();
-  if (kind == 0) return g;
+  if (kind == 0) {
+    // axles that meet: the virtual wheels at the middle of the face (Tredgold), which roll as the cones do
+    if (contact_ratio(design)) {
+      g.base_pitch = std::numbers::pi * design.transverse_module(0) * std::cos(g.transverse_pressure_angle);
+      g.approach = virtual_path_of_contact(design, 1).value_or(0);
+      g.recess = virtual_path_of_contact(design, 0).value_or(0);
+    }
+    return g;
+  }
   g.side = g.axle_sense = kind > 0 ? 1 : -1;
   const double c = std::cos(g.transverse_pressure_angle);
   const double sign_a = kind == -2 ? -1 : 1, sign_b = kind == -1 ? -1 : 1;
@@ -68,6 +77,10 @@ ContactGeometry contact_geometry(const GearDesign& design, double width) {
   g.base_pitch = std::numbers::pi * design.transverse_module(0) * c;
   g.approach = path_of_contact(design, 1).value_or(0);
   g.recess = path_of_contact(design, 0).value_or(0);
+  if (design.cut) {  // half the tooth of A at the working pitch circle, of the pitch there
+    const double r = design.radius(0);
+    g.flank = design.cut->thickness_at(0, r) * design.teeth[0] / (4 * std::numbers::pi * r);
+  }
   return g;
 }
 
@@ -139,8 +152,9 @@ Drawing GearPair::drawing() const {
                      R"(, "axis": )" + json(Vec3(triad_[i].col(0))) + R"(, "toward": )" + json(toward) + R"(, "radius": )" +
                      format_number(radius_[i]) + R"(, "cone": )" + format_number(design_.cone[i] / degree) + R"(, "helix": )" +
                      format_number(paper_helix(design_.helix[i], design_.cone[i]) / degree) + R"(, "teeth": )" +
-                     std::to_string(design_.teeth[i]) + R"(, "module": )" + format_number(design_.normal_module) +
+                     std::to_string(design_.teeth[i]) + R"(, "module": )" + format_number(design_.cut_module()) +
                      R"(, "width": )" + format_number(contact_.geometry().width));
+    if (design_.cut) shapes.back() += drawn_cut(*design_.cut, i, radius_[i]);
   }
   return shapes;
 }
@@ -148,11 +162,12 @@ Drawing GearPair::drawing() const {
 namespace {
 
 std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& context) {
+  warn_of_radians(data.pressure_angle, context);
   const auto placement = place_gear(data, context);
   if (!placement) return nullptr;
   const GearDesign& design = placement->design;
   const int kind = design.parallel_kind();
-  const double width = data.width.value_or(10 * design.normal_module);
+  const double width = data.width.value_or(10 * design.cut_module());
   TeethOwner owner;
   owner.nodes = data.nodes;
   owner.axle = {placement->frames.mu.col(0), placement->frames.xi.col(0)};
@@ -160,7 +175,10 @@ std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& con
   owner.ring = {kind == -2, kind == -1};
   owner.lever = {design.lever(0), design.lever(1)};
   owner.parallel = kind != 0;
+  owner.path_known = owner.parallel || contact_ratio(design);
   owner.geometry = contact_geometry(design, width);
+  owner.cut = design.cut;
+  if (!check_bearings(data.nodes, owner.axle, context)) return nullptr;
   const auto mesh = mesh_phase(context, data.stiffness || data.course.is("ISO"));
   if (!mesh) return nullptr;
   owner.mesh = *mesh;

@@ -59,15 +59,27 @@ bool check_radii(const GearDesign& design, const GearData& data, const BuildCont
   if (!data.radii) return true;
   bool good = true;
   for (const std::size_t wheel : {std::size_t{0}, std::size_t{1}}) {
-    const double given = (*data.radii)[wheel], needed = design.radius(wheel);
+    const double given = (*data.radii)[wheel], needed = design.cut ? design.cut->reference_radius(wheel) : design.radius(wheel);
     if (std::abs(given - needed) <= typing_tolerance * needed) continue;
     good = false;
     context.error("R",
-                  fmt::format("pitch radius of wheel {}: {} given, {} needed by 2 r cos(helix) = z m_n", wheel == 0 ? "A" : "B",
-                              number(given), number(needed)),
+                  fmt::format("{} radius of wheel {}: {} given, {} needed by 2 r cos(helix) = z m_n",
+                              design.cut ? "reference" : "pitch", wheel == 0 ? "A" : "B", number(given), number(needed)),
                   "leave R out: it follows from Z, MN and HELIX");
   }
   return good;
+}
+
+/// ", or …": the sum of profile shifts with which parallel axles would fit, where such teeth could be cut.
+std::string shift_that_fits(const GearDesign& design, const GearData& data, double distance) {
+  if (design.parallel_kind() == 0) return {};
+  const CutTeeth cut = design.cut ? *design.cut : reference_cut(design, data);
+  const auto angle = cut.working_angle_at(distance);
+  if (!angle) return {};
+  const double sum = cut.sum_of_shifts_at(*angle);
+  if (std::abs(sum) > 2) return {};
+  return fmt::format(", or shift the profiles: a sum of shifts of {} fits, and with one value of X the other follows",
+                     number(sum));
 }
 
 /// Does the pair close where its nodes are?
@@ -90,11 +102,14 @@ bool check_closure(const GearDesign& design, const GearData& data, const Vec3& x
   bool good = true;
   if (std::abs(c.distance_given - c.distance_needed) > typing_tolerance * c.size) {
     good = false;
-    context.error("N",
-                  fmt::format("{}: {} given, {} needed by Z, MN, HELIX and the cones",
-                              kind != 0 ? "centre distance" : "distance of the centre of wheel B from the axle of wheel A",
-                              number(c.distance_given), number(c.distance_needed)),
-                  fmt::format("move node {} or {}", data.nodes[0], data.nodes[1]));
+    context.error(
+        "N",
+        fmt::format(
+            "{}: {} given, {} needed by Z, MN, HELIX and {}",
+            kind != 0 ? "centre distance" : "distance of the centre of wheel B from the axle of wheel A",
+            number(c.distance_given), number(c.distance_needed),
+            design.cut ? fmt::format("the sum of shifts {}", number(design.cut->shift[0] + design.cut->shift[1])) : "the cones"),
+        fmt::format("move node {} or {}{}", data.nodes[0], data.nodes[1], shift_that_fits(design, data, c.distance_given)));
   }
   if (std::abs(c.offset_given - c.offset_needed) > typing_tolerance * c.size) {
     good = false;
@@ -136,7 +151,7 @@ bool check_axle_b(const GearDesign& design, const GearData& data, const PitchFra
 
 /// The design without KIND, from cones and helices.
 std::optional<GearDesign> design_of_angles(const GearData& data, const GearSite& site, const BuildContext& context) {
-  const auto teeth = gear_teeth_numbers(data, context);
+  const auto teeth = gear_teeth_numbers(data, site, context);
   if (!check_long_form(data, context) || !teeth) return {};
   const auto cones = cones_of(data, *teeth, site, context);
   if (!cones) return {};
@@ -147,6 +162,60 @@ std::optional<GearDesign> design_of_angles(const GearData& data, const GearSite&
   design.cone = *cones;
   set_helices(design, data);
   return design;
+}
+
+/// The working pair of a card that says how its teeth are cut: the shifts decide the centre distance, or with one value of X
+/// the centre distance, of DISTANCE or of the nodes, decides the other shift.
+std::optional<GearDesign> cut_design(const GearDesign& reference, const GearData& data, const GearSite& site,
+                                     const BuildContext& context) {
+  if (reference.parallel_kind() == 0) {
+    for (const auto& [keyword, given] : given_cut_keywords(data))
+      if (given)
+        context.error(keyword, fmt::format("{} is for wheels on parallel axles, and these cross or meet", keyword),
+                      "leave it out: such wheels have addendum m_n and no shift");
+    return {};
+  }
+  CutTeeth cut = reference_cut(reference, data);
+  std::optional<double> distance = data.center_distance;
+  if (data.shift.size() == 1) {
+    if (!distance && site.x_b) distance = cross(site.axle, Vec3(*site.x_b - site.x_a)).norm();
+    if (!distance) {
+      context.error("X", "X has one value, and no centre distance decides the other",
+                    "give X two values, DISTANCE with a KIND, or the place of wheel B instead of PLACE");
+      return {};
+    }
+    const auto angle = cut.working_angle_at(*distance);
+    if (!angle) {
+      context.error("X",
+                    fmt::format("no profile shift makes a centre distance of {}: the base circles are {} apart",
+                                number(*distance), number(cut.reference_distance() * std::cos(cut.transverse_pressure_angle()))),
+                    fmt::format("without shift it would be {}", number(cut.reference_distance())));
+      return {};
+    }
+    cut.working_pressure_angle = *angle;
+    cut.shift[1] = cut.sum_of_shifts_at(*angle) - cut.shift[0];
+  } else {
+    const double sum = cut.shift[0] + cut.shift[1];
+    const auto angle = sum == 0 ? std::optional(cut.transverse_pressure_angle()) : cut.working_angle_of(sum);
+    if (!angle) {
+      context.error("X", fmt::format("a sum of shifts of {}: the base circles would touch", number(sum)),
+                    "take a sum of shifts nearer to zero, or a larger ALPHA");
+      return {};
+    }
+    cut.working_pressure_angle = *angle;
+    if (distance && std::abs(*distance - cut.distance()) > typing_tolerance * cut.distance()) {
+      const auto at = cut.working_angle_at(*distance);
+      context.error(
+          "DISTANCE",
+          fmt::format("centre distance: {} given, {} needed by Z, the module and the sum of shifts {}", number(*distance),
+                      number(cut.distance()), number(sum)),
+          at ? fmt::format("a sum of shifts of {} fits; with one value of X the other follows", number(cut.sum_of_shifts_at(*at)))
+             : "leave DISTANCE out: it follows");
+      return {};
+    }
+  }
+  if (!set_tips(cut, data, {"wheel A", "wheel B"}, context)) return {};
+  return working_design(reference, cut);
 }
 
 /// What the card says, apart from whether B is where it must be.
@@ -167,6 +236,11 @@ std::optional<Intention> intention(const GearData& data, const BuildContext& con
   const auto design = data.kind.given() ? design_of_kind(data, i.site, context) : design_of_angles(data, i.site, context);
   if (!design) return {};
   i.design = *design;
+  if (data.describes_cut()) {
+    const auto cut = cut_design(*design, data, i.site, context);
+    if (!cut) return {};
+    i.design = *cut;
+  }
   return i;
 }
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "base/text.hpp"
 #include "elements/common/building.hpp"
 
 namespace engrane::elements::gears {
@@ -27,8 +28,6 @@ bool is_worm(const GearDesign& design, std::size_t wheel) {
          std::abs(std::sin(design.cone[wheel])) < 1e-9;
 }
 
-double involute(double angle) { return std::tan(angle) - angle; }
-
 /// Distance of the axles along their common normal; the triple product of x_AB with both.
 double axle_distance(const GearDesign& design, const Mat3& Z) {
   const double sine = std::hypot(Z(1, 0), Z(2, 0));
@@ -37,10 +36,6 @@ double axle_distance(const GearDesign& design, const Mat3& Z) {
 }
 
 }  // namespace
-
-double tip_radius(const GearDesign& design, std::size_t wheel) {
-  return design.radius(wheel) + design.normal_module * std::cos(design.cone[wheel]);
-}
 
 double virtual_teeth(const GearDesign& design, std::size_t wheel) { return design.teeth[wheel] / std::cos(design.cone[wheel]); }
 
@@ -87,6 +82,40 @@ std::optional<InternalClearance> internal_clearance(const GearDesign& design) {
   return c;
 }
 
+void put_cut(std::vector<Derived>& list, const CutTeeth& cut, const std::array<std::string, 2>& names) {
+  using namespace dimension;
+  const auto put = [&](std::string name, double value, Dimension d) { list.push_back({std::move(name), value, d}); };
+  const auto each = [&](const std::string& name, Dimension d, auto value) {
+    for (const std::size_t i : wheels)
+      if (cut.teeth[i] != 0) put(name + " of " + names[i], value(i), d);
+  };
+  const bool rack = cut.teeth[1] == 0;
+  put("transverse module", cut.transverse_module(), length);
+  each("profile shift", none, [&](std::size_t i) { return cut.shift[i]; });
+  if (!rack) put("sum of profile shifts", cut.shift[0] + cut.shift[1], none);
+  each("reference radius", length, [&](std::size_t i) { return cut.reference_radius(i); });
+  if (!rack) each("working pitch radius", length, [&](std::size_t i) { return cut.working_radius(i); });
+  each("base radius", length, [&](std::size_t i) { return cut.base_radius(i); });
+  each("tip radius", length, [&](std::size_t i) { return cut.tip[i]; });
+  each("root radius", length, [&](std::size_t i) { return cut.root_radius(i); });
+  each("tip alteration, over the module,", none, [&](std::size_t i) { return cut.tip_alteration(i); });
+  each("tooth thickness at the reference circle, normal,", length, [&](std::size_t i) { return cut.thickness(i); });
+  each("tooth thickness at the tip, normal,", length, [&](std::size_t i) { return cut.tip_thickness(i); });
+  if (!rack) {
+    each("tip clearance", length, [&](std::size_t i) { return cut.tip_clearance(i); });
+    put("centre distance without shift", cut.reference_distance(), length);
+  }
+  put("transverse pressure angle", cut.transverse_pressure_angle(), angle);
+  if (!rack) put("working transverse pressure angle", cut.working_pressure_angle, angle);
+}
+
+std::string drawn_cut(const CutTeeth& cut, std::size_t wheel, double radius) {
+  return R"(, "addendum": )" + format_number(std::abs(cut.tip[wheel] - radius)) + R"(, "dedendum": )" +
+         format_number(std::abs(radius - cut.root_radius(wheel))) + R"(, "thickness": )" +
+         format_number(cut.thickness_at(wheel, radius)) + R"(, "pressure_angle": )" +
+         format_number(cut.working_pressure_angle / degree);
+}
+
 std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth, double width) {
   using namespace dimension;
   std::vector<Derived> list;
@@ -100,15 +129,20 @@ std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& fr
     for (int k = 0; k < 3; ++k) put(name + ", " + "xyz"[k], v[k], d);
   };
 
-  put("normal module", design.normal_module, length);
-  each("transverse module", length, [&](std::size_t i) { return design.transverse_module(i); });
-  each("pitch radius", length, [&](std::size_t i) { return design.radius(i); });
-  each("tip radius, addendum m_n,", length, [&](std::size_t i) { return tip_radius(design, i); });
-  if (kind != 0)
-    each("base radius", length, [&](std::size_t i) { return design.radius(i) * std::cos(design.transverse_pressure_angle(i)); });
-  each("transverse pressure angle", angle, [&](std::size_t i) { return design.transverse_pressure_angle(i); });
+  put("normal module", design.cut_module(), length);
+  if (design.cut) {
+    put_cut(list, *design.cut, {"wheel A", "wheel B"});
+  } else {
+    each("transverse module", length, [&](std::size_t i) { return design.transverse_module(i); });
+    each("pitch radius", length, [&](std::size_t i) { return design.radius(i); });
+    each("tip radius, addendum m_n,", length, [&](std::size_t i) { return tip_radius(design, i); });
+    if (kind != 0)
+      each("base radius", length,
+           [&](std::size_t i) { return design.radius(i) * std::cos(design.transverse_pressure_angle(i)); });
+    each("transverse pressure angle", angle, [&](std::size_t i) { return design.transverse_pressure_angle(i); });
+  }
   each("cone angle", angle, [&](std::size_t i) { return design.cone[i]; });
-  each("helix angle (right hand > 0)", angle, [&](std::size_t i) { return paper_helix(design.helix[i], design.cone[i]); });
+  each("helix angle (right hand > 0)", angle, [&](std::size_t i) { return paper_helix(design.cut_helix(i), design.cone[i]); });
   for (const std::size_t i : wheels) {
     if (!is_worm(design, i)) continue;
     const double lead_angle = std::numbers::pi / 2 - std::abs(design.helix[i]);
@@ -140,6 +174,10 @@ std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& fr
   }
   if (teeth.stiffness > 0) {
     put("tooth stiffness", teeth.stiffness, stiffness);
+    if (teeth.iso.mesh > 0) {
+      put("stiffness of one pair of teeth per face width, c'", teeth.iso.single, pressure);
+      put("mesh stiffness per face width, c_gamma", teeth.iso.mesh, pressure);
+    }
     put("tooth damping", teeth.damping, damping);
     if (teeth.backlash > 0) put("onset of contact", teeth.onset, length);
   }
@@ -158,7 +196,8 @@ bool said_before(const GearData& data, const BuildContext& context) {
     const auto* other = record.get<GearData>();
     if (other && other->teeth == data.teeth && other->starts == data.starts && other->pressure_angle == data.pressure_angle &&
         other->helix == data.helix && other->cone == data.cone && other->shaft_angle == data.shaft_angle &&
-        other->internal == data.internal && other->kind.tag == data.kind.tag)
+        other->internal == data.internal && other->kind.tag == data.kind.tag &&
+        static_cast<const CutData&>(*other) == static_cast<const CutData&>(data) && data.shift.size() != 1)
       return true;
   }
   return false;
@@ -174,8 +213,10 @@ void warn_about_undercut(const GearDesign& design, std::size_t wheel, const std:
       context.record.where("Z"),
       fmt::format("{} of {} teeth{} is undercut: its teeth are full from {:.0f}{} on", who, design.teeth[wheel],
                   cone ? fmt::format(" ({:.3g} virtual)", z) : "", std::ceil(least * (1 - 1e-9)), cone ? " virtual" : ""),
-      "take more teeth, a larger ALPHA or HELIX; real wheels of so few teeth have profile shift, which is not part of the "
-      "model");
+      cone ? "take more teeth, a larger ALPHA or HELIX; real bevel wheels of so few teeth have profile shift, which is not part "
+             "of "
+             "the model"
+           : fmt::format("take more teeth, a larger ALPHA or HELIX, or a profile shift: X {:.3f} or more", 1 - z / least));
 }
 
 void warn_about_contact_ratio(double usable, const BuildContext& context) {
@@ -190,8 +231,9 @@ void warn_about_teeth(const GearDesign& design, const GearData& data, const Buil
   const auto warn = [&](const char* keyword, std::string message, std::string cure) {
     context.diagnostics.warning(context.record.where(keyword), std::move(message), std::move(cure));
   };
+  if (design.cut) warn_about_cut(*design.cut, data, {"wheel A", "wheel B"}, context);
   for (const std::size_t i : wheels)
-    if (!is_ring(design, i)) warn_about_undercut(design, i, fmt::format("wheel {}", name_of(i)), context);
+    if (!is_ring(design, i) && !design.cut) warn_about_undercut(design, i, fmt::format("wheel {}", name_of(i)), context);
   const bool internal = design.parallel_kind() < 0;
   const auto clearance = internal_clearance(design);
   if (internal && !clearance)

@@ -2,6 +2,7 @@
 // What `engrane check` says of a gear pair, and what its teeth would not do well.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "elements/gears/gear_card.hpp"
@@ -11,11 +12,14 @@
 
 namespace engrane::elements::gears {
 
+/// Adds diameters, thicknesses, clearances and angles of teeth whose cut the card describes; a rack has none of its own.
+void put_cut(std::vector<Derived>& list, const CutTeeth& cut, const std::array<std::string, 2>& names);
+
+/// What a drawing of a wheel needs besides, at its working pitch circle of the given radius: `, "addendum": …`.
+std::string drawn_cut(const CutTeeth& cut, std::size_t wheel, double radius);
+
 /// Every quantity that follows from the card. `width` is the face width, 0 when not given.
 std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth, double width);
-
-/// Tip radius with addendum m_n: r + m_n cosγ, so r − m_n on a ring.
-double tip_radius(const GearDesign& design, std::size_t wheel);
 
 /// Teeth of the cylindrical wheel that has the tooth shape of a bevel wheel (Tredgold), z/cosγ; negative for a ring.
 double virtual_teeth(const GearDesign& design, std::size_t wheel);

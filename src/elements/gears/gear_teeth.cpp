@@ -73,6 +73,12 @@ double rounded_ramp_integral(double x, double width) {
 }
 
 Function::Jet ToothLaw::flank(double x) const {
+  if (crown > 0) {
+    if (x <= 0) return {};
+    if (x >= crown) return {x - crown / 3, 1, 0, 0};
+    const double root = std::sqrt(x / crown);
+    return {2.0 / 3.0 * x * root, root, 0.5 * root / x, -0.25 * root / (x * x)};
+  }
   if (exponent == 1) return rounded_ramp(x, onset);
   if (x <= 0) return {};
   const double p = exponent, y = x / reference, power = std::pow(y, p - 2);
@@ -81,11 +87,50 @@ Function::Jet ToothLaw::flank(double x) const {
 }
 
 double ToothLaw::flank_integral(double x) const {
+  if (crown > 0) {
+    if (x <= 0) return 0;
+    return x < crown ? 4.0 / 15.0 * x * x * std::sqrt(x / crown) : 0.5 * x * x - crown * x / 3 + 0.1 * crown * crown;
+  }
   if (exponent == 1) return rounded_ramp_integral(x, onset);
   return x <= 0 ? 0 : reference * reference / (exponent + 1) * std::pow(x / reference, exponent + 1);
 }
 
-ToothLaw::Pressed ToothLaw::pressed(double phase, double depth) const {
+ToothLaw::Pressed ToothLaw::pressed_pairs(double phase, double depth) const {
+  constexpr double turn = 2 * std::numbers::pi;
+  const double pitch = relief.base_pitch, along = pitch / turn, share = 1 / relief.contact_ratio();
+  const double reach = 0.5 * relief.edge, cycle = phase / turn + relief.flank;
+  Pressed p;
+  for (double j = std::ceil((-relief.approach - reach) / pitch - cycle); pitch * (cycle + j) < relief.recess + reach; ++j) {
+    const double place = pitch * (cycle + j);
+    const Function::Jet w = relief.present(place), lack = relief.lacking(place);
+    const double x = depth - lack.f, G = flank_integral(x);
+    const Function::Jet F = flank(x);
+    p.force += share * w.f * F.f;
+    p.by_depth += share * w.f * F.d1;
+    p.by_phase += share * along * (w.d1 * F.f - w.f * F.d1 * lack.d1);
+    p.energy += share * w.f * G;
+    p.energy_by_phase += share * along * (w.d1 * G - w.f * F.f * lack.d1);
+    p.energy_by_phase_twice +=
+        share * along * along * (w.d2 * G - 2 * w.d1 * F.f * lack.d1 + w.f * F.d1 * lack.d1 * lack.d1 - w.f * F.f * lack.d2);
+  }
+  // the damping of a flank that touches is limited by this force over that without relief
+  const Function::Jet plain = flank(depth);
+  p.factor = {1, 0, 0, 0};
+  if (plain.f > 0 && plain.d1 > 0)
+    p.factor = {p.force / plain.f, p.by_phase / plain.f, 0, (p.by_depth / plain.d1 - p.force / plain.f) / plain.f};
+  return p;
+}
+
+ToothLaw::Pressed ToothLaw::pressed(double phase, double depth, bool back) const {
+  if (relief.active()) {
+    Pressed p = pressed_pairs(back ? -phase : phase, depth);
+    if (back) {
+      p.by_phase = -p.by_phase;
+      p.energy_by_phase = -p.energy_by_phase;
+      p.factor[1] = -p.factor[1];
+    }
+    return p;
+  }
   Pressed p;
   const Function::Jet d = flank(depth);
   const user::Results f = course.at(phase, d.f);
@@ -114,13 +159,13 @@ ToothLaw::Pressed ToothLaw::pressed(double phase, double depth) const {
 }
 
 Function::Jet ToothLaw::deflection(double x) const {
-  if (backlash == 0 && exponent == 1) return {x, 1, 0, 0};
+  if (backlash == 0 && exponent == 1 && crown == 0) return {x, 1, 0, 0};
   const Function::Jet front = flank(x), back = flank(-backlash - x);
   return {front.f - back.f, front.d1 + back.d1, front.d2 - back.d2, front.d3 + back.d3};
 }
 
 double ToothLaw::deflection_integral(double x) const {
-  if (backlash == 0 && exponent == 1) return 0.5 * x * x;
+  if (backlash == 0 && exponent == 1 && crown == 0) return 0.5 * x * x;
   return flank_integral(x) + flank_integral(-backlash - x);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "elements/gears/mesh_stiffness.hpp"
+#include "elements/gears/tooth_relief.hpp"
 #include "math/dual.hpp"
 #include "model/function.hpp"
 
@@ -74,24 +75,32 @@ struct ToothLaw {
     contact  ///< only while they touch, and never more than would make the flank pull
   };
   double stiffness = 0;  ///< k_m
+  IsoStiffness iso;      ///< from which k_m was computed, with STIFF ISO; otherwise 0
   double damping = 0;    ///< c_m
   double backlash = 0;   ///< b along the circumference; 0: the teeth touch on both flanks at once
   double onset = 0;      ///< width over which contact comes on, at most b
   double exponent = 1;   ///< p: the force grows with x^p
   double reference = 1;  ///< x₀ > 0 at which the secant stiffness is k_m; of no consequence for p = 1
+  /// C: teeth crowned by C (2y/b)² along the face touch over a part of it only; 0: not crowned. Only with exponent 1.
+  double crown = 0;
   Damping mode = Damping::always;
   MeshStiffness course;
+  ToothRelief relief;
   TransmissionError error;
   MeshPhase mesh;
 
-  /// What a flank pressed in by x resists with, over k_m: max(x, 0) rounded over `onset`, or x₀ (x/x₀)^p, which needs no
-  /// rounding.
+  /// Does the force depend on how far the teeth are pressed in by more than flank()?
+  bool by_load() const { return course.loaded || relief.active(); }
+
+  /// What a flank pressed in by x resists with, over k_m: max(x, 0) rounded over `onset`; x₀ (x/x₀)^p; or crowned, the mean over
+  /// the face of max(x − C (2y/b)², 0), which is ⅔ x √(x/C) up to x = C and x − C/3 beyond. The last two need no rounding.
   Function::Jet flank(double x) const;
   /// Its integral from −∞.
   double flank_integral(double x) const;
 
-  /// A flank pressed in by `depth` where the course depends on the deflection (`course.loaded`; exponent 1).
-  Pressed pressed(double phase, double depth) const;
+  /// A flank pressed in by `depth` where by_load() (exponent 1). With relief the sum over all pairs on the path,
+  /// V = k_m/ε Σ w(ζ_j) ∫ flank(x − δ(ζ_j)) dx, ζ_j/p_b = τ/2π + flank + j; the path of back flanks is the mirror image, τ → −τ.
+  Pressed pressed(double phase, double depth, bool back = false) const;
 
   /// [[x]] of (28) by both flanks.
   Function::Jet deflection(double x) const;
@@ -129,6 +138,7 @@ struct ToothLaw {
   }
 
  private:
+  Pressed pressed_pairs(double phase, double depth) const;
   template <class T>
   T flank_damping(const T& x, const T& elastic, const T& rate) const {
     const Function::Jet window = rounded_ramp(value_of(x), onset);

@@ -37,7 +37,7 @@ Function::Jet MeshStiffness::square_wave(double cycle) const {
   // One pair more for the fraction of the pitch by which the contact ratio exceeds a whole number. The middle of that
   // interval is where two flanks touch half a base pitch on either side of the pitch point.
   const double pairs = std::floor(contact_ratio), fraction = contact_ratio - pairs;
-  const double from_middle = cycle - 0.25 - std::round(cycle - 0.25);
+  const double from_middle = cycle - middle - std::round(cycle - middle);
   const double side = from_middle < 0 ? -1 : 1;
   const Function::Jet s = smooth_step(0.5 * fraction - std::abs(from_middle), edge);
   const double step = 1 / contact_ratio;
@@ -73,7 +73,7 @@ user::Results MeshStiffness::at(double phase, double deflection) const {
   return y;
 }
 
-double iso_mesh_stiffness(const IsoMesh& mesh) {
+IsoStiffness iso_stiffness(const IsoMesh& mesh) {
   constexpr double degree = std::numbers::pi / 180;
   constexpr double steel = 206;  // N/(mm µm): 206 000 N/mm²
   const double cos_beta = std::cos(mesh.helix);
@@ -81,14 +81,25 @@ double iso_mesh_stiffness(const IsoMesh& mesh) {
     return mesh.ring[wheel] ? 0.0 : cos_beta * cos_beta * cos_beta / mesh.teeth[wheel];
   };
   // wheel 1 of the norm is the pinion
-  const std::size_t pinion = mesh.ring[0] || (!mesh.ring[1] && mesh.teeth[1] < mesh.teeth[0]) ? 1 : 0;
-  const double compliance = 0.04723 + 0.15551 * inverse_teeth(pinion) + 0.25791 * inverse_teeth(1 - pinion);
-  const double rack = 0.975 * (1 - 0.02 * (20 - mesh.pressure_angle / degree));
-  const double single = 0.8 * rack * cos_beta / compliance;
-  const double mean = single * (0.75 * mesh.contact_ratio + 0.25);
-  const double E = 2 * mesh.E[0] * mesh.E[1] / (mesh.E[0] + mesh.E[1]);
-  const double cos_alpha_t = std::cos(std::atan(std::tan(mesh.pressure_angle) / cos_beta));
-  return mean / steel * E * mesh.width * cos_alpha_t * cos_alpha_t / (cos_beta * cos_beta);
+  const std::size_t pinion = mesh.ring[0] || (!mesh.ring[1] && mesh.teeth[1] < mesh.teeth[0]) ? 1 : 0, wheel = 1 - pinion;
+  const double n_1 = inverse_teeth(pinion), n_2 = inverse_teeth(wheel);
+  const double x_1 = mesh.ring[pinion] ? 0 : mesh.shift[pinion], x_2 = mesh.ring[wheel] ? 0 : mesh.shift[wheel];
+  const double compliance = 0.04723 + 0.15551 * n_1 + 0.25791 * n_2 - 0.00635 * x_1 - 0.11654 * x_1 * n_1 - 0.00193 * x_2 -
+                            0.24188 * x_2 * n_2 + 0.00529 * x_1 * x_1 + 0.00182 * x_2 * x_2;
+  const double dedendum = 0.5 * (mesh.dedendum[0] + mesh.dedendum[1]);
+  const double rack = (1 + 0.5 * (1.2 - dedendum)) * (1 - 0.02 * (20 - mesh.pressure_angle / degree));
+  const double modulus = 2 * mesh.E[0] * mesh.E[1] / (mesh.E[0] + mesh.E[1]) / steel;
+  IsoStiffness c;
+  c.single = modulus * 0.8 * rack * cos_beta / compliance;
+  c.mesh = c.single * (0.75 * mesh.contact_ratio + 0.25);
+  return c;
+}
+
+double iso_mesh_stiffness(const IsoMesh& mesh) {
+  const double helix = mesh.working_helix.value_or(mesh.helix);
+  const double angle = mesh.working_pressure_angle.value_or(std::atan(std::tan(mesh.pressure_angle) / std::cos(mesh.helix)));
+  const double along = std::cos(angle) / std::cos(helix);
+  return iso_stiffness(mesh).mesh * mesh.width * along * along;
 }
 
 }  // namespace engrane::elements::gears

@@ -13,6 +13,7 @@
 #include "base/text.hpp"
 #include "elements/common/building.hpp"
 #include "elements/gears/contact_channels.hpp"
+#include "elements/gears/gear_bearings.hpp"
 #include "elements/gears/gear_report.hpp"
 
 namespace engrane::elements::gears {
@@ -45,8 +46,11 @@ ContactGeometry contact_geometry(const RackPinion::Geometry& g, double width) {
   c.radius = design.radius(0);
   c.width = width;
   c.base_pitch = std::numbers::pi * design.transverse_module(0) * std::cos(c.transverse_pressure_angle);
-  c.approach = design.normal_module / std::sin(c.transverse_pressure_angle);
+  // the rack's tip line lies h_aP − x from the plane that rolls on the pinion's reference circle
+  const double height = design.cut ? design.cut->addendum[1] - design.cut->shift[0] : 1;
+  c.approach = height * design.normal_module / std::sin(c.transverse_pressure_angle);
   c.recess = path_of_contact(design, 0).value_or(0);
+  if (design.cut) c.flank = design.cut->thickness(0) / (2 * std::numbers::pi * design.normal_module);
   return c;
 }
 
@@ -125,13 +129,17 @@ std::vector<Derived> RackPinion::derived() const {
   using namespace dimension;
   const GearDesign& d = geometry_.design;
   const double radius = d.radius(0);
-  std::vector<Derived> list{{"pitch radius of the pinion", radius, length},
-                            {"base radius of the pinion", radius * std::cos(d.transverse_pressure_angle(0)), length},
-                            {"transverse module", d.transverse_module(0), length},
-                            {"transverse pressure angle", d.transverse_pressure_angle(0), angle},
-                            {"helix angle of the pinion (right hand > 0)", -d.helix[0], angle},
-                            {"helix angle of the rack (right hand > 0)", -d.helix[1], angle},
-                            {"travel per turn of the pinion", turn * d.lever(0) / std::cos(d.helix[1]), length}};
+  std::vector<Derived> list;
+  if (d.cut)
+    put_cut(list, *d.cut, {"the pinion", "the rack"});
+  else
+    list = {{"pitch radius of the pinion", radius, length},
+            {"base radius of the pinion", radius * std::cos(d.transverse_pressure_angle(0)), length},
+            {"transverse module", d.transverse_module(0), length},
+            {"transverse pressure angle", d.transverse_pressure_angle(0), angle}};
+  list.insert(list.end(), {{"helix angle of the pinion (right hand > 0)", -d.helix[0], angle},
+                           {"helix angle of the rack (right hand > 0)", -d.helix[1], angle},
+                           {"travel per turn of the pinion", turn * d.lever(0) / std::cos(d.helix[1]), length}});
   for (int k = 0; k < 3; ++k) list.push_back({std::string("contact point, ") + "xyz"[k], geometry_.frames.contact[k], length});
   const ContactGeometry& g = contact_.geometry();
   if (g.recess > 0 && std::abs(d.helix[0] + d.helix[1]) < 1e-9)
@@ -147,13 +155,16 @@ Drawing RackPinion::drawing() const {
   const GearDesign& d = geometry_.design;
   const PitchFrames& f = geometry_.frames;
   const double width = contact_.geometry().width;
+  Vec3 reference = f.contact;  // in the plane where the rack's teeth are as thick as their spaces
+  if (d.cut) reference += d.cut->shift[0] * d.normal_module * f.mu.col(1);
   const std::string common =
       R"(, "module": )" + format_number(d.normal_module) + R"(, "width": )" + format_number(width) + R"(, "helix": )";
   return {R"("shape": "wheel", "node": )" + std::to_string(layout().nodes[0]) + R"(, "center": )" +
               json(Vec3(f.contact - d.radius(0) * f.mu.col(1))) + R"(, "axis": )" + json(Vec3(f.mu.col(0))) + R"(, "toward": )" +
               json(Vec3(f.mu.col(1))) + R"(, "radius": )" + format_number(d.radius(0)) + R"(, "cone": 0, "teeth": )" +
-              std::to_string(d.teeth[0]) + common + format_number(-d.helix[0] / degree),
-          R"("shape": "rack", "node": )" + std::to_string(layout().nodes[1]) + R"(, "center": )" + json(f.contact) +
+              std::to_string(d.teeth[0]) + common + format_number(-d.helix[0] / degree) +
+              (d.cut ? drawn_cut(*d.cut, 0, d.radius(0)) : ""),
+          R"("shape": "rack", "node": )" + std::to_string(layout().nodes[1]) + R"(, "center": )" + json(reference) +
               R"(, "direction": )" + json(Vec3(geometry_.sense * f.xi.col(2))) + R"(, "toward": )" + json(Vec3(f.xi.col(1))) +
               common + format_number(-d.helix[1] / degree)};
 }
@@ -165,8 +176,9 @@ const deck::Card<RackData>& rack_card() {
     c.chapter("Rigid kinematic joints").numbered();
     c.describe(
         "A pinion at a node that is its centre, and a rack carried by a node anywhere on its body: the ground (0), a guided or a "
-        "free body. The pitch plane of the rack touches the pitch circle; AT is a point of it. The rack passes the tooth force, "
-        "guides and bearings are other elements. Everything about the teeth is as in GEAR.");
+        "free body. The pitch plane of the rack touches the pitch circle; AT is a point of it, or with profile shift X of the "
+        "reference plane, X modules further out. The rack passes the tooth force, guides and bearings are other elements. "
+        "Everything about the teeth is as in GEAR; X and TIP are the pinion's.");
     c.add("N", &RackData::nodes, "centre of the pinion, and body of the rack")
         .synonyms({"NOEUDS", "NODES", "NOEUD"})
         .refers(deck::Reference::node)
@@ -184,11 +196,13 @@ const deck::Card<RackData>& rack_card() {
     c.add("DIR", &RackData::direction, "direction of the rack's pitch line; its travel counts along it")
         .synonyms({"DIRECTION"})
         .required();
-    c.add("AT", &RackData::at, "a point of the rack's pitch plane; the rack's node when not given")
+    c.add("AT", &RackData::at, "a point of the rack's reference plane; the rack's node when not given")
         .synonyms({"POINT"})
         .unit(length);
+    add_cut_keywords(c);
     add_teeth_keywords(c);
     c.example("I 1 RACK N 1 2 AXIS 0 0 1 DIR 1 0 0 Z 20 MN 2");
+    c.example("I 3 RACK N 1 2 AXIS 0 0 1 DIR 1 0 0 AT 0 -19.8 0 Z 12 MN 3 X 0.6");
     c.example("I 2 RACK N 1 0 AXIS 0 0 1 DIR 1 0 0 AT 0 -20 0 Z 20 MN 2 HELIX 15 KM 1D8");
     return c;
   }();
@@ -196,6 +210,27 @@ const deck::Card<RackData>& rack_card() {
 }
 
 namespace {
+
+/// Teeth of a pinion, and of the rack that meets it, as the card describes them.
+bool cut_rack(GearDesign& design, const RackData& data, const BuildContext& context) {
+  if (std::abs(design.helix[0] + design.helix[1]) > 1e-9) {
+    for (const auto& [keyword, given] : given_cut_keywords(data))
+      if (given)
+        context.error(keyword,
+                      fmt::format("{} is for a rack straight across the pinion's axle, and this one runs obliquely", keyword),
+                      "leave it out: such wheels have addendum m_n and no shift");
+    return false;
+  }
+  if (data.shift.size() > 1) {
+    context.error("X", "a rack has no profile shift: X has two values", "give that of the pinion");
+    return false;
+  }
+  CutTeeth cut = reference_cut(design, data);
+  cut.teeth[1] = 0;
+  if (!set_tips(cut, data, {"the pinion", "the rack"}, context)) return false;
+  design.cut = cut;
+  return true;
+}
 
 std::optional<RackPinion::Geometry> place_rack(const RackData& data, const BuildContext& context) {
   const bool nodes_good = check_nodes(context, {data.nodes[0], data.nodes[1]});
@@ -218,12 +253,18 @@ std::optional<RackPinion::Geometry> place_rack(const RackData& data, const Build
     d.helix[1] = data.helix.size() > 1 ? paper_helix(data.helix[1] * degree, 0) : -d.helix[0];
   }
   const double away = (point - x_a).dot(across.normalized()), radius = d.radius(0);
-  if (std::abs(std::abs(away) - radius) > 1e-6 * radius) {
-    context.error(
-        data.at ? "AT" : "N",
-        fmt::format("distance of the rack's pitch plane from the pinion's centre: {} given, {} needed by Z, MN and HELIX",
-                    number(std::abs(away)), number(radius)),
-        data.at ? "AT is a point of the pitch plane" : "give a point of the pitch plane with AT, or move a node");
+  if (data.describes_cut() && !cut_rack(d, data, context)) return {};
+  const double needed = radius + (d.cut ? d.cut->shift[0] * d.normal_module : 0);
+  if (std::abs(std::abs(away) - needed) > 1e-6 * radius) {
+    const char* plane = d.cut ? "reference plane" : "pitch plane";
+    const double fits = (std::abs(away) - radius) / d.normal_module;
+    context.error(data.at ? "AT" : "N",
+                  fmt::format("distance of the rack's {} from the pinion's centre: {} given, {} needed by Z, MN{} HELIX", plane,
+                              number(std::abs(away)), number(needed), d.cut ? ", X and" : " and"),
+                  fmt::format("{}{}",
+                              data.at ? fmt::format("AT is a point of the {}", plane)
+                                      : fmt::format("give a point of the {} with AT, or move a node", plane),
+                              std::abs(fits) < 1 ? fmt::format("; a profile shift X {} fits", number(fits)) : ""));
     return {};
   }
   PitchFrames& f = g.frames;
@@ -235,12 +276,12 @@ std::optional<RackPinion::Geometry> place_rack(const RackData& data, const Build
   g.offset = f.contact - x_b;
   const double along = direction->dot(f.xi.col(2));
   if (std::abs(along) < 1 - 1e-10) {
-    const Vec3 needed = (along < 0 ? -1 : 1) * f.xi.col(2);
+    const Vec3 turned = (along < 0 ? -1 : 1) * f.xi.col(2);
     context.error(
         "DIR",
         fmt::format("direction of the rack: ({}, {}, {}) given, ({}, {}, {}) needed by the helices, {:.6g} degrees away",
-                    number((*direction)[0]), number((*direction)[1]), number((*direction)[2]), number(needed[0]),
-                    number(needed[1]), number(needed[2]), std::acos(std::min(std::abs(along), 1.0)) / degree),
+                    number((*direction)[0]), number((*direction)[1]), number((*direction)[2]), number(turned[0]),
+                    number(turned[1]), number(turned[2]), std::acos(std::min(std::abs(along), 1.0)) / degree),
         "a rack straight across the axle needs opposite hands: give HELIX one value; else their sum is the angle");
     return {};
   }
@@ -249,6 +290,7 @@ std::optional<RackPinion::Geometry> place_rack(const RackData& data, const Build
 }
 
 std::unique_ptr<Element> build_rack_pinion(const RackData& data, BuildContext& context) {
+  warn_of_radians(data.pressure_angle, context);
   const auto geometry = place_rack(data, context);
   if (!geometry) return nullptr;
   const double width = data.width.value_or(10 * data.normal_module);
@@ -258,8 +300,14 @@ std::unique_ptr<Element> build_rack_pinion(const RackData& data, BuildContext& c
   owner.teeth = {data.teeth, 0};
   owner.lever = {geometry->design.lever(0), 1};
   owner.parallel = std::abs(geometry->design.helix[0] + geometry->design.helix[1]) < 1e-9;
+  owner.path_known = owner.parallel;
   owner.geometry = contact_geometry(*geometry, width);
-  warn_about_undercut(geometry->design, 0, "the pinion", context);
+  if (!check_bearings(data.nodes, {owner.axle[0], Vec3::Zero()}, context)) return nullptr;
+  owner.cut = geometry->design.cut;
+  if (owner.cut)
+    warn_about_cut(*owner.cut, data, {"the pinion", "the rack"}, context);
+  else
+    warn_about_undercut(geometry->design, 0, "the pinion", context);
   if (const ContactGeometry& g = owner.geometry; owner.parallel && g.recess > 0) {
     // the rack's tips touch nothing beyond where the involute begins
     const double involute = geometry->design.radius(0) * std::sin(g.transverse_pressure_angle);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "elements/gears/cut_card.hpp"
 #include "elements/gears/gear_geometry.hpp"
 #include "elements/gears/teeth_card.hpp"
 #include "elements/gears/toothed_pair.hpp"
@@ -13,7 +14,7 @@
 namespace engrane::elements::gears {
 
 /// `I id RACK …`, as the deck gives it: angles in degrees, helices in the trade's sign.
-struct RackData : TeethData {
+struct RackData : TeethData, CutData {
   std::array<int, 2> nodes{0, 0};  ///< centre of the pinion, body of the rack
   int teeth = 0;
   double normal_module = 0;
@@ -21,7 +22,7 @@ struct RackData : TeethData {
   std::vector<double> helix;  ///< of the pinion and of the rack; one value: the rack's fits, its axles are parallel
   std::array<double, 3> axis{0, 0, 0};
   std::array<double, 3> direction{0, 0, 0};
-  std::optional<std::array<double, 3>> at;  ///< a point of the pitch plane; default: the rack's node
+  std::optional<std::array<double, 3>> at;  ///< a point of the rack's reference plane; default: its node
 };
 
 const deck::Card<RackData>& rack_card();

@@ -99,7 +99,16 @@ bool set_iso(ToothLaw& law, const TeethData& data, const TeethOwner& owner, cons
   mesh.E = {data.moduli.front(), data.moduli.back()};
   if (!(mesh.contact_ratio > 1))
     return refuse("STIFF", fmt::format("contact ratio {:.3g}: teeth would lose touch", mesh.contact_ratio), "choose more teeth");
+  if (owner.cut) {
+    mesh.helix = owner.cut->helix[0];
+    mesh.pressure_angle = owner.cut->pressure_angle;
+    mesh.shift = owner.cut->shift;
+    mesh.dedendum = owner.cut->dedendum;
+    mesh.working_helix = g.helix;
+    mesh.working_pressure_angle = g.transverse_pressure_angle;
+  }
   law.stiffness = iso_mesh_stiffness(mesh);
+  law.iso = iso_stiffness(mesh);
   return true;
 }
 
@@ -179,6 +188,8 @@ bool set_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, c
       return false;
     }
     course.edge = std::min({edge, fraction, 1 - fraction});
+    // the place, from the pitch point, of the later flank where both ends of the path are equally far
+    if (owner.cut && values.empty()) course.middle = 0.5 * fraction - g.approach / g.base_pitch - g.flank;
     if (course.edge < 1e-6) course.kind = MeshStiffness::Kind::constant;  // a whole number of pairs at all times
   }
   double least = 1;
@@ -188,12 +199,26 @@ bool set_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, c
   return false;
 }
 
+/// Backlash that leaves nothing of the teeth: beyond half the pitch along the tooth normal, where teeth and gaps are as wide.
+void warn_of_wide_backlash(const ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  const double gap = std::numbers::pi * owner.lever[0] / owner.teeth[0];
+  if (law.backlash <= gap) return;
+  const char* keyword = data.backlash ? "JEU" : data.normal_backlash ? "JEUN" : data.center_backlash ? "JEUA" : "ASN";
+  context.diagnostics.warning(context.record.where(keyword),
+                              fmt::format("a backlash of {} along the circumference is wider than the gap between two teeth, {}",
+                                          number(law.backlash), number(gap)),
+                              "is it in the deck's unit of length? Teeth have backlash of a few hundredths of the module");
+}
+
 /// Backlash along the circumference, in whichever way it is given.
 bool set_backlash(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
-  const int ways = (data.backlash ? 1 : 0) + (data.normal_backlash ? 1 : 0) + (data.center_backlash ? 1 : 0);
+  const int ways = (data.backlash ? 1 : 0) + (data.normal_backlash ? 1 : 0) + (data.center_backlash ? 1 : 0) +
+                   (data.thickness_allowance.empty() ? 0 : 1);
   if (ways > 1) {
-    context.error(data.normal_backlash ? "JEUN" : "JEUA", "JEU, JEUN and JEUA exclude each other: each fixes the backlash",
-                  "keep one of them");
+    context.error(!data.thickness_allowance.empty() ? "ASN"
+                  : data.normal_backlash            ? "JEUN"
+                                                    : "JEUA",
+                  "JEU, JEUN, JEUA and ASN exclude each other: each fixes the backlash", "keep one of them");
     return false;
   }
   const double alpha = owner.geometry.pressure_angle;
@@ -202,6 +227,11 @@ bool set_backlash(ToothLaw& law, const TeethData& data, const TeethOwner& owner,
   if (data.center_backlash)
     law.backlash =
         2 * (owner.parallel ? owner.geometry.flank_opening(*data.center_backlash).f : *data.center_backlash * std::tan(alpha));
+  if (const auto& a = data.thickness_allowance; !a.empty()) {
+    const double cut_alpha = owner.cut ? owner.cut->pressure_angle : alpha;
+    law.backlash = -(a.front() + a.back()) * std::cos(cut_alpha) / std::cos(alpha);  // j_bn = −ΣA_sn cosα_n
+  }
+  warn_of_wide_backlash(law, data, owner, context);
   law.onset = data.onset.value_or(1e-3 * law.backlash);
   if (!data.onset || law.onset <= law.backlash) return true;
   context.error("SMOOTH", fmt::format("SMOOTH {} is wider than the backlash {}", number(law.onset), number(law.backlash)),
@@ -239,11 +269,12 @@ bool set_damping(ToothLaw& law, const TeethData& data, const TeethOwner& owner, 
 
 /// What describes elastic teeth means nothing for rigid ones.
 bool refuse_of_rigid_teeth(const TeethData& data, const BuildContext& context) {
-  const std::array<std::pair<std::string_view, bool>, 15> elastic{{{"XI", data.damping_ratio.has_value()},
+  const std::array<std::pair<std::string_view, bool>, 21> elastic{{{"XI", data.damping_ratio.has_value()},
                                                                    {"CM", data.damping.has_value()},
                                                                    {"JEU", data.backlash.has_value()},
                                                                    {"JEUN", data.normal_backlash.has_value()},
                                                                    {"JEUA", data.center_backlash.has_value()},
+                                                                   {"ASN", !data.thickness_allowance.empty()},
                                                                    {"SMOOTH", data.onset.has_value()},
                                                                    {"DAMP", data.damping_mode.given()},
                                                                    {"ERR", data.error.given()},
@@ -253,6 +284,11 @@ bool refuse_of_rigid_teeth(const TeethData& data, const BuildContext& context) {
                                                                    {"PITCHB", data.pitch_b != 0},
                                                                    {"STIFF", data.course.given()},
                                                                    {"EXPONENT", !data.exponent.empty()},
+                                                                   {"TIPRELA", !data.tip_relief_a.empty()},
+                                                                   {"TIPRELB", !data.tip_relief_b.empty()},
+                                                                   {"ROOTRELA", !data.root_relief_a.empty()},
+                                                                   {"ROOTRELB", !data.root_relief_b.empty()},
+                                                                   {"CROWN", data.crown.has_value()},
                                                                    {"SLICES", data.slices > 1}}};
   bool rigid = true;
   for (const auto& [keyword, given] : elastic)
@@ -281,11 +317,16 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
   FrictionLaw& law = friction.law;
   law.width = data.friction_width.value_or(1e-3 * owner.geometry.radius);
   if (!read_friction(context, data.friction, law)) return false;
+  if ((data.friction.is("CONST") || data.friction.is("STRIBECK")) && law.mu > 1)
+    context.diagnostics.warning(context.record.where("FRICTION"),
+                                fmt::format("a coefficient of friction of {} between the flanks", number(law.mu)),
+                                "lubricated teeth have 0.03 to 0.15, dry ones 0.2 to 0.5: is it in per cent?");
   friction.rolling = data.rolling;
   friction.profile = data.sliding.is("PROFILE");
   const ContactGeometry& g = owner.geometry;
-  if (friction.profile && !owner.parallel) {
-    context.error("SLIDING", "the path of contact is only known of parallel axles", "SLIDING PITCH slides at the pitch point");
+  if (friction.profile && !owner.path_known) {
+    context.error("SLIDING", "the path of contact is only known of axles that are parallel or meet",
+                  "SLIDING PITCH slides at the pitch point, as most of the sliding of such teeth does");
     return false;
   }
   if (friction.profile && !(g.approach + g.recess > 1.01 * g.base_pitch)) {
@@ -323,6 +364,75 @@ bool set_options(ContactOptions& options, const TeethData& data, const TeethOwne
 
 }  // namespace
 
+void warn_of_radians(double alpha, const BuildContext& context) {
+  constexpr double least = 1;  // degree
+  if (alpha <= 0 || alpha >= least) return;
+  context.diagnostics.warning(context.record.where("ALPHA"), fmt::format("a pressure angle of {} degrees", number(alpha)),
+                              fmt::format("angles are in degrees: {} radians are {:.4g} degrees", number(alpha), alpha / degree));
+}
+
+/// Relief and crowning: what is taken off normal to the flanks, along the circumference.
+bool set_relief(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
+  const ContactGeometry& g = owner.geometry;
+  const double along = std::cos(g.helix) / std::cos(g.transverse_pressure_angle);
+  struct Given {
+    const char* keyword;
+    const std::vector<double>& values;
+    bool at_recess;
+  };
+  const std::array<Given, 4> all{{{"TIPRELA", data.tip_relief_a, true},
+                                  {"ROOTRELB", data.root_relief_b, true},
+                                  {"TIPRELB", data.tip_relief_b, false},
+                                  {"ROOTRELA", data.root_relief_a, false}}};
+  const auto refuse = [&](std::string_view keyword, std::string message, std::string hint) {
+    context.error(keyword, std::move(message), std::move(hint));
+    return false;
+  };
+  const char* first = nullptr;
+  ToothRelief& relief = law.relief;
+  relief.approach = g.approach;
+  relief.recess = g.recess;
+  relief.base_pitch = g.base_pitch;
+  relief.flank = g.flank;
+  const double path = g.approach + g.recess;
+  for (const Given& one : all) {
+    if (one.values.empty()) continue;
+    if (!owner.parallel)
+      return refuse(one.keyword, "relief follows the path of contact of parallel axles, and these cross or meet", "leave it out");
+    first = one.keyword;
+    const double exponent = one.values.size() > 2 ? one.values[2] : 2;
+    if (exponent < 1 || exponent > 4)
+      return refuse(one.keyword, fmt::format("relief that grows with the power {}", number(exponent)), "give 1 (linear) to 4");
+    if (one.values[1] > path)
+      return refuse(one.keyword,
+                    fmt::format("relief over {}, and the path of contact is {} long", number(one.values[1]), number(path)),
+                    "tip relief is usual over a fifth to a third of it");
+    relief.ramps.push_back({one.at_recess, one.values[0] * along, one.values[1], exponent});
+  }
+  if (data.crown) {
+    if (!owner.parallel) return refuse("CROWN", "crowning is for parallel axles, and these cross or meet", "leave it out");
+    law.crown = *data.crown * along;
+    if (!data.exponent.empty())
+      return refuse("CROWN", "CROWN and EXPONENT both make the teeth softer at first", "keep one of them");
+    if (law.course.loaded)
+      return refuse("CROWN", "CROWN does not go with a stiffness that depends on the deflection", "keep one of them");
+  }
+  if (!relief.active()) return true;
+  if (!(relief.contact_ratio() > 1))
+    return refuse(first, fmt::format("contact ratio {:.4g}: between two teeth nothing would touch", relief.contact_ratio()),
+                  "choose more teeth");
+  relief.edge = std::min(0.05 * g.base_pitch, 0.5 * (path - g.base_pitch));
+  for (const auto& [keyword, given] : {std::pair<std::string_view, bool>{"RUNNING", data.running},
+                                       {"SLICES", data.slices > 1},
+                                       {"EXPONENT", !data.exponent.empty()},
+                                       {"STIFF", law.course.varies()}})
+    if (given)
+      return refuse(keyword,
+                    fmt::format("{} does not go with {}: with relief each pair of teeth is a spring of its own", keyword, first),
+                    fmt::format("leave {} out", keyword));
+  return true;
+}
+
 std::optional<Teeth> read_teeth(const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   Teeth teeth;
   bool good = set_options(teeth.options, data, owner, context);
@@ -353,6 +463,7 @@ std::optional<Teeth> read_teeth(const TeethData& data, const TeethOwner& owner, 
   good = set_error(law, data, owner, context) && good;
   good = set_wheel_errors(law, data, context) && good;
   good = set_damping(law, data, owner, context) && good;
+  good = set_relief(law, data, owner, context) && good;
   if (!good) return {};
   return teeth;
 }

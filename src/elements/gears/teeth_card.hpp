@@ -2,11 +2,14 @@
 // What a card says of the teeth of a gear pair, or of a pinion and its rack.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <optional>
 #include <vector>
 
 #include "elements/common/friction_card.hpp"
+#include "elements/gears/profile_shift.hpp"
 #include "elements/gears/tooth_contact.hpp"
 #include "model/registry.hpp"
 
@@ -16,13 +19,16 @@ namespace engrane::elements::gears {
 struct TeethData {
   std::optional<double> width;
   std::optional<double> stiffness;
-  deck::Tagged course;           ///< STIFF
-  std::vector<double> moduli;    ///< E of A and B, one value for both
-  std::vector<double> exponent;  ///< p and x₀
+  deck::Tagged course;                                                           ///< STIFF
+  std::vector<double> moduli;                                                    ///< E of A and B, one value for both
+  std::vector<double> exponent;                                                  ///< p and x₀
+  std::vector<double> tip_relief_a, tip_relief_b, root_relief_a, root_relief_b;  ///< amount, length, exponent
+  std::optional<double> crown;
   std::optional<double> damping_ratio;
   std::optional<double> damping;
   deck::Tagged damping_mode;
   std::optional<double> backlash, normal_backlash, center_backlash;
+  std::vector<double> thickness_allowance;  ///< ASN of A and B, one value for both; not above 0
   std::optional<double> onset;
   deck::Tagged error;
   std::vector<double> eccentricity_a, eccentricity_b;  ///< amplitude and phase
@@ -45,8 +51,10 @@ struct TeethOwner {
   std::array<bool, 2> ring{false, false};
   std::array<double, 2> lever{1, 1};  ///< r cosβ, along which u_m is measured; 1 for a rack
   bool parallel = true;               ///< are the axles, so that involute relations hold?
+  bool path_known = true;  ///< is the path of contact: of parallel axles, and of the virtual wheels of axles that meet?
   ContactGeometry geometry;
   MeshPhase mesh;
+  std::optional<CutTeeth> cut;  ///< where the card describes the teeth
 };
 
 /// How teeth touch, as a card says.
@@ -56,6 +64,9 @@ struct Teeth {
 };
 /// Faults go to the context's diagnostics; then there is no result.
 std::optional<Teeth> read_teeth(const TeethData& data, const TeethOwner& owner, const BuildContext& context);
+
+/// Warns of a pressure angle, in degrees, that looks as if it were in radians.
+void warn_of_radians(double alpha, const BuildContext& context);
 
 /// Adds the keywords of TeethData to a card.
 template <class Data>
@@ -92,6 +103,28 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .synonyms({"EXPOSANT"})
       .values(2, 2)
       .positive();
+  const char* const relief =
+      "C L [p]: {} relief of {}, C normal to the flank over L of the path of contact, growing with power p (2)";
+  c.add("TIPRELA", &TeethData::tip_relief_a, fmt::format(fmt::runtime(relief), "tip", "A"))
+      .synonyms({"DEPOUILLE_TETE_A"})
+      .values(2, 3)
+      .positive();
+  c.add("TIPRELB", &TeethData::tip_relief_b, fmt::format(fmt::runtime(relief), "tip", "B"))
+      .synonyms({"DEPOUILLE_TETE_B"})
+      .values(2, 3)
+      .positive();
+  c.add("ROOTRELA", &TeethData::root_relief_a, fmt::format(fmt::runtime(relief), "root", "A"))
+      .synonyms({"DEPOUILLE_PIED_A"})
+      .values(2, 3)
+      .positive();
+  c.add("ROOTRELB", &TeethData::root_relief_b, fmt::format(fmt::runtime(relief), "root", "B"))
+      .synonyms({"DEPOUILLE_PIED_B"})
+      .values(2, 3)
+      .positive();
+  c.add("CROWN", &TeethData::crown, "crowning of both wheels together, normal to the flank at the ends of the face")
+      .synonyms({"BOMBE"})
+      .unit(length)
+      .positive();
   c.add("XI", &TeethData::damping_ratio, "damping ratio of the teeth against the inertia of both wheels").at_least(0);
   c.add("CM", &TeethData::damping, "tooth damping along the circumference, instead of XI").unit(dimension::damping).at_least(0);
   c.add("JEU", &TeethData::backlash, "backlash along the circumference").synonyms({"BACKLASH"}).unit(length).at_least(0);
@@ -103,6 +136,12 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .synonyms({"CENTRE_BACKLASH", "CENTER_BACKLASH"})
       .unit(length)
       .at_least(0);
+  c.add("ASN", &TeethData::thickness_allowance,
+        "tooth-thickness allowances A_sn of A and B, or one of both: normal, at the reference circle, negative; instead of JEU")
+      .synonyms({"ALLOWANCE", "ECART_EPAISSEUR"})
+      .unit(length)
+      .values(1, 2)
+      .at_most(0);
   c.add("SMOOTH", &TeethData::onset, "width over which contact comes on; JEU/1000 when not given")
       .synonyms({"LISSAGE"})
       .unit(length)
@@ -136,7 +175,7 @@ void add_teeth_keywords(deck::Card<Data>& c) {
   c.add("SLIDING", &TeethData::sliding, "where the flanks slide")
       .synonyms({"GLISSEMENT"})
       .option({"PITCH", {"PRIMITIF"}, "at the pitch point: axles that cross or pass each other"})
-      .option({"PROFILE", {"PROFIL"}, "each pair of flanks along the path of contact (parallel axles)"});
+      .option({"PROFILE", {"PROFIL"}, "each pair of flanks along the path of contact (axles that are parallel or meet)"});
   c.add("ROLLING", &TeethData::rolling, "lever of the rolling resistance").synonyms({"ROULEMENT"}).unit(length).at_least(0);
   c.add("SEPARATION", &TeethData::separation, "the radial part of the tooth force, which pushes the wheels apart")
       .option({"YES", {"OUI"}, "with it"})

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elements/gears/tooth_contact.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 
@@ -41,9 +43,18 @@ Function::Jet ContactGeometry::flank_opening(double opening) const {
           lead * (c * bend - s * turn * turn)};
 }
 
+std::vector<std::string> ToothContact::remarks(double deflection) const {
+  // a flank pressed in by w/2 and more follows (28); below four widths the stretch before it still shows in the crests
+  if (deflection == 0 || deflection >= 4 * law_.onset) return {};
+  return {
+      fmt::format("the teeth were pressed in by {:.3g} at most, and their contact comes on over the width {:.3g}: such a light "
+                  "load follows the rounded onset, not KM; give SMOOTH {:.1g}, or SMOOTH 0",
+                  deflection, law_.onset, 0.01 * deflection)};
+}
+
 std::vector<SwitchNames> ToothContact::switch_names() const {
   std::vector<SwitchNames> list;
-  if (!elastic() || law_.backlash == 0 || options_.slices > 1) return list;
+  if (!elastic() || law_.backlash == 0 || options_.slices > 1 || law_.relief.active()) return list;
   for (const char* side : {"front", "back"}) {
     const std::string flank = side + std::string(" flank");
     list.push_back({flank + " touches", flank + " parts"});

@@ -2,9 +2,12 @@
 // What acts where teeth meet, whatever they are cut on: two wheels, or a pinion and a rack.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "elements/common/friction_law.hpp"
@@ -30,9 +33,11 @@ struct ContactGeometry {
   double side = 1;             ///< κ: 1 outside, −1 inside
   double axle_sense = 1;       ///< σ: ξ₁ = σ μ₁
   /// Path of contact from the pitch point, along the direction in which A moves: while flanks in front touch from
-  /// −approach to recess. Only of parallel axles.
+  /// −approach to recess. Of parallel axles, and of the virtual wheels of axles that meet.
   double approach = 0, recess = 0;
   double base_pitch = 0;  ///< transverse
+  /// Front flank of A from the middle of its tooth, in pitches, at the working pitch circle: a quarter without profile shift.
+  double flank = 0.25;
 
   /// cosα_t′ = (a₀/a) cosα_t. `opening` is by how far the wheels have moved apart across the teeth.
   double working_pressure_angle(double opening) const;
@@ -122,12 +127,20 @@ class ToothContact {
         options_(options),
         cos_alpha_(std::cos(geometry.pressure_angle)),
         sin_alpha_(std::sin(geometry.pressure_angle)),
-        cos_beta_(std::cos(geometry.helix)) {}
+        cos_beta_(std::cos(geometry.helix)) {
+    if (options_.slices > 1) slice_crown_ = std::exchange(law_.crown, 0);
+  }
 
   const ContactGeometry& geometry() const { return geometry_; }
   const ToothLaw& law() const { return law_; }
   const ContactOptions& options() const { return options_; }
   bool elastic() const { return law_.stiffness > 0; }
+  /// Is the onset of contact rounded, so that the law differs from (28) where the teeth are hardly pressed in?
+  bool rounds_contact() const { return elastic() && law_.exponent == 1 && law_.crown == 0 && law_.onset > 0; }
+  /// Force of the more pressed flank along the circumference over k_m.
+  double deflection(const ContactReport& report) const { return std::max(law_.flank(report.front).f, law_.flank(report.back).f); }
+  /// What a run should be told in which no flank was ever pressed in by more than `deflection`.
+  std::vector<std::string> remarks(double deflection) const;
   double cos_alpha() const { return cos_alpha_; }
   double sin_alpha() const { return sin_alpha_; }
 
@@ -156,6 +169,7 @@ class ToothContact {
   ToothLaw law_;
   ContactOptions options_;
   double cos_alpha_, sin_alpha_, cos_beta_;
+  double slice_crown_ = 0;  ///< crowning that slices see for themselves
 };
 
 }  // namespace engrane::elements::gears

@@ -68,14 +68,14 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
     slope = compose(psi_a, z * f.d1, z * z * f.d2, z * z * z * f.d3);
   };
   T factor(1), factor_slope(0);
-  if (law_.course.varies() && !law_.course.loaded) course(0, factor, factor_slope);
+  if (law_.course.varies() && !law_.by_load()) course(0, factor, factor_slope);
 
   T net(0), by_turn(0);  // ∂V/∂x, ∂V/∂ψ_A at constant x
   T front = x, back = -law_.backlash - x;
   double potential = 0;
-  if (law_.course.loaded) {  // V = k ∫ f(τ, |[[x]]|) [[x]] dx; never with `running`
+  if (law_.by_load()) {  // V = k ∫ f(τ, |[[x]]|) [[x]] dx, or the sum over pairs with relief; never with `running`
     const double tau = z * value_of(psi_a) + law_.mesh.phase;
-    const ToothLaw::Pressed f = law_.pressed(tau, value_of(front)), g = law_.pressed(tau, value_of(back));
+    const ToothLaw::Pressed f = law_.pressed(tau, value_of(front)), g = law_.pressed(tau, value_of(back), true);
     const double by_phase = z * (f.by_phase - g.by_phase);
     net = k * (compose(x, f.force - g.force, std::max(f.by_depth + g.by_depth, ToothLaw::least_slope), 0) +
                compose(psi_a, 0, by_phase, 0));
@@ -114,7 +114,8 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
       const Function::Jet d = geometry_.flank_opening(value_of(local));
       const T open = compose(local, d.f, d.d1, d.d2), slope = compose(local, d.d1, d.d2, d.d3);
       const T shift = (y * cos_beta_) * tilt_along;
-      const T in_front = x + shift - open, behind = -law_.backlash - x - shift - open;
+      const double crowned = slice_crown_ * std::pow(2 * y / geometry_.width, 2);
+      const T in_front = x + shift - open - crowned, behind = -law_.backlash - x - shift - open - crowned;
       const auto flank = [&](const T& depth) {
         const Function::Jet f = law_.flank(value_of(depth));
         return T((k / n) * compose(depth, f.f, f.d1, f.d2));
@@ -275,8 +276,7 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
   if (!friction.profile) {
     add(drag(at_pitch_point, normal, friction.law, load), arm_a, arm_b);
   } else {
-    // flanks that touch at ζ from the pitch point along the line of action; the load is shared equally, and comes and goes
-    // over a small part of the path at its ends
+    // flanks that touch at ζ from the pitch point along the line of action
     const double sense = value_of(force_1) >= 0 ? 1 : -1;
     const double low = sense > 0 ? -geometry_.approach : -geometry_.recess;
     const double high = sense > 0 ? geometry_.recess : geometry_.approach;
@@ -288,21 +288,45 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
       line[k] = cos_t * 0.5 * (a.forward[k] - b.forward[k]) + sense * sin_t * across[k];
       flank_normal[k] = cos_alpha_ * normal[k] + sense * sin_alpha_ * across[k];
     }
-    const T cycle = (motion.scalar[0] * geometry_.teeth + law_.mesh.phase) * (0.5 / std::numbers::pi) + 0.25 * sense;
+    const T cycle = (motion.scalar[0] * geometry_.teeth + law_.mesh.phase) * (0.5 / std::numbers::pi) + geometry_.flank * sense;
+    // Those wholly on the path, and the part of one that comes and of one that goes, over `edge` about either end: half within
+    // and half beyond, so that the mean over a pitch is that of flanks which come and go at once.
     struct Flank {
       T place, share;
     };
     std::array<Flank, 32> flanks;
-    std::size_t count = 0;
-    T total(0);
-    for (double j = std::ceil(low / pitch - value_of(cycle)); count < flanks.size(); ++j) {
+    std::size_t count = 0, whole = 0;
+    std::array<T, 2> part{T(0), T(0)};  // of the one that comes and of the one that goes
+    for (double j = std::ceil((low - 0.5 * edge) / pitch - value_of(cycle)); count < flanks.size(); ++j) {
       const T place = pitch * (cycle + j);
       const double at = value_of(place);
-      if (at >= high) break;
-      const Function::Jet up = smooth_step(at - low - 0.5 * edge, edge), down = smooth_step(high - 0.5 * edge - at, edge);
-      const T share = compose(place, up.f, up.d1, up.d2) * compose(place, down.f, -down.d1, down.d2);
-      flanks[count++] = {place, share};
-      total += share;
+      if (at >= high + 0.5 * edge) break;
+      T in(1);
+      if (at < low + 0.5 * edge) {
+        const Function::Jet up = smooth_step(at - low, edge);
+        in = part[0] = compose(place, up.f, up.d1, up.d2);
+      } else if (at > high - 0.5 * edge) {
+        const Function::Jet down = smooth_step(high - at, edge);
+        in = part[1] = compose(place, down.f, -down.d1, down.d2);
+      } else {
+        ++whole;
+      }
+      flanks[count++] = {place, in};
+    }
+    // The load is shared equally. The share of a flank is the mean of 1/number over whether those at the ends are there or not:
+    // linear in each, so that a flank takes half of what it takes in full where it is half there.
+    const double n = static_cast<double>(whole);
+    const auto split = [](const T& p, double without, double with) { return T((1 - p) * without + p * with); };
+    const T both = part[0] * part[1];
+    const T of_whole =
+        whole == 0 ? T(0) : T((1 - part[0] - part[1] + both) / n + (part[0] + part[1] - 2 * both) / (n + 1) + both / (n + 2));
+    for (std::size_t j = 0; j < count; ++j) {
+      const double at = value_of(flanks[j].place);
+      const int end = at < low + 0.5 * edge ? 0 : at > high - 0.5 * edge ? 1 : -1;
+      if (end < 0)
+        flanks[j].share = of_whole;
+      else
+        flanks[j].share *= split(part[static_cast<std::size_t>(1 - end)], 1 / (n + 1), 1 / (n + 2));
     }
     for (std::size_t j = 0; j < count; ++j) {
       Vec3T<T> from_a, from_b;
@@ -311,7 +335,7 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
         from_a[k] = arm_a[k] + offset;
         from_b[k] = arm_b[k] + offset;
       }
-      add(drag(slip(from_a, from_b), flank_normal, friction.law, T(load * flanks[j].share / total)), from_a, from_b);
+      add(drag(slip(from_a, from_b), flank_normal, friction.law, T(load * flanks[j].share)), from_a, from_b);
     }
   }
   if (report) {

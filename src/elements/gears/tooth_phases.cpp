@@ -26,6 +26,9 @@ constexpr std::array<std::size_t, 2> sides{0, 1};
 /// Misfit, in pitches, that typed coordinates may leave; and the most that elastic teeth contact_homotopy.
 constexpr double fits = 1e-6, bridged = 0.05;
 
+/// Profile shifts that differ by less are of one wheel: one may be typed, the other follow from a rounded centre distance.
+constexpr double same_shift = 0.01;
+
 /// An angle between −π and π.
 double wrapped(double angle) { return std::remainder(angle, turn); }
 
@@ -36,9 +39,10 @@ struct Wheel {
   double cone = 0, helix = 0;  ///< counted for the axle in its one sense; the helix is the trade's
   Vec3 axle, center;
   Vec3 datum;  ///< across the axle, towards the wheel's first contact point
-  double tip = 0, width = 0;
+  double tip = 0, width = 0, shift = 0;
 
-  bool same(const Wheel& w) const {
+  bool same(const Wheel& w) const { return same_but_for_shift(w) && std::abs(shift - w.shift) <= same_shift; }
+  bool same_but_for_shift(const Wheel& w) const {
     constexpr double angular = 1e-6;
     return node == w.node && teeth == w.teeth && std::abs(module - w.module) <= 1e-9 * module &&
            (axle - w.axle).norm() < angular && std::abs(wrapped(cone - w.cone)) < angular && std::abs(helix - w.helix) < angular;
@@ -51,6 +55,7 @@ struct Mesh {
   std::array<std::size_t, 2> wheel{0, 0};
   std::array<double, 2> sense{1, 1};    ///< of the pair's axles, against that of the wheels
   std::array<double, 2> contact{0, 0};  ///< θ, about the wheel's axle from its datum
+  std::array<double, 2> tip{0, 0};      ///< tip radius of either wheel, as this pair has it
   double module = 1;
   bool closes = false;  ///< its wheels are joined by earlier pairs
 
@@ -97,6 +102,7 @@ class Trains {
 
   std::string planet_condition(const Mesh& m) const;
   void warn_of_overlap(const Mesh& m, const BuildContext& context) const;
+  void warn_of_cut(const Mesh& m, const BuildContext& context) const;
 
  private:
   void add(const deck::Record& record, const GearData& data, const GearPlacement& placement) {
@@ -111,14 +117,16 @@ class Trains {
       Wheel w;
       w.node = data.nodes[side];
       w.teeth = d.teeth[side];
-      w.module = d.normal_module;
+      w.module = d.cut_module();
       w.cone = m.sense[side] * d.cone[side];
-      w.helix = paper_helix(d.helix[side], d.cone[side]);
+      w.helix = paper_helix(d.cut_helix(side), d.cone[side]);
       w.axle = m.sense[side] * axle;
       w.center = placement.frames.contact - d.radius(side) * toward;
       w.datum = toward;
       w.tip = tip_radius(d, side);
-      w.width = data.width.value_or(d.normal_module);
+      w.width = data.width.value_or(d.cut_module());
+      w.shift = d.cut ? d.cut->shift[side] : 0;
+      m.tip[side] = w.tip;
       std::vector<std::size_t>& at_node = wheels_at_[w.node];
       const auto known = std::find_if(at_node.begin(), at_node.end(), [&](std::size_t k) { return wheels_[k].same(w); });
       if (known == at_node.end()) {
@@ -255,6 +263,31 @@ void Trains::warn_of_overlap(const Mesh& m, const BuildContext& context) const {
   }
 }
 
+/// Pairs that cut one wheel differently. Each is compared with the first pair of the wheel.
+void Trains::warn_of_cut(const Mesh& m, const BuildContext& context) const {
+  for (const std::size_t side : sides) {
+    const std::size_t self = m.wheel[side];
+    const Wheel& w = wheels_[self];
+    const auto warn = [&](const char* what, double there, double here, const Mesh& first, const char* end, const char* cure) {
+      context.diagnostics.warning(context.record.where("N"),
+                                  fmt::format("the wheel at node {} has the {} {} in GEAR {} and {} here{}", w.node, what,
+                                              number(there), first.record->id, number(here), end),
+                                  cure);
+    };
+    const Mesh& first = meshes_[meshes_of_[self].front()];
+    if (&first != &m) {
+      const double tip = first.tip[first.wheel[0] == self ? 0 : 1];
+      if (std::abs(tip - m.tip[side]) > 1e-3 * w.module)
+        warn("tip diameter", 2 * tip, 2 * m.tip[side], first, "", "give both pairs the same with TIP or TIPALTER");
+      continue;
+    }
+    for (const std::size_t other : wheels_at_.at(w.node))
+      if (other < self && wheels_[other].same_but_for_shift(w))
+        warn("profile shift", wheels_[other].shift, w.shift, meshes_[meshes_of_[other].front()], ": they are taken as two wheels",
+             "give both pairs the same X, unless two wheels stand there");
+  }
+}
+
 }  // namespace
 
 std::optional<MeshPhase> mesh_phase(const BuildContext& context, bool elastic) {
@@ -264,6 +297,7 @@ std::optional<MeshPhase> mesh_phase(const BuildContext& context, bool elastic) {
   const Mesh* m = trains.find(context.record);
   if (!m) return MeshPhase{};
   trains.warn_of_overlap(*m, context);
+  trains.warn_of_cut(*m, context);
   MeshPhase result;
   result.phase = wrapped(trains.phase(*m, 0));
   if (result.phase < 1e-9 - std::numbers::pi) result.phase += turn;  // half a pitch has one name

@@ -2,12 +2,15 @@
 // What a gear pair and a rack and pinion have in common as elements: the unknowns of their teeth and what they tell of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "elements/gears/contact_channels.hpp"
 #include "elements/gears/tooth_contact.hpp"
+#include "model/remarks.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::gears {
@@ -18,7 +21,7 @@ namespace engrane::elements::gears {
 ///
 /// with the rows of its first two scalars, and `ToothContact::act` for the rest.
 template <class Derived>
-class ToothedPair : public TemplatedElement<Derived, 2, 18> {
+class ToothedPair : public TemplatedElement<Derived, 2, 18>, public RemarksOnRun {
  public:
   ToothedPair(int id, std::array<int, 2> nodes, const ToothContact& contact, std::array<Scalar, 2> motions, int history,
               std::vector<Named> channels)
@@ -32,7 +35,7 @@ class ToothedPair : public TemplatedElement<Derived, 2, 18> {
     layout.multipliers = {{"TOOTH", dimension::length, "tooth contact, phi_1: its multiplier is the normal force", Role::tooth},
                           {"MESH", dimension::length, "contact points along the circumference, phi_2"},
                           {"TRIAD", dimension::angle, "tooth triads about the tooth, phi_3"}};
-    layout.history = history;
+    layout.history = history + (contact_.rounds_contact() ? 1 : 0);
     layout.switches = contact_.switch_names();
     this->set_layout(std::move(layout));
   }
@@ -40,6 +43,17 @@ class ToothedPair : public TemplatedElement<Derived, 2, 18> {
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     self().mesh(motion, state, balance, nullptr);
+  }
+
+  /// Remembers, last in the history, the most that a flank of teeth with a rounded onset was pressed in.
+  void commit(const State& state, std::span<double> scalars, std::span<double> history) const override {
+    const double pressed = contact_.rounds_contact() ? contact_.deflection(report(state)) : 0;  // counting turns may shift ψ
+    self().count_turns(state, scalars, history);
+    if (contact_.rounds_contact()) history.back() = std::max(state.history.back(), pressed);
+  }
+  std::vector<std::string> remarks(std::span<const double> history) const override {
+    if (!contact_.rounds_contact()) return {};
+    return contact_.remarks(history.back());
   }
 
   const ToothLaw& teeth() const { return contact_.law(); }

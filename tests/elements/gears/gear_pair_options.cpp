@@ -127,7 +127,7 @@ TEST(GearOptions, SuiteOfFriction) {
 }
 
 TEST(GearOptions, SuiteOfSlidingProfiles) {
-  for (const Case& kind : {spur(), helical(), internal()})
+  for (const Case& kind : {spur(), helical(), internal(), bevel()})
     for (const bool elastic : {false, true}) {
       Case c = kind;
       c.name += " profile";
@@ -150,6 +150,32 @@ TEST(GearOptions, SuiteOfSlidingProfiles) {
       }
       run_suite(s);
     }
+}
+
+TEST(GearOptions, SuiteOfReliefAndCrowning) {
+  for (const Case& kind : {spur(), helical(), internal()})
+    for (const bool crowned : {false, true})
+      for (const double backlash : {0.0, 0.4}) {
+        Case c = kind;
+        c.name += " relief";
+        c.data.stiffness = 30;
+        c.data.tip_relief_a = {0.1, 0.08, 1.5};
+        c.data.tip_relief_b = {0.05, 0.06, 2};
+        c.data.root_relief_b = {0.02, 0.05, 3};
+        if (crowned) c.data.crown = 0.2;
+        if (backlash > 0) {
+          c.data.backlash = backlash;
+          c.data.onset = 0.1;
+        }
+        Subject s = near(c, 1, 3);
+        s.states = 8;
+        s.step = 2e-5;
+        s.tolerance = 1e-6;
+        s.skip[Check::ideal] = "the separating force is not a gradient of a constraint";
+        at_approach(s, c, 0.3);
+        s.skip[Check::zero] = s.skip[Check::rigid] = "the teeth press";
+        run_suite(s);
+      }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "elements/suite.hpp"
+#include "math/rotation.hpp"
 
 namespace engrane::elements::gears {
 namespace {
@@ -157,6 +158,77 @@ TEST(RackPinion, WholeTurnsMakeNoDifference) {
     if (i >= 9 && i < 12) continue;  // the moment on the rack: its node has moved away from the contact
     EXPECT_NEAR(after[i], before[i], 1e-12) << i;
   }
+}
+
+/// Channels by name.
+struct Observed {
+  Observed(const Element& element, const StateBuffer& state) : names(element.channels()), values(names.size()) {
+    element.observe(state.view(), values);
+  }
+  double operator()(const std::string& name) const {
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i].name == name) return values[i];
+    throw std::runtime_error("no channel " + name);
+  }
+  Vec3 vector(const std::string& name) const { return {(*this)(name + "X"), (*this)(name + "Y"), (*this)(name + "Z")}; }
+  std::vector<Named> names;
+  std::vector<double> values;
+};
+
+// The force channels as a user may sum them: opposite forces, moments that close about any point, forces that act at the contact
+// point, and components along the pair's own directions. Pinion and rack have moved on, together.
+TEST(RackPinion, ForceChannelsClose) {
+  for (Case c : {rack("straight", {}), rack("helical", {20}), rack("reversed", {20}, true), rack("oblique", {20, -5})})
+    for (const bool friction : {false, true}) {
+      if (friction) {
+        c.data.friction = {"CONST", {0.2}};
+        c.data.friction_width = 1e-3;
+      }
+      const auto element = c.build(Mat3::Identity());
+      const RackPinion::Geometry& g = dynamic_cast<const RackPinion&>(*element).geometry();
+      const Vec3 direction(c.data.direction[0], c.data.direction[1], c.data.direction[2]);
+      StateBuffer state(*element, {{1, c.x_a}, {2, c.x_b}});
+      const double turn = 0.8, travel = 0.3;
+      state.nodes[0].R = rotation_exp(Vec3(0, 0, turn));
+      state.scalars[0] = turn;
+      state.scalars[1] = travel;
+      state.nodes[1].x = c.x_b + travel * direction;
+      state.multipliers = {3, -2, 0.4};
+      state.nodes[0].W = Vec3(0, 0, 2);
+      const Observed on(*element, state);
+      const Vec3 force_a = on.vector("FORCE_A"), force_b = on.vector("FORCE_B");
+      const Vec3 moment_a = on.vector("MOMENT_A"), moment_b = on.vector("MOMENT_B"), contact = on.vector("CONTACT_");
+      EXPECT_GT(force_a.norm(), 1);
+      EXPECT_LT((force_a + force_b).norm(), 1e-13) << c.name;
+      const Vec3 x_a = state.nodes[0].x, x_b = state.nodes[1].x;
+      EXPECT_LT((moment_a + cross(x_a, force_a) + moment_b + cross(x_b, force_b)).norm(), 1e-13) << c.name;
+      // the pinion rolls: the contact point stays where it was, and the rack's node has moved on from it
+      EXPECT_LT((contact - (c.x_a + g.design.radius(0) * g.frames.mu.col(1))).norm(), 1e-13) << c.name;
+      const Vec3 couple_a = moment_a - cross(Vec3(contact - x_a), force_a),
+                 couple_b = moment_b - cross(Vec3(contact - x_b), force_b);
+      EXPECT_LT((couple_a + couple_b).norm(), 1e-13) << c.name;
+      const Vec3 tooth = g.frames.mu * tooth_axes(0, g.design.helix[0]).col(0);
+      EXPECT_LT((couple_a - couple_a.dot(tooth) * tooth).norm(), 1e-13) << "what phi_3 holds lies along the tooth";
+      EXPECT_NEAR(std::abs(couple_a.dot(tooth)), 0.4, 1e-13) << c.name;
+      EXPECT_NEAR(on("RACK_FORCE"), force_b.dot(direction), 1e-13) << c.name;
+      EXPECT_NEAR(on("TORQUE_A"), moment_a[2], 1e-13) << c.name;
+      EXPECT_NEAR(on("TANGENTIAL_FORCE_A"), force_a.dot(g.frames.mu.col(2)), 1e-13) << c.name;
+      EXPECT_NEAR(on("RADIAL_FORCE_A"), -force_a.dot(g.frames.mu.col(1)), 1e-13) << c.name;
+      EXPECT_NEAR(on("AXIAL_FORCE_A"), force_a[2], 1e-13) << c.name;
+    }
+}
+
+// Where supports give, the contact point is midway between those of pinion and rack.
+TEST(RackPinion, ContactIsMidway) {
+  const Case c = rack("helical", {20});
+  const auto element = c.build(Mat3::Identity());
+  const RackPinion::Geometry& g = dynamic_cast<const RackPinion&>(*element).geometry();
+  StateBuffer state(*element, {{1, c.x_a}, {2, c.x_b}});
+  const Vec3 a(0.01, -0.02, 0.005), b(-0.004, 0.012, 0.03);
+  state.nodes[0].x = state.nodes[0].x + a;
+  state.nodes[1].x = state.nodes[1].x + b;
+  const Vec3 contact = Observed(*element, state).vector("CONTACT_");
+  EXPECT_LT((contact - g.frames.contact - 0.5 * (a + b)).norm(), 1e-14);
 }
 
 std::string fault(const Case& c) {

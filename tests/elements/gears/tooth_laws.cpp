@@ -161,5 +161,68 @@ TEST(Friction, StribeckFallsAndGrows) {
   }
 }
 
+/// A pair of 1.4 on the path with three reliefs.
+ToothLaw relieved() {
+  ToothLaw law;
+  law.stiffness = 1;
+  law.relief.approach = 0.8;
+  law.relief.recess = 0.6;
+  law.relief.base_pitch = 1;
+  law.relief.flank = 0.21;
+  law.relief.edge = 0.05;
+  law.relief.ramps = {{true, 0.3, 0.25, 2}, {false, 0.2, 0.35, 1.5}, {false, 0.1, 0.2, 3}};
+  return law;
+}
+
+// The force of the pairs by their definition, in a loop of its own; energies and derivatives by differences.
+TEST(ToothRelief, SumOfPairs) {
+  for (const double crown : {0.0, 0.4}) {
+    ToothLaw law = relieved();
+    law.crown = crown;
+    const auto energy = [&](double tau, double x, bool back) { return law.pressed(tau, x, back).energy; };
+    for (const double tau : {0.1, 0.7, 1.9, 3.3, 4.4, 5.9})
+      for (const double x : {0.05, 0.17, 0.6})
+        for (const bool back : {false, true}) {
+          const ToothLaw::Pressed p = law.pressed(tau, x, back);
+          double force = 0;
+          for (int j = -9; j < 9; ++j) {
+            const double place = (back ? -1 : 1) * tau / (2 * std::numbers::pi) + 0.21 + j;
+            double lack = 0;
+            if (place > 0.35) lack += 0.3 * std::pow((place - 0.35) / 0.25, 2);
+            if (place < -0.45) lack += 0.2 * std::pow((-0.45 - place) / 0.35, 1.5);
+            if (place < -0.6) lack += 0.1 * std::pow((-0.6 - place) / 0.2, 3);
+            const double there = smooth_step(place + 0.8, 0.05).f * smooth_step(0.6 - place, 0.05).f;
+            const double d = x - lack;
+            double one = std::max(d, 0.0);
+            if (crown > 0 && d > 0) one = d < crown ? 2.0 / 3.0 * d * std::sqrt(d / crown) : d - crown / 3;
+            force += there * one / 1.4;
+          }
+          EXPECT_NEAR(p.force, force, 1e-14) << tau << " " << x;
+          constexpr double h = 1e-5;
+          const auto by_x = [&](auto f) { return (f(tau, x + h) - f(tau, x - h)) / (2 * h); };
+          const auto by_tau = [&](auto f) { return (f(tau + h, x) - f(tau - h, x)) / (2 * h); };
+          const auto V = [&](double t, double d) { return energy(t, d, back); };
+          const auto F = [&](double t, double d) { return law.pressed(t, d, back).force; };
+          const auto W = [&](double t, double d) { return law.pressed(t, d, back).energy_by_phase; };
+          EXPECT_NEAR(by_x(V), p.force, 1e-8);
+          EXPECT_NEAR(by_tau(V), p.energy_by_phase, 1e-8);
+          EXPECT_NEAR(by_x(F), p.by_depth, 1e-6);
+          EXPECT_NEAR(by_tau(F), p.by_phase, 1e-6);
+          EXPECT_NEAR(by_x(W), p.by_phase, 1e-6);
+          EXPECT_NEAR(by_tau(W), p.energy_by_phase_twice, 1e-5);
+        }
+  }
+}
+
+// Without anything taken off, the pairs are as stiff in the mean as the mesh.
+TEST(ToothRelief, MeanStiffnessIsThatOfTheMesh) {
+  ToothLaw law = relieved();
+  for (auto& ramp : law.relief.ramps) ramp.amount = 0;
+  double mean = 0;
+  constexpr int n = 4000;
+  for (int i = 0; i < n; ++i) mean += law.pressed(2 * std::numbers::pi * i / n, 0.5).by_depth / n;
+  EXPECT_NEAR(mean, 1, 1e-6);
+}
+
 }  // namespace
 }  // namespace engrane::elements::gears

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a card says of how teeth are cut: profile shift, addendum and dedendum, tip diameters.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "elements/gears/gear_geometry.hpp"
+#include "model/registry.hpp"
+
+namespace engrane::elements::gears {
+
+/// The part of a card that describes the cut of cylindrical teeth. Cards derive their struct from it. Two values are those of
+/// A and B; of a rack and pinion the pinion's is A.
+struct CutData {
+  std::vector<double> shift;               ///< X
+  std::vector<double> addendum, dedendum;  ///< factors; one value for both
+  std::vector<double> tip_diameter;        ///< TIP
+  std::vector<double> tip_alteration;      ///< TIPALTER, one value for both
+
+  /// Does the card describe the cut at all? Otherwise the teeth have addendum m_n and no shift.
+  bool describes_cut() const {
+    return !(shift.empty() && addendum.empty() && dedendum.empty() && tip_diameter.empty() && tip_alteration.empty());
+  }
+  bool operator==(const CutData&) const = default;
+};
+
+/// The keywords that CutData has values of, and whether they are given.
+std::vector<std::pair<std::string_view, bool>> given_cut_keywords(const CutData& data);
+
+/// The teeth that `reference` has before any shift, with the factors of the card; shifts as far as given, else 0.
+CutTeeth reference_cut(const GearDesign& reference, const CutData& data);
+
+/// Tip radii from TIP, TIPALTER or the factors, once shifts and working angle are known. Pointed tips, and tips within the
+/// root circle, are errors. `names` are the wheels in messages; a rack is not looked at.
+bool set_tips(CutTeeth& cut, const CutData& data, const std::array<std::string, 2>& names, const BuildContext& context);
+
+/// Undercut, tips thinner than 0.2 m_n (DIN 3960, 3.9) and tips that reach the mate's root, each a warning with its cure.
+void warn_about_cut(const CutTeeth& cut, const CutData& data, const std::array<std::string, 2>& names,
+                    const BuildContext& context);
+
+/// Adds the keywords of CutData to a card.
+template <class Data>
+void add_cut_keywords(deck::Card<Data>& c) {
+  using namespace dimension;
+  c.add("X", &CutData::shift, "profile shift factors; of a pair one value is A's, and the centre distance decides B's")
+      .synonyms({"DEPORT", "SHIFT"})
+      .values(1, 2)
+      .above(-5)
+      .below(5);
+  c.add("ADDENDUM", &CutData::addendum, "addendum of the basic rack in modules; 1 when not given")
+      .synonyms({"SAILLIE"})
+      .values(1, 2)
+      .positive();
+  c.add("DEDENDUM", &CutData::dedendum, "dedendum of the basic rack in modules; 1.25 when not given")
+      .synonyms({"CREUX"})
+      .values(1, 2)
+      .positive();
+  c.add("TIP", &CutData::tip_diameter, "tip diameters, instead of those that follow from X and ADDENDUM")
+      .synonyms({"DIAMETRE_TETE", "TIPDIAMETER"})
+      .unit(length)
+      .values(1, 2)
+      .positive();
+  c.add("TIPALTER", &CutData::tip_alteration,
+        "tip alteration k in modules; when not given, outside what keeps the tip clearance, in a ring 0")
+      .synonyms({"TRONCATURE"})
+      .values(1, 2);
+}
+
+}  // namespace engrane::elements::gears
