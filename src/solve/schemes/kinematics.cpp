@@ -82,24 +82,22 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
   Configuration near, farther;
   bool found = true;
   try {
+    predict(h * (1 + 1000 * beside), farther);
+    report.iterations += solve(farther);
+    if (failure.empty() && !now.beyond(sizes(farther), singular)) return outcome;
     predict(h * (1 + beside), near);
     report.iterations += solve(near);
-    if (failure.empty() && !now.beyond(sizes(near), singular)) return outcome;
-    predict(h * (1 + 1000 * beside), farther);
-    solve(farther);
   } catch (const SolutionFailure& e) {
     if (failure.empty()) failure = e.what();
     found = false;
   }
-  if (!found || sizes(near).beyond(sizes(farther), singular)) {
-    report.converged = false;
-    report.conflict = true;
-    report.reason = fmt::format(
-        "singular position: bars stand in line, or a drive in a dead point, where speeds or forces have no bound{}. Choose steps "
-        "that pass over it, or see whether a drive belongs to another joint",
-        failure.empty() ? "" : " (" + failure + ")");
-    return outcome;
-  }
+  // a shorter step would only come nearer to it
+  if (!found || sizes(near).beyond(sizes(farther), singular))
+    throw SolutionFailure(
+        fmt::format("singular position at t = {:.6g}: bars stand in line, or a drive in a dead point, where speeds or forces "
+                    "have no bound{}. "
+                    "Choose steps that pass over it, or see whether a drive belongs to another joint",
+                    to.time, failure.empty() ? "" : " (" + failure + ")"));
   near.time = to.time;
   near.h = h;
   to = std::move(near);
