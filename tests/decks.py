@@ -178,7 +178,8 @@ def changed(deck: Path, whole: Path, results: dict, tolerance: float) -> list[st
             continue
         unit, values = results[name]
         gap = max(abs(values[-1] - last), abs(np.sqrt(np.mean(np.square(values))) - rms))
-        allowed = tolerance * max(scale[unit], 1e-9 * max(scale.values()))
+        # what is zero is so to the rounding of the largest numbers
+        allowed = max(tolerance * scale[unit], 1e-14 * max(scale.values()))
         if re.search("(s|time)²", unit):
             allowed = max(allowed, float(results[""][1]))
         if not gap <= allowed:

@@ -15,13 +15,13 @@ namespace {
 
 /// A door with its mass away from the axis, pushed and turned; `second` is a line for what holds it besides HINGE 2.
 std::string door(const std::string& second, const std::string& analysis) {
-  return R"(
+  return std::string(R"(
 .NOE
  I 1 X 0.4 0.1 1
 .MCE
  I 1 INERTIA N 1 M 20 J 8 4 5
- I 2 HINGE N 0 1 AXIS 0 0 1 AT 0 0 0.2 K 30
-)" + second +
+ I 2 HINGE N 0 1 AXIS 0 0 1 AT 0 0 0.2 )") +
+         (analysis == "KINEMATIC" ? "DRIVE ANGLE NF 1\n" : "K 30\n") + second +
          R"(
  I 4 TORQUE N 1 AXIS 0 0 1 V 8 NF 1
  I 5 FORCE N 1 DIR 1 2 -3 V 25 NF 1
@@ -74,9 +74,9 @@ TEST_P(SameAsOneHinge, MotionAndSumsOfForces) {
     return true;
   });
   EXPECT_EQ(step, expected.size());
-  EXPECT_GT((one.node(expected.back(), 1).x - one.node(expected.front(), 1).x).norm(), GetParam() == "KINEMATIC" ? -1.0 : 0.01);
+  EXPECT_GT((one.node(expected.back(), 1).x - one.node(expected.front(), 1).x).norm(), 0.01);
   EXPECT_EQ(two.context().redundancy.mobility().redundant(), 5);
-  EXPECT_EQ(two.context().redundancy.mobility().freedom(), 1);
+  EXPECT_EQ(two.context().redundancy.mobility().freedom(), GetParam() == "KINEMATIC" ? 0 : 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Redundancy, SameAsOneHinge, ::testing::Values("STATIC", "DYNAMIC", "KINEMATIC"),

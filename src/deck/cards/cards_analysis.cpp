@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "deck/cards/card_chapters.hpp"
@@ -111,6 +116,13 @@ Schema stepping_card() {
   card.finish([](SteppingCard& stepping, Record& record, Diagnostics& diagnostics) {
     if ((stepping.end - stepping.start) / stepping.step > 1e9)
       diagnostics.error(record.where("H"), "H makes more than 1e9 steps");
+    // a thousand times what two times differ by: steps are cut and add up
+    const double resolution = std::numeric_limits<double>::epsilon() * std::max(std::abs(stepping.start), std::abs(stepping.end));
+    if (stepping.step < 1000 * resolution)
+      diagnostics.error(record.where("H"),
+                        fmt::format("H is too short to be added to a time of {:g}: numbers there are {:.2g} apart",
+                                    std::max(std::abs(stepping.start), std::abs(stepping.end)), resolution),
+                        "count time from nearer to the motion (TI 0), or take a longer step");
   });
   card.example(".SUB TF 0.03 H 1D-6");
   return card.schema();

@@ -37,6 +37,10 @@ class Start {
   void balance_accelerations(Configuration& c, int most_iterations = 12, StartReport* report = nullptr,
                              const MasslessMotions* massless = nullptr);
 
+  /// The largest motion, over the extent or in radians, by which constraints open by one are closed: about the inverse of the
+  /// smallest singular value of their gradient. Infinite where the matrix cannot be factorised.
+  double amplification(const Configuration& c);
+
  private:
   /// What one closing came to.
   struct Closing {

@@ -80,24 +80,26 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
   // In a singular position (bars in line, a dead point) the equations do not say how the motion goes on. A little farther on they
   // do; the limit is the same where there is one.
   Configuration near, farther;
-  bool found = true;
   try {
-    predict(h * (1 + 1000 * beside), farther);
+    predict(h * (1 + 0.1), farther);
     report.iterations += solve(farther);
-    if (failure.empty() && !now.beyond(sizes(farther), singular)) return outcome;
+    if (failure.empty() && context_.start.amplification(to) < singular * context_.start.amplification(farther)) return outcome;
     predict(h * (1 + beside), near);
     report.iterations += solve(near);
-  } catch (const SolutionFailure& e) {
-    if (failure.empty()) failure = e.what();
-    found = false;
+  } catch (const SolutionFailure&) {
+    // not only in this one position: it is no singular one
+    if (failure.empty()) return outcome;
+    report.converged = false;
+    report.conflict = true;
+    report.reason = failure;
+    return outcome;
   }
   // a shorter step would only come nearer to it
-  if (!found || sizes(near).beyond(sizes(farther), singular))
-    throw SolutionFailure(
-        fmt::format("singular position at t = {:.6g}: bars stand in line, or a drive in a dead point, where speeds or forces "
-                    "have no bound{}. "
-                    "Choose steps that pass over it, or see whether a drive belongs to another joint",
-                    to.time, failure.empty() ? "" : " (" + failure + ")"));
+  if (sizes(near).beyond(sizes(farther), singular))
+    throw SolutionFailure(fmt::format(
+        "singular position at t = {:.6g}: bars stand in line, or a drive in a dead point, where speeds or forces have no bound. "
+        "Choose steps that pass over it, or see whether a drive belongs to another joint",
+        to.time));
   near.time = to.time;
   near.h = h;
   to = std::move(near);
