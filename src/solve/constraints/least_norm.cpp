@@ -43,10 +43,12 @@ struct RowSpace::Factors {
 
 RowSpace::RowSpace(const Sparse& a, double tolerance, std::vector<int> groups) {
   Vector length(a.cols());
-  for (Eigen::Index j = 0; j < a.cols(); ++j) length[j] = a.col(j).norm();
+  for (Eigen::Index j = 0; j < a.cols(); ++j) length[j] = a.rows() > 0 ? a.col(j).norm() : 0.0;
   Sparse unit = with_columns_scaled(a, (length.array() > 0).select(length.cwiseInverse(), 1.0));
   unit.makeCompressed();
   leaves_ = take_leaves(unit, std::move(groups));
+
+  if (leaves_.rest.empty()) return;
 
   // transposed: a column for each row of `a` that the remaining columns touch
   Sparse rest(a.rows(), static_cast<Eigen::Index>(leaves_.rest.size()));
