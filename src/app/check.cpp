@@ -42,7 +42,8 @@ int print_model(const Reading& reading, std::ostream& out) {
           !free.empty())
         throw SolutionFailure(free);
     if (context.options.analysis == SolverOptions::Analysis::dynamics)
-      if (const std::string unheld = explain_unheld(context.assembler, c); !unheld.empty()) throw SolutionFailure(unheld);
+      if (const std::string unheld = MasslessMotions(context.assembler, c).explain_unheld(context.assembler, c); !unheld.empty())
+        throw SolutionFailure(unheld);
   } catch (const SolutionFailure& failure) {
     out << "\n  " << failure.what() << '\n';
     return exit_status::solution_failed;

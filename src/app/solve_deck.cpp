@@ -20,7 +20,6 @@
 #include "app/times.hpp"
 #include "app/version.hpp"
 #include "model/function_failure.hpp"
-#include "model/remarks.hpp"
 #include "output/checks.hpp"
 #include "output/listing.hpp"
 #include "output/progress.hpp"
@@ -294,11 +293,9 @@ class Writer {
   void collect_remarks(const Configuration& c, const Numbering& numbering) {
     for (int p = 0; p < numbering.parts(); ++p) {
       const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(p)];
-      const auto* teller = dynamic_cast<const RemarksOnRun*>(part.element.get());
-      if (!teller) continue;
       const auto size = static_cast<std::size_t>(part.element->layout().history);
       for (const std::string& remark :
-           teller->remarks(std::span(c.history).subspan(static_cast<std::size_t>(numbering.history_begin(p)), size))) {
+           part.element->remarks(std::span(c.history).subspan(static_cast<std::size_t>(numbering.history_begin(p)), size))) {
         const std::string text = fmt::format("{} {}: {}", part.type, part.element->id(), remark);
         remarks_ += "  warning: " + text + "\n";
         progress_.note("engrane: " + text);
@@ -382,13 +379,12 @@ std::string energy_failure(const SolverContext& context, const observe::Observer
   if (std::abs(balance.error()) <= allowed * std::max(balance.handled(), rounding)) return {};
   const std::string unit = context.model.units.label(dimension::energy);
   return fmt::format(
-      "the energy balance fails to close by {:.4g} {} at t = {:.6g}, more than the {:.4g} {} that were in the machine or passed "
-      "through it: the results are wrong from some time before on. Take a smaller step H{}; with ENERGY 0 in .SAM the run goes "
-      "on "
-      "all the same",
+      "the energy balance is off by {:.4g} {} at t = {:.6g}, more than the {:.4g} {} that were in the machine or passed through "
+      "it: "
+      "the results went wrong some time before this. Take a smaller step H{}; ENERGY 0 in .SAM lets the run continue",
       balance.error(), unit, c.time, balance.handled(), unit,
       context.options.family == SolverOptions::Family::newmark || context.options.damping > 0.99
-          ? ", or a scheme that damps (RHO below 1): without damping, constraints swing up from rounding"
+          ? ", or a scheme with damping (RHO below 1): without it, rounding errors in the constraints grow"
           : "");
 }
 

@@ -249,6 +249,9 @@ class Element {
   /// Whether the element makes its nodes a body that can have mass; advice against motions that no inertia resists looks here.
   virtual bool is_body() const { return false; }
 
+  /// Warnings for the user at the end of a run: sentences without the element's name, from the history as committed last.
+  virtual std::vector<std::string> remarks(std::span<const double> /*history*/) const { return {}; }
+
   virtual std::vector<Derived> derived() const;
   virtual Drawing drawing() const;
 

@@ -79,7 +79,7 @@ def test_failed_run_keeps_its_results_and_says_why(tmp_path, ranks):
 def test_singular_model_names_the_free_motion(tmp_path):
     ended = run(FREE, tmp_path)
     assert ended.returncode == 2
-    assert "node 8 (rz) moves no mass" in ended.stderr
+    assert "node 8 (rz) has no inertia, and no joint, spring or damper holds it" in ended.stderr
 
 
 def test_imposed_start_that_joints_forbid(tmp_path):

@@ -74,10 +74,10 @@ Schema analysis_card() {
       .synonyms({"EVENEMENTS"})
       .option({"YES", {"OUI"}, "each such instant is located, to a fraction of H that may follow (1E-6)", 0, 1})
       .option({"NO", {"NON"}, "steps pass over them"});
-  card.add("ENERGY", &AnalysisCard::energy,
-           "a DYNAMIC analysis ends with an error when its energy balance fails to close by more than this part of the energy "
-           "that "
-           "was in the machine at the start or has gone through it since; 0: never")
+  card.add(
+          "ENERGY", &AnalysisCard::energy,
+          "a DYNAMIC analysis ends with an error when its energy balance is off by more than this part of the energy that was in "
+          "the machine at the start or has passed through it since; 0: never")
       .synonyms({"ENERGIE"})
       .at_least(0);
   card.add("SCALE", &AnalysisCard::scale, "scale factor of the constraint equations; automatic when not given")

@@ -10,7 +10,6 @@
 
 #include "elements/gears/contact_channels.hpp"
 #include "elements/gears/tooth_contact.hpp"
-#include "model/remarks.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::gears {
@@ -21,7 +20,7 @@ namespace engrane::elements::gears {
 ///
 /// with the rows of its first two scalars, and `ToothContact::act` for the rest.
 template <class Derived>
-class ToothedPair : public TemplatedElement<Derived, 2, 18>, public RemarksOnRun {
+class ToothedPair : public TemplatedElement<Derived, 2, 18> {
  public:
   ToothedPair(int id, std::array<int, 2> nodes, const ToothContact& contact, std::array<Scalar, 2> motions, int history,
               std::vector<Named> channels)

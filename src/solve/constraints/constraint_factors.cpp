@@ -59,6 +59,25 @@ MotionRows::MotionRows(const Assembler& assembler) {
   }
 }
 
+Vector MotionRows::any() const {
+  Vector motion(static_cast<Eigen::Index>(slot.size()));
+  for (Eigen::Index i = 0; i < motion.size(); ++i) motion[i] = 1 + 0.5 * std::sin(2.3 * static_cast<double>(i + 1));
+  return motion;
+}
+
+std::string MotionRows::largest_part(const Numbering& numbering, const Vector& motion) const {
+  const auto equation = [&](Eigen::Index row) {
+    return numbering.equation(static_cast<int>(slot[static_cast<std::size_t>(row)]));
+  };
+  Eigen::Index most = 0, node = -1;
+  const double enough = 0.1 * motion.cwiseAbs().maxCoeff(&most);
+  for (Eigen::Index i = 0; i < motion.size(); ++i)
+    if (numbering.unknown(equation(i)).part < 0 && std::abs(motion[i]) > enough &&
+        (node < 0 || std::abs(motion[i]) > std::abs(motion[node])))
+      node = i;
+  return numbering.describe(equation(node >= 0 ? node : most));
+}
+
 ConstraintMatrix::ConstraintMatrix(Assembler& assembler, const Configuration& configuration, ConstraintColumns kind)
     : rows(assembler) {
   const Numbering& numbering = assembler.numbering();

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
+#include <string>
 #include <vector>
 
 #include "assembly/assembler.hpp"
@@ -36,6 +37,11 @@ Configuration outside_of_steps(Configuration c);
 /// The free motions as rows of a matrix, scaled with their size.
 struct MotionRows {
   explicit MotionRows(const Assembler& assembler);
+
+  /// A motion with a part of every free one, for what is to be tried in any direction but a special one.
+  Eigen::VectorXd any() const;
+  /// "node 3 (x)": where a scaled motion is largest; rather a node than a number of an element, where they are of one size.
+  std::string largest_part(const Numbering& numbering, const Eigen::VectorXd& motion) const;
 
   std::vector<std::size_t> slot;  ///< of a row
   std::vector<int> row;           ///< of a motion slot; -1: held
@@ -73,8 +79,7 @@ class ConstraintFactors {
   /// A (scaled) motion that closes the independent constraints, to first order.
   Eigen::VectorXd closing_motion(const std::vector<double>& phi) const;
   void to_slots(const Eigen::VectorXd& motion, std::vector<double>& y) const { gradients_.to_slots(motion, y); }
-  /// The motion slot of a row.
-  std::size_t slot_of(Eigen::Index row) const { return gradients_.rows.slot[static_cast<std::size_t>(row)]; }
+  const MotionRows& motions() const { return gradients_.rows; }
 
  private:
   ConstraintMatrix gradients_;

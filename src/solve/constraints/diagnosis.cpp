@@ -167,17 +167,11 @@ std::string explain_singular(Assembler& assembler, const std::string& what, Resi
 std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, int freedom) {
   if (freedom <= 0) return {};
   const ConstraintFactors factors(assembler, outside_of_steps(configuration), ConstraintColumns::gradients, 1e-9);
-  Vector any(factors.rows());
-  for (Eigen::Index i = 0; i < any.size(); ++i) any[i] = 1 + 0.5 * std::sin(2.3 * static_cast<double>(i + 1));
-  const Vector motion = factors.possible_motion(any);
-  Eigen::Index most = 0;
-  if (motion.size() > 0) motion.cwiseAbs().maxCoeff(&most);
-  const Numbering& numbering = assembler.numbering();
   return fmt::format(
-      "a KINEMATIC analysis needs drives that leave no freedom, and {} here, such as one of {}: give a joint a DRIVE, "
-      "prescribe a displacement, or take TYPE DYNAMIC",
-      freedom == 1 ? "1 motion is free" : fmt::format("{} motions are free", freedom),
-      numbering.describe(numbering.equation(static_cast<int>(factors.slot_of(most)))));
+      "a KINEMATIC analysis needs drives that leave no freedom, but {} free here, for example that of {}: give a joint a DRIVE, "
+      "prescribe a displacement, or use TYPE DYNAMIC",
+      freedom == 1 ? "1 motion is" : fmt::format("{} motions are", freedom),
+      factors.motions().largest_part(assembler.numbering(), factors.possible_motion(factors.motions().any())));
 }
 
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report) {

@@ -98,22 +98,10 @@ bool all_have_mass(const Triplets& mass, const MotionRows& rows) {
   return true;
 }
 
-/// The slot with the largest part of one of the motions outside of `determined`.
-std::string largest_part(const Assembler& assembler, const MotionRows& rows, const RowSpace& determined) {
-  Vector any(static_cast<Eigen::Index>(rows.slot.size()));
-  for (Eigen::Index i = 0; i < any.size(); ++i) any[i] = 1 + 0.5 * std::sin(2.3 * static_cast<double>(i + 1));
-  any -= Vector(determined.part(any));
-  // rather a node than a number of an element
-  const Numbering& numbering = assembler.numbering();
-  const double enough = 0.1 * any.cwiseAbs().maxCoeff();
-  Eigen::Index most = 0, node = -1;
-  any.cwiseAbs().maxCoeff(&most);
-  for (Eigen::Index i = 0; i < any.size(); ++i) {
-    const Unknown& u = numbering.unknown(numbering.equation(static_cast<int>(rows.slot[static_cast<std::size_t>(i)])));
-    if (u.part < 0 && std::abs(any[i]) > enough && (node < 0 || std::abs(any[i]) > std::abs(any[node]))) node = i;
-  }
-  if (node >= 0) most = node;
-  return numbering.describe(numbering.equation(static_cast<int>(rows.slot[static_cast<std::size_t>(most)])));
+/// Where the largest part of a motion outside of `determined` is.
+std::string outside(const Assembler& assembler, const MotionRows& rows, const RowSpace& determined) {
+  const Vector any = rows.any();
+  return rows.largest_part(assembler.numbering(), any - determined.part(any));
 }
 
 }  // namespace
@@ -130,21 +118,23 @@ MasslessMotions::MasslessMotions(Assembler& assembler, const Configuration& conf
   seen_ = seen.matrix();
   determined_.emplace(seen_.transpose(), unseen);
   count_ = static_cast<int>(n - determined_->rank());
-  if (count_ > 0) example_ = largest_part(assembler, rows_, *determined_);
+  if (count_ > 0) example_ = outside(assembler, rows_, *determined_);
 }
 
-MasslessMotions::Unheld MasslessMotions::unheld(Assembler& assembler, const Configuration& configuration) const {
+std::string MasslessMotions::explain_unheld(Assembler& assembler, const Configuration& configuration) const {
+  if (!any()) return {};
   const Configuration c = outside_of_steps(configuration);
-  const auto n = static_cast<Eigen::Index>(rows_.slot.size());
-  SideBySide seen(n);
+  SideBySide seen(seen_.rows());
   seen.add(seen_);
   seen.add(motion_block(assembler, c, rows_, {1, 0, 0}));
   seen.add(motion_block(assembler, c, rows_, {0, 1, 0}));
   const RowSpace held(seen.matrix().transpose(), unseen);
-  Unheld found;
-  found.count = static_cast<int>(n - held.rank());
-  if (found.count > 0) found.where = largest_part(assembler, rows_, held);
-  return found;
+  const auto count = seen_.rows() - held.rank();
+  if (count == 0) return {};
+  return fmt::format(
+      "{} has no inertia, and no joint, spring or damper holds it{}: give it a mass, or a moment of inertia about the axis it "
+      "turns about (INERTIA), make it part of a body (RIGID), or hold it by a support, spring or damper",
+      outside(assembler, rows_, held), count > 1 ? fmt::format(" (one of {} such motions)", count) : "");
 }
 
 void MasslessMotions::remove(std::span<double> slots) const {
@@ -169,17 +159,6 @@ void MasslessMotions::remove_forces(std::span<double> slots) const {
   remove(scaled);
   for (std::size_t i = 0; i < rows_.slot.size(); ++i)
     slots[rows_.slot[i]] = scaled[rows_.slot[i]] / (rows_.size[i] * rows_.size[i]);
-}
-
-std::string explain_unheld(Assembler& assembler, const Configuration& configuration) {
-  const MasslessMotions massless(assembler, configuration);
-  if (!massless.any()) return {};
-  const MasslessMotions::Unheld unheld = massless.unheld(assembler, configuration);
-  if (unheld.count == 0) return {};
-  return fmt::format(
-      "{} moves no mass, and no joint, spring or damper holds it there{}: give it a mass or a moment of inertia about the axis "
-      "that it turns about (INERTIA), make it part of a body (RIGID), or hold it by a support, spring or damper",
-      unheld.where, unheld.count > 1 ? fmt::format(" (one of {} such motions)", unheld.count) : "");
 }
 
 }  // namespace engrane::solve

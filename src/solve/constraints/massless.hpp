@@ -26,13 +26,9 @@ class MasslessMotions {
   /// Where the largest part of one of them is: "node 3 (x)".
   const std::string& example() const { return example_; }
 
-  /// How many of them neither a spring nor a damper holds, and where the largest part of one is. To be asked for only when
-  /// there are any.
-  struct Unheld {
-    int count = 0;
-    std::string where;
-  };
-  Unheld unheld(Assembler& assembler, const Configuration& configuration) const;
+  /// "node 2 (y) has no inertia, and ... holds it: ...", of one that neither a spring nor a damper holds at the
+  /// configuration of this; empty when there is none.
+  std::string explain_unheld(Assembler& assembler, const Configuration& configuration) const;
 
   /// Takes these motions out of a vector with an entry for each motion slot, such as accelerations.
   void remove(std::span<double> slots) const;
@@ -48,8 +44,5 @@ class MasslessMotions {
   int count_ = 0;
   std::string example_;
 };
-
-/// "node 2 (y) moves no mass, and nothing holds it there: ...": empty when the model has no such motion.
-std::string explain_unheld(Assembler& assembler, const Configuration& configuration);
 
 }  // namespace engrane::solve

@@ -55,8 +55,9 @@ std::string describe_start(const Model& model, const StartReport& report) {
                           report.largest_velocity_change, report.velocity_changed_most, report.rate_violated_most);
   }
   if (report.massless > 0)
-    text += fmt::format("     {} without mass, such as {}: in equilibrium with springs and dampers\n",
-                        report.massless == 1 ? "1 motion" : fmt::format("{} motions", report.massless), report.massless_example);
+    text += fmt::format("     {} without mass, {}: kept in equilibrium with springs and dampers\n",
+                        report.massless == 1 ? "1 motion" : fmt::format("{} motions", report.massless),
+                        (report.massless == 1 ? "" : "for example ") + report.massless_example);
   if (report.accelerations_found) {
     text += fmt::format("  3. accelerations and multipliers: {}", iterations(report.acceleration_iterations));
     if (!report.accelerated_most.empty())

@@ -97,8 +97,8 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
   // a shorter step would only come nearer to it
   if (sizes(near).beyond(sizes(farther), singular))
     throw SolutionFailure(fmt::format(
-        "singular position at t = {:.6g}: bars stand in line, or a drive in a dead point, where speeds or forces have no bound. "
-        "Choose steps that pass over it, or see whether a drive belongs to another joint",
+        "singular position at t = {:.6g}: bars are in line, or a drive is at a dead point, and speeds or forces grow without "
+        "bound. Choose steps that do not land on it, or drive another joint",
         to.time));
   near.time = to.time;
   near.h = h;

@@ -104,7 +104,7 @@ void Transient::settle(Configuration& c, MasslessMotions& massless, StartReport&
   const std::size_t n = context_.motion.size();
   report.massless = massless.count();
   report.massless_example = massless.example();
-  if (const std::string unheld = explain_unheld(context_.assembler, c); !unheld.empty()) throw SolutionFailure(unheld);
+  if (const std::string unheld = massless.explain_unheld(context_.assembler, c); !unheld.empty()) throw SolutionFailure(unheld);
   // positions; velocities where dampers ask for them, each pass nearer by the length of its step over their time of decay
   auto v = context_.motion.velocities(c);
   for (int pass = 0; pass < most_passes; ++pass) {
