@@ -196,14 +196,14 @@ def web_mesh(shape: WheelShape, hub: float = 0.26, bore: float = 0.13) -> list[t
         thick = max(0.05 * shape.radius, 0.5 * shape.module)
     if abs(shape.helix) > STEEP:
         thick = np.ptp(axial)
-    rings = [_tube(middle - thick / 2, middle + thick / 2, inner, outer)]
+    rings = [tube_mesh(middle - thick / 2, middle + thick / 2, inner, outer)]
     hub_length = max(1.08 * np.ptp(axial), 2.2 * thick)
     if hub * shape.radius < 0.9 * outer:
-        rings.append(_tube(middle - hub_length / 2, middle + hub_length / 2, inner, hub * shape.radius))
+        rings.append(tube_mesh(middle - hub_length / 2, middle + hub_length / 2, inner, hub * shape.radius))
     return rings
 
 
-def _tube(x0: float, x1: float, r0: float, r1: float, n: int = 72) -> tuple[np.ndarray, np.ndarray]:
+def tube_mesh(x0: float, x1: float, r0: float, r1: float, n: int = 72) -> tuple[np.ndarray, np.ndarray]:
     """Hollow cylinder along x."""
     angle = np.linspace(0, 2 * np.pi, n, endpoint=False)
     one = np.ones_like(angle)

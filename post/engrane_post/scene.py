@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from . import linkage, shapes
+from . import belts, linkage, shapes
 from .graphics import pv
 from .results import Element, Frame, Results
 from .wheels import collect
@@ -19,11 +19,28 @@ from .wheels import collect
 WHEEL_COLORS = ("#6d8fb5", "#c58f4a", "#7aa06c", "#a97ba8", "#b5695c", "#5f9ea0")
 MARK, DARK, STEEL, BODY = "#d1571b", "#3c4650", "#8d979f", "#5d6b78"
 SPRING, ARROW, GROUND, CELL = "#2a8a4a", "#c02a2a", "#70665a", "#86a8c8"
+BAND = "#2f3338"
+
+
+# What a drawn thing is, from the `shape` that the result gives it.
+KIND_OF = {
+    "wheel": "wheel",
+    "rack": "rack",
+    "plate": "cam",
+    "roller": "cam",
+    "body": "body",
+    "axis": "joint",
+    "line": "link",
+    "coil": "spring",
+    "mass": "mass",
+    "arrow": "load",
+}
 
 
 @dataclass
 class Item:
-    """A drawn thing: `node` moves it rigidly, or `remake` gives its surface from the nodes' positions."""
+    """A drawn thing: `node` moves it rigidly, or `remake` gives its surface from the nodes' positions, always
+    with as many points. `element` is 0 for what belongs to no single one."""
 
     mesh: pv.PolyData
     color: str
@@ -32,7 +49,8 @@ class Item:
     smooth: bool = True
     opacity: float = 1.0
     edges: bool = False
-    wheel: bool = False
+    kind: str = ""
+    element: int = 0
 
 
 class Scene:
@@ -60,9 +78,13 @@ class Scene:
         for element in result.elements:
             if element.drawing:
                 drawn.add(element.id)
+            if element.type.upper() == "BELT" and self._belt(element):
+                continue
             for d in element.drawing:
                 if d.get("shape") != "wheel" and element.id not in own:
+                    first = len(self.items)
                     self._shape(element, d)
+                    self._name(first, KIND_OF.get(d.get("shape", ""), "other"), element.id)
         self._linkage(joints)
         self._cells(drawn)
         self._grounds()
@@ -89,7 +111,7 @@ class Scene:
         for node, place in self.carried.values():
             yield node, place[None, :]
         for item in self.items:
-            if item.remake is None and not item.wheel:
+            if item.remake is None and item.kind != "wheel":
                 x = np.reshape(item.mesh.bounds, (3, 2))
                 yield item.node, np.array([[a, b, c] for a in x[0] for b in x[1] for c in x[2]])
 
@@ -124,7 +146,40 @@ class Scene:
                 slots.setdefault(self.bodies.get(w.node, w.node), len(slots)) % len(WHEEL_COLORS)
             ]
             for mesh, tint in shapes.wheel(w, color, MARK, DARK):
-                self.items.append(Item(mesh, tint, w.node, smooth=False, wheel=True))
+                self.items.append(Item(mesh, tint, w.node, smooth=False, kind="wheel", element=w.element.id))
+
+    def _name(self, first: int, kind: str, element: int = 0) -> None:
+        """Says what the items from `first` on are, where that has not been said."""
+        for item in self.items[first:]:
+            item.kind = item.kind or kind
+            item.element = item.element or element
+
+    def _belt(self, element: Element) -> bool:
+        """Pulleys with the belt round them; False when the result does not say how large they are."""
+        radii = [float(r) for r in element.parameters.get("R") or []]
+        known = [n == 0 or n in self.row for n in element.nodes]
+        if len(radii) != 2 or min(radii) <= 0 or len(known) != 2 or not all(known):
+            return False
+        axis = shapes.unit(np.asarray(element.parameters.get("AXIS") or [0, 0, 1], float))
+        centers = [self.points.get(n, np.zeros(3)) for n in element.nodes]
+        gap = centers[1] - centers[0]
+        if np.linalg.norm(gap - axis * (axis @ gap)) <= 1e-9 * self.size:
+            return False
+        first = len(self.items)
+        for node, center, radius in zip(element.nodes, centers, radii, strict=True):
+            color = WHEEL_COLORS[self.bodies.get(node, node) % len(WHEEL_COLORS)]
+            solid, spots = belts.pulley(center, axis, gap, radius, min(radii))
+            self.items += [Item(mesh, color, node, smooth=False, kind="pulley") for mesh in solid]
+            if spots is not None:
+                self.items.append(Item(spots, DARK, node, smooth=False, kind="pulley"))
+        # the axis turns with the first pulley
+        a, b = (self._carried(n, c) for n, c in zip(element.nodes, centers, strict=True))
+        tip = self._carried(element.nodes[0], centers[0] + axis)
+        crossed = bool(element.parameters.get("CROSSED"))
+        self._flexible(lambda p: belts.belt(p[a], p[b], p[tip] - p[a], (radii[0], radii[1]), crossed), BAND)
+        self.items[-1].smooth = False
+        self._name(first, "belt", element.id)
+        return True
 
     def _shape(self, element: Element, d: dict[str, Any]) -> None:
         """One entry of `drawing`; a shape unknown to this version or without its nodes is left out."""
@@ -143,8 +198,8 @@ class Scene:
         elif kind == "body" and nodes:
             known = [n for n in nodes if n in self.row]
             if len(known) > 1:
-                color = self._link_color(known[0])
-                self._flexible(lambda p: shapes.star([p[n] for n in known], size * 0.009), color)
+                mesh = shapes.star([self.points[n] for n in known], size * 0.009)
+                self.items.append(Item(mesh, self._link_color(known[0]), known[0]))
             elif known:
                 self.items.append(
                     Item(shapes.box(self.points[known[0]], size * 0.03), BODY, known[0], smooth=False)
@@ -202,7 +257,7 @@ class Scene:
         if len(known) == 1 and "AT" in element.parameters:
             anchor = np.asarray(element.parameters["AT"], float)
             known.append(self._carried(0, anchor))
-            self.items.append(Item(linkage.foot(self, anchor), GROUND, smooth=False))
+            self.items.append(Item(linkage.foot(self, anchor), GROUND, smooth=False, kind="ground"))
         axis = np.asarray(element.parameters.get("AXIS", [0, 0, 1]), float).ravel()[:3]
         axis = axis / (np.linalg.norm(axis) or 1.0) if len(axis) == 3 else np.array([0, 0, 1.0])
         if len(known) == 1:
@@ -262,8 +317,9 @@ class Scene:
     def _linkage(self, joints: list[linkage.Joint]) -> None:
         """Joints and the links between them. What lies on the ground is marked by its colour."""
         for node, mesh in linkage.links(self, joints):
-            self.items.append(Item(mesh, self._link_color(node), node, smooth=False))
+            self.items.append(Item(mesh, self._link_color(node), node, smooth=False, kind="body"))
         for j in joints:
+            first = len(self.items)
             own, other = (self._link_color(n) if n else GROUND for n in (j.a, j.b))
             if j.kind in ("rail", "plate"):
                 base, rider = (linkage.rail if j.kind == "rail" else linkage.plate)(self, j)
@@ -279,7 +335,10 @@ class Scene:
             if j.kind in ("ball", "cross", "rod", "weld"):
                 for node, place in j.ends():
                     if node == 0:
-                        self.items.append(Item(linkage.foot(self, place), GROUND, smooth=False))
+                        self.items.append(
+                            Item(linkage.foot(self, place), GROUND, smooth=False, kind="ground")
+                        )
+            self._name(first, "joint", j.element.id)
 
     def _rod(self, j: linkage.Joint) -> None:
         """A rod between points that its bodies carry, and balls at its ends."""
@@ -317,7 +376,7 @@ class Scene:
                 lines.append(nodes)
             elif code in (3, 4, 5):
                 faces.append(nodes)
-        order = self.ids
+        order, first = self.ids, len(self.items)
         if lines:
             self._flexible(
                 lambda p: shapes.tubes(np.array([p[n] for n in order]), lines, 0.006 * self.size), BODY
@@ -326,6 +385,7 @@ class Scene:
             self._flexible(lambda p: shapes.surface(np.array([p[n] for n in order]), faces), CELL)
             self.items[-1].edges = True
             self.items[-1].smooth = False
+        self._name(first, "cell")
 
     def _grounds(self) -> None:
         """A small stand where an element is tied to the ground."""
@@ -349,6 +409,8 @@ class Scene:
                         shapes.bearing(center - unit * length * 0.5, axis, 2.3 * radius, 0.025 * self.size),
                         GROUND,
                         0,
+                        kind="ground",
+                        element=element.id,
                     )
                 )
 

@@ -38,19 +38,30 @@ def wheel(w: Wheel, color: str, mark: str, dark: str) -> list[tuple[pv.PolyData,
     ]
     for p, c in gear_mesh.web_mesh(w.shape):
         out.append((quads(p @ w.frame.T + w.center, c), color))
-    spots = gear_mesh.holes(w.shape)
-    if spots is not None:
-        axial, half, radius, centres = spots
-        parts = []
-        for y, z in centres:
-            center = w.frame @ np.array([axial, y, z]) + w.center
-            parts.append(
-                pv.Cylinder(
-                    center=center, direction=w.frame[:, 0], radius=radius, height=2 * half, resolution=32
-                )
-            )
-        out.append((pv.merge(parts), dark))
+    discs = spots(w.shape, w.frame, w.center)
+    if discs is not None:
+        out.append((discs, dark))
     return [(m, c) for m, c in out if m.n_cells]
+
+
+def spots(shape: gear_mesh.WheelShape, frame: np.ndarray, center: np.ndarray) -> pv.PolyData | None:
+    """The discs on a wheel's web that show its turn."""
+    holes = gear_mesh.holes(shape)
+    if holes is None:
+        return None
+    axial, half, radius, centres = holes
+    return pv.merge(
+        [
+            pv.Cylinder(
+                center=frame @ np.array([axial, y, z]) + center,
+                direction=frame[:, 0],
+                radius=radius,
+                height=2 * half,
+                resolution=32,
+            )
+            for y, z in centres
+        ]
+    )
 
 
 def rack(

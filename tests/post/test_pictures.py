@@ -121,7 +121,7 @@ def test_wheels_of_one_body_have_one_colour(tmp_path: Path) -> None:
         f["model"] = json.dumps(model)
     from engrane_post.scene import WHEEL_COLORS
 
-    colors = {i.color for i in scene(path).items if i.wheel and i.color in WHEEL_COLORS}
+    colors = {i.color for i in scene(path).items if i.kind == "wheel" and i.color in WHEEL_COLORS}
     assert len(colors) == 1
 
 
