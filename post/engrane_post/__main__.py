@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`engrane plot | spectrum | orders | picture | animate | sweep | inertia` (python -m engrane_post)."""
+"""`engrane plot | spectrum | orders | picture | animate | export | sweep | inertia ...`."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ EPILOG = """examples:
   engrane orders run 7/NORMAL_FORCE --map          order against speed, of a run-up
   engrane picture run --both -o run.png            the mechanism before and after
   engrane animate run --fps 20 -o run.gif          the mechanism in motion
+  engrane export run                               moving surfaces and forces for ParaView
   engrane sweep gear.dat -D KM=1E8:1E9:1E8         a deck for many values: table and diagram
   engrane inertia part.stl --density 7850          mass, centre and tensor of a part for RIGID
   engrane figures                                  the founding paper's figures
@@ -30,7 +31,7 @@ engrane <command> --help tells more."""
 
 def parser() -> argparse.ArgumentParser:
     """The command line; each command's module adds its own words."""
-    from . import animate, figures, gallery, histories, inertia, lines, orders, picture, sweep
+    from . import animate, export, figures, gallery, histories, inertia, lines, orders, picture, sweep
 
     top = argparse.ArgumentParser(
         prog="engrane",
@@ -39,7 +40,7 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = top.add_subparsers(dest="command", required=True, metavar="command")
-    for module in (histories, lines, orders, picture, animate, sweep, inertia, figures, gallery):
+    for module in (histories, lines, orders, picture, animate, export, sweep, inertia, figures, gallery):
         module.add(commands)
     return top
 

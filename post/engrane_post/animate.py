@@ -45,8 +45,10 @@ def add(commands: argparse._SubParsersAction) -> None:
     p.set_defaults(run=run)
 
 
-def frame_numbers(times: np.ndarray, start: float | None, end: float | None, every: int | None) -> list[int]:
-    """Frames inside the span, thinned."""
+def frame_numbers(
+    times: np.ndarray, start: float | None, end: float | None, every: int | None, most: int = MOST_FRAMES
+) -> list[int]:
+    """Frames inside the span, thinned to every n-th or to no more than `most`."""
     if every is not None and every < 1:
         raise UserError("--every must be 1 or more.")
     low = -np.inf if start is None else start
@@ -56,7 +58,7 @@ def frame_numbers(times: np.ndarray, start: float | None, end: float | None, eve
         raise UserError(
             f"no frames between {low:g} and {high:g}; the frames cover {times[0]:g} to {times[-1]:g}."
         )
-    step = every or max(1, -(-len(inside) // MOST_FRAMES))
+    step = every or max(1, -(-len(inside) // most))
     return [int(i) for i in inside[::step]]
 
 

@@ -258,6 +258,11 @@ class Results:
             )
         return t[keep], y[keep]
 
+    def samples(self, table: str, rows: np.ndarray) -> np.ndarray:
+        """These samples (ascending, may repeat) of all histories in a table, see Channel."""
+        unique, back = np.unique(rows, return_inverse=True)
+        return self.read(lambda f: np.asarray(f[f"history/{table}/values"][unique], float))[back]
+
     def _unfinished(self) -> str:
         return "" if self.status == "complete" else f" (the run's status is {self.status})"
 

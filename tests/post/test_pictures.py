@@ -99,9 +99,7 @@ def test_worm(hand: int) -> None:
 def test_carrier(planetary: Path) -> None:
     """Arms and pins of the carrier turn with it and reach every planet."""
     s = scene(planetary)
-    from engrane_post.scene import BODY
-
-    arms = [i for i in s.items if i.node == 3 and i.color == BODY and i.remake is None]
+    arms = [i for i in s.items if i.node == 3 and i.kind == "body" and not i.element]
     assert len(arms) == 3
     for item, k in zip(arms, range(3), strict=True):
         near = np.linalg.norm(item.mesh.points - s.points[10 + k], axis=1).min()

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Forces and moments as vectors at points, for glyphs: what acts on whom, from histories and reactions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import linkage, shapes
+from .mesh import Mesh, Step
+from .results import Element, Frame
+from .scene import Scene
+
+# The numbers of the array `kind`; docs/post.md lists them.
+KINDS = ("reaction", "tooth", "joint", "cam", "belt", "spring", "load", "body")
+
+Place = Callable[[Frame, int], np.ndarray]  # where the point is in a frame, which is the k-th of those chosen
+
+
+@dataclass
+class ForcePoint:
+    """A point of `node` on which `element` (0: the support) acts, and with what (one row a frame)."""
+
+    kind: str
+    element: int
+    node: int
+    place: Place
+    force: np.ndarray
+    moment: np.ndarray
+
+
+class Forces:
+    """All points of a result at which forces are known, for these frames of it."""
+
+    def __init__(self, scene: Scene, frames: list[Frame]) -> None:
+        self.scene, self.frames = scene, frames
+        self.points: list[ForcePoint] = []
+        result = scene.result
+        self._channels = {c.name: c for c in result.channels.values() if c.name.startswith("element/")}
+        times = result.times()
+        if len(times):
+            # frames are written at samples; the nearest allows for rounding
+            wanted = np.array([f.time for f in frames])
+            after = np.minimum(np.searchsorted(times, wanted), len(times) - 1)
+            before = np.maximum(after - 1, 0)
+            self._rows = np.where(wanted - times[before] < np.abs(times[after] - wanted), before, after)
+            self._tables: dict[str, np.ndarray] = {}
+            for element in result.elements:
+                self._element(element)
+        self._reactions()
+
+    def mesh(self) -> Mesh:
+        """A vertex for each point."""
+        columns = {
+            "kind": [KINDS.index(p.kind) for p in self.points],
+            "element": [p.element for p in self.points],
+            "node": [p.node for p in self.points],
+        }
+        return Mesh.of_points(len(self.points), **{n: np.array(c, np.int32) for n, c in columns.items()})
+
+    def step(self, frame: Frame, k: int) -> Step:
+        """Where the points are in the k-th frame, and what acts there."""
+        data = {
+            "FORCE": np.array([p.force[k] for p in self.points]),
+            "MOMENT": np.array([p.moment[k] for p in self.points]),
+        }
+        assert frame.time is not None
+        return Step(frame.time, np.array([p.place(frame, k) for p in self.points]), data)
+
+    # What the elements tell
+
+    def _element(self, element: Element) -> None:
+        kind = element.type.upper()
+        if kind in ("GEAR", "RACK"):
+            self._teeth(element)
+        elif kind == "BELT":
+            self._belt(element)
+        elif kind == "RIGID":
+            for node in element.nodes[1:]:
+                both = (self._vector(element, f"{what}_{{}}_{node}") for what in ("FORCE", "MOMENT"))
+                self._add("body", element, node, None, *both)
+        elif kind in ("TORQUE", "TSPRING"):
+            self._torque(element)
+        elif len(element.nodes) == 2 and (force := self._vector(element, "FORCE_{}")) is not None:
+            self._on_second(element, force)
+        elif kind in ("SPRING", "FORCE"):
+            self._line(element)
+
+    def _teeth(self, element: Element) -> None:
+        """Tooth forces at the contact point, their moments about the centre of each wheel there."""
+        contact = self._vector(element, "CONTACT_{}")
+        if contact is None:
+            return
+        wheels = [d for d in element.drawing if d.get("shape") == "wheel"]
+        for i, side in enumerate("AB"):
+            node = element.nodes[i]
+            force, moment = (self._vector(element, f"{what}_{side}{{}}") for what in ("FORCE", "MOMENT"))
+            self._add("tooth", element, node, lambda _, k: contact[k], force)
+            center = np.asarray(wheels[i]["center"], float) if i < len(wheels) else None
+            self._add("tooth", element, node, self._on(node, center), None, moment)
+
+    def _on_second(self, element: Element, force: np.ndarray) -> None:
+        """Joints and cams tell the force on their second node; a spring's pulls the first towards it."""
+        a, b = element.nodes
+        moment = self._vector(element, "MOMENT_{}")
+        kind = element.type.upper()
+        if kind == "SPRING":
+            self._add("spring", element, a, None, force)
+            self._add("spring", element, b, None, -force)
+        elif kind == "CAM":
+            roller = next((d for d in element.drawing if d.get("shape") == "roller"), {})
+            self._add("cam", element, b, self._on(b, roller.get("center")), force)
+        else:
+            joint = linkage.joint(self.scene, element)
+            drawn = next((d for d in element.drawing if d.get("shape") == "axis"), {})
+            point = joint.place_b if joint else drawn.get("center")
+            self._add("joint", element, b, self._on(b, point), force, moment)
+
+    def _belt(self, element: Element) -> None:
+        a, b = element.nodes
+        force = self._vector(element, "FORCE_{}")
+        torques = [self._scalar(element, f"TORQUE_{i}") for i in (1, 2)]
+        if force is None or any(t is None for t in torques):
+            return
+        axis = self._axes(element, a)
+        self._add("belt", element, a, None, -force, torques[0][:, None] * axis)
+        self._add("belt", element, b, None, force, torques[1][:, None] * axis)
+
+    def _torque(self, element: Element) -> None:
+        size = self._scalar(element, "TORQUE")
+        if size is None or len(element.nodes) != 2:
+            return
+        a, b = element.nodes
+        given = element.parameters
+        alone = len(np.ravel(given.get("N") or element.nodes)) == 1
+        spring = element.type.upper() == "TSPRING"
+        fixed = not spring and (bool(given.get("FIXED")) or (alone and not given.get("FOLLOW")))
+        moment = size[:, None] * self._axes(element, 0 if fixed else b if alone else a)
+        kind = "spring" if spring else "load"
+        self._add(kind, element, b, None, None, moment)
+        if a:
+            self._add(kind, element, a, None, None, -moment)
+
+    def _line(self, element: Element) -> None:
+        """Springs and forces between two nodes, along their line; a force on one node, along DIR."""
+        size = self._scalar(element, "FORCE")
+        if size is None:
+            return
+        given = element.parameters
+        if len(element.nodes) == 1:
+            node = element.nodes[0]
+            along = self._axes(element, node if given.get("FOLLOW") else 0, "DIR")
+            self._add("load", element, node, self._on(node, given.get("AT")), size[:, None] * along)
+            return
+        places = [self._on(n, given.get("AT") if n == 0 else None) for n in element.nodes]
+        line = np.array([places[1](f, k) - places[0](f, k) for k, f in enumerate(self.frames)])
+        pull = size[:, None] * line / np.maximum(np.linalg.norm(line, axis=1), 1e-300)[:, None]
+        spring = element.type.upper() == "SPRING"
+        for node, place, sign in zip(element.nodes, places, (1, -1) if spring else (-1, 1), strict=True):
+            self._add("spring" if spring else "load", element, node, place, sign * pull)
+
+    def _reactions(self) -> None:
+        """On supported nodes, from the fields."""
+        result, zero = self.scene.result, np.zeros((len(self.scene.ids), 3))
+        both = []
+        for name in ("reaction_force", "reaction_torque"):
+            fields = [result.field(name, f.index) for f in self.frames]
+            both.append(np.array([zero if f is None else np.nan_to_num(f) for f in fields]))
+        force, moment = both
+        for i in np.flatnonzero(np.abs(force).max(axis=(0, 2)) + np.abs(moment).max(axis=(0, 2))):
+            node = self.scene.ids[i]
+            self.points.append(ForcePoint("reaction", 0, node, self._on(node), force[:, i], moment[:, i]))
+
+    def _add(
+        self,
+        kind: str,
+        element: Element,
+        node: int,
+        place: Place | None,
+        force: np.ndarray | None,
+        moment: np.ndarray | None = None,
+    ) -> None:
+        if force is None and moment is None:
+            return
+        zero = np.zeros((len(self.frames), 3))
+        vectors = (zero if v is None else v for v in (force, moment))
+        self.points.append(ForcePoint(kind, element.id, node, place or self._on(node), *vectors))
+
+    def _on(self, node: int, point: object = None) -> Place:
+        """A point (in the reference; default the node itself) that moves with the node."""
+        x = self.scene.points.get(node, np.zeros(3)) if point is None else np.asarray(point, float)
+        return lambda frame, _: (self.scene.transform(node, frame) @ np.r_[x, 1.0])[:3]
+
+    def _axes(self, element: Element, node: int, keyword: str = "AXIS") -> np.ndarray:
+        """A direction of the card in every frame, turning with the node."""
+        axis = shapes.unit(np.asarray(element.parameters.get(keyword) or [0, 0, 1], float))
+        return np.array([self.scene.transform(node, f)[:3, :3] @ axis for f in self.frames])
+
+    def _vector(self, element: Element, pattern: str) -> np.ndarray | None:
+        parts = [self._scalar(element, pattern.format(c)) for c in "XYZ"]
+        return None if any(p is None for p in parts) else np.stack(parts, axis=1)
+
+    def _scalar(self, element: Element, name: str) -> np.ndarray | None:
+        channel = self._channels.get(f"element/{element.id}/{name}")
+        if channel is None:
+            return None
+        if channel.table not in self._tables:
+            self._tables[channel.table] = self.scene.result.samples(channel.table, self._rows)
+        return np.nan_to_num(self._tables[channel.table][:, channel.column])
