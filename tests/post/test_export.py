@@ -72,9 +72,9 @@ def test_wheels_turn(gears: Path, command, tmp_path: Path) -> None:
             assert now == pytest.approx(start @ turn.T, abs=1e-7)
     # velocity is angular velocity times distance from the axle
     gear_a = found[0].extract_cells(np.flatnonzero(found[0].cell_data["node"] == 1))
-    r = np.linalg.norm(gear_a.points[:, :2], axis=1)
-    assert r.max() > 0.05
-    assert np.linalg.norm(gear_a.point_data["velocity"], axis=1) == pytest.approx(models.SPEED * r, rel=1e-5)
+    wanted = np.cross([0, 0, models.SPEED], gear_a.points)
+    assert np.abs(wanted).max() > 0.05 * models.SPEED
+    assert gear_a.point_data["velocity"] == pytest.approx(wanted, abs=1e-5 * models.SPEED)
 
 
 def test_teeth_and_tip_circle(gears: Path, command, tmp_path: Path) -> None:
@@ -145,6 +145,7 @@ def test_vtu(gears: Path, command, tmp_path: Path) -> None:
     assert reader.time_values == times
     assert np.array_equal(mesh.points, found[1].points) and np.array_equal(mesh.cells, found[1].cells)
     assert np.array_equal(mesh.cell_data["color"], found[1].cell_data["color"])
+    assert np.array_equal(mesh.point_data["velocity"], found[1].point_data["velocity"])
 
 
 @pytest.mark.parametrize("crossed", [False, True])
@@ -179,6 +180,12 @@ def test_belt(crossed: bool, command, tmp_path: Path) -> None:
         for center, radius in (([0, 0, 0], r1), (far, r2)):
             nearest = np.linalg.norm((belt.points - center)[:, :2], axis=1).min()
             assert nearest == pytest.approx(radius - 0.5 * 0.07 * r1, rel=1e-5)
+    # the point that is farthest out turns with the line of centres about the first pulley
+    speed, line = np.array([0, 0.3, 0]), np.array(far) / np.linalg.norm(far)
+    last = np.argmax(belt.points @ line)
+    wanted = speed - (speed @ line) * line
+    wanted = (speed @ line) * line + wanted * np.linalg.norm(belt.points[last, :2]) / np.linalg.norm(far)
+    assert belt.point_data["velocity"][last] == pytest.approx(wanted, abs=1e-4)
     _, forces = grids(tmp_path / "belt_forces.vtkhdf")
     data = forces[1].point_data
     assert data["FORCE"][data["node"] == 2] == pytest.approx(np.array([[0, 10, 20]]))
