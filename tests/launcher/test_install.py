@@ -46,7 +46,6 @@ def installed(prefix, tmp_path):
         "PATH": f"{prefix}/bin:/usr/bin:/bin",
         "HOME": str(tmp_path / "home"),
         "ENGRANE_PYTHON": str(python),
-        "PYTHONDONTWRITEBYTECODE": "1",
     }
 
     def call(*words, status=0, **more):
@@ -64,6 +63,7 @@ def test_a_spur_pair_runs_and_is_drawn(installed, prefix):
     assert drawn.stderr.strip() == f"looks in {prefix}/share/engrane/post, runs {runs}"
     assert (installed.folder / "spur.png").read_bytes()[:4] == b"\x89PNG"
     assert not (installed.home / ".cache/engrane").exists()  # nothing was built
+    assert not list(prefix.rglob("__pycache__"))
 
 
 def test_help_names_what_an_installation_can_do(installed):
