@@ -39,6 +39,7 @@ class Forces:
         self.points: list[ForcePoint] = []
         result = scene.result
         self._channels = {c.name: c for c in result.channels.values() if c.name.startswith("element/")}
+        self._open = {tuple(c.name.split("/")[:2]) for c in result.channels.values() if not c.unique}
         times = result.times()
         if len(times):
             # frames are written at samples; the nearest allows for rounding
@@ -57,8 +58,14 @@ class Forces:
             "kind": [KINDS.index(p.kind) for p in self.points],
             "element": [p.element for p in self.points],
             "node": [p.node for p in self.points],
+            "unique": [self._owner(p) not in self._open for p in self.points],
         }
         return Mesh.of_points(len(self.points), **{n: np.array(c, np.int32) for n, c in columns.items()})
+
+    @staticmethod
+    def _owner(point: ForcePoint) -> tuple[str, str]:
+        """Whose histories tell what acts there."""
+        return ("element", str(point.element)) if point.element else ("node", str(point.node))
 
     def step(self, frame: Frame, k: int) -> Step:
         """Where the points are in the k-th frame, and what acts there."""

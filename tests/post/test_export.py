@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -107,6 +109,27 @@ def test_forces_are_the_channels(gears: Path, command, tmp_path: Path) -> None:
             turned = mine & ~pulled
             assert data["MOMENT"][turned] == pytest.approx(sign * 0.1 * TOOTH[k : k + 1], rel=1e-12)
             assert grid.points[turned] == pytest.approx(np.array([[center, 0, 0]]), abs=1e-12)
+
+
+def test_wheels_are_in_equilibrium(command, tmp_path: Path) -> None:
+    """Tooth force, joint and torque on each wheel of a static deck add up to nothing: forces have their sign,
+    moments their points."""
+    program = os.environ.get("ENGRANE", "")
+    if not Path(program).is_file():
+        pytest.skip("the variable ENGRANE names no program")
+    deck = Path(__file__).resolve().parents[2] / "decks/gears/spur.dat"
+    subprocess.run([program, deck, "-o", tmp_path / "spur"], check=True, stdout=subprocess.DEVNULL)
+    assert command("export", tmp_path / "spur", "-o", tmp_path / "out")[0] == 0
+    _, found = grids(tmp_path / "out_forces.vtkhdf")
+    for grid in found:
+        data = grid.point_data
+        assert set(data["unique"]) == {1}
+        for node, torque in ((1, 30000), (2, 60000)):
+            mine = data["node"] == node
+            assert {FORCE_KINDS[k] for k in data["kind"][mine]} >= {"tooth", "joint"}
+            for name, size in (("FORCE", torque / 30 / node), ("MOMENT", torque)):
+                assert np.abs(data[name][mine]).max() > 0.9 * size
+                assert data[name][mine].sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-9 * size)
 
 
 def test_series_for_readers_without_steps(gears: Path, command, tmp_path: Path) -> None:
