@@ -139,4 +139,4 @@ def _write(
 
 
 def _say(path: Path, frames: list[Frame], size: int) -> None:
-    print(f"wrote {len(frames)} frames to {path} ({size / 1e6:.2g} MB)")
+    print(f"wrote {len(frames)} frames to {path} ({size / 1e6:.3g} MB)")
