@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/grip.hpp"
+
 namespace engrane {
 
 namespace {
@@ -36,6 +38,17 @@ Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm co
   scale_.assign(multipliers, 1.0);
   released_.assign(multipliers, false);
   released_values_.assign(multipliers, 0.0);
+  idle_.assign(multipliers, false);
+  std::vector<int> grips;
+  for (int p = 0; p < numbering.parts(); ++p) {
+    const Layout& layout = element(p).layout();
+    if (layout.grips == 0) continue;
+    const int first = numbering.multiplier_begin(p) + static_cast<int>(layout.multipliers.size()) - layout.grips;
+    const std::vector<GripState> states = unfollowed_grips(element(p));
+    for (int i = 0; i < layout.grips; ++i)
+      if (states[static_cast<std::size_t>(i)].mode != GripState::holding) grips.push_back(first + i);
+  }
+  set_idle(grips);
   if (size_ > 1) {
     Owned<Vec> sample;
     *sample.out() = new_vector();
@@ -134,29 +147,48 @@ void Assembler::write_history(Configuration& configuration,
 }
 
 void Assembler::release(const std::vector<int>& multipliers, const std::vector<double>& values) {
-  any_released_ = !multipliers.empty();
-  std::fill(released_.begin(), released_.end(), false);
+  any_released_ = !multipliers.empty() || idle_count_ > 0;
+  released_ = idle_;
   for (const int m : multipliers) {
+    if (idle(m)) continue;
     released_[static_cast<std::size_t>(m)] = true;
     released_values_[static_cast<std::size_t>(m)] = values[static_cast<std::size_t>(m)];
   }
 }
 
+void Assembler::set_idle(const std::vector<int>& multipliers) {
+  for (std::size_t m = 0; m < idle_.size(); ++m)
+    if (idle_[m]) released_[m] = false;
+  std::fill(idle_.begin(), idle_.end(), false);
+  idle_count_ = static_cast<int>(multipliers.size());
+  for (const int m : multipliers) {
+    const auto i = static_cast<std::size_t>(m);
+    idle_[i] = released_[i] = true;
+    released_values_[i] = 0;
+  }
+  any_released_ = std::find(released_.begin(), released_.end(), true) != released_.end();
+}
+
 void Assembler::save(Snapshot& snapshot) const {
   snapshot.put("assembler/scale", scale_);
   snapshot.put("assembler/released", {released_.begin(), released_.end()});
+  snapshot.put("assembler/idle", {idle_.begin(), idle_.end()});
   snapshot.put("assembler/released_values", released_values_);
 }
 
 void Assembler::load(const Snapshot& snapshot) {
   const std::vector<double>& scale = snapshot.array("assembler/scale");
-  const std::vector<double>& flags = snapshot.array("assembler/released");
-  if (scale.size() != scale_.size() || flags.size() != scale_.size())
-    throw std::out_of_range("the restart point has another number of constraints");
-  std::vector<int> multipliers;
-  for (std::size_t m = 0; m < flags.size(); ++m)
-    if (flags[m] != 0) multipliers.push_back(static_cast<int>(m));
-  release(multipliers, snapshot.array("assembler/released_values"));
+  const auto flagged = [&](const char* name) {
+    const std::vector<double>& flags = snapshot.array(name);
+    if (flags.size() != scale_.size()) throw std::out_of_range("the restart point has another number of constraints");
+    std::vector<int> multipliers;
+    for (std::size_t m = 0; m < flags.size(); ++m)
+      if (flags[m] != 0) multipliers.push_back(static_cast<int>(m));
+    return multipliers;
+  };
+  if (scale.size() != scale_.size()) throw std::out_of_range("the restart point has another number of constraints");
+  set_idle(flagged("assembler/idle"));
+  release(flagged("assembler/released"), snapshot.array("assembler/released_values"));
   scale_ = scale;
 }
 
@@ -277,8 +309,16 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
     sum.add(part, k);
   });
   MPI_Allreduce(MPI_IN_PLACE, inertia.data(), static_cast<int>(motion), MPI_DOUBLE, MPI_SUM, comm_);
+  // masses and moments of inertia are of different units, and neither may be compared with a number of ours
   double largest = 0;
-  for (const double d : inertia) largest = std::max(largest, d);
+  Magnitudes heaviest;
+  for (int e = 0; e < numbering_.equations(); ++e) {
+    const Unknown& u = numbering_.unknown(e);
+    if (u.multiplier) continue;
+    const double d = inertia[static_cast<std::size_t>(u.slot)];
+    largest = std::max(largest, d);
+    heaviest[u.measure] = std::max(heaviest[u.measure], d);
+  }
   const double extent = model_.extent();
   std::vector<bool> fixed(static_cast<std::size_t>(numbering_.equations()), false);
   for (const int equation : held) fixed[static_cast<std::size_t>(equation)] = true;
@@ -287,7 +327,7 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
     double d = any_released_ && released_equation(static_cast<int>(row)) ? 1.0 : 0.0;
     if (!u.multiplier && !mass) d = u.part >= 0 ? 1e-12 : u.measure == Measure::force ? 1 / (extent * extent) : 1.0;
     if (!u.multiplier && mass && inertia[static_cast<std::size_t>(u.slot)] == 0) d = 1e-13 * (largest > 0 ? largest : 1.0);
-    if (fixed[static_cast<std::size_t>(row)]) d = 1e8 * std::max(largest, 1.0);
+    if (fixed[static_cast<std::size_t>(row)]) d = 1e10 * (mass && heaviest[u.measure] > 0 ? heaviest[u.measure] : d);
     sum.add_diagonal(row, d);
   }
   sum.finish();
@@ -306,6 +346,8 @@ void Assembler::constraint_rates(const Configuration& configuration, std::vector
     model_.parts[p].element->constraint_rates(view(part, configuration), std::span(phi).subspan(begin, count),
                                               std::span(rate).subspan(begin, count), std::span(second).subspan(begin, count));
   }
+  for (std::size_t m = 0; idle_count_ > 0 && m < idle_.size(); ++m)
+    if (idle_[m]) phi[m] = rate[m] = second[m] = 0;
 }
 
 std::vector<double> Assembler::slot_residual(const Configuration& configuration) {

@@ -52,6 +52,12 @@ class Assembler {
 
   /// Replaces the equations of these multipliers (ascending) by kλ = what `values` has for them; of all others as they are.
   void release(const std::vector<int>& multipliers, const std::vector<double>& values);
+  /// Constraints that are none at present (ascending): equations kλ = 0, left out of every analysis. At first all grips that hold
+  /// nothing.
+  void set_idle(const std::vector<int>& multipliers);
+  bool idle(int multiplier) const { return idle_[static_cast<std::size_t>(multiplier)]; }
+  int idle_count() const { return idle_count_; }
+  /// Whether the constraint has no say: given up by release(), or idle.
   bool released(int multiplier) const { return released_[static_cast<std::size_t>(multiplier)]; }
   /// What the multiplier of a released constraint is to be.
   double released_value(int multiplier) const { return released_values_[static_cast<std::size_t>(multiplier)]; }
@@ -76,7 +82,7 @@ class Assembler {
   /// [D −Bᵀ; −B 0] (unscaled) in matrix(), D by metric. Unknowns without mass get a negligible one; the equations in
   /// `held`, in any order, one so large that everything else moves first.
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held = {});
-  /// Φ and its time derivatives along the motion (unscaled), in the order of the multipliers.
+  /// Φ and its time derivatives along the motion (unscaled), in the order of the multipliers; zero where idle.
   void constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
                         std::vector<double>& second);
 
@@ -132,7 +138,8 @@ class Assembler {
   Owned<Vec> everywhere_;
   Owned<VecScatter> to_all_;
   std::vector<double> scale_;
-  std::vector<bool> released_;
+  std::vector<bool> released_, idle_;
+  int idle_count_ = 0;
   std::vector<double> released_values_;
   bool any_released_ = false;
   std::vector<double> gathered_;

@@ -20,6 +20,10 @@ void Element::commit(const State& state, std::span<double> scalars, std::span<do
 
 void Element::switches(const State&, std::span<Switch>) const {}
 
+void Element::sliding(const State&, std::span<Vec3>) const {}
+
+void Element::grip_limits(const State&, std::span<double>) const {}
+
 Energies Element::energies(const State&) const { return {}; }
 
 Mat3 Element::inertia_at(int) const { return Mat3::Zero(); }

@@ -46,7 +46,8 @@ enum class Role : unsigned char {
   force,   ///< holds a point of one node on a line or place of the other, along one direction
   moment,  ///< holds the turn of one node from the other about one direction
   drive,   ///< imposes a motion: can be left out, and is what asks for too much when nothing else does
-  tooth    ///< holds the flanks of rigid teeth together
+  tooth,   ///< holds the flanks of rigid teeth together
+  grip     ///< dry friction at rest: a constraint only while its surfaces do not slide (Layout::grips)
 };
 
 /// The multiplier of one holonomic constraint: `{"TOOTH", dimension::length, "normal force", Role::tooth}`.
@@ -70,7 +71,7 @@ struct SwitchNames {
 /// A scalar function of the state whose sign tells phases of an element's motion apart, such as a gap that is open or closed.
 struct Switch {
   double value = 0;
-  double rate = 0;  ///< its time derivative
+  double rate = 0;  ///< its time derivative; NaN: unknown
   double size =
       0;  ///< of the terms that `value` is the sum of: what is rounding, and what is not; 0: the switch has no meaning now
 };
@@ -83,7 +84,12 @@ struct Layout {
   std::vector<Scalar> scalars;          ///< own unknowns with rates, such as ψ_A, ψ_B, u_m
   std::vector<Multiplier> multipliers;  ///< one per holonomic constraint, in the order of the residual's constraint rows
   int history = 0;                      ///< committed numbers kept from step to step (turn counts, contact states)
-  std::vector<SwitchNames> switches;    ///< where the element's law is not smooth: dynamics places ends of steps there
+  /// Dry frictions that can rest. The last `grips` multipliers are theirs, with Role::grip: Φ is the coordinate along which the
+  /// surfaces slide less the place where they rest, and the force on it is the friction at rest. The last numbers of the history
+  /// are their GripStates (model/grip.hpp).
+  int grips = 0;
+  int slides = 0;                     ///< dry frictions that are regularised at rest (Element::sliding)
+  std::vector<SwitchNames> switches;  ///< where the element's law is not smooth: dynamics places ends of steps there
 
   bool needs_any(std::size_t node, NodeNeed what) const {
     return (static_cast<unsigned>(needs[node]) & static_cast<unsigned>(what)) != 0;
@@ -230,6 +236,12 @@ class Element {
 
   /// Values of the switches, in the order of Layout::switches.
   virtual void switches(const State& state, std::span<Switch> values) const;
+
+  /// The sliding velocity of each friction that is regularised, over the speed below which it is, in any axes. Newton's iteration
+  /// does not jump over the curve from one direction of sliding to the other.
+  virtual void sliding(const State& state, std::span<Vec3> speeds) const;
+  /// The largest force or moment that each grip holds at rest: the static coefficient times what presses its surfaces.
+  virtual void grip_limits(const State& state, std::span<double> limits) const;
 
   virtual Energies energies(const State& state) const;
 

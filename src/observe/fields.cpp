@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "observe/fields.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -50,19 +51,29 @@ ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler) {
     std::size_t first = 0;
     for (const Field& field : model.parts[p].element->fields()) {
       const auto [at, is_new] = known.try_emplace(field.name, fields_.size());
-      if (is_new) fields_.push_back({field, field.components, {}});
+      if (is_new) fields_.push_back({field, field.components, {}, {}, {}});
       const std::size_t size = field.size(model.parts[p].nodes.size());
       const std::size_t width = field.components.empty() ? 1 : field.components.size();
-      if (width == fields_[at->second].width()) uses_.push_back({static_cast<int>(p), at->second, first, size / width});
+      if (std::vector<int>& parts = fields_[at->second].place_parts; width == fields_[at->second].width()) {
+        uses_.push_back({static_cast<int>(p), at->second, first, size / width, parts.size()});
+        parts.insert(parts.end(), size / width, static_cast<int>(p));
+      }
       first += size;
     }
   }
+  // one value in each part needs no second list
+  for (std::size_t f = 0; f < fields_.size(); ++f)
+    if (std::none_of(uses_.begin(), uses_.end(), [f](const Use& use) { return use.field == f && use.places > 1; }))
+      fields_[f].place_parts.clear();
 }
 
 void ElementFields::evaluate(const Configuration& c) {
   const Model& model = assembler_.model();
   // parts that other ranks evaluate are zero, and so is the sum until it is known who has the field
-  for (ElementField& field : fields_) field.rows.assign(model.parts.size() * field.width(), 0.0);
+  for (ElementField& field : fields_) {
+    field.rows.assign(model.parts.size() * field.width(), 0.0);
+    field.places.assign(field.place_parts.size() * field.width(), 0.0);
+  }
   std::vector<double> values;
   int evaluated = -1;
   for (const Use& use : uses_) {
@@ -80,12 +91,16 @@ void ElementFields::evaluate(const Configuration& c) {
     for (std::size_t place = 0; place < use.places; ++place)
       for (std::size_t k = 0; k < field.width(); ++k)
         row[k] += values[use.first + place * field.width() + k] / static_cast<double>(use.places);
+    if (!field.place_parts.empty())
+      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(use.first), use.places * field.width(),
+                  field.places.begin() + static_cast<std::ptrdiff_t>(use.row * field.width()));
   }
   const bool root = assembler_.rank() == 0;
   for (std::size_t f = 0; f < fields_.size(); ++f) {
     ElementField& field = fields_[f];
-    const int count = static_cast<int>(field.rows.size());
-    MPI_Reduce(root ? MPI_IN_PLACE : field.rows.data(), field.rows.data(), count, MPI_DOUBLE, MPI_SUM, 0, assembler_.comm());
+    for (std::vector<double>* all : {&field.rows, &field.places})
+      MPI_Reduce(root ? MPI_IN_PLACE : all->data(), all->data(), static_cast<int>(all->size()), MPI_DOUBLE, MPI_SUM, 0,
+                 assembler_.comm());
     std::vector<char> has(model.parts.size(), 0);
     for (const Use& use : uses_)
       if (use.field == f) has[static_cast<std::size_t>(use.part)] = 1;

@@ -22,6 +22,10 @@ struct ElementField {
   std::vector<std::string> components;  ///< none: a scalar
   std::vector<double> rows;
 
+  /// Where some part has several values: all of them, a row for each node or point of a part that has the field, part by part.
+  std::vector<double> places;
+  std::vector<int> place_parts;  ///< index of the part of each row; empty: `rows` says all
+
   std::size_t width() const { return components.empty() ? 1 : components.size(); }
 };
 
@@ -42,6 +46,7 @@ class ElementFields {
     std::size_t field = 0;   ///< in fields_
     std::size_t first = 0;   ///< of its numbers among all that the part evaluates
     std::size_t places = 1;  ///< nodes or points
+    std::size_t row = 0;     ///< of the first in ElementField::places
   };
   Assembler& assembler_;
   std::vector<ElementField> fields_;

@@ -121,25 +121,25 @@ std::vector<double> ResultFile::copy_from(hid_t earlier, std::size_t samples, st
 
   std::vector<double> times = hdf5::read_numbers(earlier, "fields/time");
   times.resize(std::min(times.size(), frames));
-  const hsize_t shape[2] = {layout_->points.size(), 3};
-  const std::vector<double> nothing(3 * layout_->points.size(), 0.0);
-  for (std::size_t f = 0; f < times.size(); ++f)
-    for (const Named& field : layout_->node_fields) {
-      const std::string name = fmt::format("fields/{}/{:06}", field.name, f);
-      if (hdf5::read_shape(earlier, name).size() == 2)
-        check(H5Ocopy(earlier, name.c_str(), file_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_);
-      else
-        at(file_).numbers(name, nothing, shape);
-    }
-  for (std::size_t f = 0; f < times.size(); ++f)
-    for (const CellField& field : layout_->cell_fields) {
-      const std::string name = fmt::format("fields/{}/{:06}", field.named.name, f);
-      const hsize_t rows[2] = {mixed_topology(*layout_).cells.size(), field.width()};
-      if (hdf5::read_shape(earlier, name).size() == 2)
-        check(H5Ocopy(earlier, name.c_str(), file_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_);
-      else
-        at(file_).numbers(name, std::vector<double>(rows[0] * rows[1], std::numeric_limits<double>::quiet_NaN()), rows);
-    }
+  // a field that the earlier run did not have: zero on nodes, not a number elsewhere
+  const auto bring = [&](const std::string& name, hsize_t rows, hsize_t columns, double missing) {
+    const hsize_t shape[2] = {rows, columns};
+    const std::vector<hsize_t> found = hdf5::read_shape(earlier, name);
+    if (found.size() == 2 && found[0] == rows && found[1] == columns)
+      check(H5Ocopy(earlier, name.c_str(), file_.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_);
+    else
+      at(file_).numbers(name, std::vector<double>(rows * columns, missing), shape);
+  };
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t cells = layout_->cell_fields.empty() ? 0 : mixed_topology(*layout_).cells.size();
+  for (std::size_t f = 0; f < times.size(); ++f) {
+    for (const Named& field : layout_->node_fields)
+      bring(fmt::format("fields/{}/{:06}", field.name, f), layout_->points.size(), 3, 0);
+    for (const CellField& field : layout_->cell_fields)
+      bring(fmt::format("fields/{}/{:06}", field.named.name, f), cells, field.width(), unknown);
+    for (const PointField& one : layout_->point_fields)
+      bring(fmt::format("points/{}/{:06}", one.field.named.name, f), one.elements.size(), one.field.width(), unknown);
+  }
   if (!times.empty()) {
     Growing list = open_growing("fields/time");
     grow(list, times.data(), times.size());

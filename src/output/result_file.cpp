@@ -36,6 +36,7 @@ std::size_t Batch::bytes() const {
   for (const Frame& frame : frames) {
     numbers += frame.values.size();
     for (const std::vector<double>& field : frame.cells) numbers += field.size();
+    for (const std::vector<double>& field : frame.points) numbers += field.size();
   }
   for (const RestartPoint& point : restarts)
     for (const auto& [name, array] : point.memory.arrays()) numbers += array.size();
@@ -155,12 +156,20 @@ void ResultFile::create_fields() {
     at(group).attribute("unit", layout.units.label(field.dimension));
     at(group).attribute("label", field.help);
   }
-  for (const CellField& field : layout.cell_fields) {
-    const Handle group = at(fields).group(field.named.name);
+  const auto describe = [&](const Handle& group, const CellField& field, const std::string& center) {
     at(group).attribute("unit", layout.units.label(field.named.dimension));
     at(group).attribute("label", field.named.help);
-    at(group).attribute("center", "Cell");
+    at(group).attribute("center", center);
     if (!field.components.empty()) at(group).attribute("components", fmt::format("{}", fmt::join(field.components, " ")));
+  };
+  for (const CellField& field : layout.cell_fields) describe(at(fields).group(field.named.name), field, "Cell");
+  if (layout.point_fields.empty()) return;
+  const Handle points = at(file_).group("points");
+  for (const PointField& one : layout.point_fields) {
+    const Handle group = at(points).group(one.field.named.name);
+    describe(group, one.field, "Point");
+    at(at(group).integers("elements", one.elements)).attribute("label", "element of each row");
+    at(at(group).integers("numbers", one.points)).attribute("label", "node or integration point of that element, from 0");
   }
 }
 
@@ -240,6 +249,7 @@ void ResultFile::append_frame(const Batch::Frame& frame) {
     at(file_).numbers(fmt::format("fields/{}/{}", fields[f].name, name), std::span(frame.values).subspan(f * numbers, numbers),
                       shape);
   append_cell_fields(frame, name);
+  append_point_fields(frame, name);
   grow(time, &frame.time, 1);
 }
 
@@ -254,6 +264,15 @@ void ResultFile::append_cell_fields(const Batch::Frame& frame, const std::string
       for (std::size_t k = 0; k < field.width(); ++k) rows.push_back(frame.cells[f][cell * field.width() + k]);
     const hsize_t shape[2] = {cells.size(), field.width()};
     at(file_).numbers(fmt::format("fields/{}/{}", field.named.name, name), rows, shape);
+  }
+}
+
+void ResultFile::append_point_fields(const Batch::Frame& frame, const std::string& name) {
+  for (std::size_t f = 0; f < layout_->point_fields.size(); ++f) {
+    const PointField& one = layout_->point_fields[f];
+    assert(frame.points[f].size() == one.elements.size() * one.field.width());
+    const hsize_t shape[2] = {one.elements.size(), one.field.width()};
+    at(file_).numbers(fmt::format("points/{}/{}", one.field.named.name, name), frame.points[f], shape);
   }
 }
 

@@ -97,6 +97,8 @@ void Results::frame(double time, const FrameValues& values) {
   }
   assert(values.cells.size() == layout_.cell_fields.size());
   frame.cells = values.cells;
+  assert(values.points.size() == layout_.point_fields.size());
+  frame.points = values.points;
   gathered_->frames.push_back(std::move(frame));
   ++frames_;
 }

@@ -26,6 +26,8 @@ struct FrameValues {
   std::vector<std::span<const double>> nodes;
   /// Those of ResultsLayout::cell_fields: a row of CellField::width() for each of ResultsLayout::cells.
   std::vector<std::vector<double>> cells = {};
+  /// Those of ResultsLayout::point_fields: a row of CellField::width() for each of PointField::elements.
+  std::vector<std::vector<double>> points = {};
 };
 
 /// Writes a run's numbers (docs/format.md) and their XDMF index.

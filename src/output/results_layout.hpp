@@ -41,6 +41,14 @@ struct CellField {
   std::size_t width() const { return components.empty() ? 1 : components.size(); }
 };
 
+/// A field with several values in an element, one at each of its nodes or integration points. Beside it stands the CellField of
+/// the same name, with their mean.
+struct PointField {
+  CellField field;
+  std::vector<int> elements;  ///< id of the element that each value belongs to
+  std::vector<int> points;    ///< and its number in that element, from 0
+};
+
 /// Everything about a result file that is known before the first step (docs/format.md).
 struct ResultsLayout {
   std::string title;
@@ -55,6 +63,7 @@ struct ResultsLayout {
   std::vector<Cell> cells;
   std::vector<Named> node_fields;  ///< three global components each
   std::vector<CellField> cell_fields;
+  std::vector<PointField> point_fields;
   std::vector<HistoryTable> history;
   std::size_t expected_samples = 1024;  ///< about how many there will be: tables are laid out for so many rows at a time
 

@@ -26,14 +26,24 @@ class Run:
             return r.history(path)[1]
 
 
-def run(text: str, folder: Path, name: str = "deck", timeout: float = 300) -> Run:
-    """Writes a deck into the folder and runs it there; failed runs and failed checks fail the test."""
+def run(
+    text: str,
+    folder: Path,
+    name: str = "deck",
+    timeout: float = 300,
+    ranks: int = 1,
+    options: tuple[str, ...] = (),
+    status: int = 0,
+) -> Run:
+    """Writes a deck into the folder and runs it there; another status, as of failed checks, fails the
+    test."""
     program = os.environ.get("ENGRANE", "")
     if not Path(program).is_file():
         pytest.skip("the variable ENGRANE names no program")
     (folder / f"{name}.dat").write_text(text)
-    done = subprocess.run(
-        [program, f"{name}.dat", "-o", name], cwd=folder, capture_output=True, text=True, timeout=timeout
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
+    command = [program, f"{name}.dat", "-o", name, *options]
+    if ranks > 1:
+        command = ["mpiexec", "-np", str(ranks), "--quiet", "--oversubscribe", "--bind-to", "none", *command]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=timeout)
+    assert done.returncode == status, done.stdout + done.stderr
     return Run(folder / f"{name}.h5")

@@ -23,6 +23,7 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
   } else {
     layout.multipliers.push_back({"NORMAL_FORCE", dimension::length, "normal force of the cam on the follower"});
   }
+  layout.slides = parts_.friction ? 1 : 0;
   set_layout(std::move(layout));
   const bool roller = !parts_.flat && parts_.radius > 0;
   channels_ = {
@@ -73,6 +74,12 @@ void Cam::switches(const State& state, std::span<Switch> values) const {
   values[1] = pressed > 0 ? Switch{parts_.law->pressure(pressed, rate), parts_.law->pressure_rate(pressed, rate, growth),
                                    parts_.law->pressure_size(pressed, rate)}
                           : Switch{};
+}
+
+void Cam::sliding(const State& state, std::span<Vec3> speeds) const {
+  if (speeds.empty()) return;
+  const Nodes<double> node = motion<double>(state).node;
+  speeds[0] = sliding(contact<double>(node, state.history), node) / parts_.friction->width;
 }
 
 Energies Cam::energies(const State& state) const {

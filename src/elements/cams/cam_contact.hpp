@@ -89,6 +89,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
 
   void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void switches(const State& state, std::span<Switch> values) const override;
+  void sliding(const State& state, std::span<Vec3> speeds) const override;
   Energies energies(const State& state) const override;
   const std::vector<Named>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override;

@@ -28,13 +28,23 @@ bool read_friction(const BuildContext& context, const deck::Tagged& given, Frict
     return values.size() < 2 || named_function(context, "FRICTION", values[1], law.of_load);
   }
   if (given.is("USER")) {
+    const double scale = law.width > 0 ? law.width : 1;
     std::vector<user::Arguments> samples;
     for (const double speed : {1.0, 0.1, 0.5, 2.0, 10.0, 1000.0})
-      for (const double load : {1.0, 100.0}) samples.push_back({speed * law.width, load, 0});
-    law.user = user_routine(context, "FRICTION", values[0], user::Kind::friction, {law.width, 1, 1}, samples);
+      for (const double load : {1.0, 100.0}) samples.push_back({speed * scale, load, 0});
+    law.user = user_routine(context, "FRICTION", values[0], user::Kind::friction, {scale, 1, 1}, samples);
     return law.user != nullptr;
   }
   law.mu = values[0];
+  if (given.is("CONST") && values.size() > 1) {
+    if (!law.rests || values[1] < values[0]) {
+      context.error("FRICTION",
+                    law.rests ? "the coefficient at rest is below that of sliding" : "a coefficient at rest needs STICK",
+                    "FRICTION CONST mu mu_s with STICK and mu_s >= mu");
+      return false;
+    }
+    law.at_rest = values[1];
+  }
   if (given.is("STRIBECK")) {
     law.kind = FrictionLaw::Kind::stribeck;
     law.kinetic = values[1];

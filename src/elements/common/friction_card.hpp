@@ -7,8 +7,8 @@
 
 namespace engrane::elements {
 
-/// Reads CONST, STRIBECK, FCT or USER into a law whose width is known; false, with an error at FRICTION, when the numbers make
-/// none.
+/// Reads CONST, STRIBECK, FCT or USER into a law of which `width` and `rests` are known; false, with an error at FRICTION, when
+/// the numbers make none.
 bool read_friction(const BuildContext& context, const deck::Tagged& given, FrictionLaw& law);
 
 /// The function that a number of a card names; false, with an error at the keyword, when it does not exist.
@@ -17,7 +17,7 @@ bool named_function(const BuildContext& context, std::string_view keyword, doubl
 /// The options of FRICTION.
 inline void add_friction_options(deck::FieldBuilder field) {
   field.synonyms({"FROTTEMENT"})
-      .option({"CONST", {"COULOMB", "CONSTANT"}, "mu", 1, 1})
+      .option({"CONST", {"COULOMB", "CONSTANT"}, "mu [mu_s]: mu_s at rest, with STICK", 1, 2})
       .option({"STRIBECK", {}, "mu_s mu_k v_s [c]: mu_k + (mu_s - mu_k) exp(-(v/v_s)^2) + c v", 3, 4})
       .option({"FCT", {"NF", "TABLE"}, "f [g]: function f of the sliding speed, times function g of the normal force", 1, 2})
       .option({"USER", {"UTILISATEUR"}, "f: routine f of .FCT, of the sliding speed and the normal force", 1, 1});

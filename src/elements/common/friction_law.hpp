@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "math/dual.hpp"
 #include "model/function.hpp"
@@ -13,6 +15,9 @@ namespace engrane::elements {
 /// Dry friction between two surfaces: force μ(v, F) F against the sliding velocity. Below the speed `width` it falls to zero by
 /// a polynomial in v that keeps value, slope and curvature continuous; above it is Coulomb's law exactly. Its power is never
 /// negative.
+///
+/// With `rests` the law is Coulomb's at every speed, in the direction of sliding that is known from the history, and there is a
+/// coefficient at rest (GripState).
 struct FrictionLaw {
   enum class Kind {
     constant,
@@ -27,7 +32,9 @@ struct FrictionLaw {
   const Function* of_speed = nullptr;
   const Function* of_load = nullptr;          ///< a factor on μ, of the normal force; none: 1
   std::shared_ptr<const user::Routine> user;  ///< instead of all the above: μ of speed and normal force
-  double width = 0;                           ///< speed below which it is regularised; positive
+  double width = 0;                           ///< speed below which it is regularised; 0: nowhere
+  bool rests = false;
+  std::optional<double> at_rest;  ///< μ at rest where it is not that of speed 0
 
   /// μ at a sliding speed, with derivatives; without the factor of the load.
   Function::Jet coefficient(double speed) const {
@@ -45,21 +52,34 @@ struct FrictionLaw {
     return {};
   }
 
+  /// μ at a speed; below zero, where an iteration may pass, formulas go on and functions stay what they are at zero.
+  template <class T>
+  T at(const T& speed, const T& load) const {
+    const T v = value_of(speed) < 0 && (user || kind == Kind::function) ? T(0) : speed;
+    if (user) {
+      const user::Results y = user->at({value_of(v), value_of(load), 0});
+      return compose(v, y[0], y[1], 0) + compose(load, 0, y[2], 0);
+    }
+    const Function::Jet c = coefficient(value_of(v));
+    T factor = compose(v, c.f, c.d1, c.d2);
+    if (of_load) factor *= evaluate(*of_load, load);
+    return factor;
+  }
+
+  /// μ of surfaces that do not slide.
+  double static_coefficient(double load) const {
+    if (!at_rest) return at(0.0, load);
+    return *at_rest * (of_load ? of_load->at(load).f : 1);
+  }
+
   /// μ/v, by which the sliding velocity and the normal force are multiplied; finite at rest.
   template <class T>
   T over_speed(const T& speed_squared, const T& load) const {
     using std::sqrt;
-    constexpr double at_rest = 1e-8;  // of the width: keeps the root differentiable and changes no digit
-    const T speed = sqrt(speed_squared + at_rest * at_rest * width * width);
-    T factor;
-    if (user) {
-      const user::Results y = user->at({value_of(speed), value_of(load), 0});
-      factor = compose(speed, y[0], y[1], 0) + compose(load, 0, y[2], 0);
-    } else {
-      const Function::Jet c = coefficient(value_of(speed));
-      factor = compose(speed, c.f, c.d1, c.d2);
-      if (of_load) factor *= evaluate(*of_load, load);
-    }
+    constexpr double least = 1e-8;  // of the width: keeps the root differentiable and changes no digit
+    if (width == 0 && value_of(speed_squared) == 0) return T(0);
+    const T speed = sqrt(speed_squared + least * least * width * width);
+    const T factor = at(speed, load);
     if (value_of(speed) >= width) return factor / speed;
     const T s = speed_squared * (1 / (width * width));
     return factor * ((T(15) - s * 10.0 + s * s * 3.0) * (0.125 / width));

@@ -8,7 +8,9 @@
 #include <numbers>
 
 #include "elements/common/building.hpp"
+#include "elements/common/friction_law.hpp"
 #include "elements/joints/joint_measures.hpp"
+#include "model/grip.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::control {
@@ -37,6 +39,7 @@ struct BeltLaw {
   double preload = 0;
   double damping = 0;
   std::optional<double> friction;
+  std::optional<FrictionLaw> slips;  ///< beyond what friction holds
   bool rigid() const { return stiffness == 0; }
 };
 
@@ -55,7 +58,11 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
     layout.nodes.assign(nodes.begin(), nodes.end());
     layout.needs = {NodeNeed::both, NodeNeed::both};
     layout.history = 2 * turn_count::history;
-    if (law.rigid()) layout.multipliers = {{"PULL", dimension::length, "tension of the second span less that of the first"}};
+    const Named pull{"PULL", dimension::length, "tension of the second span less that of the first"};
+    if (law.slips)
+      add_grip(layout, pull);
+    else if (law.rigid())
+      layout.multipliers = {{pull}};
     set_layout(std::move(layout));
     name_channels();
   }
@@ -65,7 +72,11 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
     const auto& a = motion.node[0];
     const auto& b = motion.node[1];
     const Runs<T> runs(*this, a, b, state);
-    const auto [first, second] = tensions(runs, [&] { return balance.constraint(0, runs.roll); });
+    const auto [first, second] = tensions(runs, [&] {
+      const GripState grip = grip_of(state);
+      const T held = balance.constraint(0, runs.roll - grip.held);
+      return grip.mode == GripState::holding ? held : slipping(runs, grip.direction());
+    });
     const Vec3T<T> force = runs.tangent[0] * T(-first) - runs.tangent[1] * second;
     const Vec3T<T> moment = runs.turned * (shape_.side * shape_.r2 * (first - second));
     balance.force(0, force);
@@ -80,11 +91,23 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
     turn_count::commit(runs.turn_angle, state.history.subspan(2), history.subspan(2));
   }
 
+  void start(std::span<double>, std::span<double> history) const override {
+    std::fill(history.begin(), history.end(), 0.0);
+    if (law_.slips) GripState{GripState::holding, 0}.write(history, 1, 0);
+  }
+  void grip_limits(const State& state, std::span<double> limits) const override {
+    if (!law_.slips) return;
+    limits[0] =
+        most_pull(law_.slips->static_coefficient(law_.preload), Runs<double>(*this, state.nodes[0], state.nodes[1], state));
+  }
+  void switches(const State& state, std::span<Switch> values) const override { grip_switches(*this, state, values); }
+
   Energies energies(const State& state) const override {
     const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);
     Energies e;
     if (law_.rigid()) {
       e.potential = 2 * law_.preload * runs.slack_taken;
+      if (law_.slips) e.dissipated = -pull(runs, state) * runs.roll_rate;
       return e;
     }
     for (int i = 0; i < 2; ++i) {
@@ -99,7 +122,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
 
   void observe(const State& state, std::span<double> values) const override {
     const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);
-    const auto [first, second] = tensions(runs, [&] { return state.multipliers[0] - state.penalty * runs.roll; });
+    const auto [first, second] = tensions(runs, [&] { return pull(runs, state); });
     const Vec3 force = -first * runs.tangent[0] - second * runs.tangent[1];
     const double beta = std::asin(shape_.reach() / runs.distance);
     const double wrap_1 = std::numbers::pi + 2 * beta, wrap_2 = std::numbers::pi - 2 * shape_.side * beta;
@@ -188,6 +211,32 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
     T stretch_rate(int i) const { return i == 0 ? T(taken_rate + roll_rate) : T(taken_rate - roll_rate); }
   };
 
+  GripState grip_of(const State& state) const {
+    return law_.slips ? GripState::of(state.history, 1, 0) : GripState{GripState::holding, 0};
+  }
+  /// Euler and Eytelwein: tight over slack is at most exp(μ wrap); the difference, with the preload as their mean.
+  template <class T>
+  T most_pull(const T& mu, const Runs<T>& runs) const {
+    using std::atan2, std::sqrt;
+    const T &d = runs.distance, beta = atan2(T(shape_.reach()), T(sqrt(d * d - shape_.reach() * shape_.reach())));
+    const double lesser = -shape_.side * value_of(beta) < value_of(beta) ? -shape_.side : 1;  // that of the smaller wrap
+    const T turned = mu * (std::numbers::pi + 2 * lesser * beta);
+    const double left = std::exp(-value_of(turned));
+    const T part = compose(turned, 1 - left, left, -left);  // of the tight side
+    return law_.preload * part / (1 - 0.5 * part);
+  }
+  /// The pull of a belt that slips.
+  template <class T>
+  T slipping(const Runs<T>& runs, int direction) const {
+    if (direction == 0) return T(0);
+    return -direction * most_pull(law_.slips->at(T(direction * runs.roll_rate), T(law_.preload)), runs);
+  }
+  double pull(const Runs<double>& runs, const State& state) const {
+    const GripState grip = grip_of(state);
+    return grip.mode == GripState::holding ? state.multipliers[0] - state.penalty * (runs.roll - grip.held)
+                                           : slipping(runs, grip.direction());
+  }
+
   /// Elastic tension: a slack span does not push.
   template <class T>
   T taut(const T& stretch) const {
@@ -266,7 +315,7 @@ std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {
     return nullptr;
   }
   const double free = std::sqrt(distance * distance - shape.reach() * shape.reach());
-  BeltLaw law{data.stiffness.value_or(data.rigidity.value_or(0) / free), data.preload, data.damping, data.friction};
+  BeltLaw law{data.stiffness.value_or(data.rigidity.value_or(0) / free), data.preload, data.damping, data.friction, {}};
   if (law.damping > 0 && law.rigid()) {
     context.error("C", "a rigid belt has no damping", "give the stiffness of the spans, K or EA");
     return nullptr;
@@ -274,6 +323,16 @@ std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {
   if (law.damping > 0 && law.preload == 0) {
     context.error("C", "damping without a preload", "C holds at the tension PRELOAD, and follows the tension of each span");
     return nullptr;
+  }
+  if (data.sticks && !(data.friction && data.preload > 0 && law.rigid())) {
+    context.error("STICK", "the most that friction holds is that of a rigid belt with friction and preload",
+                  "give MU and PRELOAD, and neither K nor EA");
+    return nullptr;
+  }
+  if (data.sticks) {
+    law.slips.emplace();
+    law.slips->mu = *data.friction;
+    law.slips->rests = true;
   }
   joints::JointFrame frame;
   frame.set_axes(*axis, across / distance);
@@ -283,7 +342,7 @@ std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {
 }  // namespace
 
 ElementType belt_type() {
-  deck::Card<BeltData> card("BELT", {"COURROIE"}, "Two pulleys and a belt that does not slip on them");
+  deck::Card<BeltData> card("BELT", {"COURROIE"}, "Two pulleys and a belt on them");
   card.numbered()
       .chapter("Flexible joints")
       .describe(
@@ -312,7 +371,9 @@ ElementType belt_type() {
       .synonyms({"PRECHARGE"})
       .unit(dimension::force)
       .at_least(0);
-  card.add("MU", &BeltData::friction, "friction on the pulleys, for the channel GRIP_USED").positive();
+  card.add("MU", &BeltData::friction, "friction on the pulleys, for the channel GRIP_USED and for STICK").positive();
+  card.add("STICK", &BeltData::sticks, "a rigid belt slips where it pulls more than MU holds, and holds again when that ends")
+      .synonyms({"ADHERENCE"});
   return element_type(card, build);
 }
 

@@ -19,9 +19,10 @@ struct BeltData {
   double damping = 0;               ///< of one free span at its preload
   double preload = 0;               ///< tension of both spans in the reference configuration
   std::optional<double> friction;   ///< between belt and pulleys
+  bool sticks = false;              ///< slips beyond what that holds
 };
 
-/// BELT (COURROIE): two pulleys and a belt that does not slip on them.
+/// BELT (COURROIE): two pulleys and a belt.
 ElementType belt_type();
 
 }  // namespace engrane::elements::control

@@ -64,7 +64,8 @@ std::optional<Vec3> turning_direction(const Element& element, std::size_t node, 
       rates[static_cast<std::size_t>(k - 6)] = 1;
     element.constraint_rates(state, phi, rate, second);
     for (std::size_t m = 0; m < rate.size(); ++m)
-      if (layout.multipliers[m].role != Role::drive) gradient(static_cast<Eigen::Index>(m), k) = rate[m];
+      if (layout.multipliers[m].role != Role::drive && layout.multipliers[m].role != Role::grip)
+        gradient(static_cast<Eigen::Index>(m), k) = rate[m];
   }
   for (Eigen::Index m = 0; m < gradient.rows(); ++m)
     if (const double length = gradient.row(m).norm(); length > 0) gradient.row(m) /= length;

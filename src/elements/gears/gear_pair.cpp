@@ -41,7 +41,7 @@ std::vector<Named> channel_list() {
 
 GearPair::GearPair(int id, std::array<int, 2> nodes, const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth,
                    const ContactOptions& options, double width)
-    : ToothedPair(id, nodes, ToothContact(contact_geometry(design, width), teeth, options),
+    : ToothedPair(id, nodes, ToothContact(contact_geometry(design, frames, width), teeth, options),
                   {{{"PSI_A", dimension::angle, "turn of wheel A relative to the pair's frame"},
                     {"PSI_B", dimension::angle, "turn of wheel B relative to the pair's frame"}}},
                   2, channel_list()),
@@ -50,6 +50,15 @@ GearPair::GearPair(int id, std::array<int, 2> nodes, const GearDesign& design, c
       triad_{frames.mu, frames.xi},
       tooth_{tooth_axes(design.cone[0], design.helix[0]), mating_tooth_axes(design.cone[1], design.helix[1])},
       radius_{design.radius(0), design.radius(1)} {}
+
+ContactGeometry contact_geometry(const GearDesign& design, const PitchFrames& frames, double width) {
+  ContactGeometry g = contact_geometry(design, width);
+  g.turn_ratio = -design.lever(0) / design.lever(1);
+  const Vec3 speed_a = design.radius(0) * frames.mu.col(2), speed_b = g.turn_ratio * design.radius(1) * frames.xi.col(2);
+  // of axles that are parallel or meet the wheels roll: what is left is rounding
+  if (const double slip = (speed_a - speed_b).norm(); slip > 1e-9 * speed_a.norm()) g.slip_per_turn = slip;
+  return g;
+}
 
 ContactGeometry contact_geometry(const GearDesign& design, double width) {
   ContactGeometry g;
@@ -108,7 +117,8 @@ void GearPair::mesh(const Motion<T, 2>& motion, const State& state, Balance<T, 2
   const double pitch = design_.normal_module / 2;
   const T closing = -pitch * (design_.teeth[0] * psi_a + design_.teeth[1] * psi_b + counted_phase(state.history));
   ToothLoads<T> loads;
-  const T normal_force = contact_.act(motion, a, b, closing, balance, loads, report);
+  const T normal_force =
+      contact_.act(motion, a, b, closing, balance, this->grip(psi_a, state.history[0], state, balance), loads, report);
   // a change of ψ is the turn −δψ of the wheel's frame about its axle (18)
   balance.scalar(0, contact_.cos_alpha() * design_.lever(0) * normal_force + dot(a.axle, loads.frame_moment[0]));
   balance.scalar(1, contact_.cos_alpha() * design_.lever(1) * normal_force + dot(b.axle, loads.frame_moment[1]));
@@ -176,7 +186,7 @@ std::unique_ptr<Element> build_gear_pair(const GearData& data, BuildContext& con
   owner.lever = {design.lever(0), design.lever(1)};
   owner.parallel = kind != 0;
   owner.path_known = owner.parallel || contact_ratio(design);
-  owner.geometry = contact_geometry(design, width);
+  owner.geometry = contact_geometry(design, placement->frames, width);
   owner.cut = design.cut;
   if (!check_bearings(data.nodes, owner.axle, context)) return nullptr;
   const auto mesh = mesh_phase(context, data.stiffness || data.course.is("ISO"));

@@ -65,6 +65,8 @@ extern template class ToothedPair<GearPair>;
 /// What the contact needs of a pair's geometry. Involute relations, sliding along the profile and slices are of parallel axles
 /// only; for others their dimensions stay zero.
 ContactGeometry contact_geometry(const GearDesign& design, double width);
+/// With what friction at rest needs.
+ContactGeometry contact_geometry(const GearDesign& design, const PitchFrames& frames, double width);
 
 ElementType gear_pair_type();
 

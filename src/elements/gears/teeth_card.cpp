@@ -304,6 +304,7 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
   if (!data.friction.given()) {
     bool good = true;
     for (const auto& [keyword, given] : {std::pair<std::string_view, bool>{"VREG", data.friction_width.has_value()},
+                                         {"STICK", data.sticks},
                                          {"SLIDING", data.sliding.given()},
                                          {"ROLLING", data.rolling > 0}})
       if (given) {
@@ -315,7 +316,8 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
   }
   ToothFriction friction;
   FrictionLaw& law = friction.law;
-  law.width = data.friction_width.value_or(1e-3 * owner.geometry.radius);
+  law.rests = data.sticks;
+  law.width = data.sticks ? 0 : data.friction_width.value_or(1e-3 * owner.geometry.radius);
   if (!read_friction(context, data.friction, law)) return false;
   if ((data.friction.is("CONST") || data.friction.is("STRIBECK")) && law.mu > 1)
     context.diagnostics.warning(context.record.where("FRICTION"),
@@ -324,6 +326,19 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
   friction.rolling = data.rolling;
   friction.profile = data.sliding.is("PROFILE");
   const ContactGeometry& g = owner.geometry;
+  if (data.sticks && (data.friction_width || friction.profile || friction.rolling > 0)) {
+    context.error("STICK",
+                  fmt::format("STICK beside {}", data.friction_width ? "VREG"
+                                                 : friction.profile  ? "SLIDING PROFILE"
+                                                                     : "ROLLING"),
+                  "STICK holds the sliding at the pitch point, without a width: leave out one of them");
+    return false;
+  }
+  if (data.sticks && g.slip_per_turn == 0) {
+    context.error("STICK", "these teeth do not slide at the pitch point: there is nothing to hold",
+                  "STICK is for axles that cross or pass each other, such as those of a worm; leave it out");
+    return false;
+  }
   if (friction.profile && !owner.path_known) {
     context.error("SLIDING", "the path of contact is only known of axles that are parallel or meet",
                   "SLIDING PITCH slides at the pitch point, as most of the sliding of such teeth does");

@@ -36,6 +36,7 @@ struct TeethData {
   std::optional<double> phase;
   deck::Tagged friction;
   std::optional<double> friction_width;
+  bool sticks = false;
   deck::Tagged sliding;
   double rolling = 0;
   deck::Tagged separation{"YES", {}};
@@ -172,6 +173,8 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .synonyms({"V0"})
       .unit(velocity)
       .positive();
+  c.add("STICK", &TeethData::sticks, "friction rests: Coulomb's law at every speed, held exactly when the flanks stop sliding")
+      .synonyms({"ADHERENCE"});
   c.add("SLIDING", &TeethData::sliding, "where the flanks slide")
       .synonyms({"GLISSEMENT"})
       .option({"PITCH", {"PRIMITIF"}, "at the pitch point: axles that cross or pass each other"})

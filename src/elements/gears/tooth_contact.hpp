@@ -39,6 +39,9 @@ struct ContactGeometry {
   /// Front flank of A from the middle of its tooth, in pitches, at the working pitch circle: a quarter without profile shift.
   double flank = 0.25;
 
+  double turn_ratio = 0;     ///< ψ̇_B/ψ̇_A of rigid teeth
+  double slip_per_turn = 0;  ///< sliding at the pitch point over ψ̇_A; zero of axles that are parallel or meet, and of racks
+
   /// cosα_t′ = (a₀/a) cosα_t. `opening` is by how far the wheels have moved apart across the teeth.
   double working_pressure_angle(double opening) const;
   /// By how much each flank opens, along the circumference, when the wheels move apart: of involutes,
@@ -90,6 +93,14 @@ ToothedSide<T> toothed_wheel(const Mat3& triad, const Mat3& tooth, double radius
   return w;
 }
 
+/// What friction that can rest does at the pitch point (GripState): the direction of sliding, and the force that holds it.
+template <class T>
+struct ToothGrip {
+  int direction = 0;  ///< 1: as when ψ_A grows
+  bool holds = false;
+  T force = T(0);  ///< on A along the sliding of A on B
+};
+
 /// Forces of the teeth on A; B gets the opposite. Moments on A and B about their nodes. What belongs to the pair's frame also
 /// acts on the coordinate by which a body moves relative to it; what acts on the bodies does not.
 template <class T>
@@ -107,9 +118,11 @@ struct ContactReport {
   double stiffness_factor = 1;        ///< of the course over the mesh
   double potential = 0;
   double damping_power = 0, friction_power = 0, separation_power = 0;
-  double sliding_speed = 0;    ///< at the pitch point
-  double friction_force = 0;   ///< size
-  std::vector<double> slices;  ///< force on each along the circumference
+  double sliding_speed = 0;     ///< at the pitch point
+  double friction_force = 0;    ///< size
+  Vec3 sliding = Vec3::Zero();  ///< of the fastest flank, where there is friction
+  double grip_limit = 0;        ///< largest friction at rest
+  std::vector<double> slices;   ///< force on each along the circumference
 };
 
 /// The separating force (34) works on the wheels where the centres change their distance; it counts as external.
@@ -148,7 +161,9 @@ class ToothContact {
   /// `closing` is φ₁ over cosα_n without u_m. Returns the force kλ₁ along the normal.
   template <class T>
   T act(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const T& closing, Balance<T, 2>& balance,
-        ToothLoads<T>& loads, ContactReport* report) const;
+        const ToothGrip<T>& grip, ToothLoads<T>& loads, ContactReport* report) const;
+  /// Can the friction rest?
+  bool grips() const { return options_.friction && options_.friction->law.rests; }
 
   /// Where the force between flanks is not smooth: both ends of each rounded corner, or the corner itself, and where the
   /// damping of a flank in contact is limited. None with slices, which come into contact one after another.
@@ -163,7 +178,7 @@ class ToothContact {
              Balance<T, 2>& balance, ToothLoads<T>& loads, ContactReport* report) const;
   template <class T>
   void rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap, const T& force_1,
-           ToothLoads<T>& loads, ContactReport* report) const;
+           const ToothGrip<T>& grip, ToothLoads<T>& loads, ContactReport* report) const;
 
   ContactGeometry geometry_;
   ToothLaw law_;

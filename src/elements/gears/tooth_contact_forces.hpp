@@ -10,7 +10,7 @@ namespace engrane::elements::gears {
 
 template <class T>
 T ToothContact::act(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const T& closing,
-                    Balance<T, 2>& balance, ToothLoads<T>& loads, ContactReport* report) const {
+                    Balance<T, 2>& balance, const ToothGrip<T>& grip, ToothLoads<T>& loads, ContactReport* report) const {
   // (21) with the sign of external contact, (22) and (23) for both sides alike
   const T force_1 = balance.constraint(0, cos_alpha_ * (elastic() ? T(closing + motion.scalar[2]) : closing));
   Vec3T<T> gap, normal;  // x_C^A − x_C^B (10), mean of η₃
@@ -33,7 +33,7 @@ T ToothContact::act(const Motion<T, 2>& motion, const ToothedSide<T>& a, const T
   }
 
   if (elastic()) press(motion, a, b, gap, force_1, balance, loads, report);
-  rub(motion, a, b, gap, force_1, loads, report);
+  rub(motion, a, b, gap, force_1, grip, loads, report);
 
   const Vec3T<T> force = loads.frame_force + loads.body_force;
   balance.force(0, -force);
@@ -208,8 +208,8 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
 
 template <class T>
 void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap,
-                       const T& force_1, ToothLoads<T>& loads, ContactReport* report) const {
-  using std::abs;
+                       const T& force_1, const ToothGrip<T>& grip, ToothLoads<T>& loads, ContactReport* report) const {
+  using std::abs, std::sqrt;
   const bool radial = options_.separation && !(options_.running && elastic());
   if (!radial && !options_.friction && !report) return;
   const T load = abs(force_1);
@@ -267,13 +267,34 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
     for (int k = 0; k < 3; ++k) tangential[k] = v[k] - v_n * n[k];
     const T speed_squared = dot(tangential, v);
     const T factor = N * law.over_speed(speed_squared, load);
-    if (report) report->friction_power += value_of(factor) * value_of(speed_squared);
+    if (report) {
+      report->friction_power += value_of(factor) * value_of(speed_squared);
+      if (&law == &friction.law && value_of(speed_squared) > report->sliding.squaredNorm())
+        for (int k = 0; k < 3; ++k) report->sliding[k] = value_of(tangential[k]);
+    }
     Vec3T<T> force;
     for (int k = 0; k < 3; ++k) force[k] = -factor * tangential[k];
     return force;
   };
   const Vec3T<T> before = loads.body_force;
-  if (!friction.profile) {
+  if (report && grips()) report->grip_limit = friction.law.static_coefficient(value_of(load)) * value_of(load);
+  if (grip.direction != 0 || grip.holds) {
+    // as A slides on B when ψ_A grows
+    const Vec3T<T> turn_a = cross(a.axle, arm_a), turn_b = cross(b.axle, arm_b);
+    Vec3T<T> way;
+    for (int k = 0; k < 3; ++k) way[k] = turn_a[k] - geometry_.turn_ratio * turn_b[k];
+    const T across_flanks = dot(way, normal);
+    for (int k = 0; k < 3; ++k) way[k] -= across_flanks * normal[k];
+    const T length = sqrt(dot(way, way));
+    for (int k = 0; k < 3; ++k) way[k] = way[k] / length;
+    const T sliding = dot(way, at_pitch_point);
+    T along = grip.force;
+    if (grip.direction != 0) along -= grip.direction * (friction.law.at(T(grip.direction * sliding), load) * load);
+    if (report) report->friction_power -= value_of(along) * value_of(sliding);
+    Vec3T<T> force;
+    for (int k = 0; k < 3; ++k) force[k] = along * way[k];
+    add(force, arm_a, arm_b);
+  } else if (!friction.profile) {
     add(drag(at_pitch_point, normal, friction.law, load), arm_a, arm_b);
   } else {
     // flanks that touch at ζ from the pitch point along the line of action

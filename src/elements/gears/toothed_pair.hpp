@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "elements/gears/contact_channels.hpp"
 #include "elements/gears/tooth_contact.hpp"
+#include "model/grip.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::gears {
@@ -20,11 +22,11 @@ namespace engrane::elements::gears {
 ///
 /// with the rows of its first two scalars, and `ToothContact::act` for the rest.
 template <class Derived>
-class ToothedPair : public TemplatedElement<Derived, 2, 18> {
+class ToothedPair : public TemplatedElement<Derived, 2, 20> {
  public:
   ToothedPair(int id, std::array<int, 2> nodes, const ToothContact& contact, std::array<Scalar, 2> motions, int history,
               std::vector<Named> channels)
-      : TemplatedElement<Derived, 2, 18>(id), contact_(contact), channels_(std::move(channels)) {
+      : TemplatedElement<Derived, 2, 20>(id), contact_(contact), channels_(std::move(channels)) {
     add_contact_channels(channels_, contact_);
     Layout layout;
     layout.nodes.assign(nodes.begin(), nodes.end());
@@ -36,6 +38,8 @@ class ToothedPair : public TemplatedElement<Derived, 2, 18> {
                           {"TRIAD", dimension::angle, "tooth triads about the tooth, phi_3"}};
     layout.history = history + (contact_.rounds_contact() ? 1 : 0);
     layout.switches = contact_.switch_names();
+    if (contact_.options().friction && !contact_.grips()) layout.slides = 1;
+    if (contact_.grips()) add_grip(layout, {"GRIP", dimension::length, "friction at rest between the flanks"});
     this->set_layout(std::move(layout));
   }
 
@@ -44,15 +48,18 @@ class ToothedPair : public TemplatedElement<Derived, 2, 18> {
     self().mesh(motion, state, balance, nullptr);
   }
 
-  /// Remembers, last in the history, the most that a flank of teeth with a rounded onset was pressed in.
+  /// Remembers, last in the history but for grips, the most that a flank of teeth with a rounded onset was pressed in.
   void commit(const State& state, std::span<double> scalars, std::span<double> history) const override {
     const double pressed = contact_.rounds_contact() ? contact_.deflection(report(state)) : 0;  // counting turns may shift ψ
     self().count_turns(state, scalars, history);
-    if (contact_.rounds_contact()) history.back() = std::max(state.history.back(), pressed);
+    if (contact_.rounds_contact()) {
+      const std::size_t at = deepest(history.size());
+      history[at] = std::max(state.history[at], pressed);
+    }
   }
   std::vector<std::string> remarks(std::span<const double> history) const override {
     if (!contact_.rounds_contact()) return {};
-    return contact_.remarks(history.back());
+    return contact_.remarks(history[deepest(history.size())]);
   }
 
   const ToothLaw& teeth() const { return contact_.law(); }
@@ -72,14 +79,37 @@ class ToothedPair : public TemplatedElement<Derived, 2, 18> {
   Energies energies(const State& state) const override { return energies_of(report(state)); }
   const std::vector<Named>& channels() const override { return channels_; }
   void switches(const State& state, std::span<Switch> values) const override {
-    if (!values.empty()) contact_.switches(report(state), state, values);
+    if (values.empty()) return;
+    const std::size_t of_grips = contact_.grips() ? 2 : 0, others = values.size() - of_grips;
+    if (others > 0) contact_.switches(report(state), state, values.first(others));
+    grip_switches(*this, state, values.subspan(others));
+  }
+  void sliding(const State& state, std::span<Vec3> speeds) const override {
+    if (!speeds.empty()) speeds[0] = report(state).sliding / contact_.options().friction->law.width;
+  }
+  void grip_limits(const State& state, std::span<double> limits) const override {
+    if (contact_.grips()) limits[0] = report(state).grip_limit;
   }
 
  protected:
   ToothContact contact_;
 
+  /// The friction at rest, with the row of its grip, for ψ_A of so many whole turns.
+  template <class T>
+  ToothGrip<T> grip(const T& psi_a, double turns, const State& state, Balance<T, 2>& balance) const {
+    if (!contact_.grips()) return {};
+    const GripState now = GripState::of(state.history, 1, 0);
+    const T along = contact_.geometry().slip_per_turn * (psi_a + 2 * std::numbers::pi * turns) - now.held;
+    const T held = balance.constraint(3, along);
+    const bool holds = now.mode == GripState::holding;
+    return {now.direction(), holds, holds ? held : T(0)};
+  }
+
  private:
   const Derived& self() const { return static_cast<const Derived&>(*this); }
+  std::size_t deepest(std::size_t history) const {
+    return history - 1 - static_cast<std::size_t>(GripState::history * this->layout().grips);
+  }
 
   std::vector<Named> channels_;
 };

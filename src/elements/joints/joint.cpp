@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "elements/common/building.hpp"
+#include "model/grip.hpp"
 
 namespace engrane::elements::joints {
 
@@ -145,9 +146,18 @@ void Joint::act(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& b
       if (c.sprung()) add(m, c.spring(m.value, speed, state.time));
       if (c.stop.given()) add(m, c.stop.push(m.value, speed, balance.contact_homotopy()));
     }
+    int grip = 0;
     for (const JointFriction& f : parts_.friction) {
       const bool turns = f.kind != Rubbing::guide && f.kind != Rubbing::ball && f.radius > 0;
       const Measured<T> turn = turns ? measured(f.turn, pose, state) : Measured<T>();
+      if (f.law.rests) {
+        const JointRub<T> found = rest(f, grip++, pose, carried, carried_moment, turn, rates, state, balance);
+        force += found.force;
+        moment += found.moment;
+        if constexpr (std::is_same_v<T, double>)
+          if (report) report->push_back(found);
+        continue;
+      }
       const JointRub<T> found = rub(f, pose, carried, carried_moment, turn, normal, rates);
       force += found.force;
       moment += found.moment;
@@ -165,6 +175,21 @@ void Joint::act(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& b
   if (frame.turns_b)
     balance.moment(1,
                    rotate_back(b.R, Vec3T<T>(pose.has_arm_b ? Vec3T<T>(-cross(pose.arm_b, force) - moment) : Vec3T<T>(-moment))));
+}
+
+template <class T>
+JointRub<T> Joint::rest(const JointFriction& f, int grip, const JointPose<T>& pose, const Vec3T<T>& force, const Vec3T<T>& moment,
+                        const Measured<T>& turn, const JointRates<T>& rates, const State& state, Balance<T, 2>& balance) const {
+  const int grips = layout().grips;
+  const GripState now = GripState::of(state.history, grips, grip);
+  const double lead = parts_.frame.lead;
+  const Measured<T> along = f.kind == Rubbing::guide ? measured(f.coordinate(), pose, state) : turn;
+  const int row = static_cast<int>(layout().multipliers.size()) - grips + grip;
+  const T held = balance.constraint(row, along.value - now.held);
+  JointRub<T> found = now.mode == GripState::free ? rub(f, pose, force, moment, turn, Vec3T<T>(T(0), T(0), T(0)), rates)
+                                                  : rub_in_direction(f, now.direction(), pose, force, moment, turn, lead, rates);
+  if (now.mode == GripState::holding) rub_along(f, pose, turn, lead, held, found);
+  return found;
 }
 
 template <class T>
@@ -252,7 +277,15 @@ Joint::Joint(int id, JointParts parts) : TemplatedElement(id), parts_(std::move(
   for (const JointFriction& f : parts_.friction)
     if (f.radius > 0 && f.kind != Rubbing::guide && f.kind != Rubbing::ball) count(f.turn);
   if (!parts_.friction.empty()) moves_ = has_rates_ = whole_b_ = true;
-  layout.history = turn_count::history * static_cast<int>(angles_.size());
+  for (const JointFriction& f : parts_.friction) {
+    layout.slides += f.law.rests ? 0 : 1;
+    if (f.law.rests) {
+      const bool slides = f.kind == Rubbing::guide;
+      add_grip(layout, {(slides ? "GRIP_FORCE" : "GRIP_MOMENT") + f.suffix, slides ? dimension::length : dimension::angle,
+                        "friction at rest"});
+    }
+  }
+  layout.history += turn_count::history * static_cast<int>(angles_.size());
   set_layout(std::move(layout));
   name_channels();
 }
@@ -294,6 +327,21 @@ void Joint::switches(const State& state, std::span<Switch> values) const {
     const Taylor q = measured(c.measure, pose, state).value;
     values = values.subspan(c.stop.switches(q.value, q.d1, q.d2, values));
   }
+  grip_switches(*this, state, values);
+}
+
+void Joint::sliding(const State& state, std::span<Vec3> speeds) const {
+  const Report report = rubbed(state);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < report.size(); ++i)
+    if (!parts_.friction[i].law.rests) speeds[next++] = report[i].sliding / parts_.friction[i].law.width;
+}
+
+void Joint::grip_limits(const State& state, std::span<double> limits) const {
+  const Report report = rubbed(state);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < report.size(); ++i)
+    if (parts_.friction[i].law.rests) limits[next++] = report[i].limit;
 }
 
 Energies Joint::energies(const State& state) const {
@@ -311,7 +359,7 @@ Energies Joint::energies(const State& state) const {
 }
 
 void Joint::observe(const State& state, std::span<double> values) const {
-  std::array<double, 18> r{};
+  std::array<double, 20> r{};
   residual(state, std::span(r).first(sweep().slots()));
   const NodeState& b = state.nodes[1];
   const JointPose<double> pose(parts_.frame, state.nodes[0], b);

@@ -69,7 +69,7 @@ struct JointParts {
 
 /// Any joint between two nodes that is a list of constraints and free coordinates (joint_measures.hpp). The multipliers
 /// are forces and moments on B in the joint axes that A carries.
-class Joint final : public TemplatedElement<Joint, 2, 18>, public CoordinateOwner {
+class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwner {
  public:
   Joint(int id, JointParts parts);
   ~Joint() override;  // where the class is compiled, and nowhere else: it is large
@@ -80,6 +80,8 @@ class Joint final : public TemplatedElement<Joint, 2, 18>, public CoordinateOwne
   void tangent(const State& state, Weights weights, std::span<double> r, std::span<double> k) const override;
   void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void switches(const State& state, std::span<Switch> values) const override;
+  void sliding(const State& state, std::span<Vec3> speeds) const override;
+  void grip_limits(const State& state, std::span<double> limits) const override;
   Energies energies(const State& state) const override;
   const std::vector<Named>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override;
@@ -101,6 +103,11 @@ class Joint final : public TemplatedElement<Joint, 2, 18>, public CoordinateOwne
 
   /// Entry of an angle's turn count in the history, or -1.
   int counted(Measure what) const;
+
+  /// The friction of surfaces that can rest, and the row of their grip.
+  template <class T>
+  JointRub<T> rest(const JointFriction& f, int grip, const JointPose<T>& pose, const Vec3T<T>& force, const Vec3T<T>& moment,
+                   const Measured<T>& turn, const JointRates<T>& rates, const State& state, Balance<T, 2>& balance) const;
 
   template <class T>
   Measured<T> measured(Measure what, const JointPose<T>& pose, const State& state) const;

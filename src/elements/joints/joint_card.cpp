@@ -48,6 +48,9 @@ void add_joint_friction(JointCard& card, const FrictionWords& words) {
       .synonyms({"V0", "VS"})
       .unit(dimension::velocity)
       .positive();
+  if (words.rests)
+    card.add("STICK", &JointData::sticks, "friction rests: no VREG, Coulomb's law at every speed, held exactly when it stops")
+        .synonyms({"ADHERENCE", "COLLE"});
   if (!words.radius.empty())
     card.add("RADIUS", &JointData::radius, words.radius).synonyms({"RAYON"}).unit(dimension::length).at_least(0);
   if (!words.collar.empty())
@@ -280,6 +283,7 @@ bool add_friction(const JointData& data, const BuildContext& context, JointParts
                   const FrictionWords& words) {
   if (!data.friction.given()) {
     for (const auto& [keyword, given] : {std::pair<const char*, bool>{"VREG", data.friction_width.has_value()},
+                                         {"STICK", data.sticks},
                                          {"RADIUS", !words.radius.empty() && data.radius > 0},
                                          {"THRUST", data.collar > 0},
                                          {"LENGTH", data.bearing_length > 0},
@@ -293,16 +297,24 @@ bool add_friction(const JointData& data, const BuildContext& context, JointParts
   }
   JointFriction f;
   f.kind = kind;
-  if (!data.friction_width) {
-    context.error("FRICTION", "friction needs VREG, the sliding speed below which it is regularised",
-                  "VREG v, well below the speeds of interest: what ought to rest creeps by up to v");
+  f.law.rests = data.sticks;
+  if (data.sticks && data.friction_width) {
+    context.error("VREG", "STICK regularises nothing, VREG does", "leave out one of them");
+    return false;
+  }
+  if (!data.friction_width && !data.sticks) {
+    context.error("FRICTION",
+                  words.rests ? "friction needs STICK, or VREG, the sliding speed below which it is regularised"
+                              : "friction needs VREG, the sliding speed below which it is regularised",
+                  words.rests ? "STICK: what stops rests; VREG v: what ought to rest creeps by up to v"
+                              : "VREG v, well below the speeds of interest: what ought to rest creeps by up to v");
     return false;
   }
   if (words.needs_radius && !(data.radius > 0)) {
     context.error("FRICTION", "friction needs RADIUS", fmt::format("RADIUS r: {}", words.radius));
     return false;
   }
-  f.law.width = *data.friction_width;
+  f.law.width = data.friction_width.value_or(0);
   if (!read_friction(context, data.friction, f.law)) return false;
   if (!words.radius.empty()) f.radius = data.radius;
   f.collar = data.collar;

@@ -39,6 +39,7 @@ struct JointData : NumberedCoordinate<0>, NumberedCoordinate<1>, NumberedCoordin
 
   deck::Tagged friction;
   std::optional<double> friction_width;
+  bool sticks = false;
   double radius = 0, collar = 0, bearing_length = 0, preload = 0;
   double flank = 0;  ///< of a thread, degrees
 
@@ -98,6 +99,7 @@ struct FrictionWords {
   std::string length = {};  ///< LENGTH
   bool flank = false;       ///< FLANK
   bool needs_radius = true;
+  bool rests = false;  ///< STICK
 };
 void add_joint_friction(JointCard& card, const FrictionWords& words);
 

@@ -2,6 +2,8 @@
 // Dry friction in joints, from the forces that the joint itself carries.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <string>
 
 #include "elements/common/friction_law.hpp"
@@ -32,6 +34,10 @@ struct JointFriction {
   double steep = 1;    ///< of a thread: normal force per axial force, 1/(cos λ cos α_n)
   Measure turn = Measure::angle;
   std::string suffix;  ///< of channels
+
+  /// The coordinate along which surfaces slide that have but one: its force is the force or moment of friction.
+  bool along_line() const { return kind == Rubbing::journal || kind == Rubbing::guide || kind == Rubbing::thread; }
+  Measure coordinate() const { return kind == Rubbing::guide ? Measure::gap_1 : turn; }
 };
 
 /// Velocity of B's joint point relative to the point of A's body there, and of B's rotation relative to A's.
@@ -45,6 +51,8 @@ template <class T>
 struct JointRub {
   Vec3T<T> force = Vec3T<T>(T(0), T(0), T(0)), moment = Vec3T<T>(T(0), T(0), T(0));
   T normal = T(0), power = T(0);  ///< pressing force, and power lost
+  Vec3 sliding = Vec3::Zero();    ///< its velocity, in any axes; only of numbers without derivatives
+  double limit = 0;               ///< largest force on the coordinate at rest; only of surfaces that can rest
 };
 
 namespace joint_friction {
@@ -77,6 +85,64 @@ T bushes(const Vec3T<T>& F, const Vec3T<T>& M, const Vec3T<T>& e, double length)
 
 }  // namespace joint_friction
 
+/// Force and moment on B of a unit force on the coordinate of surfaces that slide along a line. A nut on its thread advances by
+/// `lead` per radian: its friction, along the thread, does the work of a moment of 1 when it has these parts.
+template <class T>
+void rub_along(const JointFriction& f, const JointPose<T>& pose, const Measured<T>& turn, double lead, const T& amount,
+               JointRub<T>& out) {
+  if (f.kind == Rubbing::guide) {
+    out.force += pose.a1 * amount;
+  } else if (f.kind == Rubbing::journal) {
+    out.moment += turn.moment * amount;
+  } else {
+    const double r2 = f.radius * f.radius, share = 1 / (lead * lead + r2);
+    out.force += pose.a1 * (amount * (lead * share));
+    out.moment += turn.moment * (amount * (r2 * share));
+  }
+}
+
+/// The pressing forces N of surfaces that slide along a line, and the lever of each: its speed over the rate of the coordinate.
+template <class T>
+struct Pressed {
+  T normal;
+  double lever;
+};
+template <class T>
+std::array<Pressed<T>, 2> pressed(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>& F, const Vec3T<T>& M,
+                                  double lead) {
+  using namespace joint_friction;
+  if (f.kind == Rubbing::journal) {
+    const Vec3T<T>& e = f.turn == Measure::pin_b ? pose.b2 : pose.a1;
+    return {Pressed<T>{bushes(F, M, e, f.length) + f.preload, f.radius},
+            Pressed<T>{f.collar > 0 ? size(T(dot(F, e))) : T(0), f.collar}};
+  }
+  T N = bushes(F, M, pose.a1, f.length) + f.preload;
+  if (f.kind == Rubbing::guide) {
+    if (f.radius > 0) N += size(T(dot(M, pose.a1))) * (1 / f.radius);  // a key, or two rails
+    return {Pressed<T>{N, 1}, Pressed<T>{T(0), 0}};
+  }
+  N += size(T(dot(F, pose.a1))) * f.steep;
+  return {Pressed<T>{N, std::sqrt(lead * lead + f.radius * f.radius)}, Pressed<T>{T(0), 0}};
+}
+
+/// The friction of surfaces that slide along a line in a known direction, or rest (0), without what holds them at rest.
+template <class T>
+JointRub<T> rub_in_direction(const JointFriction& f, int direction, const JointPose<T>& pose, const Vec3T<T>& F,
+                             const Vec3T<T>& M, const Measured<T>& turn, double lead, const JointRates<T>& rates) {
+  JointRub<T> out;
+  const T rate = f.kind == Rubbing::guide ? dot(pose.a1, rates.slip) : dot(turn.moment, rates.spin);
+  T against(0);
+  for (const Pressed<T>& p : pressed(f, pose, F, M, lead)) {
+    if (p.lever == 0) continue;
+    out.normal += p.normal;
+    out.limit += f.law.static_coefficient(value_of(p.normal)) * value_of(p.normal) * p.lever;
+    if (direction != 0) against += f.law.at(T(rate * (direction * p.lever)), p.normal) * p.normal * (direction * p.lever);
+  }
+  rub_along(f, pose, turn, lead, T(-against), out);
+  out.power = against * rate;
+  return out;
+}
+
 /// The friction of surfaces in a joint whose constraints put the force F and the moment M on B at its joint point. `turn` is the
 /// measure of JointFriction::turn, where the kind has one, and `normal` that of a face.
 template <class T>
@@ -93,12 +159,16 @@ JointRub<T> rub(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>
     out.normal += N;
     out.power += drag * speed_squared;
   };
+  const auto slides = [&](const T& first, const T& second, const T& third) {
+    if constexpr (std::is_same_v<T, double>) out.sliding = Vec3(first, second, third);
+  };
   const auto turning = [&] { return dot(turn.moment, rates.spin); };
   switch (f.kind) {
     case Rubbing::journal: {
       const Vec3T<T>& e = f.turn == Measure::pin_b ? pose.b2 : pose.a1;
       const T rate = turning(), squared = rate * rate;
       const Vec3T<T> w = turn.moment * rate;
+      slides(rate * f.radius, T(0), T(0));
       add(bushes(F, M, e, f.length) + f.preload, nullptr, &w, squared * r2, r2);
       if (f.collar > 0) {
         const double lever = f.collar * f.collar;
@@ -114,12 +184,14 @@ JointRub<T> rub(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>
       T N = bushes(F, M, pose.a1, f.length) + f.preload;
       if (f.kind == Rubbing::guide) {
         if (f.radius > 0) N += size(T(dot(M, pose.a1))) * (1 / f.radius);  // a key, or two rails
+        slides(sliding, T(0), T(0));
         add(N, &u, nullptr, sliding * sliding, 0);
         break;
       }
       if (f.kind == Rubbing::thread) N += size(T(dot(F, pose.a1))) * f.steep;
       const T rate = turning();
       const Vec3T<T> w = turn.moment * rate;
+      slides(sliding, rate * f.radius, T(0));
       add(N, &u, &w, sliding * sliding + rate * rate * r2, r2);
       break;
     }
@@ -127,15 +199,18 @@ JointRub<T> rub(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>
       const T N = size(F) + f.preload;
       const Vec3T<T> u = rates.slip - normal * dot(normal, rates.slip);
       if (f.radius == 0) {
+        slides(u[0], u[1], u[2]);
         add(N, &u, nullptr, square(u), 0);
         break;
       }
       const T rate = turning();
       const Vec3T<T> w = turn.moment * rate;
+      slides(dot(u, pose.a2), dot(u, pose.a3), rate * f.radius);
       add(N, &u, &w, square(u) + rate * rate * r2, r2);
       break;
     }
     case Rubbing::ball:
+      slides(rates.spin[0] * f.radius, rates.spin[1] * f.radius, rates.spin[2] * f.radius);
       add(size(F) + f.preload, nullptr, &rates.spin, square(rates.spin) * r2, r2);
       break;
   }

@@ -9,8 +9,12 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"radius of the pins", "radius at which the ends of the pins rub; default: they do not",
-                                   "distance of the two bearings of either pin; default: the torque presses nothing"};
+const FrictionWords friction_words{"radius of the pins",
+                                   "radius at which the ends of the pins rub; default: they do not",
+                                   "distance of the two bearings of either pin; default: the torque presses nothing",
+                                   false,
+                                   true,
+                                   true};
 
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "universal joint", PointRule::one_place);

@@ -18,6 +18,9 @@ constexpr double negligible_correction = 1e-13;
 /// cancel inside its one element, and leaves nothing but rounding to judge by.
 constexpr double no_correction = 2e-15;
 
+/// A sliding speed that counts as none, over the speed below which friction is regularised.
+constexpr double resting = 1e-3;
+
 /// Share of the largest force so far that a residual is at least compared with.
 constexpr double remembered = 1e-3;
 
@@ -34,6 +37,13 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
   SNESLineSearch search = nullptr;
   check_petsc(SNESGetLineSearch(snes_, &search));
   check_petsc(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
+  const auto& parts = assembler.model().parts;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    if (parts[p].element->layout().slides > 0) sliding_parts_.push_back(static_cast<int>(p));
+  if (!sliding_parts_.empty()) {
+    *trial_.out() = assembler.new_vector();
+    check_petsc(SNESLineSearchSetPreCheck(search, keep_sliding, this));
+  }
   check_petsc(SNESSetTolerances(snes_, 0, 0, 0, iterations, 100000));
   check_petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
   check_petsc(SNESSetFromOptions(snes_));
@@ -114,12 +124,51 @@ PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
   return 0;
 }
 
+std::vector<Vec3> Newton::sliding() const {
+  std::vector<Vec3> speeds;
+  for (const int part : sliding_parts_) {
+    const Element& element = *assembler_.model().parts[static_cast<std::size_t>(part)].element;
+    const auto count = static_cast<std::size_t>(element.layout().slides);
+    speeds.resize(speeds.size() + count, Vec3::Zero());
+    element.sliding(assembler_.view(part, *work_), std::span(speeds).last(count));
+  }
+  return speeds;
+}
+
+/// The curve of a regularised friction is flat on both sides and steep between: from one side its tangent leads far over to the
+/// other, and back. A step that would reverse a sliding ends where it stops; from there tangents lead towards the solution.
+PetscErrorCode Newton::keep_sliding(SNESLineSearch, Vec x, Vec step, PetscBool* changed, void* context) {
+  auto& self = *static_cast<Newton*>(context);
+  *changed = PETSC_FALSE;
+  try {
+    const std::vector<Vec3> before = self.sliding();
+    check_petsc(VecWAXPY(self.trial_, -1, step, x));
+    (*self.apply_)(self.assembler_.gather(self.trial_), *self.work_);
+    const std::vector<Vec3> after = self.sliding();
+    double part = 1;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const double first = before[i].norm(), towards = before[i].dot(after[i]);
+      if (!(towards < 0) || std::max(first, after[i].norm()) < 1 || first < resting) continue;
+      part = std::min(part, first * first / (first * first - towards));
+    }
+    if (part < 1) {
+      check_petsc(VecScale(step, part));
+      *changed = PETSC_TRUE;
+    }
+  } catch (const std::exception& e) {
+    self.failure_ = e.what();
+    return PETSC_ERR_LIB;
+  }
+  return 0;
+}
+
 void Newton::measure(Vec f) {
   const Numbering& numbering = assembler_.numbering();
   const double extent = assembler_.model().extent();
   // what has been carried so far stays the measure, or a load that passes through zero could never be balanced
   for (int i = 0; i < 4; ++i) largest_.of[i] = std::max(largest_.of[i], magnitudes_.of[i]);
-  Magnitudes reference = magnitudes_;
+  Magnitudes& reference = reference_;
+  reference = magnitudes_;
   for (const Measure m : {Measure::force, Measure::moment}) reference[m] = std::max(reference[m], remembered * largest_[m]);
   // a model where all is force, or all moment, must not judge the other by rounding noise
   reference[Measure::moment] = std::max(reference[Measure::moment], reference[Measure::force] * extent);
@@ -184,10 +233,17 @@ bool Newton::judge(int iteration) {
     const double extent = assembler_.model().extent();
     for (PetscInt row = first; row < end; ++row) {
       const Unknown& u = assembler_.numbering().unknown(static_cast<int>(row));
-      // a multiplier over its k is the displacement that its force stands for
-      const double size = u.measure == Measure::force || u.measure == Measure::length ? extent : 1.0;
-      double& largest = u.multiplier ? forces : row_.correction;
-      largest = std::max(largest, std::abs(values[row - first]) / size);
+      const bool length = u.measure == Measure::force || u.measure == Measure::length;
+      const double change = std::abs(values[row - first]) / (length ? extent : 1.0);
+      if (!u.multiplier) {
+        row_.correction = std::max(row_.correction, change);
+        continue;
+      }
+      // a multiplier over its k is the displacement that its force stands for; where k is small, as of what has no mass, the
+      // force itself tells that nothing changes any more
+      const double k = assembler_.scale()[static_cast<std::size_t>(u.slot - assembler_.numbering().motion_slots())];
+      const double carried = reference_[length ? Measure::force : Measure::moment];
+      forces = std::max(forces, std::min(change, k * std::abs(values[row - first]) / carried));
     }
     check_petsc(VecRestoreArrayRead(update, &values));
     double both[2] = {row_.correction, forces};

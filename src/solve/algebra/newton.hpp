@@ -52,6 +52,9 @@ class Newton {
   static PetscErrorCode form_jacobian(SNES, Vec x, Mat, Mat, void* self);
   static PetscErrorCode test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal, SNESConvergedReason* reason,
                                          void* self);
+  static PetscErrorCode keep_sliding(SNESLineSearch, Vec x, Vec step, PetscBool* changed, void* self);
+  /// Sliding velocities of all regularised frictions (Element::sliding) in work_.
+  std::vector<Vec3> sliding() const;
   void measure(Vec f);
   bool judge(int iteration);
 
@@ -59,12 +62,14 @@ class Newton {
   LinearSolver& solver_;
   double precision_;
   Owned<SNES> snes_;
-  Owned<Vec> residual_;
+  Owned<Vec> residual_, trial_;
+  std::vector<int> sliding_parts_;  ///< elements with regularised friction
   const Apply* apply_ = nullptr;
   Configuration* work_ = nullptr;
   Weights weights_;
   Magnitudes magnitudes_;  ///< of the last residual
   Magnitudes largest_;     ///< of all residuals so far
+  Magnitudes reference_;   ///< what the last residual is compared with
   NewtonRow row_;
   double constraint_force_ = 0;  ///< largest k Φ over the largest force
   double scaled_open_ = 0;       ///< largest open constraint in units of rounding

@@ -22,6 +22,7 @@ const Multiplier& multiplier_of(const Model& model, const Unknown& multiplier) {
 }
 
 bool is_drive(const Model& model, const Unknown& multiplier) { return multiplier_of(model, multiplier).role == Role::drive; }
+bool is_grip(const Model& model, const Unknown& multiplier) { return multiplier_of(model, multiplier).role == Role::grip; }
 
 Vector constraint_sizes(const Assembler& assembler) {
   const double extent = assembler.model().extent();
@@ -66,9 +67,7 @@ Vector MotionRows::any() const {
 }
 
 std::string MotionRows::largest_part(const Numbering& numbering, const Vector& motion) const {
-  const auto equation = [&](Eigen::Index row) {
-    return numbering.equation(static_cast<int>(slot[static_cast<std::size_t>(row)]));
-  };
+  const auto equation = [&](Eigen::Index at) { return numbering.equation(static_cast<int>(slot[static_cast<std::size_t>(at)])); };
   Eigen::Index most = 0, node = -1;
   const double enough = 0.1 * motion.cwiseAbs().maxCoeff(&most);
   for (Eigen::Index i = 0; i < motion.size(); ++i)
@@ -92,13 +91,15 @@ ConstraintMatrix::ConstraintMatrix(Assembler& assembler, const Configuration& co
     r.assign(n, 0);
     k.assign(n * n, 0);
     parts[p].element->tangent(assembler.view(static_cast<int>(p), configuration), {1, 0, 0}, r, k);
-    for (std::size_t m = first; m < n; ++m)
+    for (std::size_t m = first; m < n; ++m) {
+      if (assembler.idle(slots[m] - numbering.motion_slots())) continue;
       for (std::size_t i = 0; i < first; ++i) {
         const int row = rows.row[static_cast<std::size_t>(slots[i])];
         const double value = kind == ConstraintColumns::gradients ? -k[m * n + i] : k[i * n + m];
         if (row < 0 || value == 0) continue;
         entries.emplace_back(row, slots[m] - numbering.motion_slots(), value * rows.size[static_cast<std::size_t>(row)]);
       }
+    }
   }
   matrix.resize(static_cast<Eigen::Index>(rows.slot.size()),
                 static_cast<Eigen::Index>(numbering.slots() - numbering.motion_slots()));
@@ -123,7 +124,19 @@ ConstraintFactors::ConstraintFactors(Assembler& assembler, const Configuration& 
                                      double tolerance)
     : gradients_(assembler, configuration, kind),
       length_(lengths(gradients_.matrix)),
-      basis_(with_columns_scaled(gradients_.matrix, length_.cwiseInverse()), tolerance, gradients_.rows.first_rows) {}
+      basis_(with_columns_scaled(gradients_.matrix, length_.cwiseInverse()), tolerance, gradients_.rows.first_rows),
+      any_idle_(assembler.idle_count() > 0) {
+  if (!any_idle_) return;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t j = 0; j < basis_.dependent().size(); ++j) {
+    if (assembler.idle(basis_.dependent()[j])) continue;
+    for (Sparse::InnerIterator it(basis_.null(), static_cast<Eigen::Index>(j)); it; ++it)
+      entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(dependent_.size()), it.value());
+    dependent_.push_back(basis_.dependent()[j]);
+  }
+  null_.resize(basis_.null().rows(), static_cast<Eigen::Index>(dependent_.size()));
+  null_.setFromTriplets(entries.begin(), entries.end());
+}
 
 Vector ConstraintFactors::closing_motion(const std::vector<double>& phi) const {
   Vector right(columns());

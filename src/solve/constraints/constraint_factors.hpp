@@ -25,6 +25,7 @@ const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier);
 /// What the element says of the unknown of a multiplier.
 const Multiplier& multiplier_of(const Model& model, const Unknown& multiplier);
 bool is_drive(const Model& model, const Unknown& multiplier);
+bool is_grip(const Model& model, const Unknown& multiplier);
 
 /// Sizes of the constraints, one for each multiplier: the extent for lengths, 1 for angles.
 Eigen::VectorXd constraint_sizes(const Assembler& assembler);
@@ -69,11 +70,12 @@ class ConstraintFactors {
   Eigen::Index rank() const { return basis_.rank(); }
   Eigen::Index rows() const { return basis_.rows(); }
   Eigen::Index columns() const { return basis_.columns(); }
-  Eigen::Index deficiency() const { return columns() - rank(); }
-  const std::vector<int>& dependent() const { return basis_.dependent(); }
+  /// How many columns are dependent; idle constraints, whose columns are empty, do not count.
+  Eigen::Index deficiency() const { return static_cast<Eigen::Index>(dependent().size()); }
+  const std::vector<int>& dependent() const { return any_idle_ ? dependent_ : basis_.dependent(); }
 
   /// A basis of the multipliers that make no force, one column for each dependent one, for columns of length 1.
-  const Eigen::SparseMatrix<double>& null_multipliers() const { return basis_.null(); }
+  const Eigen::SparseMatrix<double>& null_multipliers() const { return any_idle_ ? null_ : basis_.null(); }
   /// The (scaled) motion that closes no constraint and is near to `wish`.
   Eigen::VectorXd possible_motion(const Eigen::VectorXd& wish) const { return basis_.left_null(wish); }
   /// A (scaled) motion that closes the independent constraints, to first order.
@@ -85,6 +87,9 @@ class ConstraintFactors {
   ConstraintMatrix gradients_;
   Eigen::VectorXd length_;
   ColumnBasis basis_;
+  bool any_idle_ = false;
+  std::vector<int> dependent_;        ///< those of basis_ that are not idle
+  Eigen::SparseMatrix<double> null_;  ///< and their columns
 };
 
 }  // namespace engrane::solve

@@ -9,6 +9,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include "solve/constraints/constraint_factors.hpp"
@@ -67,37 +68,41 @@ std::pair<int, double> largest_entry(const Sparse& a, Eigen::Index column) {
   return largest;
 }
 
-/// Exchanges dependent constraints for drives that they depend on, the last in the deck first: a drive that asks for what the
-/// joints forbid is then left out, found open, and named, and no joint opens in its place.
-void prefer_drives(const Model& model, const Numbering& numbering, Sparse& null, std::vector<int>& dependent) {
+/// Exchanges dependent constraints for grips and drives that they depend on, the last in the deck first: friction gives way to
+/// what else moves or holds its surfaces; a drive that asks for what the joints forbid is then left out, found open, and named,
+/// and no joint opens in its place.
+void prefer_grips_and_drives(const Model& model, const Numbering& numbering, Sparse& null, std::vector<int>& dependent) {
   constexpr double significant = 1e-3;
-  std::vector<int> drives;
+  std::vector<std::pair<bool, int>> preferred;  // whether a grip, and the multiplier
   for (Eigen::Index j = 0; j < null.cols(); ++j)
-    for (Sparse::InnerIterator it(null, j); it; ++it)
-      if (const auto m = static_cast<int>(it.row()); is_drive(model, multiplier_unknown(numbering, m))) drives.push_back(m);
-  std::sort(drives.begin(), drives.end(), std::greater<>());
-  drives.erase(std::unique(drives.begin(), drives.end()), drives.end());
-  if (drives.empty()) return;
+    for (Sparse::InnerIterator it(null, j); it; ++it) {
+      const auto m = static_cast<int>(it.row());
+      const Unknown& u = multiplier_unknown(numbering, m);
+      if (is_grip(model, u) || is_drive(model, u)) preferred.emplace_back(is_grip(model, u), m);
+    }
+  std::sort(preferred.begin(), preferred.end(), std::greater<>());
+  preferred.erase(std::unique(preferred.begin(), preferred.end()), preferred.end());
+  if (preferred.empty()) return;
   std::vector<Eigen::SparseVector<double>> columns;
   for (Eigen::Index j = 0; j < null.cols(); ++j) columns.emplace_back(null.col(j));
-  std::vector<bool> drives_out(columns.size(), false);
-  for (const int drive : drives) {
+  std::vector<bool> taken(columns.size(), false);
+  for (const int one : preferred | std::views::values) {
     std::size_t best = columns.size();
     double largest = significant;
     for (std::size_t j = 0; j < columns.size(); ++j) {
-      const double part = std::abs(columns[j].coeff(drive)) / columns[j].coeffs().abs().maxCoeff();
-      if (drives_out[j] || part < largest) continue;
+      const double part = std::abs(columns[j].coeff(one)) / columns[j].coeffs().abs().maxCoeff();
+      if (taken[j] || part < largest) continue;
       largest = part;
       best = j;
     }
     if (best == columns.size()) continue;
-    drives_out[best] = true;
-    const Eigen::SparseVector<double> chosen = columns[best] / columns[best].coeff(drive);
+    taken[best] = true;
+    const Eigen::SparseVector<double> chosen = columns[best] / columns[best].coeff(one);
     for (std::size_t j = 0; j < columns.size(); ++j)
-      if (const double part = columns[j].coeff(drive); part != 0 && j != best)
+      if (const double part = columns[j].coeff(one); part != 0 && j != best)
         columns[j] = (columns[j] - part * chosen).pruned(1.0, 1e-14);
     columns[best] = chosen;
-    dependent[best] = drive;
+    dependent[best] = one;
   }
   for (std::size_t j = 0; j < columns.size(); ++j) null.col(static_cast<Eigen::Index>(j)) = columns[j];
   std::sort(dependent.begin(), dependent.end());
@@ -233,12 +238,12 @@ Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const
   Mobility found;
   found.analysed = true;
   found.motions = static_cast<int>(here.rows());
-  found.constraints = static_cast<int>(here.columns());
+  found.constraints = static_cast<int>(here.columns()) - assembler.idle_count();
   found.rank = static_cast<int>(here.rank());
   const auto take = [&](const ConstraintFactors& factors) {
     found.dependent = factors.dependent();
     found.null = factors.null_multipliers();
-    prefer_drives(assembler.model(), assembler.numbering(), found.null, found.dependent);
+    prefer_grips_and_drives(assembler.model(), assembler.numbering(), found.null, found.dependent);
     found.groups = group(found.null);
   };
   if (here.deficiency() == 0) return found;
@@ -298,8 +303,8 @@ std::string Redundancy::conflict(const Configuration& c) {
     for (const int m : one.members) {
       const double open = phi[static_cast<std::size_t>(m)];
       if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
-      if (relative[m] <= consistent) continue;
       const Unknown& u = multiplier_unknown(numbering, m);
+      if (relative[m] <= consistent || is_grip(assembler_.model(), u)) continue;  // a grip gives way (Grips)
       const bool length = u.measure == Measure::length;
       return fmt::format("conflicting constraints: {} stays open by {:.3g} {} when the others are closed; {} among {}: {}",
                          numbering.describe(numbering.equation(u.slot)), std::abs(open),
@@ -337,8 +342,8 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
   for (const RedundantGroup& one : mobility_.groups)
     for (const int m : one.members) {
       if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
-      if (relative[m] <= 1e-8 * speed) continue;
       const Unknown& u = multiplier_unknown(numbering, m);
+      if (relative[m] <= 1e-8 * speed || is_grip(assembler_.model(), u)) continue;
       const bool length = u.measure == Measure::length;
       return fmt::format("conflicting constraints: {} asks for a speed that the others forbid, by {:.4g} {}; {} among {}: {}",
                          numbering.describe(numbering.equation(u.slot)), std::abs(rate[static_cast<std::size_t>(m)]),

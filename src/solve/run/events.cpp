@@ -88,6 +88,19 @@ std::vector<Event> Switches::take(const Configuration& c) {
   return events;
 }
 
+void Switches::renew(const Configuration& c) {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Layout& layout = context_.model.parts[static_cast<std::size_t>(places_[i].part)].element->layout();
+    if (places_[i].index >= static_cast<int>(layout.switches.size()) - 2 * layout.grips) side_[i] = 0;
+  }
+  take(c);
+}
+
+void Switches::complete(std::vector<Switch>& from, std::vector<Switch>& to, double h) {
+  for (std::size_t i = 0; i < to.size(); ++i)
+    if (std::isnan(to[i].rate)) from[i].rate = to[i].rate = (to[i].value - from[i].value) / h;
+}
+
 void Switches::save(Snapshot& snapshot) const { snapshot.put("events/sides", {side_.begin(), side_.end()}); }
 
 void Switches::load(const Snapshot& snapshot) {
@@ -146,12 +159,12 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
   Finding found;
   found.step = size;
   if (!active_ || located_ >= most_events) return found;
-  const std::vector<Switch> before = switches_.at(from);
-  std::vector<Switch> after;
+  std::vector<Switch> before = switches_.at(from), after;
   double ahead = 0;  // from `to` to the next event
   // a step that ends within rounding of an event may have taken either law at its end: as good as past it
   const auto change_within = [&](double h) {
     after = switches_.at(to);
+    Switches::complete(before, after, h);
     ahead = switches_.time_to_change(after);
     const auto change = switches_.first_change(before, after, h);
     return change || ahead > 0.1 * tolerance_ ? change : h;

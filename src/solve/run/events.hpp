@@ -29,12 +29,17 @@ class Switches {
   /// stays on the side it came from.
   std::vector<Event> take(const Configuration& c);
 
+  /// Takes the sides of the grips anew, which mean something else after their friction has come to rest or given way.
+  void renew(const Configuration& c);
+
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
 
   /// Time from `from`, which is h before `to`, to the first change of a side: of the cubic that has the values and rates of both
   /// ends, so that a phase which begins and ends within the step is seen.
   std::optional<double> first_change(const std::vector<Switch>& from, const std::vector<Switch>& to, double h) const;
+  /// Where a rate is unknown takes the slope of the chord from one to the other, h later, at both.
+  static void complete(std::vector<Switch>& from, std::vector<Switch>& to, double h);
   /// Time from an instant to the next change of a side, as its values and rates foretell; infinite when none is near.
   double time_to_change(const std::vector<Switch>& now) const;
 

@@ -65,6 +65,7 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   context_.load(snapshot);
   scheme_.load(snapshot);
   locator_.load(snapshot);
+  scheme_.take_over(now_);
   h_ = std::min(snapshot.number("runner/h"), options_.step);
   step_.number = static_cast<int>(snapshot.number("runner/number"));
   renewed_ = snapshot.number("runner/renewed") != 0;
@@ -166,6 +167,7 @@ bool Runner::accepted(double size, bool regular) {
   context_.assembler.commit(now_);
   step_.events.clear();
   if (locator_.active()) step_.events = locator_.switches().take(now_);
+  if (scheme_.settle_friction(now_) && locator_.active()) locator_.switches().renew(now_);
   ++step_.number;
   step_.step = size;
   step_.regular = regular;

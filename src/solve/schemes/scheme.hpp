@@ -39,6 +39,12 @@ class Scheme {
   /// remembers of earlier steps is forgotten.
   virtual void drift(Configuration&, double /*h*/) {}
 
+  /// Looks at an accepted configuration for frictions that come to rest or give way; true when `c` has been changed to fit what
+  /// they do now, and what the scheme remembers with it.
+  virtual bool settle_friction(Configuration&) { return false; }
+  /// Goes on from a configuration that another kind of analysis may have left.
+  virtual void take_over(Configuration& c) { context_.grips.let_go(c); }
+
   /// What the scheme remembers of accepted steps, for a restart.
   virtual void save(Snapshot&) const {}
   virtual void load(const Snapshot&) {}

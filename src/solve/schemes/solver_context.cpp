@@ -14,7 +14,8 @@ SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm
       newton(assembler, solver, options.precision, options.iterations),
       motion(m, numbering),
       redundancy(assembler, motion),
-      start(assembler, solver, motion, redundancy) {
+      start(assembler, solver, motion, redundancy),
+      grips(assembler, motion, redundancy, start) {
   assembler.penalty = options.penalty;
 }
 

@@ -3,6 +3,7 @@
 
 #include "model/solver_options.hpp"
 #include "solve/algebra/newton.hpp"
+#include "solve/constraints/grips.hpp"
 #include "solve/constraints/start.hpp"
 
 namespace engrane::solve {
@@ -26,6 +27,7 @@ struct SolverContext {
   MotionSlots motion;
   Redundancy redundancy;
   Start start;
+  Grips grips;
 };
 
 }  // namespace engrane::solve

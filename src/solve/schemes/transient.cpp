@@ -79,6 +79,27 @@ void Transient::drift(Configuration& c, double h) {
   start_algorithmic_accelerations(c, step, slope_span * step, massless ? &*massless : nullptr);
 }
 
+bool Transient::settle_friction(Configuration& c) {
+  if (!context_.grips.violated(c)) return false;
+  context_.grips.settle(c, has_massless_);
+  context_.solver.reset();  // other constraints, other pivots
+  std::optional<MasslessMotions> massless;
+  if (has_massless_) massless.emplace(context_.assembler, c);
+  const double step = context_.options.step;
+  start_algorithmic_accelerations(c, step, slope_span * step, massless ? &*massless : nullptr);
+  return true;
+}
+
+void Transient::refine_grips(Configuration& c) {
+  // multipliers of a step are those of the balance between its ends; the force at which a grip gives way is that of its end
+  Configuration balanced = c;
+  std::optional<MasslessMotions> massless;
+  if (has_massless_) massless.emplace(context_.assembler, c);
+  context_.start.balance_accelerations(balanced, 3, nullptr, massless ? &*massless : nullptr);
+  c.multipliers = std::move(balanced.multipliers);
+  context_.solver.reset();
+}
+
 Outcome Transient::attempt(const Configuration& from, double h, Configuration& to) {
   const auto [am, af, beta, gamma] = scheme_;
   const Weights weights{1, gamma / (beta * h), (1 - am) / ((1 - af) * beta * h * h)};
@@ -141,6 +162,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   context_.assembler.spread(guess, unknowns_);
   NewtonReport report = solve(unknowns_, weights, apply, to);
   refuse_half_turns(y, report);
+  if (report.converged && context_.grips.strained(to)) refine_grips(to);
   tried_step_ = h;
   return {std::move(report), 0, {}};
 }

@@ -32,6 +32,8 @@ class Transient final : public Scheme {
   void accept() override;
   bool meets_events() const override { return true; }
   void drift(Configuration& c, double h) override;
+  bool settle_friction(Configuration& c) override;
+  void take_over(Configuration& c) override { settle_friction(c); }
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
 
@@ -49,6 +51,9 @@ class Transient final : public Scheme {
   Relaxed relax(Configuration& c, MasslessMotions& massless);
   /// Positions, velocities and accelerations of motions without mass that fit their balance at the start and a little later.
   void settle(Configuration& c, MasslessMotions& massless, StartReport& report);
+
+  /// Gives `c` the multipliers that balance it at its own instant.
+  void refine_grips(Configuration& c);
 
   /// `c` moved by h with the accelerations it has; these and the multipliers do not change.
   Configuration glide(const Configuration& c, double h) const;

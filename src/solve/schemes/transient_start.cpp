@@ -23,6 +23,10 @@ StartReport Transient::start(Configuration& c) {
   context_.start.fit_velocities(c, Assembler::Metric::mass, report);
   MasslessMotions massless(context_.assembler, c);
   has_massless_ = massless.any();
+  if (context_.grips.any()) {
+    context_.grips.settle(c, has_massless_);
+    massless = MasslessMotions(context_.assembler, c);
+  }
   if (has_massless_)
     settle(c, massless, report);
   else

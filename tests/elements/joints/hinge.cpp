@@ -43,6 +43,7 @@ TEST(Hinge, SuiteWithSpring) {
 TEST(Hinge, SuiteWithAllOptions) { run_coordinate(hinge_type, joint_data(1, 2), turn_of, "ANGLE", true); }
 
 TEST(Hinge, SuiteWithFriction) { run_friction(hinge_type, joint_data(1, 2)); }
+TEST(Hinge, SuiteAtRestAndSliding) { run_grips(hinge_type, joint_data(1, 2)); }
 
 TEST(Hinge, Extremes) { run_joint_extremes(hinge_type, joint_data(1, 2)); }
 

@@ -161,6 +161,62 @@ void run_friction(ElementType (*type)(), const JointData& plain, bool has_radius
     }
 }
 
+void run_grips(ElementType (*type)(), const JointData& plain, bool has_radius, bool follows, double largest) {
+  const deck::Tagged laws[] = {{"CONST", {0.3, 0.4}}, {"STRIBECK", {0.4, 0.25, 0.8, 0.05}}};
+  for (const deck::Tagged& law : laws)
+    for (const GripState::Mode mode : {GripState::forward, GripState::backward, GripState::holding}) {
+      JointData data = plain;
+      data.friction = law;
+      data.sticks = true;
+      if (has_radius) data.radius = 0.4;
+      data.collar = 0.3;
+      data.bearing_length = 0.9;
+      data.preload = 0.6;
+      Subject s = joint_subject("grip " + law.tag + " in mode " + std::to_string(mode), type, data);
+      const int grips = s.build(Mat3::Identity())->layout().grips;
+      s.adjust = [=](StateBuffer& state, Random& random) {
+        keep_near(state, largest);
+        for (int i = 0; i < grips; ++i) {
+          GripState{mode, 0.3 * uniform(random)}.write(state.history, grips, i);
+          if (mode != GripState::holding) state.multipliers[state.multipliers.size() - static_cast<std::size_t>(i) - 1] = 0;
+        }
+      };
+      s.skip[Check::ideal] = "friction follows the size of the reaction";
+      s.skip[Check::lagrange] = "friction has no potential";
+      for (const Check check : {Check::rigid, Check::zero}) s.skip[check] = "it acts at any speed, or holds another place";
+      if (!follows) s.skip[Check::power] = "the force is along the thread, which a random state leaves";
+      run_suite(s);
+
+      const auto element = s.build(Mat3::Identity());
+      Random random(5);
+      for (int k = 0; k < 20; ++k) {
+        const StateBuffer state = random_state(s, *element, random);
+        std::vector<Grip> now(static_cast<std::size_t>(grips));
+        find_grips(*element, state.view(), now);
+        std::vector<Switch> switches(element->layout().switches.size());
+        element->switches(state.view(), switches);
+        double lost = 0;
+        for (std::size_t i = 0; i < now.size(); ++i) {
+          EXPECT_GT(now[i].limit, 0) << s.name;
+          EXPECT_EQ(now[i].state.mode, mode);
+          const Switch& slides = switches[2 * i];
+          const Switch& holds = switches[2 * i + 1];
+          if (mode == GripState::holding) {
+            EXPECT_EQ(slides.size, 0);
+            EXPECT_DOUBLE_EQ(holds.value, now[i].limit - std::abs(now[i].force));
+          } else {
+            EXPECT_EQ(holds.size, 0);
+            EXPECT_DOUBLE_EQ(slides.value, now[i].state.direction() * now[i].speed);
+            // at the speed zero friction is its limit, for the law that has but one coefficient
+            lost += now[i].state.direction() * now[i].speed * now[i].limit;
+          }
+        }
+        if (law.tag != "CONST" || mode == GripState::holding) continue;
+        EXPECT_NEAR(element->energies(state.view()).dissipated, 0.75 * lost, 1e-10 * std::abs(lost)) << s.name;
+      }
+    }
+}
+
 void run_joint_extremes(ElementType (*type)(), const JointData& wished) {
   for (const double stiffness : {1e-6, 1e15})
     for (const double length : {1e-9, 1e6}) {

@@ -11,6 +11,7 @@
 #include "elements/joints/joint_card.hpp"
 #include "elements/suite.hpp"
 #include "math/rotation.hpp"
+#include "model/grip.hpp"
 
 namespace engrane::suite {
 
@@ -52,6 +53,10 @@ void run_coordinate(ElementType (*type)(), const JointData& plain, Coordinate of
 /// Friction by every law, below and above the speed at which it is regularised. Sums, objectivity, tangent and power are the
 /// suite's; here that the power is lost, and no more than there is friction.
 void run_friction(ElementType (*type)(), const JointData& plain, bool has_radius = true, double largest = 2);
+
+/// Friction that can rest (STICK): sliding either way, where its multiplier is zero, and held. `follows`: the force that holds is
+/// along the gradient of the coordinate.
+void run_grips(ElementType (*type)(), const JointData& plain, bool has_radius = true, bool follows = true, double largest = 2);
 
 /// Long and short, with any stiffness, through 1e6 turns.
 void run_joint_extremes(ElementType (*type)(), const JointData& wished);

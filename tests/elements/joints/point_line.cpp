@@ -34,6 +34,7 @@ TEST(PointLine, SuiteWithDrivenSlide) {
 TEST(PointLine, SuiteWithAllOptions) { run_coordinate(point_line_type, joint_data(1, 2), slide_of, "SLIDE", false); }
 
 TEST(PointLine, SuiteWithFriction) { run_friction(point_line_type, joint_data(1, 2)); }
+TEST(PointLine, SuiteAtRestAndSliding) { run_grips(point_line_type, joint_data(1, 2), false); }
 
 TEST(PointLine, Extremes) { run_joint_extremes(point_line_type, joint_data(1, 2)); }
 

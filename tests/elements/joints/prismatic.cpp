@@ -34,6 +34,7 @@ TEST(Prismatic, SuiteWithDrivenSlide) {
 TEST(Prismatic, SuiteWithAllOptions) { run_coordinate(prismatic_type, joint_data(1, 2), slide_of, "SLIDE", false); }
 
 TEST(Prismatic, SuiteWithFriction) { run_friction(prismatic_type, joint_data(1, 2)); }
+TEST(Prismatic, SuiteAtRestAndSliding) { run_grips(prismatic_type, joint_data(1, 2)); }
 
 TEST(Prismatic, Extremes) { run_joint_extremes(prismatic_type, joint_data(1, 2)); }
 
@@ -128,7 +129,15 @@ TEST(Prismatic, FaultsOfTheCard) {
   data.bearing_length = 1;
   EXPECT_EQ(joint_fault(prismatic_type, data), "LENGTH describes friction, and there is none");
   data.friction = {"CONST", {0.1}};
-  EXPECT_EQ(joint_fault(prismatic_type, data), "friction needs VREG, the sliding speed below which it is regularised");
+  EXPECT_EQ(joint_fault(prismatic_type, data),
+            "friction needs STICK, or VREG, the sliding speed below which it is regularised");
+  data.sticks = true;
+  data.friction_width = 1e-3;
+  EXPECT_EQ(joint_fault(prismatic_type, data), "STICK regularises nothing, VREG does");
+  data.friction_width.reset();
+  data.friction = {"CONST", {0.2, 0.1}};
+  EXPECT_EQ(joint_fault(prismatic_type, data), "the coefficient at rest is below that of sliding");
+  data.sticks = false;
   data.friction = {};
   data.nodes = {1, 1};
   EXPECT_EQ(joint_fault(prismatic_type, data), "node 1 is named twice");

@@ -54,6 +54,7 @@ TEST(Screw, SuiteWithAllOptions) {
 }
 
 TEST(Screw, SuiteWithFriction) { run_friction(screw_type, joint_data(1, 2)); }
+TEST(Screw, SuiteAtRestAndSliding) { run_grips(screw_type, joint_data(1, 2), true, false); }
 
 TEST(Screw, Extremes) { run_joint_extremes(screw_type, joint_data(1, 2)); }
 

@@ -107,7 +107,8 @@ TEST(Restart, TheContinuedFileIsThatOfTheUncutRun) {
     const ResultReader whole(scratch / "whole.h5"), rest(prefix + ".h5");
     for (const char* name :
          {"/history/time", "/history/element/GEAR/values", "/history/run/values", "/fields/time", "/fields/displacement/000000",
-          "/fields/velocity/000003", "/restart/latest/many", "/restart/000002/configuration/nodes", "/restart/000003/many"})
+          "/fields/velocity/000003", "/fields/STRESS/000002", "/points/STRESS/000002", "/restart/latest/many",
+          "/restart/000002/configuration/nodes", "/restart/000003/many"})
       EXPECT_EQ(whole.numbers(name), rest.numbers(name)) << name;
     EXPECT_FALSE(rest.has("/fields/displacement/000004"));
     EXPECT_FALSE(rest.has("/restart/000004"));

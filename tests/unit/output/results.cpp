@@ -89,6 +89,10 @@ TEST(Results, HoldEverythingWritten) {
   // the line of three points is two cells of one element
   EXPECT_EQ(file.numbers("/fields/STRESS/000009"), (std::vector<double>{1, 1, 2, 3, 9}));
   EXPECT_EQ(file.attribute("/fields/STRESS", "center"), "Cell");
+  EXPECT_EQ(file.numbers("/points/STRESS/000009"), (std::vector<double>{7, 8, 9}));
+  EXPECT_EQ(file.numbers("/points/STRESS/elements"), (std::vector<double>{2, 3, 3}));
+  EXPECT_EQ(file.numbers("/points/STRESS/numbers"), (std::vector<double>{0, 0, 1}));
+  EXPECT_EQ(file.attribute("/points/STRESS", "unit"), "Pa");
   // a line of three points is two lines, a point a line to itself; then a triangle and a quadrilateral
   const std::vector<double> topology = file.numbers("/mesh/topology");
   EXPECT_EQ(topology, (std::vector<double>{2, 2, 0, 1, 2, 2, 1, 2, 2, 2, 3, 3, 4, 0, 1, 2, 5, 0, 1, 2, 3}));

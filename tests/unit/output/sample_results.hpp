@@ -47,6 +47,7 @@ inline ResultsLayout sample_layout(std::size_t channels = 2) {
   layout.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
   layout.cells = {{{0, 1, 2}, 1, false}, {{3}, 2, false}, {{0, 1, 2}, 3, true}, {{0, 1, 2, 3}, 4, true}};
   layout.cell_fields = {{{"STRESS", dimension::pressure, "stress"}, {}}};
+  layout.point_fields = {{layout.cell_fields[0], {2, 3, 3}, {0, 0, 1}}};
   for (const char* name : {"displacement", "rotation", "velocity"}) layout.node_fields.push_back({name, dimension::length, name});
   layout.node_fields.push_back({"angular_velocity", dimension::angular_velocity, "angular velocity"});
   for (const char* name : {"reaction_force", "reaction_torque"}) layout.node_fields.push_back({name, dimension::force, name});
@@ -73,7 +74,9 @@ inline void write_frame(Results& results, std::size_t f) {
     field[i] = static_cast<double>(f) + 0.01 * static_cast<double>(i);
     small[i] = 0.1 * field[i];
   }
-  results.frame(0.1 * static_cast<double>(f), {{small, field, field, field, field, field}, {{1, 2, 3, static_cast<double>(f)}}});
+  results.frame(
+      0.1 * static_cast<double>(f),
+      {{small, field, field, field, field, field}, {{1, 2, 3, static_cast<double>(f)}}, {{7, 8, static_cast<double>(f)}}});
 }
 
 }  // namespace engrane::testing

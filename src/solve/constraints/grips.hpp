@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "model/grip.hpp"
+#include "solve/constraints/start.hpp"
+
+namespace engrane::solve {
+
+/// Decides which dry frictions hold and which slide (docs/theory.md, "Friction at rest"). What is decided stands in the history
+/// of the elements, and in the assembler, where grips that slide are idle constraints. Every rank decides the same.
+class Grips {
+ public:
+  Grips(Assembler& assembler, const MotionSlots& motion, Redundancy& redundancy, Start& start);
+
+  bool any() const { return !places_.empty(); }
+  /// Whether some grip slides back, is dragged along, or bears more than it holds. Always so before settle().
+  bool violated(const Configuration& c) const;
+  /// Whether a grip bears so much that it may give way within a step.
+  bool strained(const Configuration& c) const;
+  /// Decides: velocities, accelerations and multipliers of `c` then fit, and so do the directions of sliding. `massless`: the
+  /// model has motions without mass. Throws SolutionFailure when no decision fits.
+  void settle(Configuration& c, bool massless);
+  /// No grip is followed any more: friction as the speeds of sliding ask, and belts hold.
+  void let_go(Configuration& c);
+
+ private:
+  struct Place {
+    int part, count, first;  ///< first: multiplier, of the model
+  };
+  /// A grip, with `speeds` and `accelerations` those of the fastest node.
+  struct Seen : Grip {
+    bool redundant = false;  ///< holds, but other constraints hold the same
+  };
+  static bool rests(const Seen& grip);
+  static bool overloaded(const Seen& grip);
+  static bool turns_back(const Seen& grip);
+  /// Do the others move what it holds, or begin to? Then it holds nothing.
+  static bool dragged(const Seen& grip);
+  static bool pulled(const Seen& grip);
+
+  std::vector<Seen> look(const Configuration& c) const;
+  void write(const std::vector<Seen>& grips, Configuration& c);
+  void fit(Configuration& c, bool massless);
+  std::string name(std::size_t grip) const;
+
+  Assembler& assembler_;
+  const MotionSlots& motion_;
+  Redundancy& redundancy_;
+  Start& start_;
+  std::vector<Place> places_;  ///< elements with grips
+  std::size_t count_ = 0;
+};
+
+}  // namespace engrane::solve

@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""STICK: dry friction that comes to rest, holds exactly and gives way, against closed forms and an
+event-driven integration by scipy."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from runs import run
+from scipy.integrate import solve_ivp
+
+SLOPE = """
+.NOE
+ I 1
+.MCE
+ I 1 PRISMATIC N 0 1 AXIS 1 0 0 FRICTION CONST {mu} STICK
+ I 2 INERTIA N 1 M 2 J 0.1 0.1 0.1
+.CLM STRU ACC VAL -3 -9 0
+.INI VIT NOEUD 1 C 1 V 1
+.SAM TYPE DYNAMIC RHO 0.8
+.SUB TF {end} H 0.013
+.FIN 1
+"""
+
+
+def test_a_block_stops_on_a_slope_and_rests(tmp_path: Path) -> None:
+    result = run(SLOPE.format(mu=0.5, end=1), tmp_path)
+    deceleration = 3 + 0.5 * 9
+    stop = 1 / deceleration
+    t, x = result.t, result["node/1/UX"]
+    expected = np.where(t < stop, t - deceleration * t**2 / 2, stop / 2)
+    assert np.abs(x - expected).max() < 1e-10
+    rest = t > stop + 1e-6
+    assert np.ptp(x[rest]) < 1e-15
+    assert np.abs(result["node/1/VX"][rest]).max() < 1e-15
+    assert result["1/FRICTION_FORCE"][rest] == pytest.approx(2 * 3, rel=1e-12)
+    assert result["1/FRICTION_FORCE"][t < stop - 1e-6] == pytest.approx(0.5 * 2 * 9, rel=1e-9)
+
+
+def test_a_block_stops_on_a_slope_and_slides_back(tmp_path: Path) -> None:
+    result = run(SLOPE.format(mu=0.2, end=1), tmp_path)
+    up, down = 3 + 0.2 * 9, 3 - 0.2 * 9
+    stop = 1 / up
+    t = result.t
+    expected = np.where(t < stop, t - up * t**2 / 2, stop / 2 - down * (t - stop) ** 2 / 2)
+    # the instant of rest is found to 1e-6 of H
+    assert np.abs(result["node/1/UX"] - expected).max() < 3e-8
+    lost = 0.2 * 2 * 9 * (stop / 2 + down * (1 - stop) ** 2 / 2)
+    assert result["run/DISSIPATED_ENERGY"][-1] == pytest.approx(lost, rel=1e-6)
+
+
+def test_a_rotor_is_braked_to_rest(tmp_path: Path) -> None:
+    deck = """
+.NOE
+ I 2
+.MCE
+ I 2 HINGE N 0 2 AXIS 0 0 1 FRICTION CONST 0.2 RADIUS 0.02 PRELOAD 500 STICK
+ I 5 INERTIA N 2 J 1D-3
+.INI
+ VIT NOEUD 2 C 6 V 14
+.SAM TYPE DYNAMIC RHO 0.9
+.SUB TF 0.5 H 1D-3
+.FIN 1
+"""
+    result = run(deck, tmp_path)
+    slowing = 0.2 * 0.02 * 500 / 1e-3
+    t, stop = result.t, 14 / slowing
+    expected = np.where(t < stop, 14 * t - slowing * t**2 / 2, 14 * stop / 2)
+    assert np.abs(result["2/ANGLE"] - expected).max() < 1e-9
+    assert np.abs(result["2/SPEED"][t > stop + 1e-6]).max() < 1e-12
+    assert result["run/DISSIPATED_ENERGY"][-1] == pytest.approx(0.5e-3 * 14**2, rel=1e-6)
+
+
+BELT = """
+.NOE
+ I 1
+ I 2
+ I 3 X -1
+.FCT
+ I 1 EXPR "0.1*T"
+.MCE
+ I 1 PRISMATIC N 0 1 AXIS 1 0 0 DRIVE SLIDE NF 1
+ I 2 PRISMATIC N 1 2 AXIS 1 0 0 FRICTION STRIBECK 0.5 0.3 0.2 STICK
+ I 3 SPRING N 3 2 K 10 L0 1
+ I 4 INERTIA N 2 M 1 J 0.1 0.1 0.1
+.CLM
+ FIX NOEUD 3 C 1 2 3
+ STRU ACC VAL 0 -10 0
+.INI VIT NOEUD 2 C 1 V 0.1
+.SAM TYPE DYNAMIC RHO 0.9
+.SUB TF {end} H {h}
+.FIN 1
+"""
+
+
+def belt_and_mass(end: float) -> tuple[list[float], np.ndarray, np.ndarray]:
+    """The mass on a running belt: sticks until the spring tears it off, slips back, is caught again. Returns
+    the instants of these events and a dense solution."""
+    speed, stiffness, press = 0.1, 10.0, 10.0
+
+    def friction(slip: float) -> float:
+        return 0.3 + 0.2 * np.exp(-((slip / 0.2) ** 2))
+
+    events, t, x = [], 0.0, 0.0
+    times, places = [0.0], [0.0]
+    while t < end:
+        tear = t + (0.5 * press / stiffness - x) / speed
+        until = min(tear, end)
+        times.append(until)
+        places.append(x + speed * (until - t))
+        if tear >= end:
+            break
+        events.append(tear)
+
+        def slides(_, s):
+            return [s[1], -stiffness * s[0] + press * friction(speed - s[1])]
+
+        start = [places[-1], speed]
+        caught = lambda _, s: s[1] - speed  # noqa: E731
+        caught.terminal, caught.direction = True, 1
+        done = solve_ivp(slides, (tear, end), start, events=caught, rtol=1e-12, atol=1e-14, dense_output=True)
+        grid = np.linspace(tear, done.t[-1], 2000)[1:]
+        times.extend(grid)
+        places.extend(done.sol(grid)[0])
+        t, x = done.t[-1], done.y[0, -1]
+        if t < end:
+            events.append(t)
+    return events, np.array(times), np.array(places)
+
+
+def test_a_mass_on_a_belt_tears_off_and_is_caught(tmp_path: Path) -> None:
+    end = 14.0
+    events, t, x = belt_and_mass(end)
+    assert len(events) == 4
+    errors = []
+    for h in (0.01, 0.005):
+        result = run(BELT.format(end=end, h=h), tmp_path)
+        sticks = (result.t < events[0]) | ((result.t > events[1] + h) & (result.t < events[2] - h))
+        assert np.abs(result["2/SLIDE_SPEED"][sticks]).max() < 1e-12
+        errors.append(np.abs(result["node/2/UX"] - np.interp(result.t, t, x)).max())
+    assert errors[1] < 2e-4
+    assert np.log2(errors[0] / errors[1]) > 1.8
+
+
+WORM = """
+.NOE
+ I 1
+ I 2 X 0 0.063100219993073609 0
+.FCT
+ I 1 {function}
+.MCE
+ I 1 HINGE N 0 1 AXIS 1 0 0 C {damper}
+ I 2 HINGE N 0 2 AXIS 0 0 1
+ I 3 GEAR N 1 2 KIND WORM STARTS 2 Z 40 MN 0.002 LAMBDA 5 AXIS 1 0 0 AXISB 0 0 1 FRICTION CONST 0.12 STICK
+ I 4 INERTIA N 1 J 1D-5
+ I 5 INERTIA N 2 J 1D-3
+ I 6 TORQUE N 2 AXIS 0 0 1 V 20
+ I 7 TORQUE N 1 AXIS 1 0 0 V 1 NF 1
+.SAM TYPE DYNAMIC RHO 0.9
+.SUB TF {end} H {h}
+.FIN 1
+"""
+
+
+def test_a_self_locking_worm_holds(tmp_path: Path) -> None:
+    result = run(WORM.format(function='EXPR "0"', damper=0, end=100, h=0.02), tmp_path)
+    assert np.ptp(result["node/2/RZ"]) < 1e-15
+    assert np.abs(result["node/2/WZ"]).max() < 1e-15
+
+
+def test_a_hoist_stops_and_starts(tmp_path: Path) -> None:
+    """A torque lifts the load, leaves it to the worm, and lifts it again."""
+    deck = WORM.format(function='EXPR "if(T < 1, -2.5, if(T < 2, 0, -2.5))"', damper=0.02, end=3, h=0.01)
+    result = run(deck, tmp_path)
+    t, turned = result.t, result["node/2/RZ"]
+    rest = (t > 1.5) & (t < 2)
+    assert np.ptp(turned[rest]) < 1e-14
+    lifted = turned[t <= 1][-1] - turned[0]
+    assert abs(lifted) > 0.1
+    again = turned[-1] - turned[rest][-1]
+    assert again == pytest.approx(lifted, rel=1e-2)
+
+
+def test_a_belt_slips_and_holds_again(tmp_path: Path) -> None:
+    """A motor torque of more than the belt holds, which falls to zero from t = 0.5 to 0.6."""
+    deck = """
+.NOE
+ I 1
+ I 2 X 0.5
+.FCT
+ I 1 EXPR "max(0, min(1, (0.6 - T)*10))"
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1
+ I 2 HINGE N 0 2 AXIS 0 0 1
+ I 3 BELT N 1 2 AXIS 0 0 1 R 0.05 0.12 PRELOAD 100 MU 0.3 STICK
+ I 4 INERTIA N 1 J 0.01
+ I 5 INERTIA N 2 J 0.2
+ I 6 TORQUE N 1 AXIS 0 0 1 V 12 NF 1
+.SAM TYPE DYNAMIC RHO 0.9
+.SUB TF 1.5 H 0.005
+.FIN 1
+"""
+    result = run(deck, tmp_path)
+    wrap = np.pi - 2 * np.arcsin(0.07 / 0.5)
+    m = 1 - np.exp(-0.3 * wrap)
+    pull = 100 * m / (1 - m / 2)
+    t = result.t
+    ramp = np.clip(t - 0.5, 0, 0.1)
+    impulse = 12 * (np.minimum(t, 0.5) + ramp - 5 * ramp**2)
+    held = 0.05 * 6.6 / 0.01 / (pull * (0.05**2 / 0.01 + 0.12**2 / 0.2))
+    assert 0.7 < held < 1.4
+    braked = pull * np.minimum(t, held)
+    assert result["1/SPEED"] == pytest.approx((impulse - 0.05 * braked) / 0.01, rel=1e-6, abs=2e-3)
+    assert result["2/SPEED"] == pytest.approx(0.12 * braked / 0.2, rel=1e-6, abs=2e-3)
+    assert result["3/GRIP_USED"][(t > 0) & (t < held - 1e-3)] == pytest.approx(1, rel=1e-9)
+    assert np.abs(result["3/TORQUE_1"][t > held + 1e-3]).max() < 1e-9
+
+
+def test_a_drive_moves_what_friction_would_hold(tmp_path: Path) -> None:
+    """A driven slide that reverses: the grip gives way to the drive, and the drive carries the friction."""
+    deck = """
+.NOE
+ I 1
+.FCT
+ I 1 EXPR "0.1*sin(3*T)"
+.MCE
+ I 1 PRISMATIC N 0 1 AXIS 1 0 0 DRIVE SLIDE NF 1 FRICTION CONST 0.5 STICK
+ I 2 INERTIA N 1 M 2 J 0.1 0.1 0.1
+.CLM STRU ACC VAL 0 -9 0
+.SAM TYPE DYNAMIC RHO 0.9
+.SUB TF 3 H 0.005
+.FIN 1
+"""
+    result = run(deck, tmp_path)
+    t = result.t
+    speed = 0.3 * np.cos(3 * t)
+    clear = np.abs(speed) > 0.01
+    expected = -2 * 0.9 * np.sin(3 * t) + 0.5 * 2 * 9 * np.sign(speed)
+    assert result["1/SLIDE_DRIVE"][clear] == pytest.approx(expected[clear], abs=0.1)
+
+
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_ranks_and_restart_decide_alike(ranks: int, tmp_path: Path) -> None:
+    text = SLOPE.format(mu=0.2, end=1)
+    whole = run(text, tmp_path)["node/1/UX"]
+    assert run(text, tmp_path, "parallel", ranks=ranks)["node/1/UX"] == pytest.approx(
+        whole, rel=1e-10, abs=1e-14
+    )
+    run(text, tmp_path, "cut", options=("--until", "0.21"), status=2)
+    rest = run(text, tmp_path, "cut", options=("--restart", "cut"))
+    assert np.array_equal(rest["node/1/UX"], whole)
