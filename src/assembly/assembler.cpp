@@ -36,6 +36,7 @@ Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm co
 
   const auto multipliers = static_cast<std::size_t>(numbering.slots() - numbering.motion_slots());
   scale_.assign(multipliers, 1.0);
+  carried_.assign(static_cast<std::size_t>(numbering.motion_slots()), 0.0);
   released_.assign(multipliers, false);
   released_values_.assign(multipliers, 0.0);
   idle_.assign(multipliers, false);
@@ -235,8 +236,8 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
   for (std::size_t i = 0; i < k.size(); ++i) scale_[i] = k[i] > 0 ? k[i] : largest > 0 ? largest : 1.0;
 }
 
-Magnitudes Assembler::residual(const Configuration& configuration, Vec r) {
-  Magnitudes largest;
+void Assembler::residual(const Configuration& configuration, Vec r) {
+  std::fill(carried_.begin(), carried_.end(), 0.0);
   Scatter::VectorSum sum(scatter_, r);
   const int motion = numbering_.motion_slots();
   for_each_residual(configuration, [&](int part, std::span<const double> local) {
@@ -250,13 +251,13 @@ Magnitudes Assembler::residual(const Configuration& configuration, Vec r) {
         if (released(m)) value = (released_value(m) - configuration.multipliers[static_cast<std::size_t>(m)]) / factor;
       }
       sum.add(row, value * factor);
-      double& size = largest[numbering_.measure(row)];
+      if (slots[i] >= motion) continue;
+      double& size = carried_[static_cast<std::size_t>(slots[i])];
       size = std::max(size, std::abs(value));
     }
   });
   sum.finish();
-  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, largest.of, 4, MPI_DOUBLE, MPI_MAX, comm_);
-  return largest;
+  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, carried_.data(), static_cast<int>(carried_.size()), MPI_DOUBLE, MPI_MAX, comm_);
 }
 
 void Assembler::scale_multipliers(int part, std::span<double> k) const {

@@ -13,7 +13,7 @@
 
 namespace engrane {
 
-/// Largest contribution of any element to rows of each Measure: what residuals are compared with.
+/// A number for each Measure.
 struct Magnitudes {
   double of[4] = {0, 0, 0, 0};
   double& operator[](Measure m) { return of[static_cast<int>(m)]; }
@@ -66,8 +66,10 @@ class Assembler {
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
 
-  /// The scaled residual; returns the largest element contributions.
-  Magnitudes residual(const Configuration& configuration, Vec r);
+  /// The scaled residual.
+  void residual(const Configuration& configuration, Vec r);
+  /// The largest that an element contributed to each slot of the motion in the last residual; on every rank.
+  const std::vector<double>& carried() const { return carried_; }
   /// The scaled tangent, in matrix().
   void tangent(const Configuration& configuration, Weights weights) { tangent(configuration, weights, matrix_); }
   /// The same in a matrix of new_matrix().
@@ -142,7 +144,7 @@ class Assembler {
   int idle_count_ = 0;
   std::vector<double> released_values_;
   bool any_released_ = false;
-  std::vector<double> gathered_;
+  std::vector<double> gathered_, carried_;
   mutable double gravity_time_ = std::numeric_limits<double>::quiet_NaN();
   mutable Vec3 gravity_ = Vec3::Zero();  ///< at that time
   std::vector<Batch> batches_;           ///< of this rank's share, in the order of the parts

@@ -21,13 +21,10 @@ constexpr double no_correction = 2e-15;
 /// A sliding speed that counts as none, over the speed below which friction is regularised.
 constexpr double resting = 1e-3;
 
-/// Share of the largest force so far that a residual is at least compared with.
-constexpr double remembered = 1e-3;
-
 }  // namespace
 
 Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int iterations)
-    : assembler_(assembler), solver_(solver), precision_(precision) {
+    : assembler_(assembler), solver_(solver), precision_(precision), references_(assembler, precision) {
   *residual_.out() = assembler.new_vector();
   check_petsc(SNESCreate(assembler.comm(), snes_.out()));
   check_petsc(SNESSetType(snes_, SNESNEWTONLS));
@@ -54,7 +51,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configura
   work_ = &work;
   weights_ = weights;
   NewtonReport report;
-  const Magnitudes before = largest_;
+  const std::vector<double> before = references_.memory();
   Owned<Vec> guess;
   *guess.out() = assembler_.new_vector();
   check_petsc(VecCopy(x, guess));
@@ -81,26 +78,18 @@ NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configura
     break;
   }
   if (report.singular) solver_.reset();
-  if (!report.converged) largest_ = before;  // what a failed iteration tried is no measure of anything
+  if (!report.converged) references_.restore(before);  // what a failed iteration tried is no measure of anything
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
   report.rows = rows_;
   return report;
-}
-
-void Newton::save(Snapshot& snapshot) const {
-  snapshot.put("newton/largest", std::vector<double>(std::begin(largest_.of), std::end(largest_.of)));
-}
-
-void Newton::load(const Snapshot& snapshot) {
-  const std::vector<double>& saved = snapshot.array("newton/largest");
-  for (std::size_t i = 0; i < 4; ++i) largest_.of[i] = saved.at(i);
 }
 
 PetscErrorCode Newton::form_function(SNES snes, Vec x, Vec f, void* context) {
   auto& self = *static_cast<Newton*>(context);
   try {
     (*self.apply_)(self.assembler_.gather(x), *self.work_);
-    self.magnitudes_ = self.assembler_.residual(*self.work_, f);
+    self.assembler_.residual(*self.work_, f);
+    self.references_.take(*self.work_, self.assembler_.carried());
     self.measure(f);
   } catch (const std::exception& e) {
     self.failure_ = e.what();
@@ -164,18 +153,6 @@ PetscErrorCode Newton::keep_sliding(SNESLineSearch, Vec x, Vec step, PetscBool* 
 
 void Newton::measure(Vec f) {
   const Numbering& numbering = assembler_.numbering();
-  const double extent = assembler_.model().extent();
-  // what has been carried so far stays the measure, or a load that passes through zero could never be balanced
-  for (int i = 0; i < 4; ++i) largest_.of[i] = std::max(largest_.of[i], magnitudes_.of[i]);
-  Magnitudes& reference = reference_;
-  reference = magnitudes_;
-  for (const Measure m : {Measure::force, Measure::moment}) reference[m] = std::max(reference[m], remembered * largest_[m]);
-  // a model where all is force, or all moment, must not judge the other by rounding noise
-  reference[Measure::moment] = std::max(reference[Measure::moment], reference[Measure::force] * extent);
-  reference[Measure::force] = std::max(reference[Measure::force], reference[Measure::moment] / extent);
-  reference[Measure::length] = extent;
-  reference[Measure::angle] = 1;
-  const double least = std::numeric_limits<double>::min();
   double worst[6] = {0, 0, 0, 0, 0, 0};  // four measures, kΦ over force, open constraint in roundings
   double worst_of_all = -1;
   int worst_row = -1;
@@ -185,18 +162,17 @@ void Newton::measure(Vec f) {
   check_petsc(VecGetArrayRead(f, &values));
   for (PetscInt row = first; row < end; ++row) {
     const Unknown& u = numbering.unknown(static_cast<int>(row));
-    double value = std::abs(values[row - first]);
+    double value = std::abs(values[row - first]), reference = references_.load(u);
     if (u.multiplier) {
       // kΦ is the force (or moment) that the open constraint stands for
-      const double carried = u.measure == Measure::length ? reference[Measure::force] : reference[Measure::moment];
-      const double k = assembler_.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
-      const double as_force = value / std::max(carried, least);
-      value /= k;
-      const double open = value / (reference[u.measure] * rounding);
+      const double as_force = value / reference;
+      value /= assembler_.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
+      reference = references_.length(u);
+      const double open = value / (reference * rounding);
       if (open > 1) worst[4] = std::max(worst[4], as_force);
       worst[5] = std::max(worst[5], open);
     }
-    const double relative = value / std::max(reference[u.measure], least);
+    const double relative = value / reference;
     double& largest = worst[static_cast<int>(u.measure)];
     largest = std::isnan(relative) ? relative : std::max(largest, relative);
     if (!(relative <= worst_of_all)) {
@@ -230,11 +206,9 @@ bool Newton::judge(int iteration) {
     check_petsc(VecGetOwnershipRange(update, &first, &end));
     const PetscScalar* values = nullptr;
     check_petsc(VecGetArrayRead(update, &values));
-    const double extent = assembler_.model().extent();
     for (PetscInt row = first; row < end; ++row) {
       const Unknown& u = assembler_.numbering().unknown(static_cast<int>(row));
-      const bool length = u.measure == Measure::force || u.measure == Measure::length;
-      const double change = std::abs(values[row - first]) / (length ? extent : 1.0);
+      const double size = std::abs(values[row - first]), change = size / references_.length(u);
       if (!u.multiplier) {
         row_.correction = std::max(row_.correction, change);
         continue;
@@ -242,8 +216,7 @@ bool Newton::judge(int iteration) {
       // a multiplier over its k is the displacement that its force stands for; where k is small, as of what has no mass, the
       // force itself tells that nothing changes any more
       const double k = assembler_.scale()[static_cast<std::size_t>(u.slot - assembler_.numbering().motion_slots())];
-      const double carried = reference_[length ? Measure::force : Measure::moment];
-      forces = std::max(forces, std::min(change, k * std::abs(values[row - first]) / carried));
+      forces = std::max(forces, std::min(change, k * size / references_.load(u)));
     }
     check_petsc(VecRestoreArrayRead(update, &values));
     double both[2] = {row_.correction, forces};

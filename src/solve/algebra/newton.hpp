@@ -8,15 +8,16 @@
 #include "assembly/assembler.hpp"
 #include "base/snapshot.hpp"
 #include "solve/algebra/linear.hpp"
+#include "solve/algebra/references.hpp"
 
 namespace engrane::solve {
 
-/// One line of a Newton table. Residuals are relative: forces and moments to the largest element contribution, open
-/// constraints to the size of the mechanism.
+/// One line of a Newton table, all relative to what is there (References): forces and moments to the loads, open constraints and
+/// corrections to the lengths.
 struct NewtonRow {
   int iteration = 0;
   double force = 0, moment = 0, length = 0, angle = 0;
-  double correction = 0;  ///< largest change of a position over the extent or of an angle, of the iteration before
+  double correction = 0;  ///< largest change of a position or of an angle, of the iteration before
   int worst = -1;         ///< equation with the largest relative residual
 };
 
@@ -41,11 +42,11 @@ class Newton {
   NewtonReport solve(Vec x, Weights weights, const Apply& apply, Configuration& work);
 
   /// The largest force that an element has contributed so far.
-  double largest_force() const { return largest_[Measure::force]; }
+  double largest_force() const { return references_.largest_force(); }
 
   /// The largest contributions so far, which residuals are compared with, for a restart.
-  void save(Snapshot& snapshot) const;
-  void load(const Snapshot& snapshot);
+  void save(Snapshot& snapshot) const { references_.save(snapshot); }
+  void load(const Snapshot& snapshot) { references_.load_memory(snapshot); }
 
  private:
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
@@ -67,9 +68,7 @@ class Newton {
   const Apply* apply_ = nullptr;
   Configuration* work_ = nullptr;
   Weights weights_;
-  Magnitudes magnitudes_;  ///< of the last residual
-  Magnitudes largest_;     ///< of all residuals so far
-  Magnitudes reference_;   ///< what the last residual is compared with
+  References references_;
   NewtonRow row_;
   double constraint_force_ = 0;  ///< largest k Φ over the largest force
   double scaled_open_ = 0;       ///< largest open constraint in units of rounding

@@ -439,6 +439,47 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
   if (initial) verify_imposed(c, wished, true);
 }
 
+void Start::verify_balance(const Configuration& c, std::span<const double> unbalanced) {
+  constexpr double enough = 1e-6;
+  const Numbering& numbering = assembler_.numbering();
+  // without friction there always are such accelerations
+  const auto& parts = assembler_.model().parts;
+  if (std::none_of(parts.begin(), parts.end(),
+                   [](const Model::Part& part) { return part.element->layout().slides > 0 || part.element->layout().grips > 0; }))
+    return;
+  assembler_.residual(c, right_);
+  const double extent = assembler_.model().extent();
+  Magnitudes largest;
+  for (int e = 0; e < numbering.equations(); ++e)
+    if (const Unknown& u = numbering.unknown(e); !u.multiplier)
+      largest[u.measure] = std::max(largest[u.measure], assembler_.carried()[static_cast<std::size_t>(u.slot)]);
+  // forces that cancel inside a body are no loads, but what is left of them is their rounding: gyroscopic moments are of the size
+  // of the kinetic energy
+  double kinetic = 0;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    kinetic += parts[p].element->energies(assembler_.view(static_cast<int>(p), c)).kinetic;
+  largest[Measure::moment] = std::max(largest[Measure::moment], kinetic);
+  const Magnitudes own = largest;
+  largest[Measure::force] = std::max(own[Measure::force], own[Measure::moment] / extent);
+  largest[Measure::moment] = std::max(own[Measure::moment], own[Measure::force] * extent);
+  int worst = -1;
+  double most = enough;
+  for (int e = 0; e < numbering.equations(); ++e) {
+    const Unknown& u = numbering.unknown(e);
+    const double part = std::abs(unbalanced[static_cast<std::size_t>(e)]) / largest[u.measure];
+    if (u.multiplier || !(part > most)) continue;
+    most = part;
+    worst = e;
+  }
+  if (worst < 0) return;
+  const double left = std::abs(unbalanced[static_cast<std::size_t>(worst)]), carried = largest[numbering.measure(worst)];
+  throw SolutionFailure(fmt::format(
+      "no accelerations balance the forces at t = {:.6g}: {} stays open by {:.3g} of {:.3g}. Friction jams: where it presses its "
+      "surfaces together by more than it takes to make it, rigid bodies have no motion. Lengthen the guide (LENGTH), load it "
+      "nearer to its axis, or lower the friction",
+      c.time, numbering.describe(worst), left, carried));
+}
+
 void Start::balance_accelerations(Configuration& c, int most_iterations, StartReport* report, const MasslessMotions* massless) {
   const Numbering& numbering = assembler_.numbering();
   std::vector<double> a = motion_.accelerations(c);
@@ -466,7 +507,10 @@ void Start::balance_accelerations(Configuration& c, int most_iterations, StartRe
     if (report) note_accelerations(assembler_, c, iteration, *report);
     if (!std::isfinite(size)) throw SolutionFailure("the forces at the start are not finite");
     if (size == 0 || (iteration > 1 && size >= 0.5 * before)) {
-      if (!redundancy_.share(c)) return;
+      if (!redundancy_.share(c)) {
+        verify_balance(c, right);
+        return;
+      }
       before = std::numeric_limits<double>::infinity();
       continue;
     }

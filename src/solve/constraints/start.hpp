@@ -64,6 +64,8 @@ class Start {
     int node = 0;
   };
   Distance distance(const Configuration& from, const Configuration& to) const;
+  /// Throws where forces are left that no accelerations balance.
+  void verify_balance(const Configuration& c, std::span<const double> unbalanced);
   void note_open(const Configuration& given, StartReport& report);
   void note_moved(const std::vector<NodeState>& begun, const Configuration& c, StartReport& report) const;
   /// Equations of the initial values of one kind that must hold.
