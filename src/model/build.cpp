@@ -287,7 +287,7 @@ class Builder {
       return;
     }
     axis = (axis / largest).normalized();
-    const Vec3 point(card.at[0], card.at[1], card.at[2]);
+    const Vec3 point = card.at ? Vec3((*card.at)[0], (*card.at)[1], (*card.at)[2]) : Vec3(Vec3::Zero());
     for (const int id : groups_.resolve(record, card)) {
       model_.initial_spins.push_back({nodes_.index(id), axis * card.values.front(), point});
       for (int c = 0; card.imposed && c < 6; ++c) model_.initial.push_back({nodes_.index(id), c, 0, true, true});

@@ -121,7 +121,7 @@ def test_wished_position_gives_way(tmp_path):
 def test_imposed_rotation_against_a_drive(tmp_path):
     ended = engrane(four_bar(initial=" DEP NOEUD 1 C 6 V 40 IMPOSED"), tmp_path, "-q")
     assert ended.returncode == 2
-    assert "imposed" in ended.stderr and "node 1 (rz)" in ended.stderr and "wish" in ended.stderr
+    assert "imposed" in ended.stderr and "node 1 (rz)" in ended.stderr and "starting guess" in ended.stderr
 
 
 @pytest.mark.parametrize(("word", "status"), [("", 0), ("IMPOSED", 2)])

@@ -209,7 +209,7 @@ Schema initial_card(const char* name, std::vector<std::string> synonyms, const c
   if (velocity) {
     card.add("AXIS", &InitialMotionCard::axis, "instead of C: the nodes turn about an axis of this direction as one rigid body")
         .synonyms({"AXE"});
-    card.add("AT", &InitialMotionCard::at, "a point of that axis").unit(dimension::length);
+    card.add("AT", &InitialMotionCard::at, "a point of that axis; default: the origin").unit(dimension::length);
   }
   card.add("V", &InitialMotionCard::values, values).values(1, 6).required();
   card.add("IMPOSED", &InitialMotionCard::imposed, "must hold exactly").synonyms({"IMPOSE"});

@@ -15,7 +15,7 @@ struct InitialMotionCard : InitialCard {
   std::optional<int> element;
   std::string coordinate;  ///< of the element, as its channel is named; empty: its first
   std::optional<std::array<double, 3>> axis;
-  std::array<double, 3> at{0, 0, 0};  ///< a point of the axis
+  std::optional<std::array<double, 3>> at;  ///< a point of the axis; none: the origin
 };
 
 }  // namespace engrane::deck
