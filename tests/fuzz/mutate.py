@@ -34,6 +34,8 @@ WORDS = """I J K N NOEUD GROUP C V NF DRIVE SPEED AXIS AT .MCE .NOE .CLM ADD .FI
 ! $ & , ; ( ) T"""
 REPLACEMENTS = {"numbers": NUMBERS.split(), "all": WORDS.split() + NUMBERS.split()}
 NUMBER = re.compile(r"(?<![\w./])[-+]?\d*\.?\d+(?:[eEdD][-+]?\d+)?(?![\w.])")
+COMMENTS = re.compile(r"!.*")
+COMMENTS_AND_NAMES = re.compile(r"!.*|\b(?:I|N|NOEUD|JOINTS?|NF|ELEMENT|LAW \w+|CLAW)\b[\d \t]+")
 FOLLOWED = re.compile(r'INPUT\s+"([^"]+)"', re.IGNORECASE)
 
 
@@ -59,13 +61,9 @@ def retuned(text: str, dice: random.Random) -> str:
     """The deck with other numbers that may well be read: what is wrong is for the solver to find."""
     end = text.find(".CHK") if ".CHK" in text else len(text)
     for _ in range(dice.choice((1, 1, 2, 3, 6))):
-        # numbers of nodes and elements only now and then: those that do not exist end the run before it begins
-        aside = (
-            r"!.*"
-            if dice.random() < 0.15
-            else r"!.*|\b(?:I|N|NOEUD|JOINTS?|NF|ELEMENT|LAW \w+|CLAW)\b[\d \t]+"
-        )
-        places = [range(*m.span()) for m in re.finditer(aside, text)]
+        # numbers of nodes and elements only now and then: what does not exist ends the run before it begins
+        aside = COMMENTS if dice.random() < 0.15 else COMMENTS_AND_NAMES
+        places = [range(*m.span()) for m in aside.finditer(text)]
         spans = [m.span() for m in NUMBER.finditer(text[:end]) if not any(m.start() in p for p in places)]
         if not spans:
             return text
