@@ -9,6 +9,7 @@ failing seeds are kept.
 """
 
 import argparse
+import math
 import os
 import random
 import re
@@ -69,6 +70,8 @@ def retuned(text: str, dice: random.Random) -> str:
             return text
         a, b = dice.choice(spans)
         value = float(re.sub("[dD]", "e", text[a:b]))
+        if not math.isfinite(value):
+            continue
         if value == int(value) and "." not in text[a:b] and dice.random() < 0.7:
             new = str(int(value) + dice.choice((-1, 1, 2, -2, 10)))
         elif value == 0:
