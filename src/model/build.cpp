@@ -327,6 +327,11 @@ class Builder {
       return;
     }
     const bool velocity = card.kind.is("VELOCITY");
+    const deck::AnalysisCard& analysis = model_.commands.analysis;
+    if (!velocity && (analysis.type.is("STATIC") || analysis.start.is("STATIC")))
+      diagnostics_.warning(record.location,
+                           fmt::format("the search for equilibrium only begins at this value of {} {}", part->type, id),
+                           "a DRIVE in the joint holds it there");
     const bool degrees = !velocity && channels[static_cast<std::size_t>(channel)].dimension == dimension::angle;
     model_.initial_coordinates.push_back({static_cast<int>(part - model_.parts.begin()), channel,
                                           card.values.front() * (degrees ? std::numbers::pi / 180 : 1), velocity,

@@ -210,10 +210,11 @@ void Start::verify_coordinates(const Configuration& c, const std::vector<StartCo
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const InitialCoordinate& coordinate = *asked[i].coordinate;
     if (std::abs(missed[i]) <= 1e-8 * coordinates_.size(asked[i])) continue;
-    throw SolutionFailure(
-        fmt::format("the initial {} is {} and cannot be {}: drives, joints, supports or other initial values leave it no choice",
-                    coordinates_.name(coordinate), coordinates_.shown(coordinate, asked[i].value + missed[i]),
-                    coordinates_.shown(coordinate, asked[i].value)));
+    throw SolutionFailure(fmt::format(
+        "the initial {} is {} and cannot be {}: drives, joints, supports or other initial values leave it no choice, or it "
+        "starts in a dead position",
+        coordinates_.name(coordinate), coordinates_.shown(coordinate, asked[i].value + missed[i]),
+        coordinates_.shown(coordinate, asked[i].value)));
   }
 }
 
