@@ -12,7 +12,6 @@
 #include "app/summary.hpp"
 #include "app/terminal.hpp"
 #include "app/version.hpp"
-#include "model/masses.hpp"
 
 namespace engrane::app {
 
@@ -67,7 +66,10 @@ void Writer::begin(const SolverContext& context, int ranks) {
   listing_.write(listing_section("What was built"));
   listing_.write(listing_built(summarize(model, context.numbering)));
   listing_.write(describe_geometry(model));
-  write_masses(model);
+  if (const std::string masses = describe_masses(model, most_listed_bodies); !masses.empty()) {
+    listing_.write(listing_section("Masses"));
+    listing_.write(masses);
+  }
   listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
   if (const std::string text = reading_.assumptions(); !text.empty()) {
     listing_.write(fmt::format("\n  {}\n", text));
@@ -246,20 +248,6 @@ std::string Writer::closing_lines() const {
     text += fmt::format("  {:<{}}  a diagram; --list names all there is to plot\n", plot, picture.size());
   }
   return text + fmt::format("  {}  the mechanism before and after; ParaView opens {}\n", picture, files[1]);
-}
-
-void Writer::write_masses(const Model& model) {
-  std::vector<MassRow> rows;
-  MassProperties sum;
-  for (const Model::Part& part : model.parts) {
-    const MassProperties one = mass_properties(model, part);
-    if (!one.any()) continue;
-    rows.push_back({fmt::format("{} {}", part.type, part.element->id()), one.mass, one.centre, one.inertia});
-    sum.add(one);
-  }
-  if (rows.empty()) return;
-  listing_.write(listing_section("Masses"));
-  listing_.write(listing_masses(rows, {"all", sum.mass, sum.centre, sum.inertia}, model.units, most_listed_bodies));
 }
 
 GroundRow Writer::ground(double time) const {

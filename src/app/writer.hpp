@@ -53,7 +53,6 @@ class Writer {
 
  private:
   std::string wanted_table() const;
-  void write_masses(const Model& model);
   /// The sums of what the ground exerts, and the peaks.
   void follow(double time);
   output::GroundRow ground(double time) const;

@@ -36,7 +36,8 @@ def run(engrane):
     return done.stdout, (engrane.folder / "two.lst").read_text(), engrane.folder / "two.h5"
 
 
-def test_masses(run):
+def test_masses(run, engrane):
+    assert "all                5           0.4  1.2  0" in engrane("check", "two.dat").stdout
     rows = {row[0]: row[1:] for row in section(run[1], "Masses")}
     assert [float(x) for x in rows["INERTIA 1"]] == pytest.approx([2, 1, 0, 0, 0.1, 0.1, 0.1, 0, 0, 0])
     assert [float(x) for x in rows["INERTIA 2"]] == pytest.approx([3, 0, 2, 0, 0.2, 0.2, 0.2, 0, 0, 0])
