@@ -12,6 +12,7 @@
 #include "app/solve_deck.hpp"
 #include "app/version.hpp"
 #include "assembly/petsc.hpp"
+#include "base/foreign.hpp"
 #include "deck/manual/manual.hpp"
 #include "output/hdf5_handle.hpp"
 #include "user/library.hpp"
@@ -76,6 +77,8 @@ int perform(const std::string& deck, const Options& options, bool talk, RunSumma
   const Reading reading = read_deck(deck, options.wishes);
   if (talk) reading.diagnostics.print(std::cerr, reading.sources);
   run.diagnostics = reading.diagnostics.all();
+  for (Diagnostic& d : run.diagnostics)
+    if (d.location.known() && reading.sources.foreign(d.location.file)) d.message = without_quotes(d.message);
   for (int file = 0; file < reading.sources.size(); ++file) run.sources.push_back(reading.sources.path(file));
   if (!reading.good()) return exit_status::wrong_deck;
   run.time = reading.model.commands.stepping.start;

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <filesystem>
 
 #include "app/plausibility.hpp"
@@ -53,14 +51,9 @@ void add_wanted(Reading& reading, const std::vector<std::string>& results, Diagn
 }
 
 /// A record that could not be read leaves a hole: that something refers to it is no fault of its own.
-bool is_echo(const std::string& message, const deck::Deck& deck) {
-  if (message.find("does not exist") == std::string::npos && message.find("there is no ") == std::string::npos) return false;
-  if (deck.incomplete.contains(".*")) return true;
-  static constexpr std::array<std::array<std::string_view, 2>, 5> kinds{
-      {{"node", ".NOE"}, {"element", ".MCE"}, {"function", ".FCT"}, {"group", ".SEL"}, {"frame", ".FRAME"}}};
-  return std::any_of(kinds.begin(), kinds.end(), [&](const auto& kind) {
-    return deck.incomplete.contains(kind[1]) && message.find(kind[0]) != std::string::npos;
-  });
+bool is_echo(const Diagnostic& diagnostic, const deck::Deck& deck) {
+  if (diagnostic.missing_from.empty()) return false;
+  return deck.incomplete.contains(".*") || deck.incomplete.contains(diagnostic.missing_from);
 }
 
 }  // namespace
@@ -82,13 +75,8 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
   if (syntax_good && !building.has_errors()) warn_of_unit_slips(reading.deck, reading.model, building);
   // a record that could not be read leaves a hole: what the model then misses is an echo, not a fault of its own. But
   // what is wrong with records that were read is wrong all the same
-  for (const Diagnostic& d : building.all()) {
-    if (is_echo(d.message, reading.deck)) continue;
-    if (d.severity == Severity::error)
-      reading.diagnostics.error(d.location, d.message, d.hint);
-    else
-      reading.diagnostics.warning(d.location, d.message, d.hint);
-  }
+  for (const Diagnostic& d : building.all())
+    if (!is_echo(d, reading.deck)) reading.diagnostics.add(d);
   return reading;
 }
 

@@ -66,7 +66,7 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
     const auto found = parts.find(*check.element);
     if (found == parts.end()) {
       if (!is_in_deck(deck, *check.element))
-        diagnostics.error(record.where("ELEMENT"), fmt::format("there is no element {}", *check.element));
+        diagnostics.missing(".MCE", record.where("ELEMENT"), fmt::format("there is no element {}", *check.element));
       return;
     }
     const Model::Part& part = model.parts[static_cast<std::size_t>(found->second)];
@@ -75,7 +75,7 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
   } else if (check.node) {
     const int node = model.node_index(*check.node);
     if (node <= 0) {
-      diagnostics.error(record.where("NODE"), fmt::format("there is no node {}", *check.node));
+      diagnostics.missing(".NOE", record.where("NODE"), fmt::format("there is no node {}", *check.node));
       return;
     }
     owner = fmt::format("node {}", *check.node);
@@ -90,7 +90,8 @@ void check_archive(const deck::Record& record, const deck::ArchiveCard& said, co
   const deck::ArchiveCard& archive = model.commands.archive;  // with the members of groups
   for (const int id : archive.elements)
     if (!parts.contains(id) && !is_in_deck(deck, id))
-      diagnostics.error(record.where(said.elements.empty() ? "GROUP" : "ELEMENT"), fmt::format("there is no element {}", id));
+      diagnostics.missing(".MCE", record.where(said.elements.empty() ? "GROUP" : "ELEMENT"),
+                          fmt::format("there is no element {}", id));
   std::vector<std::string> types;
   for (const Model::Part& part : model.parts)
     if (std::find(types.begin(), types.end(), part.type) == types.end()) types.push_back(part.type);

@@ -2,30 +2,19 @@
 #include "app/solve_deck.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 
-#include "app/layout.hpp"
 #include "app/model_difference.hpp"
-#include "app/model_json.hpp"
-#include "app/schedule.hpp"
 #include "app/selection.hpp"
-#include "app/summary.hpp"
 #include "app/terminal.hpp"
 #include "app/times.hpp"
-#include "app/version.hpp"
+#include "app/writer.hpp"
 #include "model/function_failure.hpp"
-#include "output/checks.hpp"
-#include "output/listing.hpp"
-#include "output/progress.hpp"
-#include "output/restart_file.hpp"
-#include "solve/constraints/start_report.hpp"
-#include "solve/run/runner.hpp"
 #include "user/routine.hpp"
 
 namespace engrane::app {
@@ -36,25 +25,16 @@ using namespace solve;
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-void interrupt(int) { interrupted = 1; }
-
-/// Checks of the deck, each tied to its channel. The reader has made sure that the channels exist.
-Checks resolve_checks(const Model& model, const observe::Observer& observer) {
-  std::vector<Checks::Resolved> all;
-  for (const deck::CheckCard& card : model.commands.checks) {
-    const std::string owner = card.element ? fmt::format("element/{}", *card.element)
-                              : card.node  ? fmt::format("node/{}", *card.node)
-                                           : std::string("run");
-    all.push_back({card, static_cast<std::size_t>(observer.channel(owner, card.quantity))});
-  }
-  return Checks(std::move(all));
+/// Before the first step is made, which may take long (the rank of the constraints is found in one piece), nothing is lost by
+/// leaving at once: the results are in no open file.
+volatile std::sig_atomic_t starting = 0;
+void interrupt(int) {
+  interrupted = 1;
+  if (starting == 0) return;
+  static constexpr char text[] = "engrane: interrupted at the start, before the first step\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+  _exit(exit_status::solution_failed);
 }
-
-/// An earlier run, and the point of it that this run continues from.
-struct Resumption {
-  RestartFile earlier;
-  RestartPoint point;
-};
 
 /// Opens what `.SAM RESTART` names, on every rank. Throws RestartError, also when its model is another than that of `reading`.
 std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Options& options) {
@@ -80,263 +60,6 @@ std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Option
         earlier.path(), point.time, reading.model.commands.stepping.end));
   return std::make_unique<Resumption>(std::move(earlier), std::move(point));
 }
-
-/// More events than this are counted only.
-constexpr long most_listed_events = 100;
-
-/// Everything that rank 0 writes during a run.
-class Writer {
- public:
-  /// `resumed`: what this run continues from, or nullptr.
-  Writer(const Reading& reading, const observe::Observer& observer, const Schedule& schedule, const Options& options,
-         const std::string& prefix, const Resumption* resumed, RunSummary& summary)
-      : reading_(reading),
-        options_(options),
-        summary_(summary),
-        observer_(observer),
-        schedule_(schedule),
-        results_(make_results(prefix, results_layout(reading, observer, schedule.expected_samples()), resumed)),
-        listing_(results_.name()),
-        checks_(resolve_checks(reading.model, observer)),
-        progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
-                  options.quiet ? Progress::Style::silent : Progress::suitable()) {}
-
-  void begin(const SolverContext& context, int ranks) {
-    const Model& model = reading_.model;
-    std::string deck = summary_.deck;
-    for (const auto& [name, text] : summary_.definitions) deck += fmt::format(" -D {}={}", name.substr(1), text);
-    listing_.write(listing_header({version, library_versions(), model.title, deck, describe_analysis(model),
-                                   fmt::format("{} process{}", ranks, ranks == 1 ? "" : "es")}));
-    listing_.write(listing_section("What was built"));
-    listing_.write(listing_built(summarize(model, context.numbering)));
-    listing_.write(describe_geometry(model));
-    listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
-    if (const std::string text = reading_.assumptions(); !text.empty()) {
-      listing_.write(fmt::format("\n  {}\n", text));
-      progress_.note("engrane: " + text);
-    }
-    if (const std::string text = left_out_histories(model); !text.empty()) {
-      listing_.write(fmt::format("\n  {}\n", text));
-      progress_.note("engrane: " + text);
-    }
-    listing_.write(listing_section("Start"));
-  }
-
-  void resumed(const Resumption& from) {
-    checks_.load(from.point.memory);
-    const std::vector<double>& counts = from.point.memory.array("writer/counts");
-    steps_ = static_cast<long>(counts.at(0));
-    iterations_ = static_cast<long>(counts.at(1));
-    cuts_ = static_cast<long>(counts.at(2));
-    locating_ = static_cast<long>(counts.at(3));
-    event_count_ = static_cast<long>(counts.at(4));
-    marked_ = observer_.not_unique().size();
-    results_.mark_not_unique(observer_.not_unique());
-    listing_.write(fmt::format("  restarted from {} at t = {:.10g}\n", from.earlier.path(), from.point.time));
-    if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
-  }
-
-  /// Gives the results what the run could be restarted from: with a batch, where the deck asks for it, and at the end.
-  void remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
-    if (!kept && !last && !results_.due()) return;
-    Snapshot memory;
-    runner.save(memory);
-    observer_.save(memory);
-    schedule_.save(memory);
-    checks_.save(memory);
-    memory.put("writer/counts", {static_cast<double>(steps_), static_cast<double>(iterations_), static_cast<double>(cuts_),
-                                 static_cast<double>(locating_), static_cast<double>(event_count_)});
-    results_.restart_point(c.time, std::move(memory), kept);
-    if (results_.due()) results_.flush();
-  }
-
-  void started(const StartReport& start) {
-    listing_.write(describe_start(reading_.model, start));
-    listing_.write(start.mobility);
-    for (const std::string& remark : start.remarks) progress_.note("engrane: assembly: " + remark);
-    if (start.redundant > 0)
-      progress_.note(
-          fmt::format("engrane: {} redundant constraint{}: how some reactions share a load is not unique (see the listing)",
-                      start.redundant, start.redundant == 1 ? "" : "s"));
-    if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
-  }
-
-  void step(const Configuration& c, const StepReport& step, const Schedule::Due& due, const Numbering& numbering) {
-    const bool last = c.time >= reading_.model.commands.stepping.end;
-    if (!checks_.empty()) checks_.observe(c.time, observer_.values(), step.regular);
-    if (observer_.not_unique().size() != marked_) {
-      marked_ = observer_.not_unique().size();
-      results_.mark_not_unique(observer_.not_unique());
-    }
-    if (due.sample) results_.sample(c.time, observer_.values());
-    if (due.frame) {
-      results_.frame(c.time, frame_values(reading_.model, observer_));
-      const observe::EnergyBalance& e = observer_.energies();
-      energies_.push_back({c.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error()});
-    }
-    summary_.time = c.time;
-    ++steps_;
-    cuts_ += step.cuts;
-    locating_ += step.locating;
-    note_events(c, step);
-    if (step.newton) {
-      iterations_ += step.newton->iterations;
-      if (reading_.model.commands.archive.newton) write_newton(c, step, numbering);
-    }
-    progress_.update(c.time, step.step, step.number);
-    if (!last) return;
-    progress_.finish();
-    collect_remarks(c, numbering);
-  }
-
-  /// Ends listing and results; returns the exit status.
-  int finish(RunStatus status, const std::string& failure, const TimeSplit& times) {
-    progress_.finish();
-    const UnitSystem& units = reading_.model.units;
-    listing_.write(listing_section("Energies"));
-    listing_.write(listing_energies(thinned_energies(), units));
-    std::vector<ReactionRow> reactions;
-    for (const observe::Reaction& r : observer_.reactions())
-      reactions.push_back({reading_.model.nodes[static_cast<std::size_t>(r.node)].id, r.force, r.torque});
-    if (!reactions.empty()) {
-      listing_.write(listing_section("Reactions at the end"));
-      listing_.write(listing_reactions(reactions, units));
-    }
-    if (marked_ > 0) {
-      listing_.write(listing_section("Not unique"));
-      listing_.write(listing_not_unique(results_.layout().history, observer_.not_unique()));
-    }
-    if (event_count_ > 0) {
-      listing_.write(listing_section("Events"));
-      listing_.write(events_);
-      if (event_count_ > most_listed_events) listing_.write(fmt::format("  and {} more\n", event_count_ - most_listed_events));
-      listing_.write(fmt::format("  {} in all, located by {} attempts beyond those of the steps\n", event_count_, locating_));
-    }
-    if (!remarks_.empty()) {
-      listing_.write(listing_section("Remarks"));
-      listing_.write(remarks_);
-    }
-    int exit = exit_status::fine;
-    if (!failure.empty()) {
-      listing_.write(listing_section("The run failed"));
-      listing_.write("  " + failure + "\n");
-      exit = exit_status::solution_failed;
-    }
-    std::vector<CheckResult> results = checks_.results();
-    const auto first_wanted = results.end() - static_cast<std::ptrdiff_t>(reading_.wanted);
-    summary_.results.assign(first_wanted, results.end());
-    results.erase(first_wanted, results.end());
-    if (!results.empty()) {
-      results_.checks(results);
-      const std::string table = listing_checks(results);
-      listing_.write(listing_section("Checks"));
-      listing_.write(table);
-      if (failure.empty()) {
-        if (!options_.json) std::cout << terminal_text(table);
-        for (const CheckResult& r : results)
-          if (!r.passed) exit = exit_status::check_failed;
-      }
-    }
-    if (!summary_.results.empty()) {
-      const std::string table = wanted_table();
-      listing_.write(listing_section("Results asked for"));
-      listing_.write(table);
-      if (!options_.json) std::cout << terminal_text(table);
-    }
-    summary_.checks = std::move(results);
-    summary_.energies = observer_.energies();
-    listing_.write(listing_section("Effort"));
-    listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1,
-                               iterations_, steps_ > 1 ? static_cast<double>(iterations_) / static_cast<double>(steps_ - 1) : 0.0,
-                               cuts_));
-    listing_.write(listing_times(times));
-    results_.finish(status);
-    listing_.finish(status == RunStatus::complete);
-    summary_.steps = std::max(0L, steps_ - 1);
-    summary_.iterations = iterations_;
-    summary_.cuts = cuts_;
-    summary_.events = event_count_;
-    summary_.seconds = times.total;
-    return exit;
-  }
-
-  const std::string& path() const { return results_.path(); }
-  /// Results, their index and the listing, as they are called now.
-  std::vector<std::string> paths() const {
-    const std::string stem = path().substr(0, path().size() - std::string_view(".h5").size());
-    return {path(), stem + ".xdmf", stem + ".lst"};
-  }
-  void note(const std::string& text) { progress_.note(text); }
-
- private:
-  std::string wanted_table() const {
-    std::string table;
-    for (const CheckResult& r : summary_.results)
-      table += fmt::format("  {}: {}\n", r.text, r.remark.empty() ? fmt::format("{:.10g}", r.value) : r.remark);
-    return table;
-  }
-  void note_events(const Configuration& c, const StepReport& step) {
-    for (const Event& e : step.events) {
-      if (++event_count_ > most_listed_events) continue;
-      const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(e.part)];
-      const SwitchNames& names = part.element->layout().switches[static_cast<std::size_t>(e.index)];
-      events_ +=
-          fmt::format("  t = {:<14.9g} {} {}: {}\n", c.time, part.type, part.element->id(), e.rises ? names.rises : names.falls);
-    }
-    if (!step.chatter) return;
-    const std::string text =
-        fmt::format("t = {:.6g}: events come too thick to be met one by one; some steps pass over them", c.time);
-    events_ += "  warning: " + text + "\n";
-    progress_.note("engrane: " + text);
-  }
-  /// What elements remember of the run and its user should know.
-  void collect_remarks(const Configuration& c, const Numbering& numbering) {
-    for (int p = 0; p < numbering.parts(); ++p) {
-      const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(p)];
-      const auto size = static_cast<std::size_t>(part.element->layout().history);
-      for (const std::string& remark :
-           part.element->remarks(std::span(c.history).subspan(static_cast<std::size_t>(numbering.history_begin(p)), size))) {
-        const std::string text = fmt::format("{} {}: {}", part.type, part.element->id(), remark);
-        remarks_ += "  warning: " + text + "\n";
-        progress_.note("engrane: " + text);
-      }
-    }
-  }
-  void write_newton(const Configuration& c, const StepReport& step, const Numbering& numbering) {
-    std::vector<IterationRow> rows;
-    for (const NewtonRow& r : step.newton->rows)
-      rows.push_back({step.number, c.time, r.iteration, r.force, r.moment, r.length, r.angle, r.correction,
-                      r.worst >= 0 ? numbering.describe(r.worst) : ""});
-    listing_.write(listing_newton(rows, step.number == 1));
-  }
-  /// About twenty rows are enough to see a trend; the file has them all.
-  std::vector<EnergyRow> thinned_energies() const {
-    std::vector<EnergyRow> rows;
-    const std::size_t every = std::max<std::size_t>(1, (energies_.size() + 19) / 20);
-    for (std::size_t i = 0; i < energies_.size(); ++i)
-      if (i % every == 0 || i + 1 == energies_.size()) rows.push_back(energies_[i]);
-    return rows;
-  }
-
-  static Results make_results(const std::string& prefix, ResultsLayout layout, const Resumption* resumed) {
-    if (resumed) return {prefix, std::move(layout), resumed->earlier, resumed->point};
-    return {prefix, std::move(layout)};
-  }
-
-  const Reading& reading_;
-  const Options& options_;
-  RunSummary& summary_;
-  const observe::Observer& observer_;
-  const Schedule& schedule_;
-  Results results_;
-  Listing listing_;
-  Checks checks_;
-  Progress progress_;
-  std::vector<EnergyRow> energies_;
-  std::string events_, remarks_;
-  std::size_t marked_ = 0;  ///< channels marked as not unique so far
-  long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;
-};
 
 /// The text of the first rank that has one; empty when none has. Collective.
 std::string first_text(std::string text, MPI_Comm comm, int rank, int ranks) {
@@ -411,6 +134,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   std::signal(SIGTERM, interrupt);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end of the program
 
+  starting = 1;
   user::forget_failures();  // those of another deck
   forget_function_failures();
   Times times;
@@ -426,6 +150,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   observe::Observer observer(context.assembler, moves(reading.model), select_histories(reading.model));
   Schedule schedule(reading.model.commands.stepping, reading.model.commands.archive);
   std::optional<Writer> writer;
+  starting = 0;  // files are open
   // the other ranks must hear of it when the files cannot be made
   std::string trouble;
   if (rank == 0) try {
@@ -449,6 +174,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   const auto scheme = make_scheme(context);
   Runner runner(context, *scheme);
   const Observer after_step = [&](const Configuration& c, const StepReport& step) {
+    starting = 0;
     const auto watch = times.output();
     user::forget_failures();  // those of attempts that were cut
     forget_function_failures();
@@ -474,6 +200,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     }
     return stop == 0;
   };
+  starting = 1;
   try {
     if (resumption) {
       observer.load(resumption->point.memory);
@@ -492,6 +219,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   } catch (const SolutionFailure& e) {
     failure = e.what();
   }
+  starting = 0;
   failure = with_causes(std::move(failure), comm, rank, ranks);
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {
@@ -508,6 +236,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
       std::cerr << "engrane: " << terminal_text(failure) << "\n         results up to there are in " << writer->path() << '\n';
     else if (const std::string advice = times.advice(context.solver, ranks); !advice.empty() && !options.quiet)
       std::cerr << advice;
+    if (!options.quiet && !options.json && options.decks.size() == 1) std::cout << terminal_text(writer->closing_lines());
   }
   MPI_Bcast(&status, 1, MPI_INT, 0, comm);
   return status;

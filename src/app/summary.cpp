@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "model/masses.hpp"
+
 namespace engrane::app {
 
 using namespace output;
@@ -90,6 +92,18 @@ std::string describe_geometry(const Model& model) {
     }
   }
   return text;
+}
+
+std::string describe_masses(const Model& model, std::size_t most) {
+  std::vector<MassRow> rows;
+  MassProperties sum;
+  for (const Model::Part& part : model.parts) {
+    const MassProperties one = mass_properties(model, part);
+    if (!one.any()) continue;
+    rows.push_back({fmt::format("{} {}", part.type, part.element->id()), one.mass, one.centre, one.inertia});
+    sum.add(one);
+  }
+  return listing_masses(rows, {"all", sum.mass, sum.centre, sum.inertia}, model.units, most);
 }
 
 }  // namespace engrane::app

@@ -15,4 +15,7 @@ std::string describe_analysis(const Model& model);
 /// Table of the derived geometry of each element that has any.
 std::string describe_geometry(const Model& model);
 
+/// Table of masses, centres and inertias of at most `most` bodies, and of all together; empty when nothing has mass.
+std::string describe_masses(const Model& model, std::size_t most);
+
 }  // namespace engrane::app

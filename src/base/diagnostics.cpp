@@ -5,17 +5,18 @@
 #include <ostream>
 #include <utility>
 
+#include "base/foreign.hpp"
 #include "base/text.hpp"
 
 namespace engrane {
 
-int SourceMap::add(std::string path, std::string text, Location included_from) {
+int SourceMap::add(std::string path, std::string text, Location included_from, bool foreign) {
   std::vector<std::size_t> starts;
   starts.reserve(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1);
   if (!text.empty()) starts.push_back(0);
   for (std::size_t i = 0; i + 1 < text.size(); ++i)
     if (text[i] == '\n') starts.push_back(i + 1);
-  files_.push_back({std::move(path), std::move(text), included_from, std::move(starts)});
+  files_.push_back({std::move(path), std::move(text), included_from, foreign, std::move(starts)});
   return size() - 1;
 }
 
@@ -34,12 +35,20 @@ std::string_view SourceMap::line(int file, int number) const {
 int SourceMap::line_count(int file) const { return static_cast<int>(files_[static_cast<std::size_t>(file)].line_starts.size()); }
 
 void Diagnostics::error(Location where, std::string message, std::string hint) {
-  all_.push_back({Severity::error, where, std::move(message), std::move(hint)});
-  ++errors_;
+  add({Severity::error, where, std::move(message), std::move(hint)});
 }
 
 void Diagnostics::warning(Location where, std::string message, std::string hint) {
-  all_.push_back({Severity::warning, where, std::move(message), std::move(hint)});
+  add({Severity::warning, where, std::move(message), std::move(hint)});
+}
+
+void Diagnostics::missing(std::string_view declared_by, Location where, std::string message, std::string hint) {
+  add({Severity::error, where, std::move(message), std::move(hint), declared_by});
+}
+
+void Diagnostics::add(Diagnostic diagnostic) {
+  errors_ += diagnostic.severity == Severity::error;
+  all_.push_back(std::move(diagnostic));
 }
 
 namespace {
@@ -83,6 +92,24 @@ void print_excerpt(std::ostream& out, const SourceMap& sources, const Location& 
   out << "  " << blank << " | " << std::string(indent, ' ') << '^' << std::string(marked - 1, '~') << '\n';
 }
 
+}  // namespace
+
+std::string without_quotes(std::string_view message) {
+  std::string text;
+  for (std::size_t at = 0; at < message.size();) {
+    const std::size_t open = std::min(message.find('`', at), message.size());
+    text += message.substr(at, open - at);
+    const std::size_t close = message.find('`', open + 1);
+    if (open == message.size()) break;
+    text += "`...`";
+    if (close == std::string_view::npos) break;
+    at = close + 1;
+  }
+  return text;
+}
+
+namespace {
+
 void print_one(std::ostream& out, const SourceMap& sources, const Diagnostic& diagnostic) {
   const Location& where = diagnostic.location;
   if (where.known()) {
@@ -91,12 +118,14 @@ void print_one(std::ostream& out, const SourceMap& sources, const Diagnostic& di
     out << printable(sources.path(where.file)) << ':' << where.line << ':';
     out << character_count(line.substr(0, std::min(bytes, line.size()))) + 1 << ": ";
   }
-  out << (diagnostic.severity == Severity::error ? "error: " : "warning: ") << printable(diagnostic.message) << '\n';
+  out << (diagnostic.severity == Severity::error ? "error: " : "warning: ")
+      << printable(where.known() && sources.foreign(where.file) ? without_quotes(diagnostic.message) : diagnostic.message)
+      << '\n';
   if (!where.known()) {
     if (!diagnostic.hint.empty()) out << "  = " << printable(diagnostic.hint) << '\n';
     return;
   }
-  print_excerpt(out, sources, where);
+  if (!sources.foreign(where.file)) print_excerpt(out, sources, where);
   const std::string blank(std::to_string(where.line).size() + 2, ' ');
   if (!diagnostic.hint.empty()) out << blank << " = " << printable(diagnostic.hint) << '\n';
   for (Location at = sources.included_from(where.file); at.known(); at = sources.included_from(at.file))

@@ -24,12 +24,14 @@ struct Location {
 /// are added and while the map is moved.
 class SourceMap {
  public:
-  /// Adds a file and returns its index. `included_from` is the INPUT record that named it.
-  int add(std::string path, std::string text, Location included_from = {});
+  /// Adds a file and returns its index. `included_from` is the INPUT record that named it. Of a foreign file, one that may hold
+  /// what its reader has no business with, messages name places and show no lines.
+  int add(std::string path, std::string text, Location included_from = {}, bool foreign = false);
 
   const std::string& path(int file) const { return files_[static_cast<std::size_t>(file)].path; }
   const std::string& text(int file) const { return files_[static_cast<std::size_t>(file)].text; }
   Location included_from(int file) const { return files_[static_cast<std::size_t>(file)].included_from; }
+  bool foreign(int file) const { return files_[static_cast<std::size_t>(file)].foreign; }
   int size() const { return static_cast<int>(files_.size()); }
 
   /// One line without its end-of-line characters; empty when the line does not exist.
@@ -41,6 +43,7 @@ class SourceMap {
     std::string path;
     std::string text;
     Location included_from;
+    bool foreign = false;
     std::vector<std::size_t> line_starts;
   };
   std::deque<File> files_;
@@ -54,6 +57,8 @@ struct Diagnostic {
   Location location;
   std::string message;
   std::string hint;  ///< the cure ("did you mean …", "give …"); may be empty
+  std::string_view missing_from =
+      {};  ///< of something that was looked for in vain: the command that declares such things, `.NOE`
 };
 
 /// Collects everything that is wrong with a deck, so that one run reports all of it.
@@ -61,6 +66,9 @@ class Diagnostics {
  public:
   void error(Location where, std::string message, std::string hint = {});
   void warning(Location where, std::string message, std::string hint = {});
+  /// The error that something does not exist. `declared_by` is the command whose records are such things, a literal.
+  void missing(std::string_view declared_by, Location where, std::string message, std::string hint = {});
+  void add(Diagnostic diagnostic);
 
   bool has_errors() const { return errors_ > 0; }
   int errors() const { return errors_; }

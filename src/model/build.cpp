@@ -8,6 +8,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "deck/cards/initial_motion.hpp"
+#include "model/coordinate_channels.hpp"
 #include "model/frames.hpp"
 #include "model/groups.hpp"
 #include "model/model.hpp"
@@ -42,6 +44,7 @@ class Builder {
         if (element.type->stage == stage) add_element(element);
     std::stable_sort(model_.parts.begin(), model_.parts.end(),
                      [](const Model::Part& a, const Model::Part& b) { return a.element->id() < b.element->id(); });
+    for (const deck::Record* record : initial_elements_) add_initial_coordinate(*record);
     add_loads();
     model_.nodes = nodes_.release();
     for (Model::Part& part : model_.parts)
@@ -125,7 +128,12 @@ class Builder {
       const auto& g = gravity->acceleration;
       model_.gravity.push_back({Vec3(g[0], g[1], g[2]), function(record, gravity->function)});
     }
-    if (const auto* initial = record.get<deck::InitialCard>()) add_initial(record, *initial);
+    if (const auto* initial = record.get<deck::InitialMotionCard>()) {
+      if (initial->element)
+        initial_elements_.push_back(&record);  // once they are there
+      else
+        add_initial(record, *initial);
+    }
   }
 
   /// Puts the members of the card's groups to its nodes and elements.
@@ -161,8 +169,8 @@ class Builder {
     const auto it = model_.functions.find(id);
     if (it != model_.functions.end())
       return is_function_of_one_variable(it->second.get(), record.where("NF"), diagnostics_) ? it->second.get() : nullptr;
-    diagnostics_.error(record.where("NF"), fmt::format("function {} does not exist", id),
-                       fmt::format("declare it with .FCT I {}", id));
+    diagnostics_.missing(".FCT", record.where("NF"), fmt::format("function {} does not exist", id),
+                         fmt::format("declare it with .FCT I {}", id));
     return nullptr;
   }
 
@@ -259,12 +267,75 @@ class Builder {
                               {}});
   }
 
-  void add_initial(const deck::Record& record, const deck::InitialCard& card) {
+  void add_initial(const deck::Record& record, const deck::InitialMotionCard& card) {
     const bool velocity = card.kind.is("VELOCITY");
+    if (card.axis) {
+      add_initial_spin(record, card);
+      return;
+    }
     const auto each = values_of(record, card.components, card.values, !velocity);
     for (const int id : groups_.resolve(record, card))
       for (std::size_t i = 0; i < card.components.size(); ++i)
         model_.initial.push_back({nodes_.index(id), card.components[i] - 1, each[i], velocity, card.imposed});
+  }
+
+  void add_initial_spin(const deck::Record& record, const deck::InitialMotionCard& card) {
+    Vec3 axis((*card.axis)[0], (*card.axis)[1], (*card.axis)[2]);
+    const double largest = axis.cwiseAbs().maxCoeff();
+    if (!(largest > 0)) {
+      diagnostics_.error(record.where("AXIS"), "AXIS 0 0 0 is not a direction", "give three components, not all zero");
+      return;
+    }
+    axis = (axis / largest).normalized();
+    const Vec3 point = card.at ? Vec3((*card.at)[0], (*card.at)[1], (*card.at)[2]) : Vec3(Vec3::Zero());
+    for (const int id : groups_.resolve(record, card)) {
+      model_.initial_spins.push_back({nodes_.index(id), axis * card.values.front(), point});
+      for (int c = 0; card.imposed && c < 6; ++c) model_.initial.push_back({nodes_.index(id), c, 0, true, true});
+    }
+  }
+
+  void add_initial_coordinate(const deck::Record& record) {
+    const auto& card = *record.get<deck::InitialMotionCard>();
+    const int id = *card.element;
+    const BuildContext::Found* found = find_in_mechanism(id);
+    if (!found) {
+      diagnostics_.missing(".MCE", record.where("ELEMENT"), fmt::format("element {} does not exist", id),
+                           "name a joint or a SENSOR of .MCE by its number");
+      return;
+    }
+    const auto part =
+        std::find_if(model_.parts.begin(), model_.parts.end(), [id](const Model::Part& p) { return p.element->id() == id; });
+    if (part == model_.parts.end()) return;  // it has faults of its own
+    const auto* owner = dynamic_cast<const CoordinateChannels*>(part->element.get());
+    const int count = owner ? owner->coordinate_count() : 0;
+    if (count == 0) {
+      diagnostics_.error(record.where("ELEMENT"), fmt::format("{} {} has no coordinate", part->type, id),
+                         "name a joint with a free coordinate, such as HINGE or PRISMATIC, or a SENSOR");
+      return;
+    }
+    const std::vector<Named>& channels = part->element->channels();
+    int channel = 0;
+    std::string names;
+    for (; channel < 2 * count; channel += 2) {
+      const std::string& name = channels[static_cast<std::size_t>(channel)].name;
+      if (card.coordinate.empty() || name == card.coordinate) break;
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    if (channel == 2 * count) {
+      diagnostics_.error(record.where("COORDINATE"), fmt::format("{} {} has no coordinate {}", part->type, id, card.coordinate),
+                         "it has " + names);
+      return;
+    }
+    const bool velocity = card.kind.is("VELOCITY");
+    const deck::AnalysisCard& analysis = model_.commands.analysis;
+    if (!velocity && (analysis.type.is("STATIC") || analysis.start.is("STATIC")))
+      diagnostics_.warning(record.location,
+                           fmt::format("the search for equilibrium only begins at this value of {} {}", part->type, id),
+                           "a DRIVE in the joint holds it there");
+    const bool degrees = !velocity && channels[static_cast<std::size_t>(channel)].dimension == dimension::angle;
+    model_.initial_coordinates.push_back({static_cast<int>(part - model_.parts.begin()), channel,
+                                          card.values.front() * (degrees ? std::numbers::pi / 180 : 1), velocity,
+                                          record.location});
   }
 
   void add_element(const ElementRecord& element) {
@@ -354,8 +425,8 @@ class Builder {
       for (const double value : field.load(record.data).numbers) {
         const int id = static_cast<int>(value);
         if (nodes_.contains(id)) continue;
-        diagnostics.error(record.where(field.keyword),
-                          fmt::format("node {} of {} {} does not exist", id, record.schema->name, record.id));
+        diagnostics.missing(".NOE", record.where(field.keyword),
+                            fmt::format("node {} of {} {} does not exist", id, record.schema->name, record.id));
         good = false;
       }
     }
@@ -399,7 +470,8 @@ class Builder {
   NodeGroups groups_;
   BlockStore blocks_;
   std::vector<Load> loads_;
-  std::vector<std::array<int, 6>> support_of_;  ///< by node and component: which of the supports, or none
+  std::vector<const deck::Record*> initial_elements_;  ///< of `.INI`, that speak of elements
+  std::vector<std::array<int, 6>> support_of_;         ///< by node and component: which of the supports, or none
   std::vector<Location> support_locations_;
   Model model_;
 };

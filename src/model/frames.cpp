@@ -33,8 +33,8 @@ Vec3 Frames::to_global(const deck::Record& record, const deck::NodeCard& node, D
   if (node.frame == 0) return given;
   const auto it = frames_.find(node.frame);
   if (it == frames_.end()) {
-    diagnostics.error(record.where("FRAME"), fmt::format("frame {} does not exist", node.frame),
-                      fmt::format("declare it with .FRAME I {}", node.frame));
+    diagnostics.missing(".FRAME", record.where("FRAME"), fmt::format("frame {} does not exist", node.frame),
+                        fmt::format("declare it with .FRAME I {}", node.frame));
     return given;
   }
   const Frame& frame = it->second;

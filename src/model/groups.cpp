@@ -26,7 +26,7 @@ void NodeGroups::add(const deck::Record& record, const deck::GroupCard& card) {
     if (nodes_.contains(id))
       group.nodes.push_back(id);
     else
-      diagnostics_.error(record.location, fmt::format("node {} of this group does not exist", id));
+      diagnostics_.missing(".NOE", record.location, fmt::format("node {} of this group does not exist", id));
   }
   for (const std::string& name : card.united) {
     const auto other = find(name);
@@ -71,9 +71,10 @@ std::vector<int> NodeGroups::resolve(const deck::Record& record, const deck::Nod
   for (const int id : target.nodes) {
     if (id != 0 && nodes_.contains(id))
       ids.push_back(id);
+    else if (id == 0)
+      diagnostics_.error(record.where("NOEUD"), "node 0 is the ground: it is fixed and takes no load");
     else
-      diagnostics_.error(record.where("NOEUD"), id == 0 ? std::string("node 0 is the ground: it is fixed and takes no load")
-                                                        : fmt::format("node {} does not exist", id));
+      diagnostics_.missing(".NOE", record.where("NOEUD"), fmt::format("node {} does not exist", id));
   }
   ++searches_;
   for (const std::string& name : target.groups) {
@@ -112,8 +113,8 @@ void NodeGroups::report_unknown_group(const deck::Record& record, std::string_vi
   for (const auto& [key, group] : declared_) known.push_back(key);
   std::sort(known.begin(), known.end());  // of several as near the first is named
   const std::string near = nearest(name, known);
-  diagnostics_.error(record.where(keyword), fmt::format("there is no group \"{}\" above this line", name),
-                     near.empty() ? "declare it with .SEL GROUP" : fmt::format("did you mean \"{}\"?", near));
+  diagnostics_.missing(".SEL", record.where(keyword), fmt::format("there is no group \"{}\" above this line", name),
+                       near.empty() ? "declare it with .SEL GROUP" : fmt::format("did you mean \"{}\"?", near));
 }
 
 }  // namespace engrane

@@ -108,7 +108,8 @@ const Function* BuildContext::function(int id, std::string_view keyword) const {
   const auto it = functions.find(id);
   if (it != functions.end())
     return is_function_of_one_variable(it->second.get(), record.where(keyword), diagnostics) ? it->second.get() : nullptr;
-  error(keyword, "function " + std::to_string(id) + " does not exist", "declare it with .FCT I " + std::to_string(id));
+  diagnostics.missing(".FCT", record.where(keyword), "function " + std::to_string(id) + " does not exist",
+                      "declare it with .FCT I " + std::to_string(id));
   return nullptr;
 }
 

@@ -35,6 +35,22 @@ struct InitialValue {
   bool imposed = false;  ///< must hold; otherwise a wish that the constraints may change
 };
 
+/// What a coordinate of an element, or its rate, is at the start: it holds exactly, and the nodes follow.
+struct InitialCoordinate {
+  int part = 0;     ///< index into Model::parts
+  int channel = 0;  ///< of the element: the coordinate; its rate is the next one
+  double value = 0;
+  bool velocity = false;
+  Location location;
+};
+
+/// A node that at the start moves and turns with a rigid body that spins: v = ω × (x − p), angular velocity ω.
+struct InitialSpin {
+  int node = 0;               ///< index into Model::nodes
+  Vec3 omega = Vec3::Zero();  ///< global components
+  Vec3 point = Vec3::Zero();  ///< p, on the axis
+};
+
 /// Acceleration of gravity: vector × function(t).
 struct Gravity {
   Vec3 acceleration = Vec3::Zero();
@@ -68,6 +84,8 @@ struct Model {
   std::vector<Part> parts;
   std::vector<Support> supports;
   std::vector<InitialValue> initial;
+  std::vector<InitialCoordinate> initial_coordinates;
+  std::vector<InitialSpin> initial_spins;
   std::vector<Gravity> gravity;
   Commands commands;
 

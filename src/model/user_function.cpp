@@ -74,8 +74,8 @@ std::shared_ptr<const user::Routine> user_routine(const BuildContext& context, s
   const std::string known = id == std::floor(id) && std::abs(id) < 1e9 ? std::to_string(static_cast<int>(id)) : format_number(id);
   const auto it = context.functions.find(static_cast<int>(std::abs(id) < 1e9 ? id : 0));
   if (it == context.functions.end() || known != std::to_string(it->first)) {
-    context.error(keyword, "function " + known + " does not exist",
-                  "declare the routine with .FCT I f USER \"library\" \"routine\"");
+    context.diagnostics.missing(".FCT", context.record.where(keyword), "function " + known + " does not exist",
+                                "declare the routine with .FCT I f USER \"library\" \"routine\"");
     return nullptr;
   }
   if (!it->second) return nullptr;  // what is wrong with it was said already

@@ -16,6 +16,10 @@ std::vector<Named> run_channels(bool moves) {
   channels.push_back({"EXTERNAL_WORK", dimension::energy, "work of applied forces and drives"});
   if (moves) channels.push_back({"DISSIPATED_ENERGY", dimension::energy, "energy lost to damping"});
   channels.push_back({"ENERGY_ERROR", dimension::energy, "what the energy balance fails to close by"});
+  for (const char* name : {"GROUND_FORCE_X", "GROUND_FORCE_Y", "GROUND_FORCE_Z"})
+    channels.push_back({name, dimension::force, "sum of what supports and the elements on node 0 exert on the model, global"});
+  for (const char* name : {"GROUND_MOMENT_X", "GROUND_MOMENT_Y", "GROUND_MOMENT_Z"})
+    channels.push_back({name, dimension::moment, "its moment about the origin, global"});
   return channels;
 }
 
@@ -59,6 +63,7 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
   if (fields) element_fields_.evaluate(c);
   if (!histories) return;
   const std::vector<double>& values = histories_.evaluate(c, last_reactions_);
+  const Resultant ground = supports_.resultant(c, last_reactions_);
   if (assembler_.rank() != 0) return;
   const EnergyBalance& e = ledger_.balance();
   auto out = std::copy(values.begin(), values.end(), values_.begin());
@@ -68,7 +73,8 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
                            e.kinetic,    e.external_work,
                            e.dissipated, e.error()}
              : std::vector{step.length, static_cast<double>(step.iterations), events_, e.potential, e.external_work, e.error()};
-  std::copy(run.begin(), run.end(), out);
+  out = std::copy(run.begin(), run.end(), out);
+  for (const Vec3* part : {&ground.force, &ground.moment}) out = std::copy(part->data(), part->data() + 3, out);
 }
 
 void Observer::find_not_unique(const Configuration& c, const std::vector<Eigen::VectorXd>& undetermined) {

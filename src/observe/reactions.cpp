@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "observe/reactions.hpp"
 
+#include <algorithm>
+#include <array>
 #include <set>
 #include <span>
 
@@ -13,12 +15,15 @@ Reactions::Reactions(Assembler& assembler) : assembler_(assembler) {
   nodes_.assign(supported.begin(), supported.end());
   place_.assign(model.nodes.size(), -1);
   for (std::size_t i = 0; i < nodes_.size(); ++i) place_[static_cast<std::size_t>(nodes_[i])] = static_cast<int>(i);
-  for (int p = assembler.first_part(); p < assembler.end_part(); ++p)
+  for (int p = assembler.first_part(); p < assembler.end_part(); ++p) {
+    const std::vector<int>& ends = model.parts[static_cast<std::size_t>(p)].nodes;
+    if (std::find(ends.begin(), ends.end(), 0) != ends.end()) grounded_.push_back(p);
     for (const int node : model.parts[static_cast<std::size_t>(p)].nodes)
       if (node >= 0 && this->supported(node)) {
         parts_.push_back(p);
         break;
       }
+  }
 }
 
 bool Reactions::supported(int node) const { return place_[static_cast<std::size_t>(node)] >= 0; }
@@ -45,6 +50,27 @@ std::vector<Reaction> Reactions::at(const Configuration& c) {
     reactions.push_back({nodes_[n], force, c.nodes[static_cast<std::size_t>(nodes_[n])].R * moment});
   }
   return reactions;
+}
+
+Resultant Reactions::resultant(const Configuration& c, const std::vector<Reaction>& reactions) {
+  std::array<double, 6> sum{};
+  std::vector<double> r;
+  for (const int part : grounded_) {
+    const std::span<const int> slots = assembler_.numbering().part_slots(part);
+    r.resize(slots.size());
+    assembler_.model().parts[static_cast<std::size_t>(part)].element->residual(assembler_.view(part, c), r);
+    // the ground stands at the origin and does not turn: its slots are forces and moments about the origin
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      if (slots[i] < 6) sum[static_cast<std::size_t>(slots[i])] += r[i];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), 6, MPI_DOUBLE, MPI_SUM, assembler_.comm());
+  Resultant all{{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}};
+  for (const Reaction& reaction : reactions) {
+    if (reaction.node == 0) continue;
+    all.force += reaction.force;
+    all.moment += reaction.torque + c.nodes[static_cast<std::size_t>(reaction.node)].x.cross(reaction.force);
+  }
+  return all;
 }
 
 }  // namespace engrane::observe

@@ -131,6 +131,49 @@ std::string listing_reactions(std::span<const ReactionRow> rows, const UnitSyste
   return table.text();
 }
 
+std::string listing_masses(std::span<const MassRow> bodies, const MassRow& model, const UnitSystem& units, std::size_t most) {
+  if (bodies.empty()) return "";
+  const std::string inertia = units.label(dimension::inertia);
+  Table table({{"body", Align::left},
+               {with_unit("mass", units.label(dimension::mass))},
+               {with_unit("centre x", units.label(dimension::length))},
+               {"y"},
+               {"z"},
+               {with_unit("Jxx", inertia)},
+               {"Jyy"},
+               {"Jzz"},
+               {"Jxy"},
+               {"Jyz"},
+               {"Jzx"}});
+  const auto add = [&table](const MassRow& r) {
+    table.row({r.name, shown(r.mass), shown(r.centre[0]), shown(r.centre[1]), shown(r.centre[2]), shown(r.inertia(0, 0)),
+               shown(r.inertia(1, 1)), shown(r.inertia(2, 2)), shown(r.inertia(0, 1)), shown(r.inertia(1, 2)),
+               shown(r.inertia(2, 0))});
+  };
+  for (std::size_t i = 0; i < bodies.size() && i < most; ++i) add(bodies[i]);
+  table.rule();
+  add(model);
+  return "  inertia about the centre of each, global axes, as the deck places them\n\n" + table.text() +
+         (bodies.size() > most ? fmt::format("  and {} more bodies, counted in the sum\n", bodies.size() - most) : "");
+}
+
+std::string listing_ground(std::span<const GroundRow> rows, const UnitSystem& units) {
+  const std::string force = units.label(dimension::force), moment = units.label(dimension::moment);
+  Table table({{"sum over supports and node 0", Align::left},
+               {"time"},
+               {with_unit("force x", force)},
+               {"y"},
+               {"z"},
+               {"size"},
+               {with_unit("moment about the origin x", moment)},
+               {"y"},
+               {"z"}});
+  for (const GroundRow& r : rows)
+    table.row({r.when, shown(r.time, 8), shown(r.force[0]), shown(r.force[1]), shown(r.force[2]), shown(r.force.norm()),
+               shown(r.moment[0]), shown(r.moment[1]), shown(r.moment[2])});
+  return table.text();
+}
+
 std::string listing_not_unique(const std::vector<HistoryTable>& tables, std::span<const int> columns) {
   std::string out =
       "  Redundant constraints leave the share of a load between these open. The least were given; a real machine's follow from "

@@ -66,6 +66,21 @@ struct ReactionRow {
   Vec3 torque = Vec3::Zero();
 };
 
+/// A body, or all of them: what it is called, and its mass, centre and inertia about the centre, global axes.
+struct MassRow {
+  std::string name;
+  double mass = 0;
+  Vec3 centre = Vec3::Zero();
+  Mat3 inertia = Mat3::Zero();
+};
+
+/// The sum of what the ground exerts at one instant, global components; the moment about the origin.
+struct GroundRow {
+  std::string when;  ///< "at the end"
+  double time = 0;
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+};
+
 /// Where the time of a run went, seconds, in the order it is to be shown: `assembly`, `factorization`, …
 struct TimeSplit {
   std::vector<std::pair<std::string, double>> parts;
@@ -81,6 +96,9 @@ std::string listing_warnings(const Diagnostics& diagnostics, const SourceMap& so
 std::string listing_newton(std::span<const IterationRow> rows, bool with_heading);
 std::string listing_energies(std::span<const EnergyRow> rows, const UnitSystem& units);
 std::string listing_reactions(std::span<const ReactionRow> rows, const UnitSystem& units);
+/// At most `most` bodies, and the whole model in the last row.
+std::string listing_masses(std::span<const MassRow> bodies, const MassRow& model, const UnitSystem& units, std::size_t most);
+std::string listing_ground(std::span<const GroundRow> rows, const UnitSystem& units);
 /// Channels (columns, counted over all tables) whose values are one choice of many.
 std::string listing_not_unique(const std::vector<HistoryTable>& tables, std::span<const int> columns);
 /// The table of checks, with PASS or FAIL, and a line that counts them. Also what the program prints at its end.

@@ -4,26 +4,16 @@
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "post"))
+TESTS = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(TESTS.parent / "post"))
+sys.path.insert(0, str(TESTS))
 
-PENDULUM = """! A pendulum of length /L and mass /M.
-.UNIT SI
-ABRE '/L' '0.5' '/M' '2.'
-.NOE
- I 1 X /L 0 0
-.MCE
- I 1 HINGE N 0 1 AXIS 0 1 0 AT 0 0 0
- I 2 INERTIA N 1 M /M J (/M*0.01)
-.CLM STRU ACC VAL 0 0 -9.81
-.SAM TYPE DYNAMIC
-.SUB TF 0.2 H 0.01
-.CHK
- RUN ENERGY_ERROR V 0 ATOL 1E-2
-"""
+from small_decks import PENDULUM  # noqa: E402
 
 
 @pytest.fixture
@@ -46,3 +36,10 @@ def engrane(tmp_path):
 def pendulum(tmp_path):
     (tmp_path / "pendulum.dat").write_text(PENDULUM)
     return "pendulum.dat"
+
+
+@pytest.fixture
+def sessions():
+    """A folder with a path short enough for the sockets of Open MPI, in place of /tmp."""
+    with tempfile.TemporaryDirectory(prefix="e", dir="/tmp") as folder:
+        yield Path(folder)

@@ -5,9 +5,7 @@ import os
 import subprocess
 
 
-def test_runs_that_start_together_do_not_meet(engrane, pendulum):
-    sessions = engrane.folder / "tmp"
-    sessions.mkdir()
+def test_runs_that_start_together_do_not_meet(engrane, pendulum, sessions):
     environment = {name: value for name, value in os.environ.items() if not name.startswith("OMPI_MCA_")}
     runs = [
         subprocess.Popen(

@@ -10,20 +10,7 @@ from pathlib import Path
 import pytest
 from engrane_post.errors import UserError
 from engrane_post.sweep import combinations, values_of
-
-PENDULUM = """.UNIT SI
-ABRE '/L' '0.5' '/M' '2.'
-.NOE
- I 1 X /L 0 0
-.MCE
- I 1 HINGE N 0 1 AXIS 0 1 0 AT 0 0 0
- I 2 INERTIA N 1 M /M J (/M*0.01)
-.CLM STRU ACC VAL 0 0 -9.81
-.SAM TYPE DYNAMIC
-.SUB TF 0.05 H 0.01
-.CHK
- RUN ENERGY_ERROR V 0 ATOL 1E-2
-"""
+from small_decks import PENDULUM
 
 
 @pytest.fixture
@@ -31,7 +18,7 @@ def deck(tmp_path: Path, monkeypatch) -> Path:
     if not Path(os.environ.get("ENGRANE", "")).is_file():
         pytest.skip("the variable ENGRANE names no program")
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "pendulum.dat").write_text(PENDULUM)
+    (tmp_path / "pendulum.dat").write_text(PENDULUM.replace("TF 0.2", "TF 0.05"))
     return tmp_path / "pendulum.dat"
 
 

@@ -121,7 +121,7 @@ def test_wished_position_gives_way(tmp_path):
 def test_imposed_rotation_against_a_drive(tmp_path):
     ended = engrane(four_bar(initial=" DEP NOEUD 1 C 6 V 40 IMPOSED"), tmp_path, "-q")
     assert ended.returncode == 2
-    assert "imposed" in ended.stderr and "node 1 (rz)" in ended.stderr and "wish" in ended.stderr
+    assert "imposed" in ended.stderr and "node 1 (rz)" in ended.stderr and "starting guess" in ended.stderr
 
 
 @pytest.mark.parametrize(("word", "status"), [("", 0), ("IMPOSED", 2)])
@@ -208,3 +208,34 @@ def test_no_flip_is_said_of_a_long_way_on_one_side(tmp_path):
         turns = last(tmp_path, "element/11/ANGLE"), last(tmp_path, "element/12/ANGLE")
         assert side_of_rod(*turns) * side_of_rod(0, 0) > 0
         assert "branch" not in ended.stderr
+
+
+@pytest.mark.parametrize("angle", [40, 200, -300, 400])
+def test_crank_starts_where_it_is_asked_to(tmp_path, angle):
+    initial = f" DEP ELEMENT 11 V {angle}\n VIT ELEMENT 11 V 3"
+    assert engrane(four_bar(crank="", initial=initial, kind="DYNAMIC"), tmp_path, "-q").returncode == 0
+    assert last(tmp_path, "element/11/ANGLE") == pytest.approx(np.radians(angle), abs=1e-11)
+    assert last(tmp_path, "element/11/SPEED") == pytest.approx(3, abs=1e-11)
+    # the crank can turn right round, and the rocker stays on the side of the sketch all the way
+    side = int(abs(rocker_angles(0)[1]) < abs(rocker_angles(0)[0]))
+
+    def rocker(crank: float) -> float:
+        return rocker_angles(crank)[side]
+
+    assert same_angle(np.degrees(last(tmp_path, "element/12/ANGLE")), rocker(np.radians(angle)))
+    h = 1e-5
+    ratio = np.radians(rocker(np.radians(angle) + h) - rocker(np.radians(angle) - h)) / (2 * h)
+    assert last(tmp_path, "element/12/SPEED") == pytest.approx(3 * ratio, abs=1e-7)
+
+
+def test_rocker_starts_where_it_is_asked_to(tmp_path):
+    rocker = rocker_angles(np.radians(50))[int(abs(rocker_angles(0)[1]) < abs(rocker_angles(0)[0]))]
+    done = engrane(four_bar(crank="", initial=f" DEP ELEMENT 12 V {rocker}", kind="DYNAMIC"), tmp_path, "-q")
+    assert done.returncode == 0, done.stderr
+    assert last(tmp_path, "element/12/ANGLE") == pytest.approx(np.radians(rocker), abs=1e-11)
+
+
+def test_a_guess_that_is_not_kept_is_said(tmp_path):
+    done = engrane(four_bar(crank="", initial=" DEP NOEUD 2 C 6 V 20", kind="DYNAMIC"), tmp_path, "-q")
+    assert done.returncode == 0
+    assert "the initial rotation of node 2 (rz) was given as 20 deg and is" in done.stderr

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/text.hpp"
 #include "deck/cards/card_chapters.hpp"
 #include "deck/cards/cards.hpp"
+#include "deck/cards/initial_motion.hpp"
 
 namespace engrane::deck {
 
@@ -151,20 +155,66 @@ Schema function_card() {
   return card.schema();
 }
 
+/// Nodes with components, nodes that turn about an axis, or the coordinate of an element.
+void check_initial(const InitialMotionCard& data, const Record& record, Diagnostics& diagnostics) {
+  const bool nodes = !data.nodes.empty() || !data.groups.empty();
+  const char* one = data.element ? "a coordinate of an element" : "a turn about an axis";
+  if (data.element && (nodes || data.axis)) {
+    diagnostics.error(record.where("ELEMENT"),
+                      "ELEMENT stands with NOEUD, GROUP or AXIS: either a joint or nodes have initial values",
+                      "write two records");
+    return;
+  }
+  if (!data.element && !data.axis) {
+    check_target(data, record, diagnostics);
+    if (data.components.empty())
+      diagnostics.error(record.location, record.schema->name + " needs C", "C takes the components 1 to 6");
+    if (record.given("COORDINATE") || record.given("AT"))
+      diagnostics.error(record.where(record.given("AT") ? "AT" : "COORDINATE"),
+                        record.given("AT") ? "AT is a point of an AXIS, and there is none"
+                                           : "COORDINATE is one of an ELEMENT, and none is named");
+    return;
+  }
+  if (!data.element && !nodes)
+    diagnostics.error(record.location, record.schema->name + " names no nodes", "give NOEUD numbers or GROUP names");
+  if (!data.components.empty()) diagnostics.error(record.where("C"), fmt::format("{} has no components C", one), "leave C out");
+  if (data.values.size() > 1) diagnostics.error(record.where("V"), fmt::format("{} takes one value V", one));
+}
+
 Schema initial_card(const char* name, std::vector<std::string> synonyms, const char* summary, const char* tag,
                     const char* values) {
-  Card<InitialCard> card(name, std::move(synonyms), summary);
-  InitialCard data;
+  const bool velocity = std::string_view(tag) == "VELOCITY";
+  Card<InitialMotionCard> card(name, std::move(synonyms), summary);
+  InitialMotionCard data;
   data.kind.tag = tag;
   card.chapter(chapter).initial(data);
   card.describe(
-      "A wish: where joints or drives do not allow it, the nearest state that they allow is taken. With IMPOSED this is an "
-      "error.");
+      std::string("Values of nodes are a starting guess: where joints or drives do not allow them, the nearest state that they "
+                  "allow is taken. With IMPOSED this is an error. The value of a joint (ELEMENT) always holds exactly, or is an "
+                  "error: the nodes follow, and joints of which nothing is said ") +
+      (velocity ? "move as the least kinetic energy has it. Several records on a node add up." : "move as little as possible."));
   add_target(card);
-  add_components(card, "components: 1 to 3 translations, 4 to 6 rotations");
-  card.add("V", &InitialCard::values, values).values(1, 6).required();
-  card.add("IMPOSED", &InitialCard::imposed, "must hold exactly").synonyms({"IMPOSE"});
-  finish_with_target(card);
+  card.add("ELEMENT", &InitialMotionCard::element, "a joint or SENSOR, whose coordinate has the value V instead of a node")
+      .synonyms({"JOINT", "LIAISON"})
+      .refers(Reference::element)
+      .leads();
+  card.add("COORDINATE", &InitialMotionCard::coordinate,
+           "which of the element's coordinates, as its channel is named: ANGLE, SLIDE; default: its first")
+      .synonyms({"COORDONNEE"});
+  card.add("C", &InitialMotionCard::components, "components of nodes: 1 to 3 translations, 4 to 6 rotations")
+      .synonyms({"COMPONENTS", "COMPOSANTES"})
+      .at_least(1)
+      .at_most(6)
+      .values(1, 6);
+  if (velocity) {
+    card.add("AXIS", &InitialMotionCard::axis, "instead of C: the nodes turn about an axis of this direction as one rigid body")
+        .synonyms({"AXE"});
+    card.add("AT", &InitialMotionCard::at, "a point of that axis; default: the origin").unit(dimension::length);
+  }
+  card.add("V", &InitialMotionCard::values, values).values(1, 6).required();
+  card.add("IMPOSED", &InitialMotionCard::imposed, "must hold exactly").synonyms({"IMPOSE"});
+  card.finish(
+      [](InitialMotionCard& read, Record& record, Diagnostics& diagnostics) { check_initial(read, record, diagnostics); });
   return card.schema();
 }
 
@@ -176,8 +226,9 @@ std::vector<Schema> condition_cards() {
   Schema velocity =
       initial_card(".INI VIT", {".INITIAL", "VITESSE", "VELOCITY"}, "Initial velocities", "VELOCITY",
                    "velocity, or angular velocity in radians per unit of time: one for all components or one for each");
-  position.examples = {".INI\n DEP NOEUD 3 C 4 V 5."};
-  velocity.examples = {".INI\n VIT GROUP \"rotor\" C 6 V (12000*PI/30)"};
+  position.examples = {".INI\n DEP NOEUD 3 C 4 V 5.", ".INI\n DEP ELEMENT 2 V 30.\n DEP ELEMENT 4 COORDINATE SLIDE V 0.1"};
+  velocity.examples = {".INI\n VIT GROUP \"rotor\" C 6 V (12000*PI/30)",
+                       ".INI\n VIT ELEMENT 2 V 40.\n VIT GROUP \"carriage\" AXIS 0 0 1  AT 0.5 0 0  V 10."};
   return {fix_card(),      displacement_card(), load_card(),        gravity_card(),
           function_card(), std::move(position), std::move(velocity)};
 }

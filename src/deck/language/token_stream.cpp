@@ -2,6 +2,7 @@
 #include "deck/language/token_stream.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <system_error>
 #include <utility>
@@ -38,6 +39,31 @@ bool read_plain_file(const fs::path& path, std::string& text, std::string& fault
     return fault = "is UTF-16; save it as UTF-8 or ASCII (iconv -f UTF-16 -t UTF-8)", false;
   if (text.find('\0') < 200) return fault = "is no text: it holds zero bytes (UTF-16 without its mark?)", false;
   return true;
+}
+
+/// Whether a file that is neither beside the deck nor called .dat reads like a deck: its first line that says something begins
+/// with a command, a word or a number. The lines of others are nobody's business: /etc/passwd, keys, histories of shells.
+bool begins_like_a_deck(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(" \t\r\f\v"), line.size()));
+    if (line.empty() || line.front() == '!') continue;
+    const std::string_view word = line.substr(0, line.find_first_of(" \t\r\f\v"));
+    const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    const std::string_view name = word.substr(word.front() == '.' ? 1 : 0);
+    if (!name.empty() && std::all_of(name.begin(), name.end(), letter)) return true;
+    return word.find_first_not_of("+-.0123456789eEdD") == std::string_view::npos;
+  }
+  return true;
+}
+
+/// Whether a file lies in the folder of the deck or below, or says by its name that it is one.
+bool belongs_to_deck(const fs::path& identity, const fs::path& deck) {
+  if (upper(identity.extension().string()) == ".DAT") return true;
+  const fs::path way = identity.lexically_relative(deck.parent_path());
+  return !way.empty() && *way.begin() != "..";
 }
 
 /// The file that an INPUT names: relative to the including file, with `.dat` when that is left out.
@@ -134,7 +160,7 @@ void TokenStream::push(const std::vector<Token>& tokens) {
       return;
     }
     if (token.is_word() && (token.text == "&" || begins_with_word(token.text, "#INQ"))) {
-      diagnostics_.warning(token.where, token.quoted() + " has no meaning here and is skipped");
+      diagnostics_.warning(token.where, token.quoted() + " is not used by engrane and is skipped");
       continue;
     }
     tokens_.push_back(token);
@@ -186,7 +212,10 @@ void TokenStream::input(const std::vector<Token>& tokens) {
   if (!read_plain_file(path, text, fault))
     return diagnostics_.error(name.where, "the file `" + path.string() + "` " + fault,
                               "names are relative to the folder of the including file");
-  open_.push_back({sources_.add(path.string(), std::move(text), word.where), 1, identity});
+  const bool foreign = !belongs_to_deck(identity, open_.front().identity);
+  if (foreign && !begins_like_a_deck(text))
+    return diagnostics_.error(name.where, "the file `" + path.string() + "` is no part of a deck: it does not begin like one");
+  open_.push_back({sources_.add(path.string(), std::move(text), word.where, foreign), 1, identity});
 }
 
 void TokenStream::abbreviation(const std::vector<Token>& tokens) {
@@ -219,7 +248,7 @@ void TokenStream::mode(const std::vector<Token>& tokens) {
   }
   std::string setting = "MODE";
   if (tokens.size() > 1) setting += " " + std::string(tokens[1].text);
-  diagnostics_.warning(tokens.front().where, "`" + setting + "` has no meaning here and is skipped");
+  diagnostics_.warning(tokens.front().where, "`" + setting + "` is not used by engrane and is skipped");
 }
 
 void TokenStream::leave_file(const Token& word) {

@@ -178,7 +178,7 @@ class Reader {
 
   void report(const Recognised& known, const Token& word) {
     if (known.skipped())
-      diagnostics_.warning(word.where, "`" + known.name + "` (" + known.meaning + ") has no meaning here and is skipped");
+      diagnostics_.warning(word.where, "`" + known.name + "` (" + known.meaning + ") is not used by engrane and is skipped");
     else
       diagnostics_.error(word.where, "`" + known.name + "` is recognised but not in this version: " + known.meaning, known.cure);
   }

@@ -16,8 +16,8 @@ namespace {
 const Expression* find_formula(const BuildContext& context, const std::string& keyword, int id) {
   const auto it = context.functions.find(id);
   if (it == context.functions.end()) {
-    context.error(keyword, fmt::format("function {} does not exist", id),
-                  fmt::format("declare it with .FCT I {} EXPR \"...\", a formula of D, V and T", id));
+    context.diagnostics.missing(".FCT", context.record.where(keyword), fmt::format("function {} does not exist", id),
+                                fmt::format("declare it with .FCT I {} EXPR \"...\", a formula of D, V and T", id));
     return nullptr;
   }
   if (!it->second) return nullptr;  // what is wrong with it was said already

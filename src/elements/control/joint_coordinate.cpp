@@ -32,7 +32,8 @@ std::optional<Coordinate> find_coordinate(const BuildContext& context, std::stri
                                           std::string_view name_keyword, const std::string& name) {
   const BuildContext::Found found = context.find_element ? context.find_element(id) : BuildContext::Found{};
   if (!found.record) {
-    context.error(keyword, fmt::format("element {} does not exist", id), "name a joint or a SENSOR of .MCE by its number");
+    context.diagnostics.missing(".MCE", context.record.where(keyword), fmt::format("element {} does not exist", id),
+                                "name a joint or a SENSOR of .MCE by its number");
     return {};
   }
   if (found.faulty) {

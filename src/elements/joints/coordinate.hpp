@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "elements/joints/joint_measures.hpp"
+#include "model/coordinate_channels.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::joints {
@@ -67,9 +68,10 @@ struct Coordinate {
 };
 
 /// An element whose coordinates other elements may relate, measure and act along.
-class CoordinateOwner {
+class CoordinateOwner : public CoordinateChannels {
  public:
   virtual std::vector<Coordinate> coordinates() const = 0;
+  int coordinate_count() const override { return static_cast<int>(coordinates().size()); }
 
  protected:
   ~CoordinateOwner() = default;

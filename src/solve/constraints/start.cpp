@@ -66,7 +66,7 @@ double angle_between(const Mat3& a, const Mat3& b) { return rotation_log(Mat3(a.
 }  // namespace
 
 Start::Start(Assembler& assembler, LinearSolver& solver, const MotionSlots& motion, Redundancy& redundancy)
-    : assembler_(assembler), solver_(solver), motion_(motion), redundancy_(redundancy) {
+    : assembler_(assembler), solver_(solver), motion_(motion), redundancy_(redundancy), coordinates_(assembler) {
   *right_.out() = assembler.new_vector();
   *solution_.out() = assembler.new_vector();
 }
@@ -113,7 +113,7 @@ void Start::verify_imposed(const Configuration& c, std::span<const double> wishe
     if (std::abs(off) <= 1e-6 * size) continue;
     throw SolutionFailure(fmt::format(
         "the initial {} of {} is imposed, but joints, drives or supports do not allow it: they change it by {:.4g} {}. Without "
-        "IMPOSED it is a wish, which they may change",
+        "IMPOSED it is a starting guess, which they may change",
         velocity ? "velocity" : "position", assembler_.numbering().describe(e), off,
         !velocity && u.item >= 3 ? "deg" : assembler_.model().units.label(unit)));
   }
@@ -143,6 +143,11 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
     }
     if (!conflict.empty()) throw SolutionFailure(conflict);
     if (!closing.closed) throw SolutionFailure(explain_open_loop(assembler_, motion_, given));
+    if (!assembler_.model().initial_coordinates.empty()) {
+      move_coordinates(c, report);
+      redundancy_.analyse(c);
+      if (conflict = redundancy_.conflict(c); !conflict.empty()) throw SolutionFailure(conflict);
+    }
     report.redundant = redundancy_.mobility().redundant();
     report.mobility = describe_mobility(assembler_, c, redundancy_.mobility());
   } else {
@@ -164,9 +169,11 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
   }
   verify_imposed(c, wished, false);
   note_moved(given.nodes, c, report);
+  if (report.remarks.empty()) remark_on_guesses(c, report);
 }
 
-Start::Closing Start::close(Configuration& c, std::span<const int> held, std::span<const double> target) {
+Start::Closing Start::close(Configuration& c, std::span<const int> held, std::span<const double> target,
+                            const std::vector<StartCoordinates::Wanted>& wanted) {
   constexpr int most_iterations = 50;
   const Numbering& numbering = assembler_.numbering();
   const double extent = assembler_.model().extent();
@@ -184,6 +191,8 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, std::sp
       const double relative = std::abs(right[e]) / size_of(u, extent);
       open = std::isnan(relative) ? relative : std::max(open, relative);
     }
+    const std::vector<double> missed = coordinates_.missed(at, wanted);
+    for (std::size_t i = 0; i < wanted.size(); ++i) open = std::max(open, std::abs(missed[i]) / coordinates_.size(wanted[i]));
     return open;
   };
   Closing result;
@@ -192,7 +201,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, std::sp
     result.closed = open <= 32 * epsilon;
     if (result.closed || result.iterations == most_iterations || !std::isfinite(open)) return result;
     assembler_.projection(c, Assembler::Metric::geometric, held);
-    if (!solve(right, step)) {
+    if (!solve(right, step) || !add_coordinates(c, wanted, step)) {
       result.singular = true;
       return result;
     }
@@ -397,7 +406,8 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
   std::vector<double> phi, rate, second, change;
   assembler_.constraint_rates(c, phi, rate, second);
   report.velocities_fitted = true;
-  if (largest(rate) == 0) return;
+  const auto asked = initial ? coordinates_.wanted(true) : std::vector<StartCoordinates::Wanted>{};
+  if (largest(rate) == 0 && asked.empty()) return;
   std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
   double fastest = 0;
   std::size_t worst = 0;
@@ -414,8 +424,10 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
   }
   if (initial && fastest > 0) report.rate_violated_most = numbering.describe(static_cast<int>(worst));
   const std::vector<double> wished = v;
-  assembler_.projection(c, metric, initial ? imposed(true) : std::vector<int>{});
-  if (!solve(right, change))
+  const std::vector<int> held = initial ? imposed(true) : std::vector<int>{};
+  const auto free = undecided(c, asked, held);
+  assembler_.projection(c, metric, held);
+  if (!solve(right, change) || !add_coordinates(c, free, change))
     throw SolutionFailure(explain_singular(assembler_, "no velocities fit the constraints and drives at the start"));
   std::vector<double> delta(motion_.size(), 0.0);
   motion_.scatter(change, delta);
@@ -436,7 +448,9 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
     fastest_slot = i;
   }
   if (initial && report.largest_velocity_change > 0) report.velocity_changed_most = slot_name(assembler_.model(), fastest_slot);
-  if (initial) verify_imposed(c, wished, true);
+  if (!initial) return;
+  verify_imposed(c, wished, true);
+  verify_coordinates(c, asked);
 }
 
 void Start::verify_balance(const Configuration& c, std::span<const double> unbalanced) {

@@ -11,6 +11,7 @@
 #include "solve/constraints/massless.hpp"
 #include "solve/constraints/mobility.hpp"
 #include "solve/constraints/motion.hpp"
+#include "solve/constraints/start_coordinates.hpp"
 #include "solve/constraints/start_report.hpp"
 
 namespace engrane::solve {
@@ -49,8 +50,10 @@ class Start {
     bool far = false;       ///< some step was cut, or the way was long: another branch may be nearer
     int iterations = 0;
   };
-  /// Damped Newton iteration to Φ = `target` (0 when empty) in the constraints that are not released.
-  Closing close(Configuration& c, std::span<const int> held, std::span<const double> target);
+  /// Damped Newton iteration to Φ = `target` (0 when empty) in the constraints that are not released, and to the wanted
+  /// coordinates, which must be independent.
+  Closing close(Configuration& c, std::span<const int> held, std::span<const double> target,
+                const std::vector<StartCoordinates::Wanted>& wanted = {});
   /// Newton's iteration first; after a long way, or when that fails, also along the path Φ = (1 − s) Φ(given).
   Closing close_initial(Configuration& c, StartReport& report);
   /// Follows that path; returns its number of steps, 0 when it cannot be followed to the end.
@@ -73,10 +76,24 @@ class Start {
   void verify_imposed(const Configuration& c, std::span<const double> wished, bool velocity) const;
   bool solve(std::vector<double>& right, std::vector<double>& solution);
 
+  /// Those of the wanted coordinates (or rates) that constraints, held equations and those before them leave free. Afterwards
+  /// the projection is to be made again.
+  std::vector<StartCoordinates::Wanted> undecided(const Configuration& c, const std::vector<StartCoordinates::Wanted>& all,
+                                                  std::span<const int> held);
+  /// Changes a step of the projection in the matrix, so that it also meets these coordinates, or a change of velocities their
+  /// rates. False when it cannot.
+  bool add_coordinates(const Configuration& c, const std::vector<StartCoordinates::Wanted>& wanted, std::vector<double>& step);
+  /// Remarks on the initial displacement that the assembly has changed most, when it is not as good as kept.
+  void remark_on_guesses(const Configuration& c, StartReport& report) const;
+  /// Moves the closed mechanism to where the deck wants its joints.
+  void move_coordinates(Configuration& c, StartReport& report);
+  void verify_coordinates(const Configuration& c, const std::vector<StartCoordinates::Wanted>& asked) const;
+
   Assembler& assembler_;
   LinearSolver& solver_;
   const MotionSlots& motion_;
   Redundancy& redundancy_;
+  StartCoordinates coordinates_;
   Owned<Vec> right_, solution_;
 };
 

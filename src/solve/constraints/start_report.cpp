@@ -15,10 +15,12 @@ std::string iterations(int n) { return fmt::format("{} iteration{}", n, n == 1 ?
 
 std::string positions(const Model& model, const StartReport& report) {
   constexpr double degrees = 180 / std::numbers::pi;
-  if (report.position_iterations == 0) return "  1. positions: the mechanism closes as given\n";
-  std::string text = fmt::format("  1. positions: closed in {}", iterations(report.position_iterations));
+  std::string text = "  1. positions: the mechanism closes as given";
+  if (report.position_iterations > 0) text = fmt::format("  1. positions: closed in {}", iterations(report.position_iterations));
   if (report.path_steps > 0) text += fmt::format(", and little by little in {} parts", report.path_steps);
   text += '\n';
+  for (const std::string& coordinate : report.coordinates) text += "     moved to " + coordinate + "\n";
+  if (report.position_iterations == 0 && report.coordinates.empty()) return text;
   const std::string unit = model.units.label(dimension::length);
   for (std::size_t i = 0; i < report.opened.size() && i < most_rows; ++i) {
     const StartReport::Opened& o = report.opened[i];

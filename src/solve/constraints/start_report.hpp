@@ -21,12 +21,13 @@ struct StartReport {
 
   /// Assembly of positions.
   int position_iterations = 0;
-  int path_steps = 0;                ///< of closing the gaps little by little; 0 when that was not needed
-  std::vector<Moved> moved;          ///< nodes that moved or turned, the farthest first
-  std::vector<Opened> opened;        ///< joints that did not fit, the widest first
-  std::vector<std::string> remarks;  ///< on the branch that was reached
-  double largest_move = 0;           ///< in the deck's unit of length
-  double largest_turn = 0;           ///< radians
+  int path_steps = 0;                    ///< of closing the gaps little by little; 0 when that was not needed
+  std::vector<Moved> moved;              ///< nodes that moved or turned, the farthest first
+  std::vector<Opened> opened;            ///< joints that did not fit, the widest first
+  std::vector<std::string> coordinates;  ///< of joints that start where the deck says: "ANGLE of HINGE 2 = 30 deg"
+  std::vector<std::string> remarks;      ///< on the branch that was reached
+  double largest_move = 0;               ///< in the deck's unit of length
+  double largest_turn = 0;               ///< radians
 
   /// Velocities.
   bool velocities_fitted = false;

@@ -31,12 +31,20 @@ void apply_initial_velocities(const SolverContext& context, Configuration& c) {
   for (const InitialValue& value : context.model.initial) {
     if (!value.velocity) continue;
     if (value.component < 3) {
-      v[static_cast<std::size_t>(6 * value.node + value.component)] = value.value;
+      v[static_cast<std::size_t>(6 * value.node + value.component)] += value.value;
     } else {
       // given about global axes; the state holds material components
       const NodeState& node = c.nodes[static_cast<std::size_t>(value.node)];
       const Vec3 spin = node.R.transpose() * Vec3::Unit(value.component - 3) * value.value;
       for (int i = 0; i < 3; ++i) v[static_cast<std::size_t>(6 * value.node + 3 + i)] += spin[i];
+    }
+  }
+  for (const InitialSpin& spin : context.model.initial_spins) {
+    const NodeState& node = c.nodes[static_cast<std::size_t>(spin.node)];
+    const Vec3 velocity = spin.omega.cross(node.x - spin.point), turning = node.R.transpose() * spin.omega;
+    for (int i = 0; i < 3; ++i) {
+      v[static_cast<std::size_t>(6 * spin.node + i)] += velocity[i];
+      v[static_cast<std::size_t>(6 * spin.node + 3 + i)] += turning[i];
     }
   }
   context.motion.set_velocities(v, c);

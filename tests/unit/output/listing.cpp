@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "output/peaks.hpp"
 #include "output/progress.hpp"
 #include "output/table.hpp"
 #include "sample_results.hpp"
@@ -63,6 +64,35 @@ TEST(Listing, Tables) {
   EXPECT_EQ(newton.substr(newton.size() - more.size()), more);
   EXPECT_TRUE(contains(listing_times({{{"assembly", 1}, {"factorization", 2}}, 4}), "the rest"));
   EXPECT_TRUE(contains(listing_header({"0.1.0", "PETSc 3.18", "pair", "a.dat", "STATIC", ""}), "title     pair"));
+}
+
+TEST(Listing, PeaksGoOnAfterARestart) {
+  const std::vector<HistoryTable> tables = {
+      {"element/HINGE", "HINGE", {3, 4}, {{"ANGLE", dimension::angle, ""}, {"FORCE_1", dimension::force, ""}}},
+      {"node/NODE", "", {7}, {{"UX", dimension::length, ""}}},
+      {"run", "", {}, {{"ENERGY_ERROR", dimension::energy, ""}}}};
+  Peaks first(6), second(6), other(5);
+  first.observe(0, std::vector<double>{-3, 0, 0.5, 1, 9, 0});
+  first.observe(1, std::vector<double>{2, 0, -0.75, 1, 9, 0});
+  Snapshot snapshot;
+  first.save(snapshot);
+  EXPECT_TRUE(second.load(snapshot));
+  EXPECT_FALSE(other.load(snapshot));
+  second.observe(2, std::vector<double>{2.5, 0, 0.25, -4, 9, 0});
+  EXPECT_EQ(second.of(0).value, -3);
+  EXPECT_EQ(second.of(0).time, 0);
+  EXPECT_EQ(second.of(2).value, -0.75);
+  EXPECT_EQ(second.of(2).time, 1);
+  EXPECT_EQ(second.of(3).value, -4);
+  UnitSystem si;
+  si.given = true;
+  EXPECT_EQ(listing_peaks(tables, second, si, 10),
+            "           channel   peak  unit  at time\n"
+            "  --------------------------------------\n"
+            "  HINGE 3  ANGLE       -3  rad         0\n"
+            "  HINGE 4  ANGLE    -0.75  rad         1\n"
+            "           FORCE_1     -4  N           2\n");
+  EXPECT_TRUE(contains(listing_peaks(tables, second, si, 1), "and 2 more"));
 }
 
 TEST(Listing, FileKeepsOutOfTheWayOfACompleteResult) {

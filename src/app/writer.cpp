@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "app/layout.hpp"
+#include "app/model_json.hpp"
+#include "app/selection.hpp"
+#include "app/summary.hpp"
+#include "app/terminal.hpp"
+#include "app/version.hpp"
+
+namespace engrane::app {
+
+using namespace output;
+using namespace solve;
+
+namespace {
+
+/// Checks of the deck, each tied to its channel. The reader has made sure that the channels exist.
+Checks resolve_checks(const Model& model, const observe::Observer& observer) {
+  std::vector<Checks::Resolved> all;
+  for (const deck::CheckCard& card : model.commands.checks) {
+    const std::string owner = card.element ? fmt::format("element/{}", *card.element)
+                              : card.node  ? fmt::format("node/{}", *card.node)
+                                           : std::string("run");
+    all.push_back({card, static_cast<std::size_t>(observer.channel(owner, card.quantity))});
+  }
+  return Checks(std::move(all));
+}
+
+Results make_results(const std::string& prefix, ResultsLayout layout, const Resumption* resumed) {
+  if (resumed) return {prefix, std::move(layout), resumed->earlier, resumed->point};
+  return {prefix, std::move(layout)};
+}
+
+/// More of these are counted only.
+constexpr long most_listed_events = 100;
+constexpr std::size_t most_listed_bodies = 100, most_listed_peaks = 400;
+
+}  // namespace
+
+Writer::Writer(const Reading& reading, const observe::Observer& observer, const Schedule& schedule, const Options& options,
+               const std::string& prefix, const Resumption* resumed, RunSummary& summary)
+    : reading_(reading),
+      options_(options),
+      summary_(summary),
+      observer_(observer),
+      schedule_(schedule),
+      results_(make_results(prefix, results_layout(reading, observer, schedule.expected_samples()), resumed)),
+      listing_(results_.name()),
+      checks_(resolve_checks(reading.model, observer)),
+      progress_(reading.model.commands.stepping.start, reading.model.commands.stepping.end,
+                options.quiet ? Progress::Style::silent : Progress::suitable()),
+      peaks_(results_.layout().channel_count()) {}
+
+void Writer::begin(const SolverContext& context, int ranks) {
+  const Model& model = reading_.model;
+  std::string deck = summary_.deck;
+  for (const auto& [name, text] : summary_.definitions) deck += fmt::format(" -D {}={}", name.substr(1), text);
+  listing_.write(listing_header({version, library_versions(), model.title, deck, describe_analysis(model),
+                                 fmt::format("{} process{}", ranks, ranks == 1 ? "" : "es")}));
+  listing_.write(listing_section("What was built"));
+  listing_.write(listing_built(summarize(model, context.numbering)));
+  listing_.write(describe_geometry(model));
+  if (const std::string masses = describe_masses(model, most_listed_bodies); !masses.empty()) {
+    listing_.write(listing_section("Masses"));
+    listing_.write(masses);
+  }
+  listing_.write(listing_warnings(reading_.diagnostics, reading_.sources));
+  if (const std::string text = reading_.assumptions(); !text.empty()) {
+    listing_.write(fmt::format("\n  {}\n", text));
+    progress_.note("engrane: " + text);
+  }
+  if (const std::string text = left_out_histories(model); !text.empty()) {
+    listing_.write(fmt::format("\n  {}\n", text));
+    progress_.note("engrane: " + text);
+  }
+  listing_.write(listing_section("Start"));
+}
+
+void Writer::resumed(const Resumption& from) {
+  checks_.load(from.point.memory);
+  peaks_.load(from.point.memory);
+  const std::vector<double>& counts = from.point.memory.array("writer/counts");
+  steps_ = static_cast<long>(counts.at(0));
+  iterations_ = static_cast<long>(counts.at(1));
+  cuts_ = static_cast<long>(counts.at(2));
+  locating_ = static_cast<long>(counts.at(3));
+  event_count_ = static_cast<long>(counts.at(4));
+  marked_ = observer_.not_unique().size();
+  results_.mark_not_unique(observer_.not_unique());
+  listing_.write(fmt::format("  restarted from {} at t = {:.10g}\n", from.earlier.path(), from.point.time));
+  if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
+}
+
+void Writer::remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
+  if (!kept && !last && !results_.due()) return;
+  Snapshot memory;
+  runner.save(memory);
+  observer_.save(memory);
+  schedule_.save(memory);
+  checks_.save(memory);
+  peaks_.save(memory);
+  memory.put("writer/counts", {static_cast<double>(steps_), static_cast<double>(iterations_), static_cast<double>(cuts_),
+                               static_cast<double>(locating_), static_cast<double>(event_count_)});
+  results_.restart_point(c.time, std::move(memory), kept);
+  if (results_.due()) results_.flush();
+}
+
+void Writer::started(const StartReport& start) {
+  listing_.write(describe_start(reading_.model, start));
+  listing_.write(start.mobility);
+  for (const std::string& remark : start.remarks) progress_.note("engrane: assembly: " + remark);
+  if (start.redundant > 0)
+    progress_.note(
+        fmt::format("engrane: {} redundant constraint{}: how some reactions share a load is not unique (see the listing)",
+                    start.redundant, start.redundant == 1 ? "" : "s"));
+  if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
+}
+
+void Writer::step(const Configuration& c, const StepReport& step, const Schedule::Due& due, const Numbering& numbering) {
+  const bool last = c.time >= reading_.model.commands.stepping.end;
+  if (!checks_.empty()) checks_.observe(c.time, observer_.values(), step.regular);
+  if (due.sample || !checks_.empty()) follow(c.time);
+  if (observer_.not_unique().size() != marked_) {
+    marked_ = observer_.not_unique().size();
+    results_.mark_not_unique(observer_.not_unique());
+  }
+  if (due.sample) results_.sample(c.time, observer_.values());
+  if (due.frame) {
+    results_.frame(c.time, frame_values(reading_.model, observer_));
+    const observe::EnergyBalance& e = observer_.energies();
+    energies_.push_back({c.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error()});
+  }
+  summary_.time = c.time;
+  ++steps_;
+  cuts_ += step.cuts;
+  locating_ += step.locating;
+  note_events(c, step);
+  if (step.newton) {
+    iterations_ += step.newton->iterations;
+    if (reading_.model.commands.archive.newton) write_newton(c, step, numbering);
+  }
+  progress_.update(c.time, step.step, step.number);
+  if (!last) return;
+  progress_.finish();
+  collect_remarks(c, numbering);
+}
+
+int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit& times) {
+  progress_.finish();
+  const UnitSystem& units = reading_.model.units;
+  listing_.write(listing_section("Energies"));
+  listing_.write(listing_energies(thinned_energies(), units));
+  std::vector<ReactionRow> reactions;
+  for (const observe::Reaction& r : observer_.reactions())
+    reactions.push_back({reading_.model.nodes[static_cast<std::size_t>(r.node)].id, r.force, r.torque});
+  if (!reactions.empty()) {
+    listing_.write(listing_section("Reactions at the end"));
+    listing_.write(listing_reactions(reactions, units));
+  }
+  if (!ground_.empty()) {
+    listing_.write(listing_section("Forces of the ground"));
+    listing_.write(listing_ground(ground_, units));
+  }
+  if (const std::string peaks = listing_peaks(results_.layout().history, peaks_, units, most_listed_peaks); !peaks.empty()) {
+    listing_.write(listing_section("Peaks"));
+    listing_.write("  largest size of each channel, with its sign, among the instants that were observed; angles in radians\n\n");
+    listing_.write(peaks);
+  }
+  if (marked_ > 0) {
+    listing_.write(listing_section("Not unique"));
+    listing_.write(listing_not_unique(results_.layout().history, observer_.not_unique()));
+  }
+  if (event_count_ > 0) {
+    listing_.write(listing_section("Events"));
+    listing_.write(events_);
+    if (event_count_ > most_listed_events) listing_.write(fmt::format("  and {} more\n", event_count_ - most_listed_events));
+    listing_.write(fmt::format("  {} in all, located by {} attempts beyond those of the steps\n", event_count_, locating_));
+  }
+  if (!remarks_.empty()) {
+    listing_.write(listing_section("Remarks"));
+    listing_.write(remarks_);
+  }
+  int exit = exit_status::fine;
+  if (!failure.empty()) {
+    listing_.write(listing_section("The run failed"));
+    listing_.write("  " + failure + "\n");
+    exit = exit_status::solution_failed;
+  }
+  std::vector<CheckResult> results = checks_.results();
+  const auto first_wanted = results.end() - static_cast<std::ptrdiff_t>(reading_.wanted);
+  summary_.results.assign(first_wanted, results.end());
+  results.erase(first_wanted, results.end());
+  if (!results.empty()) {
+    results_.checks(results);
+    const std::string table = listing_checks(results);
+    listing_.write(listing_section("Checks"));
+    listing_.write(table);
+    if (failure.empty()) {
+      if (!options_.json) std::cout << terminal_text(table);
+      for (const CheckResult& r : results)
+        if (!r.passed) exit = exit_status::check_failed;
+    }
+  }
+  if (!summary_.results.empty()) {
+    const std::string table = wanted_table();
+    listing_.write(listing_section("Results asked for"));
+    listing_.write(table);
+    if (!options_.json) std::cout << terminal_text(table);
+  }
+  summary_.checks = std::move(results);
+  summary_.energies = observer_.energies();
+  listing_.write(listing_section("Effort"));
+  listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1, iterations_,
+                             steps_ > 1 ? static_cast<double>(iterations_) / static_cast<double>(steps_ - 1) : 0.0, cuts_));
+  listing_.write(listing_times(times));
+  results_.finish(status);
+  listing_.finish(status == RunStatus::complete);
+  summary_.steps = std::max(0L, steps_ - 1);
+  summary_.iterations = iterations_;
+  summary_.cuts = cuts_;
+  summary_.events = event_count_;
+  summary_.seconds = times.total;
+  return exit;
+}
+
+std::vector<std::string> Writer::paths() const {
+  const std::string stem = path().substr(0, path().size() - std::string_view(".h5").size());
+  return {path(), stem + ".xdmf", stem + ".lst"};
+}
+
+std::string Writer::closing_lines() const {
+  const std::vector<std::string> files = paths();
+  const std::string stem = files[0].substr(0, files[0].size() - std::string_view(".h5").size());
+  std::string text = fmt::format("results in {}, {} and {}\n", files[0], files[1], files[2]);
+  const std::string picture = fmt::format("engrane picture {0} --both -o {0}.png", stem);
+  const HistoryTable* table = nullptr;
+  for (const HistoryTable& one : results_.layout().history)
+    if (!table || (table->type.empty() && !one.type.empty())) table = &one;
+  if (table && !table->channels.empty()) {
+    const std::string plot =
+        fmt::format("engrane plot {0} {1}/{2} -o {0}.png", stem, table->owner(0), table->channels.front().name);
+    text += fmt::format("  {:<{}}  a diagram; --list names all there is to plot\n", plot, picture.size());
+  }
+  return text + fmt::format("  {}  the mechanism before and after; ParaView opens {}\n", picture, files[1]);
+}
+
+GroundRow Writer::ground(double time) const {
+  GroundRow row;
+  row.time = time;
+  const auto first = static_cast<std::size_t>(observer_.channel("run", "GROUND_FORCE_X"));
+  for (std::size_t k = 0; k < 3; ++k) {
+    row.force[static_cast<Eigen::Index>(k)] = observer_.values()[first + k];
+    row.moment[static_cast<Eigen::Index>(k)] = observer_.values()[first + 3 + k];
+  }
+  return row;
+}
+
+void Writer::follow(double time) {
+  peaks_.observe(time, observer_.values());
+  const GroundRow now = ground(time);
+  if (ground_.empty()) ground_.assign(3, now);
+  ground_[0] = now;
+  if (now.force.norm() > ground_[1].force.norm()) ground_[1] = now;
+  if (now.moment.norm() > ground_[2].moment.norm()) ground_[2] = now;
+  ground_[0].when = "at the end";
+  ground_[1].when = "with the largest force";
+  ground_[2].when = "with the largest moment";
+}
+
+std::string Writer::wanted_table() const {
+  std::string table;
+  for (const CheckResult& r : summary_.results)
+    table += fmt::format("  {}: {}\n", r.text, r.remark.empty() ? fmt::format("{:.10g}", r.value) : r.remark);
+  return table;
+}
+
+void Writer::note_events(const Configuration& c, const StepReport& step) {
+  for (const Event& e : step.events) {
+    if (++event_count_ > most_listed_events) continue;
+    const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(e.part)];
+    const SwitchNames& names = part.element->layout().switches[static_cast<std::size_t>(e.index)];
+    events_ +=
+        fmt::format("  t = {:<14.9g} {} {}: {}\n", c.time, part.type, part.element->id(), e.rises ? names.rises : names.falls);
+  }
+  if (!step.chatter) return;
+  const std::string text =
+      fmt::format("t = {:.6g}: events come too thick to be met one by one; some steps pass over them", c.time);
+  events_ += "  warning: " + text + "\n";
+  progress_.note("engrane: " + text);
+}
+
+void Writer::collect_remarks(const Configuration& c, const Numbering& numbering) {
+  for (int p = 0; p < numbering.parts(); ++p) {
+    const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(p)];
+    const auto size = static_cast<std::size_t>(part.element->layout().history);
+    for (const std::string& remark :
+         part.element->remarks(std::span(c.history).subspan(static_cast<std::size_t>(numbering.history_begin(p)), size))) {
+      const std::string text = fmt::format("{} {}: {}", part.type, part.element->id(), remark);
+      remarks_ += "  warning: " + text + "\n";
+      progress_.note("engrane: " + text);
+    }
+  }
+}
+
+void Writer::write_newton(const Configuration& c, const StepReport& step, const Numbering& numbering) {
+  std::vector<IterationRow> rows;
+  for (const NewtonRow& r : step.newton->rows)
+    rows.push_back({step.number, c.time, r.iteration, r.force, r.moment, r.length, r.angle, r.correction,
+                    r.worst >= 0 ? numbering.describe(r.worst) : ""});
+  listing_.write(listing_newton(rows, step.number == 1));
+}
+
+std::vector<EnergyRow> Writer::thinned_energies() const {
+  std::vector<EnergyRow> rows;
+  const std::size_t every = std::max<std::size_t>(1, (energies_.size() + 19) / 20);
+  for (std::size_t i = 0; i < energies_.size(); ++i)
+    if (i % every == 0 || i + 1 == energies_.size()) rows.push_back(energies_[i]);
+  return rows;
+}
+
+}  // namespace engrane::app

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the listing counts up, against sums by hand and the results themselves."""
+
+import re
+
+import h5py
+import numpy as np
+import pytest
+
+TWO_BODIES = """.UNIT SI
+.NOE
+ I 1 X 1 0 0
+ I 2 X 0 2 0
+.MCE
+ I 1 INERTIA N 1 M 2 J 0.1
+ I 2 INERTIA N 2 M 3 J 0.2
+ I 3 HINGE N 0 1 AXIS 0 1 0 AT 0 0 0
+ I 4 SPRING N 0 2 K 40 AT 0 0 0
+.CLM STRU ACC VAL 0 0 -9.81
+.SAM TYPE DYNAMIC
+.SUB TF 0.5 H 0.01
+"""
+
+
+def section(text: str, title: str) -> list[list[str]]:
+    """Rows of a table of the listing, cells apart."""
+    body = re.split(r"\n\n[A-Z][^\n]*\n=+\n", text.split(f"\n{title}\n", 1)[1])[0]
+    return [re.split(r"\s{2,}", line.strip()) for line in body.splitlines()]
+
+
+@pytest.fixture
+def run(engrane):
+    (engrane.folder / "two.dat").write_text(TWO_BODIES)
+    done = engrane("two.dat")
+    assert done.returncode == 0, done.stderr
+    return done.stdout, (engrane.folder / "two.lst").read_text(), engrane.folder / "two.h5"
+
+
+def test_masses(run, engrane):
+    assert "all                5           0.4  1.2  0" in engrane("check", "two.dat").stdout
+    rows = {row[0]: row[1:] for row in section(run[1], "Masses")}
+    assert [float(x) for x in rows["INERTIA 1"]] == pytest.approx([2, 1, 0, 0, 0.1, 0.1, 0.1, 0, 0, 0])
+    assert [float(x) for x in rows["INERTIA 2"]] == pytest.approx([3, 0, 2, 0, 0.2, 0.2, 0.2, 0, 0, 0])
+    # two masses of 2 and 3 at the distance (-1, 2, 0): the reduced mass 6/5 turns with it
+    expected = [5, 0.4, 1.2, 0, 0.3 + 1.2 * 4, 0.3 + 1.2, 0.3 + 1.2 * 5, 1.2 * 2, 0, 0]
+    assert [float(x) for x in rows["all"]] == pytest.approx(expected)
+
+
+def test_peaks(run):
+    rows = section(run[1], "Peaks")
+    owner, found = "", {}
+    for row in rows:
+        if re.fullmatch(r"[A-Z_]+ \d+|run", row[0]):
+            owner, row = row[0], row[1:]
+        if owner and len(row) >= 3:
+            found[owner, row[0]] = (float(row[1]), float(row[-1]))
+    with h5py.File(run[2]) as file:
+        times = file["history/time"][()]
+        values = file["history/element/HINGE/values"][()]
+        names = [name.decode() for name in file["history/element/HINGE/channels"][()]]
+    for name in ("SPEED", "FORCE_X", "FORCE_Z"):
+        column = values[:, names.index(name)]
+        at = np.argmax(np.abs(column))
+        assert found["HINGE 3", name] == pytest.approx((column[at], times[at]), rel=1e-5, abs=1e-12)
+    assert ("run", "GROUND_FORCE_Z") in found
+
+
+def test_ground(run):
+    rows = section(run[1], "Forces of the ground")
+    assert [row[0] for row in rows if row[0].startswith(("at", "with"))] == [
+        "at the end",
+        "with the largest force",
+        "with the largest moment",
+    ]
+
+
+def test_the_terminal_names_files_and_commands(run, engrane):
+    assert "results in two.h5, two.xdmf and two.lst" in run[0]
+    assert "engrane plot two element/" in run[0]
+    assert "engrane picture two" in run[0]
+    assert engrane("-q", "two.dat").stdout == ""
