@@ -4,8 +4,9 @@
 A run on one rank that is interrupted at a third of the way and continued must give every bit of the whole
 run. Every channel must be what version 0.3.0 gave: last value and root of the mean square, from
 tests/verify/results_0.3.0.json. Decks of a law that was wrong then have no entry there: profile_friction,
-whose friction came and went within the path of contact. Nor have the joints' decks with friction below a small VREG (hinge,
-prismatic, cylindrical, screw, spherical): steps failed then, and were cut, where something comes to rest.
+whose friction came and went within the path of contact. Nor have the joints' decks with friction and a small
+VREG (hinge, prismatic, cylindrical, screw, spherical): steps failed then, and were cut, where something comes
+to rest.
 
     decks.py --binary engrane --mpiexec mpiexec --work folder deck.dat
 

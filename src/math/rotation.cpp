@@ -18,7 +18,11 @@ Mat3 rotation_exp(const Vec3& y) {
 Vec3 rotation_log(const Mat3& R) {
   // through the quaternion: its vector part keeps full precision near 0 and near π alike
   Eigen::Quaterniond q(R);
-  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  // of half a turn both senses are right, and rounding must not choose
+  constexpr double half_turn = 1e-9;
+  Eigen::Index largest = 0;
+  q.vec().cwiseAbs().maxCoeff(&largest);
+  if (std::abs(q.w()) < half_turn ? q.vec()[largest] < 0 : q.w() < 0) q.coeffs() = -q.coeffs();
   const double n = q.vec().norm();
   if (n < 1e-150) return Vec3::Zero();
   return q.vec() * (2 * std::atan2(n, q.w()) / n);

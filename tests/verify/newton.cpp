@@ -41,12 +41,12 @@ TEST(Newton, IsQuadraticOnTheBevelPair) {
     if (!step.newton) return;
     const auto& rows = step.newton->rows;
     for (std::size_t i = 2; i < rows.size(); ++i) {
-      if (largest(rows[i - 2]) > 1e-2 || largest(rows[i]) < 1e-13) continue;
+      if (largest(rows[i - 2]) > 2e-2 || largest(rows[i]) < 1e-13) continue;
       EXPECT_GT(order(rows[i - 2], rows[i - 1], rows[i]), 1.7) << "step " << step.number << ", iteration " << i;
       ++judged;
     }
   });
-  EXPECT_GE(judged, 3) << "no step had three residuals between 1e-2 and rounding: the test judged nothing";
+  EXPECT_GE(judged, 3) << "no step had three residuals between 2e-2 and rounding: the test judged nothing";
 }
 
 TEST(Newton, IsQuadraticInDynamicsAtLargeSteps) {
@@ -72,7 +72,7 @@ TEST(Newton, IsQuadraticInDynamicsAtLargeSteps) {
     if (!step.newton) return;
     const auto& rows = step.newton->rows;
     for (std::size_t i = 2; i < rows.size(); ++i) {
-      if (largest(rows[i - 2]) > 1e-1 || largest(rows[i]) < 1e-13) continue;
+      if (largest(rows[i - 2]) > 0.5 || largest(rows[i]) < 1e-13) continue;
       EXPECT_GT(order(rows[i - 2], rows[i - 1], rows[i]), 1.6) << "step " << step.number << ", iteration " << i;
       ++judged;
     }

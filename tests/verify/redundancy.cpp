@@ -30,7 +30,7 @@ std::string door(const std::string& second, const std::string& analysis) {
 .FCT
  I 1 EXPR "T"
 .SAM TYPE )" +
-         analysis + "\n.SUB TF 0.5 H 0.01\n";
+         analysis + " PREC 1e-12\n.SUB TF 0.5 H 0.01\n";
 }
 
 const char* const second_hinge = " I 3 HINGE N 0 1 AXIS 0 0 1 AT 0 0 1.8";

@@ -52,6 +52,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configura
   weights_ = weights;
   NewtonReport report;
   const std::vector<double> before = references_.memory();
+  references_.begin(work);
   Owned<Vec> guess;
   *guess.out() = assembler_.new_vector();
   check_petsc(VecCopy(x, guess));
@@ -162,12 +163,12 @@ void Newton::measure(Vec f) {
   check_petsc(VecGetArrayRead(f, &values));
   for (PetscInt row = first; row < end; ++row) {
     const Unknown& u = numbering.unknown(static_cast<int>(row));
-    double value = std::abs(values[row - first]), reference = references_.load(u);
+    double value = std::abs(values[row - first]), reference = references_.load(static_cast<int>(row));
     if (u.multiplier) {
       // kΦ is the force (or moment) that the open constraint stands for
       const double as_force = value / reference;
       value /= assembler_.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
-      reference = references_.length(u);
+      reference = references_.length(static_cast<int>(row));
       const double open = value / (reference * rounding);
       if (open > 1) worst[4] = std::max(worst[4], as_force);
       worst[5] = std::max(worst[5], open);
@@ -208,7 +209,7 @@ bool Newton::judge(int iteration) {
     check_petsc(VecGetArrayRead(update, &values));
     for (PetscInt row = first; row < end; ++row) {
       const Unknown& u = assembler_.numbering().unknown(static_cast<int>(row));
-      const double size = std::abs(values[row - first]), change = size / references_.length(u);
+      const double size = std::abs(values[row - first]), change = size / references_.length(static_cast<int>(row));
       if (!u.multiplier) {
         row_.correction = std::max(row_.correction, change);
         continue;
@@ -216,7 +217,7 @@ bool Newton::judge(int iteration) {
       // a multiplier over its k is the displacement that its force stands for; where k is small, as of what has no mass, the
       // force itself tells that nothing changes any more
       const double k = assembler_.scale()[static_cast<std::size_t>(u.slot - assembler_.numbering().motion_slots())];
-      forces = std::max(forces, std::min(change, k * size / references_.load(u)));
+      forces = std::max(forces, std::min(change, k * size / references_.load(static_cast<int>(row))));
     }
     check_petsc(VecRestoreArrayRead(update, &values));
     double both[2] = {row_.correction, forces};

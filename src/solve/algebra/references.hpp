@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "assembly/assembler.hpp"
@@ -17,16 +18,21 @@ class References {
   /// `precision`: part of a reference down to which residuals are to go.
   References(const Assembler& assembler, double precision);
 
+  /// Finds the lengths for an iteration that begins near `c`.
+  void begin(const Configuration& c);
   /// Takes what the last residual's elements contributed (Assembler::carried).
   void take(const Configuration& c, const std::vector<double>& carried);
 
-  /// What the residual of a motion's equation is compared with; of a constraint, what the force kΦ is.
-  double load(const Unknown& u) const;
-  /// What a displacement, and an open constraint, is compared with: a length, or 1 radian.
-  double length(const Unknown& u) const;
+  /// What the residual of an equation is compared with; of a constraint, what the force kΦ is.
+  double load(int equation) const {
+    const Source& from = sources_[static_cast<std::size_t>(equation)];
+    return std::max(pairs_[from.pair].of(from.turns), std::numeric_limits<double>::min());
+  }
+  /// What the correction of an unknown, or an open constraint, is compared with: a length, or 1 radian.
+  double length(int equation) const { return lengths_[static_cast<std::size_t>(equation)]; }
 
   /// The largest force that an element has contributed so far.
-  double largest_force() const { return largest_[Measure::force]; }
+  double largest_force() const { return largest_force_; }
   /// The memory of loads so far, to be put back where an iteration failed.
   const std::vector<double>& memory() const { return largest_of_slot_; }
   void restore(std::vector<double> memory);
@@ -37,18 +43,28 @@ class References {
  private:
   struct Pair {
     double force = 0, moment = 0;
-    double of(bool rotational) const { return rotational ? moment : force; }
+    double of(bool turns) const { return turns ? moment : force; }
   };
-  void find_lengths();
-  void find_largest();
+  /// Where the loads of an equation stand in pairs_.
+  struct Source {
+    std::size_t pair;
+    bool turns;
+  };
+  void find_spans();
+  void find_sources();
+  Pair& at_node(int node) { return pairs_[static_cast<std::size_t>(node)]; }
+  Pair& at_part(std::size_t part) { return pairs_[spans_.size() + part]; }
+  Pair& everywhere() { return pairs_.back(); }
 
   const Assembler& assembler_;
   double rounding_share_;
-  std::vector<double> span_;   ///< of each node: to the farthest node that an element joins it with
-  std::vector<double> place_;  ///< of each node: its distance from the origin, now
-  std::vector<Pair> at_node_, at_part_;
-  std::vector<double> largest_of_slot_;  ///< of the motion
-  Magnitudes everywhere_, largest_;      ///< of the whole model: in the last residual, and so far
+  std::vector<double> spans_;            ///< of each node: to the farthest node that an element joins it with
+  std::vector<double> reach_;            ///< of each node: that, or its distance from the origin
+  std::vector<Pair> pairs_;              ///< loads at each node, of each element, and the largest of all
+  std::vector<Source> sources_;          ///< of each equation
+  std::vector<double> lengths_;          ///< of each equation
+  std::vector<double> largest_of_slot_;  ///< so far, of the motion
+  double largest_force_ = 0;
 };
 
 }  // namespace engrane::solve
