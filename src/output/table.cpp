@@ -48,7 +48,10 @@ std::vector<std::size_t> Table::natural_widths(const std::vector<std::size_t>& l
 }
 
 std::string Table::line(const std::vector<std::string>& cells, const std::vector<std::size_t>& least) const {
-  const std::vector<std::size_t> widths = natural_widths(least);
+  return line_of(cells, natural_widths(least));
+}
+
+std::string Table::line_of(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) const {
   std::string out;
   for (std::size_t c = 0; c < columns_.size(); ++c) out += std::string(gap, ' ') + padded(cells[c], widths[c], columns_[c].align);
   out.erase(out.find_last_not_of(' ') + 1);
@@ -67,7 +70,7 @@ std::string Table::text() const {
   const std::vector<std::size_t> widths = natural_widths({});
   std::string out = heading(widths);
   const std::string rule_line = out.substr(out.find('\n') + 1);
-  for (const auto& row : rows_) out += row.empty() ? rule_line : line(row, widths);
+  for (const auto& row : rows_) out += row.empty() ? rule_line : line_of(row, widths);
   return out;
 }
 

@@ -39,6 +39,7 @@ class Table {
 
  private:
   std::vector<std::size_t> natural_widths(const std::vector<std::size_t>& least) const;
+  std::string line_of(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) const;
   std::vector<Column> columns_;
   std::vector<std::vector<std::string>> rows_;  ///< an empty row is a rule
 };

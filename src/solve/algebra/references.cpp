@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace engrane::solve {
@@ -23,11 +24,12 @@ References::References(const Assembler& assembler, double precision)
     : assembler_(assembler),
       rounding_share_(rounding / precision),
       spans_(assembler.model().nodes.size(), 0.0),
-      reach_(spans_),
+      reach_(spans_.size(), 0.0),
       pairs_(spans_.size() + assembler.model().parts.size() + 1),
       largest_of_slot_(static_cast<std::size_t>(assembler.numbering().motion_slots()), 0.0) {
   find_spans();
   find_sources();
+  find_lengths();
 }
 
 void References::find_spans() {
@@ -60,8 +62,19 @@ void References::find_sources() {
 }
 
 void References::begin(const Configuration& c) {
+  // a size need not follow every step
+  const auto reach = [&](std::size_t i) { return std::max(spans_[i], c.nodes[i].x.norm()); };
+  for (std::size_t i = 0; i < spans_.size(); ++i) {
+    const double now = reach(i);
+    if (now <= 1.5 * reach_[i] && now >= 0.5 * reach_[i]) continue;
+    for (std::size_t k = 0; k < spans_.size(); ++k) reach_[k] = reach(k);
+    find_lengths();
+    return;
+  }
+}
+
+void References::find_lengths() {
   const Model& model = assembler_.model();
-  for (std::size_t i = 0; i < spans_.size(); ++i) reach_[i] = std::max(spans_[i], c.nodes[i].x.norm());
   for (std::size_t e = 0; e < lengths_.size(); ++e) {
     if (sources_[e].turns) continue;
     const Unknown& u = assembler_.numbering().unknown(static_cast<int>(e));
@@ -116,11 +129,18 @@ void References::take(const Configuration& c, const std::vector<double>& carried
 
 void References::restore(std::vector<double> memory) { largest_of_slot_ = std::move(memory); }
 
-void References::save(Snapshot& snapshot) const { snapshot.put("newton/largest", largest_of_slot_); }
+void References::save(Snapshot& snapshot) const {
+  snapshot.put("newton/largest", largest_of_slot_);
+  snapshot.put("newton/reach", reach_);
+}
 
 void References::load_memory(const Snapshot& snapshot) {
-  const std::vector<double>& saved = snapshot.array("newton/largest");
-  if (saved.size() == largest_of_slot_.size()) largest_of_slot_ = saved;
+  const std::vector<double>&largest = snapshot.array("newton/largest"), &reach = snapshot.array("newton/reach");
+  if (largest.size() != largest_of_slot_.size() || reach.size() != reach_.size())
+    throw std::out_of_range("the restart point has another number of nodes");
+  largest_of_slot_ = largest;
+  reach_ = reach;
+  find_lengths();
 }
 
 }  // namespace engrane::solve

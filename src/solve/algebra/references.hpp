@@ -52,6 +52,7 @@ class References {
   };
   void find_spans();
   void find_sources();
+  void find_lengths();
   Pair& at_node(int node) { return pairs_[static_cast<std::size_t>(node)]; }
   Pair& at_part(std::size_t part) { return pairs_[spans_.size() + part]; }
   Pair& everywhere() { return pairs_.back(); }
