@@ -242,18 +242,18 @@ void Assembler::residual(const Configuration& configuration, Vec r) {
   const int motion = numbering_.motion_slots();
   for_each_residual(configuration, [&](int part, std::span<const double> local) {
     const auto slots = numbering_.part_slots(part);
-    for (std::size_t i = 0; i < slots.size(); ++i) {
+    std::size_t i = 0;  // multipliers come last
+    for (; i < slots.size() && slots[i] < motion; ++i) {
       const int row = numbering_.equation(slots[i]);
       if (row < 0) continue;
-      double value = local[i], factor = 1;
-      if (const int m = slots[i] - motion; m >= 0) {
-        factor = scale_[static_cast<std::size_t>(m)];
-        if (released(m)) value = (released_value(m) - configuration.multipliers[static_cast<std::size_t>(m)]) / factor;
-      }
-      sum.add(row, value * factor);
-      if (slots[i] >= motion) continue;
+      sum.add(row, local[i]);
       double& size = carried_[static_cast<std::size_t>(slots[i])];
-      size = std::max(size, std::abs(value));
+      size = std::max(size, std::abs(local[i]));
+    }
+    for (; i < slots.size(); ++i) {
+      const auto m = static_cast<std::size_t>(slots[i] - motion);
+      const double value = released_[m] ? released_values_[m] - configuration.multipliers[m] : local[i] * scale_[m];
+      sum.add(numbering_.equation(slots[i]), value);
     }
   });
   sum.finish();
@@ -266,7 +266,10 @@ void Assembler::scale_multipliers(int part, std::span<double> k) const {
   for (std::size_t i = n - element(part).layout().multipliers.size(); i < n; ++i) {
     const int m = slots[i] - numbering_.motion_slots();
     const double factor = scale_[static_cast<std::size_t>(m)];
-    for (std::size_t j = 0; j < n; ++j) k[i * n + j] = released(m) ? 0 : k[i * n + j] * factor;
+    if (released(m))
+      std::fill_n(k.begin() + static_cast<std::ptrdiff_t>(i * n), n, 0.0);
+    else
+      for (std::size_t j = 0; j < n; ++j) k[i * n + j] *= factor;
     for (std::size_t j = 0; j < n; ++j) k[j * n + i] *= factor;
   }
 }

@@ -291,6 +291,7 @@ Joint::Joint(int id, JointParts parts) : TemplatedElement(id), parts_(std::move(
 }
 
 int Joint::counted(Measure what) const {
+  if (!is_turn(what) && what != Measure::screw) return -1;
   const auto found = std::find(angles_.begin(), angles_.end(), what == Measure::screw ? Measure::angle : what);
   return found == angles_.end() ? -1 : turn_count::history * static_cast<int>(found - angles_.begin());
 }

@@ -14,7 +14,10 @@ namespace {
 /// Share of the largest load so far that a residual is at least compared with: a load that passes through zero could never be
 /// balanced by itself.
 constexpr double remembered = 1e-3;
-/// Forces of a node make moments of its rotations by rounding of lengths, and moments forces.
+/// Part of the distance to the nodes joined with it at which a node's forces count as moments: a small moment beside large
+/// forces need not balance better than they do.
+constexpr double part_of_lever = 0.1;
+/// Forces of a node make moments of its rotations by rounding of its place, and moments forces.
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 bool is_rotational(Measure m) { return m == Measure::moment || m == Measure::angle; }
 
@@ -43,8 +46,6 @@ void References::find_spans() {
         double& span = spans_[static_cast<std::size_t>(a)];
         span = std::max(span, (place(a) - place(b)).norm());
       }
-  for (std::size_t i = 0; i < spans_.size(); ++i)
-    if (spans_[i] == 0) spans_[i] = model.nodes[i].x.norm();
 }
 
 void References::find_sources() {
@@ -59,6 +60,12 @@ void References::find_sources() {
     sources_.push_back({pair, is_rotational(u.measure)});
   }
   lengths_.assign(sources_.size(), 1.0);
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const Layout& layout = model.parts[p].element->layout();
+    if (layout.multipliers.empty() && layout.scalars.empty()) continue;
+    for (const Multiplier& m : layout.multipliers) turns_.push_back(m.dimension.length == 0);
+    owners_.push_back({p, turns_.size()});
+  }
 }
 
 void References::begin(const Configuration& c) {
@@ -90,7 +97,6 @@ void References::find_lengths() {
 
 void References::take(const Configuration& c, const std::vector<double>& carried) {
   const Model& model = assembler_.model();
-  const Numbering& numbering = assembler_.numbering();
   Pair all;
   largest_force_ = 0;
   for (std::size_t i = 1; i < model.nodes.size(); ++i) {
@@ -103,27 +109,25 @@ void References::take(const Configuration& c, const std::vector<double>& carried
       load = std::max({load, carried[slot], remembered * largest});
       if (k < 3) largest_force_ = std::max(largest_force_, largest);
     }
-    // a node alone at the origin has no lengths that could be rounded
-    const double by_rounding = rounding_share_ * reach_[i];
-    at_node(static_cast<int>(i)) = {by_rounding > 0 ? std::max(own.force, rounding_share_ * own.moment / reach_[i]) : own.force,
-                                    std::max(own.moment, own.force * by_rounding)};
+    // forces have levers; moments make forces by rounding alone
+    const double lever = std::max(part_of_lever * spans_[i], rounding_share_ * reach_[i]);
+    const double by_moment = reach_[i] > 0 ? rounding_share_ * own.moment / reach_[i] : 0;
+    at_node(static_cast<int>(i)) = {std::max(own.force, by_moment), std::max(own.moment, own.force * lever)};
     all = {std::max(all.force, own.force), std::max(all.moment, own.moment)};
   }
   all.force = all.moment = std::max(all.force, all.moment);
   everywhere() = all;
   // loads of an element's own unknowns cancel inside it: those of its nodes and multipliers tell their size
-  for (std::size_t p = 0; p < model.parts.size(); ++p) {
-    const Layout& layout = model.parts[p].element->layout();
-    if (layout.multipliers.empty() && layout.scalars.empty()) continue;
+  std::size_t m = 0;
+  for (const Owner& owner : owners_) {
     Pair of;
-    const double* multiplier = c.multipliers.data() + numbering.multiplier_begin(static_cast<int>(p));
-    for (const Multiplier& m : layout.multipliers) {
-      double& load = m.dimension.length == 0 ? of.moment : of.force;
-      load = std::max(load, std::abs(*multiplier++));
+    for (; m < owner.end; ++m) {
+      double& load = turns_[m] ? of.moment : of.force;
+      load = std::max(load, std::abs(c.multipliers[m]));
     }
-    for (const int node : model.parts[p].nodes)
+    for (const int node : model.parts[owner.part].nodes)
       of = {std::max(of.force, at_node(node).force), std::max(of.moment, at_node(node).moment)};
-    at_part(p) = of;
+    at_part(owner.part) = of;
   }
 }
 

@@ -50,6 +50,10 @@ class References {
     std::size_t pair;
     bool turns;
   };
+  /// An element with unknowns of its own, and the end of its multipliers.
+  struct Owner {
+    std::size_t part, end;
+  };
   void find_spans();
   void find_sources();
   void find_lengths();
@@ -59,10 +63,12 @@ class References {
 
   const Assembler& assembler_;
   double rounding_share_;
-  std::vector<double> spans_;            ///< of each node: to the farthest node that an element joins it with
-  std::vector<double> reach_;            ///< of each node: that, or its distance from the origin
-  std::vector<Pair> pairs_;              ///< loads at each node, of each element, and the largest of all
-  std::vector<Source> sources_;          ///< of each equation
+  std::vector<double> spans_;    ///< of each node: to the farthest node that an element joins it with
+  std::vector<double> reach_;    ///< of each node: that, or its distance from the origin
+  std::vector<Pair> pairs_;      ///< loads at each node, of each element, and the largest of all
+  std::vector<Source> sources_;  ///< of each equation
+  std::vector<Owner> owners_;
+  std::vector<char> turns_;              ///< of each multiplier: whether it is a moment
   std::vector<double> lengths_;          ///< of each equation
   std::vector<double> largest_of_slot_;  ///< so far, of the motion
   double largest_force_ = 0;
