@@ -6,7 +6,7 @@ run. Every channel must be what version 0.3.0 gave: last value and root of the m
 tests/verify/results_0.3.0.json. Decks of a law that was wrong then have no entry there: profile_friction,
 whose friction came and went within the path of contact. Nor have the joints' decks with friction and a small
 VREG (hinge, prismatic, cylindrical, screw, spherical): steps failed then, and were cut, where something comes
-to rest.
+to rest. universal_drives ends at half a turn, whose rotation vector has the other sign now.
 
     decks.py --binary engrane --mpiexec mpiexec --work folder deck.dat
 

@@ -82,15 +82,20 @@ void References::begin(const Configuration& c) {
 
 void References::find_lengths() {
   const Model& model = assembler_.model();
+  // a node that no element joins with another tells no length: that of the model stands for it
+  const auto length_at = [&](int node) {
+    const auto i = static_cast<std::size_t>(node);
+    return spans_[i] > 0 ? reach_[i] : std::max(reach_[i], model.extent());
+  };
   for (std::size_t e = 0; e < lengths_.size(); ++e) {
     if (sources_[e].turns) continue;
     const Unknown& u = assembler_.numbering().unknown(static_cast<int>(e));
     double length = 0;
     if (u.part < 0)
-      length = reach_[static_cast<std::size_t>(u.node)];
+      length = length_at(u.node);
     else
       for (const int node : model.parts[static_cast<std::size_t>(u.part)].nodes)
-        if (node > 0) length = std::max(length, reach_[static_cast<std::size_t>(node)]);
+        if (node > 0) length = std::max(length, length_at(node));
     lengths_[e] = length > 0 ? length : model.extent();
   }
 }
@@ -111,7 +116,7 @@ void References::take(const Configuration& c, const std::vector<double>& carried
     }
     // forces have levers; moments make forces by rounding alone
     const double lever = std::max(part_of_lever * spans_[i], rounding_share_ * reach_[i]);
-    const double by_moment = reach_[i] > 0 ? rounding_share_ * own.moment / reach_[i] : 0;
+    const double by_moment = spans_[i] > 0 ? rounding_share_ * own.moment / spans_[i] : 0;
     at_node(static_cast<int>(i)) = {std::max(own.force, by_moment), std::max(own.moment, own.force * lever)};
     all = {std::max(all.force, own.force), std::max(all.moment, own.moment)};
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "assembly/assembler.hpp"
@@ -26,7 +25,7 @@ class References {
   /// What the residual of an equation is compared with; of a constraint, what the force kΦ is.
   double load(int equation) const {
     const Source& from = sources_[static_cast<std::size_t>(equation)];
-    return std::max(pairs_[from.pair].of(from.turns), std::numeric_limits<double>::min());
+    return std::max(pairs_[from.pair].of(from.turns), least_load);
   }
   /// What the correction of an unknown, or an open constraint, is compared with: a length, or 1 radian.
   double length(int equation) const { return lengths_[static_cast<std::size_t>(equation)]; }
@@ -41,6 +40,7 @@ class References {
   void load_memory(const Snapshot& snapshot);
 
  private:
+  static constexpr double least_load = 1e-200;  ///< stands for none: what is divided by it stays finite
   struct Pair {
     double force = 0, moment = 0;
     double of(bool turns) const { return turns ? moment : force; }
