@@ -26,7 +26,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 TRACES = re.compile(
     r"internal error|PETSC ERROR|HDF5-DIAG|MPI_ABORT|MPI_Abort|Process received signal|terminate called"
-    r"|Assertion|Sanitizer|ORTE_|ORTE has|opal_|\bstd::|basic_string|vector::|map::at|bad_alloc"
+    r"|Assertion|Sanitizer|\bORTE_|ORTE has|opal_|\bstd::|basic_string|vector::|map::at|bad_alloc"
 )
 # what stands in the place of a number or a word
 NUMBERS = """0 -1 1 2 1e300 -1e300 1e-300 1e18 -1e-12 0.5 1E 99 2147483647 -2147483648 4294967296 1e400 .
