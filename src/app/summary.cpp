@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "math/angle.hpp"
 #include "model/masses.hpp"
 
 namespace engrane::app {
@@ -83,7 +84,7 @@ std::string describe_geometry(const Model& model) {
     for (const Derived& d : derived) {
       // angles are radians inside and degrees wherever a person reads or writes a deck
       const bool angle = d.dimension == dimension::angle;
-      const double shown = angle ? d.value * 57.295779513082320877 : d.value;
+      const double shown = angle ? d.value / degree : d.value;
       const double value = std::abs(shown) < 1e-14 ? 0.0 : shown;  // rounding, and no minus zero
       text += fmt::format("    {:<42}{:>16.9g} {}\n", d.name, value,
                           angle                            ? "deg"

@@ -85,12 +85,18 @@ void Writer::begin(const SolverContext& context, int ranks) {
 void Writer::resumed(const Resumption& from) {
   checks_.load(from.point.memory);
   peaks_.load(from.point.memory);
-  const std::vector<double>& counts = from.point.memory.array("writer/counts");
+  const Snapshot& memory = from.point.memory;
+  const std::vector<double>& counts = memory.array("writer/counts");
   steps_ = static_cast<long>(counts.at(0));
   iterations_ = static_cast<long>(counts.at(1));
   cuts_ = static_cast<long>(counts.at(2));
   locating_ = static_cast<long>(counts.at(3));
   event_count_ = static_cast<long>(counts.at(4));
+  const std::vector<double>&energies = memory.array("writer/energies"), &ground = memory.array("writer/ground");
+  for (std::size_t i = 0; i + 6 <= energies.size(); i += 6)
+    energies_.push_back({energies[i], energies[i + 1], energies[i + 2], energies[i + 3], energies[i + 4], energies[i + 5]});
+  for (std::size_t i = 0; i + 7 <= ground.size(); i += 7)
+    ground_.push_back({"", ground[i], Vec3(&ground[i + 1]), Vec3(&ground[i + 4])});
   marked_ = observer_.not_unique().size();
   results_.mark_not_unique(observer_.not_unique());
   listing_.write(fmt::format("  restarted from {} at t = {:.10g}\n", from.earlier.path(), from.point.time));
@@ -107,6 +113,14 @@ void Writer::remember(const Configuration& c, const Runner& runner, bool kept, b
   peaks_.save(memory);
   memory.put("writer/counts", {static_cast<double>(steps_), static_cast<double>(iterations_), static_cast<double>(cuts_),
                                static_cast<double>(locating_), static_cast<double>(event_count_)});
+  std::vector<double> energies, ground;
+  for (const EnergyRow& e : energies_)
+    energies.insert(energies.end(), {e.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error});
+  for (const GroundRow& row : ground_)
+    ground.insert(ground.end(),
+                  {row.time, row.force[0], row.force[1], row.force[2], row.moment[0], row.moment[1], row.moment[2]});
+  memory.put("writer/energies", std::move(energies));
+  memory.put("writer/ground", std::move(ground));
   results_.restart_point(c.time, std::move(memory), kept);
   if (results_.due()) results_.flush();
 }
@@ -169,7 +183,7 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
   }
   if (const std::string peaks = listing_peaks(results_.layout().history, peaks_, units, most_listed_peaks); !peaks.empty()) {
     listing_.write(listing_section("Peaks"));
-    listing_.write("  largest size of each channel, with its sign, among the instants that were observed; angles in radians\n\n");
+    listing_.write("  largest magnitude of each channel, with its sign, over the instants observed; angles in radians\n\n");
     listing_.write(peaks);
   }
   if (marked_ > 0) {
@@ -229,25 +243,24 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
   return exit;
 }
 
-std::vector<std::string> Writer::paths() const {
-  const std::string stem = path().substr(0, path().size() - std::string_view(".h5").size());
-  return {path(), stem + ".xdmf", stem + ".lst"};
-}
+std::string Writer::stem() const { return path().substr(0, path().size() - std::string_view(".h5").size()); }
+
+std::vector<std::string> Writer::paths() const { return {path(), stem() + ".xdmf", stem() + ".lst"}; }
 
 std::string Writer::closing_lines() const {
   const std::vector<std::string> files = paths();
-  const std::string stem = files[0].substr(0, files[0].size() - std::string_view(".h5").size());
+  const std::string prefix = stem();
   std::string text = fmt::format("results in {}, {} and {}\n", files[0], files[1], files[2]);
-  const std::string picture = fmt::format("engrane picture {0} --both -o {0}.png", stem);
+  const std::string picture = fmt::format("engrane picture {0} --both -o {0}.png", prefix);
   const HistoryTable* table = nullptr;
   for (const HistoryTable& one : results_.layout().history)
     if (!table || (table->type.empty() && !one.type.empty())) table = &one;
   if (table && !table->channels.empty()) {
     const std::string plot =
-        fmt::format("engrane plot {0} {1}/{2} -o {0}.png", stem, table->owner(0), table->channels.front().name);
-    text += fmt::format("  {:<{}}  a diagram; --list names all there is to plot\n", plot, picture.size());
+        fmt::format("engrane plot {0} {1}/{2} -o {0}.png", prefix, table->owner(0), table->channels.front().name);
+    text += fmt::format("  {:<{}}  plots a channel; --list shows all of them\n", plot, picture.size());
   }
-  return text + fmt::format("  {}  the mechanism before and after; ParaView opens {}\n", picture, files[1]);
+  return text + fmt::format("  {}  draws the mechanism before and after; ParaView opens {}\n", picture, files[1]);
 }
 
 GroundRow Writer::ground(double time) const {

@@ -52,6 +52,8 @@ class Writer {
   void note(const std::string& text) { progress_.note(text); }
 
  private:
+  /// path() without its ending.
+  std::string stem() const;
   std::string wanted_table() const;
   /// The sums of what the ground exerts, and the peaks.
   void follow(double time);

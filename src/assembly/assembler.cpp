@@ -44,7 +44,7 @@ Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm co
   for (int p = 0; p < numbering.parts(); ++p) {
     const Layout& layout = element(p).layout();
     if (layout.grips == 0) continue;
-    const int first = numbering.multiplier_begin(p) + static_cast<int>(layout.multipliers.size()) - layout.grips;
+    const int first = numbering.multiplier_begin(p) + layout.first_grip();
     const std::vector<GripState> states = unfollowed_grips(element(p));
     for (int i = 0; i < layout.grips; ++i)
       if (states[static_cast<std::size_t>(i)].mode != GripState::holding) grips.push_back(first + i);

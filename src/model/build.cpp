@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <unordered_map>
 #include <utility>
 
 #include "deck/cards/initial_motion.hpp"
+#include "math/angle.hpp"
 #include "model/coordinate_channels.hpp"
 #include "model/frames.hpp"
 #include "model/groups.hpp"
@@ -191,7 +191,7 @@ class Builder {
         out = values;
     }
     for (std::size_t i = 0; degrees && i < out.size(); ++i)
-      if (components[i] > 3) out[i] *= std::numbers::pi / 180;
+      if (components[i] > 3) out[i] *= degree;
     return out;
   }
 
@@ -334,8 +334,7 @@ class Builder {
                            "a DRIVE in the joint holds it there");
     const bool degrees = !velocity && channels[static_cast<std::size_t>(channel)].dimension == dimension::angle;
     model_.initial_coordinates.push_back({static_cast<int>(part - model_.parts.begin()), channel,
-                                          card.values.front() * (degrees ? std::numbers::pi / 180 : 1), velocity,
-                                          record.location});
+                                          card.values.front() * (degrees ? degree : 1), velocity, record.location});
   }
 
   void add_element(const ElementRecord& element) {

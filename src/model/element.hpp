@@ -107,6 +107,8 @@ struct Layout {
     return count;
   }
   int slots() const { return node_slots() + static_cast<int>(scalars.size() + multipliers.size()); }
+  /// The first multiplier of a grip.
+  int first_grip() const { return static_cast<int>(multipliers.size()) - grips; }
 
  private:
   int width(std::size_t node) const {

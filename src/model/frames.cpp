@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "math/angle.hpp"
 
 namespace engrane {
 
@@ -38,7 +39,6 @@ Vec3 Frames::to_global(const deck::Record& record, const deck::NodeCard& node, D
     return given;
   }
   const Frame& frame = it->second;
-  constexpr double degree = std::numbers::pi / 180;
   Vec3 local = given;
   if (frame.kind == Kind::cylindrical)
     local = Vec3(given[0] * std::cos(given[1] * degree), given[0] * std::sin(given[1] * degree), given[2]);

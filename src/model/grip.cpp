@@ -10,7 +10,7 @@ namespace engrane {
 void add_grip(Layout& layout, Named named, const std::string& where) {
   layout.multipliers.push_back({std::move(named), Role::grip});
   layout.switches.push_back({where + "slides", where + "comes to rest"});
-  layout.switches.push_back({where + "holds", where + "gives way"});
+  layout.switches.push_back({where + "holds", where + "breaks away"});
   layout.history += GripState::history;
   ++layout.grips;
 }
@@ -26,7 +26,7 @@ std::vector<GripState> unfollowed_grips(const Element& element) {
 
 void find_grips(const Element& element, const State& state, std::span<Grip> grips) {
   const Layout& layout = element.layout();
-  const std::size_t count = layout.multipliers.size(), first = count - grips.size();
+  const std::size_t count = layout.multipliers.size(), first = static_cast<std::size_t>(layout.first_grip());
   std::vector<double> phi(count), rate(count), second(count), limits(grips.size());
   element.constraint_rates(state, phi, rate, second);
   element.grip_limits(state, limits);

@@ -6,6 +6,7 @@ import re
 import h5py
 import numpy as np
 import pytest
+from engrane_post import Results
 
 TWO_BODIES = """.UNIT SI
 .NOE
@@ -72,6 +73,23 @@ def test_ground(run):
         "with the largest force",
         "with the largest moment",
     ]
+    # what the ground exerts is what accelerates the masses, but for their weight
+    with Results(run[2]) as results:
+
+        def last(channel: str) -> float:
+            return results.history(channel)[1][-1]
+
+        for axis, weight in zip("XYZ", (0, 0, 5 * 9.81), strict=True):
+            expected = 2 * last(f"node/1/A{axis}") + 3 * last(f"node/2/A{axis}") + weight
+            assert last(f"run/GROUND_FORCE_{axis}") == pytest.approx(expected, abs=1e-6)
+
+
+def test_a_restarted_run_lists_what_the_whole_run_does(run, engrane):
+    assert engrane("two.dat", "-o", "cut", "--until", "0.2").returncode == 2
+    assert engrane("two.dat", "-o", "cut", "--restart", "cut").returncode == 0
+    rest = (engrane.folder / "cut.lst").read_text()
+    for title in ("Energies", "Forces of the ground", "Peaks"):
+        assert section(rest, title) == section(run[1], title), title
 
 
 def test_the_terminal_names_files_and_commands(run, engrane):

@@ -23,7 +23,7 @@ REFUSED = {
     "large_initial_time": (1, "H is too short to be added to a time of 1e+15"),
     "kinematic_free": (2, "1 motion is free here, for example that of node 1 (y)"),
     "massless_gear": (2, "node 1 (rz) has no inertia, and no joint, spring or damper holds it"),
-    "jammed_slider": (2, "Friction jams"),
+    "jammed_slider": (2, "The friction jams"),
 }
 SAID = {
     "initial_angle_of_a_hinge": "was given as 30 deg and is 21.8",

@@ -9,12 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "math/angle.hpp"
 #include "model/registry.hpp"
 
 namespace engrane::elements {
-
-/// Angles are in degrees in the deck, in radians inside.
-inline constexpr double degree = std::numbers::pi / 180;
 
 inline Vec3 to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 

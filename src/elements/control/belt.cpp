@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "elements/common/building.hpp"
-#include "elements/common/friction_law.hpp"
 #include "elements/joints/joint_measures.hpp"
 #include "model/grip.hpp"
 #include "model/templated_element.hpp"
@@ -39,7 +38,7 @@ struct BeltLaw {
   double preload = 0;
   double damping = 0;
   std::optional<double> friction;
-  std::optional<FrictionLaw> slips;  ///< beyond what friction holds
+  bool slips = false;  ///< beyond what friction holds
   bool rigid() const { return stiffness == 0; }
 };
 
@@ -97,8 +96,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
   }
   void grip_limits(const State& state, std::span<double> limits) const override {
     if (!law_.slips) return;
-    limits[0] =
-        most_pull(law_.slips->static_coefficient(law_.preload), Runs<double>(*this, state.nodes[0], state.nodes[1], state));
+    limits[0] = most_pull(Runs<double>(*this, state.nodes[0], state.nodes[1], state));
   }
   void switches(const State& state, std::span<Switch> values) const override { grip_switches(*this, state, values); }
 
@@ -107,7 +105,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
     Energies e;
     if (law_.rigid()) {
       e.potential = 2 * law_.preload * runs.slack_taken;
-      if (law_.slips) e.dissipated = -pull(runs, state) * runs.roll_rate;
+      e.dissipated = -slipping(runs, grip_of(state).direction()) * runs.roll_rate;
       return e;
     }
     for (int i = 0; i < 2; ++i) {
@@ -216,11 +214,11 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
   }
   /// Euler and Eytelwein: tight over slack is at most exp(μ wrap); the difference, with the preload as their mean.
   template <class T>
-  T most_pull(const T& mu, const Runs<T>& runs) const {
+  T most_pull(const Runs<T>& runs) const {
     using std::atan2, std::sqrt;
     const T &d = runs.distance, beta = atan2(T(shape_.reach()), T(sqrt(d * d - shape_.reach() * shape_.reach())));
     const double lesser = -shape_.side * value_of(beta) < value_of(beta) ? -shape_.side : 1;  // that of the smaller wrap
-    const T turned = mu * (std::numbers::pi + 2 * lesser * beta);
+    const T turned = *law_.friction * (std::numbers::pi + 2 * lesser * beta);
     const double left = std::exp(-value_of(turned));
     const T part = compose(turned, 1 - left, left, -left);  // of the tight side
     return law_.preload * part / (1 - 0.5 * part);
@@ -229,7 +227,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
   template <class T>
   T slipping(const Runs<T>& runs, int direction) const {
     if (direction == 0) return T(0);
-    return -direction * most_pull(law_.slips->at(T(direction * runs.roll_rate), T(law_.preload)), runs);
+    return -direction * most_pull(runs);
   }
   double pull(const Runs<double>& runs, const State& state) const {
     const GripState grip = grip_of(state);
@@ -315,7 +313,7 @@ std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {
     return nullptr;
   }
   const double free = std::sqrt(distance * distance - shape.reach() * shape.reach());
-  BeltLaw law{data.stiffness.value_or(data.rigidity.value_or(0) / free), data.preload, data.damping, data.friction, {}};
+  BeltLaw law{data.stiffness.value_or(data.rigidity.value_or(0) / free), data.preload, data.damping, data.friction, data.sticks};
   if (law.damping > 0 && law.rigid()) {
     context.error("C", "a rigid belt has no damping", "give the stiffness of the spans, K or EA");
     return nullptr;
@@ -325,14 +323,8 @@ std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {
     return nullptr;
   }
   if (data.sticks && !(data.friction && data.preload > 0 && law.rigid())) {
-    context.error("STICK", "the most that friction holds is that of a rigid belt with friction and preload",
-                  "give MU and PRELOAD, and neither K nor EA");
+    context.error("STICK", "slip needs a rigid belt with friction and preload", "give MU and PRELOAD, and remove K or EA");
     return nullptr;
-  }
-  if (data.sticks) {
-    law.slips.emplace();
-    law.slips->mu = *data.friction;
-    law.slips->rests = true;
   }
   joints::JointFrame frame;
   frame.set_axes(*axis, across / distance);
@@ -372,7 +364,8 @@ ElementType belt_type() {
       .unit(dimension::force)
       .at_least(0);
   card.add("MU", &BeltData::friction, "friction on the pulleys, for the channel GRIP_USED and for STICK").positive();
-  card.add("STICK", &BeltData::sticks, "a rigid belt slips where it pulls more than MU holds, and holds again when that ends")
+  card.add("STICK", &BeltData::sticks,
+           "a rigid belt slips when its pull exceeds what MU can hold, and grips again when the slip ends")
       .synonyms({"ADHERENCE"});
   return element_type(card, build);
 }

@@ -130,8 +130,6 @@ void GearPair::observe(const State& state, std::span<double> values) const {
   out.put(state.multipliers[0]);
   std::array<Vec3, 2> point;
   std::array<double, 2> power{};  // that the teeth give to each wheel, in the pair's frame
-  // at rest what is left of speeds is rounding, and its ratios mean nothing
-  const bool held = contact_.grips() && GripState::of(state.history, 1, 0).mode == GripState::holding;
   for (std::size_t i = 0; i < 2; ++i) {
     const NodeState& node = state.nodes[i];
     const auto w = wheel(i, node.R, state.scalars[i]);
@@ -142,7 +140,7 @@ void GearPair::observe(const State& state, std::span<double> values) const {
     out.put(-on.force[i].dot(outward));
     out.put(on.force[i].dot(w.axle));
     out.put(torque);
-    power[i] = held ? 0 : torque * state.scalar_rates[i];
+    power[i] = torque * state.scalar_rates[i];
   }
   put_force_channels(out, on, 0.5 * (point[0] + point[1]));
   for (std::size_t i = 0; i < 2; ++i) out.put(state.scalars[i] + turn * state.history[i]);

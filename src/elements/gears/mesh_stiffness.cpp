@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/angle.hpp"
+
 namespace engrane::elements::gears {
 
 namespace {
@@ -74,7 +76,6 @@ user::Results MeshStiffness::at(double phase, double deflection) const {
 }
 
 IsoStiffness iso_stiffness(const IsoMesh& mesh) {
-  constexpr double degree = std::numbers::pi / 180;
   constexpr double steel = 206;  // N/(mm µm): 206 000 N/mm²
   const double cos_beta = std::cos(mesh.helix);
   const auto inverse_teeth = [&](std::size_t wheel) {

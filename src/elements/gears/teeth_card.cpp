@@ -331,12 +331,12 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
                   fmt::format("STICK beside {}", data.friction_width ? "VREG"
                                                  : friction.profile  ? "SLIDING PROFILE"
                                                                      : "ROLLING"),
-                  "STICK holds the sliding at the pitch point, without a width: leave out one of them");
+                  "STICK acts at the pitch point and needs no width: remove one of the two");
     return false;
   }
   if (data.sticks && g.slip_per_turn == 0) {
     context.error("STICK", "these teeth do not slide at the pitch point: there is nothing to hold",
-                  "STICK is for axles that cross or pass each other, such as those of a worm; leave it out");
+                  "STICK is for axles that cross or pass each other, such as those of a worm; remove it");
     return false;
   }
   if (friction.profile && !owner.path_known) {

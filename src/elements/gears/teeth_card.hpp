@@ -173,7 +173,7 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .synonyms({"V0"})
       .unit(velocity)
       .positive();
-  c.add("STICK", &TeethData::sticks, "friction rests: Coulomb's law at every speed, held exactly when the flanks stop sliding")
+  c.add("STICK", &TeethData::sticks, "true sticking: Coulomb's law at every speed; flanks that stop sliding are held exactly")
       .synonyms({"ADHERENCE"});
   c.add("SLIDING", &TeethData::sliding, "where the flanks slide")
       .synonyms({"GLISSEMENT"})

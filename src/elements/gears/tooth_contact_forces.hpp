@@ -289,8 +289,11 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
     for (int k = 0; k < 3; ++k) way[k] = way[k] / length;
     const T sliding = dot(way, at_pitch_point);
     T along = grip.force;
-    if (grip.direction != 0) along -= grip.direction * (friction.law.at(T(grip.direction * sliding), load) * load);
-    if (report) report->friction_power -= value_of(along) * value_of(sliding);
+    if (grip.direction != 0) {
+      const T against = grip.direction * (friction.law.at(T(grip.direction * sliding), load) * load);
+      along -= against;
+      if (report) report->friction_power += value_of(against) * value_of(sliding);
+    }
     Vec3T<T> force;
     for (int k = 0; k < 3; ++k) force[k] = along * way[k];
     add(force, arm_a, arm_b);

@@ -180,12 +180,10 @@ void Joint::act(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& b
 template <class T>
 JointRub<T> Joint::rest(const JointFriction& f, int grip, const JointPose<T>& pose, const Vec3T<T>& force, const Vec3T<T>& moment,
                         const Measured<T>& turn, const JointRates<T>& rates, const State& state, Balance<T, 2>& balance) const {
-  const int grips = layout().grips;
-  const GripState now = GripState::of(state.history, grips, grip);
+  const GripState now = GripState::of(state.history, layout().grips, grip);
   const double lead = parts_.frame.lead;
   const Measured<T> along = f.kind == Rubbing::guide ? measured(f.coordinate(), pose, state) : turn;
-  const int row = static_cast<int>(layout().multipliers.size()) - grips + grip;
-  const T held = balance.constraint(row, along.value - now.held);
+  const T held = balance.constraint(layout().first_grip() + grip, along.value - now.held);
   JointRub<T> found = now.mode == GripState::free ? rub(f, pose, force, moment, turn, Vec3T<T>(T(0), T(0), T(0)), rates)
                                                   : rub_in_direction(f, now.direction(), pose, force, moment, turn, lead, rates);
   if (now.mode == GripState::holding) rub_along(f, pose, turn, lead, held, found);

@@ -49,7 +49,8 @@ void add_joint_friction(JointCard& card, const FrictionWords& words) {
       .unit(dimension::velocity)
       .positive();
   if (words.rests)
-    card.add("STICK", &JointData::sticks, "friction rests: no VREG, Coulomb's law at every speed, held exactly when it stops")
+    card.add("STICK", &JointData::sticks,
+             "true sticking instead of VREG: Coulomb's law at every speed; surfaces that stop are held exactly")
         .synonyms({"ADHERENCE", "COLLE"});
   if (!words.radius.empty())
     card.add("RADIUS", &JointData::radius, words.radius).synonyms({"RAYON"}).unit(dimension::length).at_least(0);
@@ -299,14 +300,14 @@ bool add_friction(const JointData& data, const BuildContext& context, JointParts
   f.kind = kind;
   f.law.rests = data.sticks;
   if (data.sticks && data.friction_width) {
-    context.error("VREG", "STICK regularises nothing, VREG does", "leave out one of them");
+    context.error("VREG", "STICK regularises nothing, VREG does", "remove one of them");
     return false;
   }
   if (!data.friction_width && !data.sticks) {
     context.error("FRICTION",
                   words.rests ? "friction needs STICK, or VREG, the sliding speed below which it is regularised"
                               : "friction needs VREG, the sliding speed below which it is regularised",
-                  words.rests ? "STICK: what stops rests; VREG v: what ought to rest creeps by up to v"
+                  words.rests ? "STICK: surfaces that stop stay at rest; VREG v: they creep by up to v"
                               : "VREG v, well below the speeds of interest: what ought to rest creeps by up to v");
     return false;
   }

@@ -101,7 +101,8 @@ void rub_along(const JointFriction& f, const JointPose<T>& pose, const Measured<
   }
 }
 
-/// The pressing forces N of surfaces that slide along a line, and the lever of each: its speed over the rate of the coordinate.
+/// The pressing forces N of a shaft or slider in its bushes, and the lever of each: its speed over the rate of the coordinate,
+/// where there is but one (JointFriction::along_line).
 template <class T>
 struct Pressed {
   T normal;
@@ -111,18 +112,17 @@ template <class T>
 std::array<Pressed<T>, 2> pressed(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>& F, const Vec3T<T>& M,
                                   double lead) {
   using namespace joint_friction;
-  if (f.kind == Rubbing::journal) {
-    const Vec3T<T>& e = f.turn == Measure::pin_b ? pose.b2 : pose.a1;
-    return {Pressed<T>{bushes(F, M, e, f.length) + f.preload, f.radius},
-            Pressed<T>{f.collar > 0 ? size(T(dot(F, e))) : T(0), f.collar}};
-  }
-  T N = bushes(F, M, pose.a1, f.length) + f.preload;
+  const Vec3T<T>& e = f.kind == Rubbing::journal && f.turn == Measure::pin_b ? pose.b2 : pose.a1;
+  T N = bushes(F, M, e, f.length) + f.preload;
+  const Pressed<T> none{T(0), 0};
+  if (f.kind == Rubbing::journal)
+    return {Pressed<T>{N, f.radius}, f.collar > 0 ? Pressed<T>{size(T(dot(F, e))), f.collar} : none};
   if (f.kind == Rubbing::guide) {
-    if (f.radius > 0) N += size(T(dot(M, pose.a1))) * (1 / f.radius);  // a key, or two rails
-    return {Pressed<T>{N, 1}, Pressed<T>{T(0), 0}};
+    if (f.radius > 0) N += size(T(dot(M, e))) * (1 / f.radius);  // a key, or two rails
+    return {Pressed<T>{N, 1}, none};
   }
-  N += size(T(dot(F, pose.a1))) * f.steep;
-  return {Pressed<T>{N, std::sqrt(lead * lead + f.radius * f.radius)}, Pressed<T>{T(0), 0}};
+  if (f.kind == Rubbing::thread) N += size(T(dot(F, e))) * f.steep;
+  return {Pressed<T>{N, std::sqrt(lead * lead + f.radius * f.radius)}, none};
 }
 
 /// The friction of surfaces that slide along a line in a known direction, or rest (0), without what holds them at rest.
@@ -165,15 +165,11 @@ JointRub<T> rub(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>
   const auto turning = [&] { return dot(turn.moment, rates.spin); };
   switch (f.kind) {
     case Rubbing::journal: {
-      const Vec3T<T>& e = f.turn == Measure::pin_b ? pose.b2 : pose.a1;
       const T rate = turning(), squared = rate * rate;
       const Vec3T<T> w = turn.moment * rate;
       slides(rate * f.radius, T(0), T(0));
-      add(bushes(F, M, e, f.length) + f.preload, nullptr, &w, squared * r2, r2);
-      if (f.collar > 0) {
-        const double lever = f.collar * f.collar;
-        add(size(T(dot(F, e))), nullptr, &w, squared * lever, lever);
-      }
+      for (const Pressed<T>& p : pressed(f, pose, F, M, 0))
+        if (const double lever = p.lever * p.lever; lever > 0) add(p.normal, nullptr, &w, squared * lever, lever);
       break;
     }
     case Rubbing::guide:
@@ -181,14 +177,12 @@ JointRub<T> rub(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>
     case Rubbing::thread: {
       const T sliding = dot(pose.a1, rates.slip);
       const Vec3T<T> u = pose.a1 * sliding;
-      T N = bushes(F, M, pose.a1, f.length) + f.preload;
+      const T N = pressed(f, pose, F, M, 0)[0].normal;
       if (f.kind == Rubbing::guide) {
-        if (f.radius > 0) N += size(T(dot(M, pose.a1))) * (1 / f.radius);  // a key, or two rails
         slides(sliding, T(0), T(0));
         add(N, &u, nullptr, sliding * sliding, 0);
         break;
       }
-      if (f.kind == Rubbing::thread) N += size(T(dot(F, pose.a1))) * f.steep;
       const T rate = turning();
       const Vec3T<T> w = turn.moment * rate;
       slides(sliding, rate * f.radius, T(0));

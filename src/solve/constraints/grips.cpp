@@ -29,16 +29,14 @@ GripState::Mode towards(double value) { return value < 0 ? GripState::backward :
 
 }  // namespace
 
-Grips::Grips(Assembler& assembler, const MotionSlots& motion, Redundancy& redundancy, Start& start)
-    : assembler_(assembler), motion_(motion), redundancy_(redundancy), start_(start) {
+Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start)
+    : assembler_(assembler), redundancy_(redundancy), start_(start) {
   const auto& parts = assembler.model().parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const Layout& layout = parts[p].element->layout();
     if (layout.grips == 0) continue;
     const auto part = static_cast<int>(p);
-    places_.push_back(
-        {part, layout.grips,
-         assembler.numbering().multiplier_begin(part) + static_cast<int>(layout.multipliers.size()) - layout.grips});
+    places_.push_back({part, layout.grips, assembler.numbering().multiplier_begin(part) + layout.first_grip()});
     count_ += static_cast<std::size_t>(layout.grips);
   }
 }
@@ -164,6 +162,7 @@ void Grips::settle(Configuration& c, bool massless) {
   // All that is wrong is changed at once first, then one at a time, always the first in the deck: a rule that comes back to no
   // combination but those of equal right.
   const std::size_t together = 3 + count_, most = 3 + 20 * count_;
+  std::size_t last = 0;  // that was changed
   for (std::size_t pass = 0; pass < most; ++pass) {
     write(grips, c);
     fit(c, massless);
@@ -182,18 +181,20 @@ void Grips::settle(Configuration& c, bool massless) {
           state.mode = towards(-grip.force);
         else
           continue;
-        changed = true;
       } else if (grip.acceleration * state.direction() < 0) {
         state = {GripState::holding, state.held + grip.place};
-        changed = true;
+      } else {
+        continue;
       }
+      changed = true;
+      last = i;
     }
     if (!changed) return;
   }
   throw SolutionFailure(
-      fmt::format("t = {:.6g}: no combination of resting and sliding friction fits the forces, for {} "
-                  "among others: see whether contacts jam one another",
-                  c.time, name(0)));
+      fmt::format("t = {:.6g}: no combination of sticking and sliding contacts satisfies the equations; {} is one of them. "
+                  "Check whether contacts jam one another",
+                  c.time, name(last)));
 }
 
 std::string Grips::name(std::size_t grip) const {

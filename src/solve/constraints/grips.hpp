@@ -12,7 +12,7 @@ namespace engrane::solve {
 /// of the elements, and in the assembler, where grips that slide are idle constraints. Every rank decides the same.
 class Grips {
  public:
-  Grips(Assembler& assembler, const MotionSlots& motion, Redundancy& redundancy, Start& start);
+  Grips(Assembler& assembler, Redundancy& redundancy, Start& start);
 
   bool any() const { return !places_.empty(); }
   /// Whether some grip slides back, is dragged along, or bears more than it holds. Always so before settle().
@@ -43,10 +43,10 @@ class Grips {
   std::vector<Seen> look(const Configuration& c) const;
   void write(const std::vector<Seen>& grips, Configuration& c);
   void fit(Configuration& c, bool massless);
+  /// "HINGE 3", whose grip it is.
   std::string name(std::size_t grip) const;
 
   Assembler& assembler_;
-  const MotionSlots& motion_;
   Redundancy& redundancy_;
   Start& start_;
   std::vector<Place> places_;  ///< elements with grips

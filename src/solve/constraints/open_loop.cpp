@@ -9,6 +9,7 @@
 #include <map>
 #include <queue>
 
+#include "math/angle.hpp"
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/mobility.hpp"
 
@@ -172,7 +173,7 @@ std::string explain_open_loop(Assembler& assembler, const MotionSlots& motion, c
   angle = std::sqrt(angle);
   std::string gap;
   if (length > 1e-6 * model.extent()) gap = fmt::format("{:.4g} {}", length, model.units.label(dimension::length));
-  if (angle > 1e-6) gap += fmt::format("{}{:.4g} deg", gap.empty() ? "" : " and ", angle * 57.295779513082320877);
+  if (angle > 1e-6) gap += fmt::format("{}{:.4g} deg", gap.empty() ? "" : " and ", angle / degree);
   if (gap.empty())
     return fmt::format(
         "the mechanism does not close from where its parts are put, although it can be closed elsewhere: {} {} stays open by "

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/angle.hpp"
 #include "math/rotation.hpp"
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/diagnosis.hpp"
@@ -107,8 +108,8 @@ void Start::verify_imposed(const Configuration& c, std::span<const double> wishe
       // what was held is the component of the turn from where the deck put the node
       const std::size_t first = slot - static_cast<std::size_t>(u.item - 3);
       const Mat3 put = rotation_exp(Vec3(wished[first], wished[first + 1], wished[first + 2]));
-      off = rotation_log(put.transpose() * node.R)[u.item - 3] * 57.295779513082320877;
-      size = 57.3;
+      off = rotation_log(put.transpose() * node.R)[u.item - 3] / degree;
+      size = 1 / degree;
     }
     if (std::abs(off) <= 1e-6 * size) continue;
     throw SolutionFailure(fmt::format(
@@ -488,9 +489,9 @@ void Start::verify_balance(const Configuration& c, std::span<const double> unbal
   if (worst < 0) return;
   const double left = std::abs(unbalanced[static_cast<std::size_t>(worst)]), carried = largest[numbering.measure(worst)];
   throw SolutionFailure(fmt::format(
-      "no accelerations balance the forces at t = {:.6g}: {} stays open by {:.3g} of {:.3g}. Friction jams: where it presses its "
-      "surfaces together by more than it takes to make it, rigid bodies have no motion. Lengthen the guide (LENGTH), load it "
-      "nearer to its axis, or lower the friction",
+      "no accelerations balance the forces at t = {:.6g}: {} is unbalanced by {:.3g} of {:.3g}. The friction jams: it raises the "
+      "contact forces that cause it faster than they can be balanced. Lengthen the guide (LENGTH), apply the load closer to its "
+      "axis, or reduce the friction",
       c.time, numbering.describe(worst), left, carried));
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "math/angle.hpp"
 #include "math/rotation.hpp"
 #include "solve/constraints/start.hpp"
 
@@ -83,7 +84,7 @@ std::string StartCoordinates::name(const InitialCoordinate& coordinate) const {
 
 std::string StartCoordinates::shown(const InitialCoordinate& coordinate, double value) const {
   const Dimension d = named(coordinate).dimension;
-  if (d == dimension::angle) return fmt::format("{:.6g} deg", value * 57.295779513082320877);
+  if (d == dimension::angle) return fmt::format("{:.6g} deg", value / degree);
   return fmt::format("{:.6g} {}", value, assembler_.model().units.label(d));
 }
 
@@ -195,12 +196,12 @@ void Start::remark_on_guesses(const Configuration& c, StartReport& report) const
     const double off = std::abs(now - amount) / std::abs(amount);
     if (off <= worst) continue;
     worst = off;
-    const double shown = turn ? 57.295779513082320877 : 1;
+    const double unit = turn ? degree : 1;
     remark = fmt::format(
-        "the initial {} of {} was given as {:.6g} {} and is {:.6g}, the nearest that joints and supports allow to all that was "
-        "given. IMPOSED would hold it, DEP ELEMENT gives the value of a joint",
-        turn ? "rotation" : "displacement", assembler_.numbering().describe(equation), amount * shown,
-        turn ? "deg" : model.units.label(dimension::length), now * shown);
+        "the initial {} of {} was given as {:.6g} {} and is {:.6g}, the closest that joints and supports "
+        "allow. Add IMPOSED to hold it, or set a joint's value with DEP ELEMENT",
+        turn ? "rotation" : "displacement", assembler_.numbering().describe(equation), amount / unit,
+        turn ? "deg" : model.units.label(dimension::length), now / unit);
   }
   if (!remark.empty()) report.remarks.push_back(remark);
 }

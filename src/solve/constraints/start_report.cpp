@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
+#include "math/angle.hpp"
 
 namespace engrane::solve {
 
@@ -14,7 +14,6 @@ constexpr std::size_t most_rows = 8;
 std::string iterations(int n) { return fmt::format("{} iteration{}", n, n == 1 ? "" : "s"); }
 
 std::string positions(const Model& model, const StartReport& report) {
-  constexpr double degrees = 180 / std::numbers::pi;
   std::string text = "  1. positions: the mechanism closes as given";
   if (report.position_iterations > 0) text = fmt::format("  1. positions: closed in {}", iterations(report.position_iterations));
   if (report.path_steps > 0) text += fmt::format(", and little by little in {} parts", report.path_steps);
@@ -28,7 +27,7 @@ std::string positions(const Model& model, const StartReport& report) {
     text +=
         fmt::format("     {:<22}{}", fmt::format("{} {}", part.type, part.element->id()), i == 0 ? "was open by" : "           ");
     if (o.length > 0) text += fmt::format(" {:.4g} {}", o.length, unit);
-    if (o.angle > 0) text += fmt::format("{} {:.4g} deg", o.length > 0 ? " and" : "", o.angle * degrees);
+    if (o.angle > 0) text += fmt::format("{} {:.4g} deg", o.length > 0 ? " and" : "", o.angle / degree);
     text += '\n';
   }
   if (report.opened.size() > most_rows) text += fmt::format("     and {} more\n", report.opened.size() - most_rows);
@@ -37,7 +36,7 @@ std::string positions(const Model& model, const StartReport& report) {
     text +=
         fmt::format("     {:<22}{} {:.4g} {}, turned by {:.4g} deg\n",
                     fmt::format("node {}", model.nodes[static_cast<std::size_t>(m.node)].id),
-                    i == 0 ? "moved by   " : "           ", m.move < 1e-12 * model.extent() ? 0 : m.move, unit, m.turn * degrees);
+                    i == 0 ? "moved by   " : "           ", m.move < 1e-12 * model.extent() ? 0 : m.move, unit, m.turn / degree);
   }
   if (report.moved.size() > most_rows) text += fmt::format("     and {} more\n", report.moved.size() - most_rows);
   for (const std::string& remark : report.remarks) text += "     warning: " + remark + "\n";

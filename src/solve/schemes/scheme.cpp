@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "math/angle.hpp"
 #include "solve/schemes/kinematics.hpp"
 #include "solve/schemes/statics.hpp"
 #include "solve/schemes/transient.hpp"
@@ -59,7 +60,7 @@ void Scheme::refuse_half_turns(std::span<const double> y, NewtonReport& report) 
     report.reason = fmt::format(
         "node {} turned by {:.4g} degrees in one step; half a turn is the most that can be followed: take a smaller step H, at "
         "most {:.2g} of this one, or see whether a speed is given in the wrong unit",
-        context_.model.nodes[i].id, turn * 180 / std::numbers::pi, 0.9 * std::numbers::pi / turn);
+        context_.model.nodes[i].id, turn / degree, 0.9 * std::numbers::pi / turn);
     return;
   }
 }

@@ -2,7 +2,6 @@
 #include "solve/schemes/transient.hpp"
 
 #include <cmath>
-#include <optional>
 
 namespace engrane::solve {
 
@@ -62,40 +61,40 @@ Configuration Transient::glide(const Configuration& c, double h) const {
   return later;
 }
 
+const MasslessMotions* Transient::massless_at(const Configuration& c) {
+  if (!has_massless_) return nullptr;
+  return &massless_.emplace(context_.assembler, c);
+}
+
 void Transient::drift(Configuration& c, double h) {
   // Heun's step. Both accelerations fit the constraints, so their mean does; the constraints open by a third of the cube of
   // a hundredth of a step at most, and the next step closes them.
   const auto before = context_.motion.accelerations(c);
   c = glide(c, h);
-  std::optional<MasslessMotions> massless;
-  if (has_massless_) massless.emplace(context_.assembler, c);
-  context_.start.balance_accelerations(c, 2, nullptr, massless ? &*massless : nullptr);
+  const MasslessMotions* massless = massless_at(c);
+  context_.start.balance_accelerations(c, 2, nullptr, massless);
   auto v = context_.motion.velocities(c);
   const auto after = context_.motion.accelerations(c);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
   for (const auto& p : context_.motion.prescribed(c.time)) v[p.slot] = p.v;
   context_.motion.set_velocities(v, c);
   const double step = context_.options.step;
-  start_algorithmic_accelerations(c, step, slope_span * step, massless ? &*massless : nullptr);
+  start_algorithmic_accelerations(c, step, slope_span * step, massless);
 }
 
 bool Transient::settle_friction(Configuration& c) {
   if (!context_.grips.violated(c)) return false;
   context_.grips.settle(c, has_massless_);
   context_.solver.reset();  // other constraints, other pivots
-  std::optional<MasslessMotions> massless;
-  if (has_massless_) massless.emplace(context_.assembler, c);
   const double step = context_.options.step;
-  start_algorithmic_accelerations(c, step, slope_span * step, massless ? &*massless : nullptr);
+  start_algorithmic_accelerations(c, step, slope_span * step, massless_at(c));
   return true;
 }
 
 void Transient::refine_grips(Configuration& c) {
   // multipliers of a step are those of the balance between its ends; the force at which a grip gives way is that of its end
   Configuration balanced = c;
-  std::optional<MasslessMotions> massless;
-  if (has_massless_) massless.emplace(context_.assembler, c);
-  context_.start.balance_accelerations(balanced, 3, nullptr, massless ? &*massless : nullptr);
+  context_.start.balance_accelerations(balanced, 3, nullptr, massless_at(c));
   c.multipliers = std::move(balanced.multipliers);
   context_.solver.reset();
 }

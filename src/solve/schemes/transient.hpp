@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
+#include <optional>
 
 #include "solve/schemes/scheme.hpp"
 
@@ -52,6 +52,9 @@ class Transient final : public Scheme {
   /// Positions, velocities and accelerations of motions without mass that fit their balance at the start and a little later.
   void settle(Configuration& c, MasslessMotions& massless, StartReport& report);
 
+  /// The motions without mass at `c`, or nullptr where the model has none; valid until the next call.
+  const MasslessMotions* massless_at(const Configuration& c);
+
   /// Gives `c` the multipliers that balance it at its own instant.
   void refine_grips(Configuration& c);
 
@@ -66,6 +69,7 @@ class Transient final : public Scheme {
   std::vector<double> tried_;        ///< its value at the end of the last attempt
   double tried_step_ = 0;
   bool has_massless_ = false;  ///< the model has motions without mass
+  std::optional<MasslessMotions> massless_;
 };
 
 }  // namespace engrane::solve

@@ -135,21 +135,36 @@ void run_coordinate(ElementType (*type)(), const JointData& plain, Coordinate of
   }
 }
 
+namespace {
+
+/// The card with a friction of which every keyword counts that there is for any joint.
+JointData rubbing(const JointData& plain, const deck::Tagged& law, bool has_radius) {
+  JointData data = plain;
+  data.friction = law;
+  if (has_radius) data.radius = 0.4;
+  data.collar = 0.3;
+  data.bearing_length = 0.9;
+  data.preload = 0.6;
+  return data;
+}
+
+Subject rubbed_subject(const std::string& name, ElementType (*type)(), const JointData& data) {
+  Subject s = joint_subject(name, type, data);
+  s.skip[Check::ideal] = "friction follows the size of the reaction";
+  s.skip[Check::lagrange] = "friction has no potential";
+  return s;
+}
+
+}  // namespace
+
 void run_friction(ElementType (*type)(), const JointData& plain, bool has_radius, double largest) {
   const deck::Tagged laws[] = {{"CONST", {0.3}}, {"STRIBECK", {0.4, 0.25, 0.8, 0.05}}, {"FCT", {1}}};
   for (const deck::Tagged& law : laws)
     for (const double width : {0.02, 20.0}) {
-      JointData data = plain;
-      data.friction = law;
+      JointData data = rubbing(plain, law, has_radius);
       data.friction_width = width;
-      if (has_radius) data.radius = 0.4;
-      data.collar = 0.3;
-      data.bearing_length = 0.9;
-      data.preload = 0.6;
-      Subject s = joint_subject("friction " + law.tag + " of width " + std::to_string(width), type, data);
+      Subject s = rubbed_subject("friction " + law.tag + " of width " + std::to_string(width), type, data);
       s.adjust = [=](StateBuffer& state, Random&) { keep_near(state, largest); };
-      s.skip[Check::ideal] = "friction follows the size of the reaction";
-      s.skip[Check::lagrange] = "friction has no potential";
       run_suite(s);
       if (law.tag == "FCT") continue;  // a wave: may be negative
       const auto element = s.build(Mat3::Identity());
@@ -165,14 +180,9 @@ void run_grips(ElementType (*type)(), const JointData& plain, bool has_radius, b
   const deck::Tagged laws[] = {{"CONST", {0.3, 0.4}}, {"STRIBECK", {0.4, 0.25, 0.8, 0.05}}};
   for (const deck::Tagged& law : laws)
     for (const GripState::Mode mode : {GripState::forward, GripState::backward, GripState::holding}) {
-      JointData data = plain;
-      data.friction = law;
+      JointData data = rubbing(plain, law, has_radius);
       data.sticks = true;
-      if (has_radius) data.radius = 0.4;
-      data.collar = 0.3;
-      data.bearing_length = 0.9;
-      data.preload = 0.6;
-      Subject s = joint_subject("grip " + law.tag + " in mode " + std::to_string(mode), type, data);
+      Subject s = rubbed_subject("grip " + law.tag + " in mode " + std::to_string(mode), type, data);
       const int grips = s.build(Mat3::Identity())->layout().grips;
       s.adjust = [=](StateBuffer& state, Random& random) {
         keep_near(state, largest);
@@ -181,8 +191,6 @@ void run_grips(ElementType (*type)(), const JointData& plain, bool has_radius, b
           if (mode != GripState::holding) state.multipliers[state.multipliers.size() - static_cast<std::size_t>(i) - 1] = 0;
         }
       };
-      s.skip[Check::ideal] = "friction follows the size of the reaction";
-      s.skip[Check::lagrange] = "friction has no potential";
       for (const Check check : {Check::rigid, Check::zero}) s.skip[check] = "it acts at any speed, or holds another place";
       if (!follows) s.skip[Check::power] = "the force is along the thread, which a random state leaves";
       run_suite(s);
