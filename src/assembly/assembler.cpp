@@ -43,11 +43,12 @@ Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm co
   std::vector<int> grips;
   for (int p = 0; p < numbering.parts(); ++p) {
     const Layout& layout = element(p).layout();
-    if (layout.grips == 0) continue;
-    const int first = numbering.multiplier_begin(p) + layout.first_grip();
+    if (layout.grips.empty()) continue;
+    int multiplier = numbering.multiplier_begin(p) + layout.grip_row();
     const std::vector<GripState> states = unfollowed_grips(element(p));
-    for (int i = 0; i < layout.grips; ++i)
-      if (states[static_cast<std::size_t>(i)].mode != GripState::holding) grips.push_back(first + i);
+    for (std::size_t i = 0; i < states.size(); ++i)
+      for (int k = 0; k < layout.grips[i].size; ++k, ++multiplier)
+        if (states[i].mode != GripState::holding) grips.push_back(multiplier);
   }
   set_idle(grips);
   if (size_ > 1) {

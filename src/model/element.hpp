@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <span>
 #include <string>
@@ -76,6 +77,12 @@ struct Switch {
       0;  ///< of the terms that `value` is the sum of: what is rounding, and what is not; 0: the switch has no meaning now
 };
 
+/// A dry friction that can rest.
+struct GripShape {
+  int size = 1;                          ///< how many coordinates its surfaces slide along: 1 to 3
+  std::array<double, 3> lever{1, 1, 1};  ///< of each: speed of sliding over the rate of the coordinate
+};
+
 /// Which unknowns an element works on. Its local slots, in order: those that it asks of each node (three translations, three
 /// material rotation increments; of node 0, the ground, too), its scalars, its multipliers.
 struct Layout {
@@ -84,10 +91,10 @@ struct Layout {
   std::vector<Scalar> scalars;          ///< own unknowns with rates, such as ψ_A, ψ_B, u_m
   std::vector<Multiplier> multipliers;  ///< one per holonomic constraint, in the order of the residual's constraint rows
   int history = 0;                      ///< committed numbers kept from step to step (turn counts, contact states)
-  /// Dry frictions that can rest. The last `grips` multipliers are theirs, with Role::grip: Φ is the coordinate along which the
-  /// surfaces slide less the place where they rest, and the force on it is the friction at rest. The last numbers of the history
-  /// are their GripStates (model/grip.hpp).
-  int grips = 0;
+  /// Dry frictions that can rest. The last multipliers are theirs, with Role::grip, one for each coordinate along which the
+  /// surfaces slide: Φ is the coordinate less the place where they rest, and the force on it is the friction at rest. The last
+  /// numbers of the history are their GripStates (model/grip.hpp).
+  std::vector<GripShape> grips;
   int slides = 0;                     ///< dry frictions that are regularised at rest (Element::sliding)
   std::vector<SwitchNames> switches;  ///< where the element's law is not smooth: dynamics places ends of steps there
 
@@ -107,8 +114,12 @@ struct Layout {
     return count;
   }
   int slots() const { return node_slots() + static_cast<int>(scalars.size() + multipliers.size()); }
-  /// The first multiplier of a grip.
-  int first_grip() const { return static_cast<int>(multipliers.size()) - grips; }
+  /// The first multiplier of a grip, or where those of all other constraints end.
+  int grip_row(std::size_t grip = 0) const {
+    auto row = static_cast<int>(multipliers.size());
+    for (std::size_t i = grip; i < grips.size(); ++i) row -= grips[i].size;
+    return row;
+  }
 
  private:
   int width(std::size_t node) const {

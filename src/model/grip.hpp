@@ -2,44 +2,68 @@
 // Dry friction that can rest (docs/theory.md, "Friction at rest").
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "math/dual.hpp"
 #include "model/element.hpp"
 
 namespace engrane {
 
-/// What a friction that can rest does, as it stands in the history of its element.
+/// What a friction that can rest does, as it stands in the history of its element. Speeds of sliding are the rates of its
+/// coordinates times their levers; entries beyond GripShape::size are zero.
 struct GripState {
-  enum Mode { free = 0, forward = 1, backward = -1, holding = 2 };
-  static constexpr int history = 2;  ///< numbers in the history
-  /// free: no analysis follows it, and friction depends on the speed of sliding alone; forward, backward: it slides in the
-  /// direction in which its coordinate grows or falls, and friction is against that direction; holding: at rest at `held`.
+  enum Mode {
+    free = 0,     ///< no analysis follows it, and friction depends on the speed of sliding alone
+    sliding = 1,  ///< in a known direction, against which friction acts
+    holding = 2   ///< at rest at `held`
+  };
   Mode mode = free;
-  double held = 0;
+  Vec3 held = Vec3::Zero();       ///< coordinates of the place of rest
+  Vec3 direction = Vec3::Zero();  ///< of sliding, a unit vector
+  double speed = 0;               ///< of sliding when the step began; only of several coordinates
 
-  /// That of grip i of `grips`, from the history of the whole element.
-  static GripState of(std::span<const double> history, int grips, int i) {
-    const std::size_t at = place(history.size(), grips, i);
-    return {static_cast<Mode>(static_cast<int>(history[at])), history[at + 1]};
-  }
-  void write(std::span<double> all, int grips, int i) const {
-    const std::size_t at = place(all.size(), grips, i);
-    all[at] = mode;
-    all[at + 1] = held;
-  }
-  bool slides() const { return mode == forward || mode == backward; }
-  /// 1, −1, or 0 where it does not slide in a known direction.
-  int direction() const { return slides() ? mode : 0; }
+  /// Sliding along several coordinates ends where less than this part is left of the speed with which a step began.
+  static constexpr double halt = 0.1;
 
- private:
-  static std::size_t place(std::size_t size, int grips, int i) { return size - static_cast<std::size_t>(history * (grips - i)); }
+  static GripState slides_towards(const Vec3& direction, const Vec3& held = Vec3::Zero()) {
+    return {sliding, held, direction.normalized(), 0};
+  }
+  static GripState holds_at(const Vec3& held) { return {holding, held, Vec3::Zero(), 0}; }
+
+  /// Numbers in the history.
+  static int history(const GripShape& shape) { return 2 + 2 * shape.size; }
+  /// That of a grip, from the history of the whole element.
+  static GripState of(const Layout& layout, std::span<const double> history, std::size_t grip);
+  void write(const Layout& layout, std::span<double> history, std::size_t grip) const;
+
+  /// Of one coordinate: 1, −1, or 0 where it does not slide in a known direction.
+  int sense() const { return mode != sliding ? 0 : direction[0] < 0 ? -1 : 1; }
+  /// Of several coordinates: the unit vector of sliding with u. Near the speed zero, where that would turn at once, the part of u
+  /// along the direction in which the step began counts as no less than half of what ends sliding.
+  template <class T>
+  Vec3T<T> towards(const Vec3T<T>& u, int size) const {
+    using std::sqrt;
+    Vec3T<T> way{T(direction[0]), T(direction[1]), T(direction[2])};
+    if (size == 1 || speed == 0) return way;
+    const double least = halt * speed;
+    const T along = dot(u, way), part = along * (1 / least);
+    way =
+        value_of(part) >= 1 ? u : Vec3T<T>(u + way * (T(least * 0.5) * (value_of(part) > 0 ? T(1 + part * part) : T(1)) - along));
+    return way * (T(1) / sqrt(dot(way, way)));
+  }
 };
 
-/// Adds a grip to a layout whose other multipliers and switches are complete: its multiplier, named and measured as `named`
+/// What a step that ends with the speed of sliding u makes of a sliding grip of several coordinates: its direction, unless it
+/// stops or is about to.
+void follow(GripState& grip, const Vec3& u);
+
+/// Adds a grip to a layout whose other multipliers and switches are complete: its multipliers, named and measured as `named`
 /// says, two switches whose names begin with `where`, and its history.
-void add_grip(Layout& layout, Named named, const std::string& where = "");
+void add_grip(Layout& layout, const std::vector<Named>& named, const GripShape& shape, const std::string& where = "");
+inline void add_grip(Layout& layout, const Named& named) { add_grip(layout, {named}, {}); }
 
 /// What the grips of an element do where no analysis follows them, from Element::start(): most are free, that of a belt holds.
 std::vector<GripState> unfollowed_grips(const Element& element);
@@ -47,9 +71,12 @@ std::vector<GripState> unfollowed_grips(const Element& element);
 /// What a grip does now.
 struct Grip {
   GripState state;
-  double place = 0, speed = 0, acceleration = 0;  ///< of sliding: its coordinate less GripState::held, and its time derivatives
-  double force = 0, limit = 0;                    ///< of friction at rest, and the largest that holds
-  double speeds = 0, accelerations = 0;           ///< sums of what these are differences of: what is rounding
+  GripShape shape;
+  Vec3 place = Vec3::Zero();                        ///< coordinates less GripState::held
+  Vec3 speed = Vec3::Zero(), acceleration = speed;  ///< of sliding
+  Vec3 force = Vec3::Zero();                        ///< of friction at rest, on the speeds of sliding
+  double limit = 0;                                 ///< the largest that holds
+  double speeds = 0, accelerations = 0;             ///< sums of what these are differences of: what is rounding
 };
 /// Of each grip of an element, in the order of its multipliers.
 void find_grips(const Element& element, const State& state, std::span<Grip> grips);

@@ -73,8 +73,8 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
     const Runs<T> runs(*this, a, b, state);
     const auto [first, second] = tensions(runs, [&] {
       const GripState grip = grip_of(state);
-      const T held = balance.constraint(0, runs.roll - grip.held);
-      return grip.mode == GripState::holding ? held : slipping(runs, grip.direction());
+      const T held = balance.constraint(0, runs.roll - grip.held[0]);
+      return grip.mode == GripState::holding ? held : slipping(runs, grip.sense());
     });
     const Vec3T<T> force = runs.tangent[0] * T(-first) - runs.tangent[1] * second;
     const Vec3T<T> moment = runs.turned * (shape_.side * shape_.r2 * (first - second));
@@ -92,7 +92,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
 
   void start(std::span<double>, std::span<double> history) const override {
     std::fill(history.begin(), history.end(), 0.0);
-    if (law_.slips) GripState{GripState::holding, 0}.write(history, 1, 0);
+    if (law_.slips) GripState::holds_at(Vec3::Zero()).write(layout(), history, 0);
   }
   void grip_limits(const State& state, std::span<double> limits) const override {
     if (!law_.slips) return;
@@ -105,7 +105,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
     Energies e;
     if (law_.rigid()) {
       e.potential = 2 * law_.preload * runs.slack_taken;
-      e.dissipated = -slipping(runs, grip_of(state).direction()) * runs.roll_rate;
+      e.dissipated = -slipping(runs, grip_of(state).sense()) * runs.roll_rate;
       return e;
     }
     for (int i = 0; i < 2; ++i) {
@@ -210,7 +210,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
   };
 
   GripState grip_of(const State& state) const {
-    return law_.slips ? GripState::of(state.history, 1, 0) : GripState{GripState::holding, 0};
+    return law_.slips ? GripState::of(layout(), state.history, 0) : GripState::holds_at(Vec3::Zero());
   }
   /// Euler and Eytelwein: tight over slack is at most exp(μ wrap); the difference, with the preload as their mean.
   template <class T>
@@ -231,8 +231,8 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
   }
   double pull(const Runs<double>& runs, const State& state) const {
     const GripState grip = grip_of(state);
-    return grip.mode == GripState::holding ? state.multipliers[0] - state.penalty * (runs.roll - grip.held)
-                                           : slipping(runs, grip.direction());
+    return grip.mode == GripState::holding ? state.multipliers[0] - state.penalty * (runs.roll - grip.held[0])
+                                           : slipping(runs, grip.sense());
   }
 
   /// Elastic tension: a slack span does not push.

@@ -98,17 +98,17 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20> {
   template <class T>
   ToothGrip<T> grip(const T& psi_a, double turns, const State& state, Balance<T, 2>& balance) const {
     if (!contact_.grips()) return {};
-    const GripState now = GripState::of(state.history, 1, 0);
-    const T along = contact_.geometry().slip_per_turn * (psi_a + 2 * std::numbers::pi * turns) - now.held;
+    const GripState now = GripState::of(this->layout(), state.history, 0);
+    const T along = contact_.geometry().slip_per_turn * (psi_a + 2 * std::numbers::pi * turns) - now.held[0];
     const T held = balance.constraint(3, along);
     const bool holds = now.mode == GripState::holding;
-    return {now.direction(), holds, holds ? held : T(0)};
+    return {now.sense(), holds, holds ? held : T(0)};
   }
 
  private:
   const Derived& self() const { return static_cast<const Derived&>(*this); }
   std::size_t deepest(std::size_t history) const {
-    return history - 1 - static_cast<std::size_t>(GripState::history * this->layout().grips);
+    return history - 1 - static_cast<std::size_t>(contact_.grips() ? GripState::history({}) : 0);
   }
 
   std::vector<Named> channels_;

@@ -5,11 +5,8 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"radius of the pin",
-                                   "radius at which its collar rubs; default: it does not",
-                                   "distance of the two bushes that carry bending moments; default: these press nothing",
-                                   false,
-                                   true,
+const FrictionWords friction_words{"radius of the pin", "radius at which its collar rubs; default: it does not",
+                                   "distance of the two bushes that carry bending moments; default: these press nothing", false,
                                    true};
 
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {

@@ -77,6 +77,23 @@ Multiplier multiplier(Measure m) {
   }
 }
 
+/// Adds the grip of a friction, with names for what holds it.
+void name_grip(Layout& layout, const JointFriction& f) {
+  const GripShape shape = f.shape();
+  const std::array coordinates = f.coordinates();
+  std::vector<Named> named;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(shape.size); ++k) {
+    const Measure m = coordinates[k];
+    const std::string axis = f.kind == Rubbing::ball ? std::to_string(k + 1)
+                             : m == Measure::gap_2   ? "2"
+                             : m == Measure::gap_3   ? "3"
+                                                     : "";
+    named.push_back({(is_length(m) ? "GRIP_FORCE" : "GRIP_MOMENT") + (axis.empty() ? f.suffix : "_" + axis), dimension_of(m),
+                     "friction at rest"});
+  }
+  add_grip(layout, named, shape);
+}
+
 bool rubs_along(const JointFriction& f) { return f.kind != Rubbing::journal && f.kind != Rubbing::ball; }
 bool rubs_round(const JointFriction& f) { return f.kind != Rubbing::guide && f.radius > 0; }
 
@@ -146,12 +163,12 @@ void Joint::act(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& b
       if (c.sprung()) add(m, c.spring(m.value, speed, state.time));
       if (c.stop.given()) add(m, c.stop.push(m.value, speed, balance.contact_homotopy()));
     }
-    int grip = 0;
+    std::size_t grip = 0;
     for (const JointFriction& f : parts_.friction) {
       const bool turns = f.kind != Rubbing::guide && f.kind != Rubbing::ball && f.radius > 0;
       const Measured<T> turn = turns ? measured(f.turn, pose, state) : Measured<T>();
       if (f.law.rests) {
-        const JointRub<T> found = rest(f, grip++, pose, carried, carried_moment, turn, rates, state, balance);
+        const JointRub<T> found = rest(f, grip++, pose, carried, carried_moment, turn, normal, rates, state, balance);
         force += found.force;
         moment += found.moment;
         if constexpr (std::is_same_v<T, double>)
@@ -178,15 +195,28 @@ void Joint::act(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& b
 }
 
 template <class T>
-JointRub<T> Joint::rest(const JointFriction& f, int grip, const JointPose<T>& pose, const Vec3T<T>& force, const Vec3T<T>& moment,
-                        const Measured<T>& turn, const JointRates<T>& rates, const State& state, Balance<T, 2>& balance) const {
-  const GripState now = GripState::of(state.history, layout().grips, grip);
+JointRub<T> Joint::rest(const JointFriction& f, std::size_t grip, const JointPose<T>& pose, const Vec3T<T>& force,
+                        const Vec3T<T>& moment, const Measured<T>& turn, const Vec3T<T>& normal, const JointRates<T>& rates,
+                        const State& state, Balance<T, 2>& balance) const {
+  const GripState now = GripState::of(layout(), state.history, grip);
+  const GripShape shape = f.shape();
+  const std::array coordinates = f.coordinates();
+  const int row = layout().grip_row(grip);
+  std::array<Measured<T>, 3> along;
+  Vec3T<T> u(T(0), T(0), T(0)), held = u;
+  for (int k = 0; k < shape.size; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const bool ball = f.kind == Rubbing::ball;
+    along[i] =
+        coordinates[i] == f.turn && !ball ? turn : measured(coordinates[i], ball ? since_rest(pose, now.held) : pose, state);
+    held[k] = balance.constraint(row + k, ball ? along[i].value : T(along[i].value - now.held[k]));
+    u[k] = rate_of(along[i], rates) * shape.lever[i];
+  }
+  if (now.mode == GripState::free) return rub(f, pose, force, moment, turn, normal, rates);
+  if (!f.along_line()) return rub_towards(f, now, pressing(f, pose, force, moment), along, u, held);
   const double lead = parts_.frame.lead;
-  const Measured<T> along = f.kind == Rubbing::guide ? measured(f.coordinate(), pose, state) : turn;
-  const T held = balance.constraint(layout().first_grip() + grip, along.value - now.held);
-  JointRub<T> found = now.mode == GripState::free ? rub(f, pose, force, moment, turn, Vec3T<T>(T(0), T(0), T(0)), rates)
-                                                  : rub_in_direction(f, now.direction(), pose, force, moment, turn, lead, rates);
-  if (now.mode == GripState::holding) rub_along(f, pose, turn, lead, held, found);
+  JointRub<T> found = rub_in_direction(f, now.sense(), pose, force, moment, turn, lead, rates);
+  if (now.mode == GripState::holding) rub_along(f, pose, turn, lead, held[0], found);
   return found;
 }
 
@@ -277,11 +307,7 @@ Joint::Joint(int id, JointParts parts) : TemplatedElement(id), parts_(std::move(
   if (!parts_.friction.empty()) moves_ = has_rates_ = whole_b_ = true;
   for (const JointFriction& f : parts_.friction) {
     layout.slides += f.law.rests ? 0 : 1;
-    if (f.law.rests) {
-      const bool slides = f.kind == Rubbing::guide;
-      add_grip(layout, {(slides ? "GRIP_FORCE" : "GRIP_MOMENT") + f.suffix, slides ? dimension::length : dimension::angle,
-                        "friction at rest"});
-    }
+    if (f.law.rests) name_grip(layout, f);
   }
   layout.history += turn_count::history * static_cast<int>(angles_.size());
   set_layout(std::move(layout));
@@ -300,6 +326,33 @@ void Joint::count_turns(const State& state, std::span<double>, std::span<double>
     const std::size_t at = i * turn_count::history;
     turn_count::commit(measure(angles_[i], parts_.frame, pose).value, state.history.subspan(at, turn_count::history),
                        history.subspan(at, turn_count::history));
+  }
+  // a ball that does not rest: whatever place it stops in is measured from here
+  std::size_t grip = 0;
+  for (const JointFriction& f : parts_.friction) {
+    if (!f.law.rests) continue;
+    GripState now = GripState::of(layout(), state.history, grip++);
+    if (f.kind != Rubbing::ball || now.mode == GripState::holding) continue;
+    Mat3 turned;
+    const std::array from{pose.a1, pose.a2, pose.a3}, to{pose.b1, pose.b2, pose.b3};
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 3; ++c) turned(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = from[r].dot(to[c]);
+    now.held = rotation_log(turned);
+    now.write(layout(), history, grip - 1);
+  }
+}
+
+void Joint::commit(const State& state, std::span<double> scalars, std::span<double> history) const {
+  count_turns(state, scalars, history);
+  const std::vector<GripShape>& shapes = layout().grips;
+  if (std::none_of(shapes.begin(), shapes.end(), [](const GripShape& s) { return s.size > 1; })) return;
+  std::vector<Grip> grips(shapes.size());
+  find_grips(*this, state, grips);
+  for (std::size_t i = 0; i < grips.size(); ++i) {
+    if (grips[i].shape.size == 1) continue;
+    GripState next = GripState::of(layout(), history, i);
+    follow(next, grips[i].speed);
+    next.write(layout(), history, i);
   }
 }
 

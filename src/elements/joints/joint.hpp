@@ -79,6 +79,8 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
 
   void tangent(const State& state, Weights weights, std::span<double> r, std::span<double> k) const override;
   void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
+  /// Keeps the direction of sliding, and for a ball the place.
+  void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void switches(const State& state, std::span<Switch> values) const override;
   void sliding(const State& state, std::span<Vec3> speeds) const override;
   void grip_limits(const State& state, std::span<double> limits) const override;
@@ -104,10 +106,11 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   /// Entry of an angle's turn count in the history, or -1.
   int counted(Measure what) const;
 
-  /// The friction of surfaces that can rest, and the row of their grip.
+  /// The friction of surfaces that can rest, and the rows of their grip.
   template <class T>
-  JointRub<T> rest(const JointFriction& f, int grip, const JointPose<T>& pose, const Vec3T<T>& force, const Vec3T<T>& moment,
-                   const Measured<T>& turn, const JointRates<T>& rates, const State& state, Balance<T, 2>& balance) const;
+  JointRub<T> rest(const JointFriction& f, std::size_t grip, const JointPose<T>& pose, const Vec3T<T>& force,
+                   const Vec3T<T>& moment, const Measured<T>& turn, const Vec3T<T>& normal, const JointRates<T>& rates,
+                   const State& state, Balance<T, 2>& balance) const;
 
   template <class T>
   Measured<T> measured(Measure what, const JointPose<T>& pose, const State& state) const;

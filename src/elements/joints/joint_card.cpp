@@ -48,10 +48,9 @@ void add_joint_friction(JointCard& card, const FrictionWords& words) {
       .synonyms({"V0", "VS"})
       .unit(dimension::velocity)
       .positive();
-  if (words.rests)
-    card.add("STICK", &JointData::sticks,
-             "true sticking instead of VREG: Coulomb's law at every speed; surfaces that stop are held exactly")
-        .synonyms({"ADHERENCE", "COLLE"});
+  card.add("STICK", &JointData::sticks,
+           "true sticking instead of VREG: Coulomb's law at every speed; surfaces that stop are held exactly")
+      .synonyms({"ADHERENCE", "COLLE"});
   if (!words.radius.empty())
     card.add("RADIUS", &JointData::radius, words.radius).synonyms({"RAYON"}).unit(dimension::length).at_least(0);
   if (!words.collar.empty())
@@ -304,11 +303,8 @@ bool add_friction(const JointData& data, const BuildContext& context, JointParts
     return false;
   }
   if (!data.friction_width && !data.sticks) {
-    context.error("FRICTION",
-                  words.rests ? "friction needs STICK, or VREG, the sliding speed below which it is regularised"
-                              : "friction needs VREG, the sliding speed below which it is regularised",
-                  words.rests ? "STICK: surfaces that stop stay at rest; VREG v: they creep by up to v"
-                              : "VREG v, well below the speeds of interest: what ought to rest creeps by up to v");
+    context.error("FRICTION", "friction needs STICK, or VREG, the sliding speed below which it is regularised",
+                  "STICK: surfaces that stop stay at rest; VREG v: they creep by up to v");
     return false;
   }
   if (words.needs_radius && !(data.radius > 0)) {

@@ -99,7 +99,6 @@ struct FrictionWords {
   std::string length = {};  ///< LENGTH
   bool flank = false;       ///< FLANK
   bool needs_radius = true;
-  bool rests = false;  ///< STICK
 };
 void add_joint_friction(JointCard& card, const FrictionWords& words);
 

@@ -8,6 +8,8 @@
 
 #include "elements/common/friction_law.hpp"
 #include "elements/joints/joint_measures.hpp"
+#include "math/rotation.hpp"
+#include "model/grip.hpp"
 
 namespace engrane::elements::joints {
 
@@ -37,8 +39,47 @@ struct JointFriction {
 
   /// The coordinate along which surfaces slide that have but one: its force is the force or moment of friction.
   bool along_line() const { return kind == Rubbing::journal || kind == Rubbing::guide || kind == Rubbing::thread; }
-  Measure coordinate() const { return kind == Rubbing::guide ? Measure::gap_1 : turn; }
+  /// The coordinates along which the surfaces slide, with their levers. The lever of a coordinate that is the only one is 1.
+  GripShape shape() const {
+    const auto count = [this](int slides) { return slides + (radius > 0 ? 1 : 0); };
+    switch (kind) {
+      case Rubbing::sleeve:
+        return {count(1), {1, radius, 1}};
+      case Rubbing::face:
+        return {count(2), {1, 1, radius}};
+      case Rubbing::ball:
+        return {3, {radius, radius, radius}};
+      default:
+        return {};
+    }
+  }
+  std::array<Measure, 3> coordinates() const {
+    switch (kind) {
+      case Rubbing::guide:
+        return {Measure::gap_1};
+      case Rubbing::sleeve:
+        return {Measure::gap_1, turn};
+      case Rubbing::face:
+        return {Measure::gap_2, Measure::gap_3, turn};
+      case Rubbing::ball:
+        return {Measure::turn_1, Measure::turn_2, Measure::turn_3};
+      default:
+        return {turn};
+    }
+  }
 };
+
+/// The pose with B turned back by the rotation vector that took it from A's axes (in these axes) to where it rested.
+template <class T>
+JointPose<T> since_rest(const JointPose<T>& pose, const Vec3& turned) {
+  const Mat3 Q = rotation_exp(turned);
+  JointPose<T> back = pose;
+  const auto axis = [&](Eigen::Index i) { return Vec3T<T>(pose.b1 * Q(i, 0) + pose.b2 * Q(i, 1) + pose.b3 * Q(i, 2)); };
+  back.b1 = axis(0);
+  back.b2 = axis(1);
+  back.b3 = axis(2);
+  return back;
+}
 
 /// Velocity of B's joint point relative to the point of A's body there, and of B's rotation relative to A's.
 template <class T>
@@ -125,6 +166,39 @@ std::array<Pressed<T>, 2> pressed(const JointFriction& f, const JointPose<T>& po
   return {Pressed<T>{N, std::sqrt(lead * lead + f.radius * f.radius)}, none};
 }
 
+/// What presses surfaces together that slide along more than a line.
+template <class T>
+T pressing(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>& F, const Vec3T<T>& M) {
+  if (f.kind == Rubbing::face || f.kind == Rubbing::ball) return joint_friction::size(F) + f.preload;
+  return pressed(f, pose, F, M, 0)[0].normal;
+}
+
+/// Friction on the coordinates of surfaces that slide along more than a line, with u in a known direction, or rest: `held` holds
+/// them.
+template <class T>
+JointRub<T> rub_towards(const JointFriction& f, const GripState& now, const T& N, const std::array<Measured<T>, 3>& along,
+                        const Vec3T<T>& u, const Vec3T<T>& held) {
+  const GripShape shape = f.shape();
+  JointRub<T> out;
+  out.normal = N;
+  out.limit = f.law.static_coefficient(value_of(N)) * value_of(N);
+  Vec3T<T> friction = held;
+  if (now.mode == GripState::sliding) {
+    const Vec3T<T> way = now.towards(u, shape.size);
+    const T speed = dot(way, u), drag = f.law.at(speed, N) * N;
+    friction = way * T(-drag);
+    out.power = drag * speed;
+  }
+  for (std::size_t k = 0; k < static_cast<std::size_t>(shape.size); ++k) {
+    const Measured<T>& m = along[k];
+    T amount = friction[static_cast<Eigen::Index>(k)];
+    if (now.mode == GripState::sliding) amount *= shape.lever[k];
+    if (m.pushes) out.force += m.force * amount;
+    if (m.turns) out.moment += m.moment * amount;
+  }
+  return out;
+}
+
 /// The friction of surfaces that slide along a line in a known direction, or rest (0), without what holds them at rest.
 template <class T>
 JointRub<T> rub_in_direction(const JointFriction& f, int direction, const JointPose<T>& pose, const Vec3T<T>& F,
@@ -177,7 +251,7 @@ JointRub<T> rub(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>
     case Rubbing::thread: {
       const T sliding = dot(pose.a1, rates.slip);
       const Vec3T<T> u = pose.a1 * sliding;
-      const T N = pressed(f, pose, F, M, 0)[0].normal;
+      const T N = pressing(f, pose, F, M);
       if (f.kind == Rubbing::guide) {
         slides(sliding, T(0), T(0));
         add(N, &u, nullptr, sliding * sliding, 0);
@@ -190,7 +264,7 @@ JointRub<T> rub(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>
       break;
     }
     case Rubbing::face: {
-      const T N = size(F) + f.preload;
+      const T N = pressing(f, pose, F, M);
       const Vec3T<T> u = rates.slip - normal * dot(normal, rates.slip);
       if (f.radius == 0) {
         slides(u[0], u[1], u[2]);
@@ -205,7 +279,7 @@ JointRub<T> rub(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>
     }
     case Rubbing::ball:
       slides(rates.spin[0] * f.radius, rates.spin[1] * f.radius, rates.spin[2] * f.radius);
-      add(size(F) + f.preload, nullptr, &rates.spin, square(rates.spin) * r2, r2);
+      add(pressing(f, pose, F, M), nullptr, &rates.spin, square(rates.spin) * r2, r2);
       break;
   }
   return out;

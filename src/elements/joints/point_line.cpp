@@ -5,7 +5,7 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"", "", "", false, false, true};
+const FrictionWords friction_words{"", "", "", false, false};
 
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "joint", PointRule::at_b);

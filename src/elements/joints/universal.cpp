@@ -9,11 +9,8 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"radius of the pins",
-                                   "radius at which the ends of the pins rub; default: they do not",
-                                   "distance of the two bearings of either pin; default: the torque presses nothing",
-                                   false,
-                                   true,
+const FrictionWords friction_words{"radius of the pins", "radius at which the ends of the pins rub; default: they do not",
+                                   "distance of the two bearings of either pin; default: the torque presses nothing", false,
                                    true};
 
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {

@@ -25,8 +25,6 @@ struct Fastest {
   double speed = 0, acceleration = 0;
 };
 
-GripState::Mode towards(double value) { return value < 0 ? GripState::backward : GripState::forward; }
-
 }  // namespace
 
 Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start)
@@ -34,28 +32,36 @@ Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start)
   const auto& parts = assembler.model().parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const Layout& layout = parts[p].element->layout();
-    if (layout.grips == 0) continue;
+    if (layout.grips.empty()) continue;
     const auto part = static_cast<int>(p);
-    places_.push_back({part, layout.grips, assembler.numbering().multiplier_begin(part) + layout.first_grip()});
-    count_ += static_cast<std::size_t>(layout.grips);
+    places_.push_back({part, assembler.numbering().multiplier_begin(part) + layout.grip_row(), &layout});
+    count_ += layout.grips.size();
   }
 }
 
-bool Grips::rests(const Seen& grip) { return std::abs(grip.speed) <= rounding * grip.speeds; }
+bool Grips::rests(const Seen& grip) { return grip.speed.norm() <= rounding * grip.speeds; }
 
 bool Grips::overloaded(const Seen& grip) {
-  return grip.state.mode == GripState::holding && std::abs(grip.force) > (1 + slack) * grip.limit;
+  return grip.state.mode == GripState::holding && grip.force.norm() > (1 + slack) * grip.limit;
 }
 
 bool Grips::dragged(const Seen& grip) {
-  return grip.state.mode == GripState::holding && grip.redundant && std::abs(grip.speed) > slack * grip.speeds;
+  return grip.state.mode == GripState::holding && grip.redundant && grip.speed.norm() > slack * grip.speeds;
 }
 
 bool Grips::pulled(const Seen& grip) {
-  return grip.state.mode == GripState::holding && grip.redundant && std::abs(grip.acceleration) > slack * grip.accelerations;
+  return grip.state.mode == GripState::holding && grip.redundant && grip.acceleration.norm() > slack * grip.accelerations;
 }
 
-bool Grips::turns_back(const Seen& grip) { return grip.state.slides() && grip.speed * grip.state.direction() < 0; }
+bool Grips::turns_back(const Seen& grip) {
+  return grip.state.mode == GripState::sliding && grip.speed.dot(grip.state.direction) < 0;
+}
+
+bool Grips::stops(const Seen& grip) {
+  const Vec3& direction = grip.state.direction;
+  const Vec3 aside = grip.speed - direction * direction.dot(grip.speed);
+  return turns_back(grip) && (grip.shape.size == 1 || aside.norm() <= GripState::halt * grip.state.speed);
+}
 
 std::vector<Grips::Seen> Grips::look(const Configuration& c) const {
   Fastest moving, turning;
@@ -67,19 +73,22 @@ std::vector<Grips::Seen> Grips::look(const Configuration& c) const {
   std::vector<Grip> found;
   std::size_t next = 0;
   for (const Place& place : places_) {
-    const auto count = static_cast<std::size_t>(place.count);
+    const std::size_t count = place.layout->grips.size();
     const Element& element = *assembler_.model().parts[static_cast<std::size_t>(place.part)].element;
     found.resize(count);
     find_grips(element, assembler_.view(place.part, c), found);
+    int multiplier = place.first;
     for (std::size_t i = 0; i < count; ++i) {
-      const int multiplier = place.first + static_cast<int>(i);
-      const bool length = multiplier_unknown(assembler_.numbering(), multiplier).measure == Measure::length;
-      const Fastest& fastest = length ? moving : turning;
       Seen& seen = grips[next++];
       static_cast<Grip&>(seen) = found[i];
-      seen.redundant = assembler_.released(multiplier) && !assembler_.idle(multiplier);
-      seen.speeds = std::max(seen.speeds, fastest.speed);
-      seen.accelerations = std::max(seen.accelerations, fastest.acceleration);
+      for (std::size_t k = 0; k < static_cast<std::size_t>(found[i].shape.size); ++k, ++multiplier) {
+        const bool length = multiplier_unknown(assembler_.numbering(), multiplier).measure == Measure::length;
+        const Fastest& fastest = length ? moving : turning;
+        const double lever = found[i].shape.lever[k];
+        seen.redundant = seen.redundant || (assembler_.released(multiplier) && !assembler_.idle(multiplier));
+        seen.speeds = std::max(seen.speeds, lever * fastest.speed);
+        seen.accelerations = std::max(seen.accelerations, lever * fastest.acceleration);
+      }
     }
   }
   return grips;
@@ -89,16 +98,17 @@ void Grips::write(const std::vector<Seen>& grips, Configuration& c) {
   std::vector<int> idle;
   std::size_t next = 0;
   for (const Place& place : places_) {
-    const auto size =
-        static_cast<std::size_t>(assembler_.model().parts[static_cast<std::size_t>(place.part)].element->layout().history);
-    const auto history =
-        std::span(c.history).subspan(static_cast<std::size_t>(assembler_.numbering().history_begin(place.part)), size);
-    for (int i = 0; i < place.count; ++i) {
-      const GripState& state = grips[next++].state;
-      state.write(history, place.count, i);
-      if (state.mode == GripState::holding) continue;
-      idle.push_back(place.first + i);
-      c.multipliers[static_cast<std::size_t>(place.first + i)] = 0;
+    const auto history = std::span(c.history).subspan(static_cast<std::size_t>(assembler_.numbering().history_begin(place.part)),
+                                                      static_cast<std::size_t>(place.layout->history));
+    int multiplier = place.first;
+    for (std::size_t i = 0; i < place.layout->grips.size(); ++i) {
+      const Seen& grip = grips[next++];
+      grip.state.write(*place.layout, history, i);
+      for (int k = 0; k < grip.shape.size; ++k, ++multiplier) {
+        if (grip.state.mode == GripState::holding) continue;
+        idle.push_back(multiplier);
+        c.multipliers[static_cast<std::size_t>(multiplier)] = 0;
+      }
     }
   }
   assembler_.set_idle(idle);
@@ -116,7 +126,7 @@ bool Grips::strained(const Configuration& c) const {
   if (!any()) return false;
   const std::vector<Seen> grips = look(c);
   return std::any_of(grips.begin(), grips.end(), [](const Seen& grip) {
-    return grip.state.mode == GripState::holding && std::abs(grip.force) > near * grip.limit;
+    return grip.state.mode == GripState::holding && grip.force.norm() > near * grip.limit;
   });
 }
 
@@ -140,30 +150,50 @@ void Grips::fit(Configuration& c, bool massless) {
   start_.balance_accelerations(c, 12, nullptr, none ? &*none : nullptr);
 }
 
+bool Grips::aim(Seen& grip, const Seen& now, Aim& aim) {
+  constexpr double step = 1e-3, aligned = 1e-9;
+  if (grip.shape.size == 1 || aim.found) return false;
+  Vec3& direction = grip.state.direction;
+  const Vec3& a = now.acceleration;
+  const Vec3 beside = a - direction * direction.dot(a);
+  if (aim.tried) aim.slope = std::max(aim.slope, (a - aim.acceleration).norm() / (direction - aim.direction).norm());
+  // friction that hardly lets go turns the direction much more than what pulls it
+  aim.found = beside.norm() <= aligned * std::max(a.norm(), aim.slope);
+  if (aim.found) return false;
+  aim.direction = direction;
+  aim.acceleration = a;
+  direction = (direction + (aim.tried ? Vec3(a / aim.slope) : Vec3(beside.normalized() * step))).normalized();
+  aim.tried = true;
+  return true;
+}
+
 void Grips::settle(Configuration& c, bool massless) {
+  assembler_.count_turns(c);  // a place of rest may be that of the last count
   std::vector<Seen> grips = look(c);
-  // those at rest may hold or slide either way; the others slide on
+  // those at rest may hold or slide any way; the others slide on
   std::vector<bool> at_rest(count_);
   for (std::size_t i = 0; i < count_; ++i) {
     Seen& grip = grips[i];
     GripState& state = grip.state;
-    at_rest[i] = state.mode == GripState::free ? rests(grip) : turns_back(grip) || state.mode == GripState::holding;
+    at_rest[i] = state.mode == GripState::free ? rests(grip) : stops(grip) || state.mode == GripState::holding;
     if (dragged(grip)) {
-      state.mode = towards(grip.speed);
+      state = GripState::slides_towards(grip.speed, state.held);
       at_rest[i] = false;
     } else if (overloaded(grip)) {
-      state.mode = towards(-grip.force);  // friction is against sliding
+      state = GripState::slides_towards(-grip.force, state.held);  // friction is against sliding
     } else if (at_rest[i] && state.mode != GripState::holding) {
-      state = {GripState::holding, state.held + grip.place};
-    } else if (state.mode == GripState::free) {
-      state.mode = towards(grip.speed);
+      state = GripState::holds_at(state.held + grip.place);
+    } else if (state.mode == GripState::free || turns_back(grip)) {
+      state = GripState::slides_towards(grip.speed, state.held);
+      if (grip.shape.size > 1) state.speed = grip.speed.norm();
     }
   }
   // All that is wrong is changed at once first, then one at a time, always the first in the deck: a rule that comes back to no
-  // combination but those of equal right.
+  // combination but those of equal right. Directions are sought where nothing else is wrong.
   const std::size_t together = 3 + count_, most = 3 + 20 * count_;
   std::size_t last = 0;  // that was changed
-  for (std::size_t pass = 0; pass < most; ++pass) {
+  std::vector<Aim> aims(count_);
+  for (std::size_t pass = 0, aimed = 0; pass < most && aimed < most;) {
     write(grips, c);
     fit(c, massless);
     const std::vector<Seen> now = look(c);
@@ -174,22 +204,30 @@ void Grips::settle(Configuration& c, bool massless) {
       const Seen& grip = now[i];
       if (state.mode == GripState::holding) {
         if (pulled(grip))  // what speed it has is that of the time past its event
-          state.mode = towards(grip.acceleration);
+          state = GripState::slides_towards(grip.acceleration, state.held);
         else if (dragged(grip))
-          state.mode = towards(grip.speed);
+          state = GripState::slides_towards(grip.speed, state.held);
         else if (overloaded(grip))
-          state.mode = towards(-grip.force);
+          state = GripState::slides_towards(-grip.force, state.held);
         else
           continue;
-      } else if (grip.acceleration * state.direction() < 0) {
-        state = {GripState::holding, state.held + grip.place};
+      } else if (!aims[i].tried && grip.acceleration.dot(state.direction) < 0) {
+        state = GripState::holds_at(state.held + grip.place);
       } else {
         continue;
       }
       changed = true;
       last = i;
+      aims[i] = Aim();
     }
+    if (changed) {
+      ++pass;
+      continue;
+    }
+    for (std::size_t i = 0; i < count_; ++i)
+      if (at_rest[i] && grips[i].state.mode == GripState::sliding && aim(grips[i], now[i], aims[i])) changed = true;
     if (!changed) return;
+    ++aimed;
   }
   throw SolutionFailure(
       fmt::format("t = {:.6g}: no combination of sticking and sliding contacts satisfies the equations; {} is one of them. "
@@ -199,11 +237,11 @@ void Grips::settle(Configuration& c, bool massless) {
 
 std::string Grips::name(std::size_t grip) const {
   for (const Place& place : places_) {
-    if (grip < static_cast<std::size_t>(place.count)) {
+    if (grip < place.layout->grips.size()) {
       const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(place.part)];
       return fmt::format("{} {}", part.type, part.element->id());
     }
-    grip -= static_cast<std::size_t>(place.count);
+    grip -= place.layout->grips.size();
   }
   return {};
 }

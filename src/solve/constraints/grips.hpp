@@ -27,21 +27,32 @@ class Grips {
 
  private:
   struct Place {
-    int part, count, first;  ///< first: multiplier, of the model
+    int part, first;  ///< first: multiplier, of the model
+    const Layout* layout;
   };
   /// A grip, with `speeds` and `accelerations` those of the fastest node.
   struct Seen : Grip {
     bool redundant = false;  ///< holds, but other constraints hold the same
   };
+  /// The search for the direction in which a grip of several coordinates begins to slide.
+  struct Aim {
+    Vec3 direction = Vec3::Zero(), acceleration = direction;  ///< as tried last
+    double slope = 0;                                         ///< of the acceleration over the direction; 0: not known yet
+    bool tried = false, found = false;
+  };
   static bool rests(const Seen& grip);
   static bool overloaded(const Seen& grip);
   static bool turns_back(const Seen& grip);
+  /// Does a grip that turns back come to rest, or only slide on elsewhere?
+  static bool stops(const Seen& grip);
   /// Do the others move what it holds, or begin to? Then it holds nothing.
   static bool dragged(const Seen& grip);
   static bool pulled(const Seen& grip);
 
   std::vector<Seen> look(const Configuration& c) const;
   void write(const std::vector<Seen>& grips, Configuration& c);
+  /// Changes the direction of a grip that begins to slide, until it accelerates that way; false where it does.
+  static bool aim(Seen& grip, const Seen& now, Aim& aim);
   void fit(Configuration& c, bool massless);
   /// "HINGE 3", whose grip it is.
   std::string name(std::size_t grip) const;

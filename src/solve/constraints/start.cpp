@@ -459,8 +459,9 @@ void Start::verify_balance(const Configuration& c, std::span<const double> unbal
   const Numbering& numbering = assembler_.numbering();
   // without friction there always are such accelerations
   const auto& parts = assembler_.model().parts;
-  if (std::none_of(parts.begin(), parts.end(),
-                   [](const Model::Part& part) { return part.element->layout().slides > 0 || part.element->layout().grips > 0; }))
+  if (std::none_of(parts.begin(), parts.end(), [](const Model::Part& part) {
+        return part.element->layout().slides > 0 || !part.element->layout().grips.empty();
+      }))
     return;
   assembler_.residual(c, right_);
   const double extent = assembler_.model().extent();

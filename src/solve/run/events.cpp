@@ -91,7 +91,7 @@ std::vector<Event> Switches::take(const Configuration& c) {
 void Switches::renew(const Configuration& c) {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Layout& layout = context_.model.parts[static_cast<std::size_t>(places_[i].part)].element->layout();
-    if (places_[i].index >= static_cast<int>(layout.switches.size()) - 2 * layout.grips) side_[i] = 0;
+    if (places_[i].index >= static_cast<int>(layout.switches.size() - 2 * layout.grips.size())) side_[i] = 0;
   }
   take(c);
 }

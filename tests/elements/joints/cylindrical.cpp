@@ -54,6 +54,7 @@ TEST(Cylindrical, SuiteWithAllOptions) {
 }
 
 TEST(Cylindrical, SuiteWithFriction) { run_friction(cylindrical_type, joint_data(1, 2)); }
+TEST(Cylindrical, SuiteAtRestAndSliding) { run_grips(cylindrical_type, joint_data(1, 2)); }
 
 TEST(Cylindrical, Extremes) { run_joint_extremes(cylindrical_type, joint_data(1, 2)); }
 

@@ -49,6 +49,7 @@ TEST(Planar, SuiteWithAllOptions) {
 }
 
 TEST(Planar, SuiteWithFriction) { run_friction(planar_type, joint_data(1, 2)); }
+TEST(Planar, SuiteAtRestAndSliding) { run_grips(planar_type, joint_data(1, 2)); }
 
 TEST(Planar, Extremes) { run_joint_extremes(planar_type, joint_data(1, 2)); }
 

@@ -22,6 +22,7 @@ TEST(PointPlane, SuiteWithAllOptions) {
 }
 
 TEST(PointPlane, SuiteWithFriction) { run_friction(point_plane_type, joint_data(1, 2)); }
+TEST(PointPlane, SuiteAtRestAndSliding) { run_grips(point_plane_type, joint_data(1, 2)); }
 
 TEST(PointPlane, Extremes) { run_joint_extremes(point_plane_type, joint_data(1, 2)); }
 

@@ -15,6 +15,7 @@ TEST(Spherical, Suite) {
 }
 
 TEST(Spherical, SuiteWithFriction) { run_friction(spherical_type, joint_data(1, 2)); }
+TEST(Spherical, SuiteAtRestAndSliding) { run_grips(spherical_type, joint_data(1, 2)); }
 
 TEST(Spherical, FrictionAgainstTheSpin) {
   JointData data;
