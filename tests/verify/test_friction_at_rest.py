@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from runs import run
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 SLOPE = """
 .NOE
@@ -239,6 +240,244 @@ def test_a_drive_moves_what_friction_would_hold(tmp_path: Path) -> None:
     clear = np.abs(speed) > 0.01
     expected = -2 * 0.9 * np.sin(3 * t) + 0.5 * 2 * 9 * np.sign(speed)
     assert result["1/SLIDE_DRIVE"][clear] == pytest.approx(expected[clear], abs=0.1)
+
+
+def sliding(rates, start: list[float], end: float, levers: np.ndarray):
+    """Integrates q' = v, v' = rates(q, v, n) with n the unit vector of sliding levers·v until it stops;
+    q as a function of time."""
+    size = len(start) // 2
+
+    def slides(_, s):
+        u = levers * s[size:]
+        return [*s[size:], *rates(s[:size], s[size:], u / np.linalg.norm(u))]
+
+    slowest = lambda _, s: np.linalg.norm(levers * s[size:]) - 1e-9  # noqa: E731
+    slowest.terminal, slowest.direction = True, -1
+    done = solve_ivp(slides, (0, end), start, events=slowest, rtol=1e-12, atol=1e-14, dense_output=True)
+    return done.t[-1], lambda t: np.array([done.sol(min(one, done.t[-1]))[:size] for one in np.atleast_1d(t)])
+
+
+def order_of(
+    deck: str, tmp_path: Path, channels: list[str], expected, stop: float, step: float
+) -> list[float]:
+    """Largest errors of the channels with two steps; that they are held where sliding has stopped."""
+    errors = []
+    for h in (step, step / 2):
+        result = run(deck.format(h=h), tmp_path)
+        found = np.stack([result[c] for c in channels], axis=1)
+        errors.append(np.abs(found - expected(result.t)).max())
+        assert np.ptp(found[result.t > stop + step], axis=0).max() < 1e-14
+    return errors
+
+
+PUCK = """
+.NOE
+ I 1
+.MCE
+ I 1 POINT_PLANE N 0 1 AXIS 0 0 1 DIR 1 0 0 FRICTION CONST 0.5 STICK
+ I 2 INERTIA N 1 M 2 J 0.1 0.1 0.1
+.CLM STRU ACC VAL 0 {slope} -9
+.INI
+ VIT NOEUD 1 C 1 V 1
+ VIT NOEUD 1 C 2 V 0.7
+.SAM TYPE DYNAMIC RHO 0.8
+.SUB TF 0.5 H {h}
+.FIN 1
+"""
+
+
+def test_a_puck_stops_on_a_plane(tmp_path: Path) -> None:
+    """Its path is straight."""
+    result = run(PUCK.format(slope=0, h=0.013), tmp_path)
+    speed = np.hypot(1, 0.7)
+    stop = speed / (0.5 * 9)
+    t = np.minimum(result.t, stop)
+    way = (speed * t - 0.5 * 9 * t**2 / 2) / speed
+    assert np.abs(result["node/1/UX"] - way).max() < 1e-9  # the instant of rest is found to 1e-6 of H
+    assert np.abs(result["node/1/UY"] - 0.7 * way).max() < 1e-9
+    assert np.abs(result["node/1/VX"][result.t > stop + 1e-6]).max() < 1e-15
+    assert result["run/DISSIPATED_ENERGY"][-1] == pytest.approx(0.5 * 2 * speed**2, rel=1e-6)
+
+
+def test_a_puck_turns_down_a_slope_and_stops(tmp_path: Path) -> None:
+    """Thrown across a slope that holds it at rest: the direction of sliding turns until the puck stops."""
+    stop, expected = sliding(lambda q, v, n: -0.5 * 9 * n + [0, -3], [0, 0, 1, 0.7], 1, np.ones(2))
+    deck = PUCK.format(slope=-3, h="{h}")
+    errors = order_of(deck, tmp_path, ["node/1/UX", "node/1/UY"], expected, stop, 0.0065)
+    assert errors[1] < 1e-5
+    assert np.log2(errors[0] / errors[1]) > 1.9
+
+
+def test_a_shaft_stops_in_its_sleeve(tmp_path: Path) -> None:
+    """It slides and turns, with a radius of gyration 1.5 times the radius at which it rubs."""
+    deck = """
+.NOE
+ I 1
+.MCE
+ I 1 CYLINDRICAL N 0 1 AXIS 1 0 0 FRICTION CONST 0.5 STICK RADIUS 0.2
+ I 2 INERTIA N 1 M 2 J 0.18 0.1 0.1
+.CLM STRU ACC VAL 0 -9 0
+.INI
+ VIT NOEUD 1 C 1 V 1
+ VIT NOEUD 1 C 4 V 4
+.SAM TYPE DYNAMIC RHO 0.9
+.SUB TF 0.8 H {h}
+.FIN 1
+"""
+    levers = np.array([1, 0.2])
+    stop, expected = sliding(lambda q, v, n: -9 * n * levers / [2, 0.18], [0, 0, 1, 4], 1, levers)
+    errors = order_of(deck, tmp_path, ["1/SLIDE", "1/ANGLE"], expected, stop, 0.01)
+    assert errors[1] < 1e-5
+    assert np.log2(errors[0] / errors[1]) > 1.9
+
+
+def test_a_disc_stops_on_a_plane(tmp_path: Path) -> None:
+    """It slides and spins on a slope."""
+    deck = """
+.NOE
+ I 1
+.MCE
+ I 1 PLANAR N 0 1 AXIS 0 0 1 DIR 1 0 0 FRICTION CONST 0.5 STICK RADIUS 0.1
+ I 2 INERTIA N 1 M 2 J 0.1 0.1 0.01
+.CLM STRU ACC VAL 0 -3 -9
+.INI
+ VIT NOEUD 1 C 1 V 0.5
+ VIT NOEUD 1 C 2 V 0.7
+ VIT NOEUD 1 C 6 V -4
+.SAM TYPE DYNAMIC RHO 0.9
+.SUB TF 0.8 H {h}
+.FIN 1
+"""
+    levers = np.array([1, 1, 0.1])
+    stop, expected = sliding(
+        lambda q, v, n: -9 * n * levers / [2, 2, 0.01] + [0, -3, 0], [0, 0, 0, 0.5, 0.7, -4], 1, levers
+    )
+    errors = order_of(deck, tmp_path, ["node/1/UX", "node/1/UY", "node/1/RZ"], expected, stop, 0.005)
+    assert errors[1] < 3e-5
+    assert np.log2(errors[0] / errors[1]) > 1.9
+
+
+def test_a_body_tumbles_to_rest_in_its_socket(tmp_path: Path) -> None:
+    """Euler's equations with the moment of a ball against the spin."""
+    deck = """
+.NOE
+ I 1
+.MCE
+ I 1 SPHERICAL N 0 1 FRICTION CONST 0.4 STICK RADIUS 0.05 PRELOAD 100
+ I 2 INERTIA N 1 M 2 J 0.3 0.2 0.1
+.INI
+ VIT NOEUD 1 C 4 V 5
+ VIT NOEUD 1 C 5 V -3
+ VIT NOEUD 1 C 6 V 4
+.SAM TYPE DYNAMIC RHO 0.9
+.SUB TF 1.2 H {h}
+.FIN 1
+"""
+    inertia = np.array([0.3, 0.2, 0.1])
+
+    def tumbles(_, s):
+        spin = s[:3]
+        n = spin / np.linalg.norm(spin)
+        return (np.cross(inertia * spin, spin) - 0.4 * 100 * 0.05 * n) / inertia
+
+    slowest = lambda _, s: np.linalg.norm(s) - 1e-9  # noqa: E731
+    slowest.terminal = True
+    exact = solve_ivp(tumbles, (0, 2), [5, -3, 4], events=slowest, rtol=1e-12, atol=1e-14, dense_output=True)
+    assert exact.t[-1] < 1
+    errors = []
+    for h in (0.004, 0.002):
+        result = run(deck.format(h=h), tmp_path)
+        spin = np.array([exact.sol(t) * (t < exact.t[-1]) for t in result.t])
+        found = np.linalg.norm([result[f"node/1/W{axis}"] for axis in "XYZ"], axis=0)
+        speeds = np.abs(found - np.linalg.norm(spin, axis=1)).max()
+        energies = np.abs(result["2/KINETIC_ENERGY"] - 0.5 * spin**2 @ inertia).max()
+        errors.append(max(speeds, energies))
+        rest = result.t > exact.t[-1] + 0.004
+        assert found[rest].max() < 1e-12
+        assert np.ptp(result["node/1/RX"][rest]) < 1e-14
+    assert errors[1] < 1e-4
+    assert np.log2(errors[0] / errors[1]) > 1.9
+
+
+def test_a_disc_breaks_away_in_the_direction_of_least_resistance(tmp_path: Path) -> None:
+    """A force off the centre grows until a disc lets go, which then slides and spins: with less friction at
+    once, so that the direction in which it begins differs from that of the friction that held it."""
+    deck = """
+.NOE
+ I 1
+.MCE
+ I 1 PLANAR N 0 1 AXIS 0 0 1 DIR 1 0 0 FRICTION CONST 0.3 0.5 STICK RADIUS 0.1
+ I 2 INERTIA N 1 M 2 J 0.1 0.1 0.04
+ I 3 FORCE N 1 DIR 1 0 0 V 10 NF 1
+ I 4 TORQUE N 1 AXIS 0 0 1 V 0.6 NF 1
+.FCT I 1 EXPR "T"
+.CLM STRU ACC VAL 0 0 -9
+.SAM TYPE DYNAMIC RHO 0.9
+.SUB TF 1 H {h}
+.FIN 1
+"""
+    levers, mass, load = np.array([1, 0.1]), np.array([2, 0.04]), np.array([10, 0.6])
+    away = 0.5 * 18 / np.linalg.norm(load / levers)
+
+    def accelerates(t, n):
+        return (load * t - 0.3 * 18 * n * levers) / mass
+
+    # the direction that accelerates into itself
+    angle = brentq(
+        lambda a: np.dot(
+            levers * accelerates(away, np.array([np.cos(a), np.sin(a)])), [-np.sin(a), np.cos(a)]
+        ),
+        0.1,
+        1.4,
+        xtol=1e-15,
+    )
+
+    def slides(t, s):
+        u = levers * s[2:]
+        speed = np.linalg.norm(u)
+        n = u / speed if t > away + 1e-6 else np.array([np.cos(angle), np.sin(angle)])
+        return [*s[2:], *accelerates(t, n)]
+
+    exact = solve_ivp(
+        slides, (away, 1), [0, 0, 0, 0], rtol=1e-10, atol=1e-13, max_step=0.01, dense_output=True
+    )
+    errors = []
+    for h in (0.0025, 0.00125):
+        result = run(deck.format(h=h), tmp_path)
+        expected = np.array([exact.sol(t)[:2] if t > away else [0, 0] for t in result.t])
+        found = np.stack([result["node/1/UX"], result["node/1/RZ"]], axis=1)
+        errors.append(np.abs(found - expected).max())
+        assert np.abs(found[result.t < away]).max() < 1e-14
+    assert errors[1] < 1e-6
+    assert np.log2(errors[0] / errors[1]) > 1.9
+
+
+SLAB = """
+.NOE
+ I 1
+ I 2 X 1 0 0
+ I 3 X -0.5 0.8 0
+ I 4 X -0.5 -0.8 0
+.MCE
+ I 1 POINT_PLANE N 0 1 AXIS 0 0 1 AT 1 0 0 DIR 1 0 0 FRICTION CONST 0.5 STICK
+ I 2 POINT_PLANE N 0 1 AXIS 0 0 1 AT -0.5 0.8 0 DIR 1 0 0 FRICTION CONST 0.5 STICK
+ I 3 POINT_PLANE N 0 1 AXIS 0 0 1 AT -0.5 -0.8 0 DIR 1 0 0 FRICTION CONST 0.5 STICK
+ I 4 INERTIA N 1 M 2 J 0.1 0.1 0.2
+.CLM STRU ACC VAL {slope} 0 -9
+.SAM TYPE DYNAMIC RHO 0.9
+.SUB TF 0.5 H 0.01
+.FIN 1
+"""
+
+
+def test_a_slab_on_three_feet(tmp_path: Path) -> None:
+    """Three feet hold a slab in six directions of which three are redundant: the least forces."""
+    rests = run(SLAB.format(slope=4), tmp_path)
+    assert np.abs(rests["node/1/UX"]).max() < 1e-15
+    for foot in (1, 2, 3):
+        assert rests[f"{foot}/FRICTION_FORCE"][1:] == pytest.approx(8 / 3, rel=1e-9)
+    slides = run(SLAB.format(slope=5), tmp_path)
+    assert slides["node/1/UX"] == pytest.approx(0.5 * (5 - 4.5) * slides.t**2, rel=1e-9, abs=1e-12)
 
 
 @pytest.mark.parametrize("ranks", [2, 3])

@@ -97,7 +97,8 @@ void RackPinion::mesh(const Motion<T, 2>& motion, const State& state, Balance<T,
   const double lever_a = geometry_.design.lever(0), lever_b = geometry_.sense * std::cos(geometry_.design.helix[1]);
   const T closing = -(lever_a * (psi + turn * state.history[0]) + lever_b * travel);
   ToothLoads<T> loads;
-  const T normal_force = contact_.act(motion, a, b, closing, balance, {}, loads, report);
+  const T normal_force =
+      contact_.act(motion, a, b, closing, balance, this->grip(psi, state.history[0], state, balance), loads, report);
   balance.scalar(0, contact_.cos_alpha() * lever_a * normal_force + dot(a.axle, loads.frame_moment[0]));
   // the travel shifts the contact point along the rack by −s ξ₃
   balance.scalar(1, contact_.cos_alpha() * lever_b * normal_force - geometry_.sense * dot(b.forward, loads.frame_force));

@@ -326,17 +326,15 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
   friction.rolling = data.rolling;
   friction.profile = data.sliding.is("PROFILE");
   const ContactGeometry& g = owner.geometry;
-  if (data.sticks && (data.friction_width || friction.profile || friction.rolling > 0)) {
-    context.error("STICK",
-                  fmt::format("STICK beside {}", data.friction_width ? "VREG"
-                                                 : friction.profile  ? "SLIDING PROFILE"
-                                                                     : "ROLLING"),
-                  "STICK acts at the pitch point and needs no width: remove one of the two");
+  if (data.sticks && (data.friction_width || friction.rolling > 0)) {
+    context.error("STICK", fmt::format("STICK beside {}", data.friction_width ? "VREG" : "ROLLING"),
+                  data.friction_width ? "STICK needs no width: remove one of the two"
+                                      : "rolling resistance needs a width, VREG: remove one of the two");
     return false;
   }
-  if (data.sticks && g.slip_per_turn == 0) {
+  if (data.sticks && !friction.profile && g.slip_per_turn == 0) {
     context.error("STICK", "these teeth do not slide at the pitch point: there is nothing to hold",
-                  "STICK is for axles that cross or pass each other, such as those of a worm; remove it");
+                  owner.path_known ? "with SLIDING PROFILE flanks slide before and behind it" : "give VREG instead");
     return false;
   }
   if (friction.profile && !owner.path_known) {

@@ -93,13 +93,19 @@ ToothedSide<T> toothed_wheel(const Mat3& triad, const Mat3& tooth, double radius
   return w;
 }
 
-/// What friction that can rest does at the pitch point (GripState): the direction of sliding, and the force that holds it.
+/// What friction that can rest does (GripState): the direction of sliding, and the force that holds it.
 template <class T>
 struct ToothGrip {
   int direction = 0;  ///< 1: as when ψ_A grows
   bool holds = false;
-  T force = T(0);  ///< on A along the sliding of A on B
+  T force = T(0);  ///< on A along the sliding of A on B, over ToothContact::grip_lever()
+
+  /// Does friction depend on the velocities alone?
+  bool free() const { return direction == 0 && !holds; }
 };
+
+template <class T>
+struct FlankPairs;
 
 /// Forces of the teeth on A; B gets the opposite. Moments on A and B about their nodes. What belongs to the pair's frame also
 /// acts on the coordinate by which a body moves relative to it; what acts on the bodies does not.
@@ -164,6 +170,9 @@ class ToothContact {
         const ToothGrip<T>& grip, ToothLoads<T>& loads, ContactReport* report) const;
   /// Can the friction rest?
   bool grips() const { return options_.friction && options_.friction->law.rests; }
+  /// The coordinate of the friction that rests is this times ψ_A: how far A slides on B at the pitch point, or, where flanks roll
+  /// there and slide elsewhere, the way on the pitch circle.
+  double grip_lever() const { return options_.friction->profile ? geometry_.radius : geometry_.slip_per_turn; }
 
   /// Where the force between flanks is not smooth: both ends of each rounded corner, or the corner itself, and where the
   /// damping of a flank in contact is limited. None with slices, which come into contact one after another.
@@ -180,6 +189,15 @@ class ToothContact {
   void rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap, const T& force_1,
            const ToothGrip<T>& grip, ToothLoads<T>& loads, ContactReport* report) const;
 
+  /// The path of contact along the line of action, from the pitch point, and the width over which flanks come and go.
+  struct Path {
+    double low, high, edge;
+  };
+  /// `sense`: 1 where flanks in front of A's teeth carry, −1 where those behind them do.
+  Path path(double sense) const;
+  template <class T>
+  FlankPairs<T> flanks(const T& psi_a, double sense) const;
+
   ContactGeometry geometry_;
   ToothLaw law_;
   ContactOptions options_;
@@ -190,3 +208,4 @@ class ToothContact {
 }  // namespace engrane::elements::gears
 
 #include "elements/gears/tooth_contact_forces.hpp"
+#include "elements/gears/tooth_friction_forces.hpp"

@@ -99,7 +99,7 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20> {
   ToothGrip<T> grip(const T& psi_a, double turns, const State& state, Balance<T, 2>& balance) const {
     if (!contact_.grips()) return {};
     const GripState now = GripState::of(this->layout(), state.history, 0);
-    const T along = contact_.geometry().slip_per_turn * (psi_a + 2 * std::numbers::pi * turns) - now.held[0];
+    const T along = contact_.grip_lever() * (psi_a + 2 * std::numbers::pi * turns) - now.held[0];
     const T held = balance.constraint(3, along);
     const bool holds = now.mode == GripState::holding;
     return {now.sense(), holds, holds ? held : T(0)};

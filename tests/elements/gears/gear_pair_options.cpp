@@ -4,6 +4,7 @@
 
 #include "elements/gears/gear_pair_cases.hpp"
 #include "elements/suite.hpp"
+#include "model/grip.hpp"
 
 namespace engrane::elements::gears {
 namespace {
@@ -124,6 +125,44 @@ TEST(GearOptions, SuiteOfFriction) {
         s.skip[Check::ideal] = "friction and the separating force are not gradients of constraints";
         run_suite(s);
       }
+}
+
+/// States of a friction that can rest: sliding either way, where its multiplier is zero, or held.
+void follow_grip(Subject& s, const Layout& layout, GripState::Mode mode) {
+  s.adjust = [=, before = s.adjust](StateBuffer& state, Random& random) {
+    if (before) before(state, random);
+    const Vec3 direction(uniform(random) < 0 ? -1 : 1, 0, 0), held(0.1 * uniform(random), 0, 0);
+    (mode == GripState::holding ? GripState::holds_at(held) : GripState::slides_towards(direction, held))
+        .write(layout, state.history, 0);
+    if (mode == GripState::sliding) state.multipliers.back() = 0;
+  };
+  s.skip[Check::ideal] = "friction and the separating force are not gradients of constraints";
+  for (const Check check : {Check::rigid, Check::zero}) s.skip[check] = "friction acts at any speed, or holds another place";
+}
+
+TEST(GearOptions, SuiteOfFrictionAtRest) {
+  const std::string profile = "PROFILE", pitch;
+  for (const auto& [kind, sliding] : {std::pair{worm(), pitch},
+                                      {hypoid(), pitch},
+                                      {crossed(), pitch},
+                                      {spur(), profile},
+                                      {helical(), profile},
+                                      {internal(), profile},
+                                      {bevel(), profile}})
+    for (const GripState::Mode mode : {GripState::sliding, GripState::holding}) {
+      Case c = kind;
+      c.name += " at rest, mode " + std::to_string(mode);
+      c.data.friction = {"STRIBECK", {0.2, 0.1, 0.5, 0.01}};
+      c.data.sticks = true;
+      c.data.sliding.tag = sliding;
+      Subject s = near(c, 1, 3);
+      s.states = 8;
+      s.step = 2e-5;
+      s.tolerance = 1e-6;
+      follow_grip(s, s.build(Mat3::Identity())->layout(), mode);
+      if (mode == GripState::holding) s.skip[Check::power] = "a random state leaves the way along which the flanks are held";
+      run_suite(s);
+    }
 }
 
 TEST(GearOptions, SuiteOfSlidingProfiles) {

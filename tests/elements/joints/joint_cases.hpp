@@ -54,9 +54,10 @@ void run_coordinate(ElementType (*type)(), const JointData& plain, Coordinate of
 /// suite's; here that the power is lost, and no more than there is friction.
 void run_friction(ElementType (*type)(), const JointData& plain, bool has_radius = true, double largest = 2);
 
-/// Friction that can rest (STICK): sliding either way, where its multiplier is zero, and held. `follows`: the force that holds is
-/// along the gradient of the coordinate.
-void run_grips(ElementType (*type)(), const JointData& plain, bool has_radius = true, bool follows = true, double largest = 2);
+/// Friction that can rest (STICK): sliding in any direction, where its multipliers are zero, and held. `skip`: what these states do
+/// not fulfil, with the reason.
+void run_grips(ElementType (*type)(), const JointData& plain, bool has_radius = true,
+               const std::map<Check, std::string>& skip = {}, double largest = 2);
 
 /// Long and short, with any stiffness, through 1e6 turns.
 void run_joint_extremes(ElementType (*type)(), const JointData& wished);

@@ -54,7 +54,9 @@ TEST(Screw, SuiteWithAllOptions) {
 }
 
 TEST(Screw, SuiteWithFriction) { run_friction(screw_type, joint_data(1, 2)); }
-TEST(Screw, SuiteAtRestAndSliding) { run_grips(screw_type, joint_data(1, 2), true, false); }
+TEST(Screw, SuiteAtRestAndSliding) {
+  run_grips(screw_type, joint_data(1, 2), true, {{Check::power, "the force is along the thread, which a random state leaves"}});
+}
 
 TEST(Screw, Extremes) { run_joint_extremes(screw_type, joint_data(1, 2)); }
 
