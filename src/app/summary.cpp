@@ -17,12 +17,14 @@ using namespace output;
 BuiltSummary summarize(const Model& model, const Numbering& numbering) {
   BuiltSummary summary;
   std::map<std::string, BuiltSummary::ElementCount> counts;
+  std::size_t held_by_friction = 0;  // no constraints while their surfaces slide
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Layout& layout = model.parts[p].element->layout();
     auto& count = counts[model.parts[p].type];
     ++count.count;
     count.scalars += layout.scalars.size();
     count.constraints += layout.multipliers.size();
+    for (const GripShape& grip : layout.grips) held_by_friction += static_cast<std::size_t>(grip.size);
     std::size_t active = 0;
     for (const int slot : numbering.part_slots(static_cast<int>(p))) active += numbering.equation(slot) >= 0;
     summary.nonzeros += active * active;
@@ -57,8 +59,9 @@ BuiltSummary summarize(const Model& model, const Numbering& numbering) {
     ++summary.prescribed;
   }
   const auto motions = summary.translations + summary.rotations + summary.scalars - summary.prescribed;
+  const auto constraints = summary.multipliers - held_by_friction;
   summary.choices.emplace_back("motions less constraints",
-                               std::to_string(static_cast<long>(motions) - static_cast<long>(summary.multipliers)));
+                               std::to_string(static_cast<long>(motions) - static_cast<long>(constraints)));
   return summary;
 }
 

@@ -49,9 +49,11 @@ struct GripState {
     Vec3T<T> way{T(direction[0]), T(direction[1]), T(direction[2])};
     if (size == 1 || speed == 0) return way;
     const double least = halt * speed;
-    const T along = dot(u, way), part = along * (1 / least);
-    way =
-        value_of(part) >= 1 ? u : Vec3T<T>(u + way * (T(least * 0.5) * (value_of(part) > 0 ? T(1 + part * part) : T(1)) - along));
+    const T along = dot(u, way), x = along * (1 / least);
+    if (value_of(x) >= 1) return u * T(1 / sqrt(dot(u, u)));
+    // at x = 1 value, slope and curvature are those of x
+    const T kept = value_of(x) <= 0 ? T(0.5) : T(0.5 + x * x * x * (1 - 0.5 * x));
+    way = u + way * T(least * kept - along);
     return way * (T(1) / sqrt(dot(way, way)));
   }
 };

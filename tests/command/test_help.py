@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Help, and what is said of decks that are hardly decks."""
+"""Help, pages, and what is said of decks that are hardly decks."""
+
+import itertools
+import re
+from pathlib import Path
 
 
 def test_help_takes_words(engrane):
@@ -34,3 +38,19 @@ def test_an_empty_deck_is_not_run(engrane):
     done = engrane("empty.dat")
     assert (done.returncode, "is empty" in done.stderr) == (1, True)
     assert not (engrane.folder / "empty.h5").exists()
+
+
+def test_the_pages_name_files_that_exist():
+    """Paths in the pages of docs/ may have * and {a,b}; adding.md names files that the reader is to make."""
+    root = Path(__file__).parents[2]
+    missing = []
+    for page in [root / "README.md", *sorted((root / "docs").rglob("*.md"))]:
+        if page.name == "adding.md" or page.parent.name in ("decisions", "changes"):
+            continue
+        for path in re.findall(r"\b(?:decks|tests|src)/[\w/*.{},-]*\w", page.read_text()):
+            parts = re.split(r"\{(.*?)\}", path)
+            choices = itertools.product(
+                *([part] if i % 2 == 0 else part.split(",") for i, part in enumerate(parts))
+            )
+            missing += [f"{page.name}: {path}" for one in choices if not any(root.glob("".join(one)))]
+    assert not missing

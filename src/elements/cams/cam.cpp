@@ -186,14 +186,19 @@ std::unique_ptr<CamCurve> table_curve(const CamData& data, const BuildContext& c
   return curve_through(points);
 }
 
-bool find_friction(const CamData& data, const BuildContext& context, double size, CamParts& parts) {
+bool find_friction(const CamData& data, const BuildContext& context, CamParts& parts) {
   if (!data.friction.given()) return !meaningless(context, "VREG", "without FRICTION", "give FRICTION, or leave it out");
   if (!parts.flat && parts.radius > 0) {
     context.error("FRICTION", "a roller rolls on the profile without friction", "FOLLOWER KNIFE or FLAT slides");
     return false;
   }
+  if (!data.friction_width) {
+    context.error("FRICTION", "friction needs VREG, the sliding speed below which it is regularised",
+                  "VREG v, well below the speeds of interest");
+    return false;
+  }
   FrictionLaw law;
-  law.width = data.friction_width.value_or(1e-3 * size);
+  law.width = *data.friction_width;
   if (!read_friction(context, data.friction, law)) return false;
   parts.friction = law;
   return true;
@@ -337,8 +342,7 @@ std::unique_ptr<Element> build(const CamData& data, BuildContext& context) {
   }
   if (!check_design(context, plan, parts)) return nullptr;
 
-  const double size = motion ? *data.base : parts.profile->least([](const CamFoot& f) { return f.p.norm(); }).p.norm();
-  if (!find_friction(data, context, size, parts)) return nullptr;
+  if (!find_friction(data, context, parts)) return nullptr;
   return std::make_unique<Cam>(context.record.id, std::move(parts));
 }
 
@@ -363,7 +367,7 @@ ElementType cam_type() {
           "      FOLLOWER ROLLER 0.008  PIVOT 0.1 0 0  K 1D8 EXP 1.11  DAMP HUNT 0.3")
       .example(
           "I 7 CAM N 1 4  AXIS 0 0 1  ZERO 1 0 0  POLAR 0 0.04 45 0.038 90 0.034 135 0.031 180 0.03 225 0.031 270 0.034 315 "
-          "0.038  $\n      FOLLOWER FLAT  DIRECTION 0 1 0  FRICTION CONST 0.1");
+          "0.038  $\n      FOLLOWER FLAT  DIRECTION 0 1 0  FRICTION CONST 0.1  VREG 1D-4");
   card.add("N", &CamData::nodes, "cam body a and follower body b; 0 is the ground")
       .synonyms({"NODES", "NOEUDS"})
       .refers(deck::Reference::node)
@@ -408,8 +412,7 @@ ElementType cam_type() {
   card.add("EXP", &CamData::exponent, "exponent of the penetration").synonyms({"EXPOSANT"}).at_least(1);
   add_stop_damping(card.add("DAMP", &CamData::damping, "damping of the contact; none when not given").synonyms({"AMOR"}));
   add_friction_options(card.add("FRICTION", &CamData::friction, "friction of a knife edge or a flat face"));
-  card.add("VREG", &CamData::friction_width,
-           "sliding speed below which friction is regularised; 1e-3 of the least radius per time unit when not given")
+  card.add("VREG", &CamData::friction_width, "sliding speed below which friction is regularised")
       .synonyms({"V0"})
       .unit(dimension::velocity)
       .positive();

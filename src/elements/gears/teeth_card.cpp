@@ -317,7 +317,12 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
   ToothFriction friction;
   FrictionLaw& law = friction.law;
   law.rests = data.sticks;
-  law.width = data.sticks ? 0 : data.friction_width.value_or(1e-3 * owner.geometry.radius);
+  if (!data.sticks && !data.friction_width) {
+    context.error("FRICTION", "friction needs STICK, or VREG, the sliding speed below which it is regularised",
+                  "STICK: flanks that stop sliding stay at rest; VREG v: they creep by up to v");
+    return false;
+  }
+  law.width = data.friction_width.value_or(0);
   if (!read_friction(context, data.friction, law)) return false;
   if ((data.friction.is("CONST") || data.friction.is("STRIBECK")) && law.mu > 1)
     context.diagnostics.warning(context.record.where("FRICTION"),

@@ -168,8 +168,7 @@ void add_teeth_keywords(deck::Card<Data>& c) {
   c.add("PITCHB", &TeethData::pitch_b, "the same of wheel B").synonyms({"PAS_B"}).refers(deck::Reference::function);
   c.add("PHASE", &TeethData::phase, "mesh phase at the start, 360 per tooth; follows from the train when not given").unit(angle);
   add_friction_options(c.add("FRICTION", &TeethData::friction, "sliding friction between the flanks"));
-  c.add("VREG", &TeethData::friction_width,
-        "sliding speed below which friction is regularised; 1e-3 r_A per time unit when not given")
+  c.add("VREG", &TeethData::friction_width, "sliding speed below which friction is regularised")
       .synonyms({"V0"})
       .unit(velocity)
       .positive();

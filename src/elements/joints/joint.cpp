@@ -210,6 +210,8 @@ JointRub<T> Joint::rest(const JointFriction& f, std::size_t grip, const JointPos
     along[i] =
         coordinates[i] == f.turn && !ball ? turn : measured(coordinates[i], ball ? since_rest(pose, now.held) : pose, state);
     held[k] = balance.constraint(row + k, ball ? along[i].value : T(along[i].value - now.held[k]));
+    // a ball slides by its spin; how far it has turned from where it rested changes the gradient of that turn
+    if (ball && now.mode == GripState::sliding) along[i].set_moment(i == 0 ? pose.a1 : i == 1 ? pose.a2 : pose.a3);
     u[k] = rate_of(along[i], rates) * shape.lever[i];
   }
   if (now.mode == GripState::free) return rub(f, pose, force, moment, turn, normal, rates);

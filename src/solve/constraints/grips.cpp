@@ -15,6 +15,8 @@ namespace {
 
 /// A speed closer to zero than this part of the speeds it is the difference of is rest.
 constexpr double rounding = 1e-12;
+/// Places are known to this part of the extent, or of a radian.
+constexpr double place_rounding = 1e-14;
 /// A force beyond what holds by this part of it is rounding.
 constexpr double slack = 1e-9;
 /// A grip that bears more than this part of what it holds may give way within the next step.
@@ -27,8 +29,8 @@ struct Fastest {
 
 }  // namespace
 
-Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start)
-    : assembler_(assembler), redundancy_(redundancy), start_(start) {
+Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start, double step)
+    : assembler_(assembler), redundancy_(redundancy), start_(start), step_(step) {
   const auto& parts = assembler.model().parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const Layout& layout = parts[p].element->layout();
@@ -85,9 +87,11 @@ std::vector<Grips::Seen> Grips::look(const Configuration& c) const {
         const bool length = multiplier_unknown(assembler_.numbering(), multiplier).measure == Measure::length;
         const Fastest& fastest = length ? moving : turning;
         const double lever = found[i].shape.lever[k];
+        // where all is at rest the fastest node is rounding, too
+        const double rest = place_rounding / slack * (length ? assembler_.model().extent() : 1) / step_;
         seen.redundant = seen.redundant || (assembler_.released(multiplier) && !assembler_.idle(multiplier));
-        seen.speeds = std::max(seen.speeds, lever * fastest.speed);
-        seen.accelerations = std::max(seen.accelerations, lever * fastest.acceleration);
+        seen.speeds = std::max(seen.speeds, lever * std::max(fastest.speed, rest));
+        seen.accelerations = std::max(seen.accelerations, lever * std::max(fastest.acceleration, rest / step_));
       }
     }
   }

@@ -12,7 +12,8 @@ namespace engrane::solve {
 /// of the elements, and in the assembler, where grips that slide are idle constraints. Every rank decides the same.
 class Grips {
  public:
-  Grips(Assembler& assembler, Redundancy& redundancy, Start& start);
+  /// `step`: the H of the analysis.
+  Grips(Assembler& assembler, Redundancy& redundancy, Start& start, double step);
 
   bool any() const { return !places_.empty(); }
   /// Whether some grip slides back, is dragged along, or bears more than it holds. Always so before settle().
@@ -30,7 +31,7 @@ class Grips {
     int part, first;  ///< first: multiplier, of the model
     const Layout* layout;
   };
-  /// A grip, with `speeds` and `accelerations` those of the fastest node.
+  /// A grip, with `speeds` and `accelerations` those of the fastest node, or what moves it in a step by the rounding of places.
   struct Seen : Grip {
     bool redundant = false;  ///< holds, but other constraints hold the same
   };
@@ -62,6 +63,7 @@ class Grips {
   Start& start_;
   std::vector<Place> places_;  ///< elements with grips
   std::size_t count_ = 0;
+  double step_;
 };
 
 }  // namespace engrane::solve

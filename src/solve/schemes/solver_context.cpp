@@ -15,7 +15,7 @@ SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm
       motion(m, numbering),
       redundancy(assembler, motion),
       start(assembler, solver, motion, redundancy),
-      grips(assembler, redundancy, start) {
+      grips(assembler, redundancy, start, options.step) {
   assembler.penalty = options.penalty;
 }
 

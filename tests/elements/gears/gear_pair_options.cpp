@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "elements/gears/gear_pair_cases.hpp"
+#include "elements/grip_states.hpp"
 #include "elements/suite.hpp"
-#include "model/grip.hpp"
 
 namespace engrane::elements::gears {
 namespace {
@@ -127,19 +127,6 @@ TEST(GearOptions, SuiteOfFriction) {
       }
 }
 
-/// States of a friction that can rest: sliding either way, where its multiplier is zero, or held.
-void follow_grip(Subject& s, const Layout& layout, GripState::Mode mode) {
-  s.adjust = [=, before = s.adjust](StateBuffer& state, Random& random) {
-    if (before) before(state, random);
-    const Vec3 direction(uniform(random) < 0 ? -1 : 1, 0, 0), held(0.1 * uniform(random), 0, 0);
-    (mode == GripState::holding ? GripState::holds_at(held) : GripState::slides_towards(direction, held))
-        .write(layout, state.history, 0);
-    if (mode == GripState::sliding) state.multipliers.back() = 0;
-  };
-  s.skip[Check::ideal] = "friction and the separating force are not gradients of constraints";
-  for (const Check check : {Check::rigid, Check::zero}) s.skip[check] = "friction acts at any speed, or holds another place";
-}
-
 TEST(GearOptions, SuiteOfFrictionAtRest) {
   const std::string profile = "PROFILE", pitch;
   for (const auto& [kind, sliding] : {std::pair{worm(), pitch},
@@ -159,7 +146,8 @@ TEST(GearOptions, SuiteOfFrictionAtRest) {
       s.states = 8;
       s.step = 2e-5;
       s.tolerance = 1e-6;
-      follow_grip(s, s.build(Mat3::Identity())->layout(), mode);
+      put_grips(s, s.build(Mat3::Identity())->layout(), mode);
+      s.skip[Check::ideal] = "friction and the separating force are not gradients of constraints";
       if (mode == GripState::holding) s.skip[Check::power] = "a random state leaves the way along which the flanks are held";
       run_suite(s);
     }

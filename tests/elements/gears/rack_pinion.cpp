@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "elements/grip_states.hpp"
 #include "elements/suite.hpp"
 #include "math/rotation.hpp"
 
@@ -129,6 +130,21 @@ TEST(RackPinion, SuiteOfFriction) {
       Subject s = subject(c);
       s.step = 2e-5;
       s.tolerance = 1e-6;
+      run_suite(s);
+    }
+}
+
+TEST(RackPinion, SuiteOfFrictionAtRest) {
+  for (const GripState::Mode mode : {GripState::sliding, GripState::holding})
+    for (Case c : {rack("straight", {}), rack("helical", {-20})}) {
+      c.data.friction = {"STRIBECK", {0.2, 0.1, 0.5}};
+      c.data.sticks = true;
+      c.data.sliding = {"PROFILE", {}};
+      Subject s = subject(c);
+      s.step = 2e-5;
+      s.tolerance = 1e-6;
+      put_grips(s, s.build(Mat3::Identity())->layout(), mode);
+      if (mode == GripState::holding) s.skip[Check::power] = "a random state leaves the way along which the flanks are held";
       run_suite(s);
     }
 }

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <string>
 
+#include "elements/grip_states.hpp"
 #include "elements/joints/joint_card.hpp"
 #include "elements/suite.hpp"
 #include "math/rotation.hpp"
-#include "model/grip.hpp"
 
 namespace engrane::suite {
 
@@ -54,8 +54,8 @@ void run_coordinate(ElementType (*type)(), const JointData& plain, Coordinate of
 /// suite's; here that the power is lost, and no more than there is friction.
 void run_friction(ElementType (*type)(), const JointData& plain, bool has_radius = true, double largest = 2);
 
-/// Friction that can rest (STICK): sliding in any direction, where its multipliers are zero, and held. `skip`: what these states do
-/// not fulfil, with the reason.
+/// Friction that can rest (STICK): sliding in any direction, where its multipliers are zero, and held. `skip`: what these states
+/// do not fulfil, with the reason.
 void run_grips(ElementType (*type)(), const JointData& plain, bool has_radius = true,
                const std::map<Check, std::string>& skip = {}, double largest = 2);
 
