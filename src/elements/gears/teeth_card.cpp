@@ -316,12 +316,7 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
   }
   ToothFriction friction;
   FrictionLaw& law = friction.law;
-  law.rests = data.sticks;
-  if (!data.sticks && !data.friction_width) {
-    context.error("FRICTION", "friction needs STICK, or VREG, the sliding speed below which it is regularised",
-                  "STICK: flanks that stop sliding stay at rest; VREG v: they creep by up to v");
-    return false;
-  }
+  law.rests = !data.friction_width;
   law.width = data.friction_width.value_or(0);
   if (!read_friction(context, data.friction, law)) return false;
   if ((data.friction.is("CONST") || data.friction.is("STRIBECK")) && law.mu > 1)
@@ -331,15 +326,17 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
   friction.rolling = data.rolling;
   friction.profile = data.sliding.is("PROFILE");
   const ContactGeometry& g = owner.geometry;
-  if (data.sticks && (data.friction_width || friction.rolling > 0)) {
-    context.error("STICK", fmt::format("STICK beside {}", data.friction_width ? "VREG" : "ROLLING"),
-                  data.friction_width ? "STICK needs no width: remove one of the two"
-                                      : "rolling resistance needs a width, VREG: remove one of the two");
+  if (data.sticks && data.friction_width) {
+    context.error("STICK", "STICK regularises nothing, VREG does", "remove one of them");
     return false;
   }
-  if (data.sticks && !friction.profile && g.slip_per_turn == 0) {
-    context.error("STICK", "these teeth do not slide at the pitch point: there is nothing to hold",
-                  owner.path_known ? "with SLIDING PROFILE flanks slide before and behind it" : "give VREG instead");
+  if (law.rests && friction.rolling > 0) {
+    context.error("ROLLING", "rolling resistance is regularised: it needs VREG", "VREG v, well below the speeds of interest");
+    return false;
+  }
+  if (law.rests && !friction.profile && g.slip_per_turn == 0) {
+    context.error("FRICTION", "these teeth do not slide at the pitch point: there is nothing to hold",
+                  owner.path_known ? "with SLIDING PROFILE flanks slide before and behind it" : "give VREG");
     return false;
   }
   if (friction.profile && !owner.path_known) {

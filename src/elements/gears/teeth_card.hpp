@@ -168,11 +168,12 @@ void add_teeth_keywords(deck::Card<Data>& c) {
   c.add("PITCHB", &TeethData::pitch_b, "the same of wheel B").synonyms({"PAS_B"}).refers(deck::Reference::function);
   c.add("PHASE", &TeethData::phase, "mesh phase at the start, 360 per tooth; follows from the train when not given").unit(angle);
   add_friction_options(c.add("FRICTION", &TeethData::friction, "sliding friction between the flanks"));
-  c.add("VREG", &TeethData::friction_width, "sliding speed below which friction is regularised")
+  c.add("VREG", &TeethData::friction_width, "regularises friction below this sliding speed: flanks that should stick creep")
       .synonyms({"V0"})
       .unit(velocity)
       .positive();
-  c.add("STICK", &TeethData::sticks, "true sticking: Coulomb's law at every speed; flanks that stop sliding are held exactly")
+  c.add("STICK", &TeethData::sticks,
+        "Coulomb's law at every speed; flanks that stop sliding are held exactly: what FRICTION does without VREG")
       .synonyms({"ADHERENCE"});
   c.add("SLIDING", &TeethData::sliding, "where the flanks slide")
       .synonyms({"GLISSEMENT"})

@@ -44,12 +44,12 @@ void add_joint_point(JointCard& card) {
 
 void add_joint_friction(JointCard& card, const FrictionWords& words) {
   add_friction_options(card.add("FRICTION", &JointData::friction, "dry friction, from the joint's own reaction"));
-  card.add("VREG", &JointData::friction_width, "sliding speed below which friction is regularised")
+  card.add("VREG", &JointData::friction_width, "regularises friction below this sliding speed: surfaces that should stick creep")
       .synonyms({"V0", "VS"})
       .unit(dimension::velocity)
       .positive();
   card.add("STICK", &JointData::sticks,
-           "true sticking instead of VREG: Coulomb's law at every speed; surfaces that stop are held exactly")
+           "Coulomb's law at every speed; surfaces that stop are held exactly: what FRICTION does without VREG")
       .synonyms({"ADHERENCE", "COLLE"});
   if (!words.radius.empty())
     card.add("RADIUS", &JointData::radius, words.radius).synonyms({"RAYON"}).unit(dimension::length).at_least(0);
@@ -297,14 +297,9 @@ bool add_friction(const JointData& data, const BuildContext& context, JointParts
   }
   JointFriction f;
   f.kind = kind;
-  f.law.rests = data.sticks;
+  f.law.rests = !data.friction_width;
   if (data.sticks && data.friction_width) {
     context.error("VREG", "STICK regularises nothing, VREG does", "remove one of them");
-    return false;
-  }
-  if (!data.friction_width && !data.sticks) {
-    context.error("FRICTION", "friction needs STICK, or VREG, the sliding speed below which it is regularised",
-                  "STICK: surfaces that stop stay at rest; VREG v: they creep by up to v");
     return false;
   }
   if (words.needs_radius && !(data.radius > 0)) {

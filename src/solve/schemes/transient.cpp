@@ -22,9 +22,6 @@ AlphaScheme AlphaScheme::bossak(double alpha) { return {-alpha, 0, 0.25 * (1 + a
 
 namespace {
 
-/// The slope of v̇ after an event is taken over this part of a step, so that it does not reach the next event too soon.
-constexpr double slope_span = 0.01;
-
 AlphaScheme coefficients(const SolverOptions& options) {
   switch (options.family) {
     case SolverOptions::Family::newmark:
@@ -78,16 +75,15 @@ void Transient::drift(Configuration& c, double h) {
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
   for (const auto& p : context_.motion.prescribed(c.time)) v[p.slot] = p.v;
   context_.motion.set_velocities(v, c);
-  const double step = context_.options.step;
-  start_algorithmic_accelerations(c, step, slope_span * step, massless);
+  context_.motion.set_velocities(fitting_velocities(c), c);
+  restart_memory(c);
 }
 
 bool Transient::settle_friction(Configuration& c) {
   if (!context_.grips.violated(c)) return false;
   context_.grips.settle(c, has_massless_);
   context_.solver.reset();  // other constraints, other pivots
-  const double step = context_.options.step;
-  start_algorithmic_accelerations(c, step, slope_span * step, massless_at(c));
+  restart_memory(c);
   return true;
 }
 
@@ -107,12 +103,13 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     context_.assembler.choose_scale(from, weights, context_.options.scale);
     scaled_for_ = h;
   }
-  const auto v0 = context_.motion.velocities(from), vdot0 = context_.motion.accelerations(from);
+  const auto vdot0 = context_.motion.accelerations(from);
   // a run that continues another kind of analysis has no memory: the accelerations of its configuration begin it
   if (algorithmic_.empty()) {
     algorithmic_ = vdot0;
     step_of_algorithmic_ = h;
   }
+  const std::vector<double> v0 = first_velocities(from, h);
   std::vector<double> a0 = algorithmic_;
   // a_n is v̇ shifted by (α_m − α_f) h: another h, another shift
   if (h != step_of_algorithmic_)
@@ -169,10 +166,13 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
 void Transient::accept() {
   algorithmic_ = tried_;
   step_of_algorithmic_ = tried_step_;
+  offset_.clear();
+  fitting_.clear();
 }
 
 void Transient::save(Snapshot& snapshot) const {
   snapshot.put("scheme/algorithmic", algorithmic_);
+  snapshot.put("scheme/offset", offset_);
   snapshot.put("scheme/step", step_of_algorithmic_);
   snapshot.put("scheme/scaled_for", scaled_for_);
   snapshot.put("scheme/has_massless", has_massless_ ? 1.0 : 0.0);
@@ -181,6 +181,8 @@ void Transient::save(Snapshot& snapshot) const {
 void Transient::load(const Snapshot& snapshot) {
   if (!snapshot.has("scheme/algorithmic")) return;  // of another kind of analysis
   algorithmic_ = snapshot.array("scheme/algorithmic");
+  offset_ = snapshot.array("scheme/offset");
+  fitting_.clear();
   step_of_algorithmic_ = snapshot.number("scheme/step");
   scaled_for_ = snapshot.number("scheme/scaled_for");
   has_massless_ = snapshot.number("scheme/has_massless") != 0;

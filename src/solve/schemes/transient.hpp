@@ -38,8 +38,20 @@ class Transient final : public Scheme {
   void load(const Snapshot& snapshot) override;
 
  private:
-  /// Starts the scheme's memory for steps of h; the slope of v̇ is looked for over the time `ahead`.
-  void start_algorithmic_accelerations(const Configuration& c, double h, double ahead, const MasslessMotions* massless);
+  /// Starts the scheme's memory for steps of h from `c`, whose velocities and accelerations fit; the slope of v̇ is taken over
+  /// `span`.
+  void start_memory(const Configuration& c, double h, double span, const MasslessMotions* massless);
+  /// The same after an event.
+  void restart_memory(const Configuration& c);
+  /// d/dt of v̇ at `c`, from what balance gives over the time `span`.
+  std::vector<double> slope_of_accelerations(const Configuration& c, double span, int iterations,
+                                             const MasslessMotions* massless) const;
+
+  /// The velocities with which a step of h from `from` begins: those of the scheme, which differ from the ones that fit the
+  /// constraints by a part that grows with the square of the step.
+  std::vector<double> first_velocities(const Configuration& from, double h);
+  /// The velocities of `c` changed, in kinetic energy as little as possible, until they fit its constraints.
+  std::vector<double> fitting_velocities(const Configuration& c) const;
 
   /// What balance asks of motions without mass at one instant.
   struct Relaxed {
@@ -66,7 +78,9 @@ class Transient final : public Scheme {
   double step_of_algorithmic_ = 0;   ///< the h that `algorithmic_` belongs to
   double scaled_for_ = 0;            ///< the h that k was chosen for
   std::vector<double> algorithmic_;  ///< a_n of the scheme: v̇ shifted by (α_m − α_f) h
-  std::vector<double> tried_;        ///< its value at the end of the last attempt
+  std::vector<double> offset_;       ///< of the first velocities after a start, for a step of step_of_algorithmic_; may be empty
+  std::vector<double> fitting_;      ///< velocities that fit where the last step ended; empty where nobody has asked
+  std::vector<double> tried_;        ///< `algorithmic_` at the end of the last attempt
   double tried_step_ = 0;
   bool has_massless_ = false;  ///< the model has motions without mass
   std::optional<MasslessMotions> massless_;

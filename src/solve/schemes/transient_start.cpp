@@ -11,6 +11,13 @@
 
 namespace engrane::solve {
 
+namespace {
+
+/// After an event the slope of v̇ is taken over this part of a step, so as not to reach the next event.
+constexpr double slope_span = 0.01;
+
+}  // namespace
+
 StartReport Transient::start(Configuration& c) {
   StartReport report;
   if (context_.options.static_start) {
@@ -32,21 +39,76 @@ StartReport Transient::start(Configuration& c) {
   else
     context_.start.balance_accelerations(c, 12, &report);
   const double h = context_.options.step;
-  start_algorithmic_accelerations(c, h, h, has_massless_ ? &massless : nullptr);
+  start_memory(c, h, h, has_massless_ ? &massless : nullptr);
   return report;
 }
 
-void Transient::start_algorithmic_accelerations(const Configuration& c, double h, double ahead, const MasslessMotions* massless) {
-  // a_0 = v̇(t_0 + (α_m − α_f) h) to second order, or multipliers lose an order at first (Arnold, Brüls and Cardona
-  // 2015); the slope of v̇ is taken from a consistent acceleration a little ahead
+void Transient::restart_memory(const Configuration& c) {
+  const double h = context_.options.step;
+  start_memory(c, h, slope_span * h, massless_at(c));
+}
+
+std::vector<double> Transient::slope_of_accelerations(const Configuration& c, double span, int iterations,
+                                                      const MasslessMotions* massless) const {
+  // From accelerations half a span and a span ahead, (4 a_½ − 3 a_0 − a_1)/span: of second order, since what glide() leaves out
+  // of the velocities, four times as much at the end as halfway, cancels as well. Over a whole step it is also that of models
+  // whose forces change much faster than a step is long.
+  std::vector<double> slope = context_.motion.accelerations(c);
+  for (double& s : slope) s *= -3;
+  for (const auto& [part, weight] : {std::pair{0.5, 4.0}, std::pair{1.0, -1.0}}) {
+    Configuration later = glide(c, part * span);
+    context_.start.balance_accelerations(later, iterations, nullptr, massless);
+    const auto then = context_.motion.accelerations(later);
+    for (std::size_t i = 0; i < slope.size(); ++i) slope[i] += weight * then[i];
+  }
+  for (double& s : slope) s /= span;
+  return slope;
+}
+
+void Transient::start_memory(const Configuration& c, double h, double span, const MasslessMotions* massless) {
   algorithmic_ = context_.motion.accelerations(c);
   step_of_algorithmic_ = h;
-  if (scheme_.alpha_m == scheme_.alpha_f) return;
-  Configuration later = glide(c, ahead);
-  context_.start.balance_accelerations(later, ahead < h ? 1 : 12, nullptr, massless);
-  const auto next = context_.motion.accelerations(later);
-  const double shift = (scheme_.alpha_m - scheme_.alpha_f) * h / ahead;
-  for (std::size_t i = 0; i < next.size(); ++i) algorithmic_[i] += shift * (next[i] - algorithmic_[i]);
+  offset_.clear();
+  fitting_.clear();
+  const double shift = scheme_.alpha_m - scheme_.alpha_f;
+  const std::vector<double> slope = slope_of_accelerations(c, span, span < h ? 1 : 12, massless);
+  // a_0 = v̇(t_0 + (α_m − α_f) h) to second order, or multipliers lose an order at first (Arnold, Brüls and Cardona 2015)
+  for (std::size_t i = 0; i < slope.size(); ++i) algorithmic_[i] += shift * h * slope[i];
+  if (context_.numbering.slots() == context_.numbering.motion_slots()) return;
+  // The increments of steps with exact velocities and accelerations open the constraints by h³ B(c v̈ + W × Ẇ/12), the last for
+  // rotations. The scheme closes them by velocities that are off by as much over h; one that begins without this error finds it
+  // in the first step by accelerations, and so multipliers, that are off by a part of h (the same paper, section 5).
+  const double c_3 = (1 - 3 * shift - 6 * scheme_.beta) / 6;
+  const std::vector<double> v = context_.motion.velocities(c);
+  std::vector<double> moved = v;
+  for (std::size_t i = 0; i < slope.size(); ++i) moved[i] += h * h * c_3 * slope[i];
+  for (std::size_t n = 0; n < c.nodes.size(); ++n) {
+    const Vec3 turn = c.nodes[n].W.cross(c.nodes[n].A) * (h * h / 12);
+    for (Eigen::Index k = 0; k < 3; ++k) moved[6 * n + 3 + static_cast<std::size_t>(k)] += turn[k];
+  }
+  Configuration off = c;
+  context_.motion.set_velocities(moved, off);
+  offset_ = fitting_velocities(off);
+  for (std::size_t i = 0; i < v.size(); ++i) offset_[i] = moved[i] - offset_[i];
+}
+
+std::vector<double> Transient::fitting_velocities(const Configuration& c) const {
+  Configuration fitted = c;
+  StartReport unused;
+  context_.start.fit_velocities(fitted, Assembler::Metric::mass, unused, false);
+  return context_.motion.velocities(fitted);
+}
+
+std::vector<double> Transient::first_velocities(const Configuration& from, double h) {
+  std::vector<double> v = context_.motion.velocities(from);
+  const double ratio = h / step_of_algorithmic_;
+  if (!offset_.empty()) {
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] += ratio * ratio * offset_[i];
+  } else if (ratio != 1 && context_.numbering.slots() > context_.numbering.motion_slots()) {
+    if (fitting_.empty()) fitting_ = fitting_velocities(from);
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = fitting_[i] + ratio * ratio * (v[i] - fitting_[i]);
+  }
+  return v;
 }
 
 Transient::Relaxed Transient::relax(Configuration& c, MasslessMotions& massless) {

@@ -16,7 +16,8 @@ TEST(Spherical, Suite) {
 
 TEST(Spherical, SuiteWithFriction) { run_friction(spherical_type, joint_data(1, 2)); }
 TEST(Spherical, SuiteAtRestAndSliding) {
-  run_grips(spherical_type, joint_data(1, 2), true, {{Check::rotated_copy, "directions of sliding are kept in axes that it has not"}});
+  run_grips(spherical_type, joint_data(1, 2), true,
+            {{Check::rotated_copy, "directions of sliding are kept in axes that it has not"}});
 }
 
 TEST(Spherical, FrictionAgainstTheSpin) {
