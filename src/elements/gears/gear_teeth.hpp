@@ -114,10 +114,10 @@ struct ToothLaw {
   double potential(double x) const { return stiffness * deflection_integral(x); }
   /// −1, 0, 1: on the back flank, in the gap, on the flank with which A drives in the positive sense.
   int contact(double x) const { return contact(x, -backlash - x); }
-  /// The same from how far each flank is pressed in.
-  static int contact(double front, double back) {
-    if (front >= 0) return 1;
-    return back >= 0 ? -1 : 0;
+  /// The same from how far each flank is pressed in; to rounding of the positions.
+  int contact(double front, double back) const {
+    if (front >= -blur) return 1;
+    return back >= -blur ? -1 : 0;
   }
 
   /// [[x]] in the arithmetic of x. Its derivative inside the gap is 1e-9 instead of zero: nothing to dynamics or to
