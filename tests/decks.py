@@ -6,7 +6,9 @@ run. Every channel must be what version 0.3.0 gave: last value and root of the m
 tests/verify/results_0.3.0.json. Decks of a law that was wrong then have no entry there: profile_friction,
 whose friction came and went within the path of contact. Nor have the joints' decks with friction and a small
 VREG (hinge, prismatic, cylindrical, screw, spherical): steps failed then, and were cut, where something comes
-to rest. universal_drives ends at half a turn, whose rotation vector has the other sign now.
+to rest. universal_drives ends at half a turn, whose rotation vector has the other sign now. mesh_stiffness
+has backlash, whose corner was rounded then; whether the flanks of gear_pair_elastic touch at the start
+(CONTACT) was decided by 1e-21.
 
     decks.py --binary engrane --mpiexec mpiexec --work folder deck.dat
 

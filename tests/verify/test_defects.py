@@ -29,7 +29,6 @@ SAID = {
     "initial_angle_of_a_hinge": "was given as 30 deg and is 21.8",
     "initial_turn_of_a_body": "was given as 5 deg and is 1.6",
     "initial_turn_no_redundancy": "was given as 5 deg and is 1.6",
-    "light_load_jeu_1e-4": "such a light load follows the rounded onset",
 }
 
 
@@ -116,6 +115,14 @@ def test_a_hoist_stops_and_is_held(tmp_path: Path) -> None:
     held = result.t > 2.5
     assert np.ptp(result["node/2/RZ"][held]) < 1e-12
     assert np.abs(result["node/2/RZ"]).max() > 1
+
+
+def test_a_light_load_on_teeth_with_backlash(tmp_path: Path) -> None:
+    """Released in touch, the pair swings between nothing and twice F m_B/(m_A + m_B), F = T/r_A = 4."""
+    result = solve("light_load_jeu_1e-4", tmp_path)
+    crest = 2 * 4 * 8 / 12
+    assert result["3/NORMAL_FORCE"].max() * np.cos(np.radians(20)) == pytest.approx(crest, rel=1e-4)
+    assert result["3/U_M"].max() == pytest.approx(crest / 1e8, rel=1e-4)
 
 
 def test_a_reversal_of_crossed_gears(tmp_path: Path) -> None:

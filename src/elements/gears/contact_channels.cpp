@@ -73,7 +73,7 @@ void put_contact_channels(ChannelWriter& out, const ToothContact& contact, const
   if (!contact.elastic()) return;
   out.put(scalars[2]);
   out.put(report.approach);
-  out.put(ToothLaw::contact(report.front, report.back));
+  out.put(contact.law().contact(report.front, report.back));
   if (contact.law().course.varies()) out.put(report.stiffness_factor * contact.law().stiffness);
   const std::size_t n = report.slices.size();
   if (n < 2) return;

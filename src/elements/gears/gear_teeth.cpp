@@ -72,6 +72,11 @@ double rounded_ramp_integral(double x, double width) {
   return width * width * t * t * t * t * (0.25 - 0.1 * t);
 }
 
+Function::Jet ToothLaw::ramp(double x) const {
+  if (onset == 0 && std::abs(x) < blur) return {0.5 * (x + blur), 0.5, 0, 0};
+  return rounded_ramp(x, onset);
+}
+
 Function::Jet ToothLaw::flank(double x) const {
   if (crown > 0) {
     if (x <= 0) return {};
@@ -79,7 +84,7 @@ Function::Jet ToothLaw::flank(double x) const {
     const double root = std::sqrt(x / crown);
     return {2.0 / 3.0 * x * root, root, 0.5 * root / x, -0.25 * root / (x * x)};
   }
-  if (exponent == 1) return rounded_ramp(x, onset);
+  if (exponent == 1) return ramp(x);
   if (x <= 0) return {};
   const double p = exponent, y = x / reference, power = std::pow(y, p - 2);
   return {reference * power * y * y, p * power * y, p * (p - 1) * power / reference,
@@ -90,6 +95,10 @@ double ToothLaw::flank_integral(double x) const {
   if (crown > 0) {
     if (x <= 0) return 0;
     return x < crown ? 4.0 / 15.0 * x * x * std::sqrt(x / crown) : 0.5 * x * x - crown * x / 3 + 0.1 * crown * crown;
+  }
+  if (exponent == 1 && onset == 0) {
+    if (std::abs(x) < blur) return 0.25 * (x + blur) * (x + blur);
+    return x < 0 ? 0 : 0.5 * (x * x + blur * blur);
   }
   if (exponent == 1) return rounded_ramp_integral(x, onset);
   return x <= 0 ? 0 : reference * reference / (exponent + 1) * std::pow(x / reference, exponent + 1);

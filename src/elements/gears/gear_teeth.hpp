@@ -78,7 +78,8 @@ struct ToothLaw {
   IsoStiffness iso;      ///< from which k_m was computed, with STIFF ISO; otherwise 0
   double damping = 0;    ///< c_m
   double backlash = 0;   ///< b along the circumference; 0: the teeth touch on both flanks at once
-  double onset = 0;      ///< width over which contact comes on, at most b
+  double onset = 0;      ///< width over which contact comes on, at most b; 0: the corner itself
+  double blur = 0;       ///< on either side of such a corner: what of an approach is rounding of the positions
   double exponent = 1;   ///< p: the force grows with x^p
   double reference = 1;  ///< x₀ > 0 at which the secant stiffness is k_m; of no consequence for p = 1
   /// C: teeth crowned by C (2y/b)² along the face touch over a part of it only; 0: not crowned. Only with exponent 1.
@@ -92,11 +93,14 @@ struct ToothLaw {
   /// Does the force depend on how far the teeth are pressed in by more than flank()?
   bool by_load() const { return course.loaded || relief.active(); }
 
-  /// What a flank pressed in by x resists with, over k_m: max(x, 0) rounded over `onset`; x₀ (x/x₀)^p; or crowned, the mean over
+  /// What a flank pressed in by x resists with, over k_m: max(x, 0), rounded over `onset`; x₀ (x/x₀)^p; or crowned, the mean over
   /// the face of max(x − C (2y/b)², 0), which is ⅔ x √(x/C) up to x = C and x − C/3 beyond. The last two need no rounding.
   Function::Jet flank(double x) const;
   /// Its integral from −∞.
   double flank_integral(double x) const;
+  /// max(x, 0): rounded over `onset`, or with half the slope within ±`blur`. A start without load leaves the flanks just
+  /// touching, and rounding must not choose in each iteration whether they do.
+  Function::Jet ramp(double x) const;
 
   /// A flank pressed in by `depth` where by_load() (exponent 1). With relief the sum over all pairs on the path,
   /// V = k_m/ε Σ w(ζ_j) ∫ flank(x − δ(ζ_j)) dx, ζ_j/p_b = τ/2π + flank + j; the path of back flanks is the mirror image, τ → −τ.
@@ -110,10 +114,10 @@ struct ToothLaw {
   double potential(double x) const { return stiffness * deflection_integral(x); }
   /// −1, 0, 1: on the back flank, in the gap, on the flank with which A drives in the positive sense.
   int contact(double x) const { return contact(x, -backlash - x); }
-  /// The same from how far each flank is pressed in.
-  static int contact(double front, double back) {
-    if (front >= 0) return 1;
-    return back >= 0 ? -1 : 0;
+  /// The same from how far each flank is pressed in; to rounding of the positions.
+  int contact(double front, double back) const {
+    if (front >= -blur) return 1;
+    return back >= -blur ? -1 : 0;
   }
 
   /// [[x]] in the arithmetic of x. Its derivative inside the gap is 1e-9 instead of zero: nothing to dynamics or to
@@ -141,7 +145,7 @@ struct ToothLaw {
   Pressed pressed_pairs(double phase, double depth) const;
   template <class T>
   T flank_damping(const T& x, const T& elastic, const T& rate) const {
-    const Function::Jet window = rounded_ramp(value_of(x), onset);
+    const Function::Jet window = ramp(value_of(x));
     if (window.d1 == 0) return T(0);
     const T free = damping * compose(x, window.d1, window.d2, window.d3) * rate;
     if (value_of(free) >= 0) return free;

@@ -232,7 +232,7 @@ bool set_backlash(ToothLaw& law, const TeethData& data, const TeethOwner& owner,
     law.backlash = -(a.front() + a.back()) * std::cos(cut_alpha) / std::cos(alpha);  // j_bn = −ΣA_sn cosα_n
   }
   warn_of_wide_backlash(law, data, owner, context);
-  law.onset = data.onset.value_or(1e-3 * law.backlash);
+  law.onset = data.onset.value_or(0);
   if (!data.onset || law.onset <= law.backlash) return true;
   context.error("SMOOTH", fmt::format("SMOOTH {} is wider than the backlash {}", number(law.onset), number(law.backlash)),
                 law.backlash > 0 ? "give a small fraction of it" : "without JEU there is no onset of contact: leave SMOOTH out");

@@ -143,7 +143,7 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .unit(length)
       .values(1, 2)
       .at_most(0);
-  c.add("SMOOTH", &TeethData::onset, "width over which contact comes on; JEU/1000 when not given")
+  c.add("SMOOTH", &TeethData::onset, "width over which contact comes on; 0, the exact corner, when not given")
       .synonyms({"LISSAGE"})
       .unit(length)
       .at_least(0);

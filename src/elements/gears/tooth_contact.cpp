@@ -47,8 +47,8 @@ std::vector<std::string> ToothContact::remarks(double deflection) const {
   // a flank pressed in by w/2 and more follows (28); below four widths the stretch before it still shows in the crests
   if (deflection == 0 || deflection >= 4 * law_.onset) return {};
   return {
-      fmt::format("the teeth were pressed in by {:.3g} at most, and their contact comes on over the width {:.3g}: such a light "
-                  "load follows the rounded onset, not KM; give SMOOTH {:.1g}, or SMOOTH 0",
+      fmt::format("the teeth were pressed in by {:.3g} at most, and SMOOTH lets contact come on over {:.3g}: such a light load "
+                  "follows the rounded onset, not KM; leave SMOOTH out, or give {:.1g}",
                   deflection, law_.onset, 0.01 * deflection)};
 }
 
@@ -71,7 +71,9 @@ void ToothContact::switches(const ContactReport& report, const State& state, std
                error_b = law_.error.of_b(state.scalars[1], law_.mesh).d1;
   const double rate = state.scalar_rates[2] + error_a * state.scalar_rates[0] + error_b * state.scalar_rates[1];
   const double half = 0.5 * law_.onset;
-  const double size = law_.backlash + std::abs(state.scalars[2]) + std::abs(report.approach - state.scalars[2]);
+  // u_m is what is left of turns that are known to rounding of a radian
+  const double size =
+      geometry_.radius + law_.backlash + std::abs(state.scalars[2]) + std::abs(report.approach - state.scalars[2]);
   std::size_t next = 0;
   for (const double sign : {1.0, -1.0}) {
     const double pressed = sign > 0 ? report.front : report.back, speed = sign * rate;

@@ -148,13 +148,14 @@ class ToothContact {
         sin_alpha_(std::sin(geometry.pressure_angle)),
         cos_beta_(std::cos(geometry.helix)) {
     if (options_.slices > 1) slice_crown_ = std::exchange(law_.crown, 0);
+    if (law_.backlash > 0) law_.blur = 64 * std::numeric_limits<double>::epsilon() * geometry.radius;
   }
 
   const ContactGeometry& geometry() const { return geometry_; }
   const ToothLaw& law() const { return law_; }
   const ContactOptions& options() const { return options_; }
   bool elastic() const { return law_.stiffness > 0; }
-  /// Is the onset of contact rounded, so that the law differs from (28) where the teeth are hardly pressed in?
+  /// Does SMOOTH round the onset of contact, so that the law differs from (28) where the teeth are hardly pressed in?
   bool rounds_contact() const { return elastic() && law_.exponent == 1 && law_.crown == 0 && law_.onset > 0; }
   /// Force of the more pressed flank along the circumference over k_m.
   double deflection(const ContactReport& report) const { return std::max(law_.flank(report.front).f, law_.flank(report.back).f); }

@@ -231,8 +231,12 @@ bool Newton::judge(int iteration) {
   if (balanced && closed) return true;
   const double changed = std::max(row_.correction, forces);
   if (iteration > 1 && changed <= no_correction) return true;
-  const bool settled = iteration > 1 && changed <= negligible_correction;
-  return settled && std::max({row_.force, row_.moment, row_.length, row_.angle}) <= std::sqrt(precision_);
+  const double left = std::max({row_.force, row_.moment, row_.length, row_.angle});
+  if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;
+  if (changed <= negligible_correction) return true;
+  // forces that are small beside stiffness times the rounding of positions follow that rounding and never settle
+  const NewtonRow& before = rows_[rows_.size() - 2];
+  return std::max(row_.correction, before.correction) <= no_correction && left > 0.5 * std::max(before.force, before.moment);
 }
 
 PetscErrorCode Newton::test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal fnorm,

@@ -120,11 +120,14 @@ std::optional<double> Switches::first_change(const std::vector<Switch>& from, co
   return first;
 }
 
-double Switches::time_to_change(const std::vector<Switch>& now) const {
+double Switches::time_to_change(const std::vector<Switch>& now, double tolerance) const {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < side_.size(); ++i) {
     const double value = side_[i] * now[i].value, rate = side_[i] * now[i].rate;
-    if (rate < 0) least = std::min(least, std::max(0.0, -value / rate));
+    if (!(rate < 0)) continue;
+    const double band = rounding * now[i].size, leaves = -(value + band) / rate;
+    const bool rests = value <= band && leaves > tolerance;
+    least = std::min(least, rests ? leaves : std::max(0.0, -value / rate));
   }
   return least;
 }
@@ -165,7 +168,7 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
   const auto change_within = [&](double h) {
     after = switches_.at(to);
     Switches::complete(before, after, h);
-    ahead = switches_.time_to_change(after);
+    ahead = switches_.time_to_change(after, tolerance_);
     const auto change = switches_.first_change(before, after, h);
     return change || ahead > 0.1 * tolerance_ ? change : h;
   };
@@ -177,7 +180,7 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
     event = *seen;
   } else {
     // where a force jumps, a step that would end at the jump has no solution
-    event = switches_.time_to_change(before);
+    event = switches_.time_to_change(before, tolerance_);
     if (event > foreseen * size) return found;
     event = std::min(event, 0.5 * size);
     failures = 1;

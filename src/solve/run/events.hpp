@@ -40,8 +40,9 @@ class Switches {
   std::optional<double> first_change(const std::vector<Switch>& from, const std::vector<Switch>& to, double h) const;
   /// Where a rate is unknown takes the slope of the chord from one to the other, h later, at both.
   static void complete(std::vector<Switch>& from, std::vector<Switch>& to, double h);
-  /// Time from an instant to the next change of a side, as its values and rates foretell; infinite when none is near.
-  double time_to_change(const std::vector<Switch>& now) const;
+  /// Time from an instant to the next change of a side, as its values and rates foretell; infinite when none is near. What stays
+  /// within rounding of zero for longer than `tolerance` rests there: its side changes when it leaves.
+  double time_to_change(const std::vector<Switch>& now, double tolerance) const;
 
  private:
   SolverContext& context_;

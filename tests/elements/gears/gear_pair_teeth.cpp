@@ -67,6 +67,22 @@ TEST(GearTeeth, DeflectionIsThePapersOutsideTheOnset) {
   for (const double x : {0.3, -0.3}) EXPECT_EQ(law.deflection(x).f, x);
 }
 
+TEST(GearTeeth, AnExactCornerIsStraightWithinRounding) {
+  ToothLaw law;
+  law.stiffness = 1;
+  law.backlash = 1;
+  law.blur = 0.01;
+  for (const double x : {0.01, 0.3}) EXPECT_EQ(law.flank(x).f, x);
+  for (const double x : {-0.01, -0.3}) EXPECT_EQ(law.flank(x).f, 0);
+  for (const double x : {-0.007, 0.0, 0.004}) EXPECT_EQ(law.flank(x).d1, 0.5);
+  for (const double x : {-0.02, -0.004, 0.006, 0.2})
+    EXPECT_NEAR((law.flank_integral(x + 1e-4) - law.flank_integral(x - 1e-4)) / 2e-4, law.flank(x).f, 1e-12);
+  for (const double end : {-0.01, 0.01}) {  // no jump of the force, nor of what it stores
+    EXPECT_NEAR(law.flank(end - 1e-13).f, law.flank(end + 1e-13).f, 1e-12);
+    EXPECT_NEAR(law.flank_integral(end - 1e-13), law.flank_integral(end + 1e-13), 1e-14);
+  }
+}
+
 TEST(GearTeeth, ErrorsAndTheirDerivatives) {
   const ToothWave wave(360.0 / 25);
   TransmissionError cosine, fourier, table;
@@ -176,7 +192,7 @@ TEST(GearTeeth, DefaultsOfTheCard) {
   EXPECT_EQ(teeth().mode, ToothLaw::Damping::always);
   c.data.backlash = 0.02;
   EXPECT_EQ(teeth().mode, ToothLaw::Damping::contact);
-  EXPECT_NEAR(teeth().onset, 2e-5, 1e-20);
+  EXPECT_EQ(teeth().onset, 0);
   c.data.damping_mode = {"ALWAYS", {}};
   EXPECT_EQ(teeth().mode, ToothLaw::Damping::always);
   c.data.damping_ratio = 0.07;

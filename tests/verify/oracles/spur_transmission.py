@@ -31,8 +31,8 @@ torque then helps disc 2 along, B pushes A, F < 0 and the loaded flank is the ot
 nearly mirrors the force (x_err reversed is x_err half a tooth later but for a constant), not exactly: P and
 the wind-up inside x_err keep their sign (amplitude in case A: 5996.0 against 5997.2 lbf).
 
-Contact. Each corner of [[.]] is rounded over the width `smooth` (engrane's SMOOTH, 0.001 b when not given) by
-a ramp whose slope is 3 t^2 - 2 t^3. Damping ALWAYS is the paper's. CONTACT damps only while a flank touches
+Contact. Each corner of [[.]] is exact, or rounded over the width `smooth` (engrane's SMOOTH) by a ramp whose
+slope is 3 t^2 - 2 t^3. Damping ALWAYS is the paper's. CONTACT damps only while a flank touches
 (times the ramp's slope) and never makes it pull: where c_m du/dt would exceed the elastic force it takes that
 away and no more, rounded between 90 and 110 %.
 
@@ -72,7 +72,7 @@ class Transmission:
     b: float = 0.0
     X: float = 0.003937
     damping: str = "ALWAYS"  # ALWAYS: c_m u' at all times; CONTACT: only on a flank, which never pulls
-    smooth: float = 1e-3  # width of the rounded corners, as a fraction of b
+    smooth: float = 0.0  # width of the rounded corners, as a fraction of b
     torque: float = 945.8  # T, moment about +z on disc 2; positive: A drives B
     frame: bool = True
     z: int = 25
@@ -217,8 +217,7 @@ def integrate(
     model: Transmission, t0: float, y0: np.ndarray, t1: float, rtol: float, samples: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Dormand-Prince 8(5,3) from t0 to t1; returns the states at `samples` (n x size) and the final state.
-    The rounded corners have continuous slopes: the error control finds them by itself, and the step never
-    exceeds 1/40 tooth period."""
+    The error control finds the corners by itself, and the step never exceeds 1/40 tooth period."""
     out = np.empty((len(samples), model.size))
     done = 0
     # Positions are of order 1e-5 (tooth deflection) to 1e-1 (wind-up): one absolute tolerance far below both.
