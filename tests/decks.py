@@ -198,7 +198,8 @@ def run(arguments, deck: Path, ranks: int) -> Path:
         old.unlink()
     command = [arguments.binary, str(deck), "-o", str(prefix)]
     if ranks > 1:
-        mpi = f"{arguments.mpiexec} -np {ranks} --quiet --oversubscribe --mca mpi_yield_when_idle 1 --bind-to none"
+        polite = "--oversubscribe --mca mpi_yield_when_idle 1 --bind-to none"
+        mpi = f"{arguments.mpiexec} -np {ranks} --quiet {polite}"
         command = [*mpi.split(), *command]
     print("+", " ".join(command), flush=True)
     status = subprocess.run(command, check=False).returncode

@@ -40,7 +40,18 @@ def argv(command: str) -> list[str]:
     if words[0] in PICTURES:
         return [sys.executable, "-m", "engrane_post", *words]
     if words[0] == "-np":
-        mpiexec = ["mpiexec", "-np", words[1], "--quiet", "--oversubscribe", "--mca", "mpi_yield_when_idle", "1", "--bind-to", "none"]
+        mpiexec = [
+            "mpiexec",
+            "-np",
+            words[1],
+            "--quiet",
+            "--oversubscribe",
+            "--mca",
+            "mpi_yield_when_idle",
+            "1",
+            "--bind-to",
+            "none",
+        ]
         return [*mpiexec, os.environ["ENGRANE"], *words[2:]]
     return [os.environ["ENGRANE"], *words]
 

@@ -43,7 +43,19 @@ def run(
     (folder / f"{name}.dat").write_text(text)
     command = [program, f"{name}.dat", "-o", name, *options]
     if ranks > 1:
-        command = ["mpiexec", "-np", str(ranks), "--quiet", "--oversubscribe", "--mca", "mpi_yield_when_idle", "1", "--bind-to", "none", *command]
+        command = [
+            "mpiexec",
+            "-np",
+            str(ranks),
+            "--quiet",
+            "--oversubscribe",
+            "--mca",
+            "mpi_yield_when_idle",
+            "1",
+            "--bind-to",
+            "none",
+            *command,
+        ]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=timeout)
     assert done.returncode == status, done.stdout + done.stderr
     return Run(folder / f"{name}.h5")

@@ -59,7 +59,20 @@ OPEN_LOOP = """
 def run(deck: str, folder: Path, ranks: int = 1) -> subprocess.CompletedProcess:
     (folder / "deck.dat").write_text(deck, encoding="utf-8")
     mpi = (
-        ["mpiexec", "-np", str(ranks), "--oversubscribe", "--mca", "mpi_yield_when_idle", "1", "--bind-to", "none", "--quiet"] if ranks > 1 else []
+        [
+            "mpiexec",
+            "-np",
+            str(ranks),
+            "--oversubscribe",
+            "--mca",
+            "mpi_yield_when_idle",
+            "1",
+            "--bind-to",
+            "none",
+            "--quiet",
+        ]
+        if ranks > 1
+        else []
     )
     command = [*mpi, BINARY, "-q", "deck.dat"]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120, check=False)

@@ -22,6 +22,9 @@ AlphaScheme AlphaScheme::bossak(double alpha) { return {-alpha, 0, 0.25 * (1 + a
 
 namespace {
 
+/// A step longer than this many times the one before has a memory of its own.
+constexpr double longest_growth = 3;
+
 AlphaScheme coefficients(const SolverOptions& options) {
   switch (options.family) {
     case SolverOptions::Family::newmark:
@@ -75,7 +78,10 @@ void Transient::drift(Configuration& c, double h) {
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
   for (const auto& p : context_.motion.prescribed(c.time)) v[p.slot] = p.v;
   context_.motion.set_velocities(v, c);
-  context_.motion.set_velocities(fitting_velocities(c), c);
+  if (constrained()) {
+    context_.motion.set_velocities(fitting_velocities(c), c);
+    context_.start.balance_accelerations(c, 2, nullptr, massless);
+  }
   restart_memory(c);
 }
 
@@ -109,6 +115,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     algorithmic_ = vdot0;
     step_of_algorithmic_ = h;
   }
+  if (h > longest_growth * step_of_algorithmic_) renew_memory(from, h);
   const std::vector<double> v0 = first_velocities(from, h);
   std::vector<double> a0 = algorithmic_;
   // a_n is v̇ shifted by (α_m − α_f) h: another h, another shift

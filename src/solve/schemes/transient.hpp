@@ -50,6 +50,9 @@ class Transient final : public Scheme {
   /// The velocities with which a step of h from `from` begins: those of the scheme, which differ from the ones that fit the
   /// constraints by a part that grows with the square of the step.
   std::vector<double> first_velocities(const Configuration& from, double h);
+  /// Starts the memory anew from the end of a step for one that is much longer: differences of the short one are rounding.
+  void renew_memory(const Configuration& from, double h);
+  bool constrained() const;
   /// The velocities of `c` changed, in kinetic energy as little as possible, until they fit its constraints.
   std::vector<double> fitting_velocities(const Configuration& c) const;
 
@@ -78,9 +81,10 @@ class Transient final : public Scheme {
   double step_of_algorithmic_ = 0;   ///< the h that `algorithmic_` belongs to
   double scaled_for_ = 0;            ///< the h that k was chosen for
   std::vector<double> algorithmic_;  ///< a_n of the scheme: v̇ shifted by (α_m − α_f) h
-  std::vector<double> offset_;       ///< of the first velocities after a start, for a step of step_of_algorithmic_; may be empty
-  std::vector<double> fitting_;      ///< velocities that fit where the last step ended; empty where nobody has asked
-  std::vector<double> tried_;        ///< `algorithmic_` at the end of the last attempt
+  /// Velocities that fit where the next step begins, empty where they are the configuration's own; and what the scheme's differ
+  /// by from them, for a step of step_of_algorithmic_. Both empty where nobody has asked.
+  std::vector<double> fitting_, offset_;
+  std::vector<double> tried_;  ///< `algorithmic_` at the end of the last attempt
   double tried_step_ = 0;
   bool has_massless_ = false;  ///< the model has motions without mass
   std::optional<MasslessMotions> massless_;

@@ -69,18 +69,17 @@ void Transient::start_memory(const Configuration& c, double h, double span, cons
   algorithmic_ = context_.motion.accelerations(c);
   step_of_algorithmic_ = h;
   offset_.clear();
-  fitting_.clear();
+  fitting_ = context_.motion.velocities(c);
   const double shift = scheme_.alpha_m - scheme_.alpha_f;
   const std::vector<double> slope = slope_of_accelerations(c, span, span < h ? 1 : 12, massless);
   // a_0 = v̇(t_0 + (α_m − α_f) h) to second order, or multipliers lose an order at first (Arnold, Brüls and Cardona 2015)
   for (std::size_t i = 0; i < slope.size(); ++i) algorithmic_[i] += shift * h * slope[i];
-  if (context_.numbering.slots() == context_.numbering.motion_slots()) return;
+  if (!constrained()) return;
   // The increments of steps with exact velocities and accelerations open the constraints by h³ B(c v̈ + W × Ẇ/12), the last for
   // rotations. The scheme closes them by velocities that are off by as much over h; one that begins without this error finds it
   // in the first step by accelerations, and so multipliers, that are off by a part of h (the same paper, section 5).
   const double c_3 = (1 - 3 * shift - 6 * scheme_.beta) / 6;
-  const std::vector<double> v = context_.motion.velocities(c);
-  std::vector<double> moved = v;
+  std::vector<double> moved = fitting_;
   for (std::size_t i = 0; i < slope.size(); ++i) moved[i] += h * h * c_3 * slope[i];
   for (std::size_t n = 0; n < c.nodes.size(); ++n) {
     const Vec3 turn = c.nodes[n].W.cross(c.nodes[n].A) * (h * h / 12);
@@ -89,7 +88,7 @@ void Transient::start_memory(const Configuration& c, double h, double span, cons
   Configuration off = c;
   context_.motion.set_velocities(moved, off);
   offset_ = fitting_velocities(off);
-  for (std::size_t i = 0; i < v.size(); ++i) offset_[i] = moved[i] - offset_[i];
+  for (std::size_t i = 0; i < moved.size(); ++i) offset_[i] = moved[i] - offset_[i];
 }
 
 std::vector<double> Transient::fitting_velocities(const Configuration& c) const {
@@ -99,17 +98,29 @@ std::vector<double> Transient::fitting_velocities(const Configuration& c) const 
   return context_.motion.velocities(fitted);
 }
 
+void Transient::renew_memory(const Configuration& from, double h) {
+  Configuration c = from;
+  if (constrained()) context_.motion.set_velocities(fitting_velocities(c), c);
+  const MasslessMotions* massless = massless_at(c);
+  context_.start.balance_accelerations(c, 3, nullptr, massless);
+  start_memory(c, h, slope_span * h, massless);
+}
+
 std::vector<double> Transient::first_velocities(const Configuration& from, double h) {
   std::vector<double> v = context_.motion.velocities(from);
   const double ratio = h / step_of_algorithmic_;
-  if (!offset_.empty()) {
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] += ratio * ratio * offset_[i];
-  } else if (ratio != 1 && context_.numbering.slots() > context_.numbering.motion_slots()) {
-    if (fitting_.empty()) fitting_ = fitting_velocities(from);
-    for (std::size_t i = 0; i < v.size(); ++i) v[i] = fitting_[i] + ratio * ratio * (v[i] - fitting_[i]);
+  if (!constrained() || (offset_.empty() && ratio == 1)) return v;
+  if (offset_.empty()) {
+    fitting_ = fitting_velocities(from);
+    offset_ = v;
+    for (std::size_t i = 0; i < v.size(); ++i) offset_[i] -= fitting_[i];
   }
+  if (!fitting_.empty()) v = fitting_;
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += ratio * ratio * offset_[i];
   return v;
 }
+
+bool Transient::constrained() const { return context_.numbering.slots() > context_.numbering.motion_slots(); }
 
 Transient::Relaxed Transient::relax(Configuration& c, MasslessMotions& massless) {
   // An implicit Euler step so short that masses hardly move. Springs go to where they balance, however short it is; a damper's
