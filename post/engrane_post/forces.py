@@ -138,7 +138,8 @@ class Forces:
             self._add("spring", element, b, None, -force)
         elif kind == "CAM":
             roller = next((d for d in element.drawing if d.get("shape") == "roller"), {})
-            self._add("cam", element, b, self._on(b, roller.get("center")), force)
+            point = roller.get("center") or element.parameters.get("AT")
+            self._add("cam", element, b, self._on(b, point), force)
         else:
             joint = linkage.joint(self.scene, element)
             drawn = next((d for d in element.drawing if d.get("shape") == "axis"), {})

@@ -215,3 +215,17 @@ def test_motors_along_every_coordinate(joint: str, coordinate: str | None, tmp_p
     assert drawn.largest("joint", 1, 1) > 0.1
     if coordinate:
         assert min(drawn.largest("effort", i, 1) for i in (2, 3)) > 0.1
+
+
+@pytest.mark.parametrize("follower", ["KNIFE", "ROLLER 0.02"])
+def test_cam_away_from_its_followers_node(follower: str, tmp_path: Path) -> None:
+    """A body that rests with a knife edge or a roller on a round cam of the ground."""
+    polar = " ".join(f"{a} {0.3}" for a in range(0, 360, 20))
+    radius = 0.02 if follower.startswith("ROLLER") else 0.0
+    cam = f""" I 1 CAM N 0 1 AXIS 0 0 1 ZERO 1 0 0 CENTER 0.1 -0.6 0 $
+ POLAR {polar} $
+ FOLLOWER {follower} AT 0.1 {-0.3 + radius} 0 K 2D4 DAMP LINEAR 3
+ I 2 PLANAR N 0 1 AXIS 0 0 1"""
+    drawn = Drawn(deck(cam, " CHA NOEUD 1 C 2 V -40", bodies=(1,)), tmp_path)
+    drawn.balance((1,))
+    assert drawn.largest("cam", 1, 1) > 20
