@@ -78,7 +78,9 @@ def direction(scene: linkage.Places, owner: Element, name: str, frames: Sequence
             ground = np.asarray(given["AT"], float)
             from_, to = (ground if a == 0 else from_), (ground if b == 0 else to)
         line = _places(scene, b, to, frames) - _places(scene, a, from_, frames)
-        return Direction(a, b, to, line / np.linalg.norm(line, axis=1)[:, None], zero)
+        # ends that meet have no direction
+        line /= np.maximum(np.linalg.norm(line, axis=1), 1e-300)[:, None]
+        return Direction(a, b, to, line, zero)
 
     axis = given.get("AXIS") or drawn.get("axis")
     if axis is None:
@@ -94,12 +96,8 @@ def direction(scene: linkage.Places, owner: Element, name: str, frames: Sequence
         return Direction(a, b, place, zero, turn(scene, a, b, axis, frames))
     if name in ("ANGLE_1", "ANGLE_2"):
         axes = triad(axis, given.get("AXIS2"))  # of the pins, which stay at right angles
-        held = (
-            _carried(scene, a, axes[:, 0], frames)
-            if name == "ANGLE_1"
-            else _carried(scene, b, axes[:, 1], frames)
-        )
-        return Direction(a, b, place, zero, held)
+        holder, pin = (a, axes[:, 0]) if name == "ANGLE_1" else (b, axes[:, 1])
+        return Direction(a, b, place, zero, _carried(scene, holder, pin, frames))
     axes = triad(axis, given.get("DIR"))
     column = {"SLIDE": 0, "DISPLACEMENT": 0, "SLIDE_2": 1, "SLIDE_3": 2}.get(name)
     if column is None:
