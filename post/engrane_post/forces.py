@@ -3,18 +3,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from . import linkage, shapes
+from . import coordinates, linkage, shapes
 from .mesh import Mesh, Step
 from .results import Element, Frame
 from .scene import Scene
 
 # The numbers of the array `kind`; docs/post.md lists them.
-KINDS = ("reaction", "tooth", "joint", "cam", "belt", "spring", "load", "body")
+KINDS = ("reaction", "tooth", "joint", "cam", "belt", "spring", "load", "body", "stop", "effort")
+# Efforts along coordinates of joints: channel, keyword of the joint and which of several, keyword of the
+# coordinate.
+EFFORTS = {
+    "MOTOR": [("EFFORT", "JOINT", 0, "COORDINATE")],
+    "CONTROLLER": [("EFFORT", "OUT", 0, "ALONG")],
+    "COUPLING": [("EFFORT_1", "JOINTS", 0, "FIRST"), ("EFFORT_2", "JOINTS", 1, "SECOND")],
+}
 
 Place = Callable[[Frame, int], np.ndarray]  # where the point is in a frame, which is the k-th of those chosen
 
@@ -48,6 +55,7 @@ class Forces:
             before = np.maximum(after - 1, 0)
             self._rows = np.where(wanted - times[before] < np.abs(times[after] - wanted), before, after)
             self._tables: dict[str, np.ndarray] = {}
+            self._owners = {e.id: e for e in result.elements}
             for element in result.elements:
                 self._element(element)
         self._reactions()
@@ -90,6 +98,18 @@ class Forces:
                 self._add("body", element, node, None, *both)
         elif kind in ("TORQUE", "TSPRING"):
             self._torque(element)
+        elif kind == "CHA":
+            load = (self._vector(element, f"{what}_{{}}") for what in ("FORCE", "MOMENT"))
+            self._add("load", element, element.nodes[0], None, *load)
+        elif kind == "BUSHING":
+            self._bushing(element)
+        elif kind == "STOP":
+            self._stop(element)
+        elif kind == "LIA":
+            self._relation(element)
+        elif kind in EFFORTS:
+            for channel, *words in EFFORTS[kind]:
+                self._effort(element, channel, *words)
         elif len(element.nodes) == 2 and (force := self._vector(element, "FORCE_{}")) is not None:
             self._on_second(element, force)
         elif kind in ("SPRING", "FORCE"):
@@ -118,12 +138,17 @@ class Forces:
             self._add("spring", element, b, None, -force)
         elif kind == "CAM":
             roller = next((d for d in element.drawing if d.get("shape") == "roller"), {})
-            self._add("cam", element, b, self._on(b, roller.get("center")), force)
+            point = roller.get("center") or element.parameters.get("AT")
+            self._add("cam", element, b, self._on(b, point), force)
         else:
             joint = linkage.joint(self.scene, element)
             drawn = next((d for d in element.drawing if d.get("shape") == "axis"), {})
             point = joint.place_b if joint else drawn.get("center")
-            self._add("joint", element, b, self._on(b, point), force, moment)
+            place = self._on(b, point)
+            if b:
+                self._add("joint", element, b, place, force, moment)
+            else:  # the ground needs no arrows, the body that it holds does
+                self._add("joint", element, a, place, -force, None if moment is None else -moment)
 
     def _belt(self, element: Element) -> None:
         a, b = element.nodes
@@ -143,12 +168,91 @@ class Forces:
         given = element.parameters
         alone = len(np.ravel(given.get("N") or element.nodes)) == 1
         spring = element.type.upper() == "TSPRING"
-        fixed = not spring and (bool(given.get("FIXED")) or (alone and not given.get("FOLLOW")))
-        moment = size[:, None] * self._axes(element, 0 if fixed else b if alone else a)
-        kind = "spring" if spring else "load"
-        self._add(kind, element, b, None, None, moment)
-        if a:
-            self._add(kind, element, a, None, None, -moment)
+        if spring:
+            self._moments("spring", element, size[:, None] * self._turn(element))
+            return
+        fixed = bool(given.get("FIXED")) or (alone and not given.get("FOLLOW"))
+        self._moments("load", element, size[:, None] * self._axes(element, 0 if fixed else b if alone else a))
+
+    def _moments(self, kind: str, element: Element, moment: np.ndarray) -> None:
+        """On the second node, and the opposite on the first; none on the ground."""
+        for node, sign in zip(element.nodes, (-1, 1), strict=True):
+            if node:
+                self._add(kind, element, node, None, None, sign * moment)
+
+    def _between(
+        self,
+        kind: str,
+        element: Element,
+        nodes: Sequence[int],
+        place: Place,
+        force: np.ndarray | None,
+        moment: np.ndarray | None = None,
+    ) -> None:
+        """On the second node, and the opposite on the first at the same place; none on the ground."""
+        for node, sign in zip(nodes, (-1, 1), strict=True):
+            if node:
+                both = (None if v is None else sign * v for v in (force, moment))
+                self._add(kind, element, node, place, *both)
+
+    def _bushing(self, element: Element) -> None:
+        """Its channels are on b in axes that a holds; both sides act at b's point."""
+        a, b = element.nodes
+        given = element.parameters
+        axes = coordinates.triad(given["AXIS"], given.get("AXIS2")) if given.get("AXIS") else np.eye(3)
+        own = [self._vector(element, f"{what}_{{}}", "123") for what in ("FORCE", "MOMENT")]
+        if own[0] is None or own[1] is None:
+            return
+        turned = np.array([self.scene.transform(a, f)[:3, :3] @ axes for f in self.frames])
+        force, moment = (np.einsum("kij,kj->ki", turned, v) for v in own)
+        drawn = next((d for d in element.drawing if d.get("shape") == "axis"), {})
+        self._between("spring", element, element.nodes, self._on(b, drawn.get("center")), force, moment)
+
+    def _stop(self, element: Element) -> None:
+        """On a distance, a turn or the height of a point of b above a plane that a holds."""
+        a, b = element.nodes
+        given = element.parameters
+        if given.get("AXIS"):
+            size = self._scalar(element, "TORQUE")
+            if size is not None:
+                self._moments("stop", element, size[:, None] * self._turn(element))
+        elif given.get("NORMAL"):
+            size = self._scalar(element, "FORCE")
+            if size is not None:
+                force = size[:, None] * self._axes(element, a, "NORMAL")
+                self._between("stop", element, element.nodes, self._on(b, given.get("AT")), force)
+        else:
+            self._line(element)
+
+    def _effort(self, element: Element, channel: str, joint: str, which: int, name: str) -> None:
+        """Along a coordinate of another element, at that one's place."""
+        size = self._scalar(element, channel)
+        named = np.ravel(element.parameters.get(joint) or [0])
+        owner = self._owners.get(int(named[which]))
+        if size is None or owner is None:
+            return
+        wanted = str(element.parameters.get(name) or "").upper()
+        along = coordinates.direction(self.scene, owner, wanted, self.frames)
+        if along is not None:
+            force, moment = (size[:, None] * v for v in (along.force, along.moment))
+            self._between(
+                "effort", element, (along.a, along.b), self._on(along.b, along.place), force, moment
+            )
+
+    def _relation(self, element: Element) -> None:
+        """A linear relation acts on each of its components with the reaction times the coefficient."""
+        size = self._scalar(element, "REACTION")
+        if size is None:
+            return
+        terms = [np.ravel(element.parameters.get(k) or []) for k in ("NOEUD", "C", "A")]
+        sums: dict[int, np.ndarray] = {}
+        for node, c, coefficient in zip(*terms, strict=True):
+            axis, turns = np.eye(3)[(int(c) - 1) % 3], int(c) > 3
+            along = coordinates.turn(self.scene, 0, int(node), axis, self.frames) if turns else axis
+            both = sums.setdefault(int(node), np.zeros((2, len(self.frames), 3)))
+            both[int(turns)] += coefficient * size[:, None] * along
+        for node, (force, moment) in sums.items():
+            self._add("effort", element, node, None, force, moment)
 
     def _line(self, element: Element) -> None:
         """Springs and forces between two nodes, along their line; a force on one node, along DIR."""
@@ -164,9 +268,12 @@ class Forces:
         places = [self._on(n, given.get("AT") if n == 0 else None) for n in element.nodes]
         line = np.array([places[1](f, k) - places[0](f, k) for k, f in enumerate(self.frames)])
         pull = size[:, None] * line / np.maximum(np.linalg.norm(line, axis=1), 1e-300)[:, None]
-        spring = element.type.upper() == "SPRING"
-        for node, place, sign in zip(element.nodes, places, (1, -1) if spring else (-1, 1), strict=True):
-            self._add("spring" if spring else "load", element, node, place, sign * pull)
+        kind = {"SPRING": "spring", "STOP": "stop"}.get(element.type.upper(), "load")
+        for node, place, sign in zip(
+            element.nodes, places, (1, -1) if kind == "spring" else (-1, 1), strict=True
+        ):
+            if node:
+                self._add(kind, element, node, place, sign * pull)
 
     def _reactions(self) -> None:
         """On supported nodes, from the fields."""
@@ -205,8 +312,13 @@ class Forces:
         axis = shapes.unit(np.asarray(element.parameters.get(keyword) or [0, 0, 1], float))
         return np.array([self.scene.transform(node, f)[:3, :3] @ axis for f in self.frames])
 
-    def _vector(self, element: Element, pattern: str) -> np.ndarray | None:
-        parts = [self._scalar(element, pattern.format(c)) for c in "XYZ"]
+    def _turn(self, element: Element) -> np.ndarray:
+        """Moment on the second node per unit along its turn about AXIS."""
+        a, b = element.nodes
+        return coordinates.turn(self.scene, a, b, element.parameters.get("AXIS") or [0, 0, 1], self.frames)
+
+    def _vector(self, element: Element, pattern: str, components: str = "XYZ") -> np.ndarray | None:
+        parts = [self._scalar(element, pattern.format(c)) for c in components]
         return None if any(p is None for p in parts) else np.stack(parts, axis=1)
 
     def _scalar(self, element: Element, name: str) -> np.ndarray | None:

@@ -252,9 +252,11 @@ std::string Writer::closing_lines() const {
   const std::string prefix = stem();
   std::string text = fmt::format("results in {}, {} and {}\n", files[0], files[1], files[2]);
   const std::string picture = fmt::format("engrane picture {0} --both -o {0}.png", prefix);
+  // of an element, and not what a load is known to be
+  const auto tells = [](const HistoryTable& one) { return !one.type.empty() && one.type != "CHA"; };
   const HistoryTable* table = nullptr;
   for (const HistoryTable& one : results_.layout().history)
-    if (!table || (table->type.empty() && !one.type.empty())) table = &one;
+    if (!table || (!tells(*table) && tells(one))) table = &one;
   if (table && !table->channels.empty()) {
     const std::string plot =
         fmt::format("engrane plot {0} {1}/{2} -o {0}.png", prefix, table->owner(0), table->channels.front().name);

@@ -18,6 +18,13 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
     const bool pushes = !force.isZero(0), turns = !moment.isZero(0);
     layout.needs = {pushes && turns ? NodeNeed::both : turns ? NodeNeed::rotation : NodeNeed::translation};
     set_layout(std::move(layout));
+    const auto name = [this](const Vec3& load, const char* what, Dimension dimension) {
+      if (load.isZero(0)) return;
+      for (const char* axis : {"_X", "_Y", "_Z"})
+        channels_.push_back({fmt::format("{}{}", what, axis), dimension, "on the node, global"});
+    };
+    name(force_, "FORCE", dimension::force);
+    name(moment_, "MOMENT", dimension::moment);
   }
 
   template <class T>
@@ -29,11 +36,20 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
   }
 
   Energies energies(const State& state) const override {
-    const double factor = function_ ? function_->at(state.time).f : 1.0;
     const NodeState& node = state.nodes[0];
     Energies e;
-    e.external = factor * (force_.dot(node.v) + moment_.dot(node.R * node.W));
+    e.external = factor(state) * (force_.dot(node.v) + moment_.dot(node.R * node.W));
     return e;
+  }
+
+  const std::vector<Named>& channels() const override { return channels_; }
+
+  void observe(const State& state, std::span<double> values) const override {
+    std::size_t i = 0;
+    for (const Vec3* load : {&force_, &moment_}) {
+      if (load->isZero(0)) continue;
+      for (const double component : *load) values[i++] = factor(state) * component;
+    }
   }
 
   Drawing drawing() const override {
@@ -48,8 +64,11 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
   }
 
  private:
+  double factor(const State& state) const { return function_ ? function_->at(state.time).f : 1.0; }
+
   Vec3 at_, force_, moment_;
   const Function* function_;
+  std::vector<Named> channels_;
 };
 
 }  // namespace

@@ -92,7 +92,10 @@ Schema displacement_card() {
 Schema load_card() {
   Card<LoadCard> card(".CLM CHA", {".BOUNDARY", "CHARGE", "LOAD"}, "Forces and moments on nodes, fixed in space");
   card.chapter(chapter).redefines();
-  card.describe("The value times the function NF of time; without a function the value holds from the start.");
+  card.describe(
+      "The value times the function NF of time; without a function the value holds from the start. The load of each node has "
+      "the histories FORCE_X to FORCE_Z if it has a force and MOMENT_X to MOMENT_Z if it has a moment, as an element of type CHA "
+      "with a number after those of all others.");
   add_target(card);
   add_components(card, "components: 1 to 3 forces, 4 to 6 moments, along the global axes");
   card.add("V", &LoadCard::values, "force or moment: one for all components or one for each").values(1, 6).required();

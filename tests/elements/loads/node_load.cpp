@@ -27,5 +27,34 @@ TEST(NodeLoad, Suite) {
   }
 }
 
+/// Only what the card gives has histories: global components, with the factor of the function.
+TEST(NodeLoad, Channels) {
+  const Vec3 none = Vec3::Zero(), some(3, 0, 1), other(0.5, 2, -1);
+  const auto check = [](const Vec3& force, const Vec3& moment, const Function* function) {
+    const auto load = make_node_load(1, 4, Vec3::Zero(), force, moment, function);
+    StateBuffer state(*load, {{4, {1, 2, 3}}});
+    state.time = 0.6;
+    const double factor = function ? function->at(state.time).f : 1;
+    std::size_t count = 0;
+    const auto three = [&](const std::string& name, const Vec3& given, const Dimension& dimension) {
+      if (given.isZero(0)) return;
+      for (const char axis : {'X', 'Y', 'Z'}) {
+        const Named& channel = load->channels().at(count++);
+        EXPECT_EQ(channel.name, name + "_" + axis);
+        EXPECT_EQ(channel.dimension, dimension);
+        EXPECT_DOUBLE_EQ(channel_of(*load, state, channel.name), factor * given[axis - 'X']);
+      }
+    };
+    three("FORCE", force, dimension::force);
+    three("MOMENT", moment, dimension::moment);
+    EXPECT_EQ(load->channels().size(), count);
+  };
+  for (const Function* function : {static_cast<const Function*>(&wave), static_cast<const Function*>(nullptr)}) {
+    check(some, none, function);
+    check(none, other, function);
+    check(some, other, function);
+  }
+}
+
 }  // namespace
 }  // namespace engrane::elements::loads
