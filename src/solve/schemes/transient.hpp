@@ -52,8 +52,11 @@ class Transient final : public Scheme {
   std::vector<double> first_velocities(const Configuration& from, double h);
   /// Starts the memory anew from the end of a step for one that is much longer: differences of the short one are rounding.
   void renew_memory(const Configuration& from, double h);
+  /// Are rates, times `scale`, displacements larger than the rounding of places?
+  bool counts(std::span<const double> rates, double scale) const;
   bool constrained() const;
-  /// The velocities of `c` changed, in kinetic energy as little as possible, until they fit its constraints.
+  /// The velocities of `c` changed, in kinetic energy as little as possible, until they fit its constraints; the same where that
+  /// is rounding, or where none fit.
   std::vector<double> fitting_velocities(const Configuration& c) const;
 
   /// What balance asks of motions without mass at one instant.

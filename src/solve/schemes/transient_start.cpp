@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/diagnosis.hpp"
 #include "solve/schemes/statics.hpp"
 #include "solve/schemes/transient.hpp"
@@ -71,7 +73,8 @@ void Transient::start_memory(const Configuration& c, double h, double span, cons
   offset_.clear();
   fitting_ = context_.motion.velocities(c);
   const double shift = scheme_.alpha_m - scheme_.alpha_f;
-  const std::vector<double> slope = slope_of_accelerations(c, span, span < h ? 1 : 12, massless);
+  std::vector<double> slope = slope_of_accelerations(c, span, span < h ? 1 : 12, massless);
+  if (!counts(slope, h * h * h)) std::fill(slope.begin(), slope.end(), 0.0);
   // a_0 = v̇(t_0 + (α_m − α_f) h) to second order, or multipliers lose an order at first (Arnold, Brüls and Cardona 2015)
   for (std::size_t i = 0; i < slope.size(); ++i) algorithmic_[i] += shift * h * slope[i];
   if (!constrained()) return;
@@ -92,10 +95,17 @@ void Transient::start_memory(const Configuration& c, double h, double span, cons
 }
 
 std::vector<double> Transient::fitting_velocities(const Configuration& c) const {
+  std::vector<double> v = context_.motion.velocities(c);
   Configuration fitted = c;
   StartReport unused;
-  context_.start.fit_velocities(fitted, Assembler::Metric::mass, unused, false);
-  return context_.motion.velocities(fitted);
+  try {
+    context_.start.fit_velocities(fitted, Assembler::Metric::mass, unused, false);
+  } catch (const SolutionFailure&) {
+    return v;  // the step itself finds the conflict, and says when
+  }
+  std::vector<double> fit = context_.motion.velocities(fitted), change = fit;
+  for (std::size_t i = 0; i < v.size(); ++i) change[i] -= v[i];
+  return counts(change, context_.options.step) ? fit : v;
 }
 
 void Transient::renew_memory(const Configuration& from, double h) {
@@ -118,6 +128,13 @@ std::vector<double> Transient::first_velocities(const Configuration& from, doubl
   if (!fitting_.empty()) v = fitting_;
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += ratio * ratio * offset_[i];
   return v;
+}
+
+bool Transient::counts(std::span<const double> rates, double scale) const {
+  const double rounding = 64 * std::numeric_limits<double>::epsilon(), extent = context_.model.extent();
+  for (const Unknown& u : context_.numbering.unknowns())
+    if (!u.multiplier && std::abs(rates[static_cast<std::size_t>(u.slot)]) * scale > rounding * size_of(u, extent)) return true;
+  return false;
 }
 
 bool Transient::constrained() const { return context_.numbering.slots() > context_.numbering.motion_slots(); }
