@@ -35,6 +35,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "post"))
 
 from engrane_post import Results
+from ranks import on_ranks
 
 REFERENCE = Path(__file__).parent / "verify" / "results_0.3.0.json"
 # How many steps and iterations a run takes is its own affair.
@@ -196,11 +197,7 @@ def run(arguments, deck: Path, ranks: int) -> Path:
     prefix = arguments.work / (deck.stem + (f"_np{ranks}" if ranks > 1 else ""))
     for old in arguments.work.glob(f"{prefix.name}.*"):
         old.unlink()
-    command = [arguments.binary, str(deck), "-o", str(prefix)]
-    if ranks > 1:
-        polite = "--oversubscribe --mca mpi_yield_when_idle 1 --bind-to none"
-        mpi = f"{arguments.mpiexec} -np {ranks} --quiet {polite}"
-        command = [*mpi.split(), *command]
+    command = on_ranks(ranks, [arguments.binary, str(deck), "-o", str(prefix)], arguments.mpiexec)
     print("+", " ".join(command), flush=True)
     status = subprocess.run(command, check=False).returncode
     if status != 0:

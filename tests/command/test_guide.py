@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from engrane_post import Results
+from ranks import on_ranks
 
 ROOT = Path(__file__).resolve().parents[2]
 GUIDE = (ROOT / "docs/guide.md").read_text(encoding="utf-8")
@@ -40,19 +41,7 @@ def argv(command: str) -> list[str]:
     if words[0] in PICTURES:
         return [sys.executable, "-m", "engrane_post", *words]
     if words[0] == "-np":
-        mpiexec = [
-            "mpiexec",
-            "-np",
-            words[1],
-            "--quiet",
-            "--oversubscribe",
-            "--mca",
-            "mpi_yield_when_idle",
-            "1",
-            "--bind-to",
-            "none",
-        ]
-        return [*mpiexec, os.environ["ENGRANE"], *words[2:]]
+        return on_ranks(int(words[1]), [os.environ["ENGRANE"], *words[2:]])
     return [os.environ["ENGRANE"], *words]
 
 

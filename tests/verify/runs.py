@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from engrane_post import Results
+from ranks import on_ranks
 
 
 class Run:
@@ -41,21 +42,7 @@ def run(
     if not Path(program).is_file():
         pytest.skip("the variable ENGRANE names no program")
     (folder / f"{name}.dat").write_text(text)
-    command = [program, f"{name}.dat", "-o", name, *options]
-    if ranks > 1:
-        command = [
-            "mpiexec",
-            "-np",
-            str(ranks),
-            "--quiet",
-            "--oversubscribe",
-            "--mca",
-            "mpi_yield_when_idle",
-            "1",
-            "--bind-to",
-            "none",
-            *command,
-        ]
+    command = on_ranks(ranks, [program, f"{name}.dat", "-o", name, *options])
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=timeout)
     assert done.returncode == status, done.stdout + done.stderr
     return Run(folder / f"{name}.h5")

@@ -10,6 +10,7 @@ from pathlib import Path
 import h5py
 import pytest
 from engrane_post import Results
+from ranks import on_ranks
 
 BINARY = os.environ["ENGRANE"]
 
@@ -58,23 +59,7 @@ OPEN_LOOP = """
 
 def run(deck: str, folder: Path, ranks: int = 1) -> subprocess.CompletedProcess:
     (folder / "deck.dat").write_text(deck, encoding="utf-8")
-    mpi = (
-        [
-            "mpiexec",
-            "-np",
-            str(ranks),
-            "--oversubscribe",
-            "--mca",
-            "mpi_yield_when_idle",
-            "1",
-            "--bind-to",
-            "none",
-            "--quiet",
-        ]
-        if ranks > 1
-        else []
-    )
-    command = [*mpi, BINARY, "-q", "deck.dat"]
+    command = on_ranks(ranks, [BINARY, "-q", "deck.dat"])
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120, check=False)
 
 
@@ -112,21 +97,7 @@ def test_failed_run_does_not_replace_a_good_one(tmp_path):
 
 def test_results_that_cannot_be_written_end_all_ranks(tmp_path):
     (tmp_path / "deck.dat").write_text(FREE, encoding="utf-8")
-    command = [
-        "mpiexec",
-        "-np",
-        "3",
-        "--oversubscribe",
-        "--mca",
-        "mpi_yield_when_idle",
-        "1",
-        "--quiet",
-        BINARY,
-        "-q",
-        "deck.dat",
-        "-o",
-        "no/such/folder/x",
-    ]
+    command = on_ranks(3, [BINARY, "-q", "deck.dat", "-o", "no/such/folder/x"])
     ended = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
     assert ended.returncode == 2
     assert "no/such/folder/x" in ended.stderr

@@ -14,6 +14,7 @@ import h5py
 import numpy as np
 import pytest
 from engrane_post import Results
+from ranks import on_ranks
 
 ENGRANE = os.environ.get("ENGRANE", "build/bin/engrane")
 ROOT = Path(__file__).resolve().parents[2]
@@ -46,21 +47,7 @@ def deck(folder: Path, name: str, end=1.0, solver="KLU", sam="", sai="", frames=
 
 
 def run(folder: Path, *words: str, ranks: int = 1, status: int = 0) -> str:
-    command = [ENGRANE, "-q", *words]
-    if ranks > 1:
-        command = [
-            "mpiexec",
-            "-np",
-            str(ranks),
-            "--quiet",
-            "--oversubscribe",
-            "--mca",
-            "mpi_yield_when_idle",
-            "1",
-            "--bind-to",
-            "none",
-            *command,
-        ]
+    command = on_ranks(ranks, [ENGRANE, "-q", *words])
     ended = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300, check=False)
     assert ended.returncode == status, ended.stderr
     return ended.stderr

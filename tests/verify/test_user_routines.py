@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from ranks import on_ranks
 from runs import run
 
 BINARY = os.environ.get("ENGRANE", "")
@@ -46,21 +47,7 @@ DECK = """.NOE
 )
 def test_failure_names_the_routine(tmp_path: Path, routine: str, words: str, ranks: int) -> None:
     (tmp_path / "deck.dat").write_text(DECK.format(routine=routine))
-    command = [BINARY, "deck.dat"]
-    if ranks > 1:
-        command = [
-            "mpiexec",
-            "-np",
-            str(ranks),
-            "--quiet",
-            "--oversubscribe",
-            "--mca",
-            "mpi_yield_when_idle",
-            "1",
-            "--bind-to",
-            "none",
-            *command,
-        ]
+    command = on_ranks(ranks, [BINARY, "deck.dat"])
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.returncode == 2, done.stderr
     assert "engrane: step " in done.stderr and ", t = 0.52" in done.stderr
