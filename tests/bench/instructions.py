@@ -18,7 +18,7 @@ from pathlib import Path
 import chain
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests/verify"))
+sys.path[:0] = [str(ROOT / "tests/verify"), str(ROOT / "tests")]
 from test_benchmarks import four_bars  # noqa: E402
 
 
