@@ -3,11 +3,28 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "model/templated_element.hpp"
 
 namespace engrane {
 
 namespace {
+
+/// The channels of all loads of a kind: there may be very many loads.
+const std::vector<Named>& named(bool force, bool moment) {
+  static const auto list = [](bool pushes, bool turns) {
+    std::vector<Named> all;
+    for (const char* axis : {"X", "Y", "Z"})
+      if (pushes) all.push_back({fmt::format("FORCE_{}", axis), dimension::force, "on the node, global"});
+    for (const char* axis : {"X", "Y", "Z"})
+      if (turns) all.push_back({fmt::format("MOMENT_{}", axis), dimension::moment, "on the node, global"});
+    return all;
+  };
+  static const std::array<std::vector<Named>, 4> lists{list(false, false), list(true, false), list(false, true),
+                                                       list(true, true)};
+  return lists[(force ? 1U : 0U) + (moment ? 2U : 0U)];
+}
 
 class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
  public:
@@ -18,13 +35,6 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
     const bool pushes = !force.isZero(0), turns = !moment.isZero(0);
     layout.needs = {pushes && turns ? NodeNeed::both : turns ? NodeNeed::rotation : NodeNeed::translation};
     set_layout(std::move(layout));
-    const auto name = [this](const Vec3& load, const char* what, Dimension dimension) {
-      if (load.isZero(0)) return;
-      for (const char* axis : {"_X", "_Y", "_Z"})
-        channels_.push_back({fmt::format("{}{}", what, axis), dimension, "on the node, global"});
-    };
-    name(force_, "FORCE", dimension::force);
-    name(moment_, "MOMENT", dimension::moment);
   }
 
   template <class T>
@@ -42,7 +52,7 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
     return e;
   }
 
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Named>& channels() const override { return named(!force_.isZero(0), !moment_.isZero(0)); }
 
   void observe(const State& state, std::span<double> values) const override {
     std::size_t i = 0;
@@ -68,7 +78,6 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
 
   Vec3 at_, force_, moment_;
   const Function* function_;
-  std::vector<Named> channels_;
 };
 
 }  // namespace
