@@ -13,27 +13,44 @@ template <class T>
 struct ToothMeeting {
   Vec3T<T> arm_a, arm_b;
   Vec3T<T> across, normal;  ///< means of η₂ and η₃
-  Vec3T<T> v_a, v_b, spin_a, spin_b;
 
-  ToothMeeting(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap) {
+  ToothMeeting(const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap) {
     for (int k = 0; k < 3; ++k) {
       arm_a[k] = a.arm[k] - 0.5 * gap[k];
       arm_b[k] = b.arm[k] + 0.5 * gap[k];
       across[k] = 0.5 * (a.eta_2[k] + b.eta_2[k]);
       normal[k] = 0.5 * (a.eta_3[k] + b.eta_3[k]);
     }
-    const auto& node_a = motion.node[0];
-    const auto& node_b = motion.node[1];
-    v_a = node_a.v;
-    v_b = node_b.v;
-    spin_a = rotate(node_a.R, node_a.W);
-    spin_b = rotate(node_b.R, node_b.W);
-  }
-  /// Velocity of A relative to B at an offset from the meeting point.
-  Vec3T<T> slip(const Vec3T<T>& offset) const {
-    return v_a + cross(spin_a, Vec3T<T>(arm_a + offset)) - v_b - cross(spin_b, Vec3T<T>(arm_b + offset));
   }
 };
+
+/// How two toothed bodies slide.
+template <class T>
+struct ToothSlip {
+  const Motion<T, 2>& motion;
+  const ToothMeeting<T>& at;
+  Vec3T<T> spin_a, spin_b;
+
+  ToothSlip(const Motion<T, 2>& m, const ToothMeeting<T>& meeting)
+      : motion(m), at(meeting), spin_a(rotate(m.node[0].R, m.node[0].W)), spin_b(rotate(m.node[1].R, m.node[1].W)) {}
+  /// Velocity of A relative to B where they meet, and at an offset from there.
+  Vec3T<T> here() const { return between(at.arm_a, at.arm_b); }
+  Vec3T<T> off(const Vec3T<T>& offset) const { return between(at.arm_a + offset, at.arm_b + offset); }
+
+ private:
+  Vec3T<T> between(const Vec3T<T>& from_a, const Vec3T<T>& from_b) const {
+    return motion.node[0].v + cross(spin_a, from_a) - motion.node[1].v - cross(spin_b, from_b);
+  }
+};
+
+/// The part of v in the plane whose normal is n.
+template <class T>
+Vec3T<T> along_plane(const Vec3T<T>& v, const Vec3T<T>& n) {
+  const T v_n = dot(v, n);
+  Vec3T<T> part;
+  for (int k = 0; k < 3; ++k) part[k] = v[k] - v_n * n[k];
+  return part;
+}
 
 template <class T>
 Vec3T<T> direction_of(const Vec3T<T>& v) {
@@ -114,15 +131,18 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
   const bool radial = options_.separation && !(options_.running && elastic());
   if (!radial && !options_.friction && !report) return;
   const T load = abs(force_1);
-  const ToothMeeting<T> at(motion, a, b, gap);
-  const Vec3T<T> here(T(0), T(0), T(0));
-  const auto add = [&](const Vec3T<T>& force, const Vec3T<T>& offset) {
+  const ToothMeeting<T> at(a, b, gap);
+  const auto add = [&](const Vec3T<T>& force, const Vec3T<T>& from_a, const Vec3T<T>& from_b) {
     loads.body_force += force;
-    loads.body_moment[0] += cross(Vec3T<T>(at.arm_a + offset), force);
-    loads.body_moment[1] -= cross(Vec3T<T>(at.arm_b + offset), force);
+    loads.body_moment[0] += cross(from_a, force);
+    loads.body_moment[1] -= cross(from_b, force);
+  };
+  const auto add_here = [&](const Vec3T<T>& force) { add(force, at.arm_a, at.arm_b); };
+  const auto add_off = [&](const Vec3T<T>& force, const Vec3T<T>& offset) {
+    add(force, Vec3T<T>(at.arm_a + offset), Vec3T<T>(at.arm_b + offset));
   };
 
-  Vec3T<T> separating = here;
+  Vec3T<T> separating(T(0), T(0), T(0));
   if (radial) {  // (34, 35); it does no work on ψ
     T size = sin_alpha_ * load;
     if (options_.running) {
@@ -132,14 +152,16 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
       if (report) report->opening = value_of(opening);
     }
     for (int k = 0; k < 3; ++k) separating[k] = -size * at.across[k];
-    add(separating, here);
+    add_here(separating);
   }
+  if (!options_.friction && !report) return;
+  const ToothSlip<T> slip(motion, at);
   if (report) {
-    const Vec3T<T> slip = at.slip(here);
-    report->separation_power = value_of(dot(separating, slip));
+    const Vec3T<T> at_pitch_point = slip.here();
+    report->separation_power = value_of(dot(separating, at_pitch_point));
     Vec3 v, n;
     for (int k = 0; k < 3; ++k) {
-      v[k] = value_of(slip[k]);
+      v[k] = value_of(at_pitch_point[k]);
       n[k] = value_of(at.normal[k]);
     }
     n.normalize();
@@ -150,9 +172,7 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
   const ToothFriction& friction = *options_.friction;
   // −μ(|v_s|) N v_s/|v_s|, v_s the part of the velocity in the plane whose normal is n
   const auto drag = [&](const Vec3T<T>& v, const Vec3T<T>& n, const FrictionLaw& law, const T& N) {
-    const T v_n = dot(v, n);
-    Vec3T<T> tangential;
-    for (int k = 0; k < 3; ++k) tangential[k] = v[k] - v_n * n[k];
+    const Vec3T<T> tangential = along_plane(v, n);
     const T speed_squared = dot(tangential, v);
     const T factor = N * law.over_speed(speed_squared, load);
     if (report) {
@@ -177,40 +197,34 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
   };
   if (grip.free()) {
     if (!friction.profile) {
-      add(drag(at.slip(here), at.normal, friction.law, load), here);
+      add_here(drag(slip.here(), at.normal, friction.law, load));
     } else {
       const auto [line, flank_normal] = flank_axes();
       for (const FlankPair<T>& pair : flanks(motion.scalar[0], sense)) {
         const Vec3T<T> offset = line * pair.place;
-        add(drag(at.slip(offset), flank_normal, friction.law, T(load * pair.share)), offset);
+        add_off(drag(slip.off(offset), flank_normal, friction.law, T(load * pair.share)), offset);
       }
     }
   } else {
     // Flanks slide along the way that A's takes on B's when ψ_A grows, by `lever` for each unit of ψ_A. Friction against it is of
     // a known sign, and the force at rest is spread over flanks as its limit is.
     const double unit = grip_lever();
-    const auto towards = [](const Vec3T<T>& v, const Vec3T<T>& n) {
-      const T v_n = dot(v, n);
-      return Vec3T<T>(v - n * v_n);
-    };
-    const auto against = [&](const Vec3T<T>& way, const Vec3T<T>& offset, const T& part) {
-      if (grip.direction == 0) return;
-      const T sliding = dot(way, at.slip(offset)) * grip.direction;
+    const auto against = [&](const Vec3T<T>& way, const Vec3T<T>& velocity, const T& part) {
+      const T sliding = dot(way, velocity) * grip.direction;
       const T drag = friction.law.at(T(value_of(part) < 0 ? T(-sliding) : sliding), load) * load * part;
-      add(way * T(drag * -grip.direction), offset);
       if (report) report->friction_power += value_of(drag) * value_of(sliding);
+      return Vec3T<T>(way * T(drag * -grip.direction));
     };
     const double at_rest = friction.law.static_coefficient(value_of(load)) * value_of(load);
     if (!friction.profile) {
       const Vec3T<T> way =
-          direction_of(towards(cross(a.axle, at.arm_a) - cross(b.axle, at.arm_b) * T(geometry_.turn_ratio), at.normal));
-      against(way, here, T(1));
-      if (grip.holds) add(way * grip.force, here);
+          direction_of(along_plane<T>(cross(a.axle, at.arm_a) - cross(b.axle, at.arm_b) * T(geometry_.turn_ratio), at.normal));
+      add_here(grip.holds ? Vec3T<T>(way * grip.force) : against(way, slip.here(), T(1)));
       if (report) report->grip_limit = at_rest;
     } else {
       const auto [line, flank_normal] = flank_axes();
       const Vec3T<T> rolling = a.axle - b.axle * T(geometry_.turn_ratio);
-      const Vec3T<T> per_place = towards(cross(rolling, line), flank_normal), way = direction_of(per_place);
+      const Vec3T<T> per_place = along_plane<T>(cross(rolling, line), flank_normal), way = direction_of(per_place);
       const auto pairs = flanks(motion.scalar[0], sense);
       const double edge = path(sense).edge;
       // sliding changes its direction at the pitch point, over the same width as flanks come and go
@@ -223,8 +237,9 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
       lever *= dot(way, per_place);
       for (const FlankPair<T>& pair : pairs) {
         const Vec3T<T> offset = line * pair.place;
-        against(way, offset, part(pair));
-        if (grip.holds) add(way * T(grip.force * part(pair) * unit / lever), offset);
+        const T share = part(pair);
+        add_off(grip.holds ? Vec3T<T>(way * T(grip.force * share * unit / lever)) : against(way, slip.off(offset), share),
+                offset);
       }
       if (report) report->grip_limit = at_rest * value_of(lever) / unit;
     }
@@ -238,7 +253,7 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
     FrictionLaw rolling;
     rolling.mu = friction.rolling;
     rolling.width = friction.law.width / geometry_.radius;
-    const Vec3T<T> couple = drag(Vec3T<T>(at.spin_a - at.spin_b), at.normal, rolling, load);
+    const Vec3T<T> couple = drag(Vec3T<T>(slip.spin_a - slip.spin_b), at.normal, rolling, load);
     loads.body_moment[0] += couple;
     loads.body_moment[1] -= couple;
   }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "elements/common/building.hpp"
 #include "model/grip.hpp"
@@ -204,11 +205,12 @@ JointRub<T> Joint::rest(const JointFriction& f, std::size_t grip, const JointPos
   const int row = layout().grip_row(grip);
   std::array<Measured<T>, 3> along;
   Vec3T<T> u(T(0), T(0), T(0)), held = u;
+  const bool ball = f.kind == Rubbing::ball;
+  std::optional<JointPose<T>> turned;
+  if (ball) turned = since_rest(pose, now.held);
   for (int k = 0; k < shape.size; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    const bool ball = f.kind == Rubbing::ball;
-    along[i] =
-        coordinates[i] == f.turn && !ball ? turn : measured(coordinates[i], ball ? since_rest(pose, now.held) : pose, state);
+    along[i] = coordinates[i] == f.turn && !ball ? turn : measured(coordinates[i], ball ? *turned : pose, state);
     held[k] = balance.constraint(row + k, ball ? along[i].value : T(along[i].value - now.held[k]));
     // a ball slides by its spin; how far it has turned from where it rested changes the gradient of that turn
     if (ball && now.mode == GripState::sliding) along[i].set_moment(i == 0 ? pose.a1 : i == 1 ? pose.a2 : pose.a3);
@@ -347,7 +349,10 @@ void Joint::count_turns(const State& state, std::span<double>, std::span<double>
 void Joint::commit(const State& state, std::span<double> scalars, std::span<double> history) const {
   count_turns(state, scalars, history);
   const std::vector<GripShape>& shapes = layout().grips;
-  if (std::none_of(shapes.begin(), shapes.end(), [](const GripShape& s) { return s.size > 1; })) return;
+  bool turns = false;  // does any direction of sliding?
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    turns = turns || (shapes[i].size > 1 && GripState::of(layout(), state.history, i).mode == GripState::sliding);
+  if (!turns) return;
   std::vector<Grip> grips(shapes.size());
   find_grips(*this, state, grips);
   for (std::size_t i = 0; i < grips.size(); ++i) {

@@ -73,6 +73,7 @@ void Transient::start_memory(const Configuration& c, double h, double span, cons
   offset_.clear();
   fitting_ = context_.motion.velocities(c);
   const double shift = scheme_.alpha_m - scheme_.alpha_f;
+  if (shift == 0 && !constrained()) return;  // nothing follows from the slope
   std::vector<double> slope = slope_of_accelerations(c, span, span < h ? 1 : 12, massless);
   if (!counts(slope, h * h * h)) std::fill(slope.begin(), slope.end(), 0.0);
   // a_0 = v̇(t_0 + (α_m − α_f) h) to second order, or multipliers lose an order at first (Arnold, Brüls and Cardona 2015)
