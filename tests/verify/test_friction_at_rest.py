@@ -394,18 +394,7 @@ def test_a_puck_stops_on_a_plane(tmp_path: Path) -> None:
     assert result["run/DISSIPATED_ENERGY"][-1] == pytest.approx(0.5 * 2 * speed**2, rel=1e-6)
 
 
-def test_a_puck_turns_down_a_slope_and_stops(tmp_path: Path) -> None:
-    """Thrown across a slope that holds it at rest: the direction of sliding turns until the puck stops."""
-    stop, expected = sliding(lambda q, v, n: -0.5 * 9 * n + [0, -3], [0, 0, 1, 0.7], 1, np.ones(2))
-    deck = PUCK.format(slope=-3, h="{h}")
-    errors = order_of(deck, tmp_path, ["node/1/UX", "node/1/UY"], expected, stop, 0.0065)
-    assert errors[1] < 1e-5
-    assert np.log2(errors[0] / errors[1]) > 1.9
-
-
-def test_a_shaft_stops_in_its_sleeve(tmp_path: Path) -> None:
-    """It slides and turns, with a radius of gyration 1.5 times the radius at which it rubs."""
-    deck = """
+SHAFT = """
 .NOE
  I 1
 .MCE
@@ -419,16 +408,8 @@ def test_a_shaft_stops_in_its_sleeve(tmp_path: Path) -> None:
 .SUB TF 0.8 H {h}
 .FIN 1
 """
-    levers = np.array([1, 0.2])
-    stop, expected = sliding(lambda q, v, n: -9 * n * levers / [2, 0.18], [0, 0, 1, 4], 1, levers)
-    errors = order_of(deck, tmp_path, ["1/SLIDE", "1/ANGLE"], expected, stop, 0.01)
-    assert errors[1] < 1e-5
-    assert np.log2(errors[0] / errors[1]) > 1.9
 
-
-def test_a_disc_stops_on_a_plane(tmp_path: Path) -> None:
-    """It slides and spins on a slope."""
-    deck = """
+DISC = """
 .NOE
  I 1
 .MCE
@@ -443,12 +424,48 @@ def test_a_disc_stops_on_a_plane(tmp_path: Path) -> None:
 .SUB TF 0.8 H {h}
 .FIN 1
 """
-    levers = np.array([1, 1, 0.1])
+
+
+@pytest.mark.parametrize(
+    ("deck", "channels", "mass", "pull", "levers", "start", "step", "allowed"),
+    [
+        # thrown across a slope that holds it at rest: the direction of sliding turns until the puck stops
+        (
+            PUCK.replace("{slope}", "-3"),
+            ["node/1/UX", "node/1/UY"],
+            [2, 2],
+            [0, -3],
+            [1, 1],
+            [1, 0.7],
+            0.0065,
+            1e-5,
+        ),
+        # slides and turns, with a radius of gyration 1.5 times the radius at which it rubs
+        (SHAFT, ["1/SLIDE", "1/ANGLE"], [2, 0.18], [0, 0], [1, 0.2], [1, 4], 0.01, 1e-5),
+        # slides and spins on a slope
+        (
+            DISC,
+            ["node/1/UX", "node/1/UY", "node/1/RZ"],
+            [2, 2, 0.01],
+            [0, -3, 0],
+            [1, 1, 0.1],
+            [0.5, 0.7, -4],
+            0.005,
+            3e-5,
+        ),
+    ],
+    ids=["a puck on a slope", "a shaft in its sleeve", "a disc on a slope"],
+)
+def test_sliding_along_several_coordinates_stops(
+    deck, channels, mass, pull, levers, start, step, allowed, tmp_path: Path
+) -> None:
+    """Bodies of 2 kg pressed by 18 N with a coefficient of 0.5."""
+    levers, pull = np.array(levers), np.array(pull)
     stop, expected = sliding(
-        lambda q, v, n: -9 * n * levers / [2, 2, 0.01] + [0, -3, 0], [0, 0, 0, 0.5, 0.7, -4], 1, levers
+        lambda q, v, n: -9 * n * levers / mass + pull, [0] * len(start) + start, 1, levers
     )
-    errors = order_of(deck, tmp_path, ["node/1/UX", "node/1/UY", "node/1/RZ"], expected, stop, 0.005)
-    assert errors[1] < 3e-5
+    errors = order_of(deck, tmp_path, channels, expected, stop, step)
+    assert errors[1] < allowed
     assert np.log2(errors[0] / errors[1]) > 1.9
 
 
