@@ -172,8 +172,7 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .synonyms({"V0"})
       .unit(velocity)
       .positive();
-  c.add("STICK", &TeethData::sticks,
-        "Coulomb's law at every speed; flanks that stop sliding are held exactly: what FRICTION does without VREG")
+  c.add("STICK", &TeethData::sticks, "Coulomb's law at every speed, flanks that stop are held exactly; the default without VREG")
       .synonyms({"ADHERENCE"});
   c.add("SLIDING", &TeethData::sliding, "where the flanks slide")
       .synonyms({"GLISSEMENT"})

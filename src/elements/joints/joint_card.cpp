@@ -49,7 +49,7 @@ void add_joint_friction(JointCard& card, const FrictionWords& words) {
       .unit(dimension::velocity)
       .positive();
   card.add("STICK", &JointData::sticks,
-           "Coulomb's law at every speed; surfaces that stop are held exactly: what FRICTION does without VREG")
+           "Coulomb's law at every speed, surfaces that stop are held exactly; the default without VREG")
       .synonyms({"ADHERENCE", "COLLE"});
   if (!words.radius.empty())
     card.add("RADIUS", &JointData::radius, words.radius).synonyms({"RAYON"}).unit(dimension::length).at_least(0);
