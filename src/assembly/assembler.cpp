@@ -149,6 +149,7 @@ void Assembler::write_history(Configuration& configuration,
 }
 
 void Assembler::release(const std::vector<int>& multipliers, const std::vector<double>& values) {
+  const std::vector<bool> before = released_;
   any_released_ = !multipliers.empty() || idle_count_ > 0;
   released_ = idle_;
   for (const int m : multipliers) {
@@ -156,9 +157,11 @@ void Assembler::release(const std::vector<int>& multipliers, const std::vector<d
     released_[static_cast<std::size_t>(m)] = true;
     released_values_[static_cast<std::size_t>(m)] = values[static_cast<std::size_t>(m)];
   }
+  if (released_ != before) ++changes_;
 }
 
 void Assembler::set_idle(const std::vector<int>& multipliers) {
+  ++changes_;
   for (std::size_t m = 0; m < idle_.size(); ++m)
     if (idle_[m]) released_[m] = false;
   std::fill(idle_.begin(), idle_.end(), false);
@@ -200,6 +203,7 @@ bool Assembler::released_equation(int equation) const {
 }
 
 void Assembler::choose_scale(const Configuration& configuration, Weights weights, double fixed) {
+  ++changes_;
   if (fixed > 0) {
     std::fill(scale_.begin(), scale_.end(), fixed);
     return;
@@ -276,6 +280,7 @@ void Assembler::scale_multipliers(int part, std::span<double> k) const {
 }
 
 void Assembler::tangent(const Configuration& configuration, Weights weights, Mat into) {
+  if (into == matrix_) ++changes_;
   Scatter::MatrixSum sum(scatter_, into);
   for_each_tangent(configuration, weights, [&](int part, std::span<double> k) {
     scale_multipliers(part, k);
@@ -289,6 +294,7 @@ void Assembler::tangent(const Configuration& configuration, Weights weights, Mat
 }
 
 void Assembler::projection(const Configuration& configuration, Metric metric, std::span<const int> held) {
+  ++changes_;
   const bool mass = metric != Metric::geometric;
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
   std::vector<double> inertia(motion, 0.0);

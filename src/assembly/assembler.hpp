@@ -70,6 +70,8 @@ class Assembler {
   void residual(const Configuration& configuration, Vec r);
   /// The largest that an element contributed to each slot of the motion in the last residual; on every rank.
   const std::vector<double>& carried() const { return carried_; }
+  /// Counts what makes factors of matrix() useless: every writing into it, other scales, other constraints released or idle.
+  long changes() const { return changes_; }
   /// The scaled tangent, in matrix().
   void tangent(const Configuration& configuration, Weights weights) { tangent(configuration, weights, matrix_); }
   /// The same in a matrix of new_matrix().
@@ -142,6 +144,7 @@ class Assembler {
   std::vector<double> scale_;
   std::vector<bool> released_, idle_;
   int idle_count_ = 0;
+  long changes_ = 0;
   std::vector<double> released_values_;
   bool any_released_ = false;
   std::vector<double> gathered_, carried_;

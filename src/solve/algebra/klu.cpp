@@ -53,6 +53,7 @@ void Klu::serve(PC pc) {
 void Klu::forget() {
   klu_free_numeric(&numeric_, &common_);
   klu_free_symbolic(&symbolic_, &common_);
+  restored_ = proven_ = false;
   trials_lost_ = wait_ = 0;
 }
 
@@ -65,8 +66,9 @@ void Klu::find_pattern() {
   residual_.resize(static_cast<std::size_t>(rows));
 }
 
-bool Klu::refactor() {
-  if (!numeric_ || wait_ > 0) return false;
+bool Klu::refactor() { return numeric_ && wait_ == 0 && refactor_now(); }
+
+bool Klu::refactor_now() {
   const Values values(matrix_);
   stale_ = klu_refactor(const_cast<PetscInt*>(begin_), const_cast<PetscInt*>(column_), values.get(), symbolic_, numeric_,
                         &common_) == 1 &&
@@ -105,6 +107,17 @@ void Klu::load(const Snapshot& snapshot) {
   wait_ = static_cast<int>(snapshot.number("klu/wait"));
 }
 
+void Klu::restore_factors() {
+  if (!numeric_) return;
+  bool same = false;
+  {
+    const Values values(matrix_);
+    same = std::equal(chosen_for_.begin(), chosen_for_.end(), values.get());
+  }
+  restored_ = same || refactor_now();
+  proven_ = false;
+}
+
 double Klu::backward_error(const double* right, const double* solution) {
   const Values values(matrix_);
   const double* a = values.get();
@@ -127,7 +140,9 @@ double Klu::solve(const double* right, double* solution) {
   // the factors are those of the transpose
   std::copy_n(right, size_, solution);
   klu_tsolve(symbolic_, numeric_, size_, 1, solution, &common_);
+  if (proven_) return good;
   const double error = backward_error(right, solution);
+  proven_ = error <= good;
   if (error <= good || !std::isfinite(error)) return error;
   klu_tsolve(symbolic_, numeric_, size_, 1, residual_.data(), &common_);
   for (int i = 0; i < size_; ++i) solution[i] += residual_[static_cast<std::size_t>(i)];
@@ -139,6 +154,11 @@ PetscErrorCode Klu::set_up(PC pc) {
   Klu* self = nullptr;
   PetscCall(PCShellGetContext(pc, &self));
   self->find_pattern();
+  if (self->restored_) {
+    self->restored_ = false;
+    return PCSetFailedReason(pc, PC_NOERROR);
+  }
+  self->proven_ = false;
   PetscCall(PetscLogEventBegin(self->factoring_, pc, nullptr, nullptr, nullptr));
   const bool regular = self->refactor() || self->factor();
   if (self->wait_ > 0) --self->wait_;
@@ -160,6 +180,7 @@ PetscErrorCode Klu::apply(PC pc, Vec right, Vec solution) {
   if (self->stale_ && !(error <= worst_kept)) {
     self->wait_ = std::min(1 << ++self->trials_lost_, longest_wait);
     self->trials_lost_ = std::min(self->trials_lost_, 16);
+    self->proven_ = false;
     error = self->factor() ? self->solve(b, x) : std::numeric_limits<double>::infinity();
   }
   PetscCall(PetscLogEventEnd(self->solving_, pc, nullptr, nullptr, nullptr));

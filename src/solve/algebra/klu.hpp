@@ -13,9 +13,10 @@ namespace engrane::solve {
 
 /// KLU on one sequential matrix whose pattern never changes, as a preconditioner of PETSc (PCSHELL). The pivots of one
 /// factorisation serve the next ones too, which makes these two to four times faster than a factorisation that looks for its own;
-/// every solution is judged by its backward error, component by component (Oettli and Prager), refined where that helps
-/// and found with new pivots where it does not. Where old pivots do not serve, as in a machine whose matrix changes much from
-/// step to step, they are not tried for a while. Davis and Palamadai Natarajan, ACM Trans. Math. Softw. 37 (2010) 36.
+/// the first solution with each factorisation is judged by its backward error, component by component (Oettli and Prager),
+/// refined where that helps and found with new pivots where it does not; the others too, unless the first was as good as it can
+/// be. Where old pivots do not serve, as in a machine whose matrix changes much from step to step, they are not tried for a
+/// while. Davis and Palamadai Natarajan, ACM Trans. Math. Softw. 37 (2010) 36.
 class Klu {
  public:
   explicit Klu(Mat matrix);
@@ -30,6 +31,13 @@ class Klu {
   /// The pivots, by the matrix that they were chosen for, and for how long old ones are not tried.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
+  /// Factors the matrix as it stands as a run did that load() has taken the pivots of; the next set-up of the preconditioner
+  /// keeps these factors.
+  void restore_factors();
+  /// Nonzeros of the factors; 0 before there are any.
+  double entries() const { return numeric_ ? static_cast<double>(numeric_->lnz) + numeric_->unz : 0; }
+  /// Floating-point operations of a factorisation, estimated.
+  double operations() const { return symbolic_ ? symbolic_->est_flops : 0; }
   /// Memory of the factors.
   double bytes() const { return common_.memusage > 0 ? static_cast<double>(common_.memusage) : 0; }
 
@@ -43,6 +51,7 @@ class Klu {
   bool factor();
   /// The same for the values in chosen_for_.
   bool factor_chosen();
+  bool refactor_now();
   /// Solves, refines once where the backward error asks for it, and returns the backward error.
   double solve(const double* right, double* solution);
   /// The remainder right − A solution goes to residual_; returns its size, each row over that of its terms.
@@ -56,6 +65,8 @@ class Klu {
   klu_numeric* numeric_ = nullptr;
   std::vector<double> chosen_for_;  ///< values of the matrix that the pivots were chosen for
   bool stale_ = false;              ///< pivots are those of an earlier matrix
+  bool proven_ = false;             ///< a solution with these factors was good at once
+  bool restored_ = false;           ///< the factors are those of restore_factors()
   int trials_lost_ = 0;             ///< old pivots in a row that did not serve
   int wait_ = 0;                    ///< matrices for which old pivots are not tried
   PetscLogEvent factoring_ = -1, solving_ = -1;

@@ -33,6 +33,16 @@ class LinearSolver {
   /// on several the analysis is made anew.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
+  /// The matrix whose factors go on to serve, as it stands; on one rank.
+  void save_factors(Snapshot& snapshot) const;
+  /// Takes it back, after load(), and factors it; false where there is none.
+  bool load_factors(const Snapshot& snapshot);
+
+  /// What a factorisation and a solution cost, in instructions: counted, so the same in every run.
+  struct Work {
+    double factor = 0, solution = 0;
+  };
+  Work work() const;
 
   /// Memory of the factors in bytes, as the package reports it; 0 when it does not.
   double factor_bytes() const;
@@ -40,6 +50,9 @@ class LinearSolver {
  private:
   Mat factor() const;
   Mat matrix() const;
+  std::vector<double> values() const;
+  /// Writes the values of a matrix like this one; false where there are not as many as it has.
+  bool set_values(const std::vector<double>& values);
   void set_up();
   std::unique_ptr<Klu> klu_;  ///< before ksp_, which uses it
   Owned<KSP> ksp_;

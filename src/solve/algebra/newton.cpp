@@ -18,8 +18,18 @@ constexpr double negligible_correction = 1e-13;
 /// cancel inside its one element, and leaves nothing but rounding to judge by.
 constexpr double no_correction = 2e-15;
 
+/// Instructions of an element's residual for each of its slots, those of measuring it included, and what a tangent costs over
+/// that: fitted to counts of joints, bodies and gears.
+constexpr double residual_of_slot = 250, tangent_over_residual = 6;
+
 /// A sliding speed that counts as none, over the speed below which friction is regularised.
 constexpr double resting = 1e-3;
+
+/// Whether factors for the one may serve for the other: how well, their contraction tells.
+bool similar(const Weights& a, const Weights& b) {
+  const auto near = [](double x, double y) { return std::abs(x - y) <= 0.2 * std::abs(y); };
+  return near(a.q, b.q) && near(a.v, b.v) && near(a.a, b.a) && a.multipliers == b.multipliers;
+}
 
 }  // namespace
 
@@ -41,15 +51,21 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
     *trial_.out() = assembler.new_vector();
     check_petsc(SNESLineSearchSetPreCheck(search, keep_sliding, this));
   }
+  for (const Model::Part& part : parts) {
+    const Layout& layout = part.element->layout();
+    evaluation_ +=
+        residual_of_slot * static_cast<double>(6 * part.nodes.size() + layout.multipliers.size() + layout.scalars.size());
+  }
   check_petsc(SNESSetTolerances(snes_, 0, 0, 0, iterations, 100000));
   check_petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
   check_petsc(SNESSetFromOptions(snes_));
 }
 
-NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configuration& work) {
+NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply, Configuration& work) {
   apply_ = &apply;
   work_ = &work;
   weights_ = weights;
+  keep_ = keep;
   NewtonReport report;
   const std::vector<double> before = references_.memory();
   references_.begin(work);
@@ -78,6 +94,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configura
       report.reason = "the iteration left the range of numbers";
     break;
   }
+  policy_.end(report.converged);
   if (report.singular) solver_.reset();
   if (!report.converged) references_.restore(before);  // what a failed iteration tried is no measure of anything
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
@@ -107,11 +124,50 @@ PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
     // work_ is the configuration of the last residual, which SNES evaluates at the same point just before
     self.assembler_.tangent(*self.work_, self.weights_);
     self.solver_.note_matrix();
+    self.policy_.renewed();
+    self.matrix_of_factors_ = self.assembler_.changes();
+    self.weights_of_factors_ = self.weights_;
   } catch (const std::exception& e) {
     self.failure_ = e.what();
     return PETSC_ERR_LIB;
   }
   return 0;
+}
+
+double Newton::excess() const { return std::max({row_.force, row_.moment, row_.length, row_.angle}) / precision_; }
+
+void Newton::choose_factors() {
+  if (rows_.size() == 1) {
+    if (!keep_ || matrix_of_factors_ != assembler_.changes() || !similar(weights_, weights_of_factors_)) policy_.forget();
+    double renewal = 0;
+    if (policy_.usable()) {
+      const LinearSolver::Work work = solver_.work();
+      renewal = (tangent_over_residual * evaluation_ + work.factor) / (evaluation_ + work.solution);
+    }
+    policy_.begin(excess(), renewal);
+  } else {
+    policy_.corrected(excess());
+  }
+  // SNES asks for a tangent once (-2) or not at all (-1)
+  check_petsc(SNESSetLagJacobian(snes_, keep_ && !policy_.due() ? -1 : -2));
+}
+
+void Newton::save(Snapshot& snapshot) const {
+  references_.save(snapshot);
+  if (!policy_.usable() || matrix_of_factors_ != assembler_.changes()) return;
+  policy_.save(snapshot);
+  snapshot.put("newton/weights", {weights_of_factors_.q, weights_of_factors_.v, weights_of_factors_.a});
+  solver_.save_factors(snapshot);
+}
+
+void Newton::load(const Snapshot& snapshot) {
+  references_.load_memory(snapshot);
+  policy_.forget();
+  if (!snapshot.has("newton/factors") || !solver_.load_factors(snapshot)) return;
+  policy_.load(snapshot);
+  const std::vector<double>& weights = snapshot.array("newton/weights");
+  weights_of_factors_ = {weights.at(0), weights.at(1), weights.at(2)};
+  matrix_of_factors_ = assembler_.changes();
 }
 
 std::vector<Vec3> Newton::sliding() const {
@@ -248,7 +304,10 @@ PetscErrorCode Newton::test_convergence(SNES, PetscInt iteration, PetscReal, Pet
     return 0;
   }
   try {
-    if (self.judge(static_cast<int>(iteration))) *reason = SNES_CONVERGED_FNORM_ABS;
+    if (self.judge(static_cast<int>(iteration)))
+      *reason = SNES_CONVERGED_FNORM_ABS;
+    else
+      self.choose_factors();
   } catch (const std::exception& e) {
     self.failure_ = e.what();
     return PETSC_ERR_LIB;

@@ -7,6 +7,7 @@
 
 #include "assembly/assembler.hpp"
 #include "base/snapshot.hpp"
+#include "solve/algebra/factor_policy.hpp"
 #include "solve/algebra/linear.hpp"
 #include "solve/algebra/references.hpp"
 
@@ -38,15 +39,16 @@ class Newton {
 
   Newton(Assembler& assembler, LinearSolver& solver, double precision, int iterations);
 
-  /// Solves r = 0 from the guess `x`, which it overwrites; `work` ends as the last configuration tried.
-  NewtonReport solve(Vec x, Weights weights, const Apply& apply, Configuration& work);
+  /// Solves r = 0 from the guess `x`, which it overwrites; `work` ends as the last configuration tried. `keep`: tangent and
+  /// factors of earlier solutions serve as long as that pays; else each iteration makes its own.
+  NewtonReport solve(Vec x, Weights weights, bool keep, const Apply& apply, Configuration& work);
 
   /// The largest force that an element has contributed so far.
   double largest_force() const { return references_.largest_force(); }
 
-  /// The largest contributions so far, which residuals are compared with, for a restart.
-  void save(Snapshot& snapshot) const { references_.save(snapshot); }
-  void load(const Snapshot& snapshot) { references_.load_memory(snapshot); }
+  /// The largest contributions so far, which residuals are compared with, and the factors kept, for a restart.
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
 
  private:
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
@@ -57,6 +59,10 @@ class Newton {
   /// Sliding velocities of all regularised frictions (Element::sliding) in work_.
   std::vector<Vec3> sliding() const;
   void measure(Vec f);
+  /// The largest relative residual over the precision asked for.
+  double excess() const;
+  /// Decides whether the next correction is made with the factors there are.
+  void choose_factors();
   bool judge(int iteration);
 
   Assembler& assembler_;
@@ -67,7 +73,11 @@ class Newton {
   std::vector<int> sliding_parts_;  ///< elements with regularised friction
   const Apply* apply_ = nullptr;
   Configuration* work_ = nullptr;
-  Weights weights_;
+  Weights weights_, weights_of_factors_;
+  bool keep_ = false;
+  FactorPolicy policy_;
+  long matrix_of_factors_ = -1;  ///< Assembler::changes() when the tangent was made that the factors belong to
+  double evaluation_ = 0;        ///< instructions of a residual, about
   References references_;
   NewtonRow row_;
   double constraint_force_ = 0;  ///< largest k Φ over the largest force

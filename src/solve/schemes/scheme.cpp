@@ -79,12 +79,12 @@ void Scheme::unknowns_to_multipliers(std::span<const double> unknowns, Configura
                        unknowns[static_cast<std::size_t>(context_.numbering.equation(static_cast<int>(motion + m)))];
 }
 
-NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to) {
+NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to, bool keep) {
   NewtonReport report;
   int iterations = 0;
   // where forces depend linearly on the multipliers once is enough
   for (int pass = 0; pass < 10; ++pass) {
-    report = context_.newton.solve(unknowns, weights, apply, to);
+    report = context_.newton.solve(unknowns, weights, keep, apply, to);
     iterations += report.iterations;
     if (!report.converged || !context_.redundancy.active()) break;
     if (const std::string conflict = context_.redundancy.conflict(to); !conflict.empty()) {

@@ -60,7 +60,7 @@ class Scheme {
 
   /// Newton's method from the unknowns given, with redundant constraints: these are seen to be closed, and their
   /// multipliers made the least.
-  NewtonReport solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to);
+  NewtonReport solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to, bool keep = false);
 
   SolverContext& context_;
 };

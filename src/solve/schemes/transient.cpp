@@ -125,7 +125,12 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   const std::size_t n = context_.motion.size();
   std::vector<double> y(n), v(n), vdot(n);
   tried_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) y[i] = h * (v0[i] + 0.5 * h * a0[i]);
+  if (accelerations_.empty()) {
+    accelerations_.add(from.time, a0);
+    multipliers_.add(from.time, from.multipliers);
+  }
+  accelerations_.at(from.time + h, tried_);
+  for (std::size_t i = 0; i < n; ++i) y[i] = h * (v0[i] + h * ((0.5 - beta) * a0[i] + beta * tried_[i]));
   to = from;
   to.time = from.time + h;
   to.h = h;
@@ -143,7 +148,8 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
 
   std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
   context_.motion.gather(y, guess);
-  multipliers_to_unknowns(from, guess);
+  multipliers_.at(to.time, to.multipliers);
+  multipliers_to_unknowns(to, guess);
 
   const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
     context_.motion.scatter(unknowns, y);
@@ -163,14 +169,18 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     unknowns_to_multipliers(unknowns, c);
   };
   context_.assembler.spread(guess, unknowns_);
-  NewtonReport report = solve(unknowns_, weights, apply, to);
+  NewtonReport report = solve(unknowns_, weights, apply, to, context_.options.keep_factors);
   refuse_half_turns(y, report);
   if (report.converged && context_.grips.strained(to)) refine_grips(to);
   tried_step_ = h;
+  tried_time_ = to.time;
+  tried_multipliers_ = to.multipliers;
   return {std::move(report), 0, {}};
 }
 
 void Transient::accept() {
+  accelerations_.add(tried_time_, tried_);
+  multipliers_.add(tried_time_, tried_multipliers_);
   algorithmic_ = tried_;
   step_of_algorithmic_ = tried_step_;
   offset_.clear();
@@ -180,6 +190,8 @@ void Transient::accept() {
 void Transient::save(Snapshot& snapshot) const {
   snapshot.put("scheme/algorithmic", algorithmic_);
   snapshot.put("scheme/offset", offset_);
+  accelerations_.save(snapshot, "scheme/accelerations");
+  multipliers_.save(snapshot, "scheme/multipliers");
   snapshot.put("scheme/step", step_of_algorithmic_);
   snapshot.put("scheme/scaled_for", scaled_for_);
   snapshot.put("scheme/has_massless", has_massless_ ? 1.0 : 0.0);
@@ -189,6 +201,8 @@ void Transient::load(const Snapshot& snapshot) {
   if (!snapshot.has("scheme/algorithmic")) return;  // of another kind of analysis
   algorithmic_ = snapshot.array("scheme/algorithmic");
   offset_ = snapshot.array("scheme/offset");
+  accelerations_.load(snapshot, "scheme/accelerations");
+  multipliers_.load(snapshot, "scheme/multipliers");
   fitting_.clear();
   step_of_algorithmic_ = snapshot.number("scheme/step");
   scaled_for_ = snapshot.number("scheme/scaled_for");

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "solve/schemes/extrapolation.hpp"
 #include "solve/schemes/scheme.hpp"
 
 namespace engrane::solve {
@@ -89,6 +90,9 @@ class Transient final : public Scheme {
   std::vector<double> fitting_, offset_;
   std::vector<double> tried_;  ///< `algorithmic_` at the end of the last attempt
   double tried_step_ = 0;
+  Extrapolation accelerations_, multipliers_;  ///< of `algorithmic_` and λ, at the ends of steps since the last event
+  std::vector<double> tried_multipliers_;      ///< at the end of the last attempt
+  double tried_time_ = 0;
   bool has_massless_ = false;  ///< the model has motions without mass
   std::optional<MasslessMotions> massless_;
 };

@@ -71,6 +71,8 @@ void Transient::start_memory(const Configuration& c, double h, double span, cons
   algorithmic_ = context_.motion.accelerations(c);
   step_of_algorithmic_ = h;
   offset_.clear();
+  accelerations_.clear();
+  multipliers_.clear();
   fitting_ = context_.motion.velocities(c);
   const double shift = scheme_.alpha_m - scheme_.alpha_f;
   if (shift == 0 && !constrained()) return;  // nothing follows from the slope

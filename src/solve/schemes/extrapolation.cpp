@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/schemes/extrapolation.hpp"
+
+#include <algorithm>
+
+namespace engrane::solve {
+
+namespace {
+
+/// Longest step over the mean distance of the points: beyond it their polynomial tells nothing.
+constexpr double longest = 2;
+
+}  // namespace
+
+void Extrapolation::add(double time, std::span<const double> values) {
+  std::rotate(points_.begin(), points_.end() - 1, points_.end());
+  points_[0].time = time;
+  points_[0].values.assign(values.begin(), values.end());
+  count_ = std::min(count_ + 1, most);
+}
+
+void Extrapolation::at(double time, std::span<double> values) const {
+  std::size_t points = count_;
+  const auto reach = [&] { return points_[0].time - points_[points - 1].time; };
+  while (points > 1 && (time - points_[0].time) * static_cast<double>(points - 1) > longest * reach()) --points;
+  std::fill(values.begin(), values.end(), 0.0);
+  for (std::size_t p = 0; p < points; ++p) {
+    double weight = 1;  // Lagrange's
+    for (std::size_t q = 0; q < points; ++q)
+      if (q != p) weight *= (time - points_[q].time) / (points_[p].time - points_[q].time);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] += weight * points_[p].values[i];
+  }
+}
+
+void Extrapolation::save(Snapshot& snapshot, const std::string& name) const {
+  std::vector<double> all;
+  for (std::size_t p = 0; p < count_; ++p) {
+    all.push_back(points_[p].time);
+    all.insert(all.end(), points_[p].values.begin(), points_[p].values.end());
+  }
+  snapshot.put(name, std::move(all));
+  snapshot.put(name + "_points", static_cast<double>(count_));
+}
+
+void Extrapolation::load(const Snapshot& snapshot, const std::string& name) {
+  const std::vector<double>& all = snapshot.array(name);
+  count_ = std::min(static_cast<std::size_t>(snapshot.number(name + "_points")), most);
+  const auto length = static_cast<std::ptrdiff_t>(count_ > 0 ? all.size() / count_ : 0);
+  for (std::size_t p = 0; p < count_; ++p) {
+    const auto first = all.begin() + length * static_cast<std::ptrdiff_t>(p);
+    points_[p].time = *first;
+    points_[p].values.assign(first + 1, first + length);
+  }
+}
+
+}  // namespace engrane::solve
