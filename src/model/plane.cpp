@@ -312,10 +312,14 @@ class Examination {
     gradient.makeCompressed();
     for (Eigen::Index j = 0; j < gradient.cols(); ++j)
       if (const double length = gradient.col(j).norm(); length > 0) gradient.col(j) /= length;
-    Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> factors;
-    factors.setPivotThreshold(1e-9);
-    factors.compute(gradient);
-    if (factors.rank() < gradient.cols()) {
+    bool held = !entries.empty() && gradient.rows() >= gradient.cols();
+    if (held) {
+      Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> factors;
+      factors.setPivotThreshold(1e-9);
+      factors.compute(gradient);
+      held = factors.rank() == gradient.cols();
+    }
+    if (!held) {
       for (PlaneFault& fault : pushed_) fault.what += ", and no joints hold all nodes against that";
       faults_.insert(faults_.begin(), pushed_.begin(), pushed_.end());
     }
@@ -327,7 +331,8 @@ class Examination {
   std::string hint_for(const Model::Part& part) const {
     if (is_load(part)) return fmt::format("give it forces in the plane and moments about {} only", axis());
     if (part.element->is_body() || part.type == "INERTIA")
-      return fmt::format("its centre of mass must be at the {0} of its nodes, and {0} a principal axis of its inertia", axis());
+      return fmt::format("its nodes and its centre of mass must be at the same {0}, and {0} be a principal axis of its inertia",
+                         axis());
     return fmt::format(
         "its axes must be along {0} or in the plane, its nodes at the same {0}; helical, bevel and crossed gears act in space",
         axis());

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Twelve, ScenesTest, testing::Values(
         " I 5 INERTIA N 1 M 1 J 1 1 1\n I 6 INERTIA N 2 M 1 J 1 1 1\n I 7 INERTIA N 3 M 1 J 1 1 1\n", 18, 20, 9, 8},
   // a rigid link joins two whole nodes, 12 and 6; in the plane 6 and 3
   Scene{"rigid_link", ".NOE\n I 1 X 0\n I 2 X 1 1\n.MCE\n I 1 RIGID N 1 2 M 1 J 1 1 1\n I 2 SPRING N 0 2 AT 3 0 0 K 5\n"
-        " I 3 TORSION_SPRING N 0 2 AXIS 0 0 1 K 1\n", 12, 6, 6, 3},
+        " I 3 TSPRING N 0 2 AXIS 0 0 1 K 1\n", 12, 6, 6, 3},
   // a ball at a mass point holds three translations and no turn, 3 and 3; in the plane 2 and 2
   Scene{"ball_at_a_point", ".NOE\n I 1 X 1\n.MCE\n I 1 SPHERICAL N 0 1\n I 2 INERTIA N 1 M 1\n", 3, 3, 2, 2},
   // wheels on hinges, rigid straight teeth: 12 and 2 x 5, and of the pair 2 angles with their 2 constraints and the tooth; in the
@@ -68,14 +68,14 @@ INSTANTIATE_TEST_SUITE_P(Twelve, ScenesTest, testing::Values(
   Scene{"spur_pair", ".NOE\n I 1 X 0\n I 2 X 90\n.MCE\n I 1 GEAR N 1 2 KIND SPUR Z 20 40 DISTANCE 90 AXIS 0 0 1\n"
         " I 2 HINGE N 0 1 AXIS 0 0 1\n I 3 HINGE N 0 2 AXIS 0 0 1\n I 4 INERTIA N 1 M 1 J 1 1 1\n I 5 INERTIA N 2 M 1 J 1 1 1\n",
         14, 13, 8, 7},
-  // the same with helical teeth pushes along the axles: refused
+  // helical teeth push along the axles, which the hinges hold: the same numbers
   Scene{"helical_pair", ".NOE\n I 1 X 0\n I 2 X 90\n.MCE\n I 1 GEAR N 1 2 KIND HELICAL BETA 20 Z 20 40 DISTANCE 90 AXIS 0 0 1\n"
         " I 2 HINGE N 0 1 AXIS 0 0 1\n I 3 HINGE N 0 2 AXIS 0 0 1\n I 4 INERTIA N 1 M 1 J 1 1 1\n I 5 INERTIA N 2 M 1 J 1 1 1\n",
-        14, 13},
+        14, 13, 8, 7},
   // a ball joint at the end of an arm turns its body: 6 and 3; in the plane 3 and 2, and a pull along z is refused in the next
   Scene{"conical_pendulum", ".NOE\n I 1 X 1\n.MCE\n I 1 SPHERICAL N 0 1 AT 0 0 0\n I 2 INERTIA N 1 M 1 J 1 1 1\n"
         ".CLM\n CHA NOEUD 1 C 3 V 1\n", 6, 3}),
-  [](const auto& info) { return std::string(info.param.name); });
+  [](const auto& scene) { return std::string(scene.param.name); });
 // clang-format on
 
 /// What the messages of a wrong deck say.
@@ -104,6 +104,8 @@ TEST(Plane, EveryKindOfFaultIsNamed) {
            Case{" I 3 TORQUE N 1 AXIS 1 0 0 V 1\n", "TORQUE 3 is not of the plane XY: it turns node 1 about x"},
            Case{" I 3 INERTIA N 1 J 1 1 1 0 0.1 0\n", "INERTIA 3"},
            Case{" I 3 SPRING N 1 2 K 1\n", "SPRING 3 is not of the plane XY: it pushes node 1 along z"},
+           Case{" I 1 HINGE N 0 1 AXIS 1 0 0 DRIVE SPEED NF 1\n.FCT\n I 1 EXPR \"1\"\n",
+                "HINGE 1 moves its nodes out of the plane XY"},
            Case{".CLM\n STRU ACC VAL 0 0 -9.81\n", "gravity has a component normal to the plane XY"},
            Case{".CLM\n CHA NOEUD 1 C 3 V 1\n", "pushes node 1 along z"},
            Case{".CLM\n DEP NOEUD 1 C 3 V 1\n", "node 1 is prescribed a displacement out of the plane XY (component 3)"},

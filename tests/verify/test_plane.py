@@ -55,9 +55,9 @@ def solve(name: str, plane: str, solver: str, stepping: str, folder: Path) -> su
 
 @pytest.mark.parametrize("name", PLANAR)
 def test_results_are_those_in_space(name: str, tmp_path: Path) -> None:
-    """Every channel, over the whole run, to 1e-10 of the largest number of its unit. Accelerations and reactions are
-    differences of rounded positions over the square of the step; what rounding does to them shows where the model in
-    space is solved by another solver, which adds in another order."""
+    """Every channel, over the whole run, to 1e-10 of the largest number of its unit. Accelerations and
+    reactions are differences of rounded positions over the square of the step; what rounding does to them
+    shows where the model in space is solved by another solver, which adds in another order."""
     found = {}
     for plane, solver in (("NO", "MUMPS"), ("NO", "KLU"), ("XY", "MUMPS")):
         done = solve(name, plane, solver, PLANAR[name], tmp_path)
