@@ -179,12 +179,13 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     const auto watch = times.output();
     user::forget_failures();  // those of attempts that were cut
     forget_function_failures();
-    if (context.out_of_plane.active()) {
+    const Schedule::Due due = schedule.at(solved.time, step.number == 0 ? 0.0 : step.step, step.regular);
+    const bool seen = due.sample || due.frame || !reading.model.commands.checks.empty();
+    if (seen && context.out_of_plane.active()) {
       whole = solved;
       context.out_of_plane.find(whole);
     }
-    const Configuration& c = context.out_of_plane.active() ? whole : solved;
-    const Schedule::Due due = schedule.at(c.time, step.number == 0 ? 0.0 : step.step, step.regular);
+    const Configuration& c = seen && context.out_of_plane.active() ? whole : solved;
     observe_step(context, observer, c, step, due);
     int stop = 0;
     if (rank == 0) try {

@@ -19,12 +19,14 @@ OutOfPlane::OutOfPlane(Assembler& assembler) : assembler_(assembler) {
   row_.assign(static_cast<std::size_t>(assembler.numbering().motion_slots()), -1);
   for (std::size_t i = 0; i < slots_.size(); ++i) row_[static_cast<std::size_t>(slots_[i])] = static_cast<int>(i);
   column_.assign(model.plane.out_of_plane.size(), -1);
+  holds_.assign(model.parts.size(), false);
   for (std::size_t m = 0; m < column_.size(); ++m) {
     if (!model.plane.out_of_plane[m]) continue;
     // a grip that acts out of the plane holds nothing: nothing slides there
     if (is_grip(model, assembler.numbering().multiplier(static_cast<int>(m)))) continue;
     column_[m] = static_cast<int>(multipliers_.size());
     multipliers_.push_back(static_cast<int>(m));
+    holds_[static_cast<std::size_t>(assembler.numbering().multiplier(static_cast<int>(m)).part)] = true;
   }
 }
 
@@ -45,7 +47,7 @@ void OutOfPlane::find(Configuration& c) {
     const auto slots = numbering.part_slots(part);
     const std::size_t n = slots.size(), first = n - parts[p].element->layout().multipliers.size();
     r.assign(n, 0);
-    if (first < n) {
+    if (holds_[p]) {
       k.assign(n * n, 0);
       parts[p].element->tangent(assembler_.view(part, here), {0, 0, 0, 1}, r, k);
     } else {
@@ -55,7 +57,7 @@ void OutOfPlane::find(Configuration& c) {
       const int row = row_[static_cast<std::size_t>(slots[i])];
       if (row < 0) continue;
       right[row] -= r[i] * size(slots[i]);
-      for (std::size_t j = first; j < n; ++j) {
+      for (std::size_t j = first; holds_[p] && j < n; ++j) {
         const int m = slots[j] - numbering.motion_slots(), column = column_[static_cast<std::size_t>(m)];
         if (column >= 0) entries.emplace_back(row, column, k[i * n + j] * size(slots[i]) / weight(m));
       }

@@ -25,6 +25,7 @@ class OutOfPlane {
   Assembler& assembler_;
   std::vector<int> slots_, row_;  ///< unknown in space only, and the row of every slot of a node; -1: none
   std::vector<int> multipliers_, column_;
+  std::vector<bool> holds_;  ///< by part: it has such multipliers
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
 };
 
