@@ -16,7 +16,8 @@ namespace engrane::app {
 /// solution and residual each), and a fifth more for the scheme, histories and files. Cuts, events and contact cost more.
 std::string describe_price(const Reading& reading, solve::SolverContext& context, const Configuration& c);
 
-/// How many bytes the result file has, to a factor of two: channels by samples, fields of nodes by frames, and what describes the model.
+/// How many bytes the result file has, to a factor of two: channels by samples, fields of nodes by frames, and what describes the
+/// model.
 double expected_result_bytes(std::size_t channels, std::size_t samples, std::size_t nodes, std::size_t frames);
 
 }  // namespace engrane::app
