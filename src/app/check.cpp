@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "app/options.hpp"
+#include "app/price.hpp"
 #include "app/summary.hpp"
 #include "app/terminal.hpp"
 #include "base/text.hpp"
@@ -57,7 +58,7 @@ int print_model(const Reading& reading, std::ostream& out) {
   }
   out << "\nThe start\n"
       << describe_start(model, report) << '\n'
-      << describe_mobility(context.assembler, c, context.redundancy.mobility());
+      << describe_mobility(context.assembler, c, context.redundancy.mobility()) << describe_price(reading, context, c);
   return exit_status::fine;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <string_view>
 
 #include "app/check.hpp"
 #include "app/options.hpp"
@@ -119,11 +121,14 @@ int main(int argc, char** argv) {
   using namespace engrane::app;
   int status = exit_status::our_error;
   try {
-    // words about cards need neither MPI nor PETSc, which take a while to start; decks are checked with the solver's means
+    // words about cards and the command line need neither MPI nor PETSc, which take a while to start; decks are checked with the
+    // solver's means
     {
-      int done = 0;
-      const auto early = parse_command_line(argc, argv, false, done);
-      if (early && early->task != Options::Task::run && early->task != Options::Task::check) return perform(*early, true);
+      const char* of_several = std::getenv("OMPI_COMM_WORLD_RANK");
+      const bool first = !of_several || std::string_view(of_several) == "0";
+      const auto early = parse_command_line(argc, argv, first, status);
+      if (!early) return status;
+      if (early->task != Options::Task::run && early->task != Options::Task::check) return perform(*early, true);
     }
     output::hdf5::prepare();  // before MPI
     const SessionFolder folder;

@@ -73,6 +73,8 @@ SessionFolder::SessionFolder() {
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   setenv("OMPI_MCA_pml", "ob1", 0);
   setenv("OMPI_MCA_btl", "self", 0);
+  // nor collective operations for several: their plugins are loaded one by one
+  setenv("OMPI_MCA_coll", "basic,self,libnbc", 0);
 }
 
 SessionFolder::~SessionFolder() {

@@ -173,17 +173,24 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   bool complete = false;
   const auto scheme = make_scheme(context);
   Runner runner(context, *scheme);
-  const Observer after_step = [&](const Configuration& c, const StepReport& step) {
+  Configuration whole;
+  const Observer after_step = [&](const Configuration& solved, const StepReport& step) {
     starting = 0;
     const auto watch = times.output();
     user::forget_failures();  // those of attempts that were cut
     forget_function_failures();
-    const Schedule::Due due = schedule.at(c.time, step.number == 0 ? 0.0 : step.step, step.regular);
+    const Schedule::Due due = schedule.at(solved.time, step.number == 0 ? 0.0 : step.step, step.regular);
+    const bool seen = due.sample || due.frame || !reading.model.commands.checks.empty();
+    if (seen && context.out_of_plane.active()) {
+      whole = solved;
+      context.out_of_plane.find(whole);
+    }
+    const Configuration& c = seen && context.out_of_plane.active() ? whole : solved;
     observe_step(context, observer, c, step, due);
     int stop = 0;
     if (rank == 0) try {
         writer->step(c, step, due, context.numbering);
-        writer->remember(c, runner, due.restart, false);
+        writer->remember(solved, runner, due.restart, false);
       } catch (const OutputError& e) {
         failure = e.what();
         stop = 1;

@@ -14,17 +14,39 @@ namespace engrane::app {
 
 using namespace output;
 
+namespace {
+
+/// The plane that a model is solved in, or what one would save; empty when there is none and none was asked for.
+std::string describe_plane(const Model& model) {
+  if (model.plane.active()) return fmt::format("the plane {}", plane_name(model.plane.normal));
+  const bool asked = model.commands.analysis.plane.is("AUTO");
+  const PlaneModel plane = asked ? PlaneModel{} : find_plane(model);
+  const PlaneSaving saving = plane.active() ? plane_saving(model, plane) : PlaneSaving{};
+  if (saving.motions + saving.multipliers > 0)
+    return fmt::format(
+        "space; all motion stays in {0}, and .SAM PLANE {0} would leave out {1} unknowns of nodes and {2} multipliers",
+        plane_name(plane.normal), saving.motions, saving.multipliers);
+  return asked ? "space: there is no coordinate plane that all motion stays in" : "";
+}
+
+}  // namespace
+
 BuiltSummary summarize(const Model& model, const Numbering& numbering) {
   BuiltSummary summary;
   std::map<std::string, BuiltSummary::ElementCount> counts;
   std::size_t held_by_friction = 0;  // no constraints while their surfaces slide
+  const PlaneModel& plane = model.plane;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Layout& layout = model.parts[p].element->layout();
     auto& count = counts[model.parts[p].type];
     ++count.count;
     count.scalars += layout.scalars.size();
-    count.constraints += layout.multipliers.size();
-    for (const GripShape& grip : layout.grips) held_by_friction += static_cast<std::size_t>(grip.size);
+    const int first = numbering.multiplier_begin(static_cast<int>(p)), own = static_cast<int>(layout.multipliers.size());
+    for (int m = first; m < first + own; ++m) {
+      if (plane.leaves_out_multiplier(m)) continue;
+      ++count.constraints;
+      if (m >= first + layout.grip_row()) ++held_by_friction;
+    }
     std::size_t active = 0;
     for (const int slot : numbering.part_slots(static_cast<int>(p))) active += numbering.equation(slot) >= 0;
     summary.nonzeros += active * active;
@@ -54,10 +76,11 @@ BuiltSummary summarize(const Model& model, const Numbering& numbering) {
           needed[static_cast<std::size_t>(6 * part.nodes[i] + c)] = true;
       }
   for (const Support& s : model.supports) {  // each component of a node once
-    if (!needed[static_cast<std::size_t>(6 * s.node + s.component)]) continue;
+    if (!needed[static_cast<std::size_t>(6 * s.node + s.component)] || plane.leaves_out(s.component)) continue;
     ++(s.component < 3 ? summary.translations : summary.rotations);
     ++summary.prescribed;
   }
+  if (const std::string solved = describe_plane(model); !solved.empty()) summary.choices.emplace_back("solved in", solved);
   const auto motions = summary.translations + summary.rotations + summary.scalars - summary.prescribed;
   const auto constraints = summary.multipliers - held_by_friction;
   summary.choices.emplace_back("motions less constraints",

@@ -150,7 +150,6 @@ void Assembler::write_history(Configuration& configuration,
 
 void Assembler::release(const std::vector<int>& multipliers, const std::vector<double>& values) {
   const std::vector<bool> before = released_;
-  any_released_ = !multipliers.empty() || idle_count_ > 0;
   released_ = idle_;
   for (const int m : multipliers) {
     if (idle(m)) continue;
@@ -158,20 +157,30 @@ void Assembler::release(const std::vector<int>& multipliers, const std::vector<d
     released_values_[static_cast<std::size_t>(m)] = values[static_cast<std::size_t>(m)];
   }
   if (released_ != before) ++changes_;
+  note_released();
 }
 
 void Assembler::set_idle(const std::vector<int>& multipliers) {
   ++changes_;
   for (std::size_t m = 0; m < idle_.size(); ++m)
     if (idle_[m]) released_[m] = false;
-  std::fill(idle_.begin(), idle_.end(), false);
-  idle_count_ = static_cast<int>(multipliers.size());
-  for (const int m : multipliers) {
-    const auto i = static_cast<std::size_t>(m);
-    idle_[i] = released_[i] = true;
-    released_values_[i] = 0;
+  for (std::size_t m = 0; m < idle_.size(); ++m) idle_[m] = !numbered(static_cast<int>(m));
+  for (const int m : multipliers) idle_[static_cast<std::size_t>(m)] = true;
+  for (std::size_t m = 0; m < idle_.size(); ++m) {
+    if (!idle_[m]) continue;
+    released_[m] = true;
+    released_values_[m] = 0;
   }
-  any_released_ = std::find(released_.begin(), released_.end(), true) != released_.end();
+  idle_count_ = static_cast<int>(std::count(idle_.begin(), idle_.end(), true));
+  note_released();
+}
+
+bool Assembler::numbered(int multiplier) const { return numbering_.equation(numbering_.motion_slots() + multiplier) >= 0; }
+
+void Assembler::note_released() {
+  any_released_ = false;
+  for (std::size_t m = 0; m < released_.size() && !any_released_; ++m)
+    any_released_ = released_[m] && numbered(static_cast<int>(m));
 }
 
 void Assembler::save(Snapshot& snapshot) const {
@@ -256,9 +265,11 @@ void Assembler::residual(const Configuration& configuration, Vec r) {
       size = std::max(size, std::abs(local[i]));
     }
     for (; i < slots.size(); ++i) {
+      const int row = numbering_.equation(slots[i]);
+      if (row < 0) continue;
       const auto m = static_cast<std::size_t>(slots[i] - motion);
       const double value = released_[m] ? released_values_[m] - configuration.multipliers[m] : local[i] * scale_[m];
-      sum.add(numbering_.equation(slots[i]), value);
+      sum.add(row, value);
     }
   });
   sum.finish();

@@ -53,7 +53,7 @@ class Assembler {
   /// Replaces the equations of these multipliers (ascending) by kλ = what `values` has for them; of all others as they are.
   void release(const std::vector<int>& multipliers, const std::vector<double>& values);
   /// Constraints that are none at present (ascending): equations kλ = 0, left out of every analysis. At first all grips that hold
-  /// nothing.
+  /// nothing. Constraints without equation (Numbering) are always idle.
   void set_idle(const std::vector<int>& multipliers);
   bool idle(int multiplier) const { return idle_[static_cast<std::size_t>(multiplier)]; }
   int idle_count() const { return idle_count_; }
@@ -128,6 +128,8 @@ class Assembler {
   std::span<const State> views(const Batch& batch, const Configuration& configuration);
   /// Multiplies rows and columns of an element's multipliers by their k, and clears those that are released.
   void scale_multipliers(int part, std::span<double> k) const;
+  bool numbered(int multiplier) const;
+  void note_released();
   /// Whether an equation is a released constraint's.
   bool released_equation(int equation) const;
 

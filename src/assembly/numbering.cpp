@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace engrane {
 
 namespace {
@@ -36,6 +38,9 @@ Numbering::Numbering(const Model& model) : model_(model), rotates_(model.nodes.s
   }
   for (const Support& s : model.supports) used[static_cast<std::size_t>(6 * s.node + s.component)] = false;
 
+  for (std::size_t slot = 0; model.plane.active() && slot < node_slots; ++slot)
+    if (model.plane.leaves_out(static_cast<int>(slot % 6))) used[slot] = false;
+
   motion_slots_ = static_cast<int>(node_slots) + scalars_;
   equation_.assign(static_cast<std::size_t>(motion_slots_ + multipliers_), -1);
   const auto add = [this](Unknown u) {
@@ -63,13 +68,24 @@ Numbering::Numbering(const Model& model) : model_(model), rotates_(model.nodes.s
            measure_of(layout.scalars[i], false)});
     }
     for (std::size_t i = 0; i < layout.multipliers.size(); ++i) {
-      const int slot = motion_slots_ + multiplier++;
+      const int slot = motion_slots_ + multiplier;
       part_slots_.push_back(slot);
-      add({slot, static_cast<int>(p), -1, static_cast<int>(i), true, false, measure_of(layout.multipliers[i], true)});
+      const Unknown unknown{
+          slot, static_cast<int>(p), -1, static_cast<int>(i), true, false, measure_of(layout.multipliers[i], true)};
+      if (model.plane.leaves_out_multiplier(multiplier++))
+        left_out_.push_back(unknown);
+      else
+        add(unknown);
     }
     history_ += layout.history;
   }
   parts_.push_back({part_slots_.size(), scalar, multiplier, history_});
+}
+
+const Unknown& Numbering::multiplier(int index) const {
+  const int slot = motion_slots_ + index, of = equation(slot);
+  if (of >= 0) return unknown(of);
+  return *std::lower_bound(left_out_.begin(), left_out_.end(), slot, [](const Unknown& u, int s) { return u.slot < s; });
 }
 
 Configuration Numbering::reference_configuration(double time) const {

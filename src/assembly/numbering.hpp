@@ -25,7 +25,8 @@ struct Unknown {
 };
 
 /// Where everything stands. A slot is a place for a value: six per node (whether or not it has the unknown), then the
-/// elements' scalars (together the motion), then the multipliers. An equation is a slot that is really unknown.
+/// elements' scalars (together the motion), then the multipliers. An equation is a slot that is really unknown. In a model of a
+/// plane (Model::plane) components of nodes that lead out of it are fixed, and constraints that act only out of it have none.
 class Numbering {
  public:
   explicit Numbering(const Model& model);
@@ -35,6 +36,8 @@ class Numbering {
   int slots() const { return static_cast<int>(equation_.size()); }
   /// Equation of a slot; -1 when it is fixed, prescribed or not needed by any element.
   int equation(int slot) const { return equation_[static_cast<std::size_t>(slot)]; }
+  /// The unknown of a multiplier, in the order of Configuration::multipliers; also of one that has no equation.
+  const Unknown& multiplier(int index) const;
   const Unknown& unknown(int equation) const { return unknowns_[static_cast<std::size_t>(equation)]; }
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
   Measure measure(int equation) const { return unknown(equation).measure; }
@@ -68,7 +71,8 @@ class Numbering {
   const Model& model_;
   std::vector<int> equation_;
   std::vector<Unknown> unknowns_;
-  std::vector<Part> parts_;  ///< and one more, where the last ends
+  std::vector<Unknown> left_out_;  ///< multipliers without equation, by slot
+  std::vector<Part> parts_;        ///< and one more, where the last ends
   std::vector<int> part_slots_;
   std::vector<bool> rotates_;
   int motion_slots_ = 0;

@@ -51,6 +51,7 @@ class Builder {
       for (const int id : part.element->node_ids()) part.nodes.push_back(model_.node_index(id));
     check_rotation_supports();
     model_.measure();
+    settle_plane();
     return std::move(model_);
   }
 
@@ -240,6 +241,22 @@ class Builder {
         diagnostics_.error(support_locations_[i], fmt::format("node {} is turned about more than one axis at once", id),
                            "prescribe one rotation and hold the other two at zero");
     }
+  }
+
+  /// Makes the model one of a plane where `.SAM PLANE` asks for it.
+  void settle_plane() {
+    constexpr std::size_t most_faults = 8;
+    const deck::Tagged& wish = model_.commands.analysis.plane;
+    if (wish.is("NO") || diagnostics_.has_errors()) return;
+    if (wish.is("AUTO")) {
+      model_.plane = find_plane(model_);
+      return;
+    }
+    const int normal = wish.is("XY") ? 2 : wish.is("YZ") ? 0 : 1;
+    const auto analysis = std::find_if(deck_.records.begin(), deck_.records.end(),
+                                       [](const deck::Record& record) { return record.get<deck::AnalysisCard>(); });
+    for (const PlaneFault& fault : examine_plane(model_, normal, most_faults, model_.plane))
+      diagnostics_.error(fault.location.known() ? fault.location : analysis->where("PLANE"), fault.what, fault.hint);
   }
 
   void add_load(const deck::Record& record, const deck::LoadCard& card) {

@@ -13,6 +13,7 @@
 #include "model/element.hpp"
 #include "model/function.hpp"
 #include "model/node_positions.hpp"
+#include "model/plane.hpp"
 #include "model/registry.hpp"
 
 namespace engrane {
@@ -88,6 +89,7 @@ struct Model {
   std::vector<InitialSpin> initial_spins;
   std::vector<Gravity> gravity;
   Commands commands;
+  PlaneModel plane;  ///< not active unless the deck asks for it (`.SAM PLANE`)
 
   int node_index(int id) const;  ///< -1 when there is no such node
   Vec3 gravity_at(double time) const;

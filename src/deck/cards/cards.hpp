@@ -124,6 +124,7 @@ struct AnalysisCard {
   Tagged newton{"KEPT", {}};      ///< KEPT, FULL: whether tangents of a DYNAMIC analysis serve several iterations and steps
   int iterations = 20;            ///< most Newton iterations before the step is cut
   int cuts = 10;                  ///< most halvings of one step
+  Tagged plane{"NO", {}};         ///< PLANE NO, AUTO, XY, YZ, ZX: three unknowns a node where all motion stays in a plane
   Tagged events{"YES", {}};       ///< EVENTS YES [tolerance] or NO: steps end where contact begins and ends
   double energy = 1;              ///< ENERGY: largest error of the energy balance, over the energy there was; 0: any
   std::optional<double> scale;    ///< k of the augmented Lagrangian; automatic when not given

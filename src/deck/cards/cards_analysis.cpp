@@ -73,6 +73,14 @@ Schema analysis_card() {
       .at_least(1)
       .at_most(1000);
   card.add("CUTS", &AnalysisCard::cuts, "how often a step may be halved").synonyms({"COUPES"}).at_least(0).at_most(50);
+  card.add("PLANE", &AnalysisCard::plane,
+           "whether the mechanism is solved in a plane: three unknowns a node, and no constraints out of it")
+      .synonyms({"PLAN"})
+      .option({"NO", {"NON"}, "in space"})
+      .option({"AUTO", {}, "in the coordinate plane that all motion stays in; in space where there is none"})
+      .option({"XY", {}, "in the plane XY; an error names what leads out of it"})
+      .option({"YZ", {}, "the same in the plane YZ"})
+      .option({"ZX", {"XZ"}, "the same in the plane ZX"});
   card.add("EVENTS", &AnalysisCard::events, "whether a DYNAMIC analysis ends steps where teeth begin and cease to touch")
       .synonyms({"EVENEMENTS"})
       .option({"YES", {"OUI"}, "each such instant is located, to a fraction of H that may follow (1E-6)", 0, 1})

@@ -12,9 +12,7 @@ double size_of(const Unknown& u, double extent) {
   return u.measure == Measure::force || u.measure == Measure::length ? extent : 1.0;
 }
 
-const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier) {
-  return numbering.unknown(numbering.equation(numbering.motion_slots() + multiplier));
-}
+const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier) { return numbering.multiplier(multiplier); }
 
 const Multiplier& multiplier_of(const Model& model, const Unknown& multiplier) {
   const Model::Part& part = model.parts[static_cast<std::size_t>(multiplier.part)];

@@ -362,7 +362,8 @@ std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
   Eigen::MatrixXd any(weight.size(), 2);
   for (Eigen::Index m = 0; m < any.rows(); ++m)
     for (Eigen::Index k = 0; k < any.cols(); ++k)
-      any(m, k) = std::cos(0.7 + 1.2 * static_cast<double>(k) + 2.3 * static_cast<double>(m));
+      any(m, k) =
+          assembler_.idle(static_cast<int>(m)) ? 0 : std::cos(0.7 + 1.2 * static_cast<double>(k) + 2.3 * static_cast<double>(m));
   any -= RowSpace(with_columns_scaled(columns.matrix, weight.cwiseInverse()), rank_tolerance, columns.rows.first_rows).part(any);
   for (const auto& column : any.colwise()) {
     const Vector change = column.cwiseQuotient(weight);

@@ -68,15 +68,15 @@ void Scheme::refuse_half_turns(std::span<const double> y, NewtonReport& report) 
 void Scheme::multipliers_to_unknowns(const Configuration& c, std::span<double> unknowns) const {
   const auto motion = context_.motion.size();
   for (std::size_t m = 0; m < c.multipliers.size(); ++m)
-    unknowns[static_cast<std::size_t>(context_.numbering.equation(static_cast<int>(motion + m)))] =
-        c.multipliers[m] / context_.assembler.scale()[m];
+    if (const int equation = context_.numbering.equation(static_cast<int>(motion + m)); equation >= 0)
+      unknowns[static_cast<std::size_t>(equation)] = c.multipliers[m] / context_.assembler.scale()[m];
 }
 
 void Scheme::unknowns_to_multipliers(std::span<const double> unknowns, Configuration& c) const {
   const auto motion = context_.motion.size();
   for (std::size_t m = 0; m < c.multipliers.size(); ++m)
-    c.multipliers[m] = context_.assembler.scale()[m] *
-                       unknowns[static_cast<std::size_t>(context_.numbering.equation(static_cast<int>(motion + m)))];
+    if (const int equation = context_.numbering.equation(static_cast<int>(motion + m)); equation >= 0)
+      c.multipliers[m] = context_.assembler.scale()[m] * unknowns[static_cast<std::size_t>(equation)];
 }
 
 NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to, bool keep) {

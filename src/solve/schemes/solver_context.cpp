@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/schemes/solver_context.hpp"
 
+#include <fmt/format.h>
+
+#include <string>
 #include <utility>
 
 namespace engrane::solve {
@@ -15,7 +18,8 @@ SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm
       motion(m, numbering),
       redundancy(assembler, motion),
       start(assembler, solver, motion, redundancy),
-      grips(assembler, redundancy, start, options.step) {
+      grips(assembler, redundancy, start, options.step),
+      out_of_plane(assembler) {
   assembler.penalty = options.penalty;
 }
 
@@ -27,9 +31,18 @@ void SolverContext::save(Snapshot& snapshot) const {
   newton.save(snapshot);
   redundancy.save(snapshot);
   solver.save(snapshot);
+  snapshot.put("plane", model.plane.normal);
 }
 
 void SolverContext::load(const Snapshot& snapshot) {
+  const auto words = [](int normal) {
+    return normal < 0 ? std::string("in space") : fmt::format("in the plane {}", plane_name(normal));
+  };
+  const int before = snapshot.has("plane") ? static_cast<int>(snapshot.number("plane")) : -1;
+  if (before != model.plane.normal)
+    throw SolutionFailure(
+        fmt::format("the run that wrote the restart point was solved {}, this one is solved {}: give the same PLANE in .SAM",
+                    words(before), words(model.plane.normal)));
   assembler.load(snapshot);
   newton.load(snapshot);
   redundancy.load(snapshot);

@@ -4,6 +4,7 @@
 #include "model/solver_options.hpp"
 #include "solve/algebra/newton.hpp"
 #include "solve/constraints/grips.hpp"
+#include "solve/constraints/out_of_plane.hpp"
 #include "solve/constraints/start.hpp"
 
 namespace engrane::solve {
@@ -28,6 +29,7 @@ struct SolverContext {
   Redundancy redundancy;
   Start start;
   Grips grips;
+  OutOfPlane out_of_plane;
 };
 
 }  // namespace engrane::solve

@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/plane.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseQR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "model/model.hpp"
+
+namespace engrane {
+
+namespace {
+
+/// What is left of terms that cancel is rounding below this part of them.
+constexpr double rounding = 1e-12;
+
+/// A configuration of the plane: every node moved in it by an arbitrary amount, at an arbitrary speed.
+struct Probe {
+  std::vector<NodeState> nodes;
+  double time = 0;
+  double homotopy = 0;
+};
+
+/// Configurations as different as a run may meet: the reference with open gaps and with all contacts carrying, one near to it,
+/// and two far away.
+std::vector<Probe> probes(const Model& model, int normal) {
+  struct Shape {
+    double move, turn, homotopy;
+  };
+  constexpr std::array shapes{Shape{0, 0, 0}, Shape{0, 0, 1}, Shape{1e-3, 0.02, 0}, Shape{0.1, 0.7, 1}, Shape{0.2, 3, 0}};
+  std::mt19937 generator(5);  // the same in every run
+  std::uniform_real_distribution<double> any(-1, 1);
+  const deck::SteppingCard& stepping = model.commands.stepping;
+  const double span = stepping.end - stepping.start, extent = model.extent(), rate = 10 / span;
+  const int first = (normal + 1) % 3, second = (normal + 2) % 3;
+  std::vector<Probe> all;
+  for (const Shape& shape : shapes) {
+    Probe probe{std::vector<NodeState>(model.nodes.size()), stepping.start, shape.homotopy};
+    if (shape.move > 0) probe.time += 0.5 * (1 + any(generator)) * span;
+    for (std::size_t i = 0; i < probe.nodes.size(); ++i) {
+      NodeState& node = probe.nodes[i];
+      node.x = model.nodes[i].x;
+      if (i == 0) continue;
+      for (const int c : {first, second}) {
+        node.x[c] += shape.move * extent * any(generator);
+        node.v[c] = extent * rate * any(generator);
+        node.a[c] = extent * rate * rate * any(generator);
+      }
+      const double angle = shape.turn * any(generator);
+      node.R(first, first) = node.R(second, second) = std::cos(angle);
+      node.R(second, first) = std::sin(angle);
+      node.R(first, second) = -node.R(second, first);
+      node.W[normal] = rate * any(generator);
+      node.A[normal] = rate * rate * any(generator);
+    }
+    all.push_back(std::move(probe));
+  }
+  return all;
+}
+
+/// Sizes of what is found in the plane and out of it: the largest over all probes.
+struct Parts {
+  double in = 0, out = 0;
+  void add(bool leaves, double size) {
+    if (!std::isfinite(size)) return;  // a probe outside of what the element is defined for
+    double& largest = leaves ? out : in;
+    largest = std::max(largest, std::abs(size));
+  }
+  bool acts_in() const { return in > rounding * out; }
+  bool acts_out() const { return out > rounding * in; }
+};
+
+/// Looks at one element after another.
+class Examination {
+ public:
+  Examination(const Model& model, int normal) : model_(model), normal_(normal), probes_(probes(model, normal)) {
+    plane_.normal = normal;
+  }
+
+  std::vector<PlaneFault> run(std::size_t most) {
+    look_at_conditions();
+    for (const Model::Part& part : model_.parts) {
+      if (faults_.size() >= most) break;
+      look_at(part);
+    }
+    if (faults_.empty() && !pushed_.empty()) look_at_what_carries();
+    if (faults_.size() > most) faults_.resize(most);
+    return std::move(faults_);
+  }
+
+  PlaneModel take() { return std::move(plane_); }
+
+ private:
+  const char* name() const { return plane_name(normal_); }
+  char axis() const { return "xyz"[normal_]; }
+  void fault(const Location& location, std::string what, std::string hint) {
+    faults_.push_back({location, std::move(what), std::move(hint)});
+  }
+  std::string node_name(int node) const { return fmt::format("node {}", model_.nodes[static_cast<std::size_t>(node)].id); }
+  bool leaves(int component) const { return plane_.leaves_out(component); }
+
+  /// Supports, initial values and gravity.
+  void look_at_conditions() {
+    for (const Support& s : model_.supports)
+      if (leaves(s.component) && s.value != 0)
+        fault({},
+              fmt::format("{} is prescribed a displacement out of the plane {} (component {})", node_name(s.node), name(),
+                          s.component + 1),
+              "prescribe displacements in the plane only");
+    for (const InitialValue& v : model_.initial)
+      if (leaves(v.component) && v.value != 0)
+        fault({},
+              fmt::format("the initial {} of {} leads out of the plane {} (component {})",
+                          v.velocity ? "velocity" : "displacement", node_name(v.node), name(), v.component + 1),
+              "leave that component out");
+    for (const InitialSpin& s : model_.initial_spins)
+      if (!(std::hypot(s.omega[(normal_ + 1) % 3], s.omega[(normal_ + 2) % 3]) <= rounding * s.omega.norm()))
+        fault({}, fmt::format("the initial spin of {} leads out of the plane {}", node_name(s.node), name()),
+              fmt::format("its AXIS must be along {}", axis()));
+    for (const Gravity& g : model_.gravity)
+      if (std::abs(g.acceleration[normal_]) > rounding * g.acceleration.norm())
+        fault({}, fmt::format("gravity has a component normal to the plane {}", name()), "leave that component out");
+  }
+
+  State view(const Model::Part& part, const Probe& probe) const {
+    State state;
+    state.nodes = {probe.nodes, part.nodes};
+    state.scalars = scalars_;
+    state.scalar_rates = rates_;
+    state.scalar_accelerations = accelerations_;
+    state.multipliers = multipliers_;
+    state.history = history_;
+    state.time = probe.time;
+    state.h = model_.commands.stepping.step;
+    state.gravity = model_.gravity_at(probe.time);
+    state.contact_homotopy = probe.homotopy;
+    return state;
+  }
+
+  void prepare(const Model::Part& part) {
+    const Layout& layout = part.element->layout();
+    scalars_.assign(layout.scalars.size(), 0);
+    history_.assign(static_cast<std::size_t>(layout.history), 0);
+    multipliers_.assign(layout.multipliers.size(), 0);
+    part.element->start(scalars_, history_);
+    rates_.assign(scalars_.size(), 0);
+    accelerations_.assign(scalars_.size(), 0);
+    for (std::size_t i = 0; i < scalars_.size(); ++i) {
+      const double size = layout.scalars[i].dimension.length == 0 ? 0.1 : 1e-3 * model_.extent();
+      scalars_[i] += size * std::cos(1.0 + static_cast<double>(i));
+      rates_[i] = size * std::cos(2.0 + static_cast<double>(i));
+      accelerations_[i] = size * std::cos(3.0 + static_cast<double>(i));
+    }
+    // component of each slot of a node; −1: the ground's, or no node's
+    components_.assign(static_cast<std::size_t>(layout.slots()), -1);
+    nodes_.assign(components_.size(), 0);
+    std::size_t slot = 0;
+    for (std::size_t i = 0; i < layout.needs.size(); ++i)
+      for (int c = 0; c < 6; ++c)
+        if (layout.needs_any(i, c < 3 ? NodeNeed::translation : NodeNeed::rotation)) {
+          nodes_[slot] = part.nodes[i];
+          components_[slot++] = part.nodes[i] == 0 ? -1 : c;
+        }
+    r_.assign(components_.size(), 0);
+  }
+
+  void look_at(const Model::Part& part) {
+    const Layout& layout = part.element->layout();
+    const std::size_t count = layout.multipliers.size(), begin = plane_.out_of_plane.size();
+    plane_.out_of_plane.resize(begin + count, false);
+    prepare(part);
+    if (count > 0 && !look_at_constraints(part, begin)) return;
+    look_at_forces(part, begin);
+  }
+
+  /// Which constraints act in the plane, by their gradients, and whether the others are closed. False with a fault. Those that
+  /// act in it and out of it at once are constraints of the plane that push out of it.
+  bool look_at_constraints(const Model::Part& part, std::size_t begin) {
+    const Layout& layout = part.element->layout();
+    const std::size_t n = components_.size(), count = layout.multipliers.size(), first = n - count;
+    std::vector<Parts> gradients(count), open(count);
+    std::vector<double> k(n * n), phi(count), rate(count), second(count);
+    const double extent = model_.extent(), span = model_.commands.stepping.end - model_.commands.stepping.start;
+    for (const Probe& probe : probes_) {
+      part.element->tangent(view(part, probe), {1, 0, 0, 0}, r_, k);
+      part.element->constraint_rates(view(part, probe), phi, rate, second);
+      for (std::size_t m = 0; m < count; ++m) {
+        for (std::size_t j = 0; j < first; ++j) {
+          const int c = components_[j];
+          const double value = k[(first + m) * n + j];
+          if (c >= 0) {
+            gradients[m].add(leaves(c), c < 3 ? value * extent : value);
+            if (&probe == probes_.data() && leaves(c) && value != 0)
+              gradient_.emplace_back(6 * nodes_[j] + c, static_cast<int>(begin + m), c < 3 ? value * extent : value);
+          } else if (j >= static_cast<std::size_t>(layout.node_slots()))
+            gradients[m].add(
+                false,
+                value * (layout.scalars[j - static_cast<std::size_t>(layout.node_slots())].dimension.length == 0 ? 1 : extent));
+        }
+        const double size = layout.multipliers[m].dimension.length == 0 ? 1 : extent;
+        open[m].in = size;
+        for (const double value : {phi[m], rate[m] * span, second[m] * span * span}) open[m].add(true, value);
+      }
+    }
+    for (std::size_t m = 0; m < count; ++m) {
+      const Multiplier& multiplier = layout.multipliers[m];
+      const bool out = gradients[m].out > 0 && !gradients[m].acts_in();
+      plane_.out_of_plane[begin + m] = out;
+      if (!out || multiplier.role == Role::grip || !open[m].acts_out()) continue;
+      fault(part.location,
+            fmt::format("{} {} moves its nodes out of the plane {}: its {} is not zero there", part.type, part.element->id(),
+                        name(), multiplier.help.empty() ? multiplier.name : multiplier.help),
+            fmt::format("put its nodes at the same {}, its axes along {} or in the plane, and drive it in the plane only", axis(),
+                        axis()));
+      return false;
+    }
+    return true;
+  }
+
+  /// A multiplier's size in a probe: of the element's own forces, where it has any.
+  double multiplier_size(const Multiplier& multiplier, double forces) const {
+    return (forces > 0 ? forces : 1) / (multiplier.dimension.length == 0 ? 1 : model_.extent());
+  }
+
+  /// Whether forces and moments stay in the plane, whatever the constraints of the plane carry.
+  void look_at_forces(const Model::Part& part, std::size_t begin) {
+    const Layout& layout = part.element->layout();
+    const double extent = model_.extent();
+    Parts forces;
+    double largest = 0;
+    std::size_t worst = 0;
+    for (const Probe& probe : probes_)
+      for (const bool carries : {false, true}) {
+        if (carries && multipliers_.empty()) continue;
+        for (std::size_t m = 0; m < multipliers_.size(); ++m)
+          multipliers_[m] = carries && !plane_.out_of_plane[begin + m]
+                                ? multiplier_size(layout.multipliers[m], forces.in) * std::cos(4.0 + 3.0 * static_cast<double>(m))
+                                : 0;
+        part.element->residual(view(part, probe), r_);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(layout.node_slots()); ++i) {
+          const int c = components_[i];
+          if (c < 0) continue;
+          const double size = std::abs(c < 3 ? r_[i] * extent : r_[i]);
+          forces.add(leaves(c), size);
+          if (leaves(c) && size > largest) {
+            largest = size;
+            worst = i;
+          }
+        }
+      }
+    if (forces.acts_out()) {
+      const int c = components_[worst];
+      PlaneFault pushes{
+          part.location,
+          fmt::format("{} {} is not of the plane {}: it {} {} {} {}", part.type, part.element->id(), name(),
+                      c < 3 ? "pushes" : "turns", node_name(nodes_[worst]), c < 3 ? "along" : "about", "xyz"[c % 3]),
+          hint_for(part)};
+      // what the deck itself says of forces out of the plane is no matter of joints
+      (is_load(part) ? faults_ : pushed_).push_back(std::move(pushes));
+    }
+    look_at_friction(part, begin, forces.in);
+  }
+
+  /// Forces in the plane must not follow from what is carried out of it, which the equations of the plane do not know.
+  void look_at_friction(const Model::Part& part, std::size_t begin, double forces) {
+    const Layout& layout = part.element->layout();
+    if (layout.slides == 0 && layout.grips.empty()) return;
+    std::vector<double> before(layout.grips.size()), after(before.size()), first;
+    bool follows = false;
+    for (const Probe& probe : probes_) {
+      for (const bool carries : {false, true}) {
+        for (std::size_t m = 0; m < multipliers_.size(); ++m)
+          multipliers_[m] = carries || !plane_.out_of_plane[begin + m]
+                                ? multiplier_size(layout.multipliers[m], forces) * std::cos(4.0 + 3.0 * static_cast<double>(m))
+                                : 0;
+        first = r_;
+        part.element->residual(view(part, probe), r_);
+        part.element->grip_limits(view(part, probe), carries ? after : before);
+      }
+      for (std::size_t i = 0; i < static_cast<std::size_t>(layout.node_slots()); ++i)
+        if (components_[i] >= 0 && !leaves(components_[i]))
+          follows = follows || std::abs(r_[i] - first[i]) > 1e-9 * std::abs(r_[i]);
+      for (std::size_t i = 0; i < before.size(); ++i)
+        follows = follows || std::abs(after[i] - before[i]) > 1e-9 * std::abs(before[i]);
+    }
+    if (follows)
+      rubbed_.push_back(
+          {part.location,
+           fmt::format("the friction of {} {} follows from forces out of the plane {}", part.type, part.element->id(), name()),
+           "leave out its friction, or remove what pushes out of the plane"});
+  }
+
+  /// With elements that push out of the plane: whether constraints that act only out of it hold all nodes there.
+  void look_at_what_carries() {
+    faults_ = rubbed_;
+    const std::vector<int> slots = slots_out_of_plane(model_, plane_);
+    std::vector<int> row(6 * model_.nodes.size(), -1);
+    for (std::size_t i = 0; i < slots.size(); ++i) row[static_cast<std::size_t>(slots[i])] = static_cast<int>(i);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const auto& entry : gradient_)
+      if (const int at = row[static_cast<std::size_t>(entry.row())];
+          at >= 0 && plane_.out_of_plane[static_cast<std::size_t>(entry.col())])
+        entries.emplace_back(entry.col(), at, entry.value());
+    Eigen::SparseMatrix<double> gradient(static_cast<Eigen::Index>(plane_.out_of_plane.size()),
+                                         static_cast<Eigen::Index>(slots.size()));
+    gradient.setFromTriplets(entries.begin(), entries.end());
+    gradient.makeCompressed();
+    for (Eigen::Index j = 0; j < gradient.cols(); ++j)
+      if (const double length = gradient.col(j).norm(); length > 0) gradient.col(j) /= length;
+    bool held = !entries.empty() && gradient.rows() >= gradient.cols();
+    if (held) {
+      Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> factors;
+      factors.setPivotThreshold(1e-9);
+      factors.compute(gradient);
+      held = factors.rank() == gradient.cols();
+    }
+    if (!held) {
+      for (PlaneFault& fault : pushed_) fault.what += ", and no joints hold all nodes against that";
+      faults_.insert(faults_.begin(), pushed_.begin(), pushed_.end());
+    }
+    plane_.carries = true;
+  }
+
+  static bool is_load(const Model::Part& part) { return part.type == "CHA" || part.type == "FORCE" || part.type == "TORQUE"; }
+
+  std::string hint_for(const Model::Part& part) const {
+    if (is_load(part)) return fmt::format("give it forces in the plane and moments about {} only", axis());
+    if (part.element->is_body() || part.type == "INERTIA")
+      return fmt::format("its nodes and its centre of mass must be at the same {0}, and {0} be a principal axis of its inertia",
+                         axis());
+    return fmt::format(
+        "its axes must be along {0} or in the plane, its nodes at the same {0}; helical, bevel and crossed gears act in space",
+        axis());
+  }
+
+  const Model& model_;
+  int normal_;
+  std::vector<Probe> probes_;
+  PlaneModel plane_;
+  std::vector<PlaneFault> faults_;
+  std::vector<PlaneFault> pushed_, rubbed_;  ///< faults unless joints carry, and if they must
+  std::vector<Eigen::Triplet<double>>
+      gradient_;  ///< of the constraints, by slot and multiplier: entries that lead out of the plane
+  // of the element that is looked at
+  std::vector<double> scalars_, rates_, accelerations_, multipliers_, history_, r_;
+  std::vector<int> components_, nodes_;
+};
+
+}  // namespace
+
+const char* plane_name(int normal) {
+  static constexpr const char* names[] = {"YZ", "ZX", "XY"};
+  return names[normal];
+}
+
+std::vector<PlaneFault> examine_plane(const Model& model, int normal, std::size_t most, PlaneModel& plane) {
+  Examination examination(model, normal);
+  std::vector<PlaneFault> faults = examination.run(most);
+  if (faults.empty()) plane = examination.take();
+  return faults;
+}
+
+PlaneModel find_plane(const Model& model) {
+  PlaneModel best;
+  std::size_t most = 0;
+  for (const int normal : {2, 0, 1}) {
+    PlaneModel plane;
+    if (!examine_plane(model, normal, 1, plane).empty()) continue;
+    const PlaneSaving saving = plane_saving(model, plane);
+    if (best.active() && saving.motions + saving.multipliers <= most) continue;
+    most = saving.motions + saving.multipliers;
+    best = std::move(plane);
+  }
+  return best;
+}
+
+std::vector<int> slots_out_of_plane(const Model& model, const PlaneModel& plane) {
+  std::vector<bool> needed(6 * model.nodes.size(), false);
+  for (const Model::Part& part : model.parts)
+    for (std::size_t i = 0; i < part.nodes.size(); ++i)
+      for (int c = 0; c < 6; ++c)
+        if (part.nodes[i] > 0 && part.element->layout().needs_any(i, c < 3 ? NodeNeed::translation : NodeNeed::rotation))
+          needed[static_cast<std::size_t>(6 * part.nodes[i] + c)] = true;
+  for (const Support& s : model.supports) needed[static_cast<std::size_t>(6 * s.node + s.component)] = false;
+  std::vector<int> slots;
+  for (std::size_t slot = 0; slot < needed.size(); ++slot)
+    if (needed[slot] && plane.leaves_out(static_cast<int>(slot % 6))) slots.push_back(static_cast<int>(slot));
+  return slots;
+}
+
+PlaneSaving plane_saving(const Model& model, const PlaneModel& plane) {
+  return {slots_out_of_plane(model, plane).size(),
+          static_cast<std::size_t>(std::count(plane.out_of_plane.begin(), plane.out_of_plane.end(), true))};
+}
+
+}  // namespace engrane

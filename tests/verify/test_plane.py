@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Decks whose motion stays in a plane give the same results there (`.SAM PLANE`) as in space."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from engrane_post import Results
+
+DECKS = Path(__file__).resolve().parents[2] / "decks"
+
+# deck, with a shorter run where the whole one is long
+PLANAR = {
+    "mechanisms/andrews_squeezer": "TF 0.004 H 0.00002",
+    "mechanisms/four_bar": "TF 0.2 H 0.002",
+    "mechanisms/quick_return": "",
+    "mechanisms/geneva_wheel": "",
+    "mechanisms/geneva_index": "",
+    "mechanisms/valve_train": "TF 0.005 H 1D-5",
+    "mechanisms/plane_slider_crank": "",
+    "gears/spur": "",
+    "trains/planetary_3_carrier_held": "",
+    "trains/planetary_3_ring_held": "",
+    "gears/helical": "",
+    "trains/two_stage_reducer": "",
+}
+SPATIAL = ["mechanisms/bricard", "mechanisms/slider_crank", "paper/bevel_pair", "trains/worm_drive"]
+
+
+def solve(name: str, plane: str, solver: str, stepping: str, folder: Path) -> subprocess.CompletedProcess:
+    """Solves a deck of the project with another plane and solver and a sharper `PREC`."""
+    program = os.environ.get("ENGRANE", "")
+    if not Path(program).is_file():
+        pytest.skip("the variable ENGRANE names no program")
+    path = DECKS / f"{name}.dat"
+    text = path.read_text(encoding="utf-8")
+    text = re.sub(
+        r'INPUT "([^"]+)"', lambda m: (path.parent / f"{m[1]}.dat").read_text(encoding="utf-8"), text
+    )
+    text = text.replace(" PLANE AUTO", "").replace(" SOLVER KLU", "")
+    text = re.sub(r"^(\.SAM TYPE \w+)", rf"\1 PLANE {plane} SOLVER {solver}", text, flags=re.MULTILINE)
+    text = re.sub(r"^(\.SAM (?!.*PREC).*?)( *!.*)?$", r"\1 PREC 1D-13", text, flags=re.MULTILINE)
+    if stepping:
+        text = text[: text.index(".FIN")] + f".DEL.CHK\n.DEL.SUB\n.SUB {stepping}\n.FIN 1\n"
+    (folder / "deck.dat").write_text(text, encoding="utf-8")
+    return subprocess.run(
+        [program, "deck.dat", "-q"], cwd=folder, capture_output=True, text=True, timeout=600
+    )
+
+
+@pytest.mark.parametrize("name", PLANAR)
+def test_results_are_those_in_space(name: str, tmp_path: Path) -> None:
+    """Every channel, over the whole run, to 1e-10 of the largest number of its unit. Accelerations and
+    reactions are differences of rounded positions over the square of the step; what rounding does to them
+    shows where the model in space is solved by another solver, which adds in another order."""
+    found = {}
+    for plane, solver in (("NO", "MUMPS"), ("NO", "KLU"), ("XY", "MUMPS")):
+        done = solve(name, plane, solver, PLANAR[name], tmp_path)
+        assert done.returncode == 0, done.stdout + done.stderr
+        with Results(tmp_path / "deck.h5") as results:
+            channels = {
+                c: r for c, r in results.channels.items() if c not in ("run/ITERATIONS", "run/EVENTS")
+            }
+            found[plane, solver] = {c: results.history(r)[1] for c, r in channels.items()}
+            for channel, values in found[plane, solver].items():
+                if channel.endswith("RADIUS_OF_CURVATURE"):  # grows without bound where a cam is straight
+                    found[plane, solver][channel] = 1 / values
+            units = {c: r.unit for c, r in channels.items()}
+    space, other, plane = found.values()
+    assert space.keys() == plane.keys()
+    largest: dict[str, float] = {}
+    noise: dict[str, float] = {}
+    for channel, values in space.items():
+        unit = units[channel]
+        largest[unit] = max(largest.get(unit, 0.0), np.abs(values).max())
+        noise[unit] = max(noise.get(unit, 0.0), np.abs(other[channel] - values).max())
+    for channel, values in space.items():
+        unit = units[channel]
+        off = np.abs(plane[channel] - values).max()
+        assert off <= 1e-10 * largest[unit] + 5 * noise[unit], (channel, off, largest[unit], noise[unit])
+
+
+@pytest.mark.parametrize("name", SPATIAL)
+def test_what_leads_out_of_the_plane_is_refused(name: str, tmp_path: Path) -> None:
+    done = solve(name, "XY", "MUMPS", "", tmp_path)
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert "plane XY" in done.stderr
