@@ -253,7 +253,8 @@ void Assembler::residual(const Configuration& configuration, Vec r) {
     }
     for (; i < slots.size(); ++i) {
       const auto m = static_cast<std::size_t>(slots[i] - motion);
-      const double value = released_[m] ? released_values_[m] - configuration.multipliers[m] : local[i] * scale_[m];
+      const double open = stated.has(m) ? -stated.value[m] : local[i];
+      const double value = released_[m] ? released_values_[m] - configuration.multipliers[m] : open * scale_[m];
       sum.add(numbering_.equation(slots[i]), value);
     }
   });

@@ -167,9 +167,10 @@ void Newton::measure(Vec f) {
     if (u.multiplier) {
       // kΦ is the force (or moment) that the open constraint stands for
       const double as_force = value / reference;
-      value /= assembler_.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
+      const auto m = static_cast<std::size_t>(u.slot - numbering.motion_slots());
+      value /= assembler_.scale()[m];
       reference = references_.length(static_cast<int>(row));
-      const double open = value / (reference * rounding);
+      const double open = value / (assembler_.stated.has(m) ? assembler_.stated.rounding[m] : reference * rounding);
       if (open > 1) worst[4] = std::max(worst[4], as_force);
       worst[5] = std::max(worst[5], open);
     }

@@ -141,14 +141,19 @@ void References::restore(std::vector<double> memory) { largest_of_slot_ = std::m
 void References::save(Snapshot& snapshot) const {
   snapshot.put("newton/largest", largest_of_slot_);
   snapshot.put("newton/reach", reach_);
+  std::vector<double> loads;
+  for (const Pair& pair : pairs_) loads.insert(loads.end(), {pair.force, pair.moment});
+  snapshot.put("newton/loads", loads);
 }
 
 void References::load_memory(const Snapshot& snapshot) {
   const std::vector<double>&largest = snapshot.array("newton/largest"), &reach = snapshot.array("newton/reach");
-  if (largest.size() != largest_of_slot_.size() || reach.size() != reach_.size())
+  const std::vector<double>& loads = snapshot.array("newton/loads");
+  if (largest.size() != largest_of_slot_.size() || reach.size() != reach_.size() || loads.size() != 2 * pairs_.size())
     throw std::out_of_range("the restart point has another number of nodes");
   largest_of_slot_ = largest;
   reach_ = reach;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) pairs_[i] = {loads[2 * i], loads[2 * i + 1]};
   find_lengths();
 }
 
