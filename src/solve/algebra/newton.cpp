@@ -79,7 +79,9 @@ NewtonReport Newton::solve(Vec x, Weights weights, const Apply& apply, Configura
     break;
   }
   if (report.singular) solver_.reset();
-  if (!report.converged) references_.restore(before);  // what a failed iteration tried is no measure of anything
+  // what an iteration tried on its way is no measure of anything
+  references_.restore(before);
+  if (report.converged) references_.take(work, assembler_.carried());
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
   report.rows = rows_;
   return report;

@@ -50,9 +50,9 @@ class Newton {
   double reach(int equation) const { return references_.length(equation); }
   /// The size of a constraint: of positions, or 1 radian.
   double length(int multiplier) const { return references_.length(equation(multiplier)); }
-  /// The force kΦ of a constraint that is open by this much, over the loads of the last residual.
+  /// The force kΦ of a constraint that is open by this much, over the largest loads so far around it.
   double relative_force(int multiplier, double open) const {
-    return assembler_.scale()[static_cast<std::size_t>(multiplier)] * open / references_.load(equation(multiplier));
+    return assembler_.scale()[static_cast<std::size_t>(multiplier)] * open / references_.peak(equation(multiplier));
   }
 
   /// The largest contributions so far, which residuals are compared with, for a restart.

@@ -100,6 +100,16 @@ void References::find_lengths() {
   }
 }
 
+double References::peak(int equation) const {
+  const Unknown& u = assembler_.numbering().unknown(equation);
+  double largest = 0;
+  for (const int node : assembler_.model().parts[static_cast<std::size_t>(u.part)].nodes)
+    for (std::size_t k = 0; k < 3; ++k)
+      largest = std::max(largest, largest_of_slot_[6 * static_cast<std::size_t>(node) + k +
+                                                   (sources_[static_cast<std::size_t>(equation)].turns ? 3 : 0)]);
+  return largest > 0 ? largest : load(equation);
+}
+
 void References::take(const Configuration& c, const std::vector<double>& carried) {
   const Model& model = assembler_.model();
   Pair all;

@@ -19,6 +19,7 @@ class ConstraintChanges {
 
   /// Chooses the constraints whose change is to be taken in a step from `from`, whose scale has been chosen.
   void begin(const Configuration& from);
+  bool any() const { return any_; }
   /// States them (Assembler::stated) for the increment y over the time h.
   void state(const Configuration& from, double h, std::span<const double> y);
   /// All constraints are those of positions again.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/schemes/transient.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -171,6 +172,8 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
       tried_[p.slot] = vdot[p.slot] = p.a;
     }
     context_.motion.move(from, y, c);
+    // constraints that are closed by positions do not see what these leave out, and would let it drift
+    if (constrained() && !changes_.any()) std::fill(c.remainders.begin(), c.remainders.end(), 0.0);
     context_.motion.set_velocities(v, c);
     context_.motion.set_accelerations(vdot, c);
     unknowns_to_multipliers(unknowns, c);
