@@ -4,10 +4,10 @@
     python tests/bench/long_runs.py build/bin/engrane [--steps 10000 1000000] [--models pendulum]
 
 pendulum: a rigid body on a hinge, RHO 0.9, released from the horizontal, H = 0.01 (about 220 steps a
-period); what RHO dissipates is seen, too. spring: a mass that circles on a spring, without damping (NEWMARK). Prints a
-Markdown table: the energy at the end less the one at the start, over the largest kinetic energy; the amplitude
-(the largest depth or length in the second half), over that of the first run, less 1; the largest gap in the
-hinge; peak memory in MB.
+period); what RHO dissipates is seen, too. spring: a mass that circles on a spring, without damping (NEWMARK).
+Prints a Markdown table: the energy at the end less the one at the start, over the largest kinetic energy;
+the amplitude (the largest depth or length in the second half), over that of the first run, less 1; the
+largest gap in the hinge; peak memory in MB.
 """
 
 from __future__ import annotations
