@@ -15,6 +15,7 @@
 #include "app/times.hpp"
 #include "app/writer.hpp"
 #include "model/function_failure.hpp"
+#include "solve/constraints/diagnosis.hpp"
 #include "user/routine.hpp"
 
 namespace engrane::app {
@@ -231,6 +232,11 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {
     try {
+      if (complete)
+        if (const std::string unresolved =
+                explain_unresolved(context.assembler, context.newton, runner.now(), observer.energies().handled());
+            !unresolved.empty())
+          writer->warn(unresolved);
       if (runner.started()) writer->remember(runner.now(), runner, false, true);
       status = writer->finish(complete ? RunStatus::complete : RunStatus::failed, failure, times.split(context.solver));
     } catch (const OutputError& e) {

@@ -315,12 +315,14 @@ void Writer::collect_remarks(const Configuration& c, const Numbering& numbering)
     const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(p)];
     const auto size = static_cast<std::size_t>(part.element->layout().history);
     for (const std::string& remark :
-         part.element->remarks(std::span(c.history).subspan(static_cast<std::size_t>(numbering.history_begin(p)), size))) {
-      const std::string text = fmt::format("{} {}: {}", part.type, part.element->id(), remark);
-      remarks_ += "  warning: " + text + "\n";
-      progress_.note("engrane: " + text);
-    }
+         part.element->remarks(std::span(c.history).subspan(static_cast<std::size_t>(numbering.history_begin(p)), size)))
+      warn(fmt::format("{} {}: {}", part.type, part.element->id(), remark));
   }
+}
+
+void Writer::warn(const std::string& text) {
+  remarks_ += "  warning: " + text + "\n";
+  progress_.note("engrane: " + text);
 }
 
 void Writer::write_newton(const Configuration& c, const StepReport& step, const Numbering& numbering) {

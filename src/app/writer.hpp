@@ -50,6 +50,8 @@ class Writer {
   /// What was written, and the commands that show it.
   std::string closing_lines() const;
   void note(const std::string& text) { progress_.note(text); }
+  /// A warning for the terminal and the listing's remarks.
+  void warn(const std::string& text);
 
  private:
   /// path() without its ending.

@@ -268,7 +268,8 @@ void Assembler::residual(const Configuration& configuration, Vec r) {
       const int row = numbering_.equation(slots[i]);
       if (row < 0) continue;
       const auto m = static_cast<std::size_t>(slots[i] - motion);
-      const double value = released_[m] ? released_values_[m] - configuration.multipliers[m] : local[i] * scale_[m];
+      const double open = stated.has(m) ? -stated.value[m] : local[i];
+      const double value = released_[m] ? released_values_[m] - configuration.multipliers[m] : open * scale_[m];
       sum.add(row, value);
     }
   });

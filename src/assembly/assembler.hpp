@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
@@ -65,6 +66,13 @@ class Assembler {
   /// Scale factors, and which constraints are released with which values, for a restart.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
+
+  /// Values of Φ that residual() takes for those of the elements, in the order of the multipliers, where they are known better
+  /// than from positions (NaN: they are not); and what is rounding of them. Both empty: of none.
+  struct StatedConstraints {
+    std::vector<double> value, rounding;
+    bool has(std::size_t multiplier) const { return !value.empty() && !std::isnan(value[multiplier]); }
+  } stated;
 
   /// The scaled residual.
   void residual(const Configuration& configuration, Vec r);

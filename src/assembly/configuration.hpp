@@ -13,6 +13,9 @@ struct Configuration {
   double h = 0;                  ///< of the step that ends here; 0 where there is none
   std::vector<NodeState> nodes;  ///< in the order of Model::nodes; the first is the ground
   std::vector<double> scalars, scalar_rates, scalar_accelerations;
+  /// What rounding left out of positions, rotations (material, in radians) and scalars; one entry per motion slot. Increments
+  /// smaller than the rounding of a position add up here.
+  std::vector<double> remainders;
   std::vector<double> multipliers;  ///< kλ: forces and moments
   std::vector<double> history;      ///< of all elements, as last committed
 };

@@ -12,6 +12,7 @@ namespace {
 /// Calls use(name, array) for every array of numbers that a configuration consists of.
 template <class C, class Use>
 void for_each_array(C& c, Use&& use) {
+  use("remainders", c.remainders);
   use("scalars", c.scalars);
   use("scalar_rates", c.scalar_rates);
   use("scalar_accelerations", c.scalar_accelerations);

@@ -95,6 +95,7 @@ Configuration Numbering::reference_configuration(double time) const {
   for (std::size_t i = 0; i < model_.nodes.size(); ++i) c.nodes[i].x = model_.nodes[i].x;
   c.scalars.assign(static_cast<std::size_t>(scalars_), 0);
   c.scalar_rates = c.scalar_accelerations = c.scalars;
+  c.remainders.assign(static_cast<std::size_t>(motion_slots()), 0);
   c.multipliers.assign(static_cast<std::size_t>(multipliers_), 0);
   c.history.assign(static_cast<std::size_t>(history_), 0);
   for (std::size_t p = 0; p < model_.parts.size(); ++p) {

@@ -5,15 +5,17 @@
 
 namespace engrane {
 
-Mat3 rotation_exp(const Vec3& y) {
+Mat3 rotation_change(const Vec3& y) {
   const double angle = y.norm();
   // sin(a)/a and (1 - cos a)/a² = ½ (sin(a/2)/(a/2))²: no cancellation at any angle
   const double s = angle < 1e-8 ? 1 - angle * angle / 6 : std::sin(angle) / angle;
   const double half = 0.5 * angle;
   const double c = half < 1e-8 ? 1 - half * half / 6 : std::sin(half) / half;
   const Mat3 Y = skew(y);
-  return Mat3::Identity() + s * Y + 0.5 * c * c * Y * Y;
+  return s * Y + 0.5 * c * c * Y * Y;
 }
+
+Mat3 rotation_exp(const Vec3& y) { return Mat3::Identity() + rotation_change(y); }
 
 Vec3 rotation_log(const Mat3& R) {
   // through the quaternion: its vector part keeps full precision near 0 and near π alike

@@ -8,6 +8,9 @@ namespace engrane {
 /// The rotation about y by the angle |y| (Rodrigues), accurate to rounding for any y.
 Mat3 rotation_exp(const Vec3& y);
 
+/// exp(y) − 1, each entry accurate to rounding of its own size for small y.
+Mat3 rotation_change(const Vec3& y);
+
 /// The rotation vector of R, of length at most π; accurate to rounding near 0 and near π.
 Vec3 rotation_log(const Mat3& R);
 

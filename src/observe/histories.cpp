@@ -160,7 +160,8 @@ const std::vector<double>& Histories::evaluate(const Configuration& c, const std
       const NodeState& node = c.nodes[static_cast<std::size_t>(index)];
       all.clear();
       const auto put = [&all](const Vec3& v) { all.insert(all.end(), v.data(), v.data() + 3); };
-      put(node.x - model.nodes[static_cast<std::size_t>(index)].x);
+      put(node.x - model.nodes[static_cast<std::size_t>(index)].x +
+          Eigen::Map<const Vec3>(&c.remainders[6 * static_cast<std::size_t>(index)]));
       put(rotation_log(node.R));
       if (moves_) {
         put(node.v);

@@ -96,7 +96,9 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   }
   policy_.end(report.converged);
   if (report.singular) solver_.reset();
-  if (!report.converged) references_.restore(before);  // what a failed iteration tried is no measure of anything
+  // what an iteration tried on its way is no measure of anything
+  references_.restore(before);
+  if (report.converged) references_.take(work, assembler_.carried());
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
   report.rows = rows_;
   return report;
@@ -223,9 +225,10 @@ void Newton::measure(Vec f) {
     if (u.multiplier) {
       // kΦ is the force (or moment) that the open constraint stands for
       const double as_force = value / reference;
-      value /= assembler_.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
+      const auto m = static_cast<std::size_t>(u.slot - numbering.motion_slots());
+      value /= assembler_.scale()[m];
       reference = references_.length(static_cast<int>(row));
-      const double open = value / (reference * rounding);
+      const double open = value / (assembler_.stated.has(m) ? assembler_.stated.rounding[m] : reference * rounding);
       if (open > 1) worst[4] = std::max(worst[4], as_force);
       worst[5] = std::max(worst[5], open);
     }

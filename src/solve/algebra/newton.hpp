@@ -46,6 +46,17 @@ class Newton {
   /// The largest force that an element has contributed so far.
   double largest_force() const { return references_.largest_force(); }
 
+  /// What the residual of an equation was compared with last.
+  double load(int equation) const { return references_.load(equation); }
+  /// What corrections of an unknown are compared with: how far away its positions are counted, or 1 radian.
+  double reach(int equation) const { return references_.length(equation); }
+  /// The size of a constraint: of positions, or 1 radian.
+  double length(int multiplier) const { return references_.length(equation(multiplier)); }
+  /// The force kΦ of a constraint that is open by this much, over the largest loads so far around it.
+  double relative_force(int multiplier, double open) const {
+    return assembler_.scale()[static_cast<std::size_t>(multiplier)] * open / references_.peak(equation(multiplier));
+  }
+
   /// The largest contributions so far, which residuals are compared with, and the factors kept, for a restart.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
@@ -58,6 +69,9 @@ class Newton {
   static PetscErrorCode keep_sliding(SNESLineSearch, Vec x, Vec step, PetscBool* changed, void* self);
   /// Sliding velocities of all regularised frictions (Element::sliding) in work_.
   std::vector<Vec3> sliding() const;
+  int equation(int multiplier) const {
+    return assembler_.numbering().equation(assembler_.numbering().motion_slots() + multiplier);
+  }
   void measure(Vec f);
   /// The largest relative residual over the precision asked for.
   double excess() const;

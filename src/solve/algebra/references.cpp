@@ -100,6 +100,16 @@ void References::find_lengths() {
   }
 }
 
+double References::peak(int equation) const {
+  const Unknown& u = assembler_.numbering().unknown(equation);
+  double largest = 0;
+  for (const int node : assembler_.model().parts[static_cast<std::size_t>(u.part)].nodes)
+    for (std::size_t k = 0; k < 3; ++k)
+      largest = std::max(largest, largest_of_slot_[6 * static_cast<std::size_t>(node) + k +
+                                                   (sources_[static_cast<std::size_t>(equation)].turns ? 3 : 0)]);
+  return largest > 0 ? largest : load(equation);
+}
+
 void References::take(const Configuration& c, const std::vector<double>& carried) {
   const Model& model = assembler_.model();
   Pair all;
@@ -141,14 +151,19 @@ void References::restore(std::vector<double> memory) { largest_of_slot_ = std::m
 void References::save(Snapshot& snapshot) const {
   snapshot.put("newton/largest", largest_of_slot_);
   snapshot.put("newton/reach", reach_);
+  std::vector<double> loads;
+  for (const Pair& pair : pairs_) loads.insert(loads.end(), {pair.force, pair.moment});
+  snapshot.put("newton/loads", loads);
 }
 
 void References::load_memory(const Snapshot& snapshot) {
   const std::vector<double>&largest = snapshot.array("newton/largest"), &reach = snapshot.array("newton/reach");
-  if (largest.size() != largest_of_slot_.size() || reach.size() != reach_.size())
+  const std::vector<double>& loads = snapshot.array("newton/loads");
+  if (largest.size() != largest_of_slot_.size() || reach.size() != reach_.size() || loads.size() != 2 * pairs_.size())
     throw std::out_of_range("the restart point has another number of nodes");
   largest_of_slot_ = largest;
   reach_ = reach;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) pairs_[i] = {loads[2 * i], loads[2 * i + 1]};
   find_lengths();
 }
 

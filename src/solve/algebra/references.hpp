@@ -27,6 +27,9 @@ class References {
     const Source& from = sources_[static_cast<std::size_t>(equation)];
     return std::max(pairs_[from.pair].of(from.turns), least_load);
   }
+  /// The largest force, or moment, so far on the nodes of the element that has a constraint's equation; load() where that is
+  /// none.
+  double peak(int equation) const;
   /// What the correction of an unknown, or an open constraint, is compared with: a length, or 1 radian.
   double length(int equation) const { return lengths_[static_cast<std::size_t>(equation)]; }
 

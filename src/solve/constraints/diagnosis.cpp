@@ -6,6 +6,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "solve/constraints/column_basis.hpp"
@@ -172,6 +173,54 @@ std::string explain_free_motion(Assembler& assembler, const Configuration& confi
       "prescribe a displacement, or use TYPE DYNAMIC",
       freedom == 1 ? "1 motion is" : fmt::format("{} motions are", freedom),
       factors.motions().largest_part(assembler.numbering(), factors.possible_motion(factors.motions().any())));
+}
+
+std::string explain_unresolved(const Assembler& assembler, const Newton& newton, const Configuration& configuration,
+                               double energy) {
+  constexpr double visible = 1e-3, epsilon = std::numeric_limits<double>::epsilon();
+  const Numbering& numbering = assembler.numbering();
+  const auto& parts = assembler.model().parts;
+  const double least = energy / assembler.model().extent();
+  double worst = visible, worst_noise = 0;
+  int worst_equation = -1;
+  std::size_t culprit = 0;
+  std::vector<double> r, k;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const auto& slots = numbering.part_slots(static_cast<int>(p));
+    const std::size_t n = slots.size(), of_nodes = static_cast<std::size_t>(parts[p].element->layout().node_slots());
+    r.assign(n, 0);
+    k.assign(n * n, 0);
+    parts[p].element->tangent(assembler.view(static_cast<int>(p), configuration), {1, 0, 0, 0}, r, k);
+    for (std::size_t i = 0; i < of_nodes; ++i) {
+      const int row = numbering.equation(slots[i]);
+      if (row < 0) continue;
+      double noise = 0, place = 0;
+      for (std::size_t j = 0; j < of_nodes; ++j) {
+        const int column = numbering.equation(slots[j]);
+        if (column < 0) continue;
+        noise = std::max(noise, std::abs(k[i * n + j]) * epsilon * newton.reach(column));
+        place = std::max(place, epsilon * newton.reach(column));
+      }
+      // a machine without loads has no forces that could be known
+      if (!(energy > 1e3 * noise * place)) continue;
+      const double size = numbering.unknown(row).measure == Measure::moment ? energy : least;
+      const double part = noise / std::max(newton.load(row), size);
+      if (!(part > worst)) continue;
+      worst = part;
+      worst_noise = noise;
+      worst_equation = row;
+      culprit = p;
+    }
+  }
+  if (worst_equation < 0) return {};
+  const bool turns = numbering.unknown(worst_equation).measure == Measure::moment;
+  return fmt::format(
+      "{} {} is so stiff that the rounding of positions makes {:.2g} {} in it, {:.2g} of the loads of {}: its forces are known "
+      "no "
+      "better. Take a rigid joint (WELD, DISTANCE) for it, or a stiffness at most {:.0g} of this one",
+      parts[culprit].type, parts[culprit].element->id(), worst_noise,
+      assembler.model().units.label(turns ? dimension::moment : dimension::force), worst, numbering.describe(worst_equation),
+      1e-6 / worst);
 }
 
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report) {

@@ -21,6 +21,11 @@ std::string explain_free_motion(Assembler& assembler, const Configuration& confi
 /// Says where a Newton iteration got stuck: "largest residual at node 57 (rz) from HINGE 3".
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report);
 
+/// Names the element whose stiffness makes the rounding of positions a visible part of the loads, when there is one. `energy`:
+/// what was in the machine or passed through it.
+std::string explain_unresolved(const Assembler& assembler, const Newton& newton, const Configuration& configuration,
+                               double energy);
+
 /// Names the first element whose forces or tangent are not finite numbers; empty when all are.
 std::string explain_not_finite(Assembler& assembler, const Configuration& configuration);
 

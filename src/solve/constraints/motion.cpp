@@ -5,23 +5,47 @@
 
 namespace engrane::solve {
 
+namespace {
+
+/// The rounded sum; `remainder`, what earlier sums left out, is added and becomes what this one does (Kahan 1965; Knuth's sum of
+/// two, exact whichever is larger).
+double compensated_sum(double a, double b, double& remainder) {
+  const double added = b + remainder, sum = a + added, part = sum - a;
+  remainder = (a - (sum - part)) + (added - part);
+  return sum;
+}
+
+/// The same for a rotation and an increment in material axes.
+Mat3 compensated_turn(const Mat3& R, const Vec3& y, Eigen::Ref<Vec3> remainder) {
+  const Mat3 change = R * rotation_change(y + remainder), turned = orthonormalized(R + change);
+  // the difference of two close matrices is exact, and so what it lacks of the change
+  const Mat3 left = turned.transpose() * (change - (turned - R));
+  remainder = 0.5 * Vec3(left(2, 1) - left(1, 2), left(0, 2) - left(2, 0), left(1, 0) - left(0, 1));
+  return turned;
+}
+
+}  // namespace
+
 void MotionSlots::move(const Configuration& from, std::span<const double> y, Configuration& to) const {
+  to.remainders = from.remainders;
   for (std::size_t i = 1; i < from.nodes.size(); ++i) {
     const Vec3 translation(y[6 * i], y[6 * i + 1], y[6 * i + 2]);
     const Vec3 rotation(y[6 * i + 3], y[6 * i + 4], y[6 * i + 5]);
     NodeState& node = to.nodes[i];
     node = from.nodes[i];
-    node.x += translation;
+    double* remainder = &to.remainders[6 * i];
+    for (int k = 0; k < 3; ++k) node.x[k] = compensated_sum(node.x[k], translation[k], remainder[k]);
     if (rotation.isZero(0)) {
       node.T.setIdentity();
     } else {
-      node.R = orthonormalized(from.nodes[i].R * rotation_exp(rotation));
+      node.R = compensated_turn(from.nodes[i].R, rotation, Eigen::Map<Vec3>(remainder + 3));
       node.T = rotation_tangent(rotation);
     }
   }
   const std::size_t first = 6 * from.nodes.size();
   to.scalars.resize(from.scalars.size());
-  for (std::size_t i = 0; i < from.scalars.size(); ++i) to.scalars[i] = from.scalars[i] + y[first + i];
+  for (std::size_t i = 0; i < from.scalars.size(); ++i)
+    to.scalars[i] = compensated_sum(from.scalars[i], y[first + i], to.remainders[first + i]);
 }
 
 std::vector<double> MotionSlots::velocities(const Configuration& c) const {

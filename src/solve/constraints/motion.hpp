@@ -16,7 +16,7 @@ class MotionSlots {
   std::size_t size() const { return static_cast<std::size_t>(numbering_.motion_slots()); }
 
   /// `to` = `from` moved by y: positions and scalars added, rotations multiplied by exp of the rotation vector; sets
-  /// NodeState::T. Rates and history are copied.
+  /// NodeState::T. Rates and history are copied. Sums are compensated (Configuration::remainders).
   void move(const Configuration& from, std::span<const double> y, Configuration& to) const;
 
   std::vector<double> velocities(const Configuration& c) const;

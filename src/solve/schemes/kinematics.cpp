@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "solve/constraints/constraint_factors.hpp"
@@ -50,6 +51,8 @@ Kinematics::Sizes Kinematics::sizes(const Configuration& c) const {
 
 Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& to) {
   constexpr double suspicious = 1e4;  // growth in a step after which a position is looked at from beside
+  constexpr double grown = 10;        // growth in a step from which a position may be close to a singular one
+  constexpr double unknown = 1e-3;    // part of a force that may not be rounding
   constexpr double singular = 100;    // growth against the position beside it that no motion through it has
   constexpr double beside = 1e-6;     // of a step
   Outcome outcome;
@@ -76,7 +79,18 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
     failure = e.what();
   }
   const Sizes before = sizes(from), now = failure.empty() ? sizes(to) : Sizes{};
-  if (failure.empty() && !now.beyond(before, suspicious)) return outcome;
+  if (failure.empty() && !now.beyond(before, suspicious)) {
+    if (!now.beyond(before, grown)) return outcome;
+    // close to a singular position rounding of places is enlarged in positions, velocities, accelerations and forces in turn, and
+    // may be all there is in the forces
+    const double enlarged = context_.start.amplification(to);
+    if (!(std::pow(enlarged, 4) * std::numeric_limits<double>::epsilon() > unknown)) return outcome;
+    throw SolutionFailure(
+        fmt::format("too close to a singular position at t = {:.6g}: rounding of positions is enlarged {:.1g} times, and "
+                    "accelerations and forces "
+                    "are not known. Choose steps that do not end so close to it, or drive another joint",
+                    to.time, enlarged));
+  }
   // In a singular position (bars in line, a dead point) the equations do not say how the motion goes on. A little farther on they
   // do; the limit is the same where there is one.
   Configuration near, farther;

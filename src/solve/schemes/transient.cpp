@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/schemes/transient.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "solve/constraints/constraint_factors.hpp"
 
 namespace engrane::solve {
 
@@ -41,7 +45,8 @@ AlphaScheme coefficients(const SolverOptions& options) {
 
 }  // namespace
 
-Transient::Transient(SolverContext& context) : Scheme(context), scheme_(coefficients(context.options)) {
+Transient::Transient(SolverContext& context)
+    : Scheme(context), scheme_(coefficients(context.options)), changes_(context.assembler, context.newton, context.motion) {
   *unknowns_.out() = context.assembler.new_vector();
 }
 
@@ -123,14 +128,15 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     for (std::size_t i = 0; i < a0.size(); ++i) a0[i] = vdot0[i] + h / step_of_algorithmic_ * (a0[i] - vdot0[i]);
 
   const std::size_t n = context_.motion.size();
-  std::vector<double> y(n), v(n), vdot(n);
+  std::vector<double> y(n), unknown(n), v(n), vdot(n);
   tried_.resize(n);
   if (accelerations_.empty()) {
     accelerations_.add(from.time, a0);
     multipliers_.add(from.time, from.multipliers);
   }
-  accelerations_.at(from.time + h, tried_);
-  for (std::size_t i = 0; i < n; ++i) y[i] = h * (v0[i] + h * ((0.5 - beta) * a0[i] + beta * tried_[i]));
+  std::vector<double> ahead(n);
+  accelerations_.at(from.time + h, ahead);
+  for (std::size_t i = 0; i < n; ++i) y[i] = h * (v0[i] + h * ((0.5 - beta) * a0[i] + beta * ahead[i]));
   to = from;
   to.time = from.time + h;
   to.h = h;
@@ -146,36 +152,56 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   if (!foreseen.converged) return {std::move(foreseen), 0, {}};
   const auto prescribed = context_.motion.prescribed(to.time);
 
+  // Unknowns are what increments differ by from those predicted: accelerations found from increments of short steps would be
+  // rounding. Of steps so long that predictions leave the machine they are the increments, which would be rounding otherwise.
+  const std::vector<double> predicted = y;
+  const bool far = leaves(predicted);
   std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
-  context_.motion.gather(y, guess);
+  if (far) context_.motion.gather(predicted, guess);
   multipliers_.at(to.time, to.multipliers);
   multipliers_to_unknowns(to, guess);
+  changes_.begin(from);
 
   const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
-    context_.motion.scatter(unknowns, y);
+    context_.motion.scatter(unknowns, unknown);
     for (std::size_t i = 0; i < n; ++i) {
-      tried_[i] = (y[i] / h - v0[i] - (0.5 - beta) * h * a0[i]) / (beta * h);
+      if (context_.numbering.equation(static_cast<int>(i)) < 0) {
+        tried_[i] = v[i] = vdot[i] = 0;
+        continue;
+      }
+      y[i] = far ? unknown[i] : predicted[i] + unknown[i];
+      tried_[i] = ahead[i] + (far ? unknown[i] - predicted[i] : unknown[i]) / (beta * h * h);
       v[i] = v0[i] + h * ((1 - gamma) * a0[i] + gamma * tried_[i]);
       vdot[i] = ((1 - am) * tried_[i] + am * a0[i] - af * vdot0[i]) / (1 - af);
-      if (context_.numbering.equation(static_cast<int>(i)) < 0) tried_[i] = v[i] = vdot[i] = 0;
     }
     for (const auto& p : prescribed) {
       v[p.slot] = p.v;
       tried_[p.slot] = vdot[p.slot] = p.a;
     }
     context_.motion.move(from, y, c);
+    // constraints that are closed by positions do not see what these leave out, and would let it drift
+    if (constrained() && !changes_.any()) std::fill(c.remainders.begin(), c.remainders.end(), 0.0);
     context_.motion.set_velocities(v, c);
     context_.motion.set_accelerations(vdot, c);
     unknowns_to_multipliers(unknowns, c);
+    changes_.state(from, h, y);
   };
   context_.assembler.spread(guess, unknowns_);
   NewtonReport report = solve(unknowns_, weights, apply, to, context_.options.keep_factors);
+  changes_.end();
   refuse_half_turns(y, report);
   if (report.converged && context_.grips.strained(to)) refine_grips(to);
   tried_step_ = h;
   tried_time_ = to.time;
   tried_multipliers_ = to.multipliers;
   return {std::move(report), 0, {}};
+}
+
+bool Transient::leaves(std::span<const double> increments) const {
+  const double extent = context_.model.extent();
+  for (const Unknown& u : context_.numbering.unknowns())
+    if (!u.multiplier && !(std::abs(increments[static_cast<std::size_t>(u.slot)]) < size_of(u, extent))) return true;
+  return false;
 }
 
 void Transient::accept() {

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "solve/constraints/constraint_changes.hpp"
 #include "solve/schemes/extrapolation.hpp"
 #include "solve/schemes/scheme.hpp"
 
@@ -53,9 +54,12 @@ class Transient final : public Scheme {
   std::vector<double> first_velocities(const Configuration& from, double h);
   /// Starts the memory anew from the end of a step for one that is much longer: differences of the short one are rounding.
   void renew_memory(const Configuration& from, double h);
-  /// Are rates, times `scale`, displacements larger than the rounding of places?
-  bool counts(std::span<const double> rates, double scale) const;
+  /// Are changes of `rates` more than rounding: times `scale` displacements larger than that of places, or larger than a `share`
+  /// of the largest of the rates themselves?
+  bool counts(std::span<const double> changes, double scale, std::span<const double> rates, double share) const;
   bool constrained() const;
+  /// Is an increment as large as the model, or a radian?
+  bool leaves(std::span<const double> increments) const;
   /// The velocities of `c` changed, in kinetic energy as little as possible, until they fit its constraints; the same where that
   /// is rounding, or where none fit.
   std::vector<double> fitting_velocities(const Configuration& c) const;
@@ -81,6 +85,7 @@ class Transient final : public Scheme {
   Configuration glide(const Configuration& c, double h) const;
 
   AlphaScheme scheme_;
+  ConstraintChanges changes_;
   Owned<Vec> unknowns_;
   double step_of_algorithmic_ = 0;   ///< the h that `algorithmic_` belongs to
   double scaled_for_ = 0;            ///< the h that k was chosen for

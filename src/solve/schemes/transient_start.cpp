@@ -17,6 +17,7 @@ namespace {
 
 /// After an event the slope of v̇ is taken over this part of a step, so as not to reach the next event.
 constexpr double slope_span = 0.01;
+constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -77,7 +78,9 @@ void Transient::start_memory(const Configuration& c, double h, double span, cons
   const double shift = scheme_.alpha_m - scheme_.alpha_f;
   if (shift == 0 && !constrained()) return;  // nothing follows from the slope
   std::vector<double> slope = slope_of_accelerations(c, span, span < h ? 1 : 12, massless);
-  if (!counts(slope, h * h * h)) std::fill(slope.begin(), slope.end(), 0.0);
+  // accelerations are differenced over the span, and found to a few digits less than they have
+  constexpr double known = 1e-11;
+  if (!counts(slope, h * h * h, algorithmic_, known / span)) std::fill(slope.begin(), slope.end(), 0.0);
   // a_0 = v̇(t_0 + (α_m − α_f) h) to second order, or multipliers lose an order at first (Arnold, Brüls and Cardona 2015)
   for (std::size_t i = 0; i < slope.size(); ++i) algorithmic_[i] += shift * h * slope[i];
   if (!constrained()) return;
@@ -108,7 +111,7 @@ std::vector<double> Transient::fitting_velocities(const Configuration& c) const 
   }
   std::vector<double> fit = context_.motion.velocities(fitted), change = fit;
   for (std::size_t i = 0; i < v.size(); ++i) change[i] -= v[i];
-  return counts(change, context_.options.step) ? fit : v;
+  return counts(change, context_.options.step, v, rounding) ? fit : v;
 }
 
 void Transient::renew_memory(const Configuration& from, double h) {
@@ -134,10 +137,19 @@ std::vector<double> Transient::first_velocities(const Configuration& from, doubl
   return v;
 }
 
-bool Transient::counts(std::span<const double> rates, double scale) const {
-  const double rounding = 64 * std::numeric_limits<double>::epsilon(), extent = context_.model.extent();
-  for (const Unknown& u : context_.numbering.unknowns())
-    if (!u.multiplier && std::abs(rates[static_cast<std::size_t>(u.slot)]) * scale > rounding * size_of(u, extent)) return true;
+bool Transient::counts(std::span<const double> changes, double scale, std::span<const double> rates, double share) const {
+  const double extent = context_.model.extent();
+  Magnitudes change, rate;
+  for (const Unknown& u : context_.numbering.unknowns()) {
+    if (u.multiplier) continue;
+    const auto slot = static_cast<std::size_t>(u.slot);
+    const double size = std::abs(changes[slot]);
+    if (size * scale > rounding * size_of(u, extent)) return true;
+    change[u.measure] = std::max(change[u.measure], size);
+    rate[u.measure] = std::max(rate[u.measure], std::abs(rates[slot]));
+  }
+  for (int m = 0; m < 4; ++m)
+    if (rate.of[m] > 0 && change.of[m] > share * rate.of[m]) return true;
   return false;
 }
 

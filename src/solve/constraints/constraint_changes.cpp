@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/constraints/constraint_changes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solve/constraints/constraint_factors.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon(), none = std::numeric_limits<double>::quiet_NaN();
+/// Rounding of positions is seen where its force is more than this part of the loads.
+constexpr double seen = 1e-8;
+/// And what sums of changes leave open is closed so slowly that the force for rounding is this part of them.
+constexpr double closing = 1e-9;
+/// A constraint open by more than this part of its length is closed by positions.
+constexpr double open_by_far = 1e-9;
+/// Beyond this part of the length what quadrature leaves out may be more than the rounding of positions.
+constexpr double smooth = 1e-14;
+
+}  // namespace
+
+void ConstraintChanges::begin(const Configuration& from) {
+  any_ = false;
+  const std::size_t count = assembler_.scale().size();
+  given_.assign(count, none);
+  std::vector<double> noise(count, 0.0);
+  for (std::size_t m = 0; m < count; ++m) {
+    const int i = static_cast<int>(m);
+    if (assembler_.released(i)) continue;
+    noise[m] = newton_.relative_force(i, epsilon * newton_.length(i));
+    any_ = any_ || noise[m] > seen;
+  }
+  if (!any_) return;
+  assembler_.constraint_rates(from, phi_, rate_[0], second_[0]);
+  for (std::size_t m = 0; m < count; ++m)
+    if (noise[m] > seen && std::abs(phi_[m]) < open_by_far * newton_.length(static_cast<int>(m)))
+      given_[m] = phi_[m] * closing / noise[m];
+}
+
+void ConstraintChanges::state(const Configuration& from, double h, std::span<const double> y) {
+  if (!any_) return;
+  // Gauss's quadrature with two points, of the order h⁵ in Φ
+  const double apart = 1 / std::sqrt(3.0);
+  std::vector<double> part(y.begin(), y.end()), speed(y.begin(), y.end());
+  for (double& v : speed) v /= h;
+  const std::vector<double> still(y.size(), 0.0);
+  for (const int point : {0, 1}) {
+    const double s = 0.5 + (point == 0 ? -0.5 : 0.5) * apart;
+    for (std::size_t i = 0; i < y.size(); ++i) part[i] = s * y[i];
+    between_ = from;
+    between_.time = from.time + s * h;
+    motion_.move(from, part, between_);
+    motion_.set_velocities(speed, between_);
+    motion_.set_accelerations(still, between_);
+    assembler_.constraint_rates(between_, phi_, rate_[point], second_[point]);
+  }
+  auto& [value, rounding] = assembler_.stated;
+  value = given_;
+  rounding.assign(given_.size(), 0.0);
+  for (std::size_t m = 0; m < value.size(); ++m) {
+    if (std::isnan(value[m])) continue;
+    const double length = newton_.length(static_cast<int>(m));
+    // the rates at both points and their slopes there tell the fourth derivative, which is that of what is left out
+    const double left_out = h * std::abs(rate_[1][m] - rate_[0][m] - 0.5 * apart * h * (second_[0][m] + second_[1][m]));
+    value[m] = left_out < smooth * length ? value[m] + 0.5 * h * (rate_[0][m] + rate_[1][m]) : none;
+    rounding[m] = epsilon * moved(static_cast<int>(m), y);
+  }
+}
+
+double ConstraintChanges::moved(int multiplier, std::span<const double> y) const {
+  const Unknown& u = multiplier_unknown(assembler_.numbering(), multiplier);
+  const double length = newton_.length(multiplier);
+  const bool turns = u.measure == Measure::angle;
+  double most = 0;
+  for (const int node : assembler_.model().parts[static_cast<std::size_t>(u.part)].nodes)
+    for (std::size_t k = 0; k < 6; ++k)
+      if (k >= 3 || !turns) most = std::max(most, std::abs(y[6 * static_cast<std::size_t>(node) + k]) * (k >= 3 ? length : 1));
+  return most;
+}
+
+void ConstraintChanges::end() {
+  any_ = false;
+  assembler_.stated = {};
+}
+
+}  // namespace engrane::solve

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solve/algebra/newton.hpp"
+#include "solve/constraints/motion.hpp"
+
+namespace engrane::solve {
+
+/// Constraints of short steps. Positions are rounded, so that Φ of a configuration is rounding of the size ε L, which the
+/// multiplier of a step turns into the force ε L m/(β h²). The change of Φ over the step, ∫ B y ds along its increment y, is
+/// known to ε B y, which is much less: where the force would be seen, a step closes Φ by its change (decision 21).
+class ConstraintChanges {
+ public:
+  ConstraintChanges(Assembler& assembler, const Newton& newton, const MotionSlots& motion)
+      : assembler_(assembler), newton_(newton), motion_(motion) {}
+
+  /// Chooses the constraints whose change is to be taken in a step from `from`, whose scale has been chosen.
+  void begin(const Configuration& from);
+  bool any() const { return any_; }
+  /// States them (Assembler::stated) for the increment y over the time h.
+  void state(const Configuration& from, double h, std::span<const double> y);
+  /// All constraints are those of positions again.
+  void end();
+
+ private:
+  /// How far the increment moves what a constraint joins: a length, or radians.
+  double moved(int multiplier, std::span<const double> y) const;
+
+  Assembler& assembler_;
+  const Newton& newton_;
+  const MotionSlots& motion_;
+  bool any_ = false;
+  std::vector<double> given_;  ///< part of Φ at the beginning that the step is to close; NaN: Φ is taken from positions
+  Configuration between_;
+  std::vector<double> phi_, rate_[2], second_[2];
+};
+
+}  // namespace engrane::solve
