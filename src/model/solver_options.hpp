@@ -10,11 +10,12 @@ namespace engrane {
 /// What is to be solved and how: the cards `.SAM` and `.SUB` without the words of the deck, every default filled in.
 struct SolverOptions {
   enum class Analysis : unsigned char { statics, kinematics, dynamics };
-  enum class Family : unsigned char { chung, newmark, hht, bossak };
+  enum class Family : unsigned char { chung, newmark, hht, bossak, radau };
 
   Analysis analysis = Analysis::statics;
   Family family = Family::chung;  ///< of the scheme, in dynamics
   double damping = 0.8;           ///< ρ∞ of CHUNG; α of HHT and BOSSAK
+  int stages = 3;                 ///< of RADAU
   bool static_start = false;      ///< dynamics begins in static equilibrium
 
   double begin = 0, end = 1;  ///< time

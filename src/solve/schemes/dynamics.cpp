@@ -88,11 +88,10 @@ bool Dynamics::counts(std::span<const double> rates, double scale) const {
 
 bool Dynamics::constrained() const { return context_.numbering.slots() > context_.numbering.motion_slots(); }
 
-bool Dynamics::scale_for(const Configuration& c, double h, Weights weights) {
-  if (h > 0.3 * scaled_for_ && h < 3 * scaled_for_) return false;
+void Dynamics::scale_for(const Configuration& c, double h, Weights weights) {
+  if (h > 0.3 * scaled_for_ && h < 3 * scaled_for_) return;
   context_.assembler.choose_scale(c, weights, context_.options.scale);
   scaled_for_ = h;
-  return true;
 }
 
 void Dynamics::save(Snapshot& snapshot) const {

@@ -39,9 +39,9 @@ class Dynamics : public Scheme {
   const MasslessMotions* massless_at(const Configuration& c);
   /// Gives `c` the multipliers that balance it at its own instant.
   void refine_grips(Configuration& c);
-  /// Chooses the scales k of the multipliers for steps of h with these weights; true when others than before. Only the order of
-  /// magnitude of k matters: steps of a little less than H need no other.
-  bool scale_for(const Configuration& c, double h, Weights weights);
+  /// Chooses the scales k of the multipliers for steps of h with these weights. Only the order of magnitude of k matters: steps
+  /// of a little less than H need no other.
+  void scale_for(const Configuration& c, double h, Weights weights);
 
   Owned<Vec> unknowns_;
 

@@ -34,6 +34,7 @@ AlphaScheme coefficients(const SolverOptions& options) {
     case SolverOptions::Family::bossak:
       return AlphaScheme::bossak(options.damping);
     case SolverOptions::Family::chung:
+    case SolverOptions::Family::radau:  // another class
       break;
   }
   return AlphaScheme::chung(options.damping);

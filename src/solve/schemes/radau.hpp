@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solve/algebra/references.hpp"
+#include "solve/schemes/dynamics.hpp"
+#include "solve/schemes/stage_solver.hpp"
+
+namespace engrane::solve {
+
+/// Radau IIA on coordinates of the step: rotation vectors, displacements and scalars from where it begins (Munthe-Kaas 1999, for
+/// collocation). Stages have their constraints closed (index 3); the end of a step is then given the velocities, accelerations
+/// and multipliers that fit (Jay 1995), so that all of them are of order 2s − 1.
+class Radau final : public Dynamics {
+ public:
+  /// `stages`: 2 (order 3) or 3 (order 5).
+  Radau(SolverContext& context, int stages);
+
+  Outcome attempt(const Configuration& from, double h, Configuration& to) override;
+  void accept() override;
+  void save(Snapshot& snapshot) const override;
+  void load(const Snapshot& snapshot) override;
+
+ private:
+  void start_memory(const Configuration& c, const MasslessMotions* massless) override;
+  void restart_memory(const Configuration& c) override;
+
+  /// The motion of a step, one entry for each stage.
+  struct Stages {
+    std::vector<std::vector<double>> y, v, a;      ///< by motion slot
+    std::vector<std::vector<double>> multipliers;  ///< kλ
+    double h = 0;                                  ///< 0: there is none
+  };
+  /// A first guess of the stages of a step, from the polynomials of the one before.
+  void predict(const Configuration& from, double h);
+  /// Velocities and accelerations of the stages from y, with what is prescribed.
+  void differentiate(const Configuration& from, double h);
+  /// Sets the stages' configurations, evaluates their residuals and compares these with the references.
+  NewtonRow evaluate(const Configuration& from);
+  /// Adds the last changes to the stages; returns the largest, as Newton's iteration counts them.
+  double correct();
+  /// Largest of these rows, with its equation.
+  NewtonReport iterate(const Configuration& from, double h);
+  /// Velocities, accelerations and multipliers that fit at the end of a step whose positions fit; false when there are none.
+  bool complete(Configuration& c);
+  bool has_equation(std::size_t slot) const { return context_.numbering.equation(static_cast<int>(slot)) >= 0; }
+
+  Collocation collocation_;
+  StageSolver solver_;
+  References references_;
+  Stages now_, before_;  ///< of the present step, and of the last that was accepted
+  std::vector<Configuration> configurations_;
+  std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;
+  std::vector<Owned<Vec>> residuals_, changes_;
+  double open_ = 0, constraint_force_ = 0;
+  Owned<Mat> balance_matrix_;
+  LinearSolver balance_;
+  Owned<Vec> right_, solution_;
+};
+
+}  // namespace engrane::solve
