@@ -16,7 +16,6 @@ SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::Ste
              : analysis.scheme.is("RADAU")  ? Family::radau
                                             : Family::chung;
   o.damping = o.family == Family::chung ? analysis.rho.value_or(0.8) : analysis.alpha.value_or(0.05);
-  o.stages = (analysis.order.value_or(5) + 1) / 2;
   o.static_start = analysis.start.is("STATIC");
   o.begin = stepping.start;
   o.end = stepping.end;

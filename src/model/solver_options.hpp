@@ -15,7 +15,6 @@ struct SolverOptions {
   Analysis analysis = Analysis::statics;
   Family family = Family::chung;  ///< of the scheme, in dynamics
   double damping = 0.8;           ///< ρ∞ of CHUNG; α of HHT and BOSSAK
-  int stages = 3;                 ///< of RADAU
   bool static_start = false;      ///< dynamics begins in static equilibrium
 
   double begin = 0, end = 1;  ///< time

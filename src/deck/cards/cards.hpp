@@ -118,7 +118,6 @@ struct AnalysisCard {
   Tagged scheme{"CHUNG", {}};   ///< CHUNG (generalised-alpha), NEWMARK, HHT, BOSSAK, RADAU
   std::optional<double> rho;    ///< spectral radius at infinity, CHUNG
   std::optional<double> alpha;  ///< HHT, BOSSAK
-  std::optional<int> order;     ///< RADAU: 3 or 5
   Tagged solver{"MUMPS", {}};
   Tagged start{"AS_GIVEN", {}};   ///< AS_GIVEN: assemble from the given positions; STATIC: from static equilibrium at the start
   double precision = 1e-9;        ///< of Newton, relative to the largest force in the model

@@ -23,17 +23,13 @@ void check_analysis(AnalysisCard& analysis, Record& record, Diagnostics& diagnos
     diagnostics.error(record.where("RHO"), "RHO belongs to SCHEME CHUNG, not to " + analysis.scheme.tag);
   if (analysis.alpha && !damped)
     diagnostics.error(record.where("ALPHA"), "ALPHA belongs to the schemes HHT and BOSSAK, not to " + analysis.scheme.tag);
-  if (analysis.order && !analysis.scheme.is("RADAU"))
-    diagnostics.error(record.where("ORDER"), "ORDER belongs to SCHEME RADAU, not to " + analysis.scheme.tag);
-  if (analysis.order && *analysis.order == 4)
-    diagnostics.error(record.where("ORDER"), "RADAU has no order 4", "give ORDER 5 or 3");
   if (!analysis.events.values.empty() && !(analysis.events.values[0] > 0 && analysis.events.values[0] <= 0.01))
     diagnostics.error(record.where("EVENTS"), "the tolerance of EVENTS is a fraction of H, from above 0 to 0.01");
   if (analysis.restart_time && analysis.restart.empty())
     diagnostics.error(record.where("T"), "T is the time of a restart point, and there is no RESTART",
                       "give RESTART \"prefix\" T t");
   if (analysis.type.is("DYNAMIC")) return;
-  for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "ORDER", "START", "EVENTS", "ENERGY"})
+  for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START", "EVENTS", "ENERGY"})
     if (record.given(keyword))
       diagnostics.warning(record.where(keyword), std::string(keyword) + " has no effect on a " + analysis.type.tag + " analysis");
 }
@@ -51,12 +47,11 @@ Schema analysis_card() {
       .option({"NEWMARK", {}, "Newmark, without damping"})
       .option({"HHT", {}, "Hilber, Hughes and Taylor, damping set by ALPHA"})
       .option({"BOSSAK", {}, "Wood, Bossak and Zienkiewicz, damping set by ALPHA"})
-      .option({"RADAU", {}, "Radau IIA, of ORDER 5 or 3: for accurate results with long steps"});
+      .option({"RADAU", {}, "Radau IIA of order 5: accurate results with long steps"});
   card.add("RHO", &AnalysisCard::rho, "CHUNG: spectral radius at infinite frequency; 1 damps nothing, 0 most")
       .at_least(0)
       .at_most(1);
   card.add("ALPHA", &AnalysisCard::alpha, "HHT and BOSSAK: numerical damping; 0 damps nothing").at_least(0).at_most(1.0 / 3.0);
-  card.add("ORDER", &AnalysisCard::order, "RADAU: order of the scheme, 5 or 3").synonyms({"ORDRE"}).at_least(3).at_most(5);
   card.add("SOLVER", &AnalysisCard::solver, "direct solver of the linear systems")
       .synonyms({"SOLVEUR"})
       .option({"MUMPS", {}, "multifrontal; the only one that runs in parallel"})

@@ -6,23 +6,11 @@
 
 namespace engrane::solve {
 
-Eigen::VectorXd Collocation::lagrange(double s) const {
-  Eigen::VectorXd weights(c.size());
-  for (Eigen::Index i = 0; i < c.size(); ++i) {
-    weights[i] = 1;
-    for (Eigen::Index j = 0; j < c.size(); ++j)
-      if (j != i) weights[i] *= (s - c[j]) / (c[i] - c[j]);
-  }
-  return weights;
-}
-
-Collocation Collocation::radau(int stages) {
+Collocation Collocation::radau() {
   Collocation r;
+  constexpr Eigen::Index stages = 3;
   r.c.resize(stages);
-  if (stages == 2)
-    r.c << 1.0 / 3, 1;
-  else
-    r.c << (4 - std::sqrt(6.0)) / 10, (4 + std::sqrt(6.0)) / 10, 1;
+  r.c << (4 - std::sqrt(6.0)) / 10, (4 + std::sqrt(6.0)) / 10, 1;
   // C(s): Σ_j a_ij c_j^(k−1) = c_i^k / k for k = 1 to s
   Eigen::MatrixXd powers(stages, stages), integrals(stages, stages);
   for (Eigen::Index i = 0; i < stages; ++i)

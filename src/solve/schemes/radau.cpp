@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "assembly/configuration_snapshot.hpp"
 #include "math/rotation.hpp"
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/schemes/snapshot_part.hpp"
@@ -18,8 +19,12 @@ namespace {
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 /// A correction this small (over the lengths around, or in radians) changes nothing that anybody can see.
 constexpr double negligible_correction = 1e-13;
-/// Corrections that shrink by less than this ask for matrices of the present place.
-constexpr double slow = 0.3;
+/// Corrections that shrink by less than this ask for matrices of the present place: at once, and before the next step.
+constexpr double slow = 0.3, growing_slow = 0.1;
+/// Ends of steps before the present one that guesses are made from.
+constexpr std::size_t most_ends = 3;
+/// Steps that differ by less than this have the same matrices.
+constexpr double same = 1e-6;
 /// A step longer than this many times the one before has no guess from that one.
 constexpr double longest_growth = 3;
 
@@ -38,16 +43,16 @@ void add(double factor, std::span<const double> values, std::span<double> sum) {
 
 }  // namespace
 
-Radau::Radau(SolverContext& context, int stages)
+Radau::Radau(SolverContext& context)
     : Dynamics(context),
-      collocation_(Collocation::radau(stages)),
+      collocation_(Collocation::radau()),
       solver_(context.assembler, collocation_, context.solver.package()),
       references_(context.assembler, context.options.precision),
-      configurations_(static_cast<std::size_t>(stages)),
+      configurations_(static_cast<std::size_t>(collocation_.stages())),
       prescribed_(configurations_.size()),
       balance_matrix_(),
       balance_((*balance_matrix_.out() = context.assembler.new_matrix(), balance_matrix_), context.solver.package()) {
-  for (int i = 0; i < stages; ++i) {
+  for (std::size_t i = 0; i < configurations_.size(); ++i) {
     *residuals_.emplace_back().out() = context.assembler.new_vector();
     *changes_.emplace_back().out() = context.assembler.new_vector();
   }
@@ -59,25 +64,30 @@ Radau::Radau(SolverContext& context, int stages)
   now_.multipliers.assign(configurations_.size(), std::vector<double>(context.assembler.scale().size(), 0.0));
 }
 
-void Radau::start_memory(const Configuration&, const MasslessMotions*) { before_.h = 0; }
+void Radau::start_memory(const Configuration& c, const MasslessMotions*) { restart_memory(c); }
 
-void Radau::restart_memory(const Configuration&) { before_.h = 0; }
+void Radau::restart_memory(const Configuration&) {
+  ends_.clear();
+  kept_step_ = 0;
+}
 
 void Radau::predict(const Configuration& from, double h) {
   const auto stages = static_cast<std::size_t>(collocation_.stages());
-  const bool extrapolate = before_.h > 0 && h <= longest_growth * before_.h;
   const auto v0 = context_.motion.velocities(from);
+  tried_ = {from.time, context_.motion.accelerations(from), from.multipliers};
+  // the polynomial through the last ends of steps, as far as these are not much shorter than the step
+  std::vector<const End*> ends{&tried_};
+  for (auto end = ends_.rbegin(); end != ends_.rend() && h <= longest_growth * (ends.back()->time - end->time); ++end)
+    ends.push_back(&*end);
   for (std::size_t i = 0; i < stages; ++i) {
-    if (!extrapolate) {
-      now_.a[i] = context_.motion.accelerations(from);
-      now_.multipliers[i] = from.multipliers;
-      continue;
-    }
-    const Eigen::VectorXd weights = collocation_.lagrange(1 + collocation_.c[static_cast<Eigen::Index>(i)] * h / before_.h);
+    const double time = from.time + h * collocation_.c[static_cast<Eigen::Index>(i)];
     for (auto* all : {&now_.a, &now_.multipliers}) std::fill((*all)[i].begin(), (*all)[i].end(), 0.0);
-    for (std::size_t j = 0; j < stages; ++j) {
-      add(weights[static_cast<Eigen::Index>(j)], before_.a[j], now_.a[i]);
-      add(weights[static_cast<Eigen::Index>(j)], before_.multipliers[j], now_.multipliers[i]);
+    for (const End* end : ends) {
+      double weight = 1;
+      for (const End* other : ends)
+        if (other != end) weight *= (time - other->time) / (end->time - other->time);
+      add(weight, end->a, now_.a[i]);
+      add(weight, end->multipliers, now_.multipliers[i]);
     }
   }
   for (std::size_t i = 0; i < stages; ++i) {
@@ -132,7 +142,7 @@ void Radau::differentiate(const Configuration& from, double h) {
 
 NewtonRow Radau::evaluate(const Configuration& from) {
   const Numbering& numbering = context_.numbering;
-  double worst[6] = {0, 0, 0, 0, 0, 0};  // four measures, kΦ over force, open constraint in roundings
+  double worst[5] = {0, 0, 0, 0, 0};  // four measures, kΦ over force
   struct {
     double value;
     int row;
@@ -156,9 +166,7 @@ NewtonRow Radau::evaluate(const Configuration& from) {
         const double as_force = value / reference;
         value /= context_.assembler.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
         reference = references_.length(static_cast<int>(row));
-        const double open = value / (reference * rounding);
-        if (open > 1) worst[4] = std::max(worst[4], as_force);
-        worst[5] = std::max(worst[5], open);
+        if (value > reference * rounding) worst[4] = std::max(worst[4], as_force);
       }
       const double relative = value / reference;
       double& largest = worst[static_cast<int>(u.measure)];
@@ -167,10 +175,9 @@ NewtonRow Radau::evaluate(const Configuration& from) {
     }
     check_petsc(VecRestoreArrayRead(residuals_[i], &values));
   }
-  MPI_Allreduce(MPI_IN_PLACE, worst, 6, MPI_DOUBLE, MPI_MAX, context_.assembler.comm());
+  MPI_Allreduce(MPI_IN_PLACE, worst, 5, MPI_DOUBLE, MPI_MAX, context_.assembler.comm());
   MPI_Allreduce(MPI_IN_PLACE, &located, 1, MPI_DOUBLE_INT, MPI_MAXLOC, context_.assembler.comm());
   constraint_force_ = worst[4];
-  open_ = worst[5];
   return {0, worst[0], worst[1], worst[2], worst[3], 0, located.row};
 }
 
@@ -199,8 +206,8 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
   const std::vector<double> remembered = references_.memory();
   const double precision = context_.options.precision;
   references_.begin(from);
-  bool renew = true;
-  double correction = 0, contraction = 0;
+  bool renew = !(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale();
+  double correction = 0, contraction = 0, slowest = 0;
   for (int k = 0;; ++k) {
     differentiate(from, h);
     NewtonRow row = evaluate(from);
@@ -223,7 +230,11 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
       report.reason = fmt::format("no convergence in {} iterations", k);
       break;
     }
-    if (renew) solver_.evaluate(outside_of_steps(configurations_[configurations_.size() / 2]), h);
+    if (renew) {
+      keep(outside_of_steps(configurations_[configurations_.size() / 2]), h);
+      slowest = 0;
+    }
+    const bool fresh = std::exchange(renew, false);
     if (!solver_.solve(residuals_, changes_)) {
       report.singular = true;
       report.reason = "the tangent matrix is singular";
@@ -231,10 +242,20 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     }
     const double before = std::exchange(correction, correct());
     contraction = k > 0 && before > 0 ? correction / before : 1;
-    renew = k > 0 && contraction > slow && correction > negligible_correction;
+    if (k == 0 || fresh || correction <= negligible_correction) continue;
+    slowest = std::max(slowest, contraction);
+    renew = contraction > slow;
   }
   if (!report.converged) references_.restore(remembered);
+  if (!report.converged || slowest > growing_slow) kept_step_ = 0;
   return report;
+}
+
+void Radau::keep(const Configuration& c, double h) {
+  solver_.evaluate(c, h);
+  kept_ = c;
+  kept_step_ = h;
+  kept_scale_ = context_.assembler.scale();
 }
 
 bool Radau::complete(Configuration& c) {
@@ -310,7 +331,6 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
     configurations_[i].h = part * h;
     prescribed_[i] = context_.motion.prescribed(configurations_[i].time);
   }
-  now_.h = h;
   // Newton's iteration finds no drive's angle more than half a turn away, and would not say why
   std::vector<double> coasting = context_.motion.velocities(from);
   for (double& part : coasting) part *= h;
@@ -339,40 +359,47 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   return {std::move(report), 0, {}};
 }
 
-void Radau::accept() { before_ = now_; }
+void Radau::accept() {
+  ends_.push_back(std::move(tried_));
+  if (ends_.size() > most_ends) ends_.erase(ends_.begin());
+}
 
 void Radau::save(Snapshot& snapshot) const {
   Dynamics::save(snapshot);
-  snapshot.put("radau/step", before_.h);
-  if (before_.h > 0) {
-    for (std::size_t i = 0; i < before_.a.size(); ++i) {
-      snapshot.put(fmt::format("radau/accelerations/{}", i), before_.a[i]);
-      snapshot.put(fmt::format("radau/multipliers/{}", i), before_.multipliers[i]);
-    }
+  snapshot.put("radau/ends", static_cast<double>(ends_.size()));
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    snapshot.put(fmt::format("radau/times/{}", i), ends_[i].time);
+    snapshot.put(fmt::format("radau/accelerations/{}", i), ends_[i].a);
+    snapshot.put(fmt::format("radau/multipliers/{}", i), ends_[i].multipliers);
   }
   solver_.save(snapshot);
+  snapshot.put("radau/kept_step", kept_step_);
+  if (kept_step_ > 0) {
+    Snapshot kept;
+    save_configuration(kept_, kept);
+    for (const auto& [name, values] : kept.arrays()) snapshot.put("radau/kept/" + name, values);
+    snapshot.put("radau/kept_scale", kept_scale_);
+  }
   save_part(references_, "radau/", snapshot);
   save_part(balance_, "radau/", snapshot);
 }
 
 void Radau::load(const Snapshot& snapshot) {
   Dynamics::load(snapshot);
-  if (!snapshot.has("radau/step")) return;  // of another kind of analysis, or of another scheme
-  before_ = now_;
-  before_.h = snapshot.number("radau/step");
-  // of another order the guess is made anew
-  if (snapshot.has(fmt::format("radau/accelerations/{}", before_.a.size()))) before_.h = 0;
-  for (std::size_t i = 0; before_.h > 0 && i < before_.a.size(); ++i) {
-    if (!snapshot.has(fmt::format("radau/accelerations/{}", i))) {
-      before_.h = 0;
-      break;
-    }
-    before_.a[i] = snapshot.array(fmt::format("radau/accelerations/{}", i));
-    before_.multipliers[i] = snapshot.array(fmt::format("radau/multipliers/{}", i));
-  }
+  if (!snapshot.has("radau/ends")) return;  // of another kind of analysis, or of another scheme
+  ends_.resize(static_cast<std::size_t>(snapshot.number("radau/ends")));
+  for (std::size_t i = 0; i < ends_.size(); ++i)
+    ends_[i] = {snapshot.number(fmt::format("radau/times/{}", i)), snapshot.array(fmt::format("radau/accelerations/{}", i)),
+                snapshot.array(fmt::format("radau/multipliers/{}", i))};
   references_.load_memory(part_of(snapshot, "radau/"));
   balance_.load(part_of(snapshot, "radau/"));
   solver_.load(snapshot);
+  kept_step_ = 0;
+  if (const double h = snapshot.number("radau/kept_step"); h > 0) {
+    load_configuration(part_of(snapshot, "radau/kept/"), kept_);
+    keep(Configuration(kept_), h);
+    kept_scale_ = snapshot.array("radau/kept_scale");
+  }
 }
 
 }  // namespace engrane::solve

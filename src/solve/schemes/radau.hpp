@@ -7,13 +7,12 @@
 
 namespace engrane::solve {
 
-/// Radau IIA on coordinates of the step: rotation vectors, displacements and scalars from where it begins (Munthe-Kaas 1999, for
-/// collocation). Stages have their constraints closed (index 3); the end of a step is then given the velocities, accelerations
-/// and multipliers that fit (Jay 1995), so that all of them are of order 2s − 1.
+/// Radau IIA of three stages on coordinates of the step: rotation vectors, displacements and scalars from where it begins
+/// (Munthe-Kaas 1999, for collocation). Stages have their constraints closed (index 3); the end of a step is then given the
+/// velocities, accelerations and multipliers that fit (Jay 1995), so that all of them are of order 5.
 class Radau final : public Dynamics {
  public:
-  /// `stages`: 2 (order 3) or 3 (order 5).
-  Radau(SolverContext& context, int stages);
+  explicit Radau(SolverContext& context);
 
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
   void accept() override;
@@ -28,9 +27,13 @@ class Radau final : public Dynamics {
   struct Stages {
     std::vector<std::vector<double>> y, v, a;      ///< by motion slot
     std::vector<std::vector<double>> multipliers;  ///< kλ
-    double h = 0;                                  ///< 0: there is none
   };
-  /// A first guess of the stages of a step, from the polynomials of the one before.
+  /// Where a step began or ended.
+  struct End {
+    double time = 0;
+    std::vector<double> a, multipliers;
+  };
+  /// A first guess of the stages of a step.
   void predict(const Configuration& from, double h);
   /// Velocities and accelerations of the stages from y, with what is prescribed.
   void differentiate(const Configuration& from, double h);
@@ -38,7 +41,9 @@ class Radau final : public Dynamics {
   NewtonRow evaluate(const Configuration& from);
   /// Adds the last changes to the stages; returns the largest, as Newton's iteration counts them.
   double correct();
-  /// Largest of these rows, with its equation.
+  /// Evaluates the matrices at `c` for steps of h; they serve as long as the iteration is quick with them.
+  void keep(const Configuration& c, double h);
+  /// Simplified Newton iteration from the stages in now_.
   NewtonReport iterate(const Configuration& from, double h);
   /// Velocities, accelerations and multipliers that fit at the end of a step whose positions fit; false when there are none.
   bool complete(Configuration& c);
@@ -47,11 +52,16 @@ class Radau final : public Dynamics {
   Collocation collocation_;
   StageSolver solver_;
   References references_;
-  Stages now_, before_;  ///< of the present step, and of the last that was accepted
+  Stages now_;             ///< of the present step
+  std::vector<End> ends_;  ///< where the last steps began
+  End tried_;              ///< where the present step begins
   std::vector<Configuration> configurations_;
   std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;
   std::vector<Owned<Vec>> residuals_, changes_;
-  double open_ = 0, constraint_force_ = 0;
+  double constraint_force_ = 0;  ///< largest k Φ over the largest force
+  Configuration kept_;           ///< that the matrices were evaluated at
+  double kept_step_ = 0;         ///< for steps of this; 0: they are to be evaluated
+  std::vector<double> kept_scale_;
   Owned<Mat> balance_matrix_;
   LinearSolver balance_;
   Owned<Vec> right_, solution_;

@@ -107,7 +107,7 @@ NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& a
 std::unique_ptr<Scheme> make_scheme(SolverContext& context) {
   switch (context.options.analysis) {
     case SolverOptions::Analysis::dynamics:
-      if (context.options.family == SolverOptions::Family::radau) return std::make_unique<Radau>(context, context.options.stages);
+      if (context.options.family == SolverOptions::Family::radau) return std::make_unique<Radau>(context);
       return std::make_unique<Transient>(context);
     case SolverOptions::Analysis::kinematics:
       return std::make_unique<Kinematics>(context);
