@@ -182,7 +182,7 @@ TEST(Radau, IsOfOrderFiveOnTheHeavyTop) {
 TEST(Radau, IsOfOrderFiveOnAPairOfGears) {
   Seen runs[3];
   for (int level = 0; level < 3; ++level) {
-    DeckRun deck(bevel(0.04 / (1 << level)));
+    DeckRun deck(bevel(0.08 / (1 << level)));
     const Configuration end = deck.run();
     const NodeState& node = deck.node(end, 2);
     runs[level] = {node.x, node.v, Vec3(deck.channel(end, 1, "NORMAL_FORCE"), 0, 0)};

@@ -39,6 +39,8 @@ class Radau final : public Dynamics {
   void differentiate(const Configuration& from, double h);
   /// Sets the stages' configurations, evaluates their residuals and compares these with the references.
   NewtonRow evaluate(const Configuration& from);
+  /// The largest displacement of the step as it is now, over the lengths around or in radians.
+  double increment() const;
   /// Adds the last changes to the stages; returns the largest, as Newton's iteration counts them.
   double correct();
   /// Evaluates the matrices at `c` for steps of h; they serve as long as the iteration is quick with them.
