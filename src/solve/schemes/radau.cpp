@@ -19,6 +19,8 @@ namespace {
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 /// A correction this small (over the lengths around, or in radians) changes nothing that anybody can see.
 constexpr double negligible_correction = 1e-13;
+/// And below this nothing moves at all, whatever the forces are compared with.
+constexpr double no_correction = 2e-15;
 /// Corrections that shrink by less than this ask for matrices of the present place: at once, and before the next step.
 constexpr double slow = 0.3, growing_slow = 0.1;
 /// Ends of steps before the present one that guesses are made from.
@@ -191,7 +193,11 @@ double Radau::correct() {
       const auto slot = static_cast<std::size_t>(u.slot);
       if (u.multiplier) {
         const std::size_t m = slot - context_.motion.size();
-        now_.multipliers[i][m] += context_.assembler.scale()[m] * change[e];
+        const double force = context_.assembler.scale()[m] * change[e], size = std::abs(change[e]);
+        now_.multipliers[i][m] += force;
+        // over its k a multiplier is the displacement that its force stands for; where k is small the force itself tells
+        largest = std::max(largest, std::min(size / references_.length(static_cast<int>(e)),
+                                             std::abs(force) / references_.load(static_cast<int>(e))));
       } else {
         now_.y[i][slot] += change[e];
         largest = std::max(largest, std::abs(change[e]) / references_.length(static_cast<int>(e)));
@@ -217,6 +223,8 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
   references_.begin(from);
   bool renew = !(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale();
   double correction = 0, contraction = 0, slowest = 0;
+  bool evaluated = false;  // in this step
+  int uses = 0;            // of the matrices, in this step
   for (int k = 0;; ++k) {
     differentiate(from, h);
     NewtonRow row = evaluate(from);
@@ -231,7 +239,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     }
     const bool closed = std::max(row.length, row.angle) <= precision && constraint_force_ <= precision;
     // what acts on a free body may be nothing: its residual is then the rounding of accelerations, differences of increments
-    const bool still = correction <= rounding * increment() ||
+    const bool still = correction <= std::max(no_correction, rounding * increment()) ||
                        (left <= std::sqrt(precision) && correction * std::min(1.0, contraction) <= negligible_correction);
     if ((k > 0 && forces <= precision && closed) || (k > 1 && still)) {
       report.converged = true;
@@ -243,9 +251,11 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     }
     if (renew) {
       keep(outside_of_steps(configurations_[configurations_.size() / 2]), h);
+      evaluated = true;
       slowest = 0;
+      uses = 0;
     }
-    const bool fresh = std::exchange(renew, false);
+    renew = false;
     if (!solver_.solve(residuals_, changes_)) {
       report.singular = true;
       report.reason = "the tangent matrix is singular";
@@ -253,7 +263,8 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     }
     const double before = std::exchange(correction, correct());
     contraction = k > 0 && before > 0 ? correction / before : 1;
-    if (k == 0 || fresh || correction <= negligible_correction) continue;
+    // the first correction after matrices have changed says nothing of them; what is left of rounding says nothing of new ones
+    if (++uses < 2 || (evaluated && correction <= negligible_correction)) continue;
     slowest = std::max(slowest, contraction);
     renew = contraction > slow;
   }
