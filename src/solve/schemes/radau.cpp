@@ -183,9 +183,9 @@ NewtonRow Radau::evaluate(const Configuration& from) {
   return {0, worst[0], worst[1], worst[2], worst[3], 0, located.row};
 }
 
-double Radau::correct() {
+Radau::Correction Radau::correct() {
   const Numbering& numbering = context_.numbering;
-  double largest = 0;
+  Correction largest;
   for (std::size_t i = 0; i < changes_.size(); ++i) {
     const auto change = context_.assembler.gather(changes_[i]);
     for (std::size_t e = 0; e < change.size(); ++e) {
@@ -196,11 +196,11 @@ double Radau::correct() {
         const double force = context_.assembler.scale()[m] * change[e], size = std::abs(change[e]);
         now_.multipliers[i][m] += force;
         // over its k a multiplier is the displacement that its force stands for; where k is small the force itself tells
-        largest = std::max(largest, std::min(size / references_.length(static_cast<int>(e)),
-                                             std::abs(force) / references_.load(static_cast<int>(e))));
+        largest.forces = std::max(largest.forces, std::min(size / references_.length(static_cast<int>(e)),
+                                                           std::abs(force) / references_.load(static_cast<int>(e))));
       } else {
         now_.y[i][slot] += change[e];
-        largest = std::max(largest, std::abs(change[e]) / references_.length(static_cast<int>(e)));
+        largest.motion = std::max(largest.motion, std::abs(change[e]) / references_.length(static_cast<int>(e)));
       }
     }
   }
@@ -222,14 +222,15 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
   const double precision = context_.options.precision;
   references_.begin(from);
   bool renew = !(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale();
-  double correction = 0, contraction = 0, slowest = 0;
+  Correction last;
+  double contraction = 0, slowest = 0;
   bool evaluated = false;  // in this step
   int uses = 0;            // of the matrices, in this step
   for (int k = 0;; ++k) {
     differentiate(from, h);
     NewtonRow row = evaluate(from);
     row.iteration = k;
-    row.correction = correction;
+    row.correction = last.motion;
     report.rows.push_back(row);
     report.iterations = k;
     const double forces = std::max(row.force, row.moment), left = std::max({forces, row.length, row.angle});
@@ -239,9 +240,18 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     }
     const bool closed = std::max(row.length, row.angle) <= precision && constraint_force_ <= precision;
     // what acts on a free body may be nothing: its residual is then the rounding of accelerations, differences of increments
-    const bool still = correction <= std::max(no_correction, rounding * increment()) ||
-                       (left <= std::sqrt(precision) && correction * std::min(1.0, contraction) <= negligible_correction);
-    if ((k > 0 && forces <= precision && closed) || (k > 1 && still)) {
+    const double changed = std::max(last.motion, last.forces);
+    // forces that are small beside stiffness or inertia times the rounding of positions follow that rounding and never settle;
+    // those of stages are no results
+    const auto noise = [&] {
+      const NewtonRow& before = report.rows[report.rows.size() - 2];
+      return std::max(row.correction, before.correction) <= negligible_correction &&
+             left > 0.5 * std::max(before.force, before.moment);
+    };
+    const bool still =
+        k > 1 && (changed <= std::max(no_correction, rounding * increment()) ||
+                  (left <= std::sqrt(precision) && (changed * std::min(1.0, contraction) <= negligible_correction || noise())));
+    if ((k > 0 && forces <= precision && closed) || still) {
       report.converged = true;
       break;
     }
@@ -261,10 +271,11 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
       report.reason = "the tangent matrix is singular";
       break;
     }
-    const double before = std::exchange(correction, correct());
-    contraction = k > 0 && before > 0 ? correction / before : 1;
+    const double before = last.motion;
+    last = correct();
+    contraction = k > 0 && before > 0 ? last.motion / before : 1;
     // the first correction after matrices have changed says nothing of them; what is left of rounding says nothing of new ones
-    if (++uses < 2 || (evaluated && correction <= negligible_correction)) continue;
+    if (++uses < 2 || (evaluated && last.motion <= negligible_correction)) continue;
     slowest = std::max(slowest, contraction);
     renew = contraction > slow;
   }
@@ -418,6 +429,7 @@ void Radau::load(const Snapshot& snapshot) {
   solver_.load(snapshot);
   kept_step_ = 0;
   if (const double h = snapshot.number("radau/kept_step"); h > 0) {
+    kept_ = context_.numbering.reference_configuration(0);
     load_configuration(part_of(snapshot, "radau/kept/"), kept_);
     keep(Configuration(kept_), h);
     kept_scale_ = snapshot.array("radau/kept_scale");

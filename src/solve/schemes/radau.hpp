@@ -41,8 +41,13 @@ class Radau final : public Dynamics {
   NewtonRow evaluate(const Configuration& from);
   /// The largest displacement of the step as it is now, over the lengths around or in radians.
   double increment() const;
-  /// Adds the last changes to the stages; returns the largest, as Newton's iteration counts them.
-  double correct();
+  /// The largest change of a displacement, over the lengths around or in radians, and of a multiplier, as that displacement or
+  /// over the loads around.
+  struct Correction {
+    double motion = 0, forces = 0;
+  };
+  /// Adds the last changes to the stages.
+  Correction correct();
   /// Evaluates the matrices at `c` for steps of h; they serve as long as the iteration is quick with them.
   void keep(const Configuration& c, double h);
   /// Simplified Newton iteration from the stages in now_.
