@@ -110,7 +110,9 @@ def deck(model: str, scheme: str, step: float, end: float, solver: str) -> str:
     text = re.sub(r"^\.CHK\n(?: .*\n|!.*\n)*", "", text, flags=re.M)
     text = re.sub(r"^\.SAI.*\n", "", text, flags=re.M)
     keep = " START STATIC" if re.search(r"^\.SAM.*START STATIC", text, re.M) else ""
-    text = re.sub(r"^\.SAM .*", f".SAM TYPE DYNAMIC {scheme} SOLVER {solver}{keep} ENERGY 0", text, flags=re.M)
+    text = re.sub(
+        r"^\.SAM .*", f".SAM TYPE DYNAMIC {scheme} SOLVER {solver}{keep} ENERGY 0", text, flags=re.M
+    )
     sample = MODELS[model][1] / 10
     return re.sub(
         r"^\.SUB .*",
@@ -130,7 +132,10 @@ class Run:
             path.write_text(deck(model, scheme, step, end, options.solver), encoding="utf-8")
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             done = subprocess.run(
-                [binary, "-q", path, "-o", path.with_suffix("")], env=ENVIRONMENT, capture_output=True, text=True
+                [binary, "-q", path, "-o", path.with_suffix("")],
+                env=ENVIRONMENT,
+                capture_output=True,
+                text=True,
             )
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
             self.failure = done.stderr[-300:] if done.returncode != 0 else ""
@@ -158,7 +163,9 @@ class Run:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("binary", type=Path)
     parser.add_argument("--models", nargs="+", choices=MODELS, default=list(MODELS))
     parser.add_argument("--schemes", nargs="+", default=SCHEMES)
@@ -174,7 +181,9 @@ def main() -> None:
             reference = Run(binary, Path(folder), model, options.reference, steps[-3] / 2, options)
             if reference.failure:
                 sys.exit(f"{model}: {reference.failure}")
-            print(f"\n{model}\n\n| scheme | H | steps | iterations | error q | v | f | seconds |\n|---|---|---|---|---|---|---|---|")
+            print(
+                f"\n{model}\n\n| scheme | H | steps | iterations | error q | v | f | seconds |\n|---|---|---|---|---|---|---|---|"
+            )
             for scheme in options.schemes:
                 for step in steps[: options.steps]:
                     run = Run(binary, Path(folder), model, scheme, step, options)

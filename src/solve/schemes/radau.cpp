@@ -58,12 +58,29 @@ Radau::Radau(SolverContext& context)
     *residuals_.emplace_back().out() = context.assembler.new_vector();
     *changes_.emplace_back().out() = context.assembler.new_vector();
   }
+  for (const Model::Part& part : context.model.parts) {
+    const Layout& layout = part.element->layout();
+    has_friction_ = has_friction_ || layout.slides > 0 || !layout.grips.empty();
+  }
   *right_.out() = context.assembler.new_vector();
   *solution_.out() = context.assembler.new_vector();
   const std::vector<double> slots(context.motion.size(), 0.0);
   now_.y.assign(configurations_.size(), slots);
   now_.v = now_.a = now_.y;
   now_.multipliers.assign(configurations_.size(), std::vector<double>(context.assembler.scale().size(), 0.0));
+}
+
+StartReport Radau::start(Configuration& c) {
+  for (const Support& s : context_.model.supports) {
+    if (s.component < 3 || s.value == 0) continue;
+    for (int other = 3; other < 6; ++other)
+      if (has_equation(static_cast<std::size_t>(6 * s.node + other)))
+        throw SolutionFailure(
+            fmt::format("SCHEME RADAU cannot turn node {} about one axis while it is free about another: hold the two other "
+                        "rotations, drive it by a HINGE, or take SCHEME CHUNG",
+                        context_.model.nodes[static_cast<std::size_t>(s.node)].id));
+  }
+  return Dynamics::start(c);
 }
 
 void Radau::start_memory(const Configuration& c, const MasslessMotions*) { restart_memory(c); }
@@ -315,7 +332,7 @@ bool Radau::complete(Configuration& c) {
   add(1, change, v);
   context_.motion.set_velocities(v, c);
   // accelerations and multipliers: once where forces are linear in these
-  constexpr int most = 4;
+  constexpr int most = 12;
   double before = std::numeric_limits<double>::infinity(), first = 0;
   for (int k = 0; k < most; ++k) {
     std::vector<double> r = assembler.slot_residual(c);
@@ -335,8 +352,13 @@ bool Radau::complete(Configuration& c) {
     }
     if (!std::isfinite(size)) return false;
     if (k == 0) first = size;
-    if (size <= 1e-8 * first || (k > 0 && size >= 0.5 * before)) {
-      if (!context_.redundancy.share(c)) break;
+    const bool balanced = size <= 1e-8 * first;
+    if (balanced || (k > 0 && size >= 0.5 * before)) {
+      if (!context_.redundancy.share(c)) {
+        // friction may jam: this says so
+        if (!balanced && has_friction_) context_.start.balance_accelerations(c, most, nullptr, massless);
+        break;
+      }
       before = std::numeric_limits<double>::infinity();
       continue;
     }

@@ -14,6 +14,7 @@ class Radau final : public Dynamics {
  public:
   explicit Radau(SolverContext& context);
 
+  StartReport start(Configuration& c) override;
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
   void accept() override;
   void save(Snapshot& snapshot) const override;
@@ -69,6 +70,7 @@ class Radau final : public Dynamics {
   Configuration kept_;           ///< that the matrices were evaluated at
   double kept_step_ = 0;         ///< for steps of this; 0: they are to be evaluated
   std::vector<double> kept_scale_;
+  bool has_friction_ = false;
   Owned<Mat> balance_matrix_;
   LinearSolver balance_;
   Owned<Vec> right_, solution_;
