@@ -4,8 +4,8 @@
     python tests/bench/schemes.py build/bin/engrane [--models top andrews crank spur valve bevel]
         [--schemes "SCHEME CHUNG RHO 0.8" "SCHEME RADAU"] [--runs 2] [--solver KLU]
 
-Each model runs with each scheme and each of its steps. Errors are the largest of ten instants, over the largest
-value there, of some positions (q), velocities (v) and forces (f) that the table below names; the reference is
+Each model runs with each scheme and each of its steps. Errors are the largest of ten instants, over the
+largest value there, of some positions (q), velocities (v) and forces (f) that MODELS names; the reference is
 RADAU with half the third shortest step and a precision of 1e-13, unless --reference names another scheme.
 Processor time is that of the process, the least of --runs, without that of a run of a single step. Prints a
 Markdown table for each model.
@@ -181,20 +181,18 @@ def main() -> None:
             reference = Run(binary, Path(folder), model, options.reference, steps[-3] / 2, options)
             if reference.failure:
                 sys.exit(f"{model}: {reference.failure}")
-            print(
-                f"\n{model}\n\n| scheme | H | steps | iterations | error q | v | f | seconds |\n|---|---|---|---|---|---|---|---|"
-            )
+            print(f"\n{model}\n")
+            print("| scheme | H | steps | iterations | error q | v | f | seconds |\n" + "|---" * 8 + "|")
             for scheme in options.schemes:
                 for step in steps[: options.steps]:
                     run = Run(binary, Path(folder), model, scheme, step, options)
                     if run.failure:
-                        print(f"| {scheme} | {step:g} | failed: {' '.join(run.failure.split())[:100]} |")
+                        why = " ".join(run.failure.split())[:100]
+                        print(f"| {scheme} | {step:g} | failed: {why} |")
                         continue
                     errors = " | ".join(f"{e:.1e}" for e in run.errors(reference))
-                    print(
-                        f"| {scheme} | {step:g} | {run.steps} | {run.iterations} | {errors} | {run.seconds:.3f} |",
-                        flush=True,
-                    )
+                    effort = f"{run.steps} | {run.iterations}"
+                    print(f"| {scheme} | {step:g} | {effort} | {errors} | {run.seconds:.3f} |", flush=True)
 
 
 if __name__ == "__main__":
