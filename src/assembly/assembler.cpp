@@ -305,12 +305,12 @@ void Assembler::tangent(const Configuration& configuration, Weights weights, Mat
   sum.finish();
 }
 
-void Assembler::projection(const Configuration& configuration, Metric metric, std::span<const int> held) {
-  ++changes_;
+void Assembler::projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into) {
+  if (into == matrix_) ++changes_;
   const bool mass = metric != Metric::geometric;
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
   std::vector<double> inertia(motion, 0.0);
-  Scatter::MatrixSum sum(scatter_, matrix_);
+  Scatter::MatrixSum sum(scatter_, into);
   std::vector<double> of_mass, unused;
   for_each_tangent(configuration, {1, 0, 0}, [&](int part, std::span<double> k) {
     const auto slots = numbering_.part_slots(part);

@@ -93,7 +93,11 @@ class Assembler {
   };
   /// [D −Bᵀ; −B 0] (unscaled) in matrix(), D by metric. Unknowns without mass get a negligible one; the equations in
   /// `held`, in any order, one so large that everything else moves first.
-  void projection(const Configuration& configuration, Metric metric, std::span<const int> held = {});
+  void projection(const Configuration& configuration, Metric metric, std::span<const int> held = {}) {
+    projection(configuration, metric, held, matrix_);
+  }
+  /// The same in a matrix of new_matrix().
+  void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into);
   /// Φ and its time derivatives along the motion (unscaled), in the order of the multipliers; zero where idle.
   void constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
                         std::vector<double>& second);

@@ -13,6 +13,7 @@ SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::Ste
   o.family = analysis.scheme.is("NEWMARK")  ? Family::newmark
              : analysis.scheme.is("HHT")    ? Family::hht
              : analysis.scheme.is("BOSSAK") ? Family::bossak
+             : analysis.scheme.is("RADAU")  ? Family::radau
                                             : Family::chung;
   o.damping = o.family == Family::chung ? analysis.rho.value_or(0.8) : analysis.alpha.value_or(0.05);
   o.static_start = analysis.start.is("STATIC");

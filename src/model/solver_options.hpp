@@ -10,7 +10,7 @@ namespace engrane {
 /// What is to be solved and how: the cards `.SAM` and `.SUB` without the words of the deck, every default filled in.
 struct SolverOptions {
   enum class Analysis : unsigned char { statics, kinematics, dynamics };
-  enum class Family : unsigned char { chung, newmark, hht, bossak };
+  enum class Family : unsigned char { chung, newmark, hht, bossak, radau };
 
   Analysis analysis = Analysis::statics;
   Family family = Family::chung;  ///< of the scheme, in dynamics

@@ -115,7 +115,7 @@ struct InitialCard : NodeTarget {
 /// `.SAM TYPE STATIC|KINEMATIC|DYNAMIC …`: analysis, scheme and solver.
 struct AnalysisCard {
   Tagged type{"STATIC", {}};
-  Tagged scheme{"CHUNG", {}};   ///< CHUNG (generalised-alpha), NEWMARK, HHT, BOSSAK
+  Tagged scheme{"CHUNG", {}};   ///< CHUNG (generalised-alpha), NEWMARK, HHT, BOSSAK, RADAU
   std::optional<double> rho;    ///< spectral radius at infinity, CHUNG
   std::optional<double> alpha;  ///< HHT, BOSSAK
   Tagged solver{"MUMPS", {}};

@@ -46,7 +46,8 @@ Schema analysis_card() {
       .option({"CHUNG", {}, "generalised-alpha of Chung and Hulbert, damping set by RHO"})
       .option({"NEWMARK", {}, "Newmark, without damping"})
       .option({"HHT", {}, "Hilber, Hughes and Taylor, damping set by ALPHA"})
-      .option({"BOSSAK", {}, "Wood, Bossak and Zienkiewicz, damping set by ALPHA"});
+      .option({"BOSSAK", {}, "Wood, Bossak and Zienkiewicz, damping set by ALPHA"})
+      .option({"RADAU", {}, "Radau IIA of order 5: accurate results with long steps"});
   card.add("RHO", &AnalysisCard::rho, "CHUNG: spectral radius at infinite frequency; 1 damps nothing, 0 most")
       .at_least(0)
       .at_most(1);

@@ -7,6 +7,7 @@
 
 #include "math/angle.hpp"
 #include "solve/schemes/kinematics.hpp"
+#include "solve/schemes/radau.hpp"
 #include "solve/schemes/statics.hpp"
 #include "solve/schemes/transient.hpp"
 
@@ -106,6 +107,7 @@ NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& a
 std::unique_ptr<Scheme> make_scheme(SolverContext& context) {
   switch (context.options.analysis) {
     case SolverOptions::Analysis::dynamics:
+      if (context.options.family == SolverOptions::Family::radau) return std::make_unique<Radau>(context);
       return std::make_unique<Transient>(context);
     case SolverOptions::Analysis::kinematics:
       return std::make_unique<Kinematics>(context);

@@ -44,9 +44,9 @@ void SolverContext::load(const Snapshot& snapshot) {
         fmt::format("the run that wrote the restart point was solved {}, this one is solved {}: give the same PLANE in .SAM",
                     words(before), words(model.plane.normal)));
   assembler.load(snapshot);
-  newton.load(snapshot);
   redundancy.load(snapshot);
   solver.load(snapshot);
+  newton.load(snapshot);  // factors with what the solver has taken back
 }
 
 }  // namespace engrane::solve

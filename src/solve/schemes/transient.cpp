@@ -38,6 +38,7 @@ AlphaScheme coefficients(const SolverOptions& options) {
     case SolverOptions::Family::bossak:
       return AlphaScheme::bossak(options.damping);
     case SolverOptions::Family::chung:
+    case SolverOptions::Family::radau:  // another class
       break;
   }
   return AlphaScheme::chung(options.damping);
@@ -46,74 +47,12 @@ AlphaScheme coefficients(const SolverOptions& options) {
 }  // namespace
 
 Transient::Transient(SolverContext& context)
-    : Scheme(context), scheme_(coefficients(context.options)), changes_(context.assembler, context.newton, context.motion) {
-  *unknowns_.out() = context.assembler.new_vector();
-}
-
-Configuration Transient::glide(const Configuration& c, double h) const {
-  const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
-  std::vector<double> y(v.size()), ahead(v.size());
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    y[i] = h * (v[i] + 0.5 * h * a[i]);
-    ahead[i] = v[i] + h * a[i];
-  }
-  Configuration later = c;
-  later.time = c.time + h;
-  prescribe_step(c.time, later.time, y);
-  for (const auto& p : context_.motion.prescribed(later.time)) ahead[p.slot] = p.v;
-  context_.motion.move(c, y, later);
-  context_.motion.set_velocities(ahead, later);
-  return later;
-}
-
-const MasslessMotions* Transient::massless_at(const Configuration& c) {
-  if (!has_massless_) return nullptr;
-  return &massless_.emplace(context_.assembler, c);
-}
-
-void Transient::drift(Configuration& c, double h) {
-  // Heun's step. Both accelerations fit the constraints, so their mean does; the constraints open by a third of the cube of
-  // a hundredth of a step at most, and the next step closes them.
-  const auto before = context_.motion.accelerations(c);
-  c = glide(c, h);
-  const MasslessMotions* massless = massless_at(c);
-  context_.start.balance_accelerations(c, 2, nullptr, massless);
-  auto v = context_.motion.velocities(c);
-  const auto after = context_.motion.accelerations(c);
-  for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
-  for (const auto& p : context_.motion.prescribed(c.time)) v[p.slot] = p.v;
-  context_.motion.set_velocities(v, c);
-  if (constrained()) {
-    context_.motion.set_velocities(fitting_velocities(c), c);
-    context_.start.balance_accelerations(c, 2, nullptr, massless);
-  }
-  restart_memory(c);
-}
-
-bool Transient::settle_friction(Configuration& c) {
-  if (!context_.grips.violated(c)) return false;
-  context_.grips.settle(c, has_massless_);
-  context_.solver.reset();  // other constraints, other pivots
-  restart_memory(c);
-  return true;
-}
-
-void Transient::refine_grips(Configuration& c) {
-  // multipliers of a step are those of the balance between its ends; the force at which a grip gives way is that of its end
-  Configuration balanced = c;
-  context_.start.balance_accelerations(balanced, 3, nullptr, massless_at(c));
-  c.multipliers = std::move(balanced.multipliers);
-  context_.solver.reset();
-}
+    : Dynamics(context), scheme_(coefficients(context.options)), changes_(context.assembler, context.newton, context.motion) {}
 
 Outcome Transient::attempt(const Configuration& from, double h, Configuration& to) {
   const auto [am, af, beta, gamma] = scheme_;
   const Weights weights{1, gamma / (beta * h), (1 - am) / ((1 - af) * beta * h * h)};
-  // only the order of magnitude of k matters: steps of a little less than H need no other
-  if (!(h > 0.3 * scaled_for_ && h < 3 * scaled_for_)) {
-    context_.assembler.choose_scale(from, weights, context_.options.scale);
-    scaled_for_ = h;
-  }
+  scale_for(from, h, weights);
   const auto vdot0 = context_.motion.accelerations(from);
   // a run that continues another kind of analysis has no memory: the accelerations of its configuration begin it
   if (algorithmic_.empty()) {
@@ -214,25 +153,23 @@ void Transient::accept() {
 }
 
 void Transient::save(Snapshot& snapshot) const {
+  Dynamics::save(snapshot);
   snapshot.put("scheme/algorithmic", algorithmic_);
   snapshot.put("scheme/offset", offset_);
   accelerations_.save(snapshot, "scheme/accelerations");
   multipliers_.save(snapshot, "scheme/multipliers");
   snapshot.put("scheme/step", step_of_algorithmic_);
-  snapshot.put("scheme/scaled_for", scaled_for_);
-  snapshot.put("scheme/has_massless", has_massless_ ? 1.0 : 0.0);
 }
 
 void Transient::load(const Snapshot& snapshot) {
-  if (!snapshot.has("scheme/algorithmic")) return;  // of another kind of analysis
+  Dynamics::load(snapshot);
+  if (!snapshot.has("scheme/algorithmic")) return;  // of another kind of analysis, or of another scheme
   algorithmic_ = snapshot.array("scheme/algorithmic");
   offset_ = snapshot.array("scheme/offset");
   accelerations_.load(snapshot, "scheme/accelerations");
   multipliers_.load(snapshot, "scheme/multipliers");
   fitting_.clear();
   step_of_algorithmic_ = snapshot.number("scheme/step");
-  scaled_for_ = snapshot.number("scheme/scaled_for");
-  has_massless_ = snapshot.number("scheme/has_massless") != 0;
 }
 
 }  // namespace engrane::solve

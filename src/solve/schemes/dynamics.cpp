@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/schemes/dynamics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace engrane::solve {
+
+namespace {
+
+constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+Dynamics::Dynamics(SolverContext& context) : Scheme(context) { *unknowns_.out() = context.assembler.new_vector(); }
+
+Configuration Dynamics::glide(const Configuration& c, double h) const {
+  const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
+  std::vector<double> y(v.size()), ahead(v.size());
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    y[i] = h * (v[i] + 0.5 * h * a[i]);
+    ahead[i] = v[i] + h * a[i];
+  }
+  Configuration later = c;
+  later.time = c.time + h;
+  prescribe_step(c.time, later.time, y);
+  for (const auto& p : context_.motion.prescribed(later.time)) ahead[p.slot] = p.v;
+  context_.motion.move(c, y, later);
+  context_.motion.set_velocities(ahead, later);
+  return later;
+}
+
+const MasslessMotions* Dynamics::massless_at(const Configuration& c) {
+  if (!has_massless_) return nullptr;
+  return &massless_.emplace(context_.assembler, c);
+}
+
+void Dynamics::drift(Configuration& c, double h) {
+  // Heun's step. Both accelerations fit the constraints, so their mean does; the constraints open by a third of the cube of
+  // a hundredth of a step at most, and the next step closes them.
+  const auto before = context_.motion.accelerations(c);
+  c = glide(c, h);
+  const MasslessMotions* massless = massless_at(c);
+  context_.start.balance_accelerations(c, 2, nullptr, massless);
+  auto v = context_.motion.velocities(c);
+  const auto after = context_.motion.accelerations(c);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
+  for (const auto& p : context_.motion.prescribed(c.time)) v[p.slot] = p.v;
+  context_.motion.set_velocities(v, c);
+  if (constrained()) {
+    context_.motion.set_velocities(fitting_velocities(c), c);
+    context_.start.balance_accelerations(c, 2, nullptr, massless);
+  }
+  restart_memory(c);
+}
+
+bool Dynamics::settle_friction(Configuration& c) {
+  if (!context_.grips.violated(c)) return false;
+  context_.grips.settle(c, has_massless_);
+  context_.solver.reset();  // other constraints, other pivots
+  restart_memory(c);
+  return true;
+}
+
+void Dynamics::refine_grips(Configuration& c) {
+  // multipliers of a step are those of the balance between its ends; the force at which a grip gives way is that of its end
+  Configuration balanced = c;
+  context_.start.balance_accelerations(balanced, 3, nullptr, massless_at(c));
+  c.multipliers = std::move(balanced.multipliers);
+  context_.solver.reset();
+}
+
+std::vector<double> Dynamics::fitting_velocities(const Configuration& c) const {
+  std::vector<double> v = context_.motion.velocities(c);
+  Configuration fitted = c;
+  StartReport unused;
+  try {
+    context_.start.fit_velocities(fitted, Assembler::Metric::mass, unused, false);
+  } catch (const SolutionFailure&) {
+    return v;  // the step itself finds the conflict, and says when
+  }
+  std::vector<double> fit = context_.motion.velocities(fitted), change = fit;
+  for (std::size_t i = 0; i < v.size(); ++i) change[i] -= v[i];
+  return counts(change, context_.options.step, v, rounding) ? fit : v;
+}
+
+bool Dynamics::counts(std::span<const double> changes, double scale, std::span<const double> rates, double share) const {
+  const double extent = context_.model.extent();
+  Magnitudes change, rate;
+  for (const Unknown& u : context_.numbering.unknowns()) {
+    if (u.multiplier) continue;
+    const auto slot = static_cast<std::size_t>(u.slot);
+    const double size = std::abs(changes[slot]);
+    if (size * scale > rounding * size_of(u, extent)) return true;
+    change[u.measure] = std::max(change[u.measure], size);
+    rate[u.measure] = std::max(rate[u.measure], std::abs(rates[slot]));
+  }
+  for (int m = 0; m < 4; ++m)
+    if (rate.of[m] > 0 && change.of[m] > share * rate.of[m]) return true;
+  return false;
+}
+
+bool Dynamics::constrained() const { return context_.numbering.slots() > context_.numbering.motion_slots(); }
+
+void Dynamics::scale_for(const Configuration& c, double h, Weights weights) {
+  if (h > 0.3 * scaled_for_ && h < 3 * scaled_for_) return;
+  context_.assembler.choose_scale(c, weights, context_.options.scale);
+  scaled_for_ = h;
+}
+
+void Dynamics::save(Snapshot& snapshot) const {
+  snapshot.put("scheme/scaled_for", scaled_for_);
+  snapshot.put("scheme/has_massless", has_massless_ ? 1.0 : 0.0);
+}
+
+void Dynamics::load(const Snapshot& snapshot) {
+  if (!snapshot.has("scheme/has_massless")) return;  // of another kind of analysis
+  scaled_for_ = snapshot.number("scheme/scaled_for");
+  has_massless_ = snapshot.number("scheme/has_massless") != 0;
+}
+
+}  // namespace engrane::solve

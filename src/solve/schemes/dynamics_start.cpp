@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The start of dynamics: positions, velocities and accelerations that fit, of what has mass and of what has none.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/constraints/constraint_factors.hpp"
+#include "solve/constraints/diagnosis.hpp"
+#include "solve/schemes/dynamics.hpp"
+#include "solve/schemes/statics.hpp"
+
+namespace engrane::solve {
+
+StartReport Dynamics::start(Configuration& c) {
+  StartReport report;
+  if (context_.options.static_start) {
+    report = Statics(context_).start(c);
+  } else {
+    apply_initial_displacements(context_, c);
+    context_.start.assemble(c, report);
+  }
+  apply_initial_velocities(context_, c);
+  context_.start.fit_velocities(c, Assembler::Metric::mass, report);
+  MasslessMotions massless(context_.assembler, c);
+  has_massless_ = massless.any();
+  if (context_.grips.any()) {
+    context_.grips.settle(c, has_massless_);
+    massless = MasslessMotions(context_.assembler, c);
+  }
+  if (has_massless_)
+    settle(c, massless, report);
+  else
+    context_.start.balance_accelerations(c, 12, &report);
+  start_memory(c, has_massless_ ? &massless : nullptr);
+  return report;
+}
+
+Dynamics::Relaxed Dynamics::relax(Configuration& c, MasslessMotions& massless) {
+  // An implicit Euler step so short that masses hardly move. Springs go to where they balance, however short it is; a damper's
+  // displacement is the step times what its velocity lacks, and a second step from where the first one ended has that again,
+  // while springs then rest: so the two are told apart.
+  const double tau = 1e-3 * context_.options.step;
+  const Weights weights{1, 1 / tau, 1 / (tau * tau)};
+  context_.assembler.choose_scale(c, weights, context_.options.scale);
+  scaled_for_ = 0;
+  const std::size_t n = context_.motion.size();
+  const auto v0 = context_.motion.velocities(c), a0 = context_.motion.accelerations(c);
+  std::vector<double> first(n, 0.0), y(n, 0.0), v(n), a(n);
+  for (const bool again : {false, true}) {
+    const Configuration from = outside_of_steps(c);
+    Configuration to = from;
+    const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& tried) {
+      context_.motion.scatter(unknowns, y);
+      for (std::size_t i = 0; i < n; ++i) {
+        v[i] = v0[i] + y[i] / tau;
+        a[i] = a0[i] + y[i] / (tau * tau);
+      }
+      context_.motion.move(from, y, tried);
+      context_.motion.set_velocities(v, tried);
+      context_.motion.set_accelerations(a, tried);
+      unknowns_to_multipliers(unknowns, tried);
+    };
+    std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
+    multipliers_to_unknowns(from, guess);
+    context_.assembler.spread(guess, unknowns_);
+    const NewtonReport newton = solve(unknowns_, weights, apply, to);
+    if (!newton.converged)
+      throw SolutionFailure(fmt::format("no balance at t = {:.6g} of what has no mass, such as {}: {}; {}", c.time,
+                                        massless.example(), newton.reason, explain_residual(context_.assembler, to, newton)));
+    c = outside_of_steps(std::move(to));
+    context_.motion.set_velocities(v0, c);
+    context_.motion.set_accelerations(a0, c);
+    if (!again) std::swap(first, y);
+    if (!again) y.assign(n, 0.0);
+  }
+  // the second step taken back, twice: all but the springs then is where it was
+  Relaxed relaxed{std::move(first), y};
+  const Configuration moved = c;
+  for (std::size_t i = 0; i < n; ++i) {
+    relaxed.jump[i] -= y[i];
+    relaxed.speed[i] /= tau;
+    y[i] *= -2;
+  }
+  context_.motion.move(moved, y, c);
+  c = outside_of_steps(std::move(c));
+  massless = MasslessMotions(context_.assembler, c);
+  massless.keep(relaxed.jump);
+  massless.keep(relaxed.speed);
+  return relaxed;
+}
+
+void Dynamics::settle(Configuration& c, MasslessMotions& massless, StartReport& report) {
+  constexpr int most_passes = 10;
+  const std::size_t n = context_.motion.size();
+  report.massless = massless.count();
+  report.massless_example = massless.example();
+  if (const std::string unheld = massless.explain_unheld(context_.assembler, c); !unheld.empty()) throw SolutionFailure(unheld);
+  // positions; velocities where dampers ask for them, each pass nearer by the length of its step over their time of decay
+  auto v = context_.motion.velocities(c);
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const Relaxed relaxed = relax(c, massless);
+    double change = 0, size = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      v[i] += relaxed.speed[i];
+      change = std::max(change, std::abs(relaxed.speed[i]));
+      size = std::max(size, std::abs(v[i]));
+    }
+    context_.motion.set_velocities(v, c);
+    if (change <= 1e-12 * size) break;
+  }
+  context_.start.balance_accelerations(c, 12, &report, &massless);
+  // velocities of what springs hold follow from positions a little later, accelerations of all from velocities then
+  const double later = 0.01 * context_.options.step;
+  Configuration once = glide(c, later), twice = glide(c, 2 * later);
+  MasslessMotions then = massless;
+  const Relaxed r1 = relax(once, then), r2 = relax(twice, then);
+  auto a = context_.motion.accelerations(c);
+  for (std::size_t i = 0; i < n; ++i) {
+    v[i] += (4 * r1.jump[i] - r2.jump[i]) / (2 * later);
+    a[i] += (r2.jump[i] - 2 * r1.jump[i]) / (later * later) + r1.speed[i] / later;
+  }
+  context_.motion.set_velocities(v, c);
+  context_.motion.set_accelerations(a, c);
+  context_.start.balance_accelerations(c, 12, &report, &massless);
+}
+
+}  // namespace engrane::solve

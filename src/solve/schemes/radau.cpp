@@ -1,0 +1,461 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/schemes/radau.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/configuration_snapshot.hpp"
+#include "math/rotation.hpp"
+#include "solve/constraints/constraint_factors.hpp"
+#include "solve/schemes/snapshot_part.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+/// A correction this small (over the lengths around, or in radians) changes nothing that anybody can see.
+constexpr double negligible_correction = 1e-13;
+/// And below this nothing moves at all, whatever the forces are compared with.
+constexpr double no_correction = 2e-15;
+/// Corrections that shrink by less than this ask for matrices of the present place: at once, and before the next step.
+constexpr double slow = 0.3, growing_slow = 0.1;
+/// Ends of steps before the present one that guesses are made from.
+constexpr std::size_t most_ends = 3;
+/// Steps that differ by less than this have the same matrices.
+constexpr double same = 1e-6;
+/// A step longer than this many times the one before has no guess from that one.
+constexpr double longest_growth = 3;
+
+Vec3 rotation_of(std::span<const double> slots, std::size_t node) {
+  return {slots[6 * node + 3], slots[6 * node + 4], slots[6 * node + 5]};
+}
+
+void set_rotation(std::span<double> slots, std::size_t node, const Vec3& value) {
+  for (std::size_t k = 0; k < 3; ++k) slots[6 * node + 3 + k] = value[static_cast<Eigen::Index>(k)];
+}
+
+/// `sum` += factor · values
+void add(double factor, std::span<const double> values, std::span<double> sum) {
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += factor * values[i];
+}
+
+}  // namespace
+
+Radau::Radau(SolverContext& context)
+    : Dynamics(context),
+      collocation_(Collocation::radau()),
+      solver_(context.assembler, collocation_, context.solver.package()),
+      references_(context.assembler, context.options.precision),
+      configurations_(static_cast<std::size_t>(collocation_.stages())),
+      prescribed_(configurations_.size()),
+      balance_matrix_(),
+      balance_((*balance_matrix_.out() = context.assembler.new_matrix(), balance_matrix_), context.solver.package()) {
+  for (std::size_t i = 0; i < configurations_.size(); ++i) {
+    *residuals_.emplace_back().out() = context.assembler.new_vector();
+    *changes_.emplace_back().out() = context.assembler.new_vector();
+  }
+  for (const Model::Part& part : context.model.parts) {
+    const Layout& layout = part.element->layout();
+    has_friction_ = has_friction_ || layout.slides > 0 || !layout.grips.empty();
+  }
+  *right_.out() = context.assembler.new_vector();
+  *solution_.out() = context.assembler.new_vector();
+  const std::vector<double> slots(context.motion.size(), 0.0);
+  now_.y.assign(configurations_.size(), slots);
+  now_.v = now_.a = now_.y;
+  now_.multipliers.assign(configurations_.size(), std::vector<double>(context.assembler.scale().size(), 0.0));
+}
+
+StartReport Radau::start(Configuration& c) {
+  for (const Support& s : context_.model.supports) {
+    if (s.component < 3 || s.value == 0) continue;
+    for (int other = 3; other < 6; ++other)
+      if (has_equation(static_cast<std::size_t>(6 * s.node + other)))
+        throw SolutionFailure(
+            fmt::format("SCHEME RADAU cannot turn node {} about one axis while it is free about another: hold the two other "
+                        "rotations, drive it by a HINGE, or take SCHEME CHUNG",
+                        context_.model.nodes[static_cast<std::size_t>(s.node)].id));
+  }
+  return Dynamics::start(c);
+}
+
+void Radau::start_memory(const Configuration& c, const MasslessMotions*) { restart_memory(c); }
+
+void Radau::restart_memory(const Configuration&) {
+  ends_.clear();
+  kept_step_ = 0;
+}
+
+void Radau::predict(const Configuration& from, double h) {
+  const auto stages = static_cast<std::size_t>(collocation_.stages());
+  const auto v0 = context_.motion.velocities(from);
+  tried_ = {from.time, context_.motion.accelerations(from), from.multipliers};
+  // the polynomial through the last ends of steps, as far as these are not much shorter than the step
+  std::vector<const End*> ends{&tried_};
+  for (auto end = ends_.rbegin(); end != ends_.rend() && h <= longest_growth * (ends.back()->time - end->time); ++end)
+    ends.push_back(&*end);
+  for (std::size_t i = 0; i < stages; ++i) {
+    const double time = from.time + h * collocation_.c[static_cast<Eigen::Index>(i)];
+    for (auto* all : {&now_.a, &now_.multipliers}) std::fill((*all)[i].begin(), (*all)[i].end(), 0.0);
+    for (const End* end : ends) {
+      double weight = 1;
+      for (const End* other : ends)
+        if (other != end) weight *= (time - other->time) / (end->time - other->time);
+      add(weight, end->a, now_.a[i]);
+      add(weight, end->multipliers, now_.multipliers[i]);
+    }
+  }
+  for (std::size_t i = 0; i < stages; ++i) {
+    now_.v[i] = v0;
+    for (std::size_t j = 0; j < stages; ++j)
+      add(h * collocation_.a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), now_.a[j], now_.v[i]);
+  }
+  // rates of the rotation vectors follow from these and the angular velocities: ẏ = T(y)⁻¹ W
+  std::vector<std::vector<double>> rates = now_.v;
+  for (int pass = 0; pass < 3; ++pass) {
+    for (std::size_t i = 0; i < stages; ++i) {
+      std::fill(now_.y[i].begin(), now_.y[i].end(), 0.0);
+      for (std::size_t j = 0; j < stages; ++j)
+        add(h * collocation_.a(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), rates[j], now_.y[i]);
+    }
+    for (std::size_t i = 0; i < stages; ++i)
+      for (std::size_t n = 1; n < from.nodes.size(); ++n)
+        if (const Vec3 y = rotation_of(now_.y[i], n); !y.isZero(0))
+          set_rotation(rates[i], n, rotation_tangent(y).partialPivLu().solve(rotation_of(now_.v[i], n)));
+  }
+}
+
+void Radau::differentiate(const Configuration& from, double h) {
+  const auto stages = static_cast<std::size_t>(collocation_.stages());
+  const auto inverse = [&](std::size_t i, std::size_t j) {
+    return collocation_.inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  };
+  const auto v0 = context_.motion.velocities(from);
+  for (std::size_t i = 0; i < stages; ++i) {
+    for (std::size_t slot = 0; slot < now_.y[i].size(); ++slot)
+      if (!has_equation(slot)) now_.y[i][slot] = 0;
+    prescribe_step(from.time, from.time + h * collocation_.c[static_cast<Eigen::Index>(i)], now_.y[i]);
+  }
+  for (std::size_t i = 0; i < stages; ++i) {
+    std::vector<double>& v = now_.v[i];
+    std::fill(v.begin(), v.end(), 0.0);
+    for (std::size_t j = 0; j < stages; ++j) add(inverse(i, j) / h, now_.y[j], v);
+    for (std::size_t n = 1; n < from.nodes.size(); ++n)
+      if (const Vec3 y = rotation_of(now_.y[i], n); !y.isZero(0)) set_rotation(v, n, rotation_tangent(y) * rotation_of(v, n));
+    for (const auto& p : prescribed_[i]) v[p.slot] = p.v;
+  }
+  for (std::size_t i = 0; i < stages; ++i) {
+    std::vector<double>& a = now_.a[i];
+    std::fill(a.begin(), a.end(), 0.0);
+    for (std::size_t j = 0; j < stages; ++j)
+      for (std::size_t slot = 0; slot < a.size(); ++slot) a[slot] += inverse(i, j) / h * (now_.v[j][slot] - v0[slot]);
+    for (std::size_t slot = 0; slot < a.size(); ++slot)
+      if (!has_equation(slot)) a[slot] = 0;
+    for (const auto& p : prescribed_[i]) a[p.slot] = p.a;
+  }
+}
+
+NewtonRow Radau::evaluate(const Configuration& from) {
+  const Numbering& numbering = context_.numbering;
+  double worst[5] = {0, 0, 0, 0, 0};  // four measures, kΦ over force
+  struct {
+    double value;
+    int row;
+  } located{-1, -1};
+  for (std::size_t i = 0; i < configurations_.size(); ++i) {
+    Configuration& c = configurations_[i];
+    context_.motion.move(from, now_.y[i], c);
+    context_.motion.set_velocities(now_.v[i], c);
+    context_.motion.set_accelerations(now_.a[i], c);
+    c.multipliers = now_.multipliers[i];
+    context_.assembler.residual(c, residuals_[i]);
+    references_.take(c, context_.assembler.carried());
+    PetscInt first = 0, end = 0;
+    const PetscScalar* values = nullptr;
+    check_petsc(VecGetOwnershipRange(residuals_[i], &first, &end));
+    check_petsc(VecGetArrayRead(residuals_[i], &values));
+    for (PetscInt row = first; row < end; ++row) {
+      const Unknown& u = numbering.unknown(static_cast<int>(row));
+      double value = std::abs(values[row - first]), reference = references_.load(static_cast<int>(row));
+      if (u.multiplier) {
+        const double as_force = value / reference;
+        value /= context_.assembler.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
+        reference = references_.length(static_cast<int>(row));
+        if (value > reference * rounding) worst[4] = std::max(worst[4], as_force);
+      }
+      const double relative = value / reference;
+      double& largest = worst[static_cast<int>(u.measure)];
+      largest = std::isnan(relative) ? std::numeric_limits<double>::infinity() : std::max(largest, relative);
+      if (!(relative <= located.value)) located = {relative, static_cast<int>(row)};
+    }
+    check_petsc(VecRestoreArrayRead(residuals_[i], &values));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, worst, 5, MPI_DOUBLE, MPI_MAX, context_.assembler.comm());
+  MPI_Allreduce(MPI_IN_PLACE, &located, 1, MPI_DOUBLE_INT, MPI_MAXLOC, context_.assembler.comm());
+  constraint_force_ = worst[4];
+  return {0, worst[0], worst[1], worst[2], worst[3], 0, located.row};
+}
+
+Radau::Correction Radau::correct() {
+  const Numbering& numbering = context_.numbering;
+  Correction largest;
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    const auto change = context_.assembler.gather(changes_[i]);
+    for (std::size_t e = 0; e < change.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      const auto slot = static_cast<std::size_t>(u.slot);
+      if (u.multiplier) {
+        const std::size_t m = slot - context_.motion.size();
+        const double force = context_.assembler.scale()[m] * change[e], size = std::abs(change[e]);
+        now_.multipliers[i][m] += force;
+        // over its k a multiplier is the displacement that its force stands for; where k is small the force itself tells
+        largest.forces = std::max(largest.forces, std::min(size / references_.length(static_cast<int>(e)),
+                                                           std::abs(force) / references_.load(static_cast<int>(e))));
+      } else {
+        now_.y[i][slot] += change[e];
+        largest.motion = std::max(largest.motion, std::abs(change[e]) / references_.length(static_cast<int>(e)));
+      }
+    }
+  }
+  return largest;
+}
+
+double Radau::increment() const {
+  double largest = 0;
+  for (const Unknown& u : context_.numbering.unknowns())
+    if (!u.multiplier)
+      largest = std::max(largest, std::abs(now_.y.back()[static_cast<std::size_t>(u.slot)]) /
+                                      references_.length(context_.numbering.equation(u.slot)));
+  return largest;
+}
+
+NewtonReport Radau::iterate(const Configuration& from, double h) {
+  NewtonReport report;
+  const std::vector<double> remembered = references_.memory();
+  const double precision = context_.options.precision;
+  references_.begin(from);
+  bool renew = !(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale();
+  Correction last;
+  double contraction = 0, slowest = 0;
+  bool evaluated = false;  // in this step
+  int uses = 0;            // of the matrices, in this step
+  for (int k = 0;; ++k) {
+    differentiate(from, h);
+    NewtonRow row = evaluate(from);
+    row.iteration = k;
+    row.correction = last.motion;
+    report.rows.push_back(row);
+    report.iterations = k;
+    const double forces = std::max(row.force, row.moment), left = std::max({forces, row.length, row.angle});
+    if (!std::isfinite(left)) {
+      report.reason = "the iteration left the range of numbers";
+      break;
+    }
+    const bool closed = std::max(row.length, row.angle) <= precision && constraint_force_ <= precision;
+    // what acts on a free body may be nothing: its residual is then the rounding of accelerations, differences of increments
+    const double changed = std::max(last.motion, last.forces);
+    // forces that are small beside stiffness or inertia times the rounding of positions follow that rounding and never settle;
+    // those of stages are no results
+    const auto noise = [&] {
+      const NewtonRow& before = report.rows[report.rows.size() - 2];
+      return std::max(row.correction, before.correction) <= negligible_correction &&
+             left > 0.5 * std::max(before.force, before.moment);
+    };
+    const bool still =
+        k > 1 && (changed <= std::max(no_correction, rounding * increment()) ||
+                  (left <= std::sqrt(precision) && (changed * std::min(1.0, contraction) <= negligible_correction || noise())));
+    if ((k > 0 && forces <= precision && closed) || still) {
+      report.converged = true;
+      break;
+    }
+    if (k == context_.options.iterations) {
+      report.reason = fmt::format("no convergence in {} iterations", k);
+      break;
+    }
+    if (renew) {
+      keep(outside_of_steps(configurations_[configurations_.size() / 2]), h);
+      evaluated = true;
+      slowest = 0;
+      uses = 0;
+    }
+    renew = false;
+    if (!solver_.solve(residuals_, changes_)) {
+      report.singular = true;
+      report.reason = "the tangent matrix is singular";
+      break;
+    }
+    const double before = last.motion;
+    last = correct();
+    contraction = k > 0 && before > 0 ? last.motion / before : 1;
+    // the first correction after matrices have changed says nothing of them; what is left of rounding says nothing of new ones
+    if (++uses < 2 || (evaluated && last.motion <= negligible_correction)) continue;
+    slowest = std::max(slowest, contraction);
+    renew = contraction > slow;
+  }
+  if (!report.converged) references_.restore(remembered);
+  if (!report.converged || slowest > growing_slow) kept_step_ = 0;
+  return report;
+}
+
+void Radau::keep(const Configuration& c, double h) {
+  solver_.evaluate(c, h);
+  kept_ = c;
+  kept_step_ = h;
+  kept_scale_ = context_.assembler.scale();
+}
+
+bool Radau::complete(Configuration& c) {
+  Assembler& assembler = context_.assembler;
+  const Numbering& numbering = context_.numbering;
+  const MasslessMotions* massless = massless_at(c);
+  std::vector<double> phi, rate, second, right(static_cast<std::size_t>(numbering.equations()), 0.0);
+  assembler.projection(c, Assembler::Metric::dynamic, {}, balance_matrix_);
+  const auto solve = [&] {
+    assembler.spread(right, right_);
+    return balance_.solve(right_, solution_);
+  };
+  // velocities: what the stages leave open of the rates lies along the forces of the multipliers
+  assembler.constraint_rates(c, phi, rate, second);
+  for (std::size_t e = 0; e < right.size(); ++e) {
+    const Unknown& u = numbering.unknown(static_cast<int>(e));
+    const int m = u.slot - numbering.motion_slots();
+    if (u.multiplier && !assembler.released(m)) right[e] = rate[static_cast<std::size_t>(m)];
+  }
+  if (!solve()) return false;
+  auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
+  std::vector<double> change(v.size(), 0.0);
+  context_.motion.scatter(assembler.gather(solution_), change);
+  add(1, change, v);
+  context_.motion.set_velocities(v, c);
+  // accelerations and multipliers: once where forces are linear in these
+  constexpr int most = 12;
+  double before = std::numeric_limits<double>::infinity(), first = 0;
+  for (int k = 0; k < most; ++k) {
+    std::vector<double> r = assembler.slot_residual(c);
+    if (massless) massless->remove_forces(r);
+    assembler.constraint_rates(c, phi, rate, second);
+    double size = 0;
+    for (std::size_t e = 0; e < right.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      const auto m = static_cast<std::size_t>(u.slot) - context_.motion.size();
+      if (!u.multiplier)
+        right[e] = -r[static_cast<std::size_t>(u.slot)];
+      else if (assembler.released(static_cast<int>(m)))
+        right[e] = assembler.released_value(static_cast<int>(m)) - c.multipliers[m];
+      else
+        right[e] = second[m];
+      size = std::max(size, std::abs(right[e]));
+    }
+    if (!std::isfinite(size)) return false;
+    if (k == 0) first = size;
+    const bool balanced = size <= 1e-8 * first;
+    if (balanced || (k > 0 && size >= 0.5 * before)) {
+      if (!context_.redundancy.share(c)) {
+        // friction may jam: this says so
+        if (!balanced && has_friction_) context_.start.balance_accelerations(c, most, nullptr, massless);
+        break;
+      }
+      before = std::numeric_limits<double>::infinity();
+      continue;
+    }
+    before = size;
+    if (!solve()) return false;
+    const auto found = assembler.gather(solution_);
+    std::fill(change.begin(), change.end(), 0.0);
+    context_.motion.scatter(found, change);
+    if (massless) massless->remove(change);
+    add(1, change, a);
+    context_.motion.set_accelerations(a, c);
+    for (std::size_t e = 0; e < found.size(); ++e)
+      if (const Unknown& u = numbering.unknown(static_cast<int>(e)); u.multiplier)
+        c.multipliers[static_cast<std::size_t>(u.slot) - context_.motion.size()] += found[e];
+  }
+  return true;
+}
+
+Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
+  scale_for(from, h, solver_.weights(h));
+  for (std::size_t i = 0; i < configurations_.size(); ++i) {
+    const double part = collocation_.c[static_cast<Eigen::Index>(i)];
+    configurations_[i] = from;
+    configurations_[i].time = from.time + part * h;
+    configurations_[i].h = part * h;
+    prescribed_[i] = context_.motion.prescribed(configurations_[i].time);
+  }
+  // Newton's iteration finds no drive's angle more than half a turn away, and would not say why
+  std::vector<double> coasting = context_.motion.velocities(from);
+  for (double& part : coasting) part *= h;
+  NewtonReport foreseen;
+  foreseen.converged = true;
+  refuse_half_turns(coasting, foreseen);
+  to = configurations_.back();
+  if (!foreseen.converged) return {std::move(foreseen), 0, {}};
+
+  predict(from, h);
+  NewtonReport report = iterate(from, h);
+  to = outside_of_steps(configurations_.back());
+  refuse_half_turns(now_.y.back(), report);
+  if (!report.converged) return {std::move(report), 0, {}};
+  if (const std::string conflict = context_.redundancy.conflict(to); !conflict.empty()) {
+    report.converged = false;
+    report.conflict = true;
+    report.reason = conflict;
+    return {std::move(report), 0, {}};
+  }
+  if (constrained() && !complete(to)) {
+    report.converged = false;
+    report.singular = true;
+    report.reason = "the accelerations are not determined";
+  }
+  return {std::move(report), 0, {}};
+}
+
+void Radau::accept() {
+  ends_.push_back(std::move(tried_));
+  if (ends_.size() > most_ends) ends_.erase(ends_.begin());
+}
+
+void Radau::save(Snapshot& snapshot) const {
+  Dynamics::save(snapshot);
+  snapshot.put("radau/ends", static_cast<double>(ends_.size()));
+  for (std::size_t i = 0; i < ends_.size(); ++i) {
+    snapshot.put(fmt::format("radau/times/{}", i), ends_[i].time);
+    snapshot.put(fmt::format("radau/accelerations/{}", i), ends_[i].a);
+    snapshot.put(fmt::format("radau/multipliers/{}", i), ends_[i].multipliers);
+  }
+  solver_.save(snapshot);
+  snapshot.put("radau/kept_step", kept_step_);
+  if (kept_step_ > 0) {
+    Snapshot kept;
+    save_configuration(kept_, kept);
+    for (const auto& [name, values] : kept.arrays()) snapshot.put("radau/kept/" + name, values);
+    snapshot.put("radau/kept_scale", kept_scale_);
+  }
+  save_part(references_, "radau/", snapshot);
+  save_part(balance_, "radau/", snapshot);
+}
+
+void Radau::load(const Snapshot& snapshot) {
+  Dynamics::load(snapshot);
+  if (!snapshot.has("radau/ends")) return;  // of another kind of analysis, or of another scheme
+  ends_.resize(static_cast<std::size_t>(snapshot.number("radau/ends")));
+  for (std::size_t i = 0; i < ends_.size(); ++i)
+    ends_[i] = {snapshot.number(fmt::format("radau/times/{}", i)), snapshot.array(fmt::format("radau/accelerations/{}", i)),
+                snapshot.array(fmt::format("radau/multipliers/{}", i))};
+  references_.load_memory(part_of(snapshot, "radau/"));
+  balance_.load(part_of(snapshot, "radau/"));
+  solver_.load(snapshot);
+  kept_step_ = 0;
+  if (const double h = snapshot.number("radau/kept_step"); h > 0) {
+    kept_ = context_.numbering.reference_configuration(0);
+    load_configuration(part_of(snapshot, "radau/kept/"), kept_);
+    keep(Configuration(kept_), h);
+    kept_scale_ = snapshot.array("radau/kept_scale");
+  }
+}
+
+}  // namespace engrane::solve

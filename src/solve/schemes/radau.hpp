@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "solve/algebra/references.hpp"
+#include "solve/schemes/dynamics.hpp"
+#include "solve/schemes/stage_solver.hpp"
+
+namespace engrane::solve {
+
+/// Radau IIA of three stages on coordinates of the step: rotation vectors, displacements and scalars from where it begins
+/// (Munthe-Kaas 1999, for collocation). Stages have their constraints closed (index 3); the end of a step is then given the
+/// velocities, accelerations and multipliers that fit (Jay 1995), so that all of them are of order 5.
+class Radau final : public Dynamics {
+ public:
+  explicit Radau(SolverContext& context);
+
+  StartReport start(Configuration& c) override;
+  Outcome attempt(const Configuration& from, double h, Configuration& to) override;
+  void accept() override;
+  void save(Snapshot& snapshot) const override;
+  void load(const Snapshot& snapshot) override;
+
+ private:
+  void start_memory(const Configuration& c, const MasslessMotions* massless) override;
+  void restart_memory(const Configuration& c) override;
+
+  /// The motion of a step, one entry for each stage.
+  struct Stages {
+    std::vector<std::vector<double>> y, v, a;      ///< by motion slot
+    std::vector<std::vector<double>> multipliers;  ///< kλ
+  };
+  /// Where a step began or ended.
+  struct End {
+    double time = 0;
+    std::vector<double> a, multipliers;
+  };
+  /// A first guess of the stages of a step.
+  void predict(const Configuration& from, double h);
+  /// Velocities and accelerations of the stages from y, with what is prescribed.
+  void differentiate(const Configuration& from, double h);
+  /// Sets the stages' configurations, evaluates their residuals and compares these with the references.
+  NewtonRow evaluate(const Configuration& from);
+  /// The largest displacement of the step as it is now, over the lengths around or in radians.
+  double increment() const;
+  /// The largest change of a displacement, over the lengths around or in radians, and of a multiplier, as that displacement or
+  /// over the loads around.
+  struct Correction {
+    double motion = 0, forces = 0;
+  };
+  /// Adds the last changes to the stages.
+  Correction correct();
+  /// Evaluates the matrices at `c` for steps of h; they serve as long as the iteration is quick with them.
+  void keep(const Configuration& c, double h);
+  /// Simplified Newton iteration from the stages in now_.
+  NewtonReport iterate(const Configuration& from, double h);
+  /// Velocities, accelerations and multipliers that fit at the end of a step whose positions fit; false when there are none.
+  bool complete(Configuration& c);
+  bool has_equation(std::size_t slot) const { return context_.numbering.equation(static_cast<int>(slot)) >= 0; }
+
+  Collocation collocation_;
+  StageSolver solver_;
+  References references_;
+  Stages now_;             ///< of the present step
+  std::vector<End> ends_;  ///< where the last steps began
+  End tried_;              ///< where the present step begins
+  std::vector<Configuration> configurations_;
+  std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;
+  std::vector<Owned<Vec>> residuals_, changes_;
+  double constraint_force_ = 0;  ///< largest k Φ over the largest force
+  Configuration kept_;           ///< that the matrices were evaluated at
+  double kept_step_ = 0;         ///< for steps of this; 0: they are to be evaluated
+  std::vector<double> kept_scale_;
+  bool has_friction_ = false;
+  Owned<Mat> balance_matrix_;
+  LinearSolver balance_;
+  Owned<Vec> right_, solution_;
+};
+
+}  // namespace engrane::solve

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "base/snapshot.hpp"
+
+namespace engrane::solve {
+
+/// What `part` saves goes under names that begin with `prefix`: for those of which a run has several.
+template <class Part>
+void save_part(const Part& part, const std::string& prefix, Snapshot& snapshot) {
+  Snapshot own;
+  part.save(own);
+  for (const auto& [name, values] : own.arrays()) snapshot.put(prefix + name, values);
+}
+
+/// What save_part() has put under `prefix`, under the part's own names.
+inline Snapshot part_of(const Snapshot& snapshot, const std::string& prefix) {
+  Snapshot own;
+  for (const auto& [name, values] : snapshot.arrays())
+    if (name.compare(0, prefix.size(), prefix) == 0) own.put(name.substr(prefix.size()), values);
+  return own;
+}
+
+}  // namespace engrane::solve

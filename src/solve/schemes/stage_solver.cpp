@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/schemes/stage_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "solve/schemes/snapshot_part.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+/// Numbers of a vector on this rank, for as long as this lives.
+class Local {
+ public:
+  explicit Local(Vec vector) : vector_(vector) {
+    check_petsc(VecGetArray(vector, &values_));
+    check_petsc(VecGetLocalSize(vector, &size_));
+  }
+  ~Local() { (void)VecRestoreArray(vector_, &values_); }
+  Local(const Local&) = delete;
+  Local& operator=(const Local&) = delete;
+  double& operator[](PetscInt i) const { return values_[i]; }
+  PetscInt size() const { return size_; }
+
+ private:
+  Vec vector_;
+  PetscScalar* values_ = nullptr;
+  PetscInt size_ = 0;
+};
+
+/// `sum` = Σ factors(j) vectors[j].
+void combine(const Eigen::VectorXd& factors, const std::vector<Owned<Vec>>& vectors, Vec sum) {
+  check_petsc(VecSet(sum, 0));
+  for (Eigen::Index j = 0; j < factors.size(); ++j) check_petsc(VecAXPY(sum, factors[j], vectors[static_cast<std::size_t>(j)]));
+}
+
+Weights weights_of(const Collocation::Block& b, double h) {
+  return {1, b.alpha / h, (b.alpha * b.alpha - b.beta * b.beta) / (h * h)};
+}
+
+}  // namespace
+
+StageSolver::StageSolver(Assembler& assembler, const Collocation& collocation, const std::string& package)
+    : assembler_(assembler), collocation_(collocation) {
+  for (const Collocation::Block& block : collocation.blocks) {
+    System& system = systems_.emplace_back();
+    system.block = block;
+    if (block.complex()) {
+      *system.real.out() = assembler.new_matrix();
+      *system.imaginary.out() = assembler.new_matrix();
+      *system.whole.out() = new_double_matrix();
+      check_petsc(MatCreateVecs(system.whole, system.solution.out(), system.right.out()));
+    } else {
+      *system.whole.out() = assembler.new_matrix();
+    }
+    system.solver = std::make_unique<LinearSolver>(system.whole, package);
+  }
+  for (Eigen::Index i = 0; i < collocation.stages(); ++i) {
+    *transformed_.emplace_back().out() = assembler.new_vector();
+    *solved_.emplace_back().out() = assembler.new_vector();
+  }
+}
+
+Weights StageSolver::weights(double h) const { return weights_of(systems_.front().block, h); }
+
+Mat StageSolver::new_double_matrix() const {
+  const Mat one = assembler_.matrix();
+  PetscInt first = 0, end = 0, all = 0;
+  check_petsc(MatGetOwnershipRange(one, &first, &end));
+  check_petsc(MatGetSize(one, &all, nullptr));
+  std::vector<PetscInt> begin{0}, columns;
+  for (PetscInt row = first; row < end; ++row) {
+    PetscInt count = 0;
+    const PetscInt* from = nullptr;
+    check_petsc(MatGetRow(one, row, &count, &from, nullptr));
+    for (int part = 0; part < 2; ++part) {
+      for (PetscInt k = 0; k < count; ++k) columns.insert(columns.end(), {2 * from[k], 2 * from[k] + 1});
+      begin.push_back(static_cast<PetscInt>(columns.size()));
+    }
+    check_petsc(MatRestoreRow(one, row, &count, &from, nullptr));
+  }
+  Mat matrix = nullptr;
+  check_petsc(MatCreate(assembler_.comm(), &matrix));
+  check_petsc(MatSetSizes(matrix, 2 * (end - first), 2 * (end - first), 2 * all, 2 * all));
+  check_petsc(MatSetType(matrix, MATAIJ));
+  // of the two the one that is not of the matrix's type does nothing
+  check_petsc(MatSeqAIJSetPreallocationCSR(matrix, begin.data(), columns.data(), nullptr));
+  check_petsc(MatMPIAIJSetPreallocationCSR(matrix, begin.data(), columns.data(), nullptr));
+  return matrix;
+}
+
+void StageSolver::interleave(const System& system) const {
+  const Numbering& numbering = assembler_.numbering();
+  PetscInt first = 0, end = 0;
+  check_petsc(MatGetOwnershipRange(system.real, &first, &end));
+  PetscBool sequential = PETSC_FALSE;
+  check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<Mat>(system.whole)), MATSEQAIJ, &sequential));
+  PetscScalar* values = nullptr;
+  if (sequential) check_petsc(MatSeqAIJGetArray(system.whole, &values));
+  std::vector<PetscInt> columns;
+  std::vector<double> pair[2];
+  for (PetscInt row = first; row < end; ++row) {
+    PetscInt count = 0;
+    const PetscInt* from = nullptr;
+    const PetscScalar *re = nullptr, *im = nullptr;
+    check_petsc(MatGetRow(system.real, row, &count, &from, &re));
+    check_petsc(MatGetRow(system.imaginary, row, nullptr, nullptr, &im));
+    // constraints have no imaginary part; that of one that is released is but the 1 of its equation
+    const double part = numbering.unknown(static_cast<int>(row)).multiplier ? 0 : 1;
+    for (auto& values_of_row : pair) values_of_row.clear();
+    for (PetscInt k = 0; k < count; ++k) {
+      pair[0].insert(pair[0].end(), {re[k], -part * im[k]});
+      pair[1].insert(pair[1].end(), {part * im[k], re[k]});
+    }
+    if (sequential) {
+      for (const auto& values_of_row : pair) values = std::copy(values_of_row.begin(), values_of_row.end(), values);
+    } else {
+      columns.clear();
+      for (PetscInt k = 0; k < count; ++k) columns.insert(columns.end(), {2 * from[k], 2 * from[k] + 1});
+      for (PetscInt i = 0; i < 2; ++i) {
+        const PetscInt into = 2 * row + i;
+        check_petsc(MatSetValues(system.whole, 1, &into, 2 * count, columns.data(), pair[i].data(), INSERT_VALUES));
+      }
+    }
+    check_petsc(MatRestoreRow(system.imaginary, row, nullptr, nullptr, &im));
+    check_petsc(MatRestoreRow(system.real, row, &count, &from, &re));
+  }
+  if (sequential) {
+    values = nullptr;
+    check_petsc(MatSeqAIJRestoreArray(system.whole, &values));
+  }
+  check_petsc(MatAssemblyBegin(system.whole, MAT_FINAL_ASSEMBLY));
+  check_petsc(MatAssemblyEnd(system.whole, MAT_FINAL_ASSEMBLY));
+}
+
+void StageSolver::evaluate(const Configuration& c, double h) {
+  for (System& system : systems_) {
+    const auto& b = system.block;
+    assembler_.tangent(c, weights_of(b, h), b.complex() ? system.real : system.whole);
+    if (!b.complex()) continue;
+    assembler_.tangent(c, {0, b.beta / h, 2 * b.alpha * b.beta / (h * h), 0}, system.imaginary);
+    interleave(system);
+  }
+}
+
+bool StageSolver::solve(const std::vector<Owned<Vec>>& residuals, const std::vector<Owned<Vec>>& changes) {
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    combine(-collocation_.untransform.row(static_cast<Eigen::Index>(i)).transpose(), residuals, transformed_[i]);
+  for (System& system : systems_) {
+    const auto k = static_cast<std::size_t>(system.block.first);
+    if (!system.block.complex()) {
+      if (!system.solver->solve(transformed_[k], solved_[k])) return false;
+      continue;
+    }
+    {
+      const Local right(system.right), one(transformed_[k]), two(transformed_[k + 1]);
+      for (PetscInt i = 0; i < one.size(); ++i) {
+        right[2 * i] = one[i];
+        right[2 * i + 1] = two[i];
+      }
+    }
+    if (!system.solver->solve(system.right, system.solution)) return false;
+    const Local solution(system.solution), one(solved_[k]), two(solved_[k + 1]);
+    for (PetscInt i = 0; i < one.size(); ++i) {
+      one[i] = solution[2 * i];
+      two[i] = solution[2 * i + 1];
+    }
+  }
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    combine(collocation_.transform.row(static_cast<Eigen::Index>(i)).transpose(), solved_, changes[i]);
+  return true;
+}
+
+void StageSolver::save(Snapshot& snapshot) const {
+  for (std::size_t i = 0; i < systems_.size(); ++i) save_part(*systems_[i].solver, fmt::format("stages/{}/", i), snapshot);
+}
+
+void StageSolver::load(const Snapshot& snapshot) {
+  for (std::size_t i = 0; i < systems_.size(); ++i) systems_[i].solver->load(part_of(snapshot, fmt::format("stages/{}/", i)));
+}
+
+}  // namespace engrane::solve
