@@ -107,7 +107,7 @@ double References::peak(int equation) const {
     for (std::size_t k = 0; k < 3; ++k)
       largest = std::max(largest, largest_of_slot_[6 * static_cast<std::size_t>(node) + k +
                                                    (sources_[static_cast<std::size_t>(equation)].turns ? 3 : 0)]);
-  return largest > 0 ? largest : load(equation);
+  return std::max(largest, load(equation));
 }
 
 void References::take(const Configuration& c, const std::vector<double>& carried) {
