@@ -32,7 +32,7 @@ Configuration Dynamics::glide(const Configuration& c, double h) const {
 }
 
 const MasslessMotions* Dynamics::massless_at(const Configuration& c) {
-  if (!has_massless_) return nullptr;
+  if (!has_massless_.value_or(false)) return nullptr;
   return &massless_.emplace(context_.assembler, c);
 }
 
@@ -57,10 +57,15 @@ void Dynamics::drift(Configuration& c, double h) {
 
 bool Dynamics::settle_friction(Configuration& c) {
   if (!context_.grips.violated(c)) return false;
-  context_.grips.settle(c, has_massless_);
+  context_.grips.settle(c, has_massless_.value_or(false));
   context_.solver.reset();  // other constraints, other pivots
   restart_memory(c);
   return true;
+}
+
+void Dynamics::take_over(Configuration& c) {
+  if (!has_massless_) has_massless_ = MasslessMotions(context_.assembler, c).any();
+  settle_friction(c);
 }
 
 void Dynamics::refine_grips(Configuration& c) {
@@ -111,7 +116,7 @@ void Dynamics::scale_for(const Configuration& c, double h, Weights weights) {
 
 void Dynamics::save(Snapshot& snapshot) const {
   snapshot.put("scheme/scaled_for", scaled_for_);
-  snapshot.put("scheme/has_massless", has_massless_ ? 1.0 : 0.0);
+  snapshot.put("scheme/has_massless", has_massless_.value_or(false) ? 1.0 : 0.0);
 }
 
 void Dynamics::load(const Snapshot& snapshot) {

@@ -17,7 +17,7 @@ class Dynamics : public Scheme {
   bool meets_events() const override { return true; }
   void drift(Configuration& c, double h) override;
   bool settle_friction(Configuration& c) override;
-  void take_over(Configuration& c) override { settle_friction(c); }
+  void take_over(Configuration& c) override;
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
 
@@ -58,8 +58,8 @@ class Dynamics : public Scheme {
   /// Positions, velocities and accelerations of motions without mass that fit their balance at the start and a little later.
   void settle(Configuration& c, MasslessMotions& massless, StartReport& report);
 
-  double scaled_for_ = 0;      ///< the h that k was chosen for
-  bool has_massless_ = false;  ///< the model has motions without mass
+  double scaled_for_ = 0;             ///< the h that k was chosen for
+  std::optional<bool> has_massless_;  ///< the model has motions without mass; nobody has looked yet after another analysis
   std::optional<MasslessMotions> massless_;
 };
 

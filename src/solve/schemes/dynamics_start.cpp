@@ -25,14 +25,14 @@ StartReport Dynamics::start(Configuration& c) {
   MasslessMotions massless(context_.assembler, c);
   has_massless_ = massless.any();
   if (context_.grips.any()) {
-    context_.grips.settle(c, has_massless_);
+    context_.grips.settle(c, massless.any());
     massless = MasslessMotions(context_.assembler, c);
   }
-  if (has_massless_)
+  if (*has_massless_)
     settle(c, massless, report);
   else
     context_.start.balance_accelerations(c, 12, &report);
-  start_memory(c, has_massless_ ? &massless : nullptr);
+  start_memory(c, *has_massless_ ? &massless : nullptr);
   return report;
 }
 
