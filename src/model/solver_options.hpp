@@ -23,7 +23,7 @@ struct SolverOptions {
 
   std::string package = "MUMPS";  ///< direct solver
   double precision = 1e-9;        ///< of Newton's iteration, relative to the largest force in the model
-  bool keep_factors = true;       ///< Newton's factors serve several steps of a transient
+  bool keep_factors = false;      ///< Newton's factors serve several steps of a transient
   int iterations = 20;            ///< most Newton iterations of an attempt
   double scale = 0;               ///< k of the augmented Lagrangian; 0: automatic
   double penalty = 0;             ///< p of the augmented Lagrangian

@@ -73,10 +73,13 @@ TEST(Newton, IsQuadraticInDynamicsAtLargeSteps) {
   deck.run([&](const Configuration&, const StepReport& step) {
     if (!step.newton) return;
     const auto& rows = step.newton->rows;
-    for (std::size_t i = 2; i < rows.size(); ++i) {
-      if (largest(rows[i - 2]) > 0.5 || largest(rows[i]) < 1e-13) continue;
-      EXPECT_GT(order(rows[i - 2], rows[i - 1], rows[i]), 1.6) << "step " << step.number << ", iteration " << i;
-      ++judged;
+    // predictions may be lucky: the square of one residual bounds the next, whatever came before. A tangent that is wrong by a
+    // thousandth leaves a hundred times as much of 1e-5.
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      const double before = largest(rows[i - 1]), after = largest(rows[i]);
+      if (before > 0.5 || before < 1e-6) continue;
+      EXPECT_LE(after, 10 * before * before) << "step " << step.number << ", iteration " << i;
+      judged += before < 1e-3;
     }
   });
   EXPECT_GE(judged, 5);

@@ -67,8 +67,8 @@ Schema analysis_card() {
       .positive()
       .below(1);
   card.add("NEWTON", &AnalysisCard::newton, "how often a DYNAMIC analysis computes and factors the tangent")
-      .option({"KEPT", {"MODIFIED", "MODIFIE"}, "the factors serve as many steps as they save time"})
-      .option({"FULL", {"COMPLET"}, "in each iteration: convergence is quadratic"});
+      .option({"FULL", {"COMPLET"}, "in each iteration: convergence is quadratic, and ends far below PREC"})
+      .option({"KEPT", {"MODIFIED", "MODIFIE"}, "the factors serve as many steps as they save time; iterations end at PREC"});
   card.add("ITMA", &AnalysisCard::iterations, "most Newton iterations before a step is cut")
       .synonyms({"ITMAX", "ITERATIONS"})
       .at_least(1)

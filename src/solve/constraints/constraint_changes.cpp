@@ -13,7 +13,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon(), none = std::numeric_limits<double>::quiet_NaN();
 /// Rounding of positions is seen where its force is more than this part of the loads.
-constexpr double seen = 1e-7;
+constexpr double seen = 1e-6;
 /// And what sums of changes leave open is closed so slowly that the force for rounding is this part of them.
 constexpr double closing = 1e-9;
 /// A constraint open by more than this part of its length is closed by positions.

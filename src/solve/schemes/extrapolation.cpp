@@ -7,7 +7,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// Longest step over the mean distance of the points: beyond it their polynomial tells nothing.
+/// Longest step over the distance of two points: beyond it their difference tells more of their errors than of what follows.
 constexpr double longest = 2;
 
 }  // namespace
@@ -20,9 +20,8 @@ void Extrapolation::add(double time, std::span<const double> values) {
 }
 
 void Extrapolation::at(double time, std::span<double> values) const {
-  std::size_t points = count_;
-  const auto reach = [&] { return points_[0].time - points_[points - 1].time; };
-  while (points > 1 && (time - points_[0].time) * static_cast<double>(points - 1) > longest * reach()) --points;
+  std::size_t points = 1;
+  while (points < count_ && time - points_[0].time <= longest * (points_[points - 1].time - points_[points].time)) ++points;
   std::fill(values.begin(), values.end(), 0.0);
   for (std::size_t p = 0; p < points; ++p) {
     double weight = 1;  // Lagrange's

@@ -69,12 +69,15 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   const std::size_t n = context_.motion.size();
   std::vector<double> y(n), unknown(n), v(n), vdot(n);
   tried_.resize(n);
-  if (accelerations_.empty()) {
+  // A prediction so good that nothing is left to correct keeps its errors: where each iteration has its own tangent, and one
+  // takes away all of them, the last values serve.
+  const bool keep = context_.options.keep_factors;
+  std::vector<double> ahead = a0;
+  if (keep && accelerations_.empty()) {
     accelerations_.add(from.time, a0);
     multipliers_.add(from.time, from.multipliers);
   }
-  std::vector<double> ahead(n);
-  accelerations_.at(from.time + h, ahead);
+  if (keep) accelerations_.at(from.time + h, ahead);
   for (std::size_t i = 0; i < n; ++i) y[i] = h * (v0[i] + h * ((0.5 - beta) * a0[i] + beta * ahead[i]));
   to = from;
   to.time = from.time + h;
@@ -97,7 +100,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   const bool far = leaves(predicted);
   std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
   if (far) context_.motion.gather(predicted, guess);
-  multipliers_.at(to.time, to.multipliers);
+  if (keep) multipliers_.at(to.time, to.multipliers);
   multipliers_to_unknowns(to, guess);
   changes_.begin(from);
 
@@ -126,7 +129,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     changes_.state(from, h, y);
   };
   context_.assembler.spread(guess, unknowns_);
-  NewtonReport report = solve(unknowns_, weights, apply, to, context_.options.keep_factors);
+  NewtonReport report = solve(unknowns_, weights, apply, to, keep);
   changes_.end();
   refuse_half_turns(y, report);
   if (report.converged && context_.grips.strained(to)) refine_grips(to);
@@ -144,8 +147,10 @@ bool Transient::leaves(std::span<const double> increments) const {
 }
 
 void Transient::accept() {
-  accelerations_.add(tried_time_, tried_);
-  multipliers_.add(tried_time_, tried_multipliers_);
+  if (context_.options.keep_factors) {
+    accelerations_.add(tried_time_, tried_);
+    multipliers_.add(tried_time_, tried_multipliers_);
+  }
   algorithmic_ = tried_;
   step_of_algorithmic_ = tried_step_;
   offset_.clear();

@@ -59,7 +59,8 @@ TEST(FactorPolicy, CostsNoMoreThanTheBestPeriod) {
     // a contraction of one half is left alone by nobody
     for (int period = 2; period <= solutions && machine.contraction(period) < 0.5; ++period)
       best = std::min(best, periodic(machine, period));
-    EXPECT_LE(cost / solutions, 1.1 * best) << "growth " << growth;
+    // what it costs to try factors that age fast, once each time, is at most one correction of eight
+    EXPECT_LE(cost / solutions, 1.125 * best) << "growth " << growth;
   }
 }
 
