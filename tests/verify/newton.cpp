@@ -66,7 +66,7 @@ TEST(Newton, IsQuadraticInDynamicsAtLargeSteps) {
  STRU ACC VAL 0 0 -9.81
 .INI
  VIT NOEUD 2 C 4 V 6
-.SAM TYPE DYNAMIC RHO 0.8 PREC 1e-12 NEWTON FULL
+.SAM TYPE DYNAMIC RHO 0.8 PREC 1e-12 TANGENT FULL
 .SUB TF 1 H 0.05
 )");
   int judged = 0;
@@ -94,7 +94,7 @@ std::string chain(const std::string& newton) {
     parts += " I " + std::to_string(20 + i) + " HINGE N " + std::to_string(i - 1) + " " + std::to_string(i) +
              (i % 2 ? " AXIS 0 1 0 AT " : " AXIS 0 0.6 0.8 AT ") + std::to_string(i - 1) + " 0 0\n";
   }
-  return nodes + parts + ".CLM\n STRU ACC VAL 0 0 -9.81\n.SAM TYPE DYNAMIC RHO 0.8 SOLVER KLU NEWTON " + newton +
+  return nodes + parts + ".CLM\n STRU ACC VAL 0 0 -9.81\n.SAM TYPE DYNAMIC RHO 0.8 SOLVER KLU TANGENT " + newton +
          "\n.SUB TF 0.2 H 0.001\n";
 }
 

@@ -64,7 +64,9 @@ def test_results_are_those_in_space(name: str, tmp_path: Path) -> None:
         assert done.returncode == 0, done.stdout + done.stderr
         with Results(tmp_path / "deck.h5") as results:
             channels = {
-                c: r for c, r in results.channels.items() if c not in ("run/ITERATIONS", "run/EVENTS")
+                c: r
+                for c, r in results.channels.items()
+                if c not in ("run/ITERATIONS", "run/EVENTS", "run/STEP")
             }
             found[plane, solver] = {c: results.history(r)[1] for c, r in channels.items()}
             for channel, values in found[plane, solver].items():
@@ -82,7 +84,7 @@ def test_results_are_those_in_space(name: str, tmp_path: Path) -> None:
     for channel, values in space.items():
         unit = units[channel]
         off = np.abs(plane[channel] - values).max()
-        assert off <= 1e-10 * largest[unit] + 5 * noise[unit], (channel, off, largest[unit], noise[unit])
+        assert off <= 1e-10 * largest[unit] + 10 * noise[unit], (channel, off, largest[unit], noise[unit])
 
 
 @pytest.mark.parametrize("name", SPATIAL)

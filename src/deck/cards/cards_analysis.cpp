@@ -29,7 +29,7 @@ void check_analysis(AnalysisCard& analysis, Record& record, Diagnostics& diagnos
     diagnostics.error(record.where("T"), "T is the time of a restart point, and there is no RESTART",
                       "give RESTART \"prefix\" T t");
   if (analysis.type.is("DYNAMIC")) return;
-  for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START", "EVENTS", "ENERGY", "NEWTON"})
+  for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START", "EVENTS", "ENERGY", "TANGENT"})
     if (record.given(keyword))
       diagnostics.warning(record.where(keyword), std::string(keyword) + " has no effect on a " + analysis.type.tag + " analysis");
 }
@@ -66,7 +66,9 @@ Schema analysis_card() {
       .synonyms({"PRECISION"})
       .positive()
       .below(1);
-  card.add("NEWTON", &AnalysisCard::newton, "how often a DYNAMIC analysis computes and factors the tangent")
+  card.add("TANGENT", &AnalysisCard::newton,
+           "how often a DYNAMIC analysis computes and factors the tangent of Newton's iterations")
+      .synonyms({"TANGENTE", "JACOBIAN"})
       .option({"FULL", {"COMPLET"}, "in each iteration: convergence is quadratic, and ends far below PREC"})
       .option({"KEPT", {"MODIFIED", "MODIFIE"}, "the factors serve as many steps as they save time; iterations end at PREC"});
   card.add("ITMA", &AnalysisCard::iterations, "most Newton iterations before a step is cut")

@@ -22,6 +22,9 @@ constexpr double no_correction = 2e-15;
 /// that: fitted to counts of joints, bodies and gears.
 constexpr double residual_of_slot = 250, tangent_over_residual = 6;
 
+/// What forces that an iteration at rest tried on its way count for, where nothing larger stays.
+constexpr double share_of_tried = 1e-3;
+
 /// A sliding speed that counts as none, over the speed below which friction is regularised.
 constexpr double resting = 1e-3;
 
@@ -96,9 +99,17 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   }
   policy_.end(report.converged);
   if (report.singular) solver_.reset();
-  // what an iteration tried on its way is no measure of anything
-  references_.restore(before);
-  if (report.converged) references_.take(work, assembler_.carried());
+  // What an iteration tried on its way is no measure of loads. At rest, where there may be none, its thousandth is one of their
+  // rounding.
+  if (report.converged) {
+    const double tried = weights.a > 0 ? 0 : share_of_tried;
+    std::vector<double> memory = references_.memory();
+    for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = std::max(before[i], tried * memory[i]);
+    references_.restore(std::move(memory));
+    references_.take(work, assembler_.carried());
+  } else {
+    references_.restore(before);
+  }
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
   report.rows = rows_;
   return report;

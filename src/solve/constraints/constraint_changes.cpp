@@ -13,7 +13,10 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon(), none = std::numeric_limits<double>::quiet_NaN();
 /// Rounding of positions is seen where its force is more than this part of the loads.
-constexpr double seen = 1e-6;
+constexpr double seen = 1e-7;
+/// And more than this part of the square of the turn of a step: the error of reactions by the scheme itself is about a tenth of
+/// that square.
+constexpr double seen_of_scheme = 0.01;
 /// And what sums of changes leave open is closed so slowly that the force for rounding is this part of them.
 constexpr double closing = 1e-9;
 /// A constraint open by more than this part of its length is closed by positions.
@@ -23,7 +26,7 @@ constexpr double smooth = 1e-14;
 
 }  // namespace
 
-void ConstraintChanges::begin(const Configuration& from) {
+void ConstraintChanges::begin(const Configuration& from, std::span<const double> y) {
   any_ = false;
   const std::size_t count = assembler_.scale().size();
   given_.assign(count, none);
@@ -32,12 +35,14 @@ void ConstraintChanges::begin(const Configuration& from) {
     const int i = static_cast<int>(m);
     if (assembler_.released(i)) continue;
     noise[m] = newton_.relative_force(i, epsilon * newton_.length(i));
-    any_ = any_ || noise[m] > seen;
+    const double turn = moved(i, y) / newton_.length(i);
+    if (noise[m] <= std::max(seen, seen_of_scheme * turn * turn)) noise[m] = 0;
+    any_ = any_ || noise[m] > 0;
   }
   if (!any_) return;
   assembler_.constraint_rates(from, phi_, rate_[0], second_[0]);
   for (std::size_t m = 0; m < count; ++m)
-    if (noise[m] > seen && std::abs(phi_[m]) < open_by_far * newton_.length(static_cast<int>(m)))
+    if (noise[m] > 0 && std::abs(phi_[m]) < open_by_far * newton_.length(static_cast<int>(m)))
       given_[m] = phi_[m] * closing / noise[m];
 }
 

@@ -17,8 +17,9 @@ class ConstraintChanges {
   ConstraintChanges(Assembler& assembler, const Newton& newton, const MotionSlots& motion)
       : assembler_(assembler), newton_(newton), motion_(motion) {}
 
-  /// Chooses the constraints whose change is to be taken in a step from `from`, whose scale has been chosen.
-  void begin(const Configuration& from);
+  /// Chooses the constraints whose change is to be taken in a step from `from` by about the increment y; its scale has been
+  /// chosen.
+  void begin(const Configuration& from, std::span<const double> y);
   bool any() const { return any_; }
   /// States them (Assembler::stated) for the increment y over the time h.
   void state(const Configuration& from, double h, std::span<const double> y);

@@ -102,7 +102,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   if (far) context_.motion.gather(predicted, guess);
   if (keep) multipliers_.at(to.time, to.multipliers);
   multipliers_to_unknowns(to, guess);
-  changes_.begin(from);
+  changes_.begin(from, predicted);
 
   const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
     context_.motion.scatter(unknowns, unknown);
