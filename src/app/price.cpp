@@ -102,7 +102,7 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   });
   const double factors = std::max(solving - assembly, 0.0), iteration = residual + std::max(solving, assembly);
 
-  std::string text = "\nThe price\n";
+  std::string text = "\nExpected cost\n";
   output::Table table({{"of an iteration", output::Table::Align::left}, {"number"}, {"share, %"}});
   for (const auto& [kind, time] : times) {
     const double share = elements > 0 ? time / elements * std::min(assembly / iteration, 1.0) : 0;
@@ -119,7 +119,7 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   const double steps = std::ceil((stepping.end - stepping.start) / h * (1 - 1e-9)), step = 1.2 * 2 * iteration;
   if (regular)
     text += fmt::format(
-        "\n  about {} a step and {} for {:.0f} steps, at two iterations a step, processor time measured here and now\n",
+        "\n  about {} a step and {} for {:.0f} steps, at two iterations a step, processor time as measured on this machine\n",
         time_text(step), time_text(step * steps), steps);
   else
     text += "\n  the matrix is singular in the first position: no time is foreseen\n";

@@ -43,6 +43,7 @@ Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm co
   std::vector<int> grips;
   for (int p = 0; p < numbering.parts(); ++p) {
     const Layout& layout = element(p).layout();
+    if (!layout.multipliers.empty()) constrained_parts_.push_back(p);
     if (layout.grips.empty()) continue;
     int multiplier = numbering.multiplier_begin(p) + layout.grip_row();
     const std::vector<GripState> states = unfollowed_grips(element(p));
@@ -358,16 +359,19 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
 
 void Assembler::constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
                                  std::vector<double>& second) {
+  constraint_rates(configuration, constrained_parts_, phi, rate, second);
+}
+
+void Assembler::constraint_rates(const Configuration& configuration, std::span<const int> parts, std::vector<double>& phi,
+                                 std::vector<double>& rate, std::vector<double>& second) {
   phi.assign(scale_.size(), 0);
   rate = second = phi;
-  // every rank does all: it happens a few times at the start, and saves a reduction
-  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-    const int part = static_cast<int>(p);
-    const std::size_t count = model_.parts[p].element->layout().multipliers.size();
-    if (count == 0) continue;
+  // every rank does all, which saves a reduction
+  for (const int part : parts) {
+    const std::size_t count = element(part).layout().multipliers.size();
     const auto begin = static_cast<std::size_t>(numbering_.multiplier_begin(part));
-    model_.parts[p].element->constraint_rates(view(part, configuration), std::span(phi).subspan(begin, count),
-                                              std::span(rate).subspan(begin, count), std::span(second).subspan(begin, count));
+    element(part).constraint_rates(view(part, configuration), std::span(phi).subspan(begin, count),
+                                   std::span(rate).subspan(begin, count), std::span(second).subspan(begin, count));
   }
   for (std::size_t m = 0; idle_count_ > 0 && m < idle_.size(); ++m)
     if (idle_[m]) phi[m] = rate[m] = second[m] = 0;

@@ -101,6 +101,9 @@ class Assembler {
   /// Φ and its time derivatives along the motion (unscaled), in the order of the multipliers; zero where idle.
   void constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
                         std::vector<double>& second);
+  /// The same of the constraints of some elements, by index into Model::parts; zero for all others.
+  void constraint_rates(const Configuration& configuration, std::span<const int> parts, std::vector<double>& phi,
+                        std::vector<double>& rate, std::vector<double>& second);
 
   /// Residual of every slot, those without equation included (reactions of supports): unscaled, on every rank.
   std::vector<double> slot_residual(const Configuration& configuration);
@@ -164,6 +167,7 @@ class Assembler {
   std::vector<double> gathered_, carried_;
   mutable double gravity_time_ = std::numeric_limits<double>::quiet_NaN();
   mutable Vec3 gravity_ = Vec3::Zero();  ///< at that time
+  std::vector<int> constrained_parts_;   ///< elements with multipliers, of all ranks
   std::vector<Batch> batches_;           ///< of this rank's share, in the order of the parts
   // one batch's buffers
   std::vector<State> states_;

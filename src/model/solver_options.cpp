@@ -23,7 +23,7 @@ SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::Ste
   o.cuts = analysis.cuts;
   o.package = analysis.solver.tag;
   o.precision = analysis.precision;
-  o.keep_factors = analysis.newton.is("KEPT");
+  o.keep_factors = analysis.tangent.is("KEPT");
   o.iterations = analysis.iterations;
   o.scale = analysis.scale.value_or(0);
   o.energy_error = analysis.energy;

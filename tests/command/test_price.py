@@ -26,7 +26,7 @@ def call(*words: str, folder: Path) -> str:
 
 def price(deck: Path, folder: Path) -> str:
     said = call("check", str(deck), folder=folder)
-    return said[said.index("The price") :]
+    return said[said.index("Expected cost") :]
 
 
 @pytest.mark.parametrize(

@@ -121,7 +121,7 @@ struct AnalysisCard {
   Tagged solver{"MUMPS", {}};
   Tagged start{"AS_GIVEN", {}};   ///< AS_GIVEN: assemble from the given positions; STATIC: from static equilibrium at the start
   double precision = 1e-9;        ///< of Newton, relative to the largest force in the model
-  Tagged newton{"FULL", {}};      ///< FULL, KEPT: whether tangents of a DYNAMIC analysis serve several iterations and steps
+  Tagged tangent{"FULL", {}};     ///< FULL, KEPT: whether tangents of a DYNAMIC analysis serve several iterations and steps
   int iterations = 20;            ///< most Newton iterations before the step is cut
   int cuts = 10;                  ///< most halvings of one step
   Tagged plane{"NO", {}};         ///< PLANE NO, AUTO, XY, YZ, ZX: three unknowns a node where all motion stays in a plane

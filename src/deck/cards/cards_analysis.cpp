@@ -28,6 +28,8 @@ void check_analysis(AnalysisCard& analysis, Record& record, Diagnostics& diagnos
   if (analysis.restart_time && analysis.restart.empty())
     diagnostics.error(record.where("T"), "T is the time of a restart point, and there is no RESTART",
                       "give RESTART \"prefix\" T t");
+  if (analysis.scheme.is("RADAU") && record.given("TANGENT"))
+    diagnostics.warning(record.where("TANGENT"), "TANGENT has no effect on SCHEME RADAU, which always keeps its factors");
   if (analysis.type.is("DYNAMIC")) return;
   for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START", "EVENTS", "ENERGY", "TANGENT"})
     if (record.given(keyword))
@@ -66,7 +68,7 @@ Schema analysis_card() {
       .synonyms({"PRECISION"})
       .positive()
       .below(1);
-  card.add("TANGENT", &AnalysisCard::newton,
+  card.add("TANGENT", &AnalysisCard::tangent,
            "how often a DYNAMIC analysis computes and factors the tangent of Newton's iterations")
       .synonyms({"TANGENTE", "JACOBIAN"})
       .option({"FULL", {"COMPLET"}, "in each iteration: convergence is quadratic, and ends far below PREC"})

@@ -110,17 +110,18 @@ bool LinearSolver::load_factors(const Snapshot& snapshot) {
 }
 
 LinearSolver::Work LinearSolver::work() const {
-  // instructions of each operation and entry, and of a call, fitted to counts of chains of 3 to 1000 links
+  // counted for chains of 3, 20 and 100 links (docs/decisions/0024-kept-factors.md)
   if (klu_) return {9 * klu_->operations() + 25 * klu_->entries(), 9 * klu_->entries()};
   if (package_ == "MUMPS") {
-    PetscReal operations = 0;
     PetscInt entries = 0;
-    check_petsc(MatMumpsGetRinfog(factor(), 3, &operations));
     check_petsc(MatMumpsGetInfog(factor(), 29, &entries));  // negative: in millions
     const double count = entries < 0 ? -1e6 * static_cast<double>(entries) : static_cast<double>(entries);
-    return {2e5 + 20 * count + 1.5 * operations, 2e5 + 10 * count};
+    return {3.1e5 + 408 * count, 4.6e5 + 43 * count};
   }
-  return {4, 1};
+  PetscInt rows = 0;
+  check_petsc(MatGetSize(matrix(), &rows, nullptr));
+  const double n = static_cast<double>(rows);
+  return package_ == "UMFPACK" ? Work{11300 * n, 420 * n} : Work{7500 * n, 530 * n};
 }
 
 void LinearSolver::reset() {

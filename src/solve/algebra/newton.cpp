@@ -10,20 +10,12 @@ namespace engrane::solve {
 
 namespace {
 
-constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-/// A correction this small (over the extent, or in radians) changes nothing that anybody can see: what residual is left
-/// is the rounding of the sums themselves.
-constexpr double negligible_correction = 1e-13;
-/// And below this nothing moves at all, whatever the forces are compared with: a freely spinning body has forces that
-/// cancel inside its one element, and leaves nothing but rounding to judge by.
-constexpr double no_correction = 2e-15;
-
-/// Instructions of an element's residual for each of its slots, those of measuring it included, and what a tangent costs over
-/// that: fitted to counts of joints, bodies and gears.
-constexpr double residual_of_slot = 250, tangent_over_residual = 6;
-
 /// What forces that an iteration at rest tried on its way count for, where nothing larger stays.
 constexpr double share_of_tried = 1e-3;
+
+/// Instructions of an element's residual for each of its slots, those of setting and measuring the configuration included, and
+/// what a tangent costs over that: counted for chains of 3, 20 and 100 links (docs/decisions/0024-kept-factors.md).
+constexpr double residual_of_slot = 225, tangent_over_residual = 5.4;
 
 /// A sliding speed that counts as none, over the speed below which friction is regularised.
 constexpr double resting = 1e-3;
@@ -56,8 +48,7 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
   }
   for (const Model::Part& part : parts) {
     const Layout& layout = part.element->layout();
-    evaluation_ +=
-        residual_of_slot * static_cast<double>(6 * part.nodes.size() + layout.multipliers.size() + layout.scalars.size());
+    evaluation_ += residual_of_slot * static_cast<double>(layout.slots());
   }
   check_petsc(SNESSetTolerances(snes_, 0, 0, 0, iterations, 100000));
   check_petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
@@ -121,13 +112,13 @@ PetscErrorCode Newton::form_function(SNES snes, Vec x, Vec f, void* context) {
     (*self.apply_)(self.assembler_.gather(x), *self.work_);
     self.assembler_.residual(*self.work_, f);
     self.references_.take(*self.work_, self.assembler_.carried());
-    self.measure(f);
+    const Imbalance found = self.imbalance_ = imbalance(self.assembler_, self.references_, f);
+    self.row_ = {0, found.force, found.moment, found.length, found.angle, 0, found.worst};
   } catch (const std::exception& e) {
     self.failure_ = e.what();
     return PETSC_ERR_LIB;
   }
-  const double worst = std::max({self.row_.force, self.row_.moment, self.row_.length, self.row_.angle});
-  if (!std::isfinite(worst)) return SNESSetFunctionDomainError(snes);
+  if (!std::isfinite(self.imbalance_.largest())) return SNESSetFunctionDomainError(snes);
   return 0;
 }
 
@@ -147,8 +138,6 @@ PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
   return 0;
 }
 
-double Newton::excess() const { return std::max({row_.force, row_.moment, row_.length, row_.angle}) / precision_; }
-
 void Newton::choose_factors() {
   if (rows_.size() == 1) {
     if (!keep_ || matrix_of_factors_ != assembler_.changes() || !similar(weights_, weights_of_factors_)) policy_.forget();
@@ -157,9 +146,9 @@ void Newton::choose_factors() {
       const LinearSolver::Work work = solver_.work();
       renewal = (tangent_over_residual * evaluation_ + work.factor) / (evaluation_ + work.solution);
     }
-    policy_.begin(excess(), renewal);
+    policy_.begin(imbalance_.largest() / precision_, renewal);
   } else {
-    policy_.corrected(excess());
+    policy_.corrected(imbalance_.largest() / precision_);
   }
   // SNES asks for a tangent once (-2) or not at all (-1)
   check_petsc(SNESSetLagJacobian(snes_, keep_ && !policy_.due() ? -1 : -2));
@@ -221,52 +210,6 @@ PetscErrorCode Newton::keep_sliding(SNESLineSearch, Vec x, Vec step, PetscBool* 
   return 0;
 }
 
-void Newton::measure(Vec f) {
-  const Numbering& numbering = assembler_.numbering();
-  double worst[6] = {0, 0, 0, 0, 0, 0};  // four measures, kΦ over force, open constraint in roundings
-  double worst_of_all = -1;
-  int worst_row = -1;
-  PetscInt first = 0, end = 0;
-  check_petsc(VecGetOwnershipRange(f, &first, &end));
-  const PetscScalar* values = nullptr;
-  check_petsc(VecGetArrayRead(f, &values));
-  for (PetscInt row = first; row < end; ++row) {
-    const Unknown& u = numbering.unknown(static_cast<int>(row));
-    double value = std::abs(values[row - first]), reference = references_.load(static_cast<int>(row));
-    if (u.multiplier) {
-      // kΦ is the force (or moment) that the open constraint stands for
-      const double as_force = value / reference;
-      const auto m = static_cast<std::size_t>(u.slot - numbering.motion_slots());
-      value /= assembler_.scale()[m];
-      reference = references_.length(static_cast<int>(row));
-      const double open = value / (assembler_.stated.has(m) ? assembler_.stated.rounding[m] : reference * rounding);
-      if (open > 1) worst[4] = std::max(worst[4], as_force);
-      worst[5] = std::max(worst[5], open);
-    }
-    const double relative = value / reference;
-    double& largest = worst[static_cast<int>(u.measure)];
-    largest = std::isnan(relative) ? relative : std::max(largest, relative);
-    if (!(relative <= worst_of_all)) {
-      worst_of_all = relative;
-      worst_row = static_cast<int>(row);
-    }
-  }
-  check_petsc(VecRestoreArrayRead(f, &values));
-  struct {
-    double value;
-    int row;
-  } located{worst_of_all, worst_row};
-  int size = 1;
-  MPI_Comm_size(assembler_.comm(), &size);
-  if (size > 1) {
-    MPI_Allreduce(MPI_IN_PLACE, worst, 6, MPI_DOUBLE, MPI_MAX, assembler_.comm());
-    MPI_Allreduce(MPI_IN_PLACE, &located, 1, MPI_DOUBLE_INT, MPI_MAXLOC, assembler_.comm());
-  }
-  row_ = {0, worst[0], worst[1], worst[2], worst[3], 0, located.row};
-  constraint_force_ = worst[4];
-  scaled_open_ = worst[5];
-}
-
 bool Newton::judge(int iteration) {
   row_.iteration = iteration;
   double forces = 0;  // largest change of a multiplier
@@ -278,16 +221,9 @@ bool Newton::judge(int iteration) {
     const PetscScalar* values = nullptr;
     check_petsc(VecGetArrayRead(update, &values));
     for (PetscInt row = first; row < end; ++row) {
-      const Unknown& u = assembler_.numbering().unknown(static_cast<int>(row));
-      const double size = std::abs(values[row - first]), change = size / references_.length(static_cast<int>(row));
-      if (!u.multiplier) {
-        row_.correction = std::max(row_.correction, change);
-        continue;
-      }
-      // a multiplier over its k is the displacement that its force stands for; where k is small, as of what has no mass, the
-      // force itself tells that nothing changes any more
-      const double k = assembler_.scale()[static_cast<std::size_t>(u.slot - assembler_.numbering().motion_slots())];
-      forces = std::max(forces, std::min(change, k * size / references_.load(static_cast<int>(row))));
+      const auto equation = static_cast<int>(row);
+      double& largest = assembler_.numbering().unknown(equation).multiplier ? forces : row_.correction;
+      largest = std::max(largest, references_.relative_change(equation, values[row - first]));
     }
     check_petsc(VecRestoreArrayRead(update, &values));
     double both[2] = {row_.correction, forces};
@@ -296,12 +232,10 @@ bool Newton::judge(int iteration) {
     forces = both[1];
   }
   rows_.push_back(row_);
-  const bool balanced = std::max({row_.force, row_.moment}) <= precision_;
-  const bool closed = std::max({row_.length, row_.angle}) <= precision_ && constraint_force_ <= precision_;
-  if (balanced && closed) return true;
+  if (imbalance_.within(precision_)) return true;
   const double changed = std::max(row_.correction, forces);
   if (iteration > 1 && changed <= no_correction) return true;
-  const double left = std::max({row_.force, row_.moment, row_.length, row_.angle});
+  const double left = imbalance_.largest();
   if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;
   if (changed <= negligible_correction) return true;
   // forces that are small beside stiffness times the rounding of positions follow that rounding and never settle

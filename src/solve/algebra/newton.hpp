@@ -8,8 +8,8 @@
 #include "assembly/assembler.hpp"
 #include "base/snapshot.hpp"
 #include "solve/algebra/factor_policy.hpp"
+#include "solve/algebra/imbalance.hpp"
 #include "solve/algebra/linear.hpp"
-#include "solve/algebra/references.hpp"
 
 namespace engrane::solve {
 
@@ -72,9 +72,6 @@ class Newton {
   int equation(int multiplier) const {
     return assembler_.numbering().equation(assembler_.numbering().motion_slots() + multiplier);
   }
-  void measure(Vec f);
-  /// The largest relative residual over the precision asked for.
-  double excess() const;
   /// Decides whether the next correction is made with the factors there are.
   void choose_factors();
   bool judge(int iteration);
@@ -94,8 +91,7 @@ class Newton {
   double evaluation_ = 0;        ///< instructions of a residual, about
   References references_;
   NewtonRow row_;
-  double constraint_force_ = 0;  ///< largest k Φ over the largest force
-  double scaled_open_ = 0;       ///< largest open constraint in units of rounding
+  Imbalance imbalance_;  ///< of the last residual
   std::vector<NewtonRow> rows_;
   std::string failure_;  ///< of an exception inside a callback
 };

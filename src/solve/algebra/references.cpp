@@ -100,6 +100,15 @@ void References::find_lengths() {
   }
 }
 
+double References::relative_change(int equation, double change) const {
+  const Numbering& numbering = assembler_.numbering();
+  const Unknown& u = numbering.unknown(equation);
+  const double size = std::abs(change), displacement = size / length(equation);
+  if (!u.multiplier) return displacement;
+  const double k = assembler_.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
+  return std::min(displacement, k * size / load(equation));
+}
+
 double References::peak(int equation) const {
   const Unknown& u = assembler_.numbering().unknown(equation);
   double largest = 0;

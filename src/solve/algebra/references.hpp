@@ -33,6 +33,10 @@ class References {
   /// What the correction of an unknown, or an open constraint, is compared with: a length, or 1 radian.
   double length(int equation) const { return lengths_[static_cast<std::size_t>(equation)]; }
 
+  /// The change of an unknown over what it is compared with. Of a multiplier the unknown is λ/k, the displacement that its force
+  /// stands for; where k is small, as of what has no mass, the force itself tells that nothing changes any more.
+  double relative_change(int equation, double change) const;
+
   /// The largest force that an element has contributed so far.
   double largest_force() const { return largest_force_; }
   /// The memory of loads so far, to be put back where an iteration failed.

@@ -27,7 +27,7 @@ constexpr double smooth = 1e-14;
 }  // namespace
 
 void ConstraintChanges::begin(const Configuration& from, std::span<const double> y) {
-  any_ = false;
+  parts_.clear();
   const std::size_t count = assembler_.scale().size();
   given_.assign(count, none);
   std::vector<double> noise(count, 0.0);
@@ -36,18 +36,22 @@ void ConstraintChanges::begin(const Configuration& from, std::span<const double>
     if (assembler_.released(i)) continue;
     noise[m] = newton_.relative_force(i, epsilon * newton_.length(i));
     const double turn = moved(i, y) / newton_.length(i);
-    if (noise[m] <= std::max(seen, seen_of_scheme * turn * turn)) noise[m] = 0;
-    any_ = any_ || noise[m] > 0;
+    if (noise[m] <= std::max(seen, seen_of_scheme * turn * turn)) {
+      noise[m] = 0;
+      continue;
+    }
+    const int part = multiplier_unknown(assembler_.numbering(), i).part;
+    if (parts_.empty() || parts_.back() != part) parts_.push_back(part);
   }
-  if (!any_) return;
-  assembler_.constraint_rates(from, phi_, rate_[0], second_[0]);
+  if (!any()) return;
+  assembler_.constraint_rates(from, parts_, phi_, rate_[0], second_[0]);
   for (std::size_t m = 0; m < count; ++m)
     if (noise[m] > 0 && std::abs(phi_[m]) < open_by_far * newton_.length(static_cast<int>(m)))
       given_[m] = phi_[m] * closing / noise[m];
 }
 
 void ConstraintChanges::state(const Configuration& from, double h, std::span<const double> y) {
-  if (!any_) return;
+  if (!any()) return;
   // Gauss's quadrature with two points, of the order h⁵ in Φ
   const double apart = 1 / std::sqrt(3.0);
   std::vector<double> part(y.begin(), y.end()), speed(y.begin(), y.end());
@@ -61,7 +65,7 @@ void ConstraintChanges::state(const Configuration& from, double h, std::span<con
     motion_.move(from, part, between_);
     motion_.set_velocities(speed, between_);
     motion_.set_accelerations(still, between_);
-    assembler_.constraint_rates(between_, phi_, rate_[point], second_[point]);
+    assembler_.constraint_rates(between_, parts_, phi_, rate_[point], second_[point]);
   }
   auto& [value, rounding] = assembler_.stated;
   value = given_;
@@ -88,7 +92,7 @@ double ConstraintChanges::moved(int multiplier, std::span<const double> y) const
 }
 
 void ConstraintChanges::end() {
-  any_ = false;
+  parts_.clear();
   assembler_.stated = {};
 }
 

@@ -20,7 +20,7 @@ class ConstraintChanges {
   /// Chooses the constraints whose change is to be taken in a step from `from` by about the increment y; its scale has been
   /// chosen.
   void begin(const Configuration& from, std::span<const double> y);
-  bool any() const { return any_; }
+  bool any() const { return !parts_.empty(); }
   /// States them (Assembler::stated) for the increment y over the time h.
   void state(const Configuration& from, double h, std::span<const double> y);
   /// All constraints are those of positions again.
@@ -33,7 +33,7 @@ class ConstraintChanges {
   Assembler& assembler_;
   const Newton& newton_;
   const MotionSlots& motion_;
-  bool any_ = false;
+  std::vector<int> parts_;     ///< elements with constraints whose change is taken, ascending
   std::vector<double> given_;  ///< part of Φ at the beginning that the step is to close; NaN: Φ is taken from positions
   Configuration between_;
   std::vector<double> phi_, rate_[2], second_[2];

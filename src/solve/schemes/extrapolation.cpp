@@ -5,23 +5,16 @@
 
 namespace engrane::solve {
 
-namespace {
-
-/// Longest step over the distance of two points: beyond it their difference tells more of their errors than of what follows.
-constexpr double longest = 2;
-
-}  // namespace
-
 void Extrapolation::add(double time, std::span<const double> values) {
   std::rotate(points_.begin(), points_.end() - 1, points_.end());
   points_[0].time = time;
   points_[0].values.assign(values.begin(), values.end());
-  count_ = std::min(count_ + 1, most);
+  count_ = std::min(count_ + 1, points_.size());
 }
 
-void Extrapolation::at(double time, std::span<double> values) const {
+void Extrapolation::at(double time, double h, std::span<double> values) const {
   std::size_t points = 1;
-  while (points < count_ && time - points_[0].time <= longest * (points_[points - 1].time - points_[points].time)) ++points;
+  while (points < count_ && h <= longest_ * (points_[points - 1].time - points_[points].time)) ++points;
   std::fill(values.begin(), values.end(), 0.0);
   for (std::size_t p = 0; p < points; ++p) {
     double weight = 1;  // Lagrange's
@@ -43,7 +36,7 @@ void Extrapolation::save(Snapshot& snapshot, const std::string& name) const {
 
 void Extrapolation::load(const Snapshot& snapshot, const std::string& name) {
   const std::vector<double>& all = snapshot.array(name);
-  count_ = std::min(static_cast<std::size_t>(snapshot.number(name + "_points")), most);
+  count_ = std::min(static_cast<std::size_t>(snapshot.number(name + "_points")), points_.size());
   const auto length = static_cast<std::ptrdiff_t>(count_ > 0 ? all.size() / count_ : 0);
   for (std::size_t p = 0; p < count_; ++p) {
     const auto first = all.begin() + length * static_cast<std::ptrdiff_t>(p);

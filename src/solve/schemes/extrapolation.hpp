@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -11,30 +10,32 @@
 
 namespace engrane::solve {
 
-/// The polynomial through the latest values of some quantities, at most three, continued by a step: where Newton's iteration
-/// begins.
+/// The polynomial through the latest values of some quantities, continued by a step: where Newton's iteration begins.
 class Extrapolation {
  public:
+  /// Through at most `most` values, as far back as a step is no longer than `longest` times the time from one to the next: the
+  /// difference of closer ones tells more of their errors than of what follows.
+  Extrapolation(std::size_t most, double longest) : points_(most), longest_(longest) {}
+
   void clear() { count_ = 0; }
   bool empty() const { return count_ == 0; }
   /// Values at a time after the others.
   void add(double time, std::span<const double> values);
-  /// Writes what the polynomial has at `time`, after all of the values. Values that are much closer together than it is far away
-  /// are left out.
-  void at(double time, std::span<double> values) const;
+  /// Writes what the polynomial for a step of h has at `time`, within this step.
+  void at(double time, double h, std::span<double> values) const;
 
   /// Under `name`.
   void save(Snapshot& snapshot, const std::string& name) const;
   void load(const Snapshot& snapshot, const std::string& name);
 
  private:
-  static constexpr std::size_t most = 3;
   struct Point {
     double time = 0;
     std::vector<double> values;
   };
-  std::array<Point, most> points_;  ///< the latest first
-  std::size_t count_ = 0;
+  std::vector<Point> points_;  ///< the latest first
+  std::size_t count_ = 0;      ///< of them in use
+  double longest_;
 };
 
 }  // namespace engrane::solve

@@ -17,19 +17,13 @@ namespace engrane::solve {
 namespace {
 
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-/// A correction this small (over the lengths around, or in radians) changes nothing that anybody can see.
-constexpr double negligible_correction = 1e-13;
-/// And below this nothing moves at all, whatever the forces are compared with.
-constexpr double no_correction = 2e-15;
 /// Corrections that shrink by less than this ask for matrices of the present place: at once, and before the next step.
 constexpr double slow = 0.3, growing_slow = 0.1;
-/// Ends of steps before the present one that guesses are made from.
-constexpr std::size_t most_ends = 3;
+/// Guesses go through this many ends of steps, and no farther than so many times the distance of two of them.
+constexpr std::size_t points_of_guess = 4;
+constexpr double longest_growth = 3;
 /// Steps that differ by less than this have the same matrices.
 constexpr double same = 1e-6;
-/// A step longer than this many times the one before has no guess from that one.
-constexpr double longest_growth = 3;
-
 Vec3 rotation_of(std::span<const double> slots, std::size_t node) {
   return {slots[6 * node + 3], slots[6 * node + 4], slots[6 * node + 5]};
 }
@@ -47,6 +41,8 @@ void add(double factor, std::span<const double> values, std::span<double> sum) {
 
 Radau::Radau(SolverContext& context)
     : Dynamics(context),
+      accelerations_(points_of_guess, longest_growth),
+      multipliers_(points_of_guess, longest_growth),
       collocation_(Collocation::radau()),
       solver_(context.assembler, collocation_, context.solver.package()),
       references_(context.assembler, context.options.precision),
@@ -86,28 +82,22 @@ StartReport Radau::start(Configuration& c) {
 void Radau::start_memory(const Configuration& c, const MasslessMotions*) { restart_memory(c); }
 
 void Radau::restart_memory(const Configuration&) {
-  ends_.clear();
+  accelerations_.clear();
+  multipliers_.clear();
   kept_step_ = 0;
 }
 
 void Radau::predict(const Configuration& from, double h) {
   const auto stages = static_cast<std::size_t>(collocation_.stages());
   const auto v0 = context_.motion.velocities(from);
-  tried_ = {from.time, context_.motion.accelerations(from), from.multipliers};
-  // the polynomial through the last ends of steps, as far as these are not much shorter than the step
-  std::vector<const End*> ends{&tried_};
-  for (auto end = ends_.rbegin(); end != ends_.rend() && h <= longest_growth * (ends.back()->time - end->time); ++end)
-    ends.push_back(&*end);
+  if (accelerations_.empty()) {
+    accelerations_.add(from.time, context_.motion.accelerations(from));
+    multipliers_.add(from.time, from.multipliers);
+  }
   for (std::size_t i = 0; i < stages; ++i) {
     const double time = from.time + h * collocation_.c[static_cast<Eigen::Index>(i)];
-    for (auto* all : {&now_.a, &now_.multipliers}) std::fill((*all)[i].begin(), (*all)[i].end(), 0.0);
-    for (const End* end : ends) {
-      double weight = 1;
-      for (const End* other : ends)
-        if (other != end) weight *= (time - other->time) / (end->time - other->time);
-      add(weight, end->a, now_.a[i]);
-      add(weight, end->multipliers, now_.multipliers[i]);
-    }
+    accelerations_.at(time, h, now_.a[i]);
+    multipliers_.at(time, h, now_.multipliers[i]);
   }
   for (std::size_t i = 0; i < stages; ++i) {
     now_.v[i] = v0;
@@ -159,13 +149,8 @@ void Radau::differentiate(const Configuration& from, double h) {
   }
 }
 
-NewtonRow Radau::evaluate(const Configuration& from) {
-  const Numbering& numbering = context_.numbering;
-  double worst[5] = {0, 0, 0, 0, 0};  // four measures, kΦ over force
-  struct {
-    double value;
-    int row;
-  } located{-1, -1};
+Imbalance Radau::evaluate(const Configuration& from) {
+  Imbalance all;
   for (std::size_t i = 0; i < configurations_.size(); ++i) {
     Configuration& c = configurations_[i];
     context_.motion.move(from, now_.y[i], c);
@@ -174,30 +159,9 @@ NewtonRow Radau::evaluate(const Configuration& from) {
     c.multipliers = now_.multipliers[i];
     context_.assembler.residual(c, residuals_[i]);
     references_.take(c, context_.assembler.carried());
-    PetscInt first = 0, end = 0;
-    const PetscScalar* values = nullptr;
-    check_petsc(VecGetOwnershipRange(residuals_[i], &first, &end));
-    check_petsc(VecGetArrayRead(residuals_[i], &values));
-    for (PetscInt row = first; row < end; ++row) {
-      const Unknown& u = numbering.unknown(static_cast<int>(row));
-      double value = std::abs(values[row - first]), reference = references_.load(static_cast<int>(row));
-      if (u.multiplier) {
-        const double as_force = value / reference;
-        value /= context_.assembler.scale()[static_cast<std::size_t>(u.slot - numbering.motion_slots())];
-        reference = references_.length(static_cast<int>(row));
-        if (value > reference * rounding) worst[4] = std::max(worst[4], as_force);
-      }
-      const double relative = value / reference;
-      double& largest = worst[static_cast<int>(u.measure)];
-      largest = std::isnan(relative) ? std::numeric_limits<double>::infinity() : std::max(largest, relative);
-      if (!(relative <= located.value)) located = {relative, static_cast<int>(row)};
-    }
-    check_petsc(VecRestoreArrayRead(residuals_[i], &values));
+    all.join(imbalance(context_.assembler, references_, residuals_[i]));
   }
-  MPI_Allreduce(MPI_IN_PLACE, worst, 5, MPI_DOUBLE, MPI_MAX, context_.assembler.comm());
-  MPI_Allreduce(MPI_IN_PLACE, &located, 1, MPI_DOUBLE_INT, MPI_MAXLOC, context_.assembler.comm());
-  constraint_force_ = worst[4];
-  return {0, worst[0], worst[1], worst[2], worst[3], 0, located.row};
+  return all;
 }
 
 Radau::Correction Radau::correct() {
@@ -208,17 +172,13 @@ Radau::Correction Radau::correct() {
     for (std::size_t e = 0; e < change.size(); ++e) {
       const Unknown& u = numbering.unknown(static_cast<int>(e));
       const auto slot = static_cast<std::size_t>(u.slot);
-      if (u.multiplier) {
-        const std::size_t m = slot - context_.motion.size();
-        const double force = context_.assembler.scale()[m] * change[e], size = std::abs(change[e]);
-        now_.multipliers[i][m] += force;
-        // over its k a multiplier is the displacement that its force stands for; where k is small the force itself tells
-        largest.forces = std::max(largest.forces, std::min(size / references_.length(static_cast<int>(e)),
-                                                           std::abs(force) / references_.load(static_cast<int>(e))));
-      } else {
+      if (u.multiplier)
+        now_.multipliers[i][slot - context_.motion.size()] +=
+            context_.assembler.scale()[slot - context_.motion.size()] * change[e];
+      else
         now_.y[i][slot] += change[e];
-        largest.motion = std::max(largest.motion, std::abs(change[e]) / references_.length(static_cast<int>(e)));
-      }
+      double& size = u.multiplier ? largest.forces : largest.motion;
+      size = std::max(size, references_.relative_change(static_cast<int>(e), change[e]));
     }
   }
   return largest;
@@ -245,30 +205,27 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
   int uses = 0;            // of the matrices, in this step
   for (int k = 0;; ++k) {
     differentiate(from, h);
-    NewtonRow row = evaluate(from);
-    row.iteration = k;
-    row.correction = last.motion;
-    report.rows.push_back(row);
+    const Imbalance found = evaluate(from);
+    report.rows.push_back({k, found.force, found.moment, found.length, found.angle, last.motion, found.worst});
     report.iterations = k;
-    const double forces = std::max(row.force, row.moment), left = std::max({forces, row.length, row.angle});
+    const double left = found.largest();
     if (!std::isfinite(left)) {
       report.reason = "the iteration left the range of numbers";
       break;
     }
-    const bool closed = std::max(row.length, row.angle) <= precision && constraint_force_ <= precision;
     // what acts on a free body may be nothing: its residual is then the rounding of accelerations, differences of increments
     const double changed = std::max(last.motion, last.forces);
     // forces that are small beside stiffness or inertia times the rounding of positions follow that rounding and never settle;
     // those of stages are no results
     const auto noise = [&] {
       const NewtonRow& before = report.rows[report.rows.size() - 2];
-      return std::max(row.correction, before.correction) <= negligible_correction &&
+      return std::max(last.motion, before.correction) <= negligible_correction &&
              left > 0.5 * std::max(before.force, before.moment);
     };
     const bool still =
         k > 1 && (changed <= std::max(no_correction, rounding * increment()) ||
                   (left <= std::sqrt(precision) && (changed * std::min(1.0, contraction) <= negligible_correction || noise())));
-    if ((k > 0 && forces <= precision && closed) || still) {
+    if ((k > 0 && found.within(precision)) || still) {
       report.converged = true;
       break;
     }
@@ -386,12 +343,7 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
     configurations_[i].h = part * h;
     prescribed_[i] = context_.motion.prescribed(configurations_[i].time);
   }
-  // Newton's iteration finds no drive's angle more than half a turn away, and would not say why
-  std::vector<double> coasting = context_.motion.velocities(from);
-  for (double& part : coasting) part *= h;
-  NewtonReport foreseen;
-  foreseen.converged = true;
-  refuse_half_turns(coasting, foreseen);
+  NewtonReport foreseen = foresee(context_.motion.velocities(from), h);
   to = configurations_.back();
   if (!foreseen.converged) return {std::move(foreseen), 0, {}};
 
@@ -400,33 +352,25 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   to = outside_of_steps(configurations_.back());
   refuse_half_turns(now_.y.back(), report);
   if (!report.converged) return {std::move(report), 0, {}};
-  if (const std::string conflict = context_.redundancy.conflict(to); !conflict.empty()) {
-    report.converged = false;
-    report.conflict = true;
-    report.reason = conflict;
-    return {std::move(report), 0, {}};
-  }
+  if (refuse_conflict(to, report)) return {std::move(report), 0, {}};
   if (constrained() && !complete(to)) {
     report.converged = false;
     report.singular = true;
     report.reason = "the accelerations are not determined";
   }
+  tried_ = {to.time, context_.motion.accelerations(to), to.multipliers};
   return {std::move(report), 0, {}};
 }
 
 void Radau::accept() {
-  ends_.push_back(std::move(tried_));
-  if (ends_.size() > most_ends) ends_.erase(ends_.begin());
+  accelerations_.add(tried_.time, tried_.a);
+  multipliers_.add(tried_.time, tried_.multipliers);
 }
 
 void Radau::save(Snapshot& snapshot) const {
   Dynamics::save(snapshot);
-  snapshot.put("radau/ends", static_cast<double>(ends_.size()));
-  for (std::size_t i = 0; i < ends_.size(); ++i) {
-    snapshot.put(fmt::format("radau/times/{}", i), ends_[i].time);
-    snapshot.put(fmt::format("radau/accelerations/{}", i), ends_[i].a);
-    snapshot.put(fmt::format("radau/multipliers/{}", i), ends_[i].multipliers);
-  }
+  accelerations_.save(snapshot, "radau/accelerations");
+  multipliers_.save(snapshot, "radau/multipliers");
   solver_.save(snapshot);
   snapshot.put("radau/kept_step", kept_step_);
   if (kept_step_ > 0) {
@@ -441,11 +385,9 @@ void Radau::save(Snapshot& snapshot) const {
 
 void Radau::load(const Snapshot& snapshot) {
   Dynamics::load(snapshot);
-  if (!snapshot.has("radau/ends")) return;  // of another kind of analysis, or of another scheme
-  ends_.resize(static_cast<std::size_t>(snapshot.number("radau/ends")));
-  for (std::size_t i = 0; i < ends_.size(); ++i)
-    ends_[i] = {snapshot.number(fmt::format("radau/times/{}", i)), snapshot.array(fmt::format("radau/accelerations/{}", i)),
-                snapshot.array(fmt::format("radau/multipliers/{}", i))};
+  if (!snapshot.has("radau/accelerations")) return;  // of another kind of analysis, or of another scheme
+  accelerations_.load(snapshot, "radau/accelerations");
+  multipliers_.load(snapshot, "radau/multipliers");
   references_.load_memory(part_of(snapshot, "radau/"));
   balance_.load(part_of(snapshot, "radau/"));
   solver_.load(snapshot);

@@ -3,6 +3,7 @@
 
 #include "solve/algebra/references.hpp"
 #include "solve/schemes/dynamics.hpp"
+#include "solve/schemes/extrapolation.hpp"
 #include "solve/schemes/stage_solver.hpp"
 
 namespace engrane::solve {
@@ -29,7 +30,7 @@ class Radau final : public Dynamics {
     std::vector<std::vector<double>> y, v, a;      ///< by motion slot
     std::vector<std::vector<double>> multipliers;  ///< kλ
   };
-  /// Where a step began or ended.
+  /// Where a step ended.
   struct End {
     double time = 0;
     std::vector<double> a, multipliers;
@@ -39,7 +40,7 @@ class Radau final : public Dynamics {
   /// Velocities and accelerations of the stages from y, with what is prescribed.
   void differentiate(const Configuration& from, double h);
   /// Sets the stages' configurations, evaluates their residuals and compares these with the references.
-  NewtonRow evaluate(const Configuration& from);
+  Imbalance evaluate(const Configuration& from);
   /// The largest displacement of the step as it is now, over the lengths around or in radians.
   double increment() const;
   /// The largest change of a displacement, over the lengths around or in radians, and of a multiplier, as that displacement or
@@ -57,18 +58,17 @@ class Radau final : public Dynamics {
   bool complete(Configuration& c);
   bool has_equation(std::size_t slot) const { return context_.numbering.equation(static_cast<int>(slot)) >= 0; }
 
+  Extrapolation accelerations_, multipliers_;  ///< at the ends of steps since the last event
   Collocation collocation_;
   StageSolver solver_;
   References references_;
-  Stages now_;             ///< of the present step
-  std::vector<End> ends_;  ///< where the last steps began
-  End tried_;              ///< where the present step begins
+  Stages now_;  ///< of the present step
+  End tried_;   ///< of the last attempt
   std::vector<Configuration> configurations_;
   std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;
   std::vector<Owned<Vec>> residuals_, changes_;
-  double constraint_force_ = 0;  ///< largest k Φ over the largest force
-  Configuration kept_;           ///< that the matrices were evaluated at
-  double kept_step_ = 0;         ///< for steps of this; 0: they are to be evaluated
+  Configuration kept_;    ///< that the matrices were evaluated at
+  double kept_step_ = 0;  ///< for steps of this; 0: they are to be evaluated
   std::vector<double> kept_scale_;
   bool has_friction_ = false;
   Owned<Mat> balance_matrix_;

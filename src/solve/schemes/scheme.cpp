@@ -66,6 +66,24 @@ void Scheme::refuse_half_turns(std::span<const double> y, NewtonReport& report) 
   }
 }
 
+NewtonReport Scheme::foresee(std::span<const double> v, double h) const {
+  std::vector<double> coasting(v.begin(), v.end());
+  for (double& y : coasting) y *= h;
+  NewtonReport report;
+  report.converged = true;
+  refuse_half_turns(coasting, report);
+  return report;
+}
+
+bool Scheme::refuse_conflict(const Configuration& to, NewtonReport& report) const {
+  const std::string conflict = context_.redundancy.conflict(to);
+  if (conflict.empty()) return false;
+  report.converged = false;
+  report.conflict = true;
+  report.reason = conflict;
+  return true;
+}
+
 void Scheme::multipliers_to_unknowns(const Configuration& c, std::span<double> unknowns) const {
   const auto motion = context_.motion.size();
   for (std::size_t m = 0; m < c.multipliers.size(); ++m)
@@ -88,12 +106,7 @@ NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& a
     report = context_.newton.solve(unknowns, weights, keep, apply, to);
     iterations += report.iterations;
     if (!report.converged || !context_.redundancy.active()) break;
-    if (const std::string conflict = context_.redundancy.conflict(to); !conflict.empty()) {
-      report.converged = false;
-      report.conflict = true;
-      report.reason = conflict;
-      break;
-    }
+    if (refuse_conflict(to, report)) break;
     if (!context_.redundancy.share(to)) break;
     const auto all = context_.assembler.gather(unknowns);
     std::vector<double> shared(all.begin(), all.end());

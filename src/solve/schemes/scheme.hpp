@@ -54,6 +54,11 @@ class Scheme {
   void prescribe_step(double from, double to, std::span<double> y) const;
   /// Fails a converged step in which a node turned so far that turns can no longer be counted.
   void refuse_half_turns(std::span<const double> y, NewtonReport& report) const;
+  /// The same before a step of h: nodes that would turn so far at the speeds v. Newton's iteration finds no drive's angle more
+  /// than half a turn away, and would not say why.
+  NewtonReport foresee(std::span<const double> v, double h) const;
+  /// Fails a converged step that leaves constraints open which were taken for consequences of the others; true where it does.
+  bool refuse_conflict(const Configuration& to, NewtonReport& report) const;
   /// Multipliers of `c` in the scaled unknowns of the solver, and back.
   void multipliers_to_unknowns(const Configuration& c, std::span<double> unknowns) const;
   void unknowns_to_multipliers(std::span<const double> unknowns, Configuration& c) const;

@@ -77,7 +77,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     accelerations_.add(from.time, a0);
     multipliers_.add(from.time, from.multipliers);
   }
-  if (keep) accelerations_.at(from.time + h, ahead);
+  if (keep) accelerations_.at(from.time + h, h, ahead);
   for (std::size_t i = 0; i < n; ++i) y[i] = h * (v0[i] + h * ((0.5 - beta) * a0[i] + beta * ahead[i]));
   to = from;
   to.time = from.time + h;
@@ -85,12 +85,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   for (std::size_t slot = 0; slot < n; ++slot)
     if (context_.numbering.equation(static_cast<int>(slot)) < 0) y[slot] = 0;
   prescribe_step(from.time, to.time, y);
-  // Newton's iteration finds no drive's angle more than half a turn away, and would not say why
-  std::vector<double> coasting(n);
-  for (std::size_t i = 0; i < n; ++i) coasting[i] = h * v0[i];
-  NewtonReport foreseen;
-  foreseen.converged = true;
-  refuse_half_turns(coasting, foreseen);
+  NewtonReport foreseen = foresee(v0, h);
   if (!foreseen.converged) return {std::move(foreseen), 0, {}};
   const auto prescribed = context_.motion.prescribed(to.time);
 
@@ -100,7 +95,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   const bool far = leaves(predicted);
   std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
   if (far) context_.motion.gather(predicted, guess);
-  if (keep) multipliers_.at(to.time, to.multipliers);
+  if (keep) multipliers_.at(to.time, h, to.multipliers);
   multipliers_to_unknowns(to, guess);
   changes_.begin(from, predicted);
 

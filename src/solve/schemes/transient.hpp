@@ -59,8 +59,8 @@ class Transient final : public Dynamics {
   std::vector<double> fitting_, offset_;
   std::vector<double> tried_;  ///< `algorithmic_` at the end of the last attempt
   double tried_step_ = 0;
-  Extrapolation accelerations_, multipliers_;  ///< of `algorithmic_` and λ, at the ends of steps since the last event
-  std::vector<double> tried_multipliers_;      ///< at the end of the last attempt
+  Extrapolation accelerations_{3, 2}, multipliers_{3, 2};  ///< of `algorithmic_` and λ, at the ends of steps since the last event
+  std::vector<double> tried_multipliers_;                  ///< at the end of the last attempt
   double tried_time_ = 0;
 };
 
