@@ -6,11 +6,15 @@
 #include <complex>
 #include <numbers>
 
+#include "known_motions.hpp"
 #include "run_deck.hpp"
 #include "solve/schemes/collocation.hpp"
 
 namespace engrane::test {
 namespace {
+
+/// What decks have after `.SAM TYPE DYNAMIC`.
+constexpr const char* radau = "SCHEME RADAU PREC 1e-13";
 
 TEST(Radau, HasTheCoefficientsOfTheLiterature) {
   // Hairer and Wanner (1996), table IV.5.6
@@ -37,51 +41,16 @@ TEST(Radau, HasTheCoefficientsOfTheLiterature) {
   EXPECT_LT((three.transform * blocks * three.untransform - three.inverse).norm(), 1e-13);
 }
 
-/// Undamped oscillator of period 1 along x, started at rest from 1.
-std::string oscillator(double h, double end) {
-  const double k = 4 * std::numbers::pi * std::numbers::pi;
-  return fmt::format(R"(
-.NOE
- I 1 X 0 0 0
-.MCE
- I 1 INERTIA N 1 M 1
- I 2 SPRING N 0 1 K {0} {0} {0}
-.CLM
- FIX NOEUD 1 C 2 3
-.INI
- DEP NOEUD 1 C 1 V 1
-.SAM TYPE DYNAMIC SCHEME RADAU PREC 1e-13
-.SUB TF {2} H {1}
-)",
-                     k, h, end);
-}
-
 TEST(Radau, AmplifiesByItsPadeApproximant) {
   // R(z), the (2, 3) approximant of exp(z): x after one step from (1, 0) is Re R(iωh)
   for (const double h : {0.1, 0.7, 5.0}) {
     const std::complex<double> z(0, 2 * std::numbers::pi * h);
     const std::complex<double> fifth =
         (1.0 + 2.0 * z / 5.0 + z * z / 20.0) / (1.0 - 3.0 * z / 5.0 + 3.0 * z * z / 20.0 - z * z * z / 60.0);
-    DeckRun deck(oscillator(h, h));
+    DeckRun deck(oscillator(h, h, radau));
     const double x = deck.node(deck.run(), 1).x[0];
     EXPECT_NEAR(x, fifth.real(), 1e-11);
   }
-}
-
-/// Compound pendulum on a hinge: length to the centre of mass 1, m 1, J 0, released from the horizontal under 9.81.
-std::string pendulum(double h) {
-  return fmt::format(R"(
-.NOE
- I 1 X -1 0 0
-.MCE
- I 1 HINGE N 0 1 AXIS 0 0 1 AT 0 0 0
- I 2 INERTIA N 1 M 1 J 0 0 0
-.CLM
- STRU ACC VAL 0 -9.81 0
-.SAM TYPE DYNAMIC SCHEME RADAU PREC 1e-13
-.SUB TF 1 H {}
-)",
-                     h);
 }
 
 TEST(Radau, IsOfOrderFiveInPositionVelocityAccelerationAndMultiplier) {
@@ -90,7 +59,7 @@ TEST(Radau, IsOfOrderFiveInPositionVelocityAccelerationAndMultiplier) {
   const double speed = std::sqrt(2 * 9.81 * -y1);
   double error[3][4];
   for (int level = 0; level < 3; ++level) {
-    DeckRun deck(pendulum(0.125 / (1 << level)));
+    DeckRun deck(pendulum(0.125 / (1 << level), radau));
     const Configuration end = deck.run();
     const NodeState& node = deck.node(end, 1);
     error[level][0] = std::hypot(node.x[0] - x1, node.x[1] - y1);
@@ -195,7 +164,7 @@ TEST(Radau, KeepsItsOrderWhenTheStepChanges) {
   double error[2];
   for (int level = 0; level < 2; ++level) {
     const double h = 0.125 / (1 << level);
-    DeckRun deck(pendulum(h));
+    DeckRun deck(pendulum(h, radau));
     const auto scheme = make_scheme(deck.context());
     Configuration now = deck.context().numbering.reference_configuration(0), next;
     scheme->start(now);

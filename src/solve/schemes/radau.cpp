@@ -376,7 +376,7 @@ void Radau::save(Snapshot& snapshot) const {
   if (kept_step_ > 0) {
     Snapshot kept;
     save_configuration(kept_, kept);
-    for (const auto& [name, values] : kept.arrays()) snapshot.put("radau/kept/" + name, values);
+    save_part(kept, "radau/kept/", snapshot);
     snapshot.put("radau/kept_scale", kept_scale_);
   }
   save_part(references_, "radau/", snapshot);

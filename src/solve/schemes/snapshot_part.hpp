@@ -7,12 +7,17 @@
 
 namespace engrane::solve {
 
-/// What `part` saves goes under names that begin with `prefix`: for those of which a run has several.
+/// What a part has saved goes under names that begin with `prefix`: for those of which a run has several.
+inline void save_part(const Snapshot& own, const std::string& prefix, Snapshot& snapshot) {
+  for (const auto& [name, values] : own.arrays()) snapshot.put(prefix + name, values);
+}
+
+/// The same of what `part` saves by itself.
 template <class Part>
 void save_part(const Part& part, const std::string& prefix, Snapshot& snapshot) {
   Snapshot own;
   part.save(own);
-  for (const auto& [name, values] : own.arrays()) snapshot.put(prefix + name, values);
+  save_part(own, prefix, snapshot);
 }
 
 /// What save_part() has put under `prefix`, under the part's own names.
