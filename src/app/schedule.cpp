@@ -6,8 +6,17 @@
 
 namespace engrane::app {
 
+namespace {
+
+/// Part of the time between even instants that counts as nothing.
+constexpr double on_time = 1e-6;
+
+}  // namespace
+
 Schedule::Schedule(const deck::SteppingCard& stepping, const deck::ArchiveCard& archive)
-    : start_(stepping.start), end_(stepping.end), step_(stepping.step) {
+    : start_(stepping.start), end_(stepping.end), step_(stepping.step), controlled_(stepping.tolerance.has_value()) {
+  even_ = archive.history_step.value_or(step_);
+  if (archive.field_step) even_ = std::min(even_, *archive.field_step);
   sample_ = {archive.history_step.value_or(0), start_};
   frame_ = {archive.field_step.value_or((end_ - start_) / 200), start_};
   if (archive.restart_step) restart_ = Interval{*archive.restart_step, start_ + *archive.restart_step};
@@ -35,8 +44,24 @@ Schedule::Due Schedule::at(double time, double step, bool regular) {
   return due;
 }
 
+bool Schedule::even(double time) const {
+  if (time >= end_ || even_ == 0) return true;
+  const double place = (time - start_) / even_;
+  return std::abs(place - std::round(place)) < on_time;
+}
+
+std::vector<double> Schedule::between(double from, double to) const {
+  std::vector<double> times;
+  if (even_ == 0) return times;
+  for (double k = std::floor((from - start_) / even_ + on_time) + 1;; ++k) {
+    const double time = start_ + k * even_;
+    if (time >= to - on_time * even_) return times;
+    times.push_back(time);
+  }
+}
+
 std::size_t Schedule::expected_samples() const {
-  return static_cast<std::size_t>(std::min(1e9, (end_ - start_) / std::max(step_, sample_.length))) + 2;
+  return static_cast<std::size_t>(std::min(1e9, (end_ - start_) / std::max(controlled_ ? even_ : step_, sample_.length))) + 2;
 }
 
 void Schedule::save(Snapshot& snapshot) const { snapshot.put("schedule/next", {sample_.next, frame_.next, asked_}); }

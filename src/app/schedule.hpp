@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "base/snapshot.hpp"
 #include "deck/cards/cards.hpp"
@@ -20,6 +21,16 @@ class Schedule {
   /// want samples at equal intervals, so what lies between multiples of H for an event is for energies and checks only.
   Due at(double time, double step, bool regular);
 
+  /// The instants between two ends of controlled steps at which something may be due: the even ones. None where histories are of
+  /// every step.
+  std::vector<double> between(double from, double to) const;
+  /// Is this such an instant, or the end?
+  bool even(double time) const;
+  /// The time between them, or a `step` where ends of steps serve.
+  double even_step(double step) const { return even_ > 0 ? even_ : step; }
+  /// Steps are controlled by their error (`.SUB TOL`).
+  bool controlled() const { return controlled_; }
+
   /// About how many samples a run to the end has.
   std::size_t expected_samples() const;
 
@@ -34,6 +45,8 @@ class Schedule {
     bool due(double time, double start);
   };
   double start_, end_, step_;
+  bool controlled_;
+  double even_ = 0;  ///< time between even instants; 0: the ends of steps serve
   double asked_ = 0;  ///< the last regular time that was asked about, with what counts as early
   Interval sample_, frame_;
   std::optional<Interval> restart_;

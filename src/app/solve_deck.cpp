@@ -123,6 +123,32 @@ void observe_step(SolverContext& context, observe::Observer& observer, const Con
     observer.find_not_unique(c, context.redundancy.undetermined(c));
 }
 
+/// Hands on the instants within a controlled step at which something is due, and returns what is due at its end; a restart point
+/// that was due on the way is due there.
+Schedule::Due show_between(Schedule& schedule, observe::Observer& observer, double from, const Configuration& end,
+                           const StepReport& step, const std::function<void(const Configuration&, const Schedule::Due&)>& show) {
+  bool restart = false;
+  const auto look = [&](const Configuration& c) {
+    const Schedule::Due due = schedule.at(c.time, schedule.even_step(step.step), true);
+    restart = restart || due.restart;
+    show(c, due);
+  };
+  const std::vector<double> times = schedule.between(from, end.time);
+  if (step.between) {
+    step.between(times, look);
+  } else {  // a drift is so short that nothing changes in it
+    Configuration c = end;
+    for (const double time : times) {
+      c.time = time;
+      look(c);
+    }
+  }
+  if (!times.empty()) observer.back_to_end();
+  Schedule::Due due = schedule.at(end.time, schedule.even_step(step.step), schedule.even(end.time));
+  due.restart = due.restart || restart;
+  return due;
+}
+
 }  // namespace
 
 bool was_interrupted() { return interrupted != 0; }
@@ -175,21 +201,40 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   const auto scheme = make_scheme(context);
   Runner runner(context, *scheme);
   Configuration whole;
+  double last_time = reading.model.commands.stepping.start;
+  if (schedule.controlled()) observer.keep_ends(true, true);
   const Observer after_step = [&](const Configuration& solved, const StepReport& step) {
     starting = 0;
     const auto watch = times.output();
     user::forget_failures();  // those of attempts that were cut
     forget_function_failures();
-    const Schedule::Due due = schedule.at(solved.time, step.number == 0 ? 0.0 : step.step, step.regular);
-    const bool seen = due.sample || due.frame || !reading.model.commands.checks.empty();
-    if (seen && context.out_of_plane.active()) {
-      whole = solved;
+    // the configuration with its forces out of the plane, where somebody looks
+    const auto in_space = [&](const Configuration& found, bool seen) -> const Configuration& {
+      if (!seen || !context.out_of_plane.active()) return found;
+      whole = found;
       context.out_of_plane.find(whole);
+      return whole;
+    };
+    const bool checked = !reading.model.commands.checks.empty();
+    Schedule::Due due;
+    if (schedule.controlled() && step.number > 0) {
+      observe_step(context, observer, in_space(solved, true), step, {});
+      due = show_between(schedule, observer, last_time, solved, step, [&](const Configuration& inner, const Schedule::Due& now) {
+        observer.between(in_space(inner, true), now.sample || checked, now.frame);
+        if (rank == 0 && failure.empty()) try {
+            writer->between(inner.time, now);
+          } catch (const OutputError& e) {
+            failure = e.what();
+          }
+      });
+    } else {
+      due = schedule.at(solved.time, step.number == 0 ? 0.0 : step.step, step.regular);
+      observe_step(context, observer, in_space(solved, due.sample || due.frame || checked), step, due);
     }
-    const Configuration& c = seen && context.out_of_plane.active() ? whole : solved;
-    observe_step(context, observer, c, step, due);
-    int stop = 0;
-    if (rank == 0) try {
+    last_time = solved.time;
+    const Configuration& c = in_space(solved, due.sample || due.frame || checked);
+    int stop = failure.empty() ? 0 : 1;
+    if (rank == 0 && stop == 0) try {
         writer->step(c, step, due, context.numbering);
         writer->remember(solved, runner, due.restart, false);
       } catch (const OutputError& e) {
@@ -213,6 +258,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     if (resumption) {
       observer.load(resumption->point.memory);
       schedule.load(resumption->point.memory);
+      last_time = resumption->point.time;
       if (rank == 0) writer->resumed(*resumption);
       complete = runner.resume(resumption->point.memory, after_step);
     } else {

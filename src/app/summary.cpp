@@ -98,6 +98,8 @@ std::string describe_analysis(const Model& model) {
     if (a.alpha && !a.scheme.is("CHUNG")) text += fmt::format(" alpha {:g}", *a.alpha);
   }
   const double steps = std::ceil((s.end - s.start) / s.step * (1 - 1e-9));
+  if (s.tolerance && a.type.is("DYNAMIC"))
+    return text + fmt::format(", t = {:g} to {:g}, steps of local error {:g}, {}", s.start, s.end, *s.tolerance, a.solver.tag);
   return text + fmt::format(", t = {:g} to {:g}, {:.0f} steps of {:g}, {}", s.start, s.end, steps, s.step, a.solver.tag);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <utility>
 
 #include "app/layout.hpp"
 #include "app/model_json.hpp"
@@ -138,15 +139,12 @@ void Writer::started(const StartReport& start) {
 
 void Writer::step(const Configuration& c, const StepReport& step, const Schedule::Due& due, const Numbering& numbering) {
   const bool last = c.time >= reading_.model.commands.stepping.end;
-  if (!checks_.empty()) checks_.observe(c.time, observer_.values(), step.regular);
-  if (due.sample || !checks_.empty()) follow(c.time);
+  show(c.time, schedule_.controlled() ? schedule_.even(c.time) : step.regular, due);
   if (observer_.not_unique().size() != marked_) {
     marked_ = observer_.not_unique().size();
     results_.mark_not_unique(observer_.not_unique());
   }
-  if (due.sample) results_.sample(c.time, observer_.values());
-  if (due.frame) {
-    results_.frame(c.time, frame_values(reading_.model, observer_));
+  if (due.frame || std::exchange(frame_between_, false)) {
     const observe::EnergyBalance& e = observer_.energies();
     energies_.push_back({c.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error()});
   }
@@ -163,6 +161,18 @@ void Writer::step(const Configuration& c, const StepReport& step, const Schedule
   if (!last) return;
   progress_.finish();
   collect_remarks(c, numbering);
+}
+
+void Writer::between(double time, const Schedule::Due& due) {
+  show(time, true, due);
+  frame_between_ = frame_between_ || due.frame;
+}
+
+void Writer::show(double time, bool regular, const Schedule::Due& due) {
+  if (!checks_.empty()) checks_.observe(time, observer_.values(), regular);
+  if (due.sample || !checks_.empty()) follow(time);
+  if (due.sample) results_.sample(time, observer_.values());
+  if (due.frame) results_.frame(time, frame_values(reading_.model, observer_));
 }
 
 int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit& times) {

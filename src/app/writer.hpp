@@ -41,6 +41,8 @@ class Writer {
   void remember(const Configuration& c, const solve::Runner& runner, bool kept, bool last);
   void started(const solve::StartReport& start);
   void step(const Configuration& c, const solve::StepReport& step, const Schedule::Due& due, const Numbering& numbering);
+  /// An instant within the step that the next call of step() is about.
+  void between(double time, const Schedule::Due& due);
   /// Ends listing and results; returns the exit status.
   int finish(output::RunStatus status, const std::string& failure, const output::TimeSplit& times);
 
@@ -60,6 +62,7 @@ class Writer {
   /// The sums of what the ground exerts, and the peaks.
   void follow(double time);
   output::GroundRow ground(double time) const;
+  void show(double time, bool regular, const Schedule::Due& due);
   void note_events(const Configuration& c, const solve::StepReport& step);
   void collect_remarks(const Configuration& c, const Numbering& numbering);
   void write_newton(const Configuration& c, const solve::StepReport& step, const Numbering& numbering);
@@ -78,6 +81,7 @@ class Writer {
   std::vector<output::GroundRow> ground_;  ///< the last, the one with the largest force, that with the largest moment
   std::vector<output::EnergyRow> energies_;
   std::string events_, remarks_;
+  bool frame_between_ = false;  ///< a frame was due within the step
   std::size_t marked_ = 0;  ///< channels marked as not unique so far
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;
 };

@@ -3,6 +3,13 @@
 
 namespace engrane {
 
+namespace {
+
+/// With error control no step is longer than this part of the run, unless the deck says so.
+constexpr double longest_part = 0.02;
+
+}  // namespace
+
 SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::SteppingCard& stepping) {
   using Analysis = SolverOptions::Analysis;
   using Family = SolverOptions::Family;
@@ -20,6 +27,8 @@ SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::Ste
   o.begin = stepping.start;
   o.end = stepping.end;
   o.step = stepping.step;
+  o.tolerance = o.analysis == Analysis::dynamics ? stepping.tolerance.value_or(0) : 0;
+  o.longest = stepping.longest.value_or(longest_part * (o.end - o.begin));
   o.cuts = analysis.cuts;
   o.package = analysis.solver.tag;
   o.precision = analysis.precision;

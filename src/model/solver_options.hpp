@@ -19,6 +19,8 @@ struct SolverOptions {
 
   double begin = 0, end = 1;  ///< time
   double step = 0.1;          ///< H
+  double tolerance = 0;       ///< most local error of a step, as StepError measures it; 0: all steps are of H
+  double longest = 0;         ///< step, with a tolerance
   int cuts = 10;              ///< how often H may be halved
 
   std::string package = "MUMPS";  ///< direct solver

@@ -2,7 +2,10 @@
 #include "observe/energies.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "assembly/configuration_snapshot.hpp"
 #include "math/rotation.hpp"
@@ -10,6 +13,8 @@
 namespace engrane::observe {
 
 namespace {
+
+constexpr std::size_t points_of_powers = 4;
 
 /// Sum of `energies` of this rank's elements.
 Energies own_energies(Assembler& assembler, const Configuration& c) {
@@ -56,7 +61,7 @@ double static_work(Assembler& assembler, Reactions& supports, const Configuratio
 }
 
 EnergyLedger::EnergyLedger(Assembler& assembler, Reactions& supports, bool moves)
-    : assembler_(assembler), supports_(supports), moves_(moves) {}
+    : assembler_(assembler), supports_(supports), moves_(moves), powers_(points_of_powers, std::numeric_limits<double>::infinity()) {}
 
 void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reactions) {
   Energies sum = total_energies(assembler_, c);
@@ -70,8 +75,20 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
     balance_.external_work += static_work(assembler_, supports_, before_, c);
   } else {
     const double half = 0.5 * (c.time - last_time_);
-    balance_.external_work += half * (external_power_ + sum.external);
-    balance_.dissipated += half * (dissipated_power_ + sum.dissipated);
+    if (smooth_) {
+      if (powers_.empty()) powers_.add(last_time_, std::array{external_power_, dissipated_power_});
+      powers_.add(c.time, std::array{sum.external, sum.dissipated});
+      // Gauss's two points: exact for cubics
+      for (const double side : {-1.0, 1.0}) {
+        std::array<double, 2> power{};
+        powers_.at(last_time_ + half * (1 + side / std::numbers::sqrt3), 0, power);
+        balance_.external_work += half * power[0];
+        balance_.dissipated += half * power[1];
+      }
+    } else {
+      balance_.external_work += half * (external_power_ + sum.external);
+      balance_.dissipated += half * (dissipated_power_ + sum.dissipated);
+    }
     balance_.passed +=
         half * (std::abs(external_power_) + std::abs(sum.external) + std::abs(dissipated_power_) + std::abs(sum.dissipated));
   }
@@ -88,6 +105,7 @@ void EnergyLedger::save(Snapshot& snapshot) const {
   snapshot.put("observe/energies", {balance_.kinetic, balance_.potential, balance_.external_work, balance_.dissipated,
                                     balance_.initial, balance_.largest_error, external_power_, dissipated_power_, last_time_,
                                     balance_.passed, balance_.exchanged, initial_potential_});
+  if (smooth_) powers_.save(snapshot, "observe/powers");
 }
 
 void EnergyLedger::load(const Snapshot& snapshot) {
@@ -100,6 +118,7 @@ void EnergyLedger::load(const Snapshot& snapshot) {
   balance_.exchanged = state.at(10);
   initial_potential_ = state.at(11);
   started_ = true;
+  if (smooth_ && snapshot.has("observe/powers")) powers_.load(snapshot, "observe/powers");
   if (moves_) return;
   before_ = assembler_.numbering().reference_configuration(last_time_);
   load_configuration(snapshot, before_);

@@ -6,6 +6,7 @@
 
 #include "assembly/assembler.hpp"
 #include "base/snapshot.hpp"
+#include "math/extrapolation.hpp"
 #include "observe/reactions.hpp"
 
 namespace engrane::observe {
@@ -31,7 +32,8 @@ Energies total_energies(Assembler& assembler, const Configuration& c);
 /// Work of loads and supports between two equilibria, by the trapezoidal rule along the straight way between them.
 double static_work(Assembler& assembler, Reactions& supports, const Configuration& from, const Configuration& to);
 
-/// Keeps the balance from step to step. Work in motion is the integral of power by the trapezoidal rule.
+/// Keeps the balance from step to step. Work in motion is the integral of power by the trapezoidal rule, or of the polynomial through
+/// the last few powers where steps are controlled, and so may be long.
 class EnergyLedger {
  public:
   /// `moves`: the analysis has velocities; else work is that between equilibria.
@@ -39,6 +41,9 @@ class EnergyLedger {
 
   /// The next accepted configuration, the start first. Collective.
   void add(const Configuration& c, const std::vector<Reaction>& reactions);
+  void integrate_smoothly() { smooth_ = true; }
+  /// What follows does not continue what was.
+  void forget() { powers_.clear(); }
   const EnergyBalance& balance() const { return balance_; }
 
   /// For a restart; load() takes the configuration last added from the snapshot too.
@@ -53,6 +58,8 @@ class EnergyLedger {
   EnergyBalance balance_;
   double initial_potential_ = 0;
   double external_power_ = 0, dissipated_power_ = 0, last_time_ = 0;
+  bool smooth_ = false;
+  Extrapolation powers_;  ///< external and dissipated
   Configuration before_;  ///< of statics: the last equilibrium
 };
 

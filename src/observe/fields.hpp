@@ -38,6 +38,14 @@ class ElementFields {
   const std::vector<ElementField>& fields() const { return fields_; }
   /// Each rank evaluates its own elements. Collective.
   void evaluate(const Configuration& c);
+  /// Gives rows and places of each field to `replace`, to be changed.
+  template <class Replace>
+  void replace(const Replace& replace) {
+    for (ElementField& field : fields_) {
+      replace(field.rows);
+      replace(field.places);
+    }
+  }
 
  private:
   /// One field of one part.

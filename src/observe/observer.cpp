@@ -3,9 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace engrane::observe {
+
+namespace {
+
+/// Values between two instants lie on a polynomial through at most so many.
+constexpr std::size_t most_ends = 6;
+
+/// Angles may begin anew after a turn, and speeds are as good as the motion. What is long may be the difference of much longer.
+bool of_motion(const Dimension& d) {
+  return d == dimension::angle || d == dimension::angular_velocity || d == dimension::velocity;
+}
+
+}  // namespace
 
 std::vector<Named> run_channels(bool moves) {
   std::vector<Named> channels{{"STEP", dimension::time, "time step"},
@@ -31,7 +44,8 @@ Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
       ledger_(assembler, supports_, moves),
       run_channels_(observe::run_channels(moves)),
       values_(histories_.columns() + run_channels_.size(), 0.0),
-      element_fields_(assembler) {}
+      element_fields_(assembler),
+      ends_(most_ends, std::numeric_limits<double>::infinity()) {}
 
 int Observer::channel(const std::string& owner, const std::string& name) const {
   const auto place = [&name](const std::vector<Named>& channels) {
@@ -57,11 +71,24 @@ int Observer::channel(const std::string& owner, const std::string& name) const {
 
 void Observer::observe(const Configuration& c, const Step& step, bool histories, bool fields) {
   last_reactions_ = supports_.at(c);
+  histories = histories || keeps_histories_;
+  fields = fields || keeps_fields_;
+  // what comes after an event continues nothing
+  if (step.events > 0) {
+    ends_.clear();
+    ledger_.forget();
+  }
   ledger_.add(c, last_reactions_);
   events_ += static_cast<double>(step.events);
   if (fields && assembler_.rank() == 0) fields_ = nodal_fields(assembler_.model(), c, last_reactions_, moves_);
   if (fields) element_fields_.evaluate(c);
-  if (!histories) return;
+  if (histories) evaluate_histories(c, step);
+  if (!keeps_histories_ && !keeps_fields_) return;
+  gather(end_, keeps_histories_, keeps_fields_);
+  ends_.add(c.time, end_);
+}
+
+void Observer::evaluate_histories(const Configuration& c, const Step& step) {
   const std::vector<double>& values = histories_.evaluate(c, last_reactions_);
   const Resultant ground = supports_.resultant(c, last_reactions_);
   if (assembler_.rank() != 0) return;
@@ -75,6 +102,76 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
              : std::vector{step.length, static_cast<double>(step.iterations), events_, e.potential, e.external_work, e.error()};
   out = std::copy(run.begin(), run.end(), out);
   for (const Vec3* part : {&ground.force, &ground.moment}) out = std::copy(part->data(), part->data() + 3, out);
+}
+
+void Observer::keep_ends(bool histories, bool fields) {
+  keeps_histories_ = histories;
+  keeps_fields_ = fields;
+  ledger_.integrate_smoothly();
+  ways_ = ways();
+}
+
+void Observer::between(const Configuration& c, bool histories, bool fields) {
+  std::vector<double> smooth(end_.size()), moved;
+  ends_.at(c.time, 0, smooth);
+  const std::vector<Reaction> reactions = supports_.at(c);
+  if (histories) {
+    const std::vector<double>& values = histories_.evaluate(c, reactions);
+    if (assembler_.rank() == 0) std::copy(values.begin(), values.end(), values_.begin());
+  }
+  if (fields && assembler_.rank() == 0) fields_ = nodal_fields(assembler_.model(), c, reactions, moves_);
+  if (fields) element_fields_.evaluate(c);
+  gather(moved, keeps_histories_, keeps_fields_);
+  for (std::size_t i = 0; i < moved.size(); ++i)
+    if (ways_[i] != Way::motion) moved[i] = ways_[i] == Way::end ? end_[i] : smooth[i];
+  spread(moved, keeps_histories_, keeps_fields_);
+}
+
+void Observer::back_to_end() {
+  if (!end_.empty()) spread(end_, keeps_histories_, keeps_fields_);
+}
+
+std::vector<Observer::Way> Observer::ways() const {
+  std::vector<Way> all;
+  const auto append = [&all](const Named& named, std::size_t count) { 
+    all.insert(all.end(), count, of_motion(named.dimension) ? Way::motion : Way::smooth);
+  };
+  if (keeps_histories_) {
+    for (const Table& table : histories_.tables())
+      for (std::size_t owner = 0; owner < table.columns() / table.channels.size(); ++owner)
+        for (const Named& channel : table.channels) append(channel, 1);
+    for (const Named& channel : run_channels_) append(channel, 1);
+    for (const char* name : {"STEP", "ITERATIONS", "EVENTS"}) all[static_cast<std::size_t>(this->channel("run", name))] = Way::end;
+  }
+  if (!keeps_fields_ || assembler_.rank() != 0) return all;
+  for (const Named& named : nodal_field_names(moves_)) append(named, 3 * (assembler_.model().nodes.size() - 1));
+  for (const ElementField& field : element_fields_.fields()) {
+    append(field.named, assembler_.model().parts.size() * field.width());
+    append(field.named, field.place_parts.size() * field.width());
+  }
+  return all;
+}
+
+void Observer::gather(std::vector<double>& row, bool histories, bool fields) const {
+  row.clear();
+  if (histories) row = values_;
+  if (!fields || assembler_.rank() != 0) return;
+  for (const NodalField& field : fields_) row.insert(row.end(), field.rows.begin(), field.rows.end());
+  for (const ElementField& field : element_fields_.fields())
+    for (const std::vector<double>* rows : {&field.rows, &field.places}) row.insert(row.end(), rows->begin(), rows->end());
+}
+
+void Observer::spread(const std::vector<double>& row, bool histories, bool fields) {
+  auto from = row.begin();
+  const auto take = [&from](std::vector<double>& values) {
+    const auto size = static_cast<std::ptrdiff_t>(values.size());
+    std::copy(from, from + size, values.begin());
+    from += size;
+  };
+  if (histories) take(values_);
+  if (!fields || assembler_.rank() != 0) return;
+  for (NodalField& field : fields_) take(field.rows);
+  element_fields_.replace(take);
 }
 
 void Observer::find_not_unique(const Configuration& c, const std::vector<Eigen::VectorXd>& undetermined) {
@@ -101,6 +198,9 @@ void Observer::save(Snapshot& snapshot) const {
   std::vector<double> columns(not_unique_.begin(), not_unique_.end());
   snapshot.put("observe/not_unique", std::move(columns));
   snapshot.put("observe/columns", static_cast<double>(values_.size()));
+  if (!keeps_histories_ && !keeps_fields_) return;
+  snapshot.put("observe/end", end_);
+  ends_.save(snapshot, "observe/ends");
 }
 
 void Observer::load(const Snapshot& snapshot) {
@@ -110,6 +210,9 @@ void Observer::load(const Snapshot& snapshot) {
   // with other histories than before the columns mean others: they are found again
   if (snapshot.number("observe/columns") != static_cast<double>(values_.size())) return;
   for (const double column : snapshot.array("observe/not_unique")) not_unique_.push_back(static_cast<int>(column));
+  if (assembler_.rank() != 0 || !snapshot.has("observe/end") || snapshot.array("observe/end").size() != ways_.size()) return;
+  end_ = snapshot.array("observe/end");
+  ends_.load(snapshot, "observe/ends");
 }
 
 }  // namespace engrane::observe

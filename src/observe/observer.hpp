@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "math/extrapolation.hpp"
 #include "observe/energies.hpp"
 #include "observe/fields.hpp"
 #include "observe/histories.hpp"
@@ -28,6 +29,15 @@ class Observer {
 
   /// The next accepted configuration, the start first. Histories and fields are computed where they are wanted.
   void observe(const Configuration& c, const Step& step, bool histories, bool fields);
+
+  /// Remembers what is observed from now on, for instants between. `histories`, `fields`: what between() will be asked for.
+  void keep_ends(bool histories, bool fields);
+  /// What values() and fields() were at an instant between the last two configurations observed, of which `c` has the motion:
+  /// angles and speeds are those of the motion; all else lies on a polynomial through the values
+  /// observed since the last event. A force of something stiff, evaluated from an interpolated motion, would be its error.
+  void between(const Configuration& c, bool histories, bool fields);
+  /// Makes values() and fields() those of the last configuration observed again.
+  void back_to_end();
 
   /// Finds the channels that change when forces are added to the multipliers of `c` that have no effect on what moves; a few
   /// such combinations, the largest entry of each 1: redundant constraints leave them undetermined. To be asked now and then,
@@ -69,6 +79,18 @@ class Observer {
   std::vector<Reaction> last_reactions_;
   std::vector<int> not_unique_;
   double events_ = 0;
+
+  void evaluate_histories(const Configuration& c, const Step& step);
+  /// All of values(), then all of fields() and element_fields(), in one row.
+  void gather(std::vector<double>& row, bool histories, bool fields) const;
+  void spread(const std::vector<double>& row, bool histories, bool fields);
+  /// What an entry of such a row is between two ends: on the polynomial, of the motion, or that of the end after it.
+  enum class Way : unsigned char { smooth, motion, end };
+  std::vector<Way> ways() const;
+  bool keeps_histories_ = false, keeps_fields_ = false;
+  std::vector<Way> ways_;
+  std::vector<double> end_;
+  Extrapolation ends_;
 };
 
 /// Channels of the whole model.

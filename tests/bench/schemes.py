@@ -3,8 +3,9 @@
 
     python tests/bench/schemes.py build/bin/engrane [--models top andrews crank spur valve bevel]
         [--schemes "SCHEME CHUNG RHO 0.8" "SCHEME RADAU"] [--runs 2] [--solver KLU]
+        [--tolerances 1e-2 1e-3 1e-4 1e-5]
 
-Each model runs with each scheme and each of its steps. Errors are the largest of ten instants, over the
+Each model runs with each scheme and each of its steps, then with each tolerance of error-controlled steps. Errors are the largest of ten instants, over the
 largest value there, of some positions (q), velocities (v) and forces (f) that MODELS names; the reference is
 RADAU with half the third shortest step and a precision of 1e-13, unless --reference names another scheme.
 Processor time is that of the process, the least of --runs, without that of a run of a single step. Prints a
@@ -104,7 +105,9 @@ MODELS = {
 SCHEMES = ("SCHEME CHUNG RHO 0.8", "SCHEME NEWMARK", "SCHEME RADAU")
 
 
-def deck(model: str, scheme: str, step: float, end: float, solver: str) -> str:
+def deck(
+    model: str, scheme: str, step: float, end: float, solver: str, tolerance: float | None = None
+) -> str:
     source = MODELS[model][0]
     text = source if source.startswith("\n") else (ROOT / source).read_text(encoding="utf-8")
     text = re.sub(r"^\.CHK\n(?: .*\n|!.*\n)*", "", text, flags=re.M)
@@ -114,9 +117,10 @@ def deck(model: str, scheme: str, step: float, end: float, solver: str) -> str:
         r"^\.SAM .*", f".SAM TYPE DYNAMIC {scheme} SOLVER {solver}{keep} ENERGY 0", text, flags=re.M
     )
     sample = MODELS[model][1] / 10
+    control = f" TOL {tolerance!r}" if tolerance else ""
     return re.sub(
         r"^\.SUB .*",
-        f".SUB TF {end!r} H {step!r}\n.SAI FIELDS DT {end!r} HISTORY DT {sample!r}",
+        f".SUB TF {end!r} H {step!r}{control}\n.SAI FIELDS DT {end!r} HISTORY DT {sample!r}",
         text,
         flags=re.M,
     )
@@ -125,11 +129,23 @@ def deck(model: str, scheme: str, step: float, end: float, solver: str) -> str:
 class Run:
     """Values at the sampled instants by kind, steps, iterations and processor time; None where it failed."""
 
-    def __init__(self, binary: Path, folder: Path, model: str, scheme: str, step: float, options) -> None:
+    def __init__(
+        self,
+        binary: Path,
+        folder: Path,
+        model: str,
+        scheme: str,
+        step: float,
+        options,
+        tolerance: float | None = None,
+    ) -> None:
         path = folder / "run.dat"
         self.seconds = float("inf")
         for end in [MODELS[model][1]] * options.runs + [step]:
-            path.write_text(deck(model, scheme, step, end, options.solver), encoding="utf-8")
+            path.write_text(
+                deck(model, scheme, step, end, options.solver, tolerance if end > step else None),
+                encoding="utf-8",
+            )
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             done = subprocess.run(
                 [binary, "-q", path, "-o", path.with_suffix("")],
@@ -173,6 +189,7 @@ def main() -> None:
     parser.add_argument("--runs", type=int, default=2)
     parser.add_argument("--solver", default="KLU")
     parser.add_argument("--steps", type=int, default=100, help="how many of the steps of a model to take")
+    parser.add_argument("--tolerances", nargs="*", type=float, default=[], help="TOL of `.SUB`")
     options = parser.parse_args()
     binary = options.binary.resolve()
     with tempfile.TemporaryDirectory() as folder:
@@ -184,15 +201,17 @@ def main() -> None:
             print(f"\n{model}\n")
             print("| scheme | H | steps | iterations | error q | v | f | seconds |\n" + "|---" * 8 + "|")
             for scheme in options.schemes:
-                for step in steps[: options.steps]:
-                    run = Run(binary, Path(folder), model, scheme, step, options)
+                tries = [(step, None) for step in steps[: options.steps]]
+                for step, tolerance in tries + [(steps[0], one) for one in options.tolerances]:
+                    run = Run(binary, Path(folder), model, scheme, step, options, tolerance)
+                    said = f"TOL {tolerance:g}" if tolerance else f"{step:g}"
                     if run.failure:
                         why = " ".join(run.failure.split())[:100]
-                        print(f"| {scheme} | {step:g} | failed: {why} |")
+                        print(f"| {scheme} | {said} | failed: {why} |")
                         continue
                     errors = " | ".join(f"{e:.1e}" for e in run.errors(reference))
                     effort = f"{run.steps} | {run.iterations}"
-                    print(f"| {scheme} | {step:g} | {effort} | {errors} | {run.seconds:.3f} |", flush=True)
+                    print(f"| {scheme} | {said} | {effort} | {errors} | {run.seconds:.3f} |", flush=True)
 
 
 if __name__ == "__main__":

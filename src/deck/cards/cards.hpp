@@ -138,6 +138,8 @@ struct SteppingCard {
   double start = 0;
   double end = 1;
   double step = 0.1;
+  std::optional<double> tolerance;  ///< TOL: most local error of a step; not given: all steps are of H
+  std::optional<double> longest;    ///< HMAX: longest step with TOL
 };
 
 /// `.SAI` what is archived: rate of the fields, rate of the histories, whose histories and which, and restart points.

@@ -128,8 +128,19 @@ Schema stepping_card() {
       .unit(dimension::time)
       .positive()
       .required();
+  card.add("TOL", &SteppingCard::tolerance,
+           "DYNAMIC: steps are chosen so that positions depart from the truth in a step by no more than this part of the step times "
+           "the range of their velocities so far; H is then the first step, and the time between results, which are interpolated")
+      .synonyms({"TOLERANCE"})
+      .positive()
+      .below(1);
+  card.add("HMAX", &SteppingCard::longest, "longest step with TOL; a 50th of the time span when not given")
+      .unit(dimension::time)
+      .positive();
   card.add("TI", &SteppingCard::start, "initial time").unit(dimension::time);
   card.finish([](SteppingCard& stepping, Record& record, Diagnostics& diagnostics) {
+    if (stepping.longest && !stepping.tolerance)
+      diagnostics.error(record.where("HMAX"), "HMAX limits steps that TOL chooses, and there is no TOL", "give TOL, or leave HMAX out");
     if ((stepping.end - stepping.start) / stepping.step > 1e9)
       diagnostics.error(record.where("H"), "H makes more than 1e9 steps");
     // a thousand times what two times differ by: steps are cut and add up
@@ -140,7 +151,7 @@ Schema stepping_card() {
                                     std::max(std::abs(stepping.start), std::abs(stepping.end)), resolution),
                         "count time from nearer to the motion (TI 0), or take a longer step");
   });
-  card.example(".SUB TF 0.03 H 1D-6");
+  card.example(".SUB TF 0.03 H 1D-6").example(".SUB TF 2 H 0.01 TOL 1E-4");
   return card.schema();
 }
 

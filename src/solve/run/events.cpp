@@ -133,9 +133,14 @@ double Switches::time_to_change(const std::vector<Switch>& now, double tolerance
 }
 
 EventLocator::EventLocator(SolverContext& context, Scheme& scheme)
-    : scheme_(scheme), switches_(context), step_(context.options.step) {
-  tolerance_ = step_ * context.options.event_tolerance;
+    : scheme_(scheme), switches_(context), step_(context.options.step), sharpness_(context.options.event_tolerance) {
+  step_is(step_);
   active_ = scheme.meets_events() && context.options.events && !switches_.empty();
+}
+
+void EventLocator::step_is(double step) {
+  step_ = step;
+  tolerance_ = step * sharpness_;
 }
 
 bool EventLocator::chatters() {

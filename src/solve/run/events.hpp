@@ -68,8 +68,11 @@ class EventLocator {
   /// How far an event may be from the end of the step before it.
   double tolerance() const { return tolerance_; }
 
+  /// Steps are of this length now.
+  void step_is(double step);
+
   Switches& switches() { return switches_; }
-  /// A new multiple of H is the aim: the guard against chattering counts anew.
+  /// A new multiple of H is the aim, or a controlled step has met no event: the guard against chattering counts anew.
   void new_target() { located_ = 0; }
 
   struct Finding {
@@ -97,7 +100,7 @@ class EventLocator {
  private:
   Scheme& scheme_;
   Switches switches_;
-  double step_, tolerance_ = 0;
+  double step_, sharpness_, tolerance_ = 0;
   bool active_ = false;
   int located_ = 0;
   bool chattered_ = false, told_ = false;

@@ -14,6 +14,8 @@ namespace engrane::solve {
 
 namespace {
 
+/// With error control steps may be cut this much deeper than CUTS says.
+constexpr int deeper = 20;
 /// Part of H below which reactions would carry visible noise of rounding.
 constexpr double noisy = 0.1;
 
@@ -44,8 +46,9 @@ Runner::Runner(SolverContext& context, Scheme& scheme)
       scheme_(scheme),
       options_(context.options),
       locator_(context, scheme),
+      control_(options_, scheme.order_of_error()),
       now_(context.numbering.reference_configuration(options_.begin)),
-      h_(options_.step) {}
+      h_(control_.active() ? std::min(options_.step, options_.longest) : options_.step) {}
 
 bool Runner::run(const Observer& observer, const std::function<void(const StartReport&)>& started) {
   observer_ = &observer;
@@ -66,7 +69,8 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   scheme_.load(snapshot);
   locator_.load(snapshot);
   scheme_.take_over(now_);
-  h_ = std::min(snapshot.number("runner/h"), options_.step);
+  control_.load(snapshot);
+  h_ = std::min(snapshot.number("runner/h"), control_.active() ? options_.longest : options_.step);
   step_.number = static_cast<int>(snapshot.number("runner/number"));
   renewed_ = snapshot.number("runner/renewed") != 0;
   pending_drift_ = snapshot.number("runner/pending_drift");
@@ -79,6 +83,7 @@ void Runner::save(Snapshot& snapshot) const {
   context_.save(snapshot);
   scheme_.save(snapshot);
   locator_.save(snapshot);
+  control_.save(snapshot);
   snapshot.put("runner/h", h_);
   snapshot.put("runner/number", step_.number);
   snapshot.put("runner/renewed", renewed_ ? 1 : 0);
@@ -87,6 +92,7 @@ void Runner::save(Snapshot& snapshot) const {
 
 bool Runner::march() {
   const double begin = options_.begin, end = options_.end, step = options_.step;
+  if (control_.active()) return now_.time >= end || reach(end);
   // a last step shorter than a billionth of the others is the rounding of their sum
   const auto steps = static_cast<long long>(std::ceil((end - begin) / step * (1 - 1e-9)));
   const auto done = static_cast<long long>(std::floor((now_.time - begin) / step * (1 + 1e-15)));
@@ -97,13 +103,18 @@ bool Runner::march() {
   return true;
 }
 
-double Runner::next_size(double left) const { return h_ < 0.99 * left ? left / std::ceil(left / h_ * 0.99) : left; }
+double Runner::next_size(double left) const {
+  if (h_ >= 0.99 * left) return left;
+  if (control_.active()) return std::min(h_, 0.5 * left);
+  return left / std::ceil(left / h_ * 0.99);
+}
 
 bool Runner::reach(double target) {
   // a resumed run is on its way to a target already
   if (pending_drift_ > 0 && !drift(std::exchange(pending_drift_, 0), target)) return false;
   while (now_.time < target) {
     const double left = target - now_.time;
+    if (control_.active()) locator_.step_is(h_);
     if (locator_.active() && left < locator_.shortest()) {
       if (!drift(left, target)) return false;
       continue;
@@ -122,12 +133,15 @@ bool Runner::reach(double target) {
         renewed_ = true;
         continue;
       }
-      // CUTS is a depth below H, whatever made the step as short as it is
-      const int depth = depth_of(size, options_.step);
-      if (depth >= options_.cuts || now_.time + size / 2 == now_.time)
-        throw SolutionFailure(failure_text(context_, next_, report, step_.number + 1, depth));
-      ++step_.cuts;
-      h_ = size / 2;
+      control_.refused();
+      cut(size, size / 2, report);
+      continue;
+    }
+    const double error = outcome.error.value_or(0);
+    if (control_.active() && found.kind != Kind::drift && !(error <= 1)) {
+      NewtonReport inaccurate = report;
+      inaccurate.reason = fmt::format("the step's error is {:.3g} times the tolerance TOL", error);
+      cut(size, control_.retry(size, error), inaccurate);
       continue;
     }
     if (found.kind != Kind::drift) {
@@ -135,12 +149,13 @@ bool Runner::reach(double target) {
       scheme_.accept();
       std::swap(now_, next_);
       // the inverse square of a short step enlarges rounding in accelerations and multipliers: they are found anew
-      if (locator_.active() && size < noisy * options_.step) scheme_.drift(now_, 0);
-      const double grown = outcome.proposed > 0 ? outcome.proposed : 2 * h_;
-      h_ = std::min(options_.step, grown);  // back to the asked step as soon as it goes
+      if (locator_.active() && size < noisy * (control_.active() ? h_ : options_.step)) scheme_.drift(now_, 0);
+      // back to the asked step as soon as it goes
+      h_ = control_.active() ? control_.after(size, error, h_) : std::min(options_.step, 2 * h_);
       step_.newton = &report;
+      if (control_.active() && found.kind == Kind::none) locator_.new_target();
       pending_drift_ = found.kind != Kind::none && now_.time < target ? found.drift : 0;
-      if (!accepted(size, found.kind == Kind::none || now_.time == target)) return false;
+      if (!accepted(size, found.kind == Kind::none || now_.time == target, true)) return false;
       if (pending_drift_ > 0 && !drift(std::exchange(pending_drift_, 0), target)) return false;
     } else if (!drift(found.drift, target)) {
       return false;
@@ -160,10 +175,19 @@ bool Runner::drift(double time, double target) {
   scheme_.drift(now_, size);
   if (arrives) now_.time = target;
   step_.newton = nullptr;
-  return accepted(size, arrives);
+  return accepted(size, arrives, false);
 }
 
-bool Runner::accepted(double size, bool regular) {
+void Runner::cut(double size, double shorter, const NewtonReport& report) {
+  // CUTS is a depth below H, whatever made the step as short as it is
+  const int depth = depth_of(size, options_.step), most = options_.cuts + (control_.active() ? deeper : 0);
+  if (depth >= most || now_.time + shorter == now_.time)
+    throw SolutionFailure(failure_text(context_, next_, report, step_.number + 1, std::max(depth, 0)));
+  ++step_.cuts;
+  h_ = shorter;
+}
+
+bool Runner::accepted(double size, bool regular, bool solved) {
   context_.assembler.commit(now_);
   step_.events.clear();
   if (locator_.active()) step_.events = locator_.switches().take(now_);
@@ -171,6 +195,11 @@ bool Runner::accepted(double size, bool regular) {
   ++step_.number;
   step_.step = size;
   step_.regular = regular;
+  step_.between = nullptr;
+  if (control_.active() && solved)
+    step_.between = [this](std::span<const double> times, const std::function<void(const Configuration&)>& take) {
+      scheme_.between(next_, now_, times, take);
+    };
   step_.chatter = locator_.chatters();
   const bool go_on = (*observer_)(now_, step_);
   step_.cuts = step_.locating = 0;

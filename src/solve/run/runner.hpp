@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "solve/run/events.hpp"
+#include "solve/run/step_control.hpp"
 
 namespace engrane::solve {
 
@@ -13,6 +14,9 @@ struct StepReport {
   double step = 0;            ///< h
   int cuts = 0;               ///< failed attempts before this one
   bool regular = true;        ///< false: the step ended for an event, not where a multiple of H or a cut asks for it
+  /// Hands on the motion at some times (ascending) within the step; only with a tolerance, and empty where the step is but a drift
+  /// across an event.
+  std::function<void(std::span<const double>, const std::function<void(const Configuration&)>&)> between;
   int locating = 0;           ///< attempts spent on locating an event before this step
   bool chatter = false;       ///< the first time that events come too thick to be located
   std::vector<Event> events;  ///< that happened in this step
@@ -23,7 +27,7 @@ struct StepReport {
 using Observer = std::function<bool(const Configuration&, const StepReport&)>;
 
 /// Goes from the start to the end of `.SUB`: cuts steps that fail, lets them grow again, ends them at events and at the
-/// multiples of H.
+/// multiples of H. Where a tolerance is asked for, steps follow their errors, and who observes may ask for instants between.
 class Runner {
  public:
   Runner(SolverContext& context, Scheme& scheme);
@@ -43,16 +47,18 @@ class Runner {
   bool march();
   bool reach(double target);
   bool drift(double time, double target);
-  bool accepted(double size, bool regular);
+  /// now_ is accepted: by a step that was `solved`, which next_ began, or by a drift.
+  bool accepted(double size, bool regular, bool solved);
   /// The step that an attempt towards a point `left` ahead takes: equal parts of it, as long as h_ allows.
   double next_size(double left) const;
-  /// The next attempt after a failed one of `size`; throws when it would be shorter than CUTS halvings of H.
-  void cut(double size, const NewtonReport& report);
+  /// Prepares the next attempt, of `shorter`, after one of `size` that failed; throws when there have been too many.
+  void cut(double size, double shorter, const NewtonReport& report);
 
   SolverContext& context_;
   Scheme& scheme_;
   const SolverOptions& options_;
   EventLocator locator_;
+  StepControl control_;
   const Observer* observer_ = nullptr;
   Configuration now_, next_;
   double h_;

@@ -33,6 +33,16 @@ Collocation Collocation::radau() {
     if (r.blocks.back().complex()) r.transform.col(column++) = vector.imag();
   }
   r.untransform = r.transform.inverse();
+
+  // weights b̂ with Σ b̂_i c_i^(k−1) = 1/k for k = 1 to s, the first of them together with that of the beginning: the real eigenvalue
+  // of a, which that choice of IV.8 makes damp what is stiff
+  for (const Block& block : r.blocks)
+    if (!block.complex()) r.embedded_first = 1 / block.alpha;
+  Eigen::VectorXd conditions(stages);
+  for (Eigen::Index k = 0; k < stages; ++k) conditions[k] = 1 / static_cast<double>(k + 1);
+  conditions[0] -= r.embedded_first;
+  const Eigen::VectorXd weights = powers.transpose().inverse() * conditions;
+  r.embedded = r.inverse.transpose() * (weights - r.a.row(stages - 1).transpose());
   return r;
 }
 

@@ -25,6 +25,10 @@ struct Collocation {
   Eigen::MatrixXd inverse;                 ///< of a: Ẏ = inverse Y / h
   Eigen::MatrixXd transform, untransform;  ///< inverse = transform · blocks · untransform (the same, IV.8)
   std::vector<Block> blocks;
+  /// A formula of one order more than stages would have from the beginning too, less this one: the local error of a step is about
+  /// embedded_first h ẏ_0 + embedded · y, with the increments y of the stages (the same, IV.8).
+  double embedded_first = 0;
+  Eigen::VectorXd embedded;
 };
 
 }  // namespace engrane::solve

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solve/schemes/interpolation.hpp"
+
 namespace engrane::solve {
 
 namespace {
@@ -13,7 +15,35 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-Dynamics::Dynamics(SolverContext& context) : Scheme(context) { *unknowns_.out() = context.assembler.new_vector(); }
+Dynamics::Dynamics(SolverContext& context) : Scheme(context), error_(context.model, context.numbering, context.options) {
+  *unknowns_.out() = context.assembler.new_vector();
+}
+
+void Dynamics::between(const Configuration& from, const Configuration& to, std::span<const double> times,
+                       const std::function<void(const Configuration&)>& take) const {
+  const Interpolation motion(context_.motion, from, to);
+  Configuration c;
+  for (const double time : times) {
+    motion.at(time, c);
+    c.h = to.h;
+    auto v = context_.motion.velocities(c);
+    for (const auto& p : context_.motion.prescribed(time)) v[p.slot] = p.v;
+    context_.motion.set_velocities(v, c);
+    balance_between(from, to, c);
+    take(c);
+  }
+}
+
+void Dynamics::balance_between(const Configuration& from, const Configuration& to, Configuration& c) const {
+  const double part = (c.time - from.time) / (to.time - from.time);
+  auto a = context_.motion.accelerations(from);
+  const auto end = context_.motion.accelerations(to);
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += part * (end[i] - a[i]);
+  for (std::size_t m = 0; m < c.multipliers.size(); ++m)
+    c.multipliers[m] = from.multipliers[m] + part * (to.multipliers[m] - from.multipliers[m]);
+  for (const auto& p : context_.motion.prescribed(c.time)) a[p.slot] = p.a;
+  context_.motion.set_accelerations(a, c);
+}
 
 Configuration Dynamics::glide(const Configuration& c, double h) const {
   const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
@@ -116,6 +146,7 @@ void Dynamics::scale_for(const Configuration& c, double h, Weights weights) {
 
 void Dynamics::save(Snapshot& snapshot) const {
   snapshot.put("scheme/scaled_for", scaled_for_);
+  error_.save(snapshot);
   snapshot.put("scheme/has_massless", has_massless_.value_or(false) ? 1.0 : 0.0);
 }
 
@@ -123,6 +154,7 @@ void Dynamics::load(const Snapshot& snapshot) {
   if (!snapshot.has("scheme/has_massless")) return;  // of another kind of analysis
   scaled_for_ = snapshot.number("scheme/scaled_for");
   has_massless_ = snapshot.number("scheme/has_massless") != 0;
+  error_.load(snapshot);
 }
 
 }  // namespace engrane::solve

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "solve/schemes/scheme.hpp"
+#include "solve/schemes/step_error.hpp"
 
 namespace engrane::solve {
 
@@ -18,10 +19,15 @@ class Dynamics : public Scheme {
   void drift(Configuration& c, double h) override;
   bool settle_friction(Configuration& c) override;
   void take_over(Configuration& c) override;
+  void between(const Configuration& from, const Configuration& to, std::span<const double> times,
+               const std::function<void(const Configuration&)>& take) const override;
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
 
  protected:
+  /// Accelerations and multipliers at `c.time`, between the ends of a step: linear from end to end.
+  virtual void balance_between(const Configuration& from, const Configuration& to, Configuration& c) const;
+
   /// Starts the scheme's memory from `c`, a solution at the start of the run.
   virtual void start_memory(const Configuration& c, const MasslessMotions* massless) = 0;
   /// The same after an event.
@@ -45,6 +51,7 @@ class Dynamics : public Scheme {
   void scale_for(const Configuration& c, double h, Weights weights);
 
   Owned<Vec> unknowns_;
+  StepError error_;
 
  private:
   /// What balance asks of motions without mass at one instant.

@@ -345,21 +345,44 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   }
   NewtonReport foreseen = foresee(context_.motion.velocities(from), h);
   to = configurations_.back();
-  if (!foreseen.converged) return {std::move(foreseen), 0, {}};
+  if (!foreseen.converged) return {std::move(foreseen), {}};
 
   predict(from, h);
   NewtonReport report = iterate(from, h);
   to = outside_of_steps(configurations_.back());
   refuse_half_turns(now_.y.back(), report);
-  if (!report.converged) return {std::move(report), 0, {}};
-  if (refuse_conflict(to, report)) return {std::move(report), 0, {}};
+  if (!report.converged) return {std::move(report), {}};
+  if (refuse_conflict(to, report)) return {std::move(report), {}};
   if (constrained() && !complete(to)) {
     report.converged = false;
     report.singular = true;
     report.reason = "the accelerations are not determined";
   }
   tried_ = {to.time, context_.motion.accelerations(to), to.multipliers};
-  return {std::move(report), 0, {}};
+  std::optional<double> error;
+  if (error_.wanted() && report.converged) error = local_error(from, h, to);
+  return {std::move(report), error};
+}
+
+std::optional<double> Radau::local_error(const Configuration& from, double h, const Configuration& to) {
+  const auto v0 = context_.motion.velocities(from);
+  error_.take(v0);
+  std::vector<double> rates(v0.size());
+  for (std::size_t slot = 0; slot < rates.size(); ++slot) {
+    rates[slot] = collocation_.embedded_first * v0[slot];
+    for (std::size_t i = 0; i < now_.y.size(); ++i)
+      rates[slot] += collocation_.embedded[static_cast<Eigen::Index>(i)] * now_.y[i][slot] / h;
+  }
+  return error_.over_tolerance(rates, context_.motion.velocities(to));
+}
+
+void Radau::balance_between(const Configuration& from, const Configuration& to, Configuration& c) const {
+  if (accelerations_.empty()) return Dynamics::balance_between(from, to, c);
+  std::vector<double> a(context_.motion.size());
+  accelerations_.at(c.time, 0, a);
+  multipliers_.at(c.time, 0, c.multipliers);
+  for (const auto& p : context_.motion.prescribed(c.time)) a[p.slot] = p.a;
+  context_.motion.set_accelerations(a, c);
 }
 
 void Radau::accept() {

@@ -3,7 +3,7 @@
 
 #include "solve/algebra/references.hpp"
 #include "solve/schemes/dynamics.hpp"
-#include "solve/schemes/extrapolation.hpp"
+#include "math/extrapolation.hpp"
 #include "solve/schemes/stage_solver.hpp"
 
 namespace engrane::solve {
@@ -18,10 +18,12 @@ class Radau final : public Dynamics {
   StartReport start(Configuration& c) override;
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
   void accept() override;
+  int order_of_error() const override { return static_cast<int>(collocation_.stages()); }
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
 
  private:
+  void balance_between(const Configuration& from, const Configuration& to, Configuration& c) const override;
   void start_memory(const Configuration& c, const MasslessMotions* massless) override;
   void restart_memory(const Configuration& c) override;
 
@@ -41,6 +43,8 @@ class Radau final : public Dynamics {
   void differentiate(const Configuration& from, double h);
   /// Sets the stages' configurations, evaluates their residuals and compares these with the references.
   Imbalance evaluate(const Configuration& from);
+  /// Outcome::error of a step of h that has converged.
+  std::optional<double> local_error(const Configuration& from, double h, const Configuration& to);
   /// The largest displacement of the step as it is now, over the lengths around or in radians.
   double increment() const;
   /// The largest change of a displacement, over the lengths around or in radians, and of a multiplier, as that displacement or

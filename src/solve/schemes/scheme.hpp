@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -12,8 +13,7 @@ namespace engrane::solve {
 /// What came of an attempt to step.
 struct Outcome {
   NewtonReport newton;
-  double proposed = 0;          ///< step that the scheme would take next; 0: it has no opinion
-  std::optional<double> error;  ///< estimate of the step's local error over its tolerance, where the scheme has one
+  std::optional<double> error;  ///< estimate of the step's local error over its tolerance, where one is asked for
 
   bool converged() const { return newton.converged; }
 };
@@ -33,6 +33,11 @@ class Scheme {
   virtual Outcome attempt(const Configuration& from, double h, Configuration& to) = 0;
   /// The last attempt stands.
   virtual void accept() {}
+  /// The power of the step that Outcome::error grows with.
+  virtual int order_of_error() const { return 1; }
+  /// Hands on the motion at some `times` (ascending) between the ends of the step that was accepted last.
+  virtual void between(const Configuration& /*from*/, const Configuration& /*to*/, std::span<const double> /*times*/,
+                       const std::function<void(const Configuration&)>& /*take*/) const {}
   /// Whether steps are to end at the events of the elements' switches; drift() is then defined.
   virtual bool meets_events() const { return false; }
   /// Moves an accepted configuration over a stretch much shorter than a step, past an event; what the scheme

@@ -47,10 +47,10 @@ Outcome Statics::attempt(const Configuration& from, double h, Configuration& to)
     other.time = to.time;
     if (NewtonReport across = balance_across_gaps(from, prescribed, other); across.converged) {
       to = std::move(other);
-      return {std::move(across), 0, {}};
+      return {std::move(across), {}};
     }
   }
-  return {std::move(report), 0, {}};
+  return {std::move(report), {}};
 }
 
 NewtonReport Statics::balance(const Configuration& from, std::span<double> y, Configuration& to) {

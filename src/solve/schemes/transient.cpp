@@ -86,7 +86,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     if (context_.numbering.equation(static_cast<int>(slot)) < 0) y[slot] = 0;
   prescribe_step(from.time, to.time, y);
   NewtonReport foreseen = foresee(v0, h);
-  if (!foreseen.converged) return {std::move(foreseen), 0, {}};
+  if (!foreseen.converged) return {std::move(foreseen), {}};
   const auto prescribed = context_.motion.prescribed(to.time);
 
   // Unknowns are what increments differ by from those predicted: accelerations found from increments of short steps would be
@@ -131,7 +131,20 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   tried_step_ = h;
   tried_time_ = to.time;
   tried_multipliers_ = to.multipliers;
-  return {std::move(report), 0, {}};
+  if (error_.wanted() && report.converged) {
+    error_.take(context_.motion.velocities(from));
+    return {std::move(report), local_error(a0, h, to)};
+  }
+  return {std::move(report), {}};
+}
+
+std::optional<double> Transient::local_error(std::span<const double> a0, double h, const Configuration& to) {
+  // with a_n = v̇(t_n + (α_m − α_f) h) a step leaves h² |1/6 − β − (α_m − α_f)/2| |a_{n+1} − a_n| in the position (for Newmark:
+  // Zienkiewicz and Xie 1991)
+  const double part = std::abs(1.0 / 6 - scheme_.beta - 0.5 * (scheme_.alpha_m - scheme_.alpha_f));
+  std::vector<double> rates(a0.size());
+  for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = h * part * (tried_[i] - a0[i]);
+  return error_.over_tolerance(rates, context_.motion.velocities(to));
 }
 
 bool Transient::leaves(std::span<const double> increments) const {

@@ -3,7 +3,7 @@
 
 #include "solve/constraints/constraint_changes.hpp"
 #include "solve/schemes/dynamics.hpp"
-#include "solve/schemes/extrapolation.hpp"
+#include "math/extrapolation.hpp"
 
 namespace engrane::solve {
 
@@ -29,6 +29,7 @@ class Transient final : public Dynamics {
 
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
   void accept() override;
+  int order_of_error() const override { return 2; }
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
 
@@ -47,6 +48,8 @@ class Transient final : public Dynamics {
   std::vector<double> first_velocities(const Configuration& from, double h);
   /// Starts the memory anew from the end of a step for one that is much longer: differences of the short one are rounding.
   void renew_memory(const Configuration& from, double h);
+  /// Outcome::error of a converged step of h that began with the scheme's accelerations `a0`.
+  std::optional<double> local_error(std::span<const double> a0, double h, const Configuration& to);
   /// Is an increment as large as the model, or a radian?
   bool leaves(std::span<const double> increments) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/schemes/extrapolation.hpp"
+#include "math/extrapolation.hpp"
 
 #include <gtest/gtest.h>
 

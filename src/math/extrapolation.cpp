@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/schemes/extrapolation.hpp"
+#include "math/extrapolation.hpp"
 
 #include <algorithm>
 
-namespace engrane::solve {
+namespace engrane {
 
 void Extrapolation::add(double time, std::span<const double> values) {
   std::rotate(points_.begin(), points_.end() - 1, points_.end());
@@ -45,4 +45,4 @@ void Extrapolation::load(const Snapshot& snapshot, const std::string& name) {
   }
 }
 
-}  // namespace engrane::solve
+}  // namespace engrane

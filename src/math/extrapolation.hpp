@@ -8,9 +8,10 @@
 
 #include "base/snapshot.hpp"
 
-namespace engrane::solve {
+namespace engrane {
 
-/// The polynomial through the latest values of some quantities, continued by a step: where Newton's iteration begins.
+/// The polynomial through the latest values of some quantities: continued by a step, where Newton's iteration begins; between the
+/// last two of them, what results at even times are.
 class Extrapolation {
  public:
   /// Through at most `most` values, as far back as a step is no longer than `longest` times the time from one to the next: the
@@ -38,4 +39,4 @@ class Extrapolation {
   double longest_;
 };
 
-}  // namespace engrane::solve
+}  // namespace engrane

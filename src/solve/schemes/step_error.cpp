@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/schemes/step_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "solve/constraints/constraint_factors.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+/// What moves by less than this part of the model, or of a radian, in the whole run is judged as if it moved so far.
+constexpr double least_motion = 1e-3;
+/// So is what is slower by this than the fastest of its kind.
+constexpr double negligible = 1e-3;
+constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+StepError::StepError(const Model& model, const Numbering& numbering, const SolverOptions& options)
+    : tolerance_(options.tolerance) {
+  if (!wanted()) return;
+  const auto slots = static_cast<std::size_t>(numbering.motion_slots()), nodal = 6 * model.nodes.size();
+  for (const Unknown& u : numbering.unknowns()) {
+    if (u.multiplier) continue;
+    const auto slot = static_cast<std::size_t>(u.slot);
+    const std::size_t first = slot < nodal ? slot - slot % 3 : slot;
+    if (groups_.empty() || groups_.back().first != first)
+      groups_.push_back({first, slot < nodal ? std::size_t{3} : std::size_t{1}, static_cast<std::size_t>(u.measure),
+                         least_motion * size_of(u, model.extent()) / (options.end - options.begin)});
+    groups_.back().free[slot - first] = true;
+  }
+  least_.assign(slots, std::numeric_limits<double>::infinity());
+  largest_.assign(slots, -std::numeric_limits<double>::infinity());
+}
+
+void StepError::take(std::span<const double> velocities) {
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
+    least_[i] = std::min(least_[i], velocities[i]);
+    largest_[i] = std::max(largest_[i], velocities[i]);
+  }
+}
+
+double StepError::range(const Group& group, std::span<const double> velocities) const {
+  double square = 0;
+  for (std::size_t i = group.first; i < group.first + group.size; ++i) {
+    const double part = std::max(largest_[i], velocities[i]) - std::min(least_[i], velocities[i]);
+    square += part * part;
+  }
+  return std::sqrt(square);
+}
+
+double StepError::over_tolerance(std::span<const double> rates, std::span<const double> velocities) const {
+  std::array<double, measures> fastest{};
+  std::vector<double> ranges(groups_.size());
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    ranges[g] = range(groups_[g], velocities);
+    fastest[groups_[g].kind] = std::max(fastest[groups_[g].kind], ranges[g]);
+  }
+  double largest = 0;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& group = groups_[g];
+    const double scale = tolerance_ * std::max({ranges[g], group.least, negligible * fastest[group.kind]});
+    for (std::size_t k = 0; k < group.size; ++k) {
+      const std::size_t slot = group.first + k;
+      if (group.free[k])
+        largest = std::max(largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot])) / scale);
+    }
+  }
+  return largest;
+}
+
+void StepError::save(Snapshot& snapshot) const {
+  if (!wanted()) return;
+  snapshot.put("scheme/slowest_velocities", least_);
+  snapshot.put("scheme/fastest_velocities", largest_);
+}
+
+void StepError::load(const Snapshot& snapshot) {
+  if (!wanted() || !snapshot.has("scheme/slowest_velocities")) return;
+  least_ = snapshot.array("scheme/slowest_velocities");
+  largest_ = snapshot.array("scheme/fastest_velocities");
+}
+
+}  // namespace engrane::solve

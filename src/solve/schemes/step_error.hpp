@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "assembly/configuration.hpp"
+#include "base/snapshot.hpp"
+#include "model/solver_options.hpp"
+#include "solve/constraints/motion.hpp"
+
+namespace engrane::solve {
+
+/// The local error of a step as schemes estimate it, compared with how fast things have moved so far: the position of a node
+/// departs from the truth at no more than TOL times the range of its velocity, its rotation and scalars alike. A vibration is
+/// judged by its own amplitude, however fast the shaft below it turns, and no unit counts.
+class StepError {
+ public:
+  StepError(const Model& model, const Numbering& numbering, const SolverOptions& options);
+
+  bool wanted() const { return tolerance_ > 0; }
+  /// Takes the velocities (by motion slot) of an accepted configuration.
+  void take(std::span<const double> velocities);
+  /// The largest of `rates`, the local error of displacements over the step's length by motion slot, over its tolerance. The
+  /// velocities at the end of the step count as reached.
+  double over_tolerance(std::span<const double> rates, std::span<const double> velocities) const;
+
+  void save(Snapshot& snapshot) const;
+  void load(const Snapshot& snapshot);
+
+ private:
+  static constexpr std::size_t measures = 4;
+  /// Slots that are judged together: the translations of a node, its rotations, one scalar.
+  struct Group {
+    std::size_t first, size, kind;  ///< `kind`: the Measure of their equations
+    double least;                   ///< a range of velocities that is smaller counts as this
+    std::array<bool, 3> free{};     ///< those that have an equation
+  };
+  double range(const Group& group, std::span<const double> velocities) const;
+
+  double tolerance_;
+  std::vector<Group> groups_;
+  std::vector<double> least_, largest_;
+};
+
+}  // namespace engrane::solve
