@@ -69,6 +69,10 @@ Json run_json(const RunSummary& run) {
   json["events"] = run.events;
   json["time"] = {{"reached", number(run.time)}, {"end", number(run.end)}};
   json["seconds"] = number(run.seconds);
+  if (run.accuracy && run.accuracy->trouble.empty())
+    json["accuracy"] = {{"estimated_error", number(run.accuracy->error)},
+                        {"channel", text(run.accuracy->channel)},
+                        {"tolerance", number(run.accuracy->tolerance)}};
   if (run.energies)
     json["energies"] = {{"kinetic", number(run.energies->kinetic)},
                         {"potential", number(run.energies->potential)},

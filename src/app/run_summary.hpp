@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/error_estimate.hpp"
 #include "base/diagnostics.hpp"
 #include "deck/language/abbreviations.hpp"
 #include "observe/energies.hpp"
@@ -22,6 +23,7 @@ struct RunSummary {
   std::vector<std::string> sources;  ///< paths of the files that locations of `diagnostics` count from
   long steps = 0, iterations = 0, cuts = 0, events = 0;
   double time = 0, end = 0;                        ///< reached, and asked for by .SUB
+  std::optional<ErrorEstimate> accuracy;
   double seconds = 0;                              ///< of the clock on the wall
   std::vector<output::CheckResult> checks;         ///< of .CHK
   std::vector<output::CheckResult> results;        ///< of --result: only what was computed counts

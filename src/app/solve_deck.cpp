@@ -9,6 +9,8 @@
 #include <iostream>
 #include <optional>
 
+#include "app/companion.hpp"
+#include "app/instants.hpp"
 #include "app/model_difference.hpp"
 #include "app/selection.hpp"
 #include "app/terminal.hpp"
@@ -123,32 +125,6 @@ void observe_step(SolverContext& context, observe::Observer& observer, const Con
     observer.find_not_unique(c, context.redundancy.undetermined(c));
 }
 
-/// Hands on the instants within a controlled step at which something is due, and returns what is due at its end; a restart point
-/// that was due on the way is due there.
-Schedule::Due show_between(Schedule& schedule, observe::Observer& observer, double from, const Configuration& end,
-                           const StepReport& step, const std::function<void(const Configuration&, const Schedule::Due&)>& show) {
-  bool restart = false;
-  const auto look = [&](const Configuration& c) {
-    const Schedule::Due due = schedule.at(c.time, schedule.even_step(step.step), true);
-    restart = restart || due.restart;
-    show(c, due);
-  };
-  const std::vector<double> times = schedule.between(from, end.time);
-  if (step.between) {
-    step.between(times, look);
-  } else {  // a drift is so short that nothing changes in it
-    Configuration c = end;
-    for (const double time : times) {
-      c.time = time;
-      look(c);
-    }
-  }
-  if (!times.empty()) observer.back_to_end();
-  Schedule::Due due = schedule.at(end.time, schedule.even_step(step.step), schedule.even(end.time));
-  due.restart = due.restart || restart;
-  return due;
-}
-
 }  // namespace
 
 bool was_interrupted() { return interrupted != 0; }
@@ -173,6 +149,9 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     if (rank == 0) std::cerr << "engrane: " << terminal_text(e.what()) << '\n';
     return exit_status::wrong_deck;
   }
+  std::optional<Companion> companion;
+  const SolverOptions wanted = solver_options(reading.model.commands.analysis, reading.model.commands.stepping);
+  if (wanted.target > 0 && wanted.tolerance > 0 && !resumption) companion.emplace(reading, wanted, comm);
   SolverContext context(reading.model, comm);
   observe::Observer observer(context.assembler, moves(reading.model), select_histories(reading.model));
   Schedule schedule(reading.model.commands.stepping, reading.model.commands.archive);
@@ -193,7 +172,8 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     if (rank == 0) std::cerr << "engrane: " << terminal_text(trouble) << '\n';
     return exit_status::solution_failed;
   }
-  if (rank == 0 && context.solver.package() != reading.model.commands.analysis.solver.tag)
+  const std::string& asked = reading.model.commands.analysis.solver.tag;
+  if (rank == 0 && asked != "AUTO" && context.solver.package() != asked)
     writer->note("engrane: on several processes MUMPS solves, not " + reading.model.commands.analysis.solver.tag);
 
   std::string failure;
@@ -222,6 +202,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
       due = show_between(schedule, observer, last_time, solved, step, [&](const Configuration& inner, const Schedule::Due& now) {
         observer.between(in_space(inner, true), now.sample || checked, now.frame);
         if (rank == 0 && failure.empty()) try {
+            if (companion) companion->compare(inner.time, observer.values());
             writer->between(inner.time, now);
           } catch (const OutputError& e) {
             failure = e.what();
@@ -235,6 +216,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     const Configuration& c = in_space(solved, due.sample || due.frame || checked);
     int stop = failure.empty() ? 0 : 1;
     if (rank == 0 && stop == 0) try {
+        if (companion && schedule.even(c.time)) companion->compare(c.time, observer.values());
         writer->step(c, step, due, context.numbering);
         writer->remember(solved, runner, due.restart, false);
       } catch (const OutputError& e) {
@@ -274,6 +256,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     failure = e.what();
   }
   starting = 0;
+  if (companion && rank == 0 && complete) writer->accuracy(companion->estimate(), context.options.target);
   failure = with_causes(std::move(failure), comm, rank, ranks);
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {

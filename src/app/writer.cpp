@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <utility>
 
@@ -175,6 +176,17 @@ void Writer::show(double time, bool regular, const Schedule::Due& due) {
   if (due.frame) results_.frame(time, frame_values(reading_.model, observer_));
 }
 
+void Writer::accuracy(const ErrorEstimate& estimate, double target) {
+  accuracy_ = estimate.describe(target);
+  summary_.accuracy = estimate;
+  if (!estimate.trouble.empty())
+    warn("the error is not estimated: " + estimate.trouble);
+  else if (estimate.error > target)
+    warn(fmt::format("the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: take TOL {:.1g} in .SUB",
+                     estimate.error, estimate.channel, target,
+                     estimate.tolerance * std::pow(0.5 * target / estimate.error, 1 / estimate.order)));
+}
+
 int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit& times) {
   progress_.finish();
   const UnitSystem& units = reading_.model.units;
@@ -239,6 +251,10 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
   }
   summary_.checks = std::move(results);
   summary_.energies = observer_.energies();
+  if (!accuracy_.empty()) {
+    listing_.write(listing_section("Accuracy"));
+    listing_.write(accuracy_);
+  }
   listing_.write(listing_section("Effort"));
   listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1, iterations_,
                              steps_ > 1 ? static_cast<double>(iterations_) / static_cast<double>(steps_ - 1) : 0.0, cuts_));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/error_estimate.hpp"
 #include "app/options.hpp"
 #include "app/read.hpp"
 #include "app/run_summary.hpp"
@@ -43,6 +44,8 @@ class Writer {
   void step(const Configuration& c, const solve::StepReport& step, const Schedule::Due& due, const Numbering& numbering);
   /// An instant within the step that the next call of step() is about.
   void between(double time, const Schedule::Due& due);
+  /// What the results are estimated to be off by, for the listing; `target` is what ACCURACY asks for.
+  void accuracy(const ErrorEstimate& estimate, double target);
   /// Ends listing and results; returns the exit status.
   int finish(output::RunStatus status, const std::string& failure, const output::TimeSplit& times);
 
@@ -80,7 +83,7 @@ class Writer {
   output::Peaks peaks_;
   std::vector<output::GroundRow> ground_;  ///< the last, the one with the largest force, that with the largest moment
   std::vector<output::EnergyRow> energies_;
-  std::string events_, remarks_;
+  std::string events_, remarks_, accuracy_;
   bool frame_between_ = false;  ///< a frame was due within the step
   std::size_t marked_ = 0;  ///< channels marked as not unique so far
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;

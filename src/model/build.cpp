@@ -14,6 +14,7 @@
 #include "model/groups.hpp"
 #include "model/model.hpp"
 #include "model/node_load.hpp"
+#include "model/solver_options.hpp"
 #include "model/user_function.hpp"
 
 namespace engrane {
@@ -37,6 +38,7 @@ class Builder {
       if (record.get<deck::FunctionCard>()) add_function(record);
     for (const ElementRecord& element : elements_) place_node(element);
     for (const deck::Record& record : deck_.records) add_command(record);
+    settle_tolerance();
     others_are_asked_for_ =
         std::any_of(elements_.begin(), elements_.end(), [](const ElementRecord& e) { return e.type->stage == 1; });
     for (int stage = 0; stage < 2; ++stage)
@@ -162,6 +164,17 @@ class Builder {
     if (card.end <= card.start)
       diagnostics_.error(record.where("TF"), fmt::format("the end TF = {} is not after the start TI = {}", card.end, card.start));
     model_.commands.stepping = card;
+  }
+
+  /// TOL where ACCURACY chooses it.
+  void settle_tolerance() {
+    Commands& commands = model_.commands;
+    if (!commands.stepping.tolerance) commands.stepping.tolerance = tolerance_of(commands.analysis);
+    if (!commands.stepping.tolerance || commands.analysis.type.is("DYNAMIC")) return;
+    commands.stepping.tolerance.reset();
+    for (const deck::Record& record : deck_.records)
+      if (record.get<deck::SteppingCard>())
+        diagnostics_.warning(record.where("TOL"), "TOL has no effect on a " + commands.analysis.type.tag + " analysis");
   }
 
   /// The function of an NF keyword; nullptr for 0 (constant) and, with an error, for one that does not exist.

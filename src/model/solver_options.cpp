@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/solver_options.hpp"
 
+#include <algorithm>
+
 namespace engrane {
 
 namespace {
 
 /// With error control no step is longer than this part of the run, unless the deck says so.
 constexpr double longest_part = 0.02;
+/// Of the tolerance of a step.
+constexpr double share_of_newton = 0.01;
+
+const AccuracyRung* rung_of(const deck::AnalysisCard& analysis) {
+  for (const AccuracyRung& rung : accuracy_rungs)
+    if (analysis.accuracy.is(rung.name)) return &rung;
+  return nullptr;
+}
 
 }  // namespace
+
+std::optional<double> tolerance_of(const deck::AnalysisCard& analysis) {
+  const AccuracyRung* rung = rung_of(analysis);
+  if (!rung || !analysis.type.is("DYNAMIC")) return {};
+  return rung->tolerance;
+}
 
 SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::SteppingCard& stepping) {
   using Analysis = SolverOptions::Analysis;
@@ -31,7 +47,10 @@ SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::Ste
   o.longest = stepping.longest.value_or(longest_part * (o.end - o.begin));
   o.cuts = analysis.cuts;
   o.package = analysis.solver.tag;
-  o.precision = analysis.precision;
+  // iterations with kept factors need not be better than their step; those with exact tangents are, by the last of them
+  const double of_step = o.tolerance > 0 && o.family == Family::radau ? std::clamp(share_of_newton * o.tolerance, 1e-12, 1e-5) : 1e-9;
+  o.precision = analysis.precision.value_or(of_step);
+  if (const AccuracyRung* rung = rung_of(analysis); rung && o.analysis == Analysis::dynamics) o.target = rung->target;
   o.keep_factors = analysis.tangent.is("KEPT");
   o.iterations = analysis.iterations;
   o.scale = analysis.scale.value_or(0);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "deck/cards/cards.hpp"
@@ -24,6 +26,7 @@ struct SolverOptions {
   int cuts = 10;              ///< how often H may be halved
 
   std::string package = "MUMPS";  ///< direct solver
+  double target = 0;              ///< of the error that ACCURACY asks for, over ranges; 0: none
   double precision = 1e-9;        ///< of Newton's iteration, relative to the largest force in the model
   bool keep_factors = false;      ///< Newton's factors serve several steps of a transient
   int iterations = 20;            ///< most Newton iterations of an attempt
@@ -35,6 +38,18 @@ struct SolverOptions {
 
   bool moves() const { return analysis != Analysis::statics; }
 };
+
+/// What `.SAM ACCURACY` stands for: the error of results over their ranges, and the local tolerance that most models meet it with
+/// (docs/accuracy.md).
+struct AccuracyRung {
+  const char* name;
+  double target, tolerance;
+};
+inline constexpr std::array<AccuracyRung, 4> accuracy_rungs{
+    {{"FAST", 1e-2, 1e-3}, {"NORMAL", 1e-3, 1e-4}, {"FINE", 1e-5, 3e-6}, {"REFERENCE", 1e-8, 3e-8}}};
+
+/// The TOL that ACCURACY stands for in a deck that gives none; empty where it says nothing.
+std::optional<double> tolerance_of(const deck::AnalysisCard& analysis);
 
 SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::SteppingCard& stepping);
 

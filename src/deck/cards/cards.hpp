@@ -119,8 +119,9 @@ struct AnalysisCard {
   std::optional<double> rho;    ///< spectral radius at infinity, CHUNG
   std::optional<double> alpha;  ///< HHT, BOSSAK
   Tagged solver{"MUMPS", {}};
+  Tagged accuracy{"", {}};        ///< ACCURACY FAST, NORMAL, FINE, REFERENCE: chooses what the deck does not say
   Tagged start{"AS_GIVEN", {}};   ///< AS_GIVEN: assemble from the given positions; STATIC: from static equilibrium at the start
-  double precision = 1e-9;        ///< of Newton, relative to the largest force in the model
+  std::optional<double> precision;  ///< of Newton, relative to the largest force in the model
   Tagged tangent{"FULL", {}};     ///< FULL, KEPT: whether tangents of a DYNAMIC analysis serve several iterations and steps
   int iterations = 20;            ///< most Newton iterations before the step is cut
   int cuts = 10;                  ///< most halvings of one step

@@ -30,8 +30,12 @@ void check_analysis(AnalysisCard& analysis, Record& record, Diagnostics& diagnos
                       "give RESTART \"prefix\" T t");
   if (analysis.scheme.is("RADAU") && record.given("TANGENT"))
     diagnostics.warning(record.where("TANGENT"), "TANGENT has no effect on SCHEME RADAU, which always keeps its factors");
+  if (analysis.accuracy.given() && analysis.type.is("DYNAMIC")) {
+    if (!record.given("SCHEME") && !analysis.rho && !analysis.alpha) analysis.scheme.tag = "RADAU";
+    if (!record.given("SOLVER")) analysis.solver.tag = "AUTO";
+  }
   if (analysis.type.is("DYNAMIC")) return;
-  for (const char* keyword : {"SCHEME", "RHO", "ALPHA", "START", "EVENTS", "ENERGY", "TANGENT"})
+  for (const char* keyword : {"ACCURACY", "SCHEME", "RHO", "ALPHA", "START", "EVENTS", "ENERGY", "TANGENT"})
     if (record.given(keyword))
       diagnostics.warning(record.where(keyword), std::string(keyword) + " has no effect on a " + analysis.type.tag + " analysis");
 }
@@ -50,6 +54,14 @@ Schema analysis_card() {
       .option({"HHT", {}, "Hilber, Hughes and Taylor, damping set by ALPHA"})
       .option({"BOSSAK", {}, "Wood, Bossak and Zienkiewicz, damping set by ALPHA"})
       .option({"RADAU", {}, "Radau IIA of order 5: accurate results with long steps"});
+  card.add("ACCURACY", &AnalysisCard::accuracy,
+           "how accurate a DYNAMIC analysis is to be: chooses scheme, TOL of .SUB, PREC and solver where the deck does not; a run with "
+           "longer steps before it tells the error of what is asked for, over its range")
+      .synonyms({"PRECISION_GLOBALE"})
+      .option({"FAST", {"RAPIDE"}, "1E-2"})
+      .option({"NORMAL", {}, "1E-3"})
+      .option({"FINE", {"FIN"}, "1E-5"})
+      .option({"REFERENCE", {}, "1E-8"});
   card.add("RHO", &AnalysisCard::rho, "CHUNG: spectral radius at infinite frequency; 1 damps nothing, 0 most")
       .at_least(0)
       .at_most(1);
@@ -57,6 +69,7 @@ Schema analysis_card() {
   card.add("SOLVER", &AnalysisCard::solver, "direct solver of the linear systems")
       .synonyms({"SOLVEUR"})
       .option({"MUMPS", {}, "multifrontal; the only one that runs in parallel"})
+      .option({"AUTO", {}, "KLU for small models on one process, else MUMPS"})
       .option({"KLU", {}, "fastest for small mechanisms"})
       .option({"UMFPACK", {}, "multifrontal, serial"})
       .option({"SUPERLU", {}, "supernodal, serial"});
@@ -64,7 +77,7 @@ Schema analysis_card() {
       .synonyms({"DEPART"})
       .option({"AS_GIVEN", {}, "the given positions, brought to satisfy the joints"})
       .option({"STATIC", {"STATIQUE"}, "static equilibrium under the loads of the first instant"});
-  card.add("PREC", &AnalysisCard::precision, "precision of Newton's iterations, relative to the largest force in the model")
+  card.add("PREC", &AnalysisCard::precision, "precision of Newton's iterations, relative to the largest force in the model; 1E-9 when not given, and with SCHEME RADAU a hundredth of TOL")
       .synonyms({"PRECISION"})
       .positive()
       .below(1);
@@ -112,7 +125,7 @@ Schema analysis_card() {
       .synonyms({"TIME", "TEMPS"})
       .unit(dimension::time);
   card.finish(check_analysis);
-  card.example(".SAM TYPE STATIC")
+  card.example(".SAM TYPE STATIC").example(".SAM TYPE DYNAMIC ACCURACY NORMAL")
       .example(".SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.8")
       .example(".SAM TYPE DYNAMIC RESTART \"first_run\" T 0.5");
   return card.schema();

@@ -8,6 +8,9 @@ namespace engrane::solve {
 
 namespace {
 
+/// Up to so many unknowns KLU takes less time than the overhead of MUMPS, or as much (docs/performance.md).
+constexpr PetscInt most_for_klu = 5000;
+
 MatSolverType petsc_name(const std::string& package) {
   if (package == "UMFPACK") return MATSOLVERUMFPACK;
   if (package == "SUPERLU") return MATSOLVERSUPERLU;
@@ -22,6 +25,9 @@ LinearSolver::LinearSolver(Mat matrix, const std::string& package) : package_(pa
   int size = 1;
   MPI_Comm_size(comm, &size);
   sequential_ = size == 1;
+  PetscInt rows = 0;
+  check_petsc(MatGetSize(matrix, &rows, nullptr));
+  if (package_ == "AUTO") package_ = rows <= most_for_klu ? "KLU" : "MUMPS";
   if (!sequential_) package_ = "MUMPS";
   if (package_ == "KLU") klu_ = std::make_unique<Klu>(matrix);
   check_petsc(KSPCreate(comm, ksp_.out()));

@@ -12,7 +12,7 @@ namespace engrane::solve {
 /// A direct solver on one matrix whose pattern never changes: the symbolic analysis is done once.
 class LinearSolver {
  public:
-  /// `package` as in the deck: MUMPS, KLU, UMFPACK, SUPERLU. On several ranks only MUMPS works and is taken.
+  /// `package` as in the deck: AUTO, MUMPS, KLU, UMFPACK, SUPERLU. On several ranks only MUMPS works and is taken.
   LinearSolver(Mat matrix, const std::string& package);
 
   KSP ksp() const { return ksp_; }

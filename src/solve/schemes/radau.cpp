@@ -21,6 +21,8 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 constexpr double slow = 0.3, growing_slow = 0.1;
 /// Guesses go through this many ends of steps, and no farther than so many times the distance of two of them.
 constexpr std::size_t points_of_guess = 4;
+/// Iterations may leave so much of the tolerance of a step.
+constexpr double share_of_iteration = 0.02;
 constexpr double longest_growth = 3;
 /// Steps that differ by less than this have the same matrices.
 constexpr double same = 1e-6;
@@ -167,8 +169,10 @@ Imbalance Radau::evaluate(const Configuration& from) {
 Radau::Correction Radau::correct() {
   const Numbering& numbering = context_.numbering;
   Correction largest;
+  last_change_.assign(context_.motion.size(), 0.0);
   for (std::size_t i = 0; i < changes_.size(); ++i) {
     const auto change = context_.assembler.gather(changes_[i]);
+    if (error_.wanted() && i + 1 == changes_.size()) context_.motion.scatter(change, last_change_);
     for (std::size_t e = 0; e < change.size(); ++e) {
       const Unknown& u = numbering.unknown(static_cast<int>(e));
       const auto slot = static_cast<std::size_t>(u.slot);
@@ -225,7 +229,14 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     const bool still =
         k > 1 && (changed <= std::max(no_correction, rounding * increment()) ||
                   (left <= std::sqrt(precision) && (changed * std::min(1.0, contraction) <= negligible_correction || noise())));
-    if ((k > 0 && found.within(precision)) || still) {
+    // what is left of positions is no part of the step's error either: θ/(1 − θ) of the last correction (Hairer and Wanner, IV.8)
+    const auto settled = [&] {
+      if (!error_.wanted()) return true;
+      std::vector<double> rates = last_change_;
+      for (double& rate : rates) rate *= std::min(1.0, contraction / std::max(1 - contraction, 0.5)) / h;
+      return error_.over_tolerance(rates, now_.v.back(), h) <= share_of_iteration;
+    };
+    if ((k > 0 && found.within(precision) && settled()) || still) {
       report.converged = true;
       break;
     }
@@ -353,14 +364,14 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   refuse_half_turns(now_.y.back(), report);
   if (!report.converged) return {std::move(report), {}};
   if (refuse_conflict(to, report)) return {std::move(report), {}};
+  const std::optional<double> error = error_.wanted() ? local_error(from, h, to) : std::nullopt;
+  if (error && !(*error <= 1)) return {std::move(report), error};  // it will not stand
   if (constrained() && !complete(to)) {
     report.converged = false;
     report.singular = true;
     report.reason = "the accelerations are not determined";
   }
   tried_ = {to.time, context_.motion.accelerations(to), to.multipliers};
-  std::optional<double> error;
-  if (error_.wanted() && report.converged) error = local_error(from, h, to);
   return {std::move(report), error};
 }
 
@@ -373,7 +384,7 @@ std::optional<double> Radau::local_error(const Configuration& from, double h, co
     for (std::size_t i = 0; i < now_.y.size(); ++i)
       rates[slot] += collocation_.embedded[static_cast<Eigen::Index>(i)] * now_.y[i][slot] / h;
   }
-  return error_.over_tolerance(rates, context_.motion.velocities(to));
+  return error_.over_tolerance(rates, context_.motion.velocities(to), h);
 }
 
 void Radau::balance_between(const Configuration& from, const Configuration& to, Configuration& c) const {

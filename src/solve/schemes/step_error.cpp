@@ -30,7 +30,7 @@ StepError::StepError(const Model& model, const Numbering& numbering, const Solve
     const std::size_t first = slot < nodal ? slot - slot % 3 : slot;
     if (groups_.empty() || groups_.back().first != first)
       groups_.push_back({first, slot < nodal ? std::size_t{3} : std::size_t{1}, static_cast<std::size_t>(u.measure),
-                         least_motion * size_of(u, model.extent()) / (options.end - options.begin)});
+                         size_of(u, model.extent()), least_motion * size_of(u, model.extent()) / (options.end - options.begin)});
     groups_.back().free[slot - first] = true;
   }
   least_.assign(slots, std::numeric_limits<double>::infinity());
@@ -53,7 +53,7 @@ double StepError::range(const Group& group, std::span<const double> velocities) 
   return std::sqrt(square);
 }
 
-double StepError::over_tolerance(std::span<const double> rates, std::span<const double> velocities) const {
+double StepError::over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h) const {
   std::array<double, measures> fastest{};
   std::vector<double> ranges(groups_.size());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -67,7 +67,7 @@ double StepError::over_tolerance(std::span<const double> rates, std::span<const 
     for (std::size_t k = 0; k < group.size; ++k) {
       const std::size_t slot = group.first + k;
       if (group.free[k])
-        largest = std::max(largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot])) / scale);
+        largest = std::max(largest, (std::abs(rates[slot]) - rounding * (std::abs(velocities[slot]) + group.place / h)) / scale);
     }
   }
   return largest;

@@ -22,9 +22,9 @@ class StepError {
   bool wanted() const { return tolerance_ > 0; }
   /// Takes the velocities (by motion slot) of an accepted configuration.
   void take(std::span<const double> velocities);
-  /// The largest of `rates`, the local error of displacements over the step's length by motion slot, over its tolerance. The
-  /// velocities at the end of the step count as reached.
-  double over_tolerance(std::span<const double> rates, std::span<const double> velocities) const;
+  /// The largest of `rates`, the local error of displacements over the length h of the step by motion slot, over its tolerance.
+  /// The velocities at the end of the step count as reached; what rounding makes of positions does not count.
+  double over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h) const;
 
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
@@ -34,6 +34,7 @@ class StepError {
   /// Slots that are judged together: the translations of a node, its rotations, one scalar.
   struct Group {
     std::size_t first, size, kind;  ///< `kind`: the Measure of their equations
+    double place;                   ///< the length, or angle, whose rounding positions have
     double least;                   ///< a range of velocities that is smaller counts as this
     std::array<bool, 3> free{};     ///< those that have an equation
   };

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/companion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <numbers>
+
+#include "app/instants.hpp"
+#include "app/selection.hpp"
+
+namespace engrane::app {
+
+using namespace solve;
+
+namespace {
+
+/// The companion's tolerance over that of the run: with it, steps are three times as long or more.
+constexpr double looser = 27, loosest = 0.05;
+/// Errors grow with this power of the tolerance: of generalised-alpha, whose local and global orders agree, as they are; of Radau,
+/// whose steps are of order 5 and their estimates of order 3, at most with 5/3, and with less where forces are interpolated.
+constexpr double order_of_alpha = 1, order_of_radau = 4.0 / 3;
+/// No more values than this are kept.
+constexpr std::size_t most_values = std::size_t{1} << 23;
+/// A channel whose range is less than this part of the largest of its kind, or of its own size, tells of rounding.
+constexpr double no_range = 1e-6;
+
+double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm) {
+  const double begun = processor_time();
+  const Model& model = reading.model;
+  SolverOptions loose = options;
+  loose.tolerance = std::min(looser * options.tolerance, std::max(loosest, 2 * options.tolerance));
+  loose.precision = std::min(loose.precision * looser, 1e-5);
+  estimate_.tolerance = options.tolerance;
+  estimate_.companion_tolerance = loose.tolerance;
+  estimate_.order = options.family == SolverOptions::Family::radau ? order_of_radau : order_of_alpha;
+  SolverContext context(model, loose, comm);
+  observe::Observer observer(context.assembler, moves(model), select_histories(model));
+  observer.keep_ends(true, false);
+  Schedule schedule(model.commands.stepping, model.commands.archive);
+  const std::size_t expected = schedule.expected_samples();
+  start_ = options.begin;
+  interval_ = schedule.even_step(options.step);
+  if (context.assembler.rank() == 0) {
+    choose_columns(observer, model);
+    interval_ *= std::ceil(static_cast<double>(expected * columns_.size()) / static_cast<double>(most_values));
+  }
+  const auto scheme = make_scheme(context);
+  Runner runner(context, *scheme);
+  double last = options.begin;
+  Configuration whole;
+  const auto take = [&](const Configuration& c) {
+    if (context.assembler.rank() == 0) record(c.time, observer.values());
+  };
+  const auto in_space = [&](const Configuration& c) -> const Configuration& {
+    if (!context.out_of_plane.active()) return c;
+    whole = c;
+    context.out_of_plane.find(whole);
+    return whole;
+  };
+  const solve::Observer seen = [&](const Configuration& c, const StepReport& step) {
+    observer.observe(in_space(c), {step.step, 0, step.events.size()}, true, false);
+    if (step.number > 0)
+      show_between(schedule, observer, last, c, step, [&](const Configuration& inner, const Schedule::Due&) {
+        observer.between(in_space(inner), true, false);
+        take(inner);
+      });
+    if (schedule.even(c.time)) take(c);
+    last = c.time;
+    return true;
+  };
+  try {
+    runner.run(seen, [](const StartReport&) {});
+  } catch (const SolutionFailure& failure) {
+    estimate_.trouble = failure.what();
+  }
+  begun_ = processor_time();
+  estimate_.companion_seconds = begun_ - begun;
+}
+
+void Companion::choose_columns(const observe::Observer& observer, const Model& model) {
+  const deck::ArchiveCard& archive = model.commands.archive;
+  const bool selected = !archive.elements.empty() || !archive.kinds.empty() || !archive.nodes.empty() ||
+                        !archive.groups.empty() || !archive.channels.empty();
+  std::vector<std::string> asked;
+  if (!selected)
+    for (const deck::CheckCard& check : model.commands.checks) {
+      const std::string owner = check.element ? "element/" + std::to_string(*check.element)
+                                : check.node  ? "node/" + std::to_string(*check.node)
+                                              : std::string("run");
+      asked.push_back(owner + "/" + check.quantity);
+    }
+  std::size_t at = 0;
+  for (const observe::Table& table : observer.tables())
+    for (const int id : table.ids)
+      for (const Named& channel : table.channels) {
+        const std::string name = table.path.substr(0, table.path.find('/') + 1) + std::to_string(id) + "/" + channel.name;
+        if (asked.empty() || std::find(asked.begin(), asked.end(), name) != asked.end())
+          columns_.push_back({at, name, channel.dimension, 0, std::numeric_limits<double>::infinity(),
+                              -std::numeric_limits<double>::infinity()});
+        ++at;
+      }
+}
+
+std::optional<std::size_t> Companion::place(double time) const {
+  const double k = (time - start_) / interval_;
+  if (std::abs(k - std::round(k)) > 1e-3) return {};
+  return static_cast<std::size_t>(std::round(k));
+}
+
+void Companion::record(double time, const std::vector<double>& values) {
+  const auto row = place(time);
+  if (!row) return;
+  if (*row >= rows_) {
+    rows_ = *row + 1;
+    values_.resize(rows_ * columns_.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  for (std::size_t c = 0; c < columns_.size(); ++c) values_[*row * columns_.size() + c] = values[columns_[c].at];
+}
+
+void Companion::compare(double time, const std::vector<double>& values) {
+  const auto row = place(time);
+  if (!row || *row >= rows_) return;
+  ++compared_;
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    Column& column = columns_[c];
+    const double value = values[column.at];
+    double off = value - values_[*row * columns_.size() + c];
+    // components of a rotation vector begin anew after a turn
+    if (column.dimension == dimension::angle) off = std::remainder(off, 2 * std::numbers::pi);
+    if (!std::isfinite(off)) continue;
+    column.squares += off * off;
+    column.least = std::min(column.least, value);
+    column.largest = std::max(column.largest, value);
+  }
+}
+
+ErrorEstimate Companion::estimate() const {
+  ErrorEstimate found = estimate_;
+  found.seconds = processor_time() - begun_;
+  if (!found.trouble.empty()) return found;
+  const double share = 1 / (std::pow(found.companion_tolerance / found.tolerance, found.order) - 1);
+  for (const Column& column : columns_) {
+    const double range = column.largest - column.least;
+    double largest = std::max(std::abs(column.largest), std::abs(column.least));
+    for (const Column& other : columns_)
+      if (other.dimension == column.dimension) largest = std::max(largest, other.largest - other.least);
+    if (!(range > no_range * largest)) continue;
+    const double error = share * std::sqrt(column.squares / static_cast<double>(compared_)) / range;
+    if (error >= found.error) {
+      found.error = error;
+      found.channel = column.name;
+    }
+  }
+  if (found.channel.empty()) found.trouble = "nothing that is asked for changes";
+  return found;
+}
+
+}  // namespace engrane::app

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/error_estimate.hpp"
+#include "app/read.hpp"
+#include "model/solver_options.hpp"
+#include "observe/observer.hpp"
+
+namespace engrane::app {
+
+/// A run before the run, with a looser tolerance and without files: what the two differ by tells the error of the better one
+/// (Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, II.4, for one step; here for whole runs).
+class Companion {
+ public:
+  /// Runs; collective. `options`: of the run that it goes with.
+  Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm);
+
+  /// An even instant of the run itself, with the observer's values there. On rank 0.
+  void compare(double time, const std::vector<double>& values);
+  /// After the run. On rank 0.
+  ErrorEstimate estimate() const;
+
+ private:
+  void choose_columns(const observe::Observer& observer, const Model& model);
+  void record(double time, const std::vector<double>& values);
+  /// Place of an instant among those kept; empty for the others.
+  std::optional<std::size_t> place(double time) const;
+
+  /// A channel that is compared.
+  struct Column {
+    std::size_t at;
+    std::string name;
+    Dimension dimension;
+    double squares = 0, least = 0, largest = 0;
+  };
+  std::vector<Column> columns_;
+  double start_, interval_;
+  std::size_t rows_ = 0, compared_ = 0;
+  std::vector<double> values_;  ///< row by row; NaN where the instant was not reached
+  ErrorEstimate estimate_;
+  double begun_ = 0;  ///< processor time at which the run itself began
+};
+
+}  // namespace engrane::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/error_estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/solver_options.hpp"
+
+namespace engrane::app {
+
+double ErrorEstimate::error_at(double other) const { return error * std::pow(other / tolerance, order); }
+
+double ErrorEstimate::seconds_at(double other) const {
+  const double ratio = std::max(seconds, 1e-3) / std::max(companion_seconds, 1e-3);
+  const double slope = std::clamp(std::log(ratio) / std::log(companion_tolerance / tolerance), 0.0, 1.0);
+  return seconds * std::pow(tolerance / other, slope);
+}
+
+std::string ErrorEstimate::describe(double target) const {
+  std::string text = fmt::format("  asked for          {:g} of the range of each channel, root of the mean square over time\n", target);
+  if (!trouble.empty()) return text + "  estimated error    none: " + trouble + "\n";
+  text += fmt::format("  estimated error    {:.2g}, {}; from a run with TOL {:.2g} beside that with TOL {:.2g}\n", error, channel,
+                      companion_tolerance, tolerance);
+  text += fmt::format("  processor time     {:.2g} s, and {:.2g} s for the estimate\n", seconds, companion_seconds);
+  for (const AccuracyRung& rung : accuracy_rungs)
+    if (rung.target != target)
+      text += fmt::format("  ACCURACY {:<10}error about {:.1g}, about {:.2g} s\n", rung.name, error_at(rung.tolerance),
+                          seconds_at(rung.tolerance));
+  return text;
+}
+
+}  // namespace engrane::app

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace engrane::app {
+
+/// What the results are estimated to be off by.
+struct ErrorEstimate {
+  double error = 0;     ///< the largest of all channels asked for: root of the mean square over time, over the channel's range
+  std::string channel;  ///< that has it
+  double tolerance = 0, companion_tolerance = 0;  ///< TOL of the run and of its companion
+  double seconds = 0, companion_seconds = 0;
+  double order = 1;     ///< the power of TOL that errors go with
+  std::string trouble;  ///< why there is no estimate
+
+  /// Error and processor time that another tolerance is expected to have.
+  double error_at(double other) const;
+  double seconds_at(double other) const;
+  /// For the listing, beside the `target` that was asked for.
+  std::string describe(double target) const;
+};
+
+}  // namespace engrane::app
