@@ -17,6 +17,8 @@ constexpr double least_motion = 1e-3;
 /// So is what is slower by this than the fastest of its kind.
 constexpr double negligible = 1e-3;
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+/// Part of a length, or of a radian, that positions are known to: what the joints of a step leave open, several times over.
+constexpr double known = 1e-12;
 
 }  // namespace
 
@@ -67,7 +69,7 @@ double StepError::over_tolerance(std::span<const double> rates, std::span<const 
     for (std::size_t k = 0; k < group.size; ++k) {
       const std::size_t slot = group.first + k;
       if (group.free[k])
-        largest = std::max(largest, (std::abs(rates[slot]) - rounding * (std::abs(velocities[slot]) + group.place / h)) / scale);
+        largest = std::max(largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot]) - known * group.place / h) / scale);
     }
   }
   return largest;
