@@ -73,6 +73,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except UserError as error:
         print(f"engrane {args.command}: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 130  # as the shell tells of a command that Ctrl-C ended
     except BrokenPipeError:
         # `engrane plot run --list | head`: the reader has seen enough. Point stdout elsewhere or Python
         # complains at exit.

@@ -69,18 +69,14 @@ class Pool:
         self.running: set[int] = set()
         self.lock = threading.Lock()
         self.stopped = False
-        self.done = 0
+        self.shown = False
 
     def run(self, runs: Sequence[Run], what: str = "") -> None:
-        """Makes these runs and shows on a terminal how far it is."""
-        show = sys.stderr.isatty()
-        self.done = 0
+        """Makes these runs and shows on a terminal which one has begun last."""
+        self.what, self.count, self.begun = what, len(runs), 0
+        self.shown = sys.stderr.isatty()
         with ThreadPoolExecutor(max(1, min(self.jobs, len(runs)))) as pool:
-            tasks = []
-            for run in runs:
-                tasks.append(pool.submit(self._run, run))
-                if show:
-                    tasks[-1].add_done_callback(lambda _, run=run: self._tell(run, len(runs), what))
+            tasks = [pool.submit(self._run, run) for run in runs]
             try:
                 finished, _ = wait(tasks, return_when=FIRST_EXCEPTION)
                 for task in finished:
@@ -90,8 +86,8 @@ class Pool:
                 raise
             finally:
                 pool.shutdown(cancel_futures=True)
-                if show:
-                    print(file=sys.stderr)
+                if self.shown:
+                    print("\r\033[K", end="", file=sys.stderr, flush=True)
 
     def stop(self) -> None:
         """Ends the runs that are going on and lets no other begin."""
@@ -100,11 +96,10 @@ class Pool:
             for process in self.running:
                 os.kill(process, signal.SIGTERM)
 
-    def _tell(self, run: Run, count: int, what: str) -> None:
-        with self.lock:
-            self.done += 1
-            line = f"{what}{self.done} of {count}  {run.title}"
-            print(f"\r\033[K{line[:78]}", end="", file=sys.stderr, flush=True)
+    def _tell(self, run: Run) -> None:
+        self.begun += 1
+        line = f"{self.what}{self.begun} of {self.count}  {run.title}"
+        print(f"\r\033[K{line[:78]}", end="", file=sys.stderr, flush=True)
 
     def _run(self, run: Run) -> None:
         # one thread each: the runs themselves share the cores
@@ -113,6 +108,8 @@ class Pool:
             with self.lock:
                 if self.stopped:
                     return
+                if self.shown:
+                    self._tell(run)
                 process = subprocess.Popen(
                     [*self.command, *run.words, "-o", str(run.prefix)],
                     stdin=subprocess.DEVNULL,

@@ -26,6 +26,7 @@ from .study_deck import (
     setting_of,
     steps_ladder,
     steps_of,
+    tolerances_ladder,
     usual_steps,
 )
 from .study_errors import Truth, Values
@@ -34,6 +35,8 @@ from .study_report import Attempt
 SCHEMES = ("CHUNG TANGENT FULL", "CHUNG TANGENT KEPT", "RADAU")
 SOLVERS = ("MUMPS", "KLU")
 TARGETS = (1e-2, 1e-3, 1e-5)
+#: of the local error, for programs whose .SUB has TOL
+TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 #: a reference takes steps so many times shorter than the shortest of its own scheme that is studied
 FINER = {"RADAU": 4, "CHUNG": 8}
 FINEST_PRECISION = 1e-12
@@ -178,6 +181,8 @@ class Study:
                 else usual_steps(setting["SCHEME"], self.deck.step, self.deck.span)
             )
             out.append(steps_ladder(" ".join(words.upper().split()).removeprefix("SCHEME "), setting, steps))
+        if "TOL" in self.schema[".SUB"] and not self.args.schemes and not self.args.steps:
+            out += [tolerances_ladder(f"{s} TOL", {"SCHEME": s}, self.deck.step, TOLERANCES) for s in FINER]
         if len({ladder.title for ladder in out}) < len(out):
             raise UserError("--schemes names the same setting twice.")
         return out
@@ -281,7 +286,7 @@ class Study:
         out = []
         for scheme, more in wishes:
             sizes = [
-                r.size / (FINER[scheme] if ladder.scheme == scheme or scheme == "CHUNG" else 1)
+                float(r.sub["H"]) / (FINER[scheme] if scheme in (ladder.scheme, "CHUNG") else 1)
                 for ladder in ladders
                 for r in ladder.rungs
             ]

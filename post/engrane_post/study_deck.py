@@ -18,8 +18,8 @@ from .errors import UserError
 #: keywords of .SAM that a setting speaks of, each with one value
 SETTING = ("SCHEME", "RHO", "ALPHA", "TANGENT", "SOLVER")
 DAMPING = ("RHO", "ALPHA")
-#: keywords of .SUB that a setting speaks of
-RUNG = ("H", "TOL")
+#: keywords of .SUB about steps that the program chooses; they go where steps are given
+CHOSEN_STEPS = ("TOL", "HMAX")
 #: what .SAI selects; the other keywords are about rates
 SELECTION = ("ELEMENT", "TYPE", "NOEUD", "GROUP", "CHANNEL", "KEEP")
 MOST_RUNGS = 40
@@ -250,7 +250,7 @@ class Deck:
     def own(self) -> Ladder:
         """What the deck says, as a ladder of one run."""
         sam = {word: self.sam.get(word) for word in SETTING[:-1] if self.sam.get(word)}
-        rung = {word: self.sub.get(word) for word in RUNG if self.sub.get(word)}
+        rung = {word: self.sub.get(word) for word in ("H", "TOL") if self.sub.get(word)}
         return Ladder(f"the deck: {self.title}", {"SCHEME": self.scheme} | sam, [Rung(rung, self.step)])
 
     def sam_card(self, setting: dict[str, str], solver: str) -> Card:
@@ -268,7 +268,7 @@ class Deck:
 
     def sub_card(self, rung: Rung) -> Card:
         """The deck's .SUB with other steps."""
-        return self.sub.without(*(w for w in RUNG if w not in rung.sub)).replaced(**rung.sub)
+        return self.sub.without(*(() if "TOL" in rung.sub else CHOSEN_STEPS)).replaced(**rung.sub)
 
     def sai_card(self, sample: float, keep: str | None) -> Card:
         """Samples at these intervals, of what the deck selects or, by KEEP, of all or nothing; no fields."""
