@@ -160,6 +160,11 @@ class Study:
         else:
             self.all_histories = True
             self.channels = [n for n, c in self.known.items() if c.unique and not n.startswith("run/")]
+            if not self.channels:
+                raise UserError(
+                    "The deck checks no number that tells of accuracy and keeps no histories; "
+                    "name some by --result or --channels."
+                )
         if self.args.reference == "check" and (self.args.result or self.args.channels or not self.numbers):
             raise UserError(
                 "--reference check compares the numbers that the deck's .CHK gives, without --result and "

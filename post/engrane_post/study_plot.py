@@ -73,8 +73,8 @@ def draw(
                 label=f"recommended for an error of {short(target)}",
             )
         shade_doubt(axis, truth, min(height.values()))
-        plain_times(axis)
         axis.margins(x=0.08)
+        plain_times(axis)
         axis.set_xlabel("processor time [s], without the start of the program")
         axis.set_ylabel("largest error, over the size of what is compared")
         figure.legend(
@@ -104,7 +104,7 @@ def shade_doubt(axis: Axes, truth: Truth, least: float) -> None:
 def plain_times(axis: Axes) -> None:
     """Times as plain numbers, also where the axis spans less than a decade."""
     low, high = axis.get_xlim()
-    narrow = high / low < 30
+    narrow = high / low < 300
     axis.xaxis.set_major_locator(LogLocator(base=10, subs=(1, 2, 5) if narrow else (1,)))
     axis.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.xaxis.set_minor_formatter(NullFormatter())

@@ -325,6 +325,7 @@ def test_runs_that_fail_are_told_and_passed_over(deck: Path, command) -> None:
     ("words", "sentence"),
     [
         (("nodeck",), "There is no deck nodeck"),
+        (("bare",), "keeps no histories; name some by --result or"),
         (("static",), "static.dat is STATIC; only a DYNAMIC analysis"),
         (("wrong",), "wrong.dat:1:10: error: `Q` is not a keyword"),
         (("oscillator", "--channels", "1.UQ"), "has no channel 1.UQ. Did you mean node/1/U"),
@@ -347,6 +348,7 @@ def test_runs_that_fail_are_told_and_passed_over(deck: Path, command) -> None:
 )
 def test_wrong_commands(deck: Path, command, words, sentence) -> None:
     Path("static.dat").write_text(PENDULUM.replace(".SAM TYPE DYNAMIC", ".SAM TYPE STATIC"))
+    Path("bare.dat").write_text(PENDULUM + ".SAI KEEP NONE\n")
     Path("wrong.dat").write_text(".NOE I 1 Q 3\n" + PENDULUM)
     status, _, err = command("study", *words)
     assert status == 1
