@@ -152,7 +152,7 @@ class Study:
         if self.args.result:
             self.numbers = [r["name"] for r in self.first.summary["results"]]
         elif not self.args.channels:
-            self.numbers = study_errors.checks_that_tell(self.first)
+            self.numbers = study_errors.checks_that_tell(self.first, self.deck.start)
         if self.channels:
             self.keep = "ALL"
         elif self.numbers:
@@ -381,7 +381,7 @@ def introduce(study: Study, truth: Truth) -> None:
         names = list(truth.sizes)
         what = "; ".join(names[:3]) + (f" and {count - 3} more" if count > 3 else "")
     print(f"{Path(study.deck_file).name}: errors of {what}")
-    own = "own errors are not known here" if truth.error == 0 else f"own error {truth.error:.1e}"
+    own = f"own error is {study_report.short(truth.error)}" if truth.own else "own error is not known here"
     print(f"reference: {truth.name}; its {own}")
     if truth.left_out and not study.all_histories:
         for text in truth.left_out:

@@ -126,8 +126,9 @@ def tolerances_ladder(title: str, sam: dict[str, str], sample: float, tolerances
 
 
 def number(value: float) -> str:
-    """Short, and the same number when it is read again as far as steps need it."""
-    return f"{value:.12g}"
+    """As short as it can be and still be the same number when it is read again."""
+    text = f"{value:.12g}"
+    return text if float(text) == value else repr(value)
 
 
 def setting_of(text: str) -> dict[str, str]:

@@ -108,7 +108,7 @@ def short(value: float) -> str:
     if math.isnan(value):
         return ""
     mantissa, _, power = f"{value:.1e}".partition("e")
-    return f"{mantissa.removesuffix('.0')}e{int(power)}"
+    return f"{mantissa.removesuffix('.0')}e{int(power)}" if value != 0 else "0"
 
 
 def error_text(error: float, floor: float) -> str:

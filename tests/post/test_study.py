@@ -47,6 +47,7 @@ ABRE '/h' '0.05'
 .CHK
  NODE 1 UX T 20 V (1-cos(20)) ATOL 1
  NODE 1 UX MAX V 2 ATOL 1
+ NODE 1 AX T 0 V 1 ATOL 1
  NODE 1 UY V 0 ATOL 1
  RUN ENERGY_ERROR V 0 ATOL 1
 """
@@ -159,6 +160,8 @@ def test_settings_and_steps() -> None:
     assert usual_steps("CHUNG", 1, 1e9) == [8, 4, 2, 1, 0.5, 0.25]
     assert usual_steps("RADAU", 1, 20) == [2, 1]
     assert usual_steps("RADAU", 1, 1.5) == [1]
+    step = math.pi / 160
+    assert [float(r.sub["H"]) for r in steps_ladder("", {}, [step, step / 4]).rungs] == [step, step / 4]
     assert sample_interval([4, 2, 1, 0.5], 100) == 4
     assert sample_interval([3, 2], 100) == 6
     for wrong in ([1, 0.7323], [4, 2]):
@@ -241,12 +244,14 @@ def test_errors_are_those_against_the_closed_form(deck: Path, command) -> None:
     assert (status, err) == (0, "")
     assert "left out: NODE 1 UY at the end: its V is 0" in out
     exact = table()
+    names = list(exact[0])[list(exact[0]).index("SUB") + 1 :]
+    assert names == ["NODE 1 UX at t = 20", "MAX of NODE 1 UX"], "neither of the start, nor of what is 0"
     assert {r["SAM"] for r in of_setting(exact, "RADAU")} == {
         ".SAM TYPE DYNAMIC SCHEME RADAU SOLVER KLU PREC 1e-10"
     }
     status, out, err = command(*words)
     assert (status, err) == (0, "")
-    assert "reference: RADAU PREC 1e-12, H 0.0125; its own error" in out
+    assert "reference: RADAU PREC 1e-12, H 0.0125; its own error is" in out
     name = "NODE 1 UX at t = 20"
     for one, other in zip(exact, table(), strict=True):
         assert one["steps"] == other["steps"]
@@ -309,7 +314,7 @@ def test_runs_that_fail_are_told_and_passed_over(deck: Path, command) -> None:
     )
     assert status == 0
     assert "note: no reference by RADAU PREC 1e-12, H 0.005: step" in err
-    assert "reference: CHUNG PREC 1e-12, H 0.0003125; its own error" in out
+    assert "reference: CHUNG PREC 1e-12, H 0.0003125; its own error is" in out
     rows = table("pendulum")
     bad = of_setting(rows, "RADAU")
     assert len(bad) == 2 and all((r["error"], r["seconds"], r["steps"]) == ("", "", "") for r in bad)
