@@ -88,11 +88,7 @@ def cheapest(attempts: Sequence[Attempt], target: float, floor: float) -> Attemp
     good = []
     for a in attempts:
         finer = [
-            b
-            for b in attempts
-            if b.tells
-            and (b.ladder.title, b.solver) == (a.ladder.title, a.solver)
-            and b.rung.size <= a.rung.size
+            b for b in attempts if b.tells and b.ladder.title == a.ladder.title and b.rung.size <= a.rung.size
         ]
         if a.tells and all(max(b.error, floor) <= target for b in finer):
             good.append(a)
@@ -195,8 +191,11 @@ def print_recommendation(
     """The cheapest setting for each error, and the two cards of the chosen one."""
     print("\nThe cheapest setting for an error of at most\n")
     rows = []
+    own = attempts[0]
+    # a single run of the deck may be good by chance; its setting is among the ladders
+    tried = [a for a in attempts if a.ladder is not own.ladder]
     for wanted in targets:
-        best = chosen if wanted == target else cheapest(attempts, wanted, truth.floor)
+        best = chosen if wanted == target else cheapest(tried, wanted, truth.floor)
         if best:
             text = [
                 f"{best.title}, {best.solver}",
@@ -204,7 +203,7 @@ def print_recommendation(
                 error_text(best.error, truth.floor),
             ]
         else:
-            text = [why_none(attempts, truth, wanted), "", ""]
+            text = [why_none(tried, truth, wanted), "", ""]
         rows.append([short(wanted), *text])
     widths = [
         max(len(row[i]) for row in rows if row[2] or i == 0) if any(r[2] for r in rows) else 0
@@ -212,7 +211,6 @@ def print_recommendation(
     ]
     for row in rows:
         print(("  " + "  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True))).rstrip())
-    own = attempts[0]
     if own.tells:
         print(f"\nThe deck as it is: {own.seconds:.3f} s, error {error_text(own.error, truth.floor)}.")
     if not chosen:
@@ -220,8 +218,13 @@ def print_recommendation(
     print(f"\nFor an error of {short(target)}, in the place of the deck's own cards:\n")
     for card in chosen.cards:
         print(card.text)
-    if "TOL" not in chosen.rung.sub and chosen.rung.size > own.rung.size * (1 + 1e-9):
-        print(f"\nHistories then have a sample every {chosen.rung.sub['H']}, the length of a step.")
+    if "TOL" in chosen.rung.sub:
+        return
+    print()
+    if chosen.rung is chosen.ladder.rungs[0]:
+        print("It is the longest step of its scheme that was tried; --steps tries others.")
+    if chosen.rung.size > own.rung.size * (1 + 1e-9):
+        print(f"Histories then have a sample every {chosen.rung.sub['H']}, the length of a step.")
 
 
 def why_none(attempts: Sequence[Attempt], truth: Truth, target: float) -> str:
