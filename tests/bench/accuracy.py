@@ -1,0 +1,381 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The dial `.SAM ACCURACY` on nine models: what it asks for, what it estimates, what is true, and what it costs.
+
+    python tests/bench/accuracy.py build/bin/engrane [--models bevel spur ...] [--runs 2]
+        [--tolerances 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7] [--slopes] [--picture docs/figures/dial.png]
+
+Errors are measured as the program estimates them: the root of the mean square over time of what a channel is off by, over its
+range; of some positions, velocities and forces of each model the worst channel counts. The truth is a run of RADAU with TOL 1e-9;
+its own error is what it differs by from RADAU with fixed steps. Processor time is that of the process with all it does, the estimate
+included, without that of a run of a single step; the least of --runs, in turn.
+
+Prints a Markdown table of the four settings; --tolerances: one of TOL, with the TOL that each setting would have needed;
+--slopes: one of fixed steps of each scheme, with errors of positions, velocities and forces and their slopes.
+"""
+
+import argparse
+import json
+import math
+import os
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from schemes import BEVEL
+from schemes import MODELS as OTHERS
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "post")]
+from engrane_post import Results  # noqa: E402
+
+ENVIRONMENT = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+SETTINGS = {"FAST": 1e-2, "NORMAL": 1e-3, "FINE": 1e-5, "REFERENCE": 1e-8}
+NO_RANGE = 1e-6  # as in src/app/companion.cpp
+
+PLANETARY = """
+.UNIT SI
+.TITRE "planetary 24-18-60 with play under a torque that changes its sign"
+ABRE '/rc' '0.063'
+ABRE '/gear' 'AXIS 0 0 1 MN 0.003 ALPHA 20 KM 4D8 XI 0.07 JEU 2D-5'
+ABRE '/back' 'AXIS 0 0 -1 MN 0.003 ALPHA 20 KM 4D8 XI 0.07 JEU 2D-5'
+.NOE
+ I 1 X 0 0 0
+ I 2 X 0 0 0
+ I 3 X 0 0 0
+ I 11 X (/rc) 0 0
+ I 12 X (/rc*cos(2*PI/3)) (/rc*sin(2*PI/3)) 0
+ I 13 X (/rc*cos(4*PI/3)) (/rc*sin(4*PI/3)) 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1
+ I 3 HINGE N 0 3 AXIS 0 0 1
+ I 4 TORQUE N 1 AXIS 0 0 1 V 1 NF 1
+ I 6 TSPRING N 0 3 AXIS 0 0 1 K 5D4 C 10
+ I 11 HINGE N 3 11 AXIS 0 0 1 AT (/rc) 0 0
+ I 12 HINGE N 3 12 AXIS 0 0 1 AT (/rc*cos(2*PI/3)) (/rc*sin(2*PI/3)) 0
+ I 13 HINGE N 3 13 AXIS 0 0 1 AT (/rc*cos(4*PI/3)) (/rc*sin(4*PI/3)) 0
+ I 21 GEAR N 1 11 Z 24 18 /gear
+ I 22 GEAR N 1 12 Z 24 18 /gear
+ I 23 GEAR N 1 13 Z 24 18 /gear
+ I 31 GEAR N 11 2 Z 18 60 /back INTERNAL
+ I 32 GEAR N 12 2 Z 18 60 /back INTERNAL
+ I 33 GEAR N 13 2 Z 18 60 /back INTERNAL
+ I 41 INERTIA N 1 J 0 0 6D-4
+ I 43 INERTIA N 3 J 0 0 2D-2
+ I 51 INERTIA N 11 M 0.6 J 0 0 2D-4
+ I 52 INERTIA N 12 M 0.6 J 0 0 2D-4
+ I 53 INERTIA N 13 M 0.6 J 0 0 2D-4
+.FCT
+ I 1 EXPR "30 + 60*sin(2*PI*150*T)"
+.CLM
+ FIX NOEUD 2 C 1 2 3 4 5 6
+.SAM TYPE DYNAMIC
+.SUB TF 0.01 H 5D-6
+.FIN 1
+"""
+
+
+def free_crank(text: str) -> str:
+    """The slider-crank with a flywheel in place of the drive, which would leave nothing to integrate."""
+    text = text.replace(" DRIVE SPEED NF 1", "").replace("VIT NOEUD 1 C 6 V 10", "VIT NOEUD 1 C 6 V 10 IMPOSED")
+    return text.replace(" I 5 INERTIA N 3 M 3\n", " I 5 INERTIA N 3 M 3\n I 6 INERTIA N 1 J 0 0 0.1\n")
+
+
+def deck_text(path: str) -> str:
+    return (ROOT / path).read_text(encoding="utf-8")
+
+
+@dataclass
+class Model:
+    """What is run: the deck, its end, a step that divides the time between instants that are compared, and what is."""
+
+    title: str
+    text: str
+    end: float
+    step: float
+    interval: float
+    channels: tuple[tuple[str, ...], ...]  #: positions, velocities, forces
+    steps: tuple[float, ...]  #: fixed, for slopes: multiples or parts of `step` that divide `interval`
+    names: tuple[str, ...] = field(init=False)
+    static: bool = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.names = tuple(name for kind in self.channels for name in kind)
+        self.static = re.search(r"^\.SAM.*START STATIC", self.text, re.M) is not None
+
+
+def models() -> dict[str, Model]:
+    def like(name: str, title: str, end: float, interval: float, steps, text: str | None = None) -> Model:
+        text = text or deck_text(OTHERS[name][0])
+        step = float(re.search(r"^\.SUB.* H (\S+)", text, re.M)[1].replace("D", "e"))
+        return Model(title, text, end, step, interval, OTHERS[name][3:], steps)
+
+    return {
+        "bevel": like("bevel", "bevel pair", 1.0, 0.02, (0.01, 0.005, 0.0025, 0.00125), BEVEL.replace("H 0.1", "H 0.001")),
+        "spur": like("spur", "transmission A", 0.004, 2e-5, (2e-5, 1e-5, 5e-6, 2.5e-6)),
+        "backlash": like(
+            "spur",
+            "transmission C",
+            0.002,
+            2e-5,
+            (1e-5, 5e-6, 2.5e-6, 1.25e-6),
+            deck_text("decks/paper/spur_transmission_c.dat"),
+        ),
+        "bars": Model(
+            "A02",
+            deck_text("decks/mechanisms/four_bars_in_line.dat"),
+            2.0,
+            1e-3,
+            0.01,
+            (
+                ("node/2/UX", "node/2/UY"),
+                ("node/2/VX", "node/2/VY"),
+                ("element/12/FORCE_X", "element/12/FORCE_Y"),
+            ),
+            (1e-2, 5e-3, 2.5e-3, 1.25e-3),
+        ),
+        "andrews": like("andrews", "Andrews", 0.03, 2e-4, (2e-4, 1e-4, 5e-5, 2.5e-5)),
+        "top": like("top", "heavy top", 0.2, 2e-3, (1e-3, 5e-4, 2.5e-4, 1.25e-4)),
+        "crank": Model(
+            "slider-crank",
+            free_crank(deck_text("decks/mechanisms/slider_crank.dat")),
+            1.0,
+            2e-4,
+            0.01,
+            (
+                ("element/4/SLIDE", "element/1/ANGLE"),
+                ("element/4/SLIDE_SPEED", "element/1/SPEED"),
+                ("element/2/FORCE_X", "element/2/FORCE_Y"),
+            ),
+            (1e-2, 5e-3, 2.5e-3, 1.25e-3),
+        ),
+        "planetary": Model(
+            "planetary",
+            PLANETARY,
+            0.01,
+            5e-6,
+            5e-5,
+            (
+                ("element/1/ANGLE", "element/11/ANGLE", "element/3/ANGLE"),
+                ("element/1/SPEED", "element/11/SPEED", "element/3/SPEED"),
+                ("element/21/NORMAL_FORCE", "element/31/NORMAL_FORCE"),
+            ),
+            (1e-5, 5e-6, 2.5e-6, 1.25e-6),
+        ),
+        "valve": like("valve", "valve train", 0.012, 1e-4, (2e-5, 1e-5, 5e-6, 2.5e-6)),
+    }
+
+
+def deck(model: Model, analysis: str | None, stepping: str) -> str:
+    """`analysis`: words of `.SAM`, None for those of the deck; `stepping`: words of `.SUB` after TF."""
+    text = re.sub(r"^\.(CHK|SAI)\b.*\n(?:[ !].*\n)*", "", model.text, flags=re.M)
+    if analysis is not None:
+        words = f".SAM TYPE DYNAMIC {analysis} ENERGY 0" + (" START STATIC" if model.static else "")
+        text = re.sub(r"^\.SAM .*", words, text, flags=re.M)
+    checks = [
+        f" {'ELEMENT' if kind == 'element' else 'NODE'} {number} {channel} V 0 ATOL 1e30"
+        for kind, number, channel in (name.split("/") for name in model.names)
+    ]
+    archive = f".SAI FIELDS DT {model.end!r} HISTORY DT {model.interval!r}\n.CHK\n" + "\n".join(checks)
+    return re.sub(r"^\.SUB .*", lambda _: f".SUB TF {stepping}\n{archive}", text, flags=re.M)
+
+
+@dataclass
+class Run:
+    times: np.ndarray
+    values: np.ndarray  #: instant by channel
+    seconds: float
+    steps: int
+    report: dict
+
+    def errors(self, truth: "Run") -> dict[str, float]:
+        """Of each channel that changes, as src/app/companion.cpp compares two runs."""
+        return dict(self.by_channel)
+
+    by_channel: dict[str, float] = field(default_factory=dict)
+
+    def compare(self, truth: "Run", model: Model, units: dict[str, str]) -> "Run":
+        assert np.allclose(self.times, truth.times, rtol=0, atol=1e-6 * model.interval)
+        off = self.values - truth.values
+        turns = [i for i, name in enumerate(model.names) if units[name] == "rad"]
+        off[:, turns] = (off[:, turns] + math.pi) % (2 * math.pi) - math.pi
+        ranges = np.ptp(self.values, axis=0)
+        for i, name in enumerate(model.names):
+            largest = max(r for r, other in zip(ranges, model.names, strict=True) if units[other] == units[name])
+            if ranges[i] > NO_RANGE * max(largest, np.abs(self.values[:, i]).max()):
+                self.by_channel[name] = float(np.sqrt(np.mean(off[:, i] ** 2)) / ranges[i])
+        return self
+
+    @property
+    def error(self) -> float:
+        return max(self.by_channel.values())
+
+    def of(self, names: Iterable[str]) -> float:
+        return max((self.by_channel[name] for name in names if name in self.by_channel), default=math.nan)
+
+
+class Bench:
+    def __init__(self, binary: Path, folder: Path, model: Model, runs: int) -> None:
+        self.binary, self.folder, self.model, self.runs = binary, folder, model, runs
+        self.start = 0.0
+        self.units: dict[str, str] = {}
+        self.start = self._seconds(deck(model, "SOLVER KLU", f"{model.step!r} H {model.step!r}"))[0]
+        self.truth = self.run("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL 1e-9", 1, compare=False)
+        fine = model.steps[-1] / 4
+        other = self.run("SCHEME RADAU SOLVER KLU PREC 1e-12", f"H {fine!r}", 1)
+        self.own_error = other.error
+
+    def _seconds(self, text: str) -> tuple[float, dict]:
+        path = self.folder / "run.dat"
+        path.write_text(text, encoding="utf-8")
+        least = math.inf
+        for _ in range(self.runs):
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            done = subprocess.run(
+                [self.binary, "--json", path, "-o", path.with_suffix("")],
+                env=ENVIRONMENT,
+                capture_output=True,
+                text=True,
+            )
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            if done.returncode != 0:
+                raise RuntimeError(" ".join((done.stderr or done.stdout[-400:]).split())[:300])
+            least = min(least, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        return least, json.loads(done.stdout)["runs"][0]
+
+    def run(self, analysis: str | None, stepping: str, runs: int | None = None, compare: bool = True) -> Run:
+        model = self.model
+        kept, self.runs = self.runs, runs or self.runs
+        try:
+            seconds, report = self._seconds(deck(model, analysis, f"{model.end!r} {stepping}"))
+        finally:
+            self.runs = kept
+        with Results((self.folder / "run.dat").with_suffix(".h5")) as results:
+            if not self.units:
+                channels = results.channels
+                self.units = {name: channels[name].unit for name in model.names}
+            histories = [results.history(name) for name in model.names]
+        times = histories[0][0]
+        places = times / model.interval
+        even = np.abs(places - np.round(places)) < 1e-3
+        values = np.array([values[even] for _, values in histories]).T
+        run = Run(times[even], values, max(seconds - self.start, 0.001), report["steps"], report)
+        return run.compare(self.truth, model, self.units) if compare else run
+
+
+def cell(value: float) -> str:
+    return f"{value:.1e}" if math.isfinite(value) else ""
+
+
+def dial(bench: Bench) -> list[str]:
+    model, rows = bench.model, []
+    try:
+        own = bench.run(None, f"H {model.step!r}")
+        rows.append(
+            f"| {model.title} | as it is, H {model.step:g} | {own.steps} | {own.seconds:.3f} | | {own.error:.1e} | | |"
+        )
+    except RuntimeError as error:
+        rows.append(f"| {model.title} | as it is | failed: {error} |")
+    for setting, target in SETTINGS.items():
+        try:
+            run = bench.run(f"ACCURACY {setting}", f"H {model.step!r}")
+        except RuntimeError as error:
+            rows.append(f"| {model.title} | {setting} | failed: {error} |")
+            continue
+        found = run.report.get("accuracy") or {}
+        estimate = found.get("estimated_error")
+        told = f"{estimate:.1e}" if estimate else "none"
+        ratio = f"{estimate / run.error:.2g}" if estimate else ""
+        met = "yes" if run.error <= target else f"no, {run.error / target:.2g} times"
+        rows.append(
+            f"| {model.title} | {setting} | {run.steps} | {run.seconds:.3f} | {told} | {run.error:.1e} | {ratio} | {met} |"
+        )
+    return rows
+
+
+def ladder(bench: Bench, tolerances: list[float]) -> list[str]:
+    """Errors over TOL, the power they go with, and the TOL that each setting would have needed."""
+    model, rows, points = bench.model, [], []
+    for tolerance in tolerances:
+        try:
+            run = bench.run("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL {tolerance!r}")
+        except RuntimeError as error:
+            rows.append(f"| {model.title} | {tolerance:g} | failed: {error} |")
+            continue
+        power = math.log(run.error / points[-1][1]) / math.log(tolerance / points[-1][0]) if points else math.nan
+        points.append((tolerance, run.error, run.seconds))
+        kinds = " | ".join(cell(run.of(kind)) for kind in model.channels)
+        slope = f"{power:.2f}" if math.isfinite(power) else ""
+        rows.append(f"| {model.title} | {tolerance:g} | {run.steps} | {run.seconds:.3f} | {kinds} | {slope} |")
+    needed = []
+    for setting, target in SETTINGS.items():
+        good = None
+        for (loose, much, _), (tight, little, _) in zip(points, points[1:], strict=False):
+            if much > target >= little:
+                part = math.log(much / target) / math.log(much / little)
+                good = math.exp((1 - part) * math.log(loose) + part * math.log(tight))
+        if good is None and points and points[0][1] <= target:
+            needed.append(f"{setting} > {points[0][0]:g}")
+        elif good:
+            needed.append(f"{setting} {good:.1e}")
+    rows.append(f"| {model.title} | needed: | {', '.join(needed)} |")
+    return rows
+
+
+SCHEMES = ("CHUNG RHO 0.8", "NEWMARK", "HHT", "BOSSAK", "RADAU")
+
+
+def slopes(bench: Bench) -> list[str]:
+    model, rows = bench.model, []
+    for scheme in SCHEMES:
+        before: tuple[float, list[float]] | None = None
+        for step in model.steps:
+            try:
+                run = bench.run(f"SCHEME {scheme} SOLVER KLU", f"H {step!r}", 1)
+            except RuntimeError as error:
+                rows.append(f"| {model.title} | {scheme} | {step:g} | failed: {error} |")
+                continue
+            found = [run.of(kind) for kind in model.channels]
+            powers = ["", "", ""]
+            if before:
+                powers = [f"{math.log(b / a) / math.log(before[0] / step):.1f}" for a, b in zip(found, before[1], strict=True)]
+            before = (step, found)
+            rows.append(
+                f"| {model.title} | {scheme} | {step:g} | {run.seconds:.3f} | "
+                + " | ".join(map(cell, found)) + " | " + " | ".join(powers) + " |"
+            )
+    return rows
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    known = models()
+    parser.add_argument("binary", type=Path)
+    parser.add_argument("--models", nargs="+", choices=known, default=list(known))
+    parser.add_argument("--runs", type=int, default=2)
+    parser.add_argument("--no-dial", action="store_true")
+    parser.add_argument("--tolerances", nargs="*", type=float, default=[])
+    parser.add_argument("--slopes", action="store_true")
+    a = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        for name in a.models:
+            bench = Bench(a.binary.resolve(), Path(folder), known[name], a.runs)
+            print(f"\n{known[name].title}: the truth's own error {bench.own_error:.1e}\n")
+            if not a.no_dial:
+                print("| model | setting | steps | s | estimate | error | estimate : error | met |\n" + "|---" * 8 + "|")
+                print("\n".join(dial(bench)), flush=True)
+            if a.tolerances:
+                print("\n| model | TOL | steps | s | x | v | force | power of TOL |\n" + "|---" * 8 + "|")
+                print("\n".join(ladder(bench, a.tolerances)), flush=True)
+            if a.slopes:
+                print("\n| model | scheme | H | s | x | v | force | slope x | v | force |\n" + "|---" * 10 + "|")
+                print("\n".join(slopes(bench)), flush=True)
+
+
+if __name__ == "__main__":
+    main()
