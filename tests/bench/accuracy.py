@@ -10,6 +10,7 @@ its own error is what it differs by from RADAU with fixed steps. Processor time 
 included, without that of a run of a single step; the least of --runs, in turn.
 
 Prints a Markdown table of the four settings; --tolerances: one of TOL, with the TOL that each setting would have needed;
+--picture: error over processor time of three models;
 --slopes: one of fixed steps of each scheme, with errors of positions, velocities and forces and their slopes.
 """
 
@@ -398,6 +399,44 @@ def slopes(bench: Bench) -> list[str]:
     return rows
 
 
+PICTURE = ("spur", "andrews", "crank")
+LADDER = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
+
+
+def picture(binary: Path, folder: Path, known: dict[str, Model], path: Path, runs: int) -> None:
+    """Error over processor time of three models: fixed steps, tolerances and the four settings."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(1, len(PICTURE), figsize=(13, 4.6), sharey=True, layout="constrained")
+    for axis, name in zip(axes, PICTURE, strict=True):
+        model = known[name]
+        bench = Bench(binary, folder, model, runs)
+        steps = [model.steps[0] * 2.0**-k for k in range(6)]
+        lines = (
+            ("generalised-α, kept factors, fixed steps", "o-", [("RHO 0.8 SOLVER KLU TANGENT KEPT", f"H {h!r}") for h in steps]),
+            ("Radau IIA, fixed steps", "s-", [("SCHEME RADAU SOLVER KLU", f"H {h!r}") for h in steps[:5]]),
+            ("Radau IIA, TOL", "^-", [("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL {t!r}") for t in LADDER]),
+            ("ACCURACY, with its estimate", "D--", [(f"ACCURACY {rung}", f"H {model.step!r}") for rung in SETTINGS]),
+        )
+        for label, mark, tries in lines:
+            points = [(run.seconds, run.error) for run in (bench.run(*words) for words in tries)]
+            axis.loglog(*zip(*points, strict=True), mark, label=label, markersize=7 if "D" in mark else 4)
+            if "D" in mark:
+                for (x, y), rung in zip(points, SETTINGS, strict=True):
+                    axis.annotate(rung, (x, y), xytext=(6, 3), textcoords="offset points", fontsize=8)
+        own = bench.run(None, f"H {model.step!r}")
+        axis.plot(own.seconds, own.error, "k*", markersize=11, label="the deck as it is")
+        axis.set(title=model.title, xlabel="processor time (s)")
+        axis.margins(x=0.22)
+        axis.grid(True, which="major", alpha=0.3)
+    axes[0].set_ylabel("error over range (rms over time, worst of x, v, force)")
+    axes[0].legend(fontsize=7.5, loc="lower left")
+    figure.savefig(path, dpi=110)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     known = models()
@@ -407,9 +446,13 @@ def main() -> None:
     parser.add_argument("--no-dial", action="store_true")
     parser.add_argument("--tolerances", nargs="*", type=float, default=[])
     parser.add_argument("--companions", nargs="*", type=float, default=[], help="TOL of runs with companions")
+    parser.add_argument("--picture", type=Path, help="draw three models and print nothing")
     parser.add_argument("--slopes", action="store_true")
     a = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
+        if a.picture:
+            picture(a.binary.resolve(), Path(folder), known, a.picture, a.runs)
+            return
         for name in a.models:
             bench = Bench(a.binary.resolve(), Path(folder), known[name], a.runs)
             print(f"\n{known[name].title}: the truth's own error {bench.own_error:.1e}\n")
