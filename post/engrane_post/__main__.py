@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`engrane plot | spectrum | orders | picture | animate | export | sweep | inertia ...`."""
+"""`engrane plot | spectrum | orders | picture | animate | export | sweep | study | inertia ...`."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ EPILOG = """examples:
   engrane animate run --fps 20 -o run.gif          the mechanism in motion
   engrane export run                               moving surfaces and forces for ParaView
   engrane sweep gear.dat -D KM=1E8:1E9:1E8         a deck for many values: table and diagram
+  engrane study gear.dat                           which scheme and step reach an error in the least time
   engrane inertia part.stl --density 7850          mass, centre and tensor of a part for RIGID
   engrane figures                                  the founding paper's figures
   engrane gallery                                  pictures of gear trains and mechanisms
@@ -31,7 +32,7 @@ engrane <command> --help tells more."""
 
 def parser() -> argparse.ArgumentParser:
     """The command line; each command's module adds its own words."""
-    from . import animate, export, figures, gallery, histories, inertia, lines, orders, picture, sweep
+    from . import animate, export, figures, gallery, histories, inertia, lines, orders, picture, study, sweep
 
     top = argparse.ArgumentParser(
         prog="engrane",
@@ -40,7 +41,19 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = top.add_subparsers(dest="command", required=True, metavar="command")
-    for module in (histories, lines, orders, picture, animate, export, sweep, inertia, figures, gallery):
+    for module in (
+        histories,
+        lines,
+        orders,
+        picture,
+        animate,
+        export,
+        sweep,
+        study,
+        inertia,
+        figures,
+        gallery,
+    ):
         module.add(commands)
     return top
 
@@ -60,6 +73,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except UserError as error:
         print(f"engrane {args.command}: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 130  # as the shell tells of a command that Ctrl-C ended
     except BrokenPipeError:
         # `engrane plot run --list | head`: the reader has seen enough. Point stdout elsewhere or Python
         # complains at exit.

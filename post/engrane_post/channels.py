@@ -9,6 +9,8 @@ import re
 
 from .errors import UserError
 
+LISTING_HINT = "--list shows all channels."
+
 
 def resolve(wanted: str, names: list[str], where: str = "the result") -> list[str]:
     """Full names meant by `wanted`, any case: `element/7/NORMAL_FORCE`, `7/normal_force`, `7.NORMAL_FORCE`, a
@@ -23,7 +25,7 @@ def resolve(wanted: str, names: list[str], where: str = "the result") -> list[st
         found = [n for k, n in by_key.items() if any(fnmatch.fnmatchcase(k, p) for p in patterns)]
         if found:
             return found
-        raise UserError(f"No channel of {where} fits {wanted}. {_listing_hint()}")
+        raise UserError(f"No channel of {where} fits {wanted}. {LISTING_HINT}")
     found = [n for k, n in by_key.items() if k.endswith("/" + key) and _may_shorten(k, key)]
     if len(found) == 1:
         return found
@@ -31,7 +33,7 @@ def resolve(wanted: str, names: list[str], where: str = "the result") -> list[st
         raise UserError(f"{wanted} could be {_either(found)} in {where}; write the one you mean.")
     near = suggestions(key, names)
     hint = f" Did you mean {_either(near)}?" if near else ""
-    raise UserError(f"{where} has no channel {wanted}.{hint} {_listing_hint()}")
+    raise UserError(f"{where} has no channel {wanted}.{hint} {LISTING_HINT}")
 
 
 def normalise(wanted: str) -> str:
@@ -64,7 +66,3 @@ def _may_shorten(full: str, key: str) -> bool:
 def _either(names: list[str]) -> str:
     names = names[:4] + (["..."] if len(names) > 4 else [])
     return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " or " + names[-1]
-
-
-def _listing_hint() -> str:
-    return "--list shows all channels."

@@ -6,26 +6,18 @@ from __future__ import annotations
 import argparse
 import csv
 import itertools
-import json
-import os
 import re
-import shutil
-import subprocess
 import sys
-import tempfile
-import threading
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
-from . import options
+from . import options, runs
 from .errors import UserError
 from .program import find_program
+from .runs import Run
 
 MOST_VARIANTS = 100_000
 MOST_LINES = 10
-# from fine to worst: as the program ranks the statuses of several decks
-STATUSES = (0, 4, 1, 2, 3)
 EXAMPLES = """  engrane sweep gear.dat -D KM=1E8:1E9:1E8 --result "ELEMENT 7 NORMAL_FORCE MAX"
   engrane sweep gear.dat -D JEU=0,1E-5,1E-4 -D SPEED=100:500:50 --result "ELEMENT 7 TE RMS WINDOW 0.1 0.2"
   engrane sweep gear.dat -D KM=1E8:1E9:1E8 -D J=0.3 -j 2 --keep runs
@@ -37,14 +29,10 @@ should be; without --result the values of the deck's own .CHK are taken."""
 
 @dataclass
 class Variant:
-    """One combination of values and what came of it."""
+    """One combination of values and its run."""
 
     values: dict[str, str]
-    status: int = 3
-    outcome: str = "not run"
-    message: str = ""
-    results: dict[str, float | None] = field(default_factory=dict)
-    seconds: float = 0.0
+    run: Run | None = None
 
     @property
     def title(self) -> str:
@@ -70,14 +58,7 @@ def add(commands: argparse._SubParsersAction) -> None:
         metavar="NAME=VALUES",
         help="from:to:step, a list a,b,c or one value; may be repeated",
     )
-    p.add_argument(
-        "--result", action="append", default=[], metavar="QUANTITY", help="as in .CHK; may be repeated"
-    )
-    p.add_argument("-j", dest="jobs", type=int, metavar="n", help="runs at a time (default: one per core)")
-    p.add_argument(
-        "-o", "--output", metavar="prefix", help="of the .csv and .png (default: the deck's name and _sweep)"
-    )
-    p.add_argument("--keep", metavar="folder", help="keep the result files of all runs there")
+    runs.arguments(p, "_sweep", "one per core")
     p.set_defaults(run=run)
 
 
@@ -119,123 +100,31 @@ def combinations(definitions: list[str]) -> list[Variant]:
     return [Variant(dict(zip(names, row, strict=True))) for row in itertools.product(*names.values())]
 
 
-class Pool:
-    """Runs variants, a few at a time."""
-
-    def __init__(self, program: Path, deck: str, results: list[str], folder: Path) -> None:
-        self.command = [str(program), deck, "--json", "-q"]
-        for result in results:
-            self.command += ["--result", result]
-        self.folder = folder
-        self.running: set[subprocess.Popen] = set()
-        self.lock = threading.Lock()
-        self.stopped = False
-        self.done = 0
-
-    def run(self, variants: list[Variant], jobs: int) -> None:
-        width = len(str(len(variants)))
-        show = sys.stderr.isatty()
-        with ThreadPoolExecutor(jobs) as pool:
-            tasks = []
-            for i, variant in enumerate(variants):
-                tasks.append(pool.submit(self._run, variant, self.folder / f"{i + 1:0{width}}"))
-                if show:
-                    tasks[-1].add_done_callback(lambda _: self._tell(len(variants)))
-            try:
-                finished, _ = wait(tasks, return_when=FIRST_EXCEPTION)
-                for task in finished:
-                    task.result()
-            except BaseException:
-                self.stop()
-                raise
-            finally:
-                pool.shutdown(cancel_futures=True)
-                if show:
-                    print(file=sys.stderr)
-
-    def stop(self) -> None:
-        """Ends the runs that are going on and lets no other begin."""
-        with self.lock:
-            self.stopped = True
-            for process in self.running:
-                process.terminate()
-
-    def _tell(self, count: int) -> None:
-        with self.lock:
-            self.done += 1
-            print(f"\r{self.done} of {count}", end="", file=sys.stderr, flush=True)
-
-    def _run(self, variant: Variant, prefix: Path) -> None:
-        words = [f"-D{name}={value}" for name, value in variant.values.items()]
-        # one thread each: the runs themselves share the cores
-        environment = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"} | dict(os.environ)
-        with self.lock:
-            if self.stopped:
-                return
-            process = subprocess.Popen(
-                [*self.command, *words, "-o", str(prefix)],
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                env=environment,
-                text=True,
-                errors="replace",
-            )
-            self.running.add(process)
-        out, errors = process.communicate()
-        with self.lock:
-            self.running.discard(process)
-        read_summary(variant, process.returncode, out, errors)
-
-
-def read_summary(variant: Variant, status: int, out: str, errors: str) -> None:
-    """What the program said of a variant. What is wrong with the command itself ends the sweep."""
-    variant.status = status if status in STATUSES else 3
-    variant.message = errors.strip()
-    try:
-        one = json.loads(out)["runs"][0]
-    except (ValueError, LookupError):
-        variant.outcome = f"ended by signal {-status}" if status < 0 else "no summary"
-        return
-    variant.outcome = one["outcome"]
-    variant.seconds = one["seconds"]
-    faults = [d for d in one["diagnostics"] if d["severity"] == "error"]
-    if any(d.get("file") == "--result" or d["message"].startswith("-D ") for d in faults):
-        raise UserError("the command is wrong:\n" + errors.strip())
-    wanted = one["results"] or one["checks"]
-    variant.results = {r["name"]: r["value"] for r in wanted}
-
-
 def run(args: argparse.Namespace) -> int:
     """Runs all, writes table and diagram; the worst status."""
     variants = combinations(args.define)
-    deck = args.deck if Path(args.deck).is_file() else args.deck + ".dat"
-    if not Path(deck).is_file():
-        raise UserError(f"There is no deck {args.deck}.")
-    output = re.sub(r"\.(csv|png)$", "", args.output or f"{Path(deck).stem}_sweep")
-    options.check_output(output + ".csv", (".csv",))
-    jobs = args.jobs or len(os.sched_getaffinity(0))
-    folder = Path(args.keep or tempfile.mkdtemp(prefix="engrane_sweep"))
-    folder.mkdir(parents=True, exist_ok=True)
-    try:
-        Pool(find_program(), deck, args.result, folder).run(variants, max(1, min(jobs, len(variants))))
-    finally:
-        if not args.keep:
-            shutil.rmtree(folder, ignore_errors=True)
-    names = list(dict.fromkeys(name for v in variants for name in v.results))
-    bad = [v for v in variants if v.status not in (0, 4)]
+    deck = runs.find_deck(args.deck)
+    output = runs.output_prefix(args.output, deck, "_sweep")
+    wanted = [f"--result={result}" for result in args.result]
+    width = len(str(len(variants)))
+    with runs.result_folder(args.keep) as folder:
+        for i, variant in enumerate(variants):
+            words = [f"-D{name}={value}" for name, value in variant.values.items()]
+            variant.run = Run(variant.title, wanted + words, folder / f"{i + 1:0{width}}")
+        runs.Pool(find_program(), deck, args.jobs or runs.all_cores()).run([v.run for v in variants])
+    names = list(dict.fromkeys(name for v in variants for name in v.run.numbers))
+    bad = [v for v in variants if not v.run.solved]
     if len(bad) == len(variants):
-        raise UserError(f"no variant was solved. {bad[0].title}:\n{bad[0].message}")
+        raise UserError(f"no variant was solved. {bad[0].title}:\n{bad[0].run.message}")
     if not names:
         raise UserError("Name a number by --result; the deck has no .CHK.")
     write_table(output + ".csv", variants, names)
     draw(output + ".png", variants, names, Path(deck).stem)
     for variant in bad[:5]:
-        first = variant.message.splitlines()[0] if variant.message else variant.outcome
-        print(f"{variant.title}: {first}", file=sys.stderr)
+        print(f"{variant.title}: {variant.run.reason}", file=sys.stderr)
     if bad:
         print(f"{len(bad)} of {len(variants)} variants have no result", file=sys.stderr)
-    return max((v.status for v in variants), key=STATUSES.index)
+    return max((v.run.status for v in variants), key=runs.STATUSES.index)
 
 
 def write_table(path: str, variants: list[Variant], names: list[str]) -> None:
@@ -244,8 +133,9 @@ def write_table(path: str, variants: list[Variant], names: list[str]) -> None:
         table = csv.writer(file, lineterminator="\n")
         table.writerow([*variants[0].values, *names, "outcome", "seconds"])
         for v in variants:
-            numbers = ["" if v.results.get(n) is None else repr(v.results[n]) for n in names]
-            table.writerow([*v.values.values(), *numbers, v.outcome, f"{v.seconds:.3f}"])
+            numbers = ["" if v.run.numbers.get(n) is None else repr(v.run.numbers[n]) for n in names]
+            seconds = v.run.summary.get("seconds", 0)
+            table.writerow([*v.values.values(), *numbers, v.run.outcome, f"{seconds:.3f}"])
     print(f"wrote {path}")
 
 
@@ -272,8 +162,8 @@ def draw(path: str, variants: list[Variant], names: list[str], title: str) -> No
     figure, axes = style.panels(len(names), height=3.0)
     for axis, name in zip(axes, names, strict=True):
         for i, (label, members) in enumerate(lines.items()):
-            solved = [v for v in members if v.results.get(name) is not None]
-            points = [(place[v.values[across]], v.results[name]) for v in solved]
+            solved = [v for v in members if v.run.numbers.get(name) is not None]
+            points = [(place[v.values[across]], v.run.numbers[name]) for v in solved]
             color = style.plt.get_cmap("viridis")(i / max(1, len(lines) - 1))
             if len(lines) <= len(style.COLORS):
                 color = style.COLORS[i]

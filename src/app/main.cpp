@@ -99,7 +99,7 @@ int perform(const Options& options, bool talk) {
   for (const std::string& deck : options.decks) {
     RunSummary& run = runs.emplace_back();
     run.deck = deck;
-    run.definitions = options.wishes.definitions;
+    run.overrides = options.wishes.overrides;
     run.status = perform(deck, options, talk, run);
     status = worse_status(status, run.status);
     if (was_interrupted()) break;

@@ -49,7 +49,7 @@ void add_definition(Options& options, const std::string& text) {
   const auto control = [](char c) { return static_cast<unsigned char>(c) < ' '; };
   if (sign == std::string::npos || sign == (slash ? 1U : 0U) || std::any_of(text.begin(), text.end(), control))
     throw CLI::ValidationError("-D " + text, "takes the name of an abbreviation, = and its text: -D RADIUS=0.25");
-  options.wishes.definitions[(slash ? "" : "/") + text.substr(0, sign)] = text.substr(sign + 1);
+  options.wishes.overrides.definitions[(slash ? "" : "/") + text.substr(0, sign)] = text.substr(sign + 1);
 }
 
 /// Several decks must not write the same files.
@@ -87,6 +87,7 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
       "  engrane deck.dat              solve; writes deck.h5, deck.xdmf and deck.lst here\n"
       "  engrane a.dat b.dat           solve one after the other; a summary ends it\n"
       "  engrane deck.dat -D A=0.3     the same with another text for the deck's abbreviation /A\n"
+      "  engrane deck.dat --card \".SUB TF 1 H 1E-4\"    with another .SUB than the deck's\n"
       "  engrane check deck.dat        read and verify only, and say what would be built\n"
       "  engrane help GEAR             what a card takes; without a word, all cards\n"
       "  engrane help friction         which cards have to do with it\n"
@@ -98,9 +99,13 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
       "Under MPI: mpiexec -n 2 engrane deck.dat");
   app.set_version_flag("--version", std::string("engrane ") + version);
   std::vector<std::string> definitions;
-  const auto define = [&definitions](CLI::App& to) {
+  const auto define = [&definitions, &options](CLI::App& to) {
     to.add_option("-D,--define", definitions, "text that stands for the abbreviation /NAME of the deck, whatever its ABRE says")
         ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    to.add_option("--card", options.wishes.overrides.cards,
+                  "this card in the place of the deck's, for .SAM, .SUB and others that a deck has once: \".SUB TF 1 H 1E-3\"")
+        ->type_name("CARD")
         ->allow_extra_args(false);
   };
   app.add_option("-o,--output", options.prefix, "where the results go: prefix of .h5, .xdmf and .lst, or a folder/");
@@ -151,8 +156,8 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
       options.task = Options::Task::completion;
       for (const CLI::App* task : app.get_subcommands({})) options.tasks.push_back(task->get_name());
       // the launcher's own
-      for (const char* task : {"plot", "spectrum", "orders", "picture", "animate", "export", "sweep", "inertia", "figures",
-                               "gallery", "demo", "test"})
+      for (const char* task : {"plot", "spectrum", "orders", "picture", "animate", "export", "sweep", "study", "inertia",
+                               "figures", "gallery", "demo", "test"})
         options.tasks.emplace_back(task);
       for (const CLI::Option* option : app.get_options())
         if (!option->get_lnames().empty()) options.words.push_back("--" + option->get_lnames().front());

@@ -13,7 +13,7 @@ namespace engrane::app {
 struct Options {
   enum class Task { run, check, help, make_template, manual, schema, completion, man } task = Task::run;
   std::vector<std::string> decks;
-  Wishes wishes;            ///< `-D` and `--result`, for every deck
+  Wishes wishes;            ///< `-D`, `--card` and `--result`, for every deck
   bool allow_user = false;  ///< `check` may load user libraries from anywhere
   bool json = false;        ///< a summary for programs, alone on standard output
   std::string prefix;       ///< of the results, or a folder for them; empty: the deck's name in the working directory

@@ -63,7 +63,7 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
   std::filesystem::path file = path;
   // `engrane gear` finds gear.dat, as INPUT does
   if (!std::filesystem::exists(file) && !file.has_extension()) file += ".dat";
-  reading.deck = deck::read_file(file, catalogue(element_types()), reading.sources, reading.diagnostics, wishes.definitions);
+  reading.deck = deck::read_file(file, catalogue(element_types()), reading.sources, reading.diagnostics, wishes.overrides);
   const bool syntax_good = reading.good();
   Diagnostics building;
   reading.model = build_model(reading.deck, element_types(), building);

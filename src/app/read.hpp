@@ -23,7 +23,7 @@ struct Reading {
 
 /// What the command line has to say about a deck.
 struct Wishes {
-  deck::Definitions definitions;     ///< `-D NAME=VALUE`
+  deck::Overrides overrides;         ///< `-D NAME=VALUE` and `--card ".SUB TF 1 H 0.1"`
   std::vector<std::string> results;  ///< `--result "ELEMENT 3 NORMAL_FORCE MAX"`: the beginnings of records of .CHK
 };
 

@@ -59,8 +59,10 @@ Json diagnostics_json(const RunSummary& run) {
 Json run_json(const RunSummary& run) {
   Json json{{"deck", text(run.deck)}, {"status", run.status}, {"outcome", run.outcome()}};
   Json definitions = Json::object();
-  for (const auto& [name, value] : run.definitions) definitions[printable(name.substr(1))] = text(value);
+  for (const auto& [name, value] : run.overrides.definitions) definitions[printable(name.substr(1))] = text(value);
   json["definitions"] = std::move(definitions);
+  json["cards"] = Json::array();
+  for (const std::string& card : run.overrides.cards) json["cards"].push_back(text(card));
   if (!run.failure.empty()) json["failure"] = text(run.failure);
   json["diagnostics"] = diagnostics_json(run);
   json["steps"] = run.steps;

@@ -7,7 +7,7 @@
 
 #include "app/error_estimate.hpp"
 #include "base/diagnostics.hpp"
-#include "deck/language/abbreviations.hpp"
+#include "deck/read/reader.hpp"
 #include "observe/energies.hpp"
 #include "output/results_layout.hpp"
 
@@ -16,9 +16,9 @@ namespace engrane::app {
 /// What came of one deck, for the summary of several and for `--json`. Quantities in the units of the deck.
 struct RunSummary {
   std::string deck;
-  deck::Definitions definitions;  ///< `-D`
-  int status = 0;                 ///< exit status of this deck alone
-  std::string failure;            ///< why the run stopped; empty when it did not
+  deck::Overrides overrides;  ///< `-D` and `--card`
+  int status = 0;             ///< exit status of this deck alone
+  std::string failure;        ///< why the run stopped; empty when it did not
   std::vector<Diagnostic> diagnostics;
   std::vector<std::string> sources;  ///< paths of the files that locations of `diagnostics` count from
   long steps = 0, iterations = 0, cuts = 0, events = 0;

@@ -62,7 +62,8 @@ Writer::Writer(const Reading& reading, const observe::Observer& observer, const 
 void Writer::begin(const SolverContext& context, int ranks) {
   const Model& model = reading_.model;
   std::string deck = summary_.deck;
-  for (const auto& [name, text] : summary_.definitions) deck += fmt::format(" -D {}={}", name.substr(1), text);
+  for (const auto& [name, text] : summary_.overrides.definitions) deck += fmt::format(" -D {}={}", name.substr(1), text);
+  for (const std::string& card : summary_.overrides.cards) deck += fmt::format(" --card \"{}\"", card);
   listing_.write(listing_header({version, library_versions(), model.title, deck, describe_analysis(model),
                                  fmt::format("{} process{}", ranks, ranks == 1 ? "" : "es")}));
   listing_.write(listing_section("What was built"));

@@ -16,7 +16,7 @@ from ranks import on_ranks
 
 ROOT = Path(__file__).resolve().parents[2]
 GUIDE = (ROOT / "docs/guide.md").read_text(encoding="utf-8")
-PICTURES = ("plot", "spectrum", "orders", "picture", "animate", "inertia", "sweep")
+PICTURES = ("plot", "spectrum", "orders", "picture", "animate", "inertia", "sweep", "study")
 SKIPPED = ("git clone", "./engrane demo")  # tests/launcher has them
 RANKS = re.compile(r"^-np (\d+) ")
 
@@ -49,8 +49,8 @@ def made_by(command: str) -> list[str]:
     """The files that a command must leave."""
     prefix = re.search(r" -o (\S+)", command)
     words = shlex.split(command)
-    if words[1] == "sweep":
-        return ["my_sweep.csv", "my_sweep.png"]
+    if words[1] in ("sweep", "study"):
+        return [f"my_{words[1]}.csv", f"my_{words[1]}.png"]
     if not prefix or "--until" in command:
         return []
     if words[1] in PICTURES:
@@ -86,6 +86,7 @@ def test_the_guide_has_what_this_looks_for():
         "spectrum",
         "animate",
         "sweep",
+        "study",
         "help",
         "template",
         "-np",

@@ -32,6 +32,42 @@ def test_an_unknown_definition_lists_those_of_the_deck(engrane, pendulum):
     assert not list(engrane.folder.glob("*.h5"))
 
 
+def test_a_card_stands_in_the_place_of_the_deck_s(engrane, pendulum):
+    card = ".STEPS TF (0.2*/L) H 0.02 TI 0.02"  # with an abbreviation of the deck
+    done = engrane(pendulum, "--card", card, "--card", ".SAM TYPE DYNAMIC SCHEME RADAU", "--json")
+    run = json.loads(done.stdout)["runs"][0]
+    assert (run["outcome"], run["steps"], run["time"]["end"]) == ("complete", 4, pytest.approx(0.1))
+    assert run["cards"] == [card, ".SAM TYPE DYNAMIC SCHEME RADAU"]
+    assert f'pendulum.dat --card "{card}" --card' in (engrane.folder / "pendulum.lst").read_text()
+    # also one that the deck does not have, behind a deck that is read in few columns
+    text = "MODE LECT 40\n" + (engrane.folder / pendulum).read_text()
+    (engrane.folder / pendulum).write_text(text)
+    done = engrane(pendulum, "--card", '.TITRE "a title that stands far behind the fortieth column"')
+    assert done.returncode == 0
+    assert "behind the fortieth column" in (engrane.folder / "pendulum.lst").read_text()
+
+
+@pytest.mark.parametrize(
+    ("card", "sentence"),
+    [
+        (".SUB TF 1", "--card:1:1: error: .SUB lacks H"),
+        (".SUB TF 1 HH 2", "--card:1:11: error: `HH` is not a keyword of .SUB"),
+        (".SUB TF 1 H 0.1 .SAM TYPE STATIC", "a command must be the first word of its line"),
+        (".NOE I 1 X 0 0 0", "--card takes one card that a deck has once"),
+        (".CLM FIX NOEUD 1 C 1", "another of .UNIT, .TITRE, .SAM, .SUB and .SAI"),
+        (".NONSENSE", "--card takes one card"),
+        ("TF 1 H 2", "--card takes one card"),
+        (".SUB TF 1 H 0.1\n.CLM", "--card takes one card"),
+    ],
+)
+def test_a_wrong_card_is_told_by_the_option(engrane, pendulum, card, sentence):
+    for words in ((pendulum, "--card", card), ("check", pendulum, "--card", card)):
+        done = engrane(*words)
+        assert done.returncode == 1
+        assert sentence in done.stderr
+    assert not list(engrane.folder.glob("*.h5"))
+
+
 def test_several_decks_have_results_of_their_own(engrane, pendulum):
     text = (engrane.folder / pendulum).read_text()
     (engrane.folder / "failing.dat").write_text(text.replace("V 0 ATOL 1E-2", "V 5 ATOL 1E-2"))

@@ -26,6 +26,7 @@ def test_bash_completes_tasks_cards_options_and_decks(engrane, pendulum):
     (engrane.folder / "other.txt").write_text("")
     assert complete(engrane, "engrane che") == ["check"]
     assert complete(engrane, "engrane sw") == ["sweep"]
+    assert complete(engrane, "engrane stu") == ["study"]
     assert complete(engrane, "engrane help GE") == ["GEAR"]
     assert complete(engrane, "engrane help hin") == ["HINGE"]
     assert complete(engrane, "engrane template FI") == ["FIX"]

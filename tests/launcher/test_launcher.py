@@ -22,7 +22,7 @@ def launch(*words, launcher=LAUNCHER, **options):
 def test_words_are_listed_without_building():
     result = launch("--help")
     assert result.returncode == 0
-    for word in ("check", "plot", "sweep", "figures", "demo", "test", "-np"):
+    for word in ("check", "plot", "sweep", "study", "figures", "demo", "test", "-np"):
         assert word in result.stdout
     assert launch().stdout == result.stdout
 

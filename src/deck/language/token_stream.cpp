@@ -89,6 +89,7 @@ bool TokenStream::open_file(const fs::path& path) {
 }
 
 void TokenStream::open_text(std::string name, std::string text) {
+  columns_ = usual_columns;  // whatever MODE LECT said in another file
   open_.push_back({sources_.add(std::move(name), std::move(text)), 1, {}});
 }
 

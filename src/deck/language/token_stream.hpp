@@ -69,7 +69,8 @@ class TokenStream {
   std::vector<std::string> commands_;
   std::deque<std::string> mended_;  ///< texts of tokens that got their dot
   bool told_of_comment_ = false;
-  int columns_ = 256;
+  static constexpr int usual_columns = 256;
+  int columns_ = usual_columns;
 };
 
 }  // namespace engrane::deck

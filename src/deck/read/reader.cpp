@@ -59,6 +59,15 @@ class CommandTable {
 
   const std::vector<std::string>& words() const { return words_; }
 
+  /// The cards that a deck has once.
+  std::vector<std::string> once() const {
+    std::vector<std::string> names;
+    for (const Command& command : commands_)
+      for (const Schema* schema : command.schemas)
+        if (schema->once) names.push_back(schema->name);
+    return names;
+  }
+
  private:
   void add(const Schema& schema) {
     const std::vector<std::string> words = command_words(schema);
@@ -119,7 +128,16 @@ class Reader {
     tokens_.know_commands(std::move(words));
   }
 
-  Deck run() {
+  Deck run(const std::vector<std::string>& cards) {
+    read_commands();
+    for (const std::string& card : cards) read_instead(card);
+    set_faulty_apart();
+    for (const Record& record : deck_.faulty) deck_.incomplete.emplace(record.schema->command());
+    return std::move(deck_);
+  }
+
+ private:
+  void read_commands() {
     bool complained = false;
     while (!tokens_.peek().is_end()) {
       if (tokens_.peek().is_command()) {
@@ -135,12 +153,23 @@ class Reader {
                            "a deck starts with a command such as .NOE");
       complained = true;
     }
-    set_faulty_apart();
-    for (const Record& record : deck_.faulty) deck_.incomplete.emplace(record.schema->command());
-    return std::move(deck_);
   }
 
- private:
+  /// Reads a card that stands in the place of the deck's. It may use the deck's abbreviations.
+  void read_instead(const std::string& card) {
+    const bool one_line = card.find_first_of("\r\n") == std::string::npos;
+    const std::string_view name = std::string_view(card).substr(0, card.find_first_of(" \t"));
+    const Command* command = commands_.find(name);
+    if (!one_line || !command || command->schemas.size() != 1 || !command->only().once) {
+      diagnostics_.error({}, "--card takes one card that a deck has once, on one line, not `" + card + "`",
+                         "--card \".SUB TF 0.1 H 1E-4\", or another of " + join(commands_.once()));
+      return;
+    }
+    forget(command);
+    tokens_.open_text("--card", card);
+    read_commands();
+  }
+
   void set_faulty_apart() {
     const auto good = [](const Record& record) { return !record.faulty; };
     if (std::all_of(deck_.records.begin(), deck_.records.end(), good)) return;
@@ -452,8 +481,9 @@ const Schema* Catalogue::find(std::string_view name) const {
 
 namespace {
 
-Deck read(TokenStream& tokens, const Catalogue& catalogue, const SourceMap& sources, Diagnostics& diagnostics) {
-  Deck deck = Reader(catalogue, tokens, diagnostics).run();
+Deck read(TokenStream& tokens, const Catalogue& catalogue, const SourceMap& sources, Diagnostics& diagnostics,
+          const std::vector<std::string>& cards = {}) {
+  Deck deck = Reader(catalogue, tokens, diagnostics).run(cards);
   for (int file = 0; file < sources.size(); ++file)
     deck.folders.push_back(std::filesystem::path(sources.path(file)).parent_path().string());
   return deck;
@@ -462,13 +492,13 @@ Deck read(TokenStream& tokens, const Catalogue& catalogue, const SourceMap& sour
 }  // namespace
 
 Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics,
-               const Definitions& definitions) {
+               const Overrides& overrides) {
   TokenStream tokens(sources, diagnostics);
-  tokens.overrule(definitions);
+  tokens.overrule(overrides.definitions);
   if (!tokens.open_file(path)) return {};
-  Deck deck = read(tokens, catalogue, sources, diagnostics);
+  Deck deck = read(tokens, catalogue, sources, diagnostics, overrides.cards);
   const std::vector<std::string> known = tokens.abbreviations();
-  for (const auto& [name, text] : definitions) {
+  for (const auto& [name, text] : overrides.definitions) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string near = nearest(name, known);
     diagnostics.error({}, "-D " + name.substr(1) + ": " + path.string() + " has no abbreviation `" + name + "`",

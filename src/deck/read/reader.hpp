@@ -33,10 +33,17 @@ struct Deck {
   std::vector<std::string> folders;  ///< in which each file of the SourceMap stands; empty: the working directory
 };
 
-/// Reads a deck and everything it includes. All faults go to `diagnostics`; never throws on bad input. `definitions` stand for
-/// the texts of the deck's own ABRE; one that the deck has no ABRE for is an error.
+/// What somebody else than the deck says.
+struct Overrides {
+  Definitions definitions;  ///< for the texts of the deck's own ABRE; one that the deck has no ABRE for is an error
+  std::vector<std::string>
+      cards;  ///< each in the place of the deck's card of that name, which a deck has once: `.SUB TF 1 H 0.1`
+};
+
+/// Reads a deck and everything it includes. All faults go to `diagnostics`; never throws on bad input. Faults of `overrides`
+/// stand in texts that bear the names of the options, `-D` and `--card`.
 Deck read_file(const std::filesystem::path& path, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics,
-               const Definitions& definitions = {});
+               const Overrides& overrides = {});
 
 /// The same for a text in memory, as `name`; INPUT is looked up in the working directory.
 Deck read_text(std::string name, std::string text, const Catalogue& catalogue, SourceMap& sources, Diagnostics& diagnostics);

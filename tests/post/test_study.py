@@ -1,0 +1,361 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`engrane study`, with the program itself."""
+
+from __future__ import annotations
+
+import csv
+import math
+import os
+import subprocess
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from engrane_post import study_errors, study_report
+from engrane_post.errors import UserError
+from engrane_post.runs import Run
+from engrane_post.study_deck import (
+    Deck,
+    Rung,
+    read_card,
+    sample_interval,
+    schema_of,
+    setting_of,
+    steps_ladder,
+    steps_of,
+    tolerances_ladder,
+    usual_steps,
+)
+from engrane_post.study_errors import Truth, Values
+from engrane_post.study_report import Attempt, cheapest, find_slopes
+from small_decks import PENDULUM
+
+# a mass on a spring: x = 1 - cos t, with the cards in their French names and over several lines
+OSCILLATOR = """.NOE
+ I 1 X 0 0 0
+ABRE '/h' '0.05'
+.MCE
+ I 1 PRISMATIC N 0 1 AXIS 1 0 0 K 1
+ I 2 INERTIA N 1 M 1
+.CLM CHA NOEUD 1 C 1 V 1
+.ANALYSE $
+ TYPE DYNAMIQUE SCHEMA CHUNG $ ! a comment
+ RHO 0.9 SOLVEUR KLU PREC 1D-10
+.STEPS TF (10*PI) $
+ PAS /h
+.CHK
+ NODE 1 UX T 20 V (1-cos(20)) ATOL 1
+ NODE 1 UX MAX V 2 ATOL 1
+ NODE 1 AX T 0 V 1 ATOL 1
+ NODE 1 UY V 0 ATOL 1
+ RUN ENERGY_ERROR V 0 ATOL 1
+"""
+
+
+@pytest.fixture
+def program() -> str:
+    found = os.environ.get("ENGRANE", "")
+    if not Path(found).is_file():
+        pytest.skip("the variable ENGRANE names no program")
+    return found
+
+
+@pytest.fixture
+def deck(tmp_path: Path, monkeypatch, program) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "oscillator.dat").write_text(OSCILLATOR)
+    (tmp_path / "pendulum.dat").write_text(PENDULUM)
+    return tmp_path / "oscillator.dat"
+
+
+def table(name: str = "oscillator") -> list[dict[str, str]]:
+    with open(f"{name}_study.csv", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def of_setting(rows: list[dict[str, str]], setting: str) -> list[dict[str, str]]:
+    return [row for row in rows if row["setting"] == setting]
+
+
+# Cards
+
+SCHEMA = {
+    ".SAM": {
+        w: {} for w in ["TYPE", "SCHEME", "RHO", "TANGENT", "SOLVER", "START", "PREC", "EVENTS", "RESTART"]
+    },
+    ".SUB": {"TF": {}, "H": {}, "TI": {}},
+    ".SAI": {"FIELDS": {}, "NOEUD": {}, "CHANNEL": {}, "NEWTON": {"type": "boolean"}, "RESTART": {}},
+}
+
+
+def a_deck(sam: str, sub: str = ".SUB TF 1 H 1e-03", sai: str = "") -> Deck:
+    return Deck("\n".join((".NOE", " I 1 X 0", sam, sub, sai)), SCHEMA)
+
+
+def test_cards_keep_what_a_setting_does_not_speak_of() -> None:
+    sam = ".SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.7 START $\n   STATIC EVENTS YES 1e-05"
+    sam += ' RESTART "a SCHEME b"\n  ! by default: X'
+    deck = a_deck(sam, ".SUB TF 2 H 1e-03 TI 1\n  ! by default: NOTHING")
+    assert (deck.analysis, deck.scheme, deck.solver) == ("DYNAMIC", "CHUNG", "MUMPS")
+    assert (deck.step, deck.start, deck.span) == (1e-3, 1.0, 1.0)
+    rest = 'START STATIC EVENTS YES 1e-05 RESTART "a SCHEME b"'
+    kept = deck.sam_card({"SCHEME": "CHUNG", "TANGENT": "KEPT"}, "KLU")
+    assert kept.text == f".SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.7 TANGENT KEPT SOLVER KLU {rest}"
+    # the damping of a scheme is that scheme's own
+    assert deck.sam_card({"SCHEME": "RADAU"}, "MUMPS").text == f".SAM TYPE DYNAMIC SCHEME RADAU {rest}"
+    other = deck.sam_card({"SCHEME": "CHUNG", "RHO": "0.2", "TANGENT": "FULL", "START": "AS_GIVEN"}, "MUMPS")
+    assert other.text.startswith(".SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.2 START AS_GIVEN EVENTS YES 1e-05")
+    assert deck.sub_card(Rung({"H": "0.01"}, 0.01)).text == ".SUB TF 2 H 0.01 TI 1"
+    assert deck.title == "CHUNG RHO 0.7"
+
+
+def test_a_ladder_of_tolerances_stands_beside_one_of_steps() -> None:
+    deck = a_deck(".SAM TYPE DYNAMIC")
+    ladder = tolerances_ladder("CHUNG TOL", {"SCHEME": "CHUNG"}, 0.01, [1e-5, 1e-3])
+    assert [deck.sub_card(r).text for r in ladder.rungs] == [
+        ".SUB TF 1 H 0.01 TOL 0.001",
+        ".SUB TF 1 H 0.01 TOL 1e-05",
+    ]
+    # and a deck with a tolerance loses it where steps are studied
+    given = {**SCHEMA, ".SUB": {**SCHEMA[".SUB"], "TOL": {}, "HMAX": {}}}
+    with_tolerance = Deck(".SUB TF 1 H 0.1 TOL 1e-03 HMAX 0.2 TI 0.5", given)
+    assert with_tolerance.sub_card(Rung({"H": "0.05"}, 0.05)).text == ".SUB TF 1 H 0.05 TI 0.5"
+    other = with_tolerance.sub_card(Rung({"H": "0.05", "TOL": "1e-4"}, 1e-4))
+    assert other.text == ".SUB TF 1 H 0.05 TOL 1e-4 HMAX 0.2 TI 0.5"
+    assert with_tolerance.own().rungs[0].sub == {"H": "0.1", "TOL": "1e-03"}
+
+
+def test_samples_are_of_what_the_deck_selects() -> None:
+    deck = a_deck(
+        ".SAM TYPE DYNAMIC", sai='.SAI FIELDS 0.1 NOEUD 1 A 4 CHANNEL "UX" "NEWTON" NEWTON RESTART 3'
+    )
+    assert (
+        deck.sai_card(0.25, None).text == '.SAI FIELDS DT 1 HISTORY DT 0.25 NOEUD 1 A 4 CHANNEL "UX" "NEWTON"'
+    )
+    assert deck.sai_card(0.25, "NONE").text == ".SAI FIELDS DT 1 HISTORY DT 0.25 KEEP NONE"
+    assert read_card(".SUB TF 1 H 1", ".SAI", SCHEMA) is None
+
+
+def test_the_program_s_own_schema_has_the_keywords(program) -> None:
+    done = subprocess.run([program, "schema"], capture_output=True, text=True, check=True)
+    schema = schema_of(done.stdout)
+    assert {"SCHEME", "RHO", "ALPHA", "TANGENT", "SOLVER", "TYPE"} <= set(schema[".SAM"])
+    assert {"TF", "H", "TI"} <= set(schema[".SUB"])
+    assert schema[".SAI"]["NEWTON"]["type"] == "boolean"
+
+
+def test_settings_and_steps() -> None:
+    assert setting_of("scheme chung rho 0.5") == {"SCHEME": "CHUNG", "RHO": "0.5"}
+    assert setting_of("RADAU") == {"SCHEME": "RADAU"}
+    for wrong in ("", "SCHEME", "RADAU PREC", "CHUNG SOLVER KLU", "CHUNG TYPE STATIC"):
+        with pytest.raises(UserError):
+            setting_of(wrong)
+    assert steps_of("1e-3, 5D-4", 1) == [1e-3, 5e-4]
+    assert steps_of("H/4,4H,h,2*H", 0.5) == [2, 1, 0.5, 0.125]
+    assert steps_of("8H:H/2", 1) == [8, 4, 2, 1, 0.5]
+    for wrong in ("", "0", "-1", "3Q", "H/0", "1:2:3", "1e-3:1e-30", "H/x", "1e999"):
+        with pytest.raises(UserError):
+            steps_of(wrong, 1e-3)
+    assert usual_steps("CHUNG", 1, 1e9) == [8, 4, 2, 1, 0.5, 0.25]
+    assert usual_steps("RADAU", 1, 20) == [2, 1]
+    assert usual_steps("RADAU", 1, 1.5) == [1]
+    step = math.pi / 160
+    assert [float(r.sub["H"]) for r in steps_ladder("", {}, [step, step / 4]).rungs] == [step, step / 4]
+    assert sample_interval([4, 2, 1, 0.5], 100) == 4
+    assert sample_interval([3, 2], 100) == 6
+    for wrong in ([1, 0.7323], [4, 2]):
+        with pytest.raises(UserError, match="same instants"):
+            sample_interval(wrong, 5)
+
+
+# Errors
+
+
+def an_attempt(title: str, h: float, error: float, seconds: float, solved: bool = True) -> Attempt:
+    ladder = steps_ladder(title, {"SCHEME": title}, [h])
+    run = Run("", [], Path(), status=0 if solved else 2, message="" if solved else "engrane: broken\nmore")
+    run.summary = {"steps": round(1 / h)}
+    return Attempt(ladder, ladder.rungs[0], "KLU", (), run, seconds, {"x": error} if solved else {})
+
+
+def test_errors_are_over_the_size_of_what_is_compared() -> None:
+    t = np.array([0.0, 1.0, 2.0, 2.5])
+    fine = Values(
+        {"a": -2.0, "b": 0.0, "c": 5.0}, t, {"h": np.array([0, 4.0, 2, 1]), "still": np.full(4, 3.0)}
+    )
+    coarse = Values(
+        {"a": -2.002, "b": 0.1, "c": 8.0}, t, {"h": np.array([0, 4.02, 2, 1]), "still": np.full(4, 3.0)}
+    )
+    truth = study_errors.truth_of_runs("a run", fine, coarse)
+    assert truth.own == {"a": pytest.approx(1e-3), "h": pytest.approx(5e-3)}
+    assert truth.floor == pytest.approx(1.5e-2)
+    left = "; ".join(truth.left_out)
+    assert (
+        "b: it is 0" in left
+        and "still: it does not change" in left
+        and "c: the reference's own error is 0.6" in left
+    )
+    # an instant that only one of them has counts for nothing, and too few in common give no value
+    other = Values({"a": -3.0}, np.array([0, 0.5, 1.0, 2.5]), {"h": np.array([0, 99, 4.4, 1])})
+    assert truth.errors(other) == {"a": pytest.approx(0.5), "h": pytest.approx(0.1)}
+    few = truth.errors(Values({}, np.array([0.0, 0.5]), {"h": np.zeros(2)}))
+    assert all(math.isnan(e) for e in few.values())
+
+
+def test_what_is_small_by_chance_is_not_recommended() -> None:
+    chance = [an_attempt("A", 4, 1e-5, 1), an_attempt("A", 2, 5e-2, 2), an_attempt("A", 1, 8e-4, 4)]
+    steady = [
+        an_attempt("B", 4, 2e-2, 2),
+        an_attempt("B", 2, 5e-4, 8, solved=False),
+        an_attempt("B", 1, 4e-4, 5),
+    ]
+    assert cheapest(chance, 1e-3, 0) is chance[2]
+    assert cheapest(steady, 1e-3, 0) is steady[2]
+    assert cheapest(chance + steady, 1e-3, 0) is chance[2]
+    assert cheapest(chance + steady, 1e-1, 0) is chance[0]
+    assert cheapest(steady, 1e-4, 0) is None
+    # of runs that cost the same the most accurate; nothing is met that the reference cannot tell
+    same = [an_attempt("C", 2, 9e-4, 1.0), an_attempt("C", 1, 1e-7, 1.01)]
+    assert cheapest(same, 1e-3, 0) is same[1]
+    assert cheapest(same, 1e-5, 3e-5) is None
+    why = study_report.why_none(same, Truth("", Values(), {}, {"x": 1e-5}), 1e-5)
+    assert "the reference is good to 3e-5 only" in why
+
+
+def test_slopes_are_of_the_steps_made() -> None:
+    ladder = [
+        an_attempt("A", 0.04, 1.6e-1, 1),
+        an_attempt("A", 0.02, 4e-2, 1),
+        an_attempt("A", 0.01, 1e-9, 1),
+    ]
+    ladder.insert(0, an_attempt("A", 0.08, 1.6e-1, 1))
+    ladder[0].run.summary["steps"] = ladder[1].steps  # all of its steps were cut
+    find_slopes(ladder, 1e-8)
+    assert [a.slope for a in ladder] == [None, None, pytest.approx(2), None]
+
+
+# The command
+
+
+def test_errors_are_those_against_the_closed_form(deck: Path, command) -> None:
+    words = ("study", "oscillator", "--solvers", "KLU", "--runs", "1")
+    status, out, err = command(*words, "--reference", "check")
+    assert (status, err) == (0, "")
+    assert "left out: NODE 1 UY at the end: its V is 0" in out
+    exact = table()
+    names = list(exact[0])[list(exact[0]).index("SUB") + 1 :]
+    assert names == ["NODE 1 UX at t = 20", "MAX of NODE 1 UX"], "neither of the start, nor of what is 0"
+    assert {r["SAM"] for r in of_setting(exact, "RADAU")} == {
+        ".SAM TYPE DYNAMIC SCHEME RADAU SOLVER KLU PREC 1e-10"
+    }
+    status, out, err = command(*words)
+    assert (status, err) == (0, "")
+    assert "reference: RADAU PREC 1e-12, H 0.0125; its own error is" in out
+    name = "NODE 1 UX at t = 20"
+    for one, other in zip(exact, table(), strict=True):
+        assert one["steps"] == other["steps"]
+        if not one["steps"]:
+            continue  # RADAU with half of a period in a step
+        assert float(one[name]) == pytest.approx(float(other[name]), rel=0.06, abs=1e-8)
+    for setting, order in (("CHUNG TANGENT FULL", 2), ("CHUNG TANGENT KEPT", 2), ("RADAU", 5)):
+        rows = [r for r in of_setting(exact, setting) if r["steps"] and float(r[name]) > 1e-8]
+        powers = [
+            math.log(float(a[name]) / float(b[name])) / math.log(int(b["steps"]) / int(a["steps"]))
+            for a, b in pairwise(rows)
+        ]
+        assert powers[-1] == pytest.approx(order, abs=0.35), (setting, powers)
+
+
+def test_the_recommended_cards_do_what_the_table_says(deck: Path, command, program) -> None:
+    status, out, _ = command(
+        "study", deck, "--error", "1e-4", "--channels", "1.UX", "--runs", "1", "--keep", "kept"
+    )
+    assert status == 0
+    assert "For an error of 1e-4, in the place of the deck's own cards:" in out
+    cards = [line for line in out.splitlines() if line.startswith((".SAM", ".SUB"))]
+    assert len(cards) == 2 and "PREC 1e-10" in cards[0] and cards[1].startswith(".SUB TF 31.4159265358979")
+    # pasted into the deck, after what they replace is gone
+    own = OSCILLATOR[: OSCILLATOR.index(".ANALYSE")] + OSCILLATOR[OSCILLATOR.index(".CHK") :]
+    Path("pasted.dat").write_text(own + "\n".join(cards) + "\n")
+    assert subprocess.run([program, "pasted.dat", "-q"], capture_output=True).returncode == 0
+    from engrane_post import Results
+
+    with Results("pasted") as results:
+        t, x = results.history("1.UX")
+    assert np.abs(x - (1 - np.cos(t))).max() / 2 < 1e-4
+    assert len(list(Path("kept").glob("*.h5"))) == len(table()) + 3, "the start and two for the reference"
+    assert Path("oscillator_study.png").read_bytes()[:4] == b"\x89PNG"
+    assert deck.read_text() == OSCILLATOR
+
+
+def test_without_checks_all_histories_are_compared(deck: Path, command) -> None:
+    status, out, err = command(
+        "study", "pendulum", "--schemes", "CHUNG", "NEWMARK", "--steps", "2H:H/2", "-DL=0.4"
+    )
+    assert (status, err) == (0, "")
+    assert "histories that vary" in out
+    rows = table("pendulum")
+    names = list(rows[0])[list(rows[0]).index("SUB") + 1 :]
+    assert "node/1/UX" in names and "element/1/ANGLE" in names
+    assert not [n for n in names if n.startswith("run/") or n == "node/1/UY"], "UY stands still"
+    assert {r["solver"] for r in rows} == {"MUMPS", "KLU"}
+    for row in rows:
+        errors = [float(row[n]) for n in names]
+        assert float(row["error"]) == max(errors) == float(row[row["worst of"]])
+        assert float(row["median"]) == pytest.approx(np.median(errors), rel=0.06)
+
+
+def test_runs_that_fail_are_told_and_passed_over(deck: Path, command) -> None:
+    # two iterations are enough for generalised-alpha alone
+    Path("pendulum.dat").write_text(PENDULUM.replace(".SAM", ".SAM ITMA 2 CUTS 0"))
+    status, out, err = command(
+        "study", "pendulum", "--runs", "1", "--error", "2e-3", "--schemes", "CHUNG", "RADAU"
+    )
+    assert status == 0
+    assert "note: no reference by RADAU PREC 1e-12, H 0.005: step" in err
+    assert "reference: CHUNG PREC 1e-12, H 0.0003125; its own error is" in out
+    rows = table("pendulum")
+    bad = of_setting(rows, "RADAU")
+    assert len(bad) == 2 and all((r["error"], r["seconds"], r["steps"]) == ("", "", "") for r in bad)
+    for row in bad:
+        assert "no convergence in 2 iterations" in row["outcome"]
+        assert row["outcome"] in out
+    good = of_setting(rows, "CHUNG")
+    assert all(r["outcome"] == "complete" and float(r["error"]) > 0 for r in good)
+    assert ".SAM TYPE DYNAMIC SCHEME CHUNG SOLVER" in out and "ITMA 2 CUTS 0\n.SUB TF 0.2 H 0.0025" in out
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("nodeck",), "There is no deck nodeck"),
+        (("bare",), "keeps no histories; name some by --result or"),
+        (("static",), "static.dat is STATIC; only a DYNAMIC analysis"),
+        (("wrong",), "wrong.dat:1:10: error: `Q` is not a keyword"),
+        (("oscillator", "--channels", "1.UQ"), "has no channel 1.UQ. Did you mean node/1/U"),
+        (("oscillator", "--result", "NODE 1 UQ"), "node 1 has no output UQ"),
+        (("oscillator", "--schemes", "EULER"), "SCHEME has no EULER; it has CHUNG"),
+        (("oscillator", "--schemes", "RADAU RHO 0.3"), "RHO belongs to SCHEME CHUNG"),
+        (("oscillator", "--solvers", "KLU,LU"), "SOLVER has no LU"),
+        (("oscillator", "--steps", "2H,H/0"), "`H/0` is not a step"),
+        (("oscillator", "--steps", "H,0.0371113", "--channels", "1.UX"), "no samples at the same instants"),
+        (
+            ("oscillator", "--reference", "check", "--channels", "1.UX"),
+            "--reference check compares the numbers",
+        ),
+        (("pendulum", "--reference", "check"), "--reference check compares the numbers"),
+        (("oscillator", "--error", "2"), "--error 2"),
+        (("oscillator", "--runs", "0"), "--runs 0"),
+        (("oscillator", "-D", "w=3"), "has no abbreviation `/w`"),
+        (("oscillator", "-o", "nowhere/x"), "there is no folder nowhere"),
+    ],
+)
+def test_wrong_commands(deck: Path, command, words, sentence) -> None:
+    Path("static.dat").write_text(PENDULUM.replace(".SAM TYPE DYNAMIC", ".SAM TYPE STATIC"))
+    Path("bare.dat").write_text(PENDULUM + ".SAI KEEP NONE\n")
+    Path("wrong.dat").write_text(".NOE I 1 Q 3\n" + PENDULUM)
+    status, _, err = command("study", *words)
+    assert status == 1
+    assert sentence in err
+    assert not list(Path().glob("*.csv"))
