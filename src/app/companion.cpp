@@ -17,7 +17,7 @@ using namespace solve;
 namespace {
 
 /// The companion's tolerance over that of the run: with it, steps are three times as long or more.
-constexpr double looser = 27, loosest = 0.05;
+constexpr double looser = 27, loosest = 0.05, longer = 3;
 /// Errors grow with this power of the tolerance: of generalised-alpha, whose local and global orders agree, as they are; of Radau,
 /// whose steps are of order 5 and their estimates of order 3, at most with 5/3, and with less where forces are interpolated.
 constexpr double order_of_alpha = 1, order_of_radau = 4.0 / 3;
@@ -35,6 +35,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   const Model& model = reading.model;
   SolverOptions loose = options;
   loose.tolerance = std::min(looser * options.tolerance, std::max(loosest, 2 * options.tolerance));
+  loose.longest *= longer;
   loose.precision = std::min(loose.precision * looser, 1e-5);
   estimate_.tolerance = options.tolerance;
   estimate_.companion_tolerance = loose.tolerance;

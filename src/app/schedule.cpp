@@ -17,7 +17,7 @@ Schedule::Schedule(const deck::SteppingCard& stepping, const deck::ArchiveCard& 
     : start_(stepping.start), end_(stepping.end), step_(stepping.step), controlled_(stepping.tolerance.has_value()) {
   even_ = archive.history_step.value_or(step_);
   if (archive.field_step) even_ = std::min(even_, *archive.field_step);
-  sample_ = {archive.history_step.value_or(0), start_};
+  sample_ = {archive.history_step.value_or(controlled_ ? step_ : 0), start_};
   frame_ = {archive.field_step.value_or((end_ - start_) / 200), start_};
   if (archive.restart_step) restart_ = Interval{*archive.restart_step, start_ + *archive.restart_step};
 }

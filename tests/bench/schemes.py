@@ -5,11 +5,11 @@
         [--schemes "SCHEME CHUNG RHO 0.8" "SCHEME RADAU"] [--runs 2] [--solver KLU]
         [--tolerances 1e-2 1e-3 1e-4 1e-5]
 
-Each model runs with each scheme and each of its steps, then with each tolerance of error-controlled steps. Errors are the largest of ten instants, over the
-largest value there, of some positions (q), velocities (v) and forces (f) that MODELS names; the reference is
-RADAU with half the third shortest step and a precision of 1e-13, unless --reference names another scheme.
-Processor time is that of the process, the least of --runs, without that of a run of a single step. Prints a
-Markdown table for each model.
+Each model runs with each scheme and each of its steps, then with each tolerance of error-controlled steps.
+Errors are the largest of ten instants, over the largest value there, of some positions (q), velocities (v)
+and forces (f) that MODELS names; the reference is RADAU with half the third shortest step and a precision of
+1e-13, unless --reference names another scheme. Processor time is that of the process, the least of --runs,
+without that of a run of a single step. Prints a Markdown table for each model.
 """
 
 import argparse

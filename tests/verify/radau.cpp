@@ -41,6 +41,16 @@ TEST(Radau, HasTheCoefficientsOfTheLiterature) {
   EXPECT_LT((three.transform * blocks * three.untransform - three.inverse).norm(), 1e-13);
 }
 
+TEST(Radau, EstimatesItsErrorWithTheFormulaOfTheLiterature) {
+  // Hairer and Wanner (1996), IV.8.20: γ₀/3 (−13 − 7√6, −13 + 7√6, −1)
+  const Collocation c = Collocation::radau();
+  const double r6 = std::sqrt(6.0), gamma = (6 + std::cbrt(81.0) - std::cbrt(9.0)) / 30;
+  EXPECT_NEAR(c.embedded_first, gamma, 1e-14);
+  EXPECT_NEAR(c.embedded[0], gamma / 3 * (-13 - 7 * r6), 1e-13);
+  EXPECT_NEAR(c.embedded[1], gamma / 3 * (-13 + 7 * r6), 1e-13);
+  EXPECT_NEAR(c.embedded[2], -gamma / 3, 1e-13);
+}
+
 TEST(Radau, AmplifiesByItsPadeApproximant) {
   // R(z), the (2, 3) approximant of exp(z): x after one step from (1, 0) is Re R(iωh)
   for (const double h : {0.1, 0.7, 5.0}) {

@@ -15,7 +15,7 @@ using namespace solve;
 
 namespace {
 
-/// Converges where `works` says so and proposes `next` for the step after.
+/// Converges up to a length of step, with an error that grows with the square of the step and is 1 at `fine`.
 class Obedient final : public Scheme {
  public:
   using Scheme::Scheme;
@@ -27,11 +27,13 @@ class Obedient final : public Scheme {
     Outcome outcome;
     outcome.newton.converged = h <= longest;
     outcome.newton.reason = "too long";
-    outcome.proposed = proposed;
+    if (context_.options.tolerance > 0) outcome.error = std::pow(h / (from.time < 1 ? fine : finer), 2);
     return outcome;
   }
 
-  double longest = 1, proposed = 0;
+  int order_of_error() const override { return 2; }
+
+  double longest = 1, fine = 1, finer = 1;  ///< the last from t = 1 on
   std::vector<double> tried;
 };
 
@@ -45,11 +47,12 @@ class Runs : public testing::Test {
   }
 
   /// Ends of the accepted steps.
-  std::vector<double> run(double longest, double proposed = 0) {
+  std::vector<double> run(double longest, double fine = 1, double finer = 1) {
     SolverContext context(model_, options_, PETSC_COMM_SELF);
     Obedient scheme(context);
     scheme.longest = longest;
-    scheme.proposed = proposed;
+    scheme.fine = fine;
+    scheme.finer = finer;
     std::vector<double> ends;
     Runner(context, scheme)
         .run(
@@ -84,18 +87,44 @@ TEST_F(Runs, CutsAreADepth) {
   }
 }
 
-TEST_F(Runs, TakesTheStepThatTheSchemeProposes) {
-  const std::vector<double> ends = run(1, 0.25);
-  // the first is H; from then on quarters
-  ASSERT_EQ(ends.size(), 5U);
-  EXPECT_DOUBLE_EQ(ends[0], 1);
-  for (std::size_t i = 1; i < 5; ++i) EXPECT_DOUBLE_EQ(ends[i], 1 + 0.25 * static_cast<double>(i));
-  EXPECT_EQ(tried_.size(), 5U);
+TEST_F(Runs, StepsFollowTheirError) {
+  options_.tolerance = 1e-3;
+  options_.step = 0.001;
+  options_.longest = 0.5;
+  const std::vector<double> ends = run(1, 0.1, 0.02);
+  EXPECT_EQ(ends.back(), 2);
+  // they double from H to where their error is a little below the tolerance, and stay
+  EXPECT_DOUBLE_EQ(tried_[0], 0.001);
+  EXPECT_DOUBLE_EQ(tried_[1], 0.002);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < ends.size(); ++i) steps.push_back(ends[i] - ends[i - 1]);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    EXPECT_LE(steps[i], (ends[i] < 1 ? 0.1 : 0.02) * (1 + 1e-9)) << "a step stands whose error is above the tolerance";
+  EXPECT_GT(steps[15], 0.07);
+  EXPECT_NEAR(steps[12], steps[13], 1e-12) << "steps that would change little stay";
+  EXPECT_GT(steps[steps.size() - 10], 0.014);
+  // where the error grows 25 times, few attempts fail
+  EXPECT_LE(tried_.size(), ends.size() + 3);
 }
 
-TEST_F(Runs, NeverStepsLongerThanAsked) {
-  run(1, 5);
-  for (const double h : tried_) EXPECT_LE(h, 1);
+TEST_F(Runs, StepsAreNoLongerThanTheLongest) {
+  options_.tolerance = 1e-3;
+  options_.step = 0.1;
+  options_.longest = 0.25;
+  run(1, 100, 100);
+  for (const double h : tried_) EXPECT_LE(h, 0.25);
+  EXPECT_EQ(std::count(tried_.begin(), tried_.end(), 0.25), 5) << tried_.size();
+}
+
+TEST_F(Runs, AnErrorThatDoesNotFallEndsTheRun) {
+  options_.tolerance = 1e-3;
+  options_.longest = 1;
+  try {
+    run(1, 1e-30);
+    FAIL() << "no step is short enough";
+  } catch (const SolutionFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("times the tolerance TOL"), std::string::npos) << failure.what();
+  }
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ Schema analysis_card() {
   card.add("ACCURACY", &AnalysisCard::accuracy,
            "how accurate a DYNAMIC analysis is to be: chooses scheme, TOL of .SUB, PREC and solver where the deck does not; a run with "
            "longer steps before it tells the error of what is asked for, over its range")
-      .synonyms({"PRECISION_GLOBALE"})
+      .synonyms({"EXACTITUDE"})
       .option({"FAST", {"RAPIDE"}, "1E-2"})
       .option({"NORMAL", {}, "1E-3"})
       .option({"FINE", {"FIN"}, "1E-5"})

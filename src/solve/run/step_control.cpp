@@ -11,13 +11,13 @@ namespace {
 
 /// Part of the step that would just pass, so that most do.
 constexpr double safety = 0.9;
-/// Shares of the last error and of the one before in the exponent.
-constexpr double proportional = 0.7, integral = 0.4;
 constexpr double most_growth = 2, most_cut = 0.2;
 /// Steps that would grow by less stay.
 constexpr double worthwhile = 1.2;
-/// Errors below this are nothing.
-constexpr double least_error = 1e-10;
+/// An error is taken to be no less than this part of what the step before lets expect.
+constexpr double fading = 0.8;
+/// Errors below this part of the tolerance are nothing.
+constexpr double least_error = 1e-6;
 
 }  // namespace
 
@@ -26,8 +26,15 @@ StepControl::StepControl(const SolverOptions& options, int order)
 
 double StepControl::after(double size, double error, double asked) {
   error = std::max(error, least_error);
-  const double factor = safety * std::pow(error, -proportional / order_) * std::pow(before_, integral / order_);
-  before_ = error;
+  // where the estimate passes through zero the error does not
+  if (size_before_ > 0) error = std::max(error, fading * error_before_ * std::pow(size / size_before_, order_));
+  // what the error itself asks for, and what the way it has changed since the step before foretells (Hairer and Wanner, Solving
+  // Ordinary Differential Equations II, 1996, IV.8.25)
+  double factor = safety * std::pow(error, -1 / order_);
+  if (size_before_ > 0)
+    factor = std::min(factor, safety * size / size_before_ * std::pow(error_before_ / (error * error), 1 / order_));
+  error_before_ = error;
+  size_before_ = size;
   const bool grow = !std::exchange(refused_, false);
   const double next = size * std::clamp(factor, most_cut, grow ? most_growth : 1.0);
   // a step cut short tells little of those that are not
@@ -42,13 +49,14 @@ double StepControl::retry(double size, double error) {
 }
 
 void StepControl::save(Snapshot& snapshot) const {
-  snapshot.put("runner/error", {before_, refused_ ? 1.0 : 0.0});
+  snapshot.put("runner/error", {error_before_, size_before_, refused_ ? 1.0 : 0.0});
 }
 
 void StepControl::load(const Snapshot& snapshot) {
   if (!snapshot.has("runner/error")) return;
-  before_ = snapshot.array("runner/error").at(0);
-  refused_ = snapshot.array("runner/error").at(1) != 0;
+  error_before_ = snapshot.array("runner/error").at(0);
+  size_before_ = snapshot.array("runner/error").at(1);
+  refused_ = snapshot.array("runner/error").at(2) != 0;
 }
 
 }  // namespace engrane::solve

@@ -6,7 +6,7 @@
 
 namespace engrane::solve {
 
-/// Chooses steps from the errors of those before, by proportional and integral control (Gustafsson 1991). Steps stay as they are
+/// Chooses steps from the errors of those before, by predictive control (Gustafsson 1994). Steps stay as they are
 /// where they would change little: factors and what a scheme remembers belong to one step.
 class StepControl {
  public:
@@ -29,7 +29,7 @@ class StepControl {
  private:
   bool active_;
   double longest_, order_;
-  double before_ = 1;     ///< error of the last step that stood
+  double error_before_ = 1, size_before_ = 0;  ///< of the last step that stood; 0: none has
   bool refused_ = false;  ///< since then an attempt was: no growth
 };
 

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace engrane::solve {
+namespace engrane {
 namespace {
 
 std::array<double, 2> parabolas(double t) { return {3 - 2 * t + 5 * t * t, 7 * t}; }
@@ -50,4 +50,4 @@ TEST(Extrapolation, GoesOnFromASnapshot) {
 }
 
 }  // namespace
-}  // namespace engrane::solve
+}  // namespace engrane

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Steps that follow their error (.SUB TOL), results between their ends, and the dial (.SAM ACCURACY) with
+what it says of its own error."""
+
+import itertools
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from engrane_post import Results
+from runs import Run, run
+from scipy.integrate import solve_ivp
+
+ENGRANE = os.environ.get("ENGRANE", "build/bin/engrane")
+ROOT = Path(__file__).resolve().parents[2]
+
+PENDULUM = """
+.NOE
+ I 1 X {length} 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 AT 0 0 0
+ I 2 INERTIA N 1 M {mass} J 0 0 0
+.CLM
+ STRU ACC VAL 0 {gravity} 0
+.SAM TYPE DYNAMIC SOLVER KLU {scheme}
+.SUB TF {end} H {h} {control}
+.FIN 1
+"""
+
+
+def pendulum(scheme: str, control: str, h: float = 0.02, end: float = 4, unit: float = 1) -> str:
+    """Of length 1 in units of length of which 1 m has `unit`."""
+    return PENDULUM.format(
+        scheme=scheme, control=control, h=h, end=end, length=unit, mass=2, gravity=-9.81 * unit
+    )
+
+
+def truth(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Angle below the horizontal and the pull of the rod, for a mass of 2."""
+    found = solve_ivp(
+        lambda _, y: [y[1], 9.81 * np.cos(y[0])],
+        (0, t[-1]),
+        [0, 0],
+        t_eval=t,
+        rtol=1e-12,
+        atol=1e-13,
+        method="DOP853",
+    )
+    angle, speed = found.y
+    return angle, 2 * (speed**2 + 9.81 * np.sin(angle))
+
+
+def steps_of(folder: Path) -> int:
+    listing = (folder / "deck.lst").read_text(encoding="utf-8")
+    return int(listing[: listing.rindex(" steps, ")].split()[-1])
+
+
+def errors(result: Run) -> tuple[float, float]:
+    """Largest of position and force, over their ranges."""
+    angle, pull = truth(result.t)
+    place = np.abs(result["node/1/UX"] - (np.cos(angle) - 1)).max() / 2
+    force = np.hypot(result["1/FORCE_X"], result["1/FORCE_Y"])
+    return place, np.abs(force - np.abs(pull)).max() / np.ptp(pull)
+
+
+def test_the_error_of_generalised_alpha_is_proportional_to_the_tolerance(tmp_path: Path) -> None:
+    found = [
+        errors(run(pendulum("SCHEME CHUNG RHO 0.8", f"TOL {tol}"), tmp_path)) for tol in (1e-4, 1e-5, 1e-6)
+    ]
+    for coarse, fine in itertools.pairwise(found):
+        assert 7 < coarse[0] / fine[0] < 14
+        assert 7 < coarse[1] / fine[1] < 14
+    assert found[-1][0] < 1e-3
+
+
+def test_the_error_of_radau_stays_below_the_tolerance(tmp_path: Path) -> None:
+    for tol in (1e-3, 1e-4, 1e-5, 1e-6):
+        place, force = errors(run(pendulum("SCHEME RADAU", f"TOL {tol}"), tmp_path))
+        assert place < tol
+        assert force < 5 * tol  # between the ends of steps too
+
+
+@pytest.mark.parametrize("scheme", ["SCHEME CHUNG RHO 0.8", "SCHEME RADAU"])
+def test_results_are_at_the_multiples_of_h_whatever_the_steps(scheme: str, tmp_path: Path) -> None:
+    result = run(pendulum(scheme, "TOL 1E-4", h=0.03), tmp_path)
+    assert result.t == pytest.approx([*np.arange(0, 3.995, 0.03), 4], abs=1e-12)
+    assert len({round(s, 9) for s in result["run/STEP"]}) > 3
+    frames = run(pendulum(scheme, "TOL 1E-4", h=0.5).replace(".FIN", ".SAI FIELDS DT 0.1\n.FIN"), tmp_path)
+    assert frames.t == pytest.approx(np.arange(0, 4.05, 0.5), abs=1e-12)
+    with Results(frames.file) as r:
+        assert r.frame_times() == pytest.approx(np.arange(0, 4.05, 0.1), abs=1e-12)
+
+
+def test_no_unit_decides_on_steps(tmp_path: Path) -> None:
+    counts = set()
+    for unit in (1e-3, 1, 1e6):
+        run(pendulum("SCHEME RADAU", "TOL 1E-5", unit=unit), tmp_path)
+        counts.add(steps_of(tmp_path))
+    assert max(counts) <= 1.02 * min(counts)  # rounding may turn a step's error about the tolerance
+
+
+def test_a_slow_vibration_on_a_fast_shaft_is_resolved(tmp_path: Path) -> None:
+    """A torsional vibration of 1e-4 rad while the shaft makes 160 turns."""
+    deck = """
+.NOE
+ I 1
+ I 2 Z 1
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1
+ I 2 HINGE N 0 2 AXIS 0 0 1
+ I 3 INERTIA N 1 M 1 J 1
+ I 4 INERTIA N 2 M 1 J 1
+ I 5 TSPRING N 1 2 AXIS 0 0 1 K 200
+.INI VIT NOEUD 1 C 6 V 1000.002
+.INI VIT NOEUD 2 C 6 V 1000
+.SAM TYPE DYNAMIC SCHEME RADAU
+.SUB TF 1 H 0.01 TOL 1E-4
+.FIN 1
+"""
+    result = run(deck, tmp_path)
+    torque = 200 * 1e-4 * np.sin(20 * result.t)
+    found = result["5/TORQUE"]
+    assert min(np.abs(found - torque).max(), np.abs(found + torque).max()) < 1e-3 * 0.02
+
+
+def test_forces_of_what_is_stiff_are_not_those_of_interpolated_places(tmp_path: Path) -> None:
+    """A mass on a soft spring carries another by one that is 1e9 times as stiff: its force is that of the
+    slow motion."""
+    deck = """
+.NOE
+ I 1 X 1
+ I 2 X 2
+.MCE
+ I 1 SPRING N 0 1 K 40
+ I 2 SPRING N 1 2 K 4E10
+ I 3 INERTIA N 1 M 1
+ I 4 INERTIA N 2 M 1
+.CLM FIX NOEUD 1 2 C 2 3
+.INI DEP NOEUD 1 2 C 1 V 0.1
+.SAM TYPE DYNAMIC SCHEME RADAU START AS_GIVEN
+.SUB TF 3 H 0.01 TOL 1E-5
+.FIN 1
+"""
+    result = run(deck, tmp_path)
+    w = np.sqrt(20)
+    force = 0.1 * w**2 * np.cos(w * result.t)  # tension pulls the second mass back
+    found = result["2/FORCE"]
+    late = result.t > 0.5
+    assert np.abs(np.abs(found) - np.abs(force))[late].max() < 1e-3 * 2
+
+
+def dial(deck: str, folder: Path) -> dict:
+    path = folder / "deck.dat"
+    path.write_text(deck, encoding="utf-8")
+    done = subprocess.run(
+        [ENGRANE, "-q", "--json", str(path), "-o", str(folder / "deck")],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)["runs"][0] | {"said": done.stderr}
+
+
+@pytest.mark.parametrize(("rung", "target"), [("FAST", 1e-2), ("NORMAL", 1e-3), ("FINE", 1e-5)])
+def test_the_dial_meets_its_error_and_knows_it(rung: str, target: float, tmp_path: Path) -> None:
+    found = dial(pendulum(f"ACCURACY {rung}", ""), tmp_path)
+    told = found["accuracy"]["estimated_error"]
+    assert told < target
+    result = Run(tmp_path / "deck.h5")
+    angle, _ = truth(result.t)
+    worst = 0.0
+    for channel, exact in (
+        ("node/1/UX", np.cos(angle) - 1),
+        ("node/1/UY", -np.sin(angle)),
+        ("1/ANGLE", -angle),
+    ):
+        off = result[channel] - exact
+        worst = max(worst, np.sqrt(np.mean(off**2)) / np.ptp(exact))
+    assert worst < target
+    # of all channels, forces among them, the estimate tells the worst; of none more than ten times too much
+    assert told > worst / 3
+    listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    assert "Accuracy" in listing and f"ACCURACY {'NORMAL' if rung == 'FAST' else 'FAST'}" in listing
+
+
+def test_the_dial_says_when_it_has_not_met_its_error(tmp_path: Path) -> None:
+    found = dial(pendulum("ACCURACY REFERENCE", "TOL 1E-3"), tmp_path)
+    assert "more than the 1e-08 asked for" in found["said"]
+
+
+def test_what_the_deck_says_wins(tmp_path: Path) -> None:
+    dial(pendulum("ACCURACY NORMAL SCHEME CHUNG RHO 0.9", ""), tmp_path)
+    listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    assert "CHUNG rho 0.9" in listing
+    assert "local error 0.0001" in listing
