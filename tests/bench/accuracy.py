@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The dial `.SAM ACCURACY` on nine models: what it asks for, what it estimates, what is true, and what it costs.
+"""The dial `.SAM ACCURACY` on nine models: what it estimates, what is true, and what it costs.
 
     python tests/bench/accuracy.py build/bin/engrane [--models bevel spur ...] [--runs 2]
         [--tolerances 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7] [--slopes] [--picture docs/figures/dial.png]
 
-Errors are measured as the program estimates them: the root of the mean square over time of what a channel is off by, over its
-range; of some positions, velocities and forces of each model the worst channel counts. The truth is a run of RADAU with TOL 1e-9;
-its own error is what it differs by from RADAU with fixed steps. Processor time is that of the process with all it does, the estimate
-included, without that of a run of a single step; the least of --runs, in turn.
+Errors are measured as the program estimates them: the root of the mean square over time of what a channel
+is off by, over its range; of some positions, velocities and forces of each model the worst channel
+counts. The truth is a run of RADAU with TOL 1e-9; its own error is what it differs by from RADAU with
+fixed steps. Processor time is that of the process with all it does, the estimate included, without that
+of a run of a single step; the least of --runs, in turn.
 
-Prints a Markdown table of the four settings; --tolerances: one of TOL, with the TOL that each setting would have needed;
---picture: error over processor time of three models;
---slopes: one of fixed steps of each scheme, with errors of positions, velocities and forces and their slopes.
+Prints a Markdown table of the four settings; --tolerances: one of TOL, with the TOL that each setting
+would have needed; --picture: error over processor time of three models; --slopes: one of fixed steps of
+each scheme, with errors of positions, velocities and forces and their slopes.
 """
 
 import argparse
+import itertools
 import json
 import math
 import os
@@ -86,16 +88,24 @@ ABRE '/back' 'AXIS 0 0 -1 MN 0.003 ALPHA 25 KM 4D8 XI 0.07 JEU 2D-5'
 
 def free_crank(text: str) -> str:
     """The slider-crank with a flywheel in place of the drive, which would leave nothing to integrate."""
-    text = text.replace(" DRIVE SPEED NF 1", "").replace("VIT NOEUD 1 C 6 V 10", "VIT NOEUD 1 C 6 V 10 IMPOSED")
+    text = text.replace(" DRIVE SPEED NF 1", "").replace(
+        "VIT NOEUD 1 C 6 V 10", "VIT NOEUD 1 C 6 V 10 IMPOSED"
+    )
     return text.replace(" I 5 INERTIA N 3 M 3\n", " I 5 INERTIA N 3 M 3\n I 6 INERTIA N 1 J 0 0 0.1\n")
 
 
 def bars_in_line(times: np.ndarray) -> np.ndarray:
-    """UX, UY, VX, VY of the first bar's end in A02 with N = 2: three arms turn alike and two bars keep their direction, so the
-    mechanism is a pendulum of one angle from the vertical, (3/3 + 2) a'' = g (3/2 + 2) sin a in units of its links."""
+    """UX, UY, VX, VY of B0 in A02 with N = 2: three arms of 1 m, 1 kg turn alike and two bars keep their
+    direction, a pendulum of one angle from the vertical: (3/3 + 2) a'' = g (3/2 + 2) sin a."""
     pull = 9.81 * (3 / 2 + 2) / (3 / 3 + 2)
     angle, speed = solve_ivp(
-        lambda _, y: (y[1], pull * math.sin(y[0])), (0, times[-1]), (0, 1), "DOP853", times, rtol=1e-13, atol=1e-13
+        lambda _, y: (y[1], pull * math.sin(y[0])),
+        (0, times[-1]),
+        (0, 1),
+        "DOP853",
+        times,
+        rtol=1e-13,
+        atol=1e-13,
     ).y
     return np.array([np.sin(angle), np.cos(angle) - 1, speed * np.cos(angle), -speed * np.sin(angle)]).T
 
@@ -106,7 +116,7 @@ def deck_text(path: str) -> str:
 
 @dataclass
 class Model:
-    """What is run: the deck, its end, a step that divides the time between instants that are compared, and what is."""
+    """What is run: the deck, its end, a step that divides the time between instants, and what is compared."""
 
     title: str
     text: str
@@ -116,6 +126,7 @@ class Model:
     channels: tuple[tuple[str, ...], ...]  #: positions, velocities, forces
     steps: tuple[float, ...]  #: fixed, for slopes: multiples or parts of `step` that divide `interval`
     truth: Callable[[np.ndarray], np.ndarray] | None = None  #: of an equation of its own: channels over times
+    schemes: tuple[str, ...] = ("",)  #: words that the settings are tried with
     names: tuple[str, ...] = field(init=False)
     static: bool = field(init=False)
 
@@ -131,7 +142,14 @@ def models() -> dict[str, Model]:
         return Model(title, text, end, step, interval, OTHERS[name][3:], steps)
 
     return {
-        "bevel": like("bevel", "bevel pair", 1.0, 0.02, (0.01, 0.005, 0.0025, 0.00125), BEVEL.replace("H 0.1", "H 0.001")),
+        "bevel": like(
+            "bevel",
+            "bevel pair",
+            1.0,
+            0.02,
+            (0.01, 0.005, 0.0025, 0.00125),
+            BEVEL.replace("H 0.1", "H 0.001"),
+        ),
         "spur": like("spur", "transmission A", 0.004, 2e-5, (2e-5, 1e-5, 5e-6, 2.5e-6)),
         "backlash": like(
             "spur",
@@ -154,6 +172,7 @@ def models() -> dict[str, Model]:
             ),
             (1e-2, 5e-3, 2.5e-3, 1.25e-3),
             bars_in_line,
+            ("", " SCHEME CHUNG"),
         ),
         "andrews": like("andrews", "Andrews", 0.03, 2e-4, (2e-4, 1e-4, 5e-5, 2.5e-5)),
         "top": like("top", "heavy top", 0.2, 2e-3, (1e-3, 5e-4, 2.5e-4, 1.25e-4)),
@@ -218,7 +237,9 @@ class Run:
         off[:, turns] = (off[:, turns] + math.pi) % (2 * math.pi) - math.pi
         ranges = np.ptp(self.values, axis=0)
         for i, name in enumerate(model.names):
-            largest = max(r for r, other in zip(ranges, model.names, strict=True) if units[other] == units[name])
+            largest = max(
+                r for r, other in zip(ranges, model.names, strict=True) if units[other] == units[name]
+            )
             if ranges[i] > NO_RANGE * max(largest, np.abs(self.values[:, i]).max()):
                 self.by_channel[name] = float(np.sqrt(np.mean(off[:, i] ** 2)) / ranges[i])
         return self
@@ -236,7 +257,7 @@ class Bench:
         self.binary, self.folder, self.model, self.runs = binary, folder, model, runs
         self.start = 0.0
         self.units: dict[str, str] = {}
-        self.start = self._seconds(deck(model, "SOLVER KLU", f"{model.step!r} H {model.step!r}"))[0]
+        self.start = self._seconds(deck(model, "SOLVER KLU", f"{model.step!r} H {model.step!r}"), 5)[0]
         self.own_error = 0.0
         if model.truth:
             self.truth = self.run(None, f"H {model.step!r}", 1, compare=False)
@@ -246,11 +267,11 @@ class Bench:
             fine = model.steps[-1] / 4
             self.own_error = self.run("SCHEME RADAU SOLVER KLU PREC 1e-12", f"H {fine!r}", 1).error
 
-    def _seconds(self, text: str) -> tuple[float, dict]:
+    def _seconds(self, text: str, runs: int) -> tuple[float, dict]:
         path = self.folder / "run.dat"
         path.write_text(text, encoding="utf-8")
         least = math.inf
-        for _ in range(self.runs):
+        for _ in range(runs):
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             done = subprocess.run(
                 [self.binary, "--json", path, "-o", path.with_suffix("")],
@@ -266,11 +287,7 @@ class Bench:
 
     def run(self, analysis: str | None, stepping: str, runs: int | None = None, compare: bool = True) -> Run:
         model = self.model
-        kept, self.runs = self.runs, runs or self.runs
-        try:
-            seconds, report = self._seconds(deck(model, analysis, f"{model.end!r} {stepping}"))
-        finally:
-            self.runs = kept
+        seconds, report = self._seconds(deck(model, analysis, f"{model.end!r} {stepping}"), runs or self.runs)
         with Results((self.folder / "run.dat").with_suffix(".h5")) as results:
             if not self.units:
                 channels = results.channels
@@ -293,15 +310,17 @@ def dial(bench: Bench) -> list[str]:
     try:
         own = bench.run(None, f"H {model.step!r}")
         rows.append(
-            f"| {model.title} | as it is, H {model.step:g} | {own.steps} | {own.seconds:.3f} | | {own.error:.1e} | | |"
+            f"| {model.title} | as it is, H {model.step:g} | {own.steps} | {own.seconds:.3f} "
+            f"| | {own.error:.1e} | | |"
         )
     except RuntimeError as error:
         rows.append(f"| {model.title} | as it is | failed: {error} |")
-    for setting, target in SETTINGS.items():
+    for setting, target in ((s + scheme, t) for scheme in model.schemes for s, t in SETTINGS.items()):
         try:
             run = bench.run(f"ACCURACY {setting}", f"H {model.step!r}")
         except RuntimeError as error:
-            rows.append(f"| {model.title} | {setting} | failed: {error} |")
+            when = re.search(r"t = [0-9.e-]+", str(error))
+            rows.append(f"| {model.title} | {setting} | fails at {when[0] if when else error} | | | | | no |")
             continue
         found = run.report.get("accuracy") or {}
         estimate = found.get("estimated_error")
@@ -309,7 +328,8 @@ def dial(bench: Bench) -> list[str]:
         ratio = f"{estimate / run.error:.2g}" if estimate else ""
         met = "yes" if run.error <= target else f"no, {run.error / target:.2g} times"
         rows.append(
-            f"| {model.title} | {setting} | {run.steps} | {run.seconds:.3f} | {told} | {run.error:.1e} | {ratio} | {met} |"
+            f"| {model.title} | {setting} | {run.steps} | {run.seconds:.3f} "
+            f"| {told} | {run.error:.1e} | {ratio} | {met} |"
         )
     return rows
 
@@ -323,15 +343,19 @@ def ladder(bench: Bench, tolerances: list[float]) -> list[str]:
         except RuntimeError as error:
             rows.append(f"| {model.title} | {tolerance:g} | failed: {error} |")
             continue
-        power = math.log(run.error / points[-1][1]) / math.log(tolerance / points[-1][0]) if points else math.nan
+        power = (
+            math.log(run.error / points[-1][1]) / math.log(tolerance / points[-1][0]) if points else math.nan
+        )
         points.append((tolerance, run.error, run.seconds))
         kinds = " | ".join(cell(run.of(kind)) for kind in model.channels)
         slope = f"{power:.2f}" if math.isfinite(power) else ""
-        rows.append(f"| {model.title} | {tolerance:g} | {run.steps} | {run.seconds:.3f} | {kinds} | {slope} |")
+        rows.append(
+            f"| {model.title} | {tolerance:g} | {run.steps} | {run.seconds:.3f} | {kinds} | {slope} |"
+        )
     needed = []
     for setting, target in SETTINGS.items():
         good = None
-        for (loose, much, _), (tight, little, _) in zip(points, points[1:], strict=False):
+        for (loose, much, _), (tight, little, _) in itertools.pairwise(points):
             if much > target >= little:
                 part = math.log(much / target) / math.log(much / little)
                 good = math.exp((1 - part) * math.log(loose) + part * math.log(tight))
@@ -344,8 +368,8 @@ def ladder(bench: Bench, tolerances: list[float]) -> list[str]:
 
 
 def companions(bench: Bench, tolerances: list[float]) -> list[str]:
-    """What companions with looser tolerances and longer steps tell: the distance over the error, and the power of TOL for which
-    the estimate, distance / (looser ** power - 1), is the error."""
+    """What companions with looser TOL and longer steps tell: how far they are, and the powers of TOL and of the
+    numbers of steps for which the estimate, distance / (ratio ** power - 1), is the error."""
     model, rows = bench.model, []
     for tolerance in tolerances:
         try:
@@ -366,10 +390,12 @@ def companions(bench: Bench, tolerances: list[float]) -> list[str]:
             except RuntimeError:
                 continue
             distance = other.compare(run, model, bench.units).error
-            power = math.log1p(distance / run.error) / math.log(looser)
+            growth = math.log1p(distance / run.error)
+            fewer = max(run.steps / other.steps, 1.02)
             rows.append(
-                f"| {model.title} | {tolerance:g} | {run.error:.1e} | {looser:g} | {longer} | {other.steps}/{run.steps} "
-                f"| {distance:.1e} | {power:.2f} |"
+                f"| {model.title} | {tolerance:g} | {run.error:.1e} | {looser:g} | {longer} "
+                f"| {other.steps}/{run.steps} | {distance:.1e} | {growth / math.log(looser):.2f} "
+                f"| {growth / math.log(fewer):.1f} |"
             )
     return rows
 
@@ -390,11 +416,17 @@ def slopes(bench: Bench) -> list[str]:
             found = [run.of(kind) for kind in model.channels]
             powers = ["", "", ""]
             if before:
-                powers = [f"{math.log(b / a) / math.log(before[0] / step):.1f}" for a, b in zip(found, before[1], strict=True)]
+                powers = [
+                    f"{math.log(b / a) / math.log(before[0] / step):.1f}"
+                    for a, b in zip(found, before[1], strict=True)
+                ]
             before = (step, found)
             rows.append(
                 f"| {model.title} | {scheme} | {step:g} | {run.seconds:.3f} | "
-                + " | ".join(map(cell, found)) + " | " + " | ".join(powers) + " |"
+                + " | ".join(map(cell, found))
+                + " | "
+                + " | ".join(powers)
+                + " |"
             )
     return rows
 
@@ -416,10 +448,22 @@ def picture(binary: Path, folder: Path, known: dict[str, Model], path: Path, run
         bench = Bench(binary, folder, model, runs)
         steps = [model.steps[0] * 2.0**-k for k in range(6)]
         lines = (
-            ("generalised-α, kept factors, fixed steps", "o-", [("RHO 0.8 SOLVER KLU TANGENT KEPT", f"H {h!r}") for h in steps]),
+            (
+                "generalised-α, kept factors, fixed steps",
+                "o-",
+                [("RHO 0.8 SOLVER KLU TANGENT KEPT", f"H {h!r}") for h in steps],
+            ),
             ("Radau IIA, fixed steps", "s-", [("SCHEME RADAU SOLVER KLU", f"H {h!r}") for h in steps[:5]]),
-            ("Radau IIA, TOL", "^-", [("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL {t!r}") for t in LADDER]),
-            ("ACCURACY, with its estimate", "D--", [(f"ACCURACY {rung}", f"H {model.step!r}") for rung in SETTINGS]),
+            (
+                "Radau IIA, TOL",
+                "^-",
+                [("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL {t!r}") for t in LADDER],
+            ),
+            (
+                "ACCURACY, with its estimate",
+                "D--",
+                [(f"ACCURACY {rung}", f"H {model.step!r}") for rung in SETTINGS],
+            ),
         )
         for label, mark, tries in lines:
             points = [(run.seconds, run.error) for run in (bench.run(*words) for words in tries)]
@@ -438,7 +482,9 @@ def picture(binary: Path, folder: Path, known: dict[str, Model], path: Path, run
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     known = models()
     parser.add_argument("binary", type=Path)
     parser.add_argument("--models", nargs="+", choices=known, default=list(known))
@@ -455,18 +501,28 @@ def main() -> None:
             return
         for name in a.models:
             bench = Bench(a.binary.resolve(), Path(folder), known[name], a.runs)
-            print(f"\n{known[name].title}: the truth's own error {bench.own_error:.1e}\n")
+            own = f"own error {bench.own_error:.1e}" if bench.own_error else "equation of its own"
+            print(f"\n{known[name].title}: truth: {own}\n")
             if not a.no_dial:
-                print("| model | setting | steps | s | estimate | error | estimate : error | met |\n" + "|---" * 8 + "|")
+                print(
+                    "| model | setting | steps | s | estimate | error | estimate : error | met |\n"
+                    + "|---" * 8
+                    + "|"
+                )
                 print("\n".join(dial(bench)), flush=True)
             if a.tolerances:
                 print("\n| model | TOL | steps | s | x | v | force | power of TOL |\n" + "|---" * 8 + "|")
                 print("\n".join(ladder(bench, a.tolerances)), flush=True)
             if a.companions:
-                print("\n| model | TOL | error | looser | HMAX times | steps | distance | power |\n" + "|---" * 8 + "|")
+                print(
+                    "\n| model | TOL | error | looser | HMAX times | steps | distance "
+                    "| power of TOL | of steps |\n" + "|---" * 9 + "|"
+                )
                 print("\n".join(companions(bench, a.companions)), flush=True)
             if a.slopes:
-                print("\n| model | scheme | H | s | x | v | force | slope x | v | force |\n" + "|---" * 10 + "|")
+                print(
+                    "\n| model | scheme | H | s | x | v | force | slope x | v | force |\n" + "|---" * 10 + "|"
+                )
                 print("\n".join(slopes(bench)), flush=True)
 
 

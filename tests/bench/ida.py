@@ -1,25 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Andrews' squeezing mechanism by SUNDIALS IDA, with the same error measure as tests/bench/accuracy.py.
+"""Andrews' squeezing mechanism and a spatial slider-crank by SUNDIALS IDA, with the errors of
+tests/bench/accuracy.py.
 
     python -m venv /tmp/ida && /tmp/ida/bin/pip install scikit-sundae numba numpy scipy h5py
-    /tmp/ida/bin/python tests/bench/ida.py build/bin/engrane [--runs 3]
+    /tmp/ida/bin/python tests/bench/ida.py build/bin/engrane [--models andrews crank] [--runs 3]
 
-IDA solves the mechanism in its seven angles with the data of tests/verify/oracles/andrews.py, stabilised after C. W. Gear,
-B. Leimkuhler and G. K. Gupta, J. Comput. Appl. Math. 12 (1985) 77-90, eq. (5):
+IDA solves Andrews' mechanism in its seven angles with the data of tests/verify/oracles/andrews.py, and
+the slider-crank of tests/bench/accuracy.py, with a flywheel, in the angle and the slide, its massless rod
+a distance; stabilised after C. W. Gear, B. Leimkuhler and G. K. Gupta, J. Comput. Appl. Math. 12 (1985)
+77-90, eq. (5):
 
     q' = v - G(q)^T mu,   M(q) v' = f(q, v) - G(q)^T lambda,   0 = g(q),   0 = G(q) v
 
-(index 2, 26 equations; lambda and mu are left out of IDA's error test, as index 2 demands) and with accelerations determined,
-index 1 (20 equations: 0 = G v' + G' v in place of 0 = g, constraints drift). Residuals and Jacobians are machine code (numba), the
-Jacobian is exact but for the curvature terms of q, which central differences give; linear solver: dense. What is left of Python is
-one call per residual, which `calls` counts. This program solves the deck decks/mechanisms/andrews_squeezer.dat: seven bodies of six
-coordinates each.
+(index 2, Andrews: 26 equations; lambda and mu are left out of IDA's error test, as index 2 demands) and
+with accelerations determined, index 1 (20 equations: 0 = G v' + G' v in place of 0 = g, constraints
+drift). Residuals and Jacobians are machine code (numba), the Jacobian is exact but for the curvature
+terms of q, which central differences give; linear solver: dense. What is left of Python is one call per
+residual, which `calls` counts. This program solves the decks: bodies of six coordinates each.
 
-Error: root of the mean square over 150 instants over the range, the worst of three angles and their speeds. Truth: the ordinary
-differential equation of the oracle by DOP853, 1e-12. Processor time of the integration only, the least of --runs, in turn.
+Error: root of the mean square over the instants over the range, the worst of some coordinates and their
+speeds. Truth: the ordinary differential equation in one coordinate by DOP853, 1e-12 or less. Processor
+time of the integration only, the least of --runs, in turn.
 """
 
 import argparse
+import math
 import os
 import re
 import resource
@@ -27,17 +32,20 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numba
 import numpy as np
+from scipy.integrate import solve_ivp
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests" / "verify" / "oracles")]
+sys.path[:0] = [str(ROOT / "tests" / "verify" / "oracles"), str(ROOT / "post")]
 import andrews as data  # noqa: E402
-import h5py  # noqa: E402
+from accuracy import free_crank  # noqa: E402
+from engrane_post import Results  # noqa: E402
 
-END, INSTANTS = 0.03, 150
 MASS, INERTIA, TURN = data.MASS, data.INERTIA, data.TURN.astype(float)
 NAMES = list(data.POINTS)
 #: points of bodies: table of (c, s) by point and body
@@ -53,7 +61,7 @@ A_B, A_C, C0, L0, TORQUE = data.B, data.C, data.C0, data.L0, data.TORQUE
 
 
 @numba.njit(cache=True)
-def terms(q, v, mass, force, jacobian, closure, curvature):
+def andrews_terms(q, v, mass, force, jacobian, closure, curvature):
     """M (7 x 7), f (7), G (6 x 7), g (6) and G' v (6) of the mechanism at q, v."""
     angle, turn = TURN @ q, TURN @ v
     cos, sin = np.cos(angle), np.sin(angle)
@@ -108,131 +116,43 @@ def terms(q, v, mass, force, jacobian, closure, curvature):
                 jacobian[2 * k + 1, a] += x * TURN[body, a]
 
 
-@numba.njit(cache=True)
-def residual(y, yp, out, index):
-    mass, jacobian = np.empty((7, 7)), np.empty((6, 7))
-    force, closure, curvature = np.empty(7), np.empty(6), np.empty(6)
-    q, v, load = y[:7], y[7:14], y[14:20]
-    terms(q, v, mass, force, jacobian, closure, curvature)
-    out[:7] = yp[:7] - v
-    out[7:14] = mass @ yp[7:14] - force + jacobian.T @ load
-    if index == 2:
-        out[:7] += jacobian.T @ y[20:26]
-        out[14:20] = closure
-        out[20:26] = jacobian @ v
-    else:
-        out[14:20] = jacobian @ yp[7:14] + curvature
+CRANK, ROD, OFFSET, SLIDER, FLYWHEEL = 0.2, 0.6, 0.1, 3.0, 0.1
 
 
 @numba.njit(cache=True)
-def tangent(y, yp, out, cj, index):
-    """d residual/dy + cj d residual/dy'; by differences in q and v, exact in the rest."""
-    n = y.size
-    high, low = np.empty(n), np.empty(n)
-    out[:] = 0.0
-    for j in range(14):
-        size = 1e-6 if j < 7 else 1e-6 * (1.0 + abs(y[j]))
-        moved = y.copy()
-        moved[j] = y[j] + size
-        residual(moved, yp, high, index)
-        moved[j] = y[j] - size
-        residual(moved, yp, low, index)
-        out[:, j] = (high - low) / (2 * size)
-    mass, jacobian = np.empty((7, 7)), np.empty((6, 7))
-    force, closure, curvature = np.empty(7), np.empty(6), np.empty(6)
-    terms(y[:7], y[7:14], mass, force, jacobian, closure, curvature)
-    out[7:14, 14:20] = jacobian.T
-    for i in range(7):
-        out[i, i] += cj
-    out[7:14, 7:14] += cj * mass
-    if index == 2:
-        out[:7, 20:26] = jacobian.T
-    else:
-        out[14:20, 7:14] += cj * jacobian
+def crank_terms(q, v, mass, force, jacobian, closure, curvature):
+    """Angle a of the crank, place x of the slider: ((x - r cos a)^2 + r^2 sin^2 a + e^2 - l^2)/2 = 0."""
+    cos, sin, x, w, u = np.cos(q[0]), np.sin(q[0]), q[1], v[0], v[1]
+    mass[:], force[:] = 0.0, 0.0
+    mass[0, 0], mass[1, 1] = FLYWHEEL, SLIDER
+    closure[0] = ((x - CRANK * cos) ** 2 + (CRANK * sin) ** 2 + OFFSET**2 - ROD**2) / 2
+    jacobian[0, 0], jacobian[0, 1] = x * CRANK * sin, x - CRANK * cos
+    curvature[0] = x * CRANK * cos * w * w + 2 * CRANK * sin * w * u + u * u
 
 
-def start(index: int) -> tuple[np.ndarray, np.ndarray]:
-    """Consistent values: at rest, accelerations and multipliers from the linear system."""
-    q = data.assemble(data.START)
-    mass, jacobian = np.empty((7, 7)), np.empty((6, 7))
-    force, closure, curvature = np.empty(7), np.empty(6), np.empty(6)
-    terms(q, np.zeros(7), mass, force, jacobian, closure, curvature)
-    whole = np.block([[mass, jacobian.T], [jacobian, np.zeros((6, 6))]])
-    solution = np.linalg.solve(whole, np.r_[force, -curvature])
-    more = np.zeros(6 if index == 2 else 0)
-    return np.r_[q, np.zeros(7), solution[7:], more], np.r_[np.zeros(7), solution[:7], np.zeros(6), more]
+def crank_truth(times: np.ndarray) -> np.ndarray:
+    """One angle: (J + m x'^2) a'' + m x' x'' a'^2 = 0 with x(a) and its derivatives by a."""
+
+    def slide(a: float) -> tuple[float, float, float]:
+        root = math.sqrt(ROD**2 - OFFSET**2 - (CRANK * math.sin(a)) ** 2)
+        bend = -(CRANK**2) * math.sin(a) * math.cos(a) / root
+        return (
+            CRANK * math.cos(a) + root,
+            -CRANK * math.sin(a) + bend,
+            -CRANK * math.cos(a) - (CRANK**2 * math.cos(2 * a) + bend**2) / root,
+        )
+
+    def rate(_t: float, y: np.ndarray) -> tuple[float, float]:
+        _, first, second = slide(y[0])
+        return y[1], -SLIDER * first * second * y[1] ** 2 / (FLYWHEEL + SLIDER * first**2)
+
+    angle, speed = solve_ivp(rate, (0, times[-1]), (0, 10), "DOP853", t_eval=times, rtol=1e-13, atol=1e-13).y
+    slides = [slide(a) for a in angle]
+    return np.array([[a, x, w, first * w] for a, w, (x, first, _) in zip(angle, speed, slides, strict=True)])
 
 
-def run_ida(tolerance: float, index: int, times: np.ndarray) -> dict:
-    from sksundae.ida import IDA
-
-    calls = [0, 0]
-
-    def res(_t, y, yp, out):
-        calls[0] += 1
-        residual(y, yp, out, index)
-
-    def jac(_t, y, yp, _res, cj, out):
-        calls[1] += 1
-        tangent(y, yp, out, cj, index)
-
-    y0, yp0 = start(index)
-    # multipliers: no error test. Angles of order one, speeds of a thousand.
-    absolute = np.r_[np.full(7, tolerance), np.full(7, 1e3 * tolerance), np.full(y0.size - 14, 1e20)]
-    solver = IDA(
-        res, rtol=tolerance, atol=absolute, jacfn=jac, linsolver="dense", max_num_steps=1000000,
-        algebraic_idx=list(range(14, y0.size)), first_step=1e-7 if index == 2 else 0,
-    )
-    before = time.process_time()
-    found = solver.solve(times, y0, yp0)
-    seconds = time.process_time() - before
-    if not found.success:
-        raise RuntimeError(found.message)
-    return {"seconds": seconds, "values": np.asarray(found.y)[:, :14], "calls": calls}
-
-
-def run_engrane(binary: Path, folder: Path, words: str, times: np.ndarray, end: float = END) -> dict:
-    text = (ROOT / "decks/mechanisms/andrews_squeezer.dat").read_text(encoding="utf-8")
-    text = re.sub(r"^\.CHK\n(?: .*\n)*", "", text, flags=re.M)
-    if words:
-        text = re.sub(r"^\.SAM .*", f".SAM TYPE DYNAMIC {words.split('|')[0]} ENERGY 0", text, flags=re.M)
-    more = words.split("|")[1] if "|" in words else ""
-    asked = " ELEMENT 11 ANGLE V 0 ATOL 1e30\n ELEMENT 13 ANGLE V 0 ATOL 1e30\n ELEMENT 15 ANGLE V 0 ATOL 1e30\n"
-    asked += " ELEMENT 11 SPEED V 0 ATOL 1e30\n ELEMENT 13 SPEED V 0 ATOL 1e30\n ELEMENT 15 SPEED V 0 ATOL 1e30"
-    card = f".SUB TF {end!r} H 2e-5{more}\n.SAI FIELDS DT {END!r} HISTORY DT {END / INSTANTS!r}\n.CHK\n{asked}"
-    text = re.sub(r"^\.SUB .*", card, text, flags=re.M)
-    path = folder / "andrews.dat"
-    path.write_text(text, encoding="utf-8")
-    environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run([binary, "-q", path, "-o", path.with_suffix("")], env=environment, capture_output=True, text=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if done.returncode != 0:
-        raise RuntimeError(done.stderr)
-    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    if end < END:
-        return {"seconds": seconds}
-    sys.path[:0] = [str(ROOT / "post")]
-    from engrane_post import Results
-
-    with Results(path.with_suffix(".h5")) as results:
-        table = {}
-        for i, element in ((0, 11), (2, 13), (4, 15)):
-            t, angle = results.history(f"element/{element}/ANGLE")
-            speed = results.history(f"element/{element}/SPEED")[1]
-            places = t / (END / INSTANTS)
-            even = np.abs(places - np.round(places)) < 1e-3
-            table[i], table[7 + i] = angle[even] + data.START[i], speed[even]
-    values = np.full((len(times), 14), np.nan)
-    for column, history in table.items():
-        values[:, column] = history
-    return {"seconds": seconds, "values": values}
-
-
-def truth(times: np.ndarray) -> np.ndarray:
+def andrews_truth(times: np.ndarray) -> np.ndarray:
     """Seven angles and their rates by the oracle's equation in one coordinate."""
-    from scipy.integrate import solve_ivp
-
     known = [data.assemble(data.START)]
 
     def place(beta: float) -> np.ndarray:
@@ -242,7 +162,12 @@ def truth(times: np.ndarray) -> np.ndarray:
 
     y = solve_ivp(
         lambda _, y: [y[1], data.acceleration(place(y[0]), y[1])],
-        (0, times[-1]), [data.START[0], 0.0], "DOP853", t_eval=times, rtol=1e-12, atol=1e-12,
+        (0, times[-1]),
+        [data.START[0], 0.0],
+        "DOP853",
+        t_eval=times,
+        rtol=1e-12,
+        atol=1e-12,
     ).y
     known[-1] = data.assemble(data.START)
     out = np.empty((len(times), 14))
@@ -252,45 +177,251 @@ def truth(times: np.ndarray) -> np.ndarray:
     return out
 
 
-def error(values: np.ndarray, true: np.ndarray) -> float:
-    columns = [0, 2, 4, 7, 9, 11]
+def deck_text(name: str) -> str:
+    return (ROOT / "decks" / "mechanisms" / name).read_text(encoding="utf-8")
+
+
+@dataclass
+class Mechanism:
+    deck: str
+    terms: Callable
+    place: np.ndarray  #: at the start, n
+    speed: np.ndarray
+    scale: (
+        float  #: of speeds: an absolute tolerance of one unit of a coordinate is one of so much of its speed
+    )
+    constraints: int
+    end: float
+    step: float  #: H of the deck
+    instants: int
+    truth: Callable[[np.ndarray], np.ndarray]
+    channels: dict[
+        str, tuple[int, float]
+    ]  #: column of (coordinates, speeds) and its value where the channel is zero
+
+
+MECHANISMS = {
+    "andrews": lambda: Mechanism(
+        deck_text("andrews_squeezer.dat"),
+        andrews_terms,
+        data.assemble(data.START),
+        np.zeros(7),
+        1e3,
+        6,
+        0.03,
+        2e-5,
+        150,
+        andrews_truth,
+        {
+            f"element/{e}/{c}": (i + k, (1 - k / 7) * data.START[i])
+            for e, i in ((11, 0), (13, 2), (15, 4))
+            for c, k in (("ANGLE", 0), ("SPEED", 7))
+        },
+    ),
+    "crank": lambda: Mechanism(
+        free_crank(deck_text("slider_crank.dat")),
+        crank_terms,
+        np.array([0.0, CRANK + math.sqrt(ROD**2 - OFFSET**2)]),
+        np.array([10.0, 0.0]),
+        10,
+        1,
+        1.0,
+        2e-4,
+        100,
+        crank_truth,
+        {
+            "element/1/ANGLE": (0, 0.0),
+            "element/1/SPEED": (2, 0.0),
+            "element/4/SLIDE": (1, CRANK + math.sqrt(ROD**2 - OFFSET**2)),
+            "element/4/SLIDE_SPEED": (3, 0.0),
+        },
+    ),
+}
+
+
+class Peer:
+    """One mechanism in IDA's form, index 2 or 1."""
+
+    def __init__(self, mechanism: Mechanism, index: int) -> None:
+        self.mechanism, self.index = mechanism, index
+        n, m, terms = len(mechanism.place), mechanism.constraints, mechanism.terms
+
+        @numba.njit
+        def residual(y, yp, out):
+            mass, jacobian = np.empty((n, n)), np.empty((m, n))
+            force, closure, curvature = np.empty(n), np.empty(m), np.empty(m)
+            v = y[n : 2 * n]
+            terms(y[:n], v, mass, force, jacobian, closure, curvature)
+            out[:n] = yp[:n] - v
+            out[n : 2 * n] = mass @ yp[n : 2 * n] - force + jacobian.T @ y[2 * n : 2 * n + m]
+            if index == 2:
+                out[:n] += jacobian.T @ y[2 * n + m :]
+                out[2 * n : 2 * n + m] = closure
+                out[2 * n + m :] = jacobian @ v
+            else:
+                out[2 * n :] = jacobian @ yp[n : 2 * n] + curvature
+
+        @numba.njit
+        def tangent(y, yp, out, cj):
+            """d residual/dy + cj d residual/dy'; by differences in q and v, exact in the rest."""
+            high, low = np.empty(y.size), np.empty(y.size)
+            out[:] = 0.0
+            for j in range(2 * n):
+                size = 1e-6 if j < n else 1e-6 * (1.0 + abs(y[j]))
+                moved = y.copy()
+                moved[j] = y[j] + size
+                residual(moved, yp, high)
+                moved[j] = y[j] - size
+                residual(moved, yp, low)
+                out[:, j] = (high - low) / (2 * size)
+            mass, jacobian = np.empty((n, n)), np.empty((m, n))
+            force, closure, curvature = np.empty(n), np.empty(m), np.empty(m)
+            terms(y[:n], y[n : 2 * n], mass, force, jacobian, closure, curvature)
+            out[n : 2 * n, 2 * n : 2 * n + m] = jacobian.T
+            for i in range(n):
+                out[i, i] += cj
+            out[n : 2 * n, n : 2 * n] += cj * mass
+            if index == 2:
+                out[:n, 2 * n + m :] = jacobian.T
+            else:
+                out[2 * n :, n : 2 * n] += cj * jacobian
+
+        self.residual, self.tangent = residual, tangent
+        mass, jacobian = np.empty((n, n)), np.empty((m, n))
+        force, closure, curvature = np.empty(n), np.empty(m), np.empty(m)
+        terms(mechanism.place, mechanism.speed, mass, force, jacobian, closure, curvature)
+        whole = np.block([[mass, jacobian.T], [jacobian, np.zeros((m, m))]])
+        solution = np.linalg.solve(whole, np.r_[force, -curvature])
+        more = np.zeros(m if index == 2 else 0)
+        self.start = np.r_[mechanism.place, mechanism.speed, solution[n:], more]
+        self.rates = np.r_[mechanism.speed, solution[:n], np.zeros(m), more]
+
+    def run(self, tolerance: float, times: np.ndarray) -> dict:
+        from sksundae.ida import IDA
+
+        calls = [0, 0]
+
+        def res(_t, y, yp, out):
+            calls[0] += 1
+            self.residual(y, yp, out)
+
+        def jac(_t, y, yp, _res, cj, out):
+            calls[1] += 1
+            self.tangent(y, yp, out, cj)
+
+        n, size = len(self.mechanism.place), self.start.size
+        # multipliers: no error test
+        absolute = np.r_[
+            np.full(n, tolerance), np.full(n, self.mechanism.scale * tolerance), np.full(size - 2 * n, 1e20)
+        ]
+        solver = IDA(
+            res,
+            rtol=tolerance,
+            atol=absolute,
+            jacfn=jac,
+            linsolver="dense",
+            max_num_steps=1000000,
+            algebraic_idx=list(range(2 * n, size)),
+            first_step=1e-7 if self.index == 2 else 0,
+        )
+        before = time.process_time()
+        found = solver.solve(times, self.start, self.rates)
+        seconds = time.process_time() - before
+        if not found.success:
+            raise RuntimeError(found.message)
+        return {"seconds": seconds, "values": np.asarray(found.y)[:, : 2 * n], "calls": calls}
+
+
+def run_engrane(
+    binary: Path, folder: Path, mechanism: Mechanism, analysis: str, more: str = "", end: float = 0
+) -> dict:
+    """`analysis`: words of .SAM, none for those of the deck; `more`: of .SUB."""
+    text = re.sub(r"^\.CHK\n(?: .*\n)*", "", mechanism.deck, flags=re.M)
+    if analysis:
+        text = re.sub(r"^\.SAM .*", f".SAM TYPE DYNAMIC {analysis} ENERGY 0", text, flags=re.M)
+    asked = "\n".join(
+        f" ELEMENT {n.split('/')[1]} {n.split('/')[2]} V 0 ATOL 1e30" for n in mechanism.channels
+    )
+    interval = mechanism.end / mechanism.instants
+    card = f".SUB TF {end or mechanism.end!r} H {mechanism.step!r}{more}\n"
+    card += f".SAI FIELDS DT {mechanism.end!r} HISTORY DT {interval!r}\n.CHK\n{asked}"
+    text = re.sub(r"^\.SUB .*", card, text, flags=re.M)
+    path = folder / "run.dat"
+    path.write_text(text, encoding="utf-8")
+    environment = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(
+        [binary, "-q", path, "-o", path.with_suffix("")], env=environment, capture_output=True, text=True
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    if done.returncode != 0:
+        raise RuntimeError(done.stderr)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    if end:
+        return {"seconds": seconds}
+    values = np.full((mechanism.instants + 1, 2 * len(mechanism.place)), np.nan)
+    with Results(path.with_suffix(".h5")) as results:
+        for name, (column, zero) in mechanism.channels.items():
+            times, history = results.history(name)
+            places = times / interval
+            values[:, column] = history[np.abs(places - np.round(places)) < 1e-3] + zero
+    return {"seconds": seconds, "values": values}
+
+
+def error(values: np.ndarray, true: np.ndarray, mechanism: Mechanism) -> float:
+    columns = [column for column, _ in mechanism.channels.values()]
     off = np.sqrt(np.mean((values - true)[:, columns] ** 2, axis=0))
     return float((off / np.ptp(true[:, columns], axis=0)).max())
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("binary", type=Path)
+    parser.add_argument("--models", nargs="+", choices=MECHANISMS, default=list(MECHANISMS))
     parser.add_argument("--runs", type=int, default=3)
     a = parser.parse_args()
-    times = np.linspace(0, END, INSTANTS + 1)
-    true = truth(times)
-    rows: dict[str, list[dict]] = {}
-    run_ida(1e-3, 1, times), run_ida(1e-3, 2, times)  # compiles
-    own = ["", "ACCURACY FAST", "ACCURACY NORMAL", "ACCURACY FINE", "ACCURACY REFERENCE"]
-    own += [f"SCHEME RADAU SOLVER KLU| TOL {t}" for t in ("1e-3", "1e-4", "1e-5", "1e-6", "1e-7")]
-    with tempfile.TemporaryDirectory() as name:
-        for _ in range(a.runs):
-            begin = run_engrane(a.binary.resolve(), Path(name), "SOLVER KLU", times, 2e-5)["seconds"]
-            for words in own:
-                found = run_engrane(a.binary.resolve(), Path(name), words, times)
-                found["seconds"] -= begin
-                rows.setdefault("this program, " + (words.replace("|", "") or "as it is"), []).append(found)
-            for index in (2, 1):
-                for tolerance in (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10):
-                    title = f"IDA, {'stabilised index 2' if index == 2 else 'index 1'}, rtol {tolerance:g}"
-                    try:
-                        rows.setdefault(title, []).append(run_ida(tolerance, index, times))
-                    except RuntimeError as failure:
-                        rows.setdefault(title, []).append({"failure": str(failure)[:80]})
-    print("| program | s | error | calls of residual | of tangent |\n" + "|---" * 5 + "|")
-    for title, runs in rows.items():
-        if "failure" in runs[0]:
-            print(f"| {title} | failed: {runs[0]['failure']} |")
-            continue
-        calls = runs[0].get("calls", ("", ""))
-        seconds = min(r["seconds"] for r in runs)
-        print(f"| {title} | {seconds:.3f} | {error(runs[0]['values'], true):.1e} | {calls[0]} | {calls[1]} |")
+    settings = [("", "")] + [(f"ACCURACY {rung}", "") for rung in ("FAST", "NORMAL", "FINE", "REFERENCE")]
+    settings += [("SCHEME RADAU SOLVER KLU", f" TOL {t}") for t in ("1e-3", "1e-4", "1e-5", "1e-6", "1e-7")]
+    for model in a.models:
+        mechanism = MECHANISMS[model]()
+        times = np.linspace(0, mechanism.end, mechanism.instants + 1)
+        true = mechanism.truth(times)
+        peers = [Peer(mechanism, index) for index in (2, 1)]
+        for peer in peers:
+            peer.run(1e-3, times)  # compiles
+        rows: dict[str, list[dict]] = {}
+        with tempfile.TemporaryDirectory() as name:
+            binary, folder = a.binary.resolve(), Path(name)
+            starts = [
+                run_engrane(binary, folder, mechanism, "SOLVER KLU", "", mechanism.step) for _ in range(5)
+            ]
+            begin = min(start["seconds"] for start in starts)
+            for _ in range(a.runs):
+                for analysis, more in settings:
+                    found = run_engrane(binary, folder, mechanism, analysis, more)
+                    found["seconds"] -= begin
+                    rows.setdefault(f"this program, {analysis + more or 'as it is'}", []).append(found)
+                for peer in peers:
+                    for tolerance in (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10):
+                        form = "stabilised index 2" if peer.index == 2 else "index 1"
+                        title = f"IDA, {form}, rtol {tolerance:g}"
+                        try:
+                            rows.setdefault(title, []).append(peer.run(tolerance, times))
+                        except RuntimeError as failure:
+                            rows.setdefault(title, []).append({"failure": str(failure)[:80]})
+        print(f"\n{model}\n\n| program | s | error | calls of residual | of tangent |\n" + "|---" * 5 + "|")
+        for title, runs in rows.items():
+            if "failure" in runs[0]:
+                print(f"| {title} | failed: {runs[0]['failure']} |")
+                continue
+            calls = runs[0].get("calls", ("", ""))
+            seconds = min(r["seconds"] for r in runs)
+            print(
+                f"| {title} | {seconds:.3f} | {error(runs[0]['values'], true, mechanism):.1e} "
+                f"| {calls[0]} | {calls[1]} |"
+            )
 
 
 if __name__ == "__main__":
