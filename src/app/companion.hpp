@@ -21,8 +21,10 @@ class Companion {
 
   /// An even instant of the run itself, with the observer's values there. On rank 0.
   void compare(double time, const std::vector<double>& values);
-  /// After the run. On rank 0.
-  ErrorEstimate estimate() const;
+  /// After the run, of so many steps. On rank 0.
+  ErrorEstimate estimate(long steps) const;
+  /// Why it failed; empty when it did not. On all ranks.
+  const std::string& trouble() const { return estimate_.trouble; }
 
  private:
   void choose_columns(const observe::Observer& observer, const Model& model);
@@ -40,6 +42,8 @@ class Companion {
   std::vector<Column> columns_;
   double start_, interval_;
   std::size_t rows_ = 0, compared_ = 0;
+  long steps_ = 0;
+  double order_of_steps_ = 2;
   std::vector<double> values_;  ///< row by row; NaN where the instant was not reached
   ErrorEstimate estimate_;
   double begun_ = 0;  ///< processor time at which the run itself began

@@ -18,8 +18,11 @@ double ErrorEstimate::seconds_at(double other) const {
   return seconds * std::pow(tolerance / other, slope);
 }
 
+double ErrorEstimate::tolerance_for(double target) const { return tolerance * std::pow(0.5 * target / error, 1 / order); }
+
 std::string ErrorEstimate::describe(double target) const {
-  std::string text = fmt::format("  asked for          {:g} of the range of each channel, root of the mean square over time\n", target);
+  std::string text =
+      fmt::format("  asked for          {:g} of the range of each channel, root of the mean square over time\n", target);
   if (!trouble.empty()) return text + "  estimated error    none: " + trouble + "\n";
   text += fmt::format("  estimated error    {:.2g}, {}; from a run with TOL {:.2g} beside that with TOL {:.2g}\n", error, channel,
                       companion_tolerance, tolerance);

@@ -125,34 +125,41 @@ void observe_step(SolverContext& context, observe::Observer& observer, const Con
     observer.find_not_unique(c, context.redundancy.undetermined(c));
 }
 
-}  // namespace
+/// With ACCURACY a run may be repeated so often with another tolerance, or another scheme.
+constexpr int most_repeats = 3;
+/// Part of the tolerance that the next has at least: estimates of coarse runs are coarse.
+constexpr double most_at_once = 0.01;
 
-bool was_interrupted() { return interrupted != 0; }
+/// What came of a run: its exit status, or what to try instead.
+struct Verdict {
+  int status = 0;
+  std::optional<SolverOptions> again;
+};
 
-int solve_deck(const Reading& reading, const Options& options, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
+/// Generalised-alpha where Radau fails: at positions in which the rank of the constraints falls, for one.
+Verdict another_scheme(SolverOptions options, const std::string& why, int rank) {
+  if (rank == 0) std::cerr << "engrane: SCHEME RADAU fails here, again with CHUNG: " << terminal_text(why) << '\n';
+  options.family = SolverOptions::Family::chung;
+  options.scheme_is_free = false;
+  options.damping = 0.8;
+  options.precision = 1e-9;
+  return {exit_status::fine, options};
+}
+
+Verdict solve_once(const Reading& reading, const Options& options, const SolverOptions& wanted, bool may_repeat,
+                   const Resumption* resumption, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end of the program
-
   starting = 1;
-  user::forget_failures();  // those of another deck
+  user::forget_failures();  // those of another run
   forget_function_failures();
   Times times;
-  std::unique_ptr<Resumption> resumption;
-  try {
-    resumption = find_resumption(reading, options);
-  } catch (const RestartError& e) {
-    summary.failure = e.what();
-    if (rank == 0) std::cerr << "engrane: " << terminal_text(e.what()) << '\n';
-    return exit_status::wrong_deck;
-  }
   std::optional<Companion> companion;
-  const SolverOptions wanted = solver_options(reading.model.commands.analysis, reading.model.commands.stepping);
   if (wanted.target > 0 && wanted.tolerance > 0 && !resumption) companion.emplace(reading, wanted, comm);
-  SolverContext context(reading.model, comm);
+  if (companion && !companion->trouble().empty() && wanted.scheme_is_free)
+    return another_scheme(wanted, companion->trouble(), rank);
+  SolverContext context(reading.model, wanted, comm);
   observe::Observer observer(context.assembler, moves(reading.model), select_histories(reading.model));
   Schedule schedule(reading.model.commands.stepping, reading.model.commands.archive);
   std::optional<Writer> writer;
@@ -160,7 +167,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   // the other ranks must hear of it when the files cannot be made
   std::string trouble;
   if (rank == 0) try {
-      writer.emplace(reading, observer, schedule, options, prefix, resumption.get(), summary);
+      writer.emplace(reading, observer, schedule, options, prefix, resumption, summary);
       writer->begin(context, ranks);
     } catch (const OutputError& e) {
       trouble = e.what();
@@ -170,14 +177,14 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   if (bad) {
     summary.failure = trouble;
     if (rank == 0) std::cerr << "engrane: " << terminal_text(trouble) << '\n';
-    return exit_status::solution_failed;
+    return {exit_status::solution_failed, {}};
   }
   const std::string& asked = reading.model.commands.analysis.solver.tag;
   if (rank == 0 && asked != "AUTO" && context.solver.package() != asked)
     writer->note("engrane: on several processes MUMPS solves, not " + reading.model.commands.analysis.solver.tag);
 
   std::string failure;
-  bool complete = false;
+  bool complete = false, unsolved = false;
   const auto scheme = make_scheme(context);
   Runner runner(context, *scheme);
   Configuration whole;
@@ -254,9 +261,32 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     failure = fmt::format("cannot restart from {}: {}", resumption->earlier.path(), e.what());
   } catch (const SolutionFailure& e) {
     failure = e.what();
+    unsolved = true;
   }
   starting = 0;
-  if (companion && rank == 0 && complete) writer->accuracy(companion->estimate(), context.options.target);
+  if (unsolved && wanted.scheme_is_free) return another_scheme(wanted, failure, rank);
+  if (companion && complete) {
+    double tolerance = 0;
+    if (rank == 0) {
+      const ErrorEstimate estimate = companion->estimate(runner.steps());
+      if (may_repeat && estimate.trouble.empty() && estimate.error > wanted.target) {
+        tolerance = std::max(estimate.tolerance_for(wanted.target), most_at_once * wanted.tolerance);
+        writer->note(
+            fmt::format("engrane: the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: again, "
+                        "with TOL {:.1g}",
+                        estimate.error, estimate.channel, wanted.target, tolerance));
+      } else {
+        writer->accuracy(estimate, wanted.target);
+      }
+    }
+    MPI_Bcast(&tolerance, 1, MPI_DOUBLE, 0, comm);
+    if (tolerance > 0) {
+      SolverOptions sharper = wanted;
+      sharper.precision *= tolerance / wanted.tolerance;
+      sharper.tolerance = tolerance;
+      return {exit_status::fine, sharper};
+    }
+  }
   failure = with_causes(std::move(failure), comm, rank, ranks);
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {
@@ -281,7 +311,36 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     if (!options.quiet && !options.json && options.decks.size() == 1) std::cout << terminal_text(writer->closing_lines());
   }
   MPI_Bcast(&status, 1, MPI_INT, 0, comm);
-  return status;
+  return {status, {}};
+}
+
+}  // namespace
+
+bool was_interrupted() { return interrupted != 0; }
+
+int solve_deck(const Reading& reading, const Options& options, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end of the program
+
+  starting = 1;
+  std::unique_ptr<Resumption> resumption;
+  try {
+    resumption = find_resumption(reading, options);
+  } catch (const RestartError& e) {
+    summary.failure = e.what();
+    if (rank == 0) std::cerr << "engrane: " << terminal_text(e.what()) << '\n';
+    return exit_status::wrong_deck;
+  }
+  SolverOptions wanted = solver_options(reading.model.commands.analysis, reading.model.commands.stepping);
+  for (int repeats = 0;; ++repeats) {
+    Verdict verdict = solve_once(reading, options, wanted, repeats < most_repeats, resumption.get(), prefix, comm, summary);
+    if (!verdict.again) return verdict.status;
+    wanted = *verdict.again;
+  }
 }
 
 }  // namespace engrane::app

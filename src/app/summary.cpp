@@ -88,19 +88,20 @@ BuiltSummary summarize(const Model& model, const Numbering& numbering) {
   return summary;
 }
 
-std::string describe_analysis(const Model& model) {
+std::string describe_analysis(const Model& model, const SolverOptions& options) {
   const deck::AnalysisCard& a = model.commands.analysis;
   const deck::SteppingCard& s = model.commands.stepping;
+  const bool another = a.scheme_is_free && options.family == SolverOptions::Family::chung;
   std::string text = a.type.tag;
   if (a.type.is("DYNAMIC")) {
-    text += ", " + a.scheme.tag;
-    if (a.scheme.is("CHUNG")) text += fmt::format(" rho {:g}", a.rho.value_or(0.8));
+    text += ", " + (another ? "CHUNG" : a.scheme.tag);
+    if (options.family == SolverOptions::Family::chung) text += fmt::format(" rho {:g}", options.damping);
     if (a.alpha && !a.scheme.is("CHUNG")) text += fmt::format(" alpha {:g}", *a.alpha);
   }
-  const double steps = std::ceil((s.end - s.start) / s.step * (1 - 1e-9));
-  if (s.tolerance && a.type.is("DYNAMIC"))
-    return text + fmt::format(", t = {:g} to {:g}, steps of local error {:g}, {}", s.start, s.end, *s.tolerance, a.solver.tag);
-  return text + fmt::format(", t = {:g} to {:g}, {:.0f} steps of {:g}, {}", s.start, s.end, steps, s.step, a.solver.tag);
+  text += fmt::format(", t = {:g} to {:g}, ", s.start, s.end);
+  text += options.tolerance > 0 ? fmt::format("steps of local error {:g}", options.tolerance)
+                                : fmt::format("{:.0f} steps of {:g}", std::ceil((s.end - s.start) / s.step * (1 - 1e-9)), s.step);
+  return text + ", " + a.solver.tag;
 }
 
 std::string describe_geometry(const Model& model) {

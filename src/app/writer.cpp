@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <utility>
 
@@ -64,7 +63,7 @@ void Writer::begin(const SolverContext& context, int ranks) {
   std::string deck = summary_.deck;
   for (const auto& [name, text] : summary_.overrides.definitions) deck += fmt::format(" -D {}={}", name.substr(1), text);
   for (const std::string& card : summary_.overrides.cards) deck += fmt::format(" --card \"{}\"", card);
-  listing_.write(listing_header({version, library_versions(), model.title, deck, describe_analysis(model),
+  listing_.write(listing_header({version, library_versions(), model.title, deck, describe_analysis(model, context.options),
                                  fmt::format("{} process{}", ranks, ranks == 1 ? "" : "es")}));
   listing_.write(listing_section("What was built"));
   listing_.write(listing_built(summarize(model, context.numbering)));
@@ -183,9 +182,9 @@ void Writer::accuracy(const ErrorEstimate& estimate, double target) {
   if (!estimate.trouble.empty())
     warn("the error is not estimated: " + estimate.trouble);
   else if (estimate.error > target)
-    warn(fmt::format("the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: take TOL {:.1g} in .SUB",
-                     estimate.error, estimate.channel, target,
-                     estimate.tolerance * std::pow(0.5 * target / estimate.error, 1 / estimate.order)));
+    warn(fmt::format(
+        "the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: take TOL {:.1g} in .SUB",
+        estimate.error, estimate.channel, target, estimate.tolerance_for(target)));
 }
 
 int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit& times) {

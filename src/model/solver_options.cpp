@@ -48,9 +48,13 @@ SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::Ste
   o.cuts = analysis.cuts;
   o.package = analysis.solver.tag;
   // iterations with kept factors need not be better than their step; those with exact tangents are, by the last of them
-  const double of_step = o.tolerance > 0 && o.family == Family::radau ? std::clamp(share_of_newton * o.tolerance, 1e-12, 1e-5) : 1e-9;
+  const double of_step =
+      o.tolerance > 0 && o.family == Family::radau ? std::clamp(share_of_newton * o.tolerance, 1e-12, 1e-5) : 1e-9;
   o.precision = analysis.precision.value_or(of_step);
-  if (const AccuracyRung* rung = rung_of(analysis); rung && o.analysis == Analysis::dynamics) o.target = rung->target;
+  if (const AccuracyRung* rung = rung_of(analysis); rung && o.analysis == Analysis::dynamics) {
+    o.target = rung->target;
+    o.scheme_is_free = analysis.scheme_is_free;
+  }
   o.keep_factors = analysis.tangent.is("KEPT");
   o.iterations = analysis.iterations;
   o.scale = analysis.scale.value_or(0);

@@ -119,18 +119,19 @@ struct AnalysisCard {
   std::optional<double> rho;    ///< spectral radius at infinity, CHUNG
   std::optional<double> alpha;  ///< HHT, BOSSAK
   Tagged solver{"MUMPS", {}};
-  Tagged accuracy{"", {}};        ///< ACCURACY FAST, NORMAL, FINE, REFERENCE: chooses what the deck does not say
-  Tagged start{"AS_GIVEN", {}};   ///< AS_GIVEN: assemble from the given positions; STATIC: from static equilibrium at the start
+  Tagged accuracy{"", {}};          ///< ACCURACY FAST, NORMAL, FINE, REFERENCE: chooses what the deck does not say
+  Tagged start{"AS_GIVEN", {}};     ///< AS_GIVEN: assemble from the given positions; STATIC: from static equilibrium at the start
+  bool scheme_is_free = false;      ///< ACCURACY has chosen the scheme
   std::optional<double> precision;  ///< of Newton, relative to the largest force in the model
-  Tagged tangent{"FULL", {}};     ///< FULL, KEPT: whether tangents of a DYNAMIC analysis serve several iterations and steps
-  int iterations = 20;            ///< most Newton iterations before the step is cut
-  int cuts = 10;                  ///< most halvings of one step
-  Tagged plane{"NO", {}};         ///< PLANE NO, AUTO, XY, YZ, ZX: three unknowns a node where all motion stays in a plane
-  Tagged events{"YES", {}};       ///< EVENTS YES [tolerance] or NO: steps end where contact begins and ends
-  double energy = 1;              ///< ENERGY: largest error of the energy balance, over the energy there was; 0: any
-  std::optional<double> scale;    ///< k of the augmented Lagrangian; automatic when not given
-  std::optional<double> penalty;  ///< p; automatic when not given
-  std::string restart;            ///< RESTART: prefix of the results to restart from; empty: a new run
+  Tagged tangent{"FULL", {}};       ///< FULL, KEPT: whether tangents of a DYNAMIC analysis serve several iterations and steps
+  int iterations = 20;              ///< most Newton iterations before the step is cut
+  int cuts = 10;                    ///< most halvings of one step
+  Tagged plane{"NO", {}};           ///< PLANE NO, AUTO, XY, YZ, ZX: three unknowns a node where all motion stays in a plane
+  Tagged events{"YES", {}};         ///< EVENTS YES [tolerance] or NO: steps end where contact begins and ends
+  double energy = 1;                ///< ENERGY: largest error of the energy balance, over the energy there was; 0: any
+  std::optional<double> scale;      ///< k of the augmented Lagrangian; automatic when not given
+  std::optional<double> penalty;    ///< p; automatic when not given
+  std::string restart;              ///< RESTART: prefix of the results to restart from; empty: a new run
   std::optional<double> restart_time;  ///< T: of the restart point; the last when not given
 };
 

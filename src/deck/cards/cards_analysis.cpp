@@ -31,7 +31,8 @@ void check_analysis(AnalysisCard& analysis, Record& record, Diagnostics& diagnos
   if (analysis.scheme.is("RADAU") && record.given("TANGENT"))
     diagnostics.warning(record.where("TANGENT"), "TANGENT has no effect on SCHEME RADAU, which always keeps its factors");
   if (analysis.accuracy.given() && analysis.type.is("DYNAMIC")) {
-    if (!record.given("SCHEME") && !analysis.rho && !analysis.alpha) analysis.scheme.tag = "RADAU";
+    analysis.scheme_is_free = !record.given("SCHEME") && !analysis.rho && !analysis.alpha;
+    if (analysis.scheme_is_free) analysis.scheme.tag = "RADAU";
     if (!record.given("SOLVER")) analysis.solver.tag = "AUTO";
   }
   if (analysis.type.is("DYNAMIC")) return;
@@ -55,7 +56,8 @@ Schema analysis_card() {
       .option({"BOSSAK", {}, "Wood, Bossak and Zienkiewicz, damping set by ALPHA"})
       .option({"RADAU", {}, "Radau IIA of order 5: accurate results with long steps"});
   card.add("ACCURACY", &AnalysisCard::accuracy,
-           "how accurate a DYNAMIC analysis is to be: chooses scheme, TOL of .SUB, PREC and solver where the deck does not; a run with "
+           "how accurate a DYNAMIC analysis is to be: chooses scheme, TOL of .SUB, PREC and solver where the deck does not; a "
+           "run with "
            "longer steps before it tells the error of what is asked for, over its range")
       .synonyms({"EXACTITUDE"})
       .option({"FAST", {"RAPIDE"}, "1E-2"})
@@ -77,7 +79,9 @@ Schema analysis_card() {
       .synonyms({"DEPART"})
       .option({"AS_GIVEN", {}, "the given positions, brought to satisfy the joints"})
       .option({"STATIC", {"STATIQUE"}, "static equilibrium under the loads of the first instant"});
-  card.add("PREC", &AnalysisCard::precision, "precision of Newton's iterations, relative to the largest force in the model; 1E-9 when not given, and with SCHEME RADAU a hundredth of TOL")
+  card.add("PREC", &AnalysisCard::precision,
+           "precision of Newton's iterations, relative to the largest force in the model; 1E-9 when not given, and with SCHEME "
+           "RADAU a hundredth of TOL")
       .synonyms({"PRECISION"})
       .positive()
       .below(1);
@@ -125,7 +129,8 @@ Schema analysis_card() {
       .synonyms({"TIME", "TEMPS"})
       .unit(dimension::time);
   card.finish(check_analysis);
-  card.example(".SAM TYPE STATIC").example(".SAM TYPE DYNAMIC ACCURACY NORMAL")
+  card.example(".SAM TYPE STATIC")
+      .example(".SAM TYPE DYNAMIC ACCURACY NORMAL")
       .example(".SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.8")
       .example(".SAM TYPE DYNAMIC RESTART \"first_run\" T 0.5");
   return card.schema();
@@ -142,7 +147,8 @@ Schema stepping_card() {
       .positive()
       .required();
   card.add("TOL", &SteppingCard::tolerance,
-           "DYNAMIC: steps are chosen so that positions depart from the truth in a step by no more than this part of the step times "
+           "DYNAMIC: steps are chosen so that positions depart from the truth in a step by no more than this part of the step "
+           "times "
            "the range of their velocities so far; H is then the first step, and the time between results, which are interpolated")
       .synonyms({"TOLERANCE"})
       .positive()
@@ -153,7 +159,8 @@ Schema stepping_card() {
   card.add("TI", &SteppingCard::start, "initial time").unit(dimension::time);
   card.finish([](SteppingCard& stepping, Record& record, Diagnostics& diagnostics) {
     if (stepping.longest && !stepping.tolerance)
-      diagnostics.error(record.where("HMAX"), "HMAX limits steps that TOL chooses, and there is no TOL", "give TOL, or leave HMAX out");
+      diagnostics.error(record.where("HMAX"), "HMAX limits steps that TOL chooses, and there is no TOL",
+                        "give TOL, or leave HMAX out");
     if ((stepping.end - stepping.start) / stepping.step > 1e9)
       diagnostics.error(record.where("H"), "H makes more than 1e9 steps");
     // a thousand times what two times differ by: steps are cut and add up

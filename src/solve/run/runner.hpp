@@ -10,12 +10,12 @@ namespace engrane::solve {
 
 /// What the run tells about each accepted step.
 struct StepReport {
-  int number = 0;             ///< from 1; 0 is the start
-  double step = 0;            ///< h
-  int cuts = 0;               ///< failed attempts before this one
-  bool regular = true;        ///< false: the step ended for an event, not where a multiple of H or a cut asks for it
-  /// Hands on the motion at some times (ascending) within the step; only with a tolerance, and empty where the step is but a drift
-  /// across an event.
+  int number = 0;       ///< from 1; 0 is the start
+  double step = 0;      ///< h
+  int cuts = 0;         ///< failed attempts before this one
+  bool regular = true;  ///< false: the step ended for an event, not where a multiple of H or a cut asks for it
+  /// Hands on the motion at some times (ascending) within the step; only with a tolerance, and empty where the step is but a
+  /// drift across an event.
   std::function<void(std::span<const double>, const std::function<void(const Configuration&)>&)> between;
   int locating = 0;           ///< attempts spent on locating an event before this step
   bool chatter = false;       ///< the first time that events come too thick to be located
@@ -41,6 +41,7 @@ class Runner {
   /// after run() has returned or thrown.
   void save(Snapshot& snapshot) const;
   const Configuration& now() const { return now_; }
+  long steps() const { return step_.number; }
   bool started() const { return started_; }  ///< now() is an accepted configuration
 
  private:
