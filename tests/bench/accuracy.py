@@ -290,7 +290,7 @@ class Bench:
             )
             after = resource.getrusage(resource.RUSAGE_CHILDREN)
             if done.returncode != 0:
-                raise RuntimeError(" ".join((done.stderr or done.stdout[-400:]).split())[:300])
+                raise RuntimeError(" ".join((done.stderr or done.stdout[-400:]).split())[-400:])
             least = min(least, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
         return least, json.loads(done.stdout)["runs"][0]
 
@@ -328,8 +328,10 @@ def dial(bench: Bench) -> list[str]:
         try:
             run = bench.run(f"ACCURACY {setting}", f"H {model.step!r}")
         except RuntimeError as error:
-            when = re.search(r"t = [0-9.e-]+", str(error))
-            rows.append(f"| {model.title} | {setting} | fails at {when[0] if when else error} | | | | | no |")
+            when = re.findall(r"step \d+, (t = [0-9.e-]+[0-9])", str(error))
+            rows.append(
+                f"| {model.title} | {setting} | fails at {when[-1] if when else error} | | | | | no |"
+            )
             continue
         found = run.report.get("accuracy") or {}
         estimate = found.get("estimated_error")
