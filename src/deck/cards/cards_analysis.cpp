@@ -147,9 +147,9 @@ Schema stepping_card() {
       .positive()
       .required();
   card.add("TOL", &SteppingCard::tolerance,
-           "DYNAMIC: steps are chosen so that positions depart from the truth in a step by no more than this part of the step "
-           "times "
-           "the range of their velocities so far; H is then the first step, and the time between results, which are interpolated")
+           "DYNAMIC: the program chooses steps whose local error is at most this part of the range of each motion; H is then the "
+           "first "
+           "step and the time between results")
       .synonyms({"TOLERANCE"})
       .positive()
       .below(1);
