@@ -8,7 +8,7 @@ tests/bench/accuracy.py.
 IDA solves Andrews' mechanism in its seven angles with the data of tests/verify/oracles/andrews.py, and
 the slider-crank of tests/bench/accuracy.py, with a flywheel, in the angle and the slide, its massless rod
 a distance; stabilised after C. W. Gear, B. Leimkuhler and G. K. Gupta, J. Comput. Appl. Math. 12 (1985)
-77-90, eq. (5):
+77-90:
 
     q' = v - G(q)^T mu,   M(q) v' = f(q, v) - G(q)^T lambda,   0 = g(q),   0 = G(q) v
 
