@@ -96,6 +96,7 @@ std::string describe_analysis(const Model& model, const SolverOptions& options) 
   if (a.type.is("DYNAMIC")) {
     text += ", " + (another ? "CHUNG" : a.scheme.tag);
     if (options.family == SolverOptions::Family::chung) text += fmt::format(" rho {:g}", options.damping);
+    if (options.keep_factors && options.family != SolverOptions::Family::radau) text += " with tangents kept";
     if (a.alpha && !a.scheme.is("CHUNG")) text += fmt::format(" alpha {:g}", *a.alpha);
   }
   text += fmt::format(", t = {:g} to {:g}, ", s.start, s.end);
