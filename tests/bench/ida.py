@@ -60,7 +60,7 @@ SPRING = NAMES.index("D")
 A_B, A_C, C0, L0, TORQUE = data.B, data.C, data.C0, data.L0, data.TORQUE
 
 
-@numba.njit(cache=True)
+@numba.njit
 def andrews_terms(q, v, mass, force, jacobian, closure, curvature):
     """M (7 x 7), f (7), G (6 x 7), g (6) and G' v (6) of the mechanism at q, v."""
     angle, turn = TURN @ q, TURN @ v
@@ -119,7 +119,7 @@ def andrews_terms(q, v, mass, force, jacobian, closure, curvature):
 CRANK, ROD, OFFSET, SLIDER, FLYWHEEL = 0.2, 0.6, 0.1, 3.0, 0.1
 
 
-@numba.njit(cache=True)
+@numba.njit
 def crank_terms(q, v, mass, force, jacobian, closure, curvature):
     """Angle a of the crank, place x of the slider: ((x - r cos a)^2 + r^2 sin^2 a + e^2 - l^2)/2 = 0."""
     cos, sin, x, w, u = np.cos(q[0]), np.sin(q[0]), q[1], v[0], v[1]
