@@ -4,7 +4,8 @@
 namespace engrane::app {
 
 Schedule::Due show_between(Schedule& schedule, observe::Observer& observer, double from, const Configuration& end,
-                           const solve::StepReport& step, const std::function<void(const Configuration&, const Schedule::Due&)>& show) {
+                           const solve::StepReport& step,
+                           const std::function<void(const Configuration&, const Schedule::Due&)>& show) {
   bool restart = false;
   const auto look = [&](const Configuration& c) {
     const Schedule::Due due = schedule.at(c.time, schedule.even_step(step.step), true);

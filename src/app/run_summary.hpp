@@ -22,7 +22,7 @@ struct RunSummary {
   std::vector<Diagnostic> diagnostics;
   std::vector<std::string> sources;  ///< paths of the files that locations of `diagnostics` count from
   long steps = 0, iterations = 0, cuts = 0, events = 0;
-  double time = 0, end = 0;                        ///< reached, and asked for by .SUB
+  double time = 0, end = 0;  ///< reached, and asked for by .SUB
   std::optional<ErrorEstimate> accuracy;
   double seconds = 0;                              ///< of the clock on the wall
   std::vector<output::CheckResult> checks;         ///< of .CHK

@@ -46,7 +46,7 @@ class Schedule {
   };
   double start_, end_, step_;
   bool controlled_;
-  double even_ = 0;  ///< time between even instants; 0: the ends of steps serve
+  double even_ = 0;   ///< time between even instants; 0: the ends of steps serve
   double asked_ = 0;  ///< the last regular time that was asked about, with what counts as early
   Interval sample_, frame_;
   std::optional<Interval> restart_;

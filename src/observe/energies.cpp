@@ -61,7 +61,10 @@ double static_work(Assembler& assembler, Reactions& supports, const Configuratio
 }
 
 EnergyLedger::EnergyLedger(Assembler& assembler, Reactions& supports, bool moves)
-    : assembler_(assembler), supports_(supports), moves_(moves), powers_(points_of_powers, std::numeric_limits<double>::infinity()) {}
+    : assembler_(assembler),
+      supports_(supports),
+      moves_(moves),
+      powers_(points_of_powers, std::numeric_limits<double>::infinity()) {}
 
 void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reactions) {
   Energies sum = total_energies(assembler_, c);

@@ -32,8 +32,8 @@ Energies total_energies(Assembler& assembler, const Configuration& c);
 /// Work of loads and supports between two equilibria, by the trapezoidal rule along the straight way between them.
 double static_work(Assembler& assembler, Reactions& supports, const Configuration& from, const Configuration& to);
 
-/// Keeps the balance from step to step. Work in motion is the integral of power by the trapezoidal rule, or of the polynomial through
-/// the last few powers where steps are controlled, and so may be long.
+/// Keeps the balance from step to step. Work in motion is the integral of power by the trapezoidal rule, or of the polynomial
+/// through the last few powers where steps are controlled, and so may be long.
 class EnergyLedger {
  public:
   /// `moves`: the analysis has velocities; else work is that between equilibria.

@@ -133,7 +133,7 @@ void Observer::back_to_end() {
 
 std::vector<Observer::Way> Observer::ways() const {
   std::vector<Way> all;
-  const auto append = [&all](const Named& named, std::size_t count) { 
+  const auto append = [&all](const Named& named, std::size_t count) {
     all.insert(all.end(), count, of_motion(named.dimension) ? Way::motion : Way::smooth);
   };
   if (keeps_histories_) {
@@ -141,7 +141,8 @@ std::vector<Observer::Way> Observer::ways() const {
       for (std::size_t owner = 0; owner < table.columns() / table.channels.size(); ++owner)
         for (const Named& channel : table.channels) append(channel, 1);
     for (const Named& channel : run_channels_) append(channel, 1);
-    for (const char* name : {"STEP", "ITERATIONS", "EVENTS"}) all[static_cast<std::size_t>(this->channel("run", name))] = Way::end;
+    for (const char* name : {"STEP", "ITERATIONS", "EVENTS"})
+      all[static_cast<std::size_t>(this->channel("run", name))] = Way::end;
   }
   if (!keeps_fields_ || assembler_.rank() != 0) return all;
   for (const Named& named : nodal_field_names(moves_)) append(named, 3 * (assembler_.model().nodes.size() - 1));

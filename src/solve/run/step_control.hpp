@@ -30,7 +30,7 @@ class StepControl {
   bool active_;
   double longest_, order_;
   double error_before_ = 1, size_before_ = 0;  ///< of the last step that stood; 0: none has
-  bool refused_ = false;  ///< since then an attempt was: no growth
+  bool refused_ = false;                       ///< since then an attempt was: no growth
 };
 
 }  // namespace engrane::solve

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "math/extrapolation.hpp"
 #include "solve/algebra/references.hpp"
 #include "solve/schemes/dynamics.hpp"
-#include "math/extrapolation.hpp"
 #include "solve/schemes/stage_solver.hpp"
 
 namespace engrane::solve {
@@ -66,8 +66,8 @@ class Radau final : public Dynamics {
   Collocation collocation_;
   StageSolver solver_;
   References references_;
-  Stages now_;  ///< of the present step
-  End tried_;   ///< of the last attempt
+  Stages now_;                       ///< of the present step
+  End tried_;                        ///< of the last attempt
   std::vector<double> last_change_;  ///< the last correction of the end of the step, by motion slot
   std::vector<Configuration> configurations_;
   std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;

@@ -69,7 +69,8 @@ double StepError::over_tolerance(std::span<const double> rates, std::span<const 
     for (std::size_t k = 0; k < group.size; ++k) {
       const std::size_t slot = group.first + k;
       if (group.free[k])
-        largest = std::max(largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot]) - known * group.place / h) / scale);
+        largest =
+            std::max(largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot]) - known * group.place / h) / scale);
     }
   }
   return largest;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "math/extrapolation.hpp"
 #include "solve/constraints/constraint_changes.hpp"
 #include "solve/schemes/dynamics.hpp"
-#include "math/extrapolation.hpp"
 
 namespace engrane::solve {
 
