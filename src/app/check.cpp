@@ -29,8 +29,7 @@ int print_model(const Reading& reading, std::ostream& out) {
   const Model& model = reading.model;
   SolverContext context(model, PETSC_COMM_SELF);
   if (!model.title.empty()) out << printable(model.title) << '\n';
-  out << describe_analysis(model, context.options) << "\n\n"
-      << listing_built(summarize(model, context.numbering)) << describe_geometry(model);
+  out << describe_analysis(context) << "\n\n" << listing_built(summarize(model, context.numbering)) << describe_geometry(model);
   if (const std::string masses = describe_masses(model, most_shown_bodies); !masses.empty()) out << "\nMasses\n" << masses;
   if (!model.commands.checks.empty()) out << fmt::format("\n  {} checks (.CHK) will be made\n", model.commands.checks.size());
   for (const std::string& file : user::Library::loaded())

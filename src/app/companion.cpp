@@ -6,6 +6,7 @@
 #include <ctime>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "app/instants.hpp"
 #include "app/selection.hpp"
@@ -43,7 +44,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   estimate_.companion_tolerance = loose.tolerance;
   SolverContext context(model, loose, comm);
   observe::Observer observer(context.assembler, moves(model), select_histories(model));
-  observer.keep_ends(true, false);
+  observer.keep_ends(false);
   Schedule schedule(model.commands.stepping, model.commands.archive);
   const std::size_t expected = schedule.expected_samples();
   start_ = options.begin;
@@ -69,7 +70,6 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   };
   const solve::Observer seen = [&](const Configuration& c, const StepReport& step) {
     observer.observe(in_space(c), {step.step, 0, step.events.size()}, true, false);
-    steps_ = step.number;
     if (step.number > 0)
       show_between(schedule, observer, last, c, step, [&](const Configuration& inner, const Schedule::Due&) {
         observer.between(in_space(inner), true, false);
@@ -84,6 +84,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   } catch (const SolutionFailure& failure) {
     estimate_.trouble = failure.what();
   }
+  steps_ = runner.steps();
   begun_ = processor_time();
   estimate_.companion_seconds = begun_ - begun;
 }
@@ -92,21 +93,17 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
   const deck::ArchiveCard& archive = model.commands.archive;
   const bool selected = !archive.elements.empty() || !archive.kinds.empty() || !archive.nodes.empty() ||
                         !archive.groups.empty() || !archive.channels.empty();
-  std::vector<std::string> asked;
+  std::set<int> asked;
   if (!selected)
-    for (const deck::CheckCard& check : model.commands.checks) {
-      const std::string owner = check.element ? "element/" + std::to_string(*check.element)
-                                : check.node  ? "node/" + std::to_string(*check.node)
-                                              : std::string("run");
-      asked.push_back(owner + "/" + check.quantity);
-    }
-  std::size_t at = 0;
+    for (const deck::CheckCard& check : model.commands.checks) asked.insert(checked_channel(observer, check));
+  int at = 0;
   for (const observe::Table& table : observer.tables())
     for (const int id : table.ids)
       for (const Named& channel : table.channels) {
-        const std::string name = table.path.substr(0, table.path.find('/') + 1) + std::to_string(id) + "/" + channel.name;
-        if (asked.empty() || std::find(asked.begin(), asked.end(), name) != asked.end())
-          columns_.push_back({at, name, channel.dimension, 0, std::numeric_limits<double>::infinity(),
+        if (asked.empty() || asked.count(at) > 0)
+          columns_.push_back({static_cast<std::size_t>(at),
+                              table.path.substr(0, table.path.find('/') + 1) + std::to_string(id) + "/" + channel.name,
+                              channel.dimension, 0, std::numeric_limits<double>::infinity(),
                               -std::numeric_limits<double>::infinity()});
         ++at;
       }

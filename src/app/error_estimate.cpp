@@ -24,8 +24,8 @@ std::string ErrorEstimate::describe(double target) const {
   std::string text =
       fmt::format("  asked for          {:g} of the range of each channel, root of the mean square over time\n", target);
   if (!trouble.empty()) return text + "  estimated error    none: " + trouble + "\n";
-  text += fmt::format("  estimated error    {:.2g}, {}; from a run with TOL {:.2g} beside that with TOL {:.2g}\n", error, channel,
-                      companion_tolerance, tolerance);
+  text += fmt::format("  estimated error    {:.2g}, {}; by a second run with TOL {:.2g}, where this one has {:.2g}\n", error,
+                      channel, companion_tolerance, tolerance);
   text += fmt::format("  processor time     {:.2g} s, and {:.2g} s for the estimate\n", seconds, companion_seconds);
   for (const AccuracyRung& rung : accuracy_rungs)
     if (rung.target != target)

@@ -146,6 +146,13 @@ observe::Selection select_histories(const Model& model) {
   return selection;
 }
 
+int checked_channel(const observe::Observer& observer, const deck::CheckCard& check) {
+  const std::string owner = check.element ? fmt::format("element/{}", *check.element)
+                            : check.node  ? fmt::format("node/{}", *check.node)
+                                          : std::string("run");
+  return observer.channel(owner, check.quantity);
+}
+
 std::string left_out_histories(const Model& model) {
   const deck::ArchiveCard& archive = model.commands.archive;
   if (!is_large(model) || selects(archive) || archive.keep.given() || !archive.channels.empty()) return "";

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/read.hpp"
-#include "observe/histories.hpp"
+#include "observe/observer.hpp"
 
 namespace engrane::app {
 
@@ -16,6 +16,9 @@ bool moves(const Model& model);
 
 /// Whose histories are kept: what `.SAI` says, and always what `.CHK` compares.
 observe::Selection select_histories(const Model& model);
+
+/// The place of what a row of `.CHK` compares among the observer's values; -1 where there is no such channel.
+int checked_channel(const observe::Observer& observer, const deck::CheckCard& check);
 
 /// A sentence about histories that are left out because the model is large; empty when none are.
 std::string left_out_histories(const Model& model);

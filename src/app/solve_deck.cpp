@@ -181,7 +181,7 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
   }
   const std::string& asked = reading.model.commands.analysis.solver.tag;
   if (rank == 0 && asked != "AUTO" && context.solver.package() != asked)
-    writer->note("engrane: on several processes MUMPS solves, not " + reading.model.commands.analysis.solver.tag);
+    writer->note("engrane: on several processes MUMPS solves, not " + asked);
 
   std::string failure;
   bool complete = false, unsolved = false;
@@ -189,7 +189,7 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
   Runner runner(context, *scheme);
   Configuration whole;
   double last_time = reading.model.commands.stepping.start;
-  if (schedule.controlled()) observer.keep_ends(true, true);
+  if (schedule.controlled()) observer.keep_ends(true);
   const Observer after_step = [&](const Configuration& solved, const StepReport& step) {
     starting = 0;
     const auto watch = times.output();
@@ -220,24 +220,23 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
       observe_step(context, observer, in_space(solved, due.sample || due.frame || checked), step, due);
     }
     last_time = solved.time;
-    const Configuration& c = in_space(solved, due.sample || due.frame || checked);
     int stop = failure.empty() ? 0 : 1;
     if (rank == 0 && stop == 0) try {
-        if (companion && schedule.even(c.time)) companion->compare(c.time, observer.values());
-        writer->step(c, step, due, context.numbering);
+        if (companion && schedule.even(solved.time)) companion->compare(solved.time, observer.values());
+        writer->step(solved, step, due, context.numbering);
         writer->remember(solved, runner, due.restart, false);
       } catch (const OutputError& e) {
         failure = e.what();
         stop = 1;
       }
     if (ranks > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, comm);
-    if (const std::string wrong = energy_failure(context, observer, c); !wrong.empty() && stop == 0) {
+    if (const std::string wrong = energy_failure(context, observer, solved); !wrong.empty() && stop == 0) {
       failure = wrong;
       stop = 1;
     }
-    const bool far_enough = options.until && c.time >= *options.until && c.time < reading.model.commands.stepping.end;
+    const bool far_enough = options.until && solved.time >= *options.until && solved.time < reading.model.commands.stepping.end;
     if (asked_to_stop(comm, ranks) || far_enough) {
-      failure = fmt::format("interrupted at t = {:.6g}", c.time);
+      failure = fmt::format("interrupted at t = {:.6g}", solved.time);
       stop = 1;
     }
     return stop == 0;

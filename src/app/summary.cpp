@@ -88,9 +88,10 @@ BuiltSummary summarize(const Model& model, const Numbering& numbering) {
   return summary;
 }
 
-std::string describe_analysis(const Model& model, const SolverOptions& options) {
-  const deck::AnalysisCard& a = model.commands.analysis;
-  const deck::SteppingCard& s = model.commands.stepping;
+std::string describe_analysis(const solve::SolverContext& context) {
+  const deck::AnalysisCard& a = context.model.commands.analysis;
+  const deck::SteppingCard& s = context.model.commands.stepping;
+  const SolverOptions& options = context.options;
   const bool another = a.scheme_is_free && options.family == SolverOptions::Family::chung;
   std::string text = a.type.tag;
   if (a.type.is("DYNAMIC")) {
@@ -102,7 +103,7 @@ std::string describe_analysis(const Model& model, const SolverOptions& options) 
   text += fmt::format(", t = {:g} to {:g}, ", s.start, s.end);
   text += options.tolerance > 0 ? fmt::format("steps of local error {:g}", options.tolerance)
                                 : fmt::format("{:.0f} steps of {:g}", std::ceil((s.end - s.start) / s.step * (1 - 1e-9)), s.step);
-  return text + ", " + a.solver.tag;
+  return text + ", " + (a.solver.is("AUTO") ? context.solver.package() : a.solver.tag);
 }
 
 std::string describe_geometry(const Model& model) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "assembly/numbering.hpp"
-#include "model/solver_options.hpp"
 #include "output/listing.hpp"
+#include "solve/schemes/solver_context.hpp"
 
 namespace engrane::app {
 
@@ -11,7 +11,7 @@ namespace engrane::app {
 output::BuiltSummary summarize(const Model& model, const Numbering& numbering);
 
 /// "DYNAMIC, CHUNG rho 0.8, t = 0 to 0.03, 15000 steps of 2e-06, MUMPS"
-std::string describe_analysis(const Model& model, const SolverOptions& options);
+std::string describe_analysis(const solve::SolverContext& context);
 
 /// Table of the derived geometry of each element that has any.
 std::string describe_geometry(const Model& model);

@@ -24,12 +24,8 @@ namespace {
 /// Checks of the deck, each tied to its channel. The reader has made sure that the channels exist.
 Checks resolve_checks(const Model& model, const observe::Observer& observer) {
   std::vector<Checks::Resolved> all;
-  for (const deck::CheckCard& card : model.commands.checks) {
-    const std::string owner = card.element ? fmt::format("element/{}", *card.element)
-                              : card.node  ? fmt::format("node/{}", *card.node)
-                                           : std::string("run");
-    all.push_back({card, static_cast<std::size_t>(observer.channel(owner, card.quantity))});
-  }
+  for (const deck::CheckCard& card : model.commands.checks)
+    all.push_back({card, static_cast<std::size_t>(checked_channel(observer, card))});
   return Checks(std::move(all));
 }
 
@@ -63,7 +59,7 @@ void Writer::begin(const SolverContext& context, int ranks) {
   std::string deck = summary_.deck;
   for (const auto& [name, text] : summary_.overrides.definitions) deck += fmt::format(" -D {}={}", name.substr(1), text);
   for (const std::string& card : summary_.overrides.cards) deck += fmt::format(" --card \"{}\"", card);
-  listing_.write(listing_header({version, library_versions(), model.title, deck, describe_analysis(model, context.options),
+  listing_.write(listing_header({version, library_versions(), model.title, deck, describe_analysis(context),
                                  fmt::format("{} process{}", ranks, ranks == 1 ? "" : "es")}));
   listing_.write(listing_section("What was built"));
   listing_.write(listing_built(summarize(model, context.numbering)));

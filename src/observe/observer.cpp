@@ -71,7 +71,7 @@ int Observer::channel(const std::string& owner, const std::string& name) const {
 
 void Observer::observe(const Configuration& c, const Step& step, bool histories, bool fields) {
   last_reactions_ = supports_.at(c);
-  histories = histories || keeps_histories_;
+  histories = histories || keeps_ends_;
   fields = fields || keeps_fields_;
   // what comes after an event continues nothing
   if (step.events > 0) {
@@ -83,8 +83,8 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
   if (fields && assembler_.rank() == 0) fields_ = nodal_fields(assembler_.model(), c, last_reactions_, moves_);
   if (fields) element_fields_.evaluate(c);
   if (histories) evaluate_histories(c, step);
-  if (!keeps_histories_ && !keeps_fields_) return;
-  gather(end_, keeps_histories_, keeps_fields_);
+  if (!keeps_ends_) return;
+  gather(end_);
   ends_.add(c.time, end_);
 }
 
@@ -104,8 +104,8 @@ void Observer::evaluate_histories(const Configuration& c, const Step& step) {
   for (const Vec3* part : {&ground.force, &ground.moment}) out = std::copy(part->data(), part->data() + 3, out);
 }
 
-void Observer::keep_ends(bool histories, bool fields) {
-  keeps_histories_ = histories;
+void Observer::keep_ends(bool fields) {
+  keeps_ends_ = true;
   keeps_fields_ = fields;
   ledger_.integrate_smoothly();
   ways_ = ways();
@@ -121,14 +121,14 @@ void Observer::between(const Configuration& c, bool histories, bool fields) {
   }
   if (fields && assembler_.rank() == 0) fields_ = nodal_fields(assembler_.model(), c, reactions, moves_);
   if (fields) element_fields_.evaluate(c);
-  gather(moved, keeps_histories_, keeps_fields_);
+  gather(moved);
   for (std::size_t i = 0; i < moved.size(); ++i)
     if (ways_[i] != Way::motion) moved[i] = ways_[i] == Way::end ? end_[i] : smooth[i];
-  spread(moved, keeps_histories_, keeps_fields_);
+  spread(moved);
 }
 
 void Observer::back_to_end() {
-  if (!end_.empty()) spread(end_, keeps_histories_, keeps_fields_);
+  if (!end_.empty()) spread(end_);
 }
 
 std::vector<Observer::Way> Observer::ways() const {
@@ -136,14 +136,11 @@ std::vector<Observer::Way> Observer::ways() const {
   const auto append = [&all](const Named& named, std::size_t count) {
     all.insert(all.end(), count, of_motion(named.dimension) ? Way::motion : Way::smooth);
   };
-  if (keeps_histories_) {
-    for (const Table& table : histories_.tables())
-      for (std::size_t owner = 0; owner < table.columns() / table.channels.size(); ++owner)
-        for (const Named& channel : table.channels) append(channel, 1);
-    for (const Named& channel : run_channels_) append(channel, 1);
-    for (const char* name : {"STEP", "ITERATIONS", "EVENTS"})
-      all[static_cast<std::size_t>(this->channel("run", name))] = Way::end;
-  }
+  for (const Table& table : histories_.tables())
+    for (std::size_t owner = 0; owner < table.owners.size(); ++owner)
+      for (const Named& channel : table.channels) append(channel, 1);
+  for (const Named& channel : run_channels_) append(channel, 1);
+  for (const char* name : {"STEP", "ITERATIONS", "EVENTS"}) all[static_cast<std::size_t>(channel("run", name))] = Way::end;
   if (!keeps_fields_ || assembler_.rank() != 0) return all;
   for (const Named& named : nodal_field_names(moves_)) append(named, 3 * (assembler_.model().nodes.size() - 1));
   for (const ElementField& field : element_fields_.fields()) {
@@ -153,24 +150,23 @@ std::vector<Observer::Way> Observer::ways() const {
   return all;
 }
 
-void Observer::gather(std::vector<double>& row, bool histories, bool fields) const {
-  row.clear();
-  if (histories) row = values_;
-  if (!fields || assembler_.rank() != 0) return;
+void Observer::gather(std::vector<double>& row) const {
+  row = values_;
+  if (!keeps_fields_ || assembler_.rank() != 0) return;
   for (const NodalField& field : fields_) row.insert(row.end(), field.rows.begin(), field.rows.end());
   for (const ElementField& field : element_fields_.fields())
     for (const std::vector<double>* rows : {&field.rows, &field.places}) row.insert(row.end(), rows->begin(), rows->end());
 }
 
-void Observer::spread(const std::vector<double>& row, bool histories, bool fields) {
+void Observer::spread(const std::vector<double>& row) {
   auto from = row.begin();
   const auto take = [&from](std::vector<double>& values) {
     const auto size = static_cast<std::ptrdiff_t>(values.size());
     std::copy(from, from + size, values.begin());
     from += size;
   };
-  if (histories) take(values_);
-  if (!fields || assembler_.rank() != 0) return;
+  take(values_);
+  if (!keeps_fields_ || assembler_.rank() != 0) return;
   for (NodalField& field : fields_) take(field.rows);
   element_fields_.replace(take);
 }
@@ -199,7 +195,7 @@ void Observer::save(Snapshot& snapshot) const {
   std::vector<double> columns(not_unique_.begin(), not_unique_.end());
   snapshot.put("observe/not_unique", std::move(columns));
   snapshot.put("observe/columns", static_cast<double>(values_.size()));
-  if (!keeps_histories_ && !keeps_fields_) return;
+  if (!keeps_ends_) return;
   snapshot.put("observe/end", end_);
   ends_.save(snapshot, "observe/ends");
 }

@@ -30,8 +30,8 @@ class Observer {
   /// The next accepted configuration, the start first. Histories and fields are computed where they are wanted.
   void observe(const Configuration& c, const Step& step, bool histories, bool fields);
 
-  /// Remembers what is observed from now on, for instants between. `histories`, `fields`: what between() will be asked for.
-  void keep_ends(bool histories, bool fields);
+  /// Remembers the histories observed from now on, and the `fields` too where between() will be asked for them.
+  void keep_ends(bool fields);
   /// What values() and fields() were at an instant between the last two configurations observed, of which `c` has the motion:
   /// angles and speeds are those of the motion; all else lies on a polynomial through the values
   /// observed since the last event. A force of something stiff, evaluated from an interpolated motion, would be its error.
@@ -81,13 +81,13 @@ class Observer {
   double events_ = 0;
 
   void evaluate_histories(const Configuration& c, const Step& step);
-  /// All of values(), then all of fields() and element_fields(), in one row.
-  void gather(std::vector<double>& row, bool histories, bool fields) const;
-  void spread(const std::vector<double>& row, bool histories, bool fields);
+  /// All of values(), then all of fields() and element_fields() where they are kept, in one row.
+  void gather(std::vector<double>& row) const;
+  void spread(const std::vector<double>& row);
   /// What an entry of such a row is between two ends: on the polynomial, of the motion, or that of the end after it.
   enum class Way : unsigned char { smooth, motion, end };
   std::vector<Way> ways() const;
-  bool keeps_histories_ = false, keeps_fields_ = false;
+  bool keeps_ends_ = false, keeps_fields_ = false;
   std::vector<Way> ways_;
   std::vector<double> end_;
   Extrapolation ends_;

@@ -8,7 +8,8 @@ namespace engrane::solve {
 
 namespace {
 
-/// Up to so many unknowns KLU takes less time than the overhead of MUMPS, or as much (docs/performance.md).
+/// Up to so many unknowns KLU takes less time than MUMPS; of chains and frames beyond too, which is no promise for meshes
+/// (docs/performance.md).
 constexpr PetscInt most_for_klu = 5000;
 
 MatSolverType petsc_name(const std::string& package) {
