@@ -44,7 +44,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   estimate_.companion_tolerance = loose.tolerance;
   SolverContext context(model, loose, comm);
   observe::Observer observer(context.assembler, moves(model), select_histories(model));
-  observer.keep_ends(false);
+  observer.keep_ends();
   Schedule schedule(model.commands.stepping, model.commands.archive);
   const std::size_t expected = schedule.expected_samples();
   start_ = options.begin;
@@ -59,8 +59,8 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   Runner runner(context, *scheme);
   double last = options.begin;
   Configuration whole;
-  const auto take = [&](const Configuration& c) {
-    if (context.assembler.rank() == 0) record(c.time, observer.values());
+  const auto take = [&](double time) {
+    if (context.assembler.rank() == 0) record(time, observer.values());
   };
   const auto in_space = [&](const Configuration& c) -> const Configuration& {
     if (!context.out_of_plane.active()) return c;
@@ -69,13 +69,12 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     return whole;
   };
   const solve::Observer seen = [&](const Configuration& c, const StepReport& step) {
+    std::optional<Instants> instants;
+    if (step.number > 0) instants.emplace(schedule, observer, in_space, last, c, step);
+    if (instants) instants->observe_inside();
     observer.observe(in_space(c), {step.step, 0, step.events.size()}, true, false);
-    if (step.number > 0)
-      show_between(schedule, observer, last, c, step, [&](const Configuration& inner, const Schedule::Due&) {
-        observer.between(in_space(inner), true, false);
-        take(inner);
-      });
-    if (schedule.even(c.time)) take(c);
+    if (instants) instants->show([&](double time, const Schedule::Due&) { take(time); });
+    if (schedule.even(c.time)) take(c.time);
     last = c.time;
     return true;
   };

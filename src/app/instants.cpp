@@ -1,31 +1,72 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/instants.hpp"
 
+#include <array>
+#include <utility>
+
 namespace engrane::app {
 
-Schedule::Due show_between(Schedule& schedule, observe::Observer& observer, double from, const Configuration& end,
-                           const solve::StepReport& step,
-                           const std::function<void(const Configuration&, const Schedule::Due&)>& show) {
-  bool restart = false;
-  const auto look = [&](const Configuration& c) {
-    const Schedule::Due due = schedule.at(c.time, schedule.even_step(step.step), true);
-    restart = restart || due.restart;
-    show(c, due);
-  };
-  const std::vector<double> times = schedule.between(from, end.time);
-  if (step.between) {
-    step.between(times, look);
-  } else {  // a drift is so short that nothing changes in it
-    Configuration c = end;
-    for (const double time : times) {
-      c.time = time;
-      look(c);
-    }
+namespace {
+
+/// Parts of a step: with its ends the points of Lobatto's rule. Second derivatives of the motion are off by h⁴ times the sixth
+/// between them, but not there.
+constexpr std::array points{0.2763932022500210, 0.7236067977499790};
+
+}  // namespace
+
+Instants::Instants(Schedule& schedule, observe::Observer& observer, InSpace in_space, double from, const Configuration& end,
+                   const solve::StepReport& step)
+    : schedule_(schedule),
+      observer_(observer),
+      in_space_(std::move(in_space)),
+      end_(end),
+      step_(step),
+      times_(schedule.between(from, end.time)) {
+  if (step.within && !times_.empty()) within_ = step.within();
+}
+
+void Instants::observe_inside() {
+  if (!within_) return;
+  const double begin = within_->from().time;
+  for (const double part : points) {
+    const double time = begin + part * (end_.time - begin);
+    within_->at(time, c_);
+    if (!within_->balance(c_)) return;
+    observer_.observe_inside(in_space_(c_));
   }
-  if (!times.empty()) observer.back_to_end();
-  Schedule::Due due = schedule.at(end.time, schedule.even_step(step.step), schedule.even(end.time));
+}
+
+Schedule::Due Instants::show(const std::function<void(double, const Schedule::Due&)>& take) {
+  const double even = schedule_.even_step(step_.step);
+  bool restart = false;
+  for (const double time : times_) {
+    if (within_) {
+      within_->at(time, c_);
+    } else {  // a drift is so short that nothing changes in it
+      c_ = end_;
+      c_.time = time;
+    }
+    const Schedule::Due due = schedule_.at(time, even, true);
+    restart = restart || due.restart;
+    observer_.between(in_space_(c_));
+    if (due.frame) find_fields(c_);
+    take(time, due);
+  }
+  if (!times_.empty()) observer_.back_to_end();
+  Schedule::Due due = schedule_.at(end_.time, even, schedule_.even(end_.time));
   due.restart = due.restart || restart;
+  if (due.frame) observer_.find_fields(in_space_(end_));
   return due;
+}
+
+void Instants::find_fields(const Configuration& c) {
+  Configuration balanced = c;
+  if (!within_ || within_->balance(balanced)) {
+    observer_.find_fields(in_space_(balanced));
+    return;
+  }
+  const Configuration from = in_space_(within_->from()), to = in_space_(within_->to());
+  observer_.find_fields(in_space_(c), from, to);
 }
 
 }  // namespace engrane::app

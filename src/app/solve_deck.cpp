@@ -189,7 +189,7 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
   Runner runner(context, *scheme);
   Configuration whole;
   double last_time = reading.model.commands.stepping.start;
-  if (schedule.controlled()) observer.keep_ends(true);
+  if (schedule.controlled()) observer.keep_ends();
   const Observer after_step = [&](const Configuration& solved, const StepReport& step) {
     starting = 0;
     const auto watch = times.output();
@@ -205,12 +205,14 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
     const bool checked = !reading.model.commands.checks.empty();
     Schedule::Due due;
     if (schedule.controlled() && step.number > 0) {
+      const auto seen = [&](const Configuration& found) -> const Configuration& { return in_space(found, true); };
+      Instants instants(schedule, observer, seen, last_time, solved, step);
+      instants.observe_inside();
       observe_step(context, observer, in_space(solved, true), step, {});
-      due = show_between(schedule, observer, last_time, solved, step, [&](const Configuration& inner, const Schedule::Due& now) {
-        observer.between(in_space(inner, true), now.sample || checked, now.frame);
+      due = instants.show([&](double time, const Schedule::Due& now) {
         if (rank == 0 && failure.empty()) try {
-            if (companion) companion->compare(inner.time, observer.values());
-            writer->between(inner.time, now);
+            if (companion) companion->compare(time, observer.values());
+            writer->between(time, now);
           } catch (const OutputError& e) {
             failure = e.what();
           }

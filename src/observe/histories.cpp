@@ -152,7 +152,17 @@ const std::vector<double>& Histories::evaluate(const Configuration& c, const std
               MPI_DOUBLE, 0, assembler_.comm());
   if (assembler_.rank() != 0) return values_;
   for (std::size_t i = 0; i < destination_.size(); ++i) values_[destination_[i]] = gathered_[i];
+  put_nodes(c, reactions);
+  return values_;
+}
 
+const std::vector<double>& Histories::evaluate_nodes(const Configuration& c) {
+  put_nodes(c, {});
+  return values_;
+}
+
+void Histories::put_nodes(const Configuration& c, const std::vector<Reaction>& reactions) {
+  const Model& model = assembler_.model();
   double* out = values_.data() + destination_.size();
   std::vector<double> all;
   for (std::size_t t = part_tables_; t < tables_.size(); ++t)
@@ -174,10 +184,11 @@ const std::vector<double>& Histories::evaluate(const Configuration& c, const std
       if (reaction != reactions.end() && reaction->node == index) {
         put(reaction->force);
         put(reaction->torque);
+      } else {
+        all.resize(all.size() + 6, 0.0);
       }
       for (const int place : tables_[t].places) *out++ = all[static_cast<std::size_t>(place)];
     }
-  return values_;
 }
 
 }  // namespace engrane::observe

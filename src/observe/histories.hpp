@@ -56,17 +56,23 @@ class Histories {
 
   /// Values in the order of the columns, on rank 0; nothing on the others. Collective.
   const std::vector<double>& evaluate(const Configuration& c, const std::vector<Reaction>& reactions);
+  /// The columns of nodes, from node_columns() on, without reactions; those of elements are as before. On rank 0.
+  const std::vector<double>& evaluate_nodes(const Configuration& c);
+  std::size_t node_columns() const { return destination_.size(); }
+  /// So many of the tables are of elements.
+  std::size_t part_tables() const { return part_tables_; }
 
  private:
   void add_parts(const Selection& selection);
   void add_nodes(const Selection& selection);
   void plan_gathering();
+  void put_nodes(const Configuration& c, const std::vector<Reaction>& reactions);
 
   Assembler& assembler_;
   const Reactions& supports_;
   bool moves_;
   std::vector<Table> tables_;
-  std::size_t part_tables_ = 0;  ///< so many of the tables are of elements
+  std::size_t part_tables_ = 0;
   std::size_t columns_ = 0;
   std::vector<double> values_;
   std::vector<double> own_, element_;        ///< this rank's columns; all channels of one element

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
+#include <utility>
 
 namespace engrane::observe {
 
@@ -71,21 +73,48 @@ int Observer::channel(const std::string& owner, const std::string& name) const {
 
 void Observer::observe(const Configuration& c, const Step& step, bool histories, bool fields) {
   last_reactions_ = supports_.at(c);
-  histories = histories || keeps_ends_;
-  fields = fields || keeps_fields_;
   // what comes after an event continues nothing
   if (step.events > 0) {
-    ends_.clear();
+    if (inside_)
+      event_ = true;
+    else
+      ends_.clear();
     ledger_.forget();
   }
   ledger_.add(c, last_reactions_);
   events_ += static_cast<double>(step.events);
-  if (fields && assembler_.rank() == 0) fields_ = nodal_fields(assembler_.model(), c, last_reactions_, moves_);
-  if (fields) element_fields_.evaluate(c);
-  if (histories) evaluate_histories(c, step);
+  if (fields) find_fields(c);
+  if (histories || keeps_ends_) evaluate_histories(c, step);
   if (!keeps_ends_) return;
-  gather(end_);
-  ends_.add(c.time, end_);
+  if (!inside_) steady_ = 0;
+  keep(c.time);
+  inside_ = false;
+}
+
+void Observer::observe_inside(const Configuration& c) {
+  last_reactions_ = supports_.at(c);
+  ledger_.add(c, last_reactions_);
+  evaluate_histories(c, {});
+  inside_ = true;
+  keep(c.time);
+}
+
+void Observer::keep(double time) {
+  if (event_ || ends_.empty()) {
+    const bool before = std::exchange(event_, false);
+    ends_.clear();
+    if (before) ends_.add(end_time_, end_);
+    steady_ = most_ends;
+  }
+  int jump = 0;
+  if (!end_.empty())
+    for (std::size_t i = 0; i < angles_.size(); ++i)
+      if (angles_[i] != 0 && std::abs(values_[i] - end_[i]) > std::numbers::pi) jump = 1;
+  MPI_Bcast(&jump, 1, MPI_INT, 0, assembler_.comm());  // values are known on rank 0
+  steady_ = jump != 0 ? 0 : steady_ + 1;
+  end_ = values_;
+  end_time_ = time;
+  ends_.add(time, end_);
 }
 
 void Observer::evaluate_histories(const Configuration& c, const Step& step) {
@@ -104,71 +133,74 @@ void Observer::evaluate_histories(const Configuration& c, const Step& step) {
   for (const Vec3* part : {&ground.force, &ground.moment}) out = std::copy(part->data(), part->data() + 3, out);
 }
 
-void Observer::keep_ends(bool fields) {
+void Observer::keep_ends() {
   keeps_ends_ = true;
-  keeps_fields_ = fields;
   ledger_.integrate_smoothly();
   ways_ = ways();
+  const auto mark = [this](const Named& named) { angles_.push_back(named.dimension == dimension::angle ? 1 : 0); };
+  for (std::size_t t = 0; t < histories_.part_tables(); ++t)
+    for (std::size_t owner = 0; owner < tables()[t].owners.size(); ++owner)
+      for (const Named& channel : tables()[t].channels) mark(channel);
 }
 
-void Observer::between(const Configuration& c, bool histories, bool fields) {
-  std::vector<double> smooth(end_.size()), moved;
-  ends_.at(c.time, 0, smooth);
-  const std::vector<Reaction> reactions = supports_.at(c);
-  if (histories) {
-    const std::vector<double>& values = histories_.evaluate(c, reactions);
-    if (assembler_.rank() == 0) std::copy(values.begin(), values.end(), values_.begin());
-  }
-  if (fields && assembler_.rank() == 0) fields_ = nodal_fields(assembler_.model(), c, reactions, moves_);
-  if (fields) element_fields_.evaluate(c);
-  gather(moved);
-  for (std::size_t i = 0; i < moved.size(); ++i)
-    if (ways_[i] != Way::motion) moved[i] = ways_[i] == Way::end ? end_[i] : smooth[i];
-  spread(moved);
+void Observer::between(const Configuration& c) {
+  // all points that a polynomial goes through stand close together, and no angle begins anew between them
+  const bool smooth = steady_ >= most_ends;
+  const std::vector<double>* moved = nullptr;
+  if (!smooth)
+    moved = &histories_.evaluate(c, supports_.at(c));
+  else if (assembler_.rank() == 0)
+    moved = &histories_.evaluate_nodes(c);
+  if (assembler_.rank() != 0) return;
+  ends_.at(c.time, 0, values_);
+  for (std::size_t i = smooth ? histories_.node_columns() : 0; i < moved->size(); ++i)
+    if (ways_[i] == Way::motion) values_[i] = (*moved)[i];
+  for (std::size_t i = moved->size(); i < values_.size(); ++i)
+    if (ways_[i] == Way::end) values_[i] = end_[i];
 }
 
 void Observer::back_to_end() {
-  if (!end_.empty()) spread(end_);
+  if (!end_.empty()) values_ = end_;
+}
+
+void Observer::find_fields(const Configuration& c) {
+  const std::vector<Reaction> reactions = supports_.at(c);
+  if (assembler_.rank() == 0) fields_ = nodal_fields(assembler_.model(), c, reactions, moves_);
+  element_fields_.evaluate(c);
+}
+
+void Observer::find_fields(const Configuration& c, const Configuration& from, const Configuration& to) {
+  find_fields(to);
+  std::vector<std::vector<double>> ends;
+  element_fields_.replace([&](std::vector<double>& values) { ends.push_back(values); });
+  const std::vector<NodalField> last = fields_;
+  find_fields(from);
+  const double part = (c.time - from.time) / (to.time - from.time);
+  const auto blend = [part](std::vector<double>& values, const std::vector<double>& end) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] += part * (end[i] - values[i]);
+  };
+  auto end = ends.begin();
+  element_fields_.replace([&](std::vector<double>& values) { blend(values, *end++); });
+  if (assembler_.rank() != 0) return;
+  std::vector<NodalField> moved = nodal_fields(assembler_.model(), c, {}, moves_);
+  for (std::size_t f = 0; f < fields_.size(); ++f) {
+    const Dimension& d = fields_[f].named.dimension;
+    if (d == dimension::force || d == dimension::moment)
+      blend(fields_[f].rows, last[f].rows);
+    else
+      fields_[f].rows = std::move(moved[f].rows);
+  }
 }
 
 std::vector<Observer::Way> Observer::ways() const {
   std::vector<Way> all;
-  const auto append = [&all](const Named& named, std::size_t count) {
-    all.insert(all.end(), count, of_motion(named.dimension) ? Way::motion : Way::smooth);
-  };
+  const auto append = [&all](const Named& named) { all.push_back(of_motion(named.dimension) ? Way::motion : Way::smooth); };
   for (const Table& table : histories_.tables())
     for (std::size_t owner = 0; owner < table.owners.size(); ++owner)
-      for (const Named& channel : table.channels) append(channel, 1);
-  for (const Named& channel : run_channels_) append(channel, 1);
+      for (const Named& channel : table.channels) append(channel);
+  for (const Named& channel : run_channels_) append(channel);
   for (const char* name : {"STEP", "ITERATIONS", "EVENTS"}) all[static_cast<std::size_t>(channel("run", name))] = Way::end;
-  if (!keeps_fields_ || assembler_.rank() != 0) return all;
-  for (const Named& named : nodal_field_names(moves_)) append(named, 3 * (assembler_.model().nodes.size() - 1));
-  for (const ElementField& field : element_fields_.fields()) {
-    append(field.named, assembler_.model().parts.size() * field.width());
-    append(field.named, field.place_parts.size() * field.width());
-  }
   return all;
-}
-
-void Observer::gather(std::vector<double>& row) const {
-  row = values_;
-  if (!keeps_fields_ || assembler_.rank() != 0) return;
-  for (const NodalField& field : fields_) row.insert(row.end(), field.rows.begin(), field.rows.end());
-  for (const ElementField& field : element_fields_.fields())
-    for (const std::vector<double>* rows : {&field.rows, &field.places}) row.insert(row.end(), rows->begin(), rows->end());
-}
-
-void Observer::spread(const std::vector<double>& row) {
-  auto from = row.begin();
-  const auto take = [&from](std::vector<double>& values) {
-    const auto size = static_cast<std::ptrdiff_t>(values.size());
-    std::copy(from, from + size, values.begin());
-    from += size;
-  };
-  take(values_);
-  if (!keeps_fields_ || assembler_.rank() != 0) return;
-  for (NodalField& field : fields_) take(field.rows);
-  element_fields_.replace(take);
 }
 
 void Observer::find_not_unique(const Configuration& c, const std::vector<Eigen::VectorXd>& undetermined) {
@@ -197,6 +229,7 @@ void Observer::save(Snapshot& snapshot) const {
   snapshot.put("observe/columns", static_cast<double>(values_.size()));
   if (!keeps_ends_) return;
   snapshot.put("observe/end", end_);
+  snapshot.put("observe/points", {end_time_, static_cast<double>(steady_), event_ ? 1.0 : 0.0});
   ends_.save(snapshot, "observe/ends");
 }
 
@@ -207,8 +240,12 @@ void Observer::load(const Snapshot& snapshot) {
   // with other histories than before the columns mean others: they are found again
   if (snapshot.number("observe/columns") != static_cast<double>(values_.size())) return;
   for (const double column : snapshot.array("observe/not_unique")) not_unique_.push_back(static_cast<int>(column));
-  if (assembler_.rank() != 0 || !snapshot.has("observe/end") || snapshot.array("observe/end").size() != ways_.size()) return;
+  if (!snapshot.has("observe/points") || snapshot.array("observe/end").size() != ways_.size()) return;
   end_ = snapshot.array("observe/end");
+  const std::vector<double>& points = snapshot.array("observe/points");
+  end_time_ = points.at(0);
+  steady_ = static_cast<std::size_t>(points.at(1));
+  event_ = points.at(2) != 0;
   ends_.load(snapshot, "observe/ends");
 }
 

@@ -30,14 +30,20 @@ class Observer {
   /// The next accepted configuration, the start first. Histories and fields are computed where they are wanted.
   void observe(const Configuration& c, const Step& step, bool histories, bool fields);
 
-  /// Remembers the histories observed from now on, and the `fields` too where between() will be asked for them.
-  void keep_ends(bool fields);
-  /// What values() and fields() were at an instant between the last two configurations observed, of which `c` has the motion:
-  /// angles and speeds are those of the motion; all else lies on a polynomial through the values
-  /// observed since the last event. A force of something stiff, evaluated from an interpolated motion, would be its error.
-  void between(const Configuration& c, bool histories, bool fields);
-  /// Makes values() and fields() those of the last configuration observed again.
+  /// Remembers the histories observed from now on, for between().
+  void keep_ends();
+  /// A configuration in balance within the step whose end is observed next.
+  void observe_inside(const Configuration& c);
+  /// What values() were at an instant between the last two ends observed, of which `c` has the motion. All lies on a polynomial
+  /// through the values observed since the last event, but for what nodes do, and angles that begin anew: these are of
+  /// the motion. A force of something stiff, evaluated from an interpolated motion, would be its error.
+  void between(const Configuration& c);
+  /// Makes values() those of the last configuration observed again.
   void back_to_end();
+  /// Computes the fields of a configuration in balance.
+  void find_fields(const Configuration& c);
+  /// The same for an instant between two ends, of which only the motion is known: forces are linear from end to end.
+  void find_fields(const Configuration& c, const Configuration& from, const Configuration& to);
 
   /// Finds the channels that change when forces are added to the multipliers of `c` that have no effect on what moves; a few
   /// such combinations, the largest entry of each 1: redundant constraints leave them undetermined. To be asked now and then,
@@ -81,16 +87,20 @@ class Observer {
   double events_ = 0;
 
   void evaluate_histories(const Configuration& c, const Step& step);
-  /// All of values(), then all of fields() and element_fields() where they are kept, in one row.
-  void gather(std::vector<double>& row) const;
-  void spread(const std::vector<double>& row);
-  /// What an entry of such a row is between two ends: on the polynomial, of the motion, or that of the end after it.
+  /// What a value is between two ends: on the polynomial, of the motion, or that of the end after it.
   enum class Way : unsigned char { smooth, motion, end };
   std::vector<Way> ways() const;
-  bool keeps_ends_ = false, keeps_fields_ = false;
+  /// Adds values() to the points of the polynomials.
+  void keep(double time);
+  bool keeps_ends_ = false;
   std::vector<Way> ways_;
-  std::vector<double> end_;
+  std::vector<char> angles_;  ///< of each value of elements: it may begin anew after a turn
+  std::vector<double> end_;   ///< values of the latest point, whose time is end_time_
+  double end_time_ = 0;
   Extrapolation ends_;
+  std::size_t steady_ = 0;  ///< points so far between which no angle has begun anew, and that stand close enough to tell
+  bool inside_ = false;     ///< the present step has points inside
+  bool event_ = false;      ///< what follows the latest point does not continue it
 };
 
 /// Channels of the whole model.

@@ -96,6 +96,7 @@ void Klu::save(Snapshot& snapshot) const {
   snapshot.put("klu/chosen_for", numeric_ ? chosen_for_ : std::vector<double>());
   snapshot.put("klu/trials_lost", trials_lost_);
   snapshot.put("klu/wait", wait_);
+  snapshot.put("klu/proven", proven_ ? 1.0 : 0.0);
 }
 
 void Klu::load(const Snapshot& snapshot) {
@@ -105,6 +106,7 @@ void Klu::load(const Snapshot& snapshot) {
   if (chosen_for_.size() == static_cast<std::size_t>(begin_[size_])) factor_chosen();
   trials_lost_ = static_cast<int>(snapshot.number("klu/trials_lost"));
   wait_ = static_cast<int>(snapshot.number("klu/wait"));
+  proven_before_ = snapshot.number("klu/proven") != 0;
 }
 
 void Klu::restore_factors() {
@@ -115,7 +117,7 @@ void Klu::restore_factors() {
     same = std::equal(chosen_for_.begin(), chosen_for_.end(), values.get());
   }
   restored_ = same || refactor_now();
-  proven_ = false;
+  proven_ = proven_before_;
 }
 
 double Klu::backward_error(const double* right, const double* solution) {

@@ -67,6 +67,7 @@ class Klu {
   bool stale_ = false;              ///< pivots are those of an earlier matrix
   bool proven_ = false;             ///< a solution with these factors was good at once
   bool restored_ = false;           ///< the factors are those of restore_factors()
+  bool proven_before_ = false;      ///< proven_ of the run that load() has taken the pivots of
   int trials_lost_ = 0;             ///< old pivots in a row that did not serve
   int wait_ = 0;                    ///< matrices for which old pivots are not tried
   PetscLogEvent factoring_ = -1, solving_ = -1;

@@ -111,9 +111,13 @@ void LinearSolver::save_factors(Snapshot& snapshot) const {
 bool LinearSolver::load_factors(const Snapshot& snapshot) {
   const std::string name = "factors/" + package_;
   if (!sequential_ || !snapshot.has(name) || !set_values(snapshot.array(name))) return false;
+  restore_factors();
+  return true;
+}
+
+void LinearSolver::restore_factors() {
   if (klu_) klu_->restore_factors();
   check_petsc(KSPSetUp(ksp_));
-  return true;
 }
 
 LinearSolver::Work LinearSolver::work() const {

@@ -35,6 +35,8 @@ class LinearSolver {
   void load(const Snapshot& snapshot);
   /// The matrix whose factors go on to serve, as it stands; on one rank.
   void save_factors(Snapshot& snapshot) const;
+  /// Factors the matrix as it stands as the run did that load() has taken over from.
+  void restore_factors();
   /// Takes it back, after load(), and factors it; false where there is none.
   bool load_factors(const Snapshot& snapshot);
 

@@ -195,11 +195,8 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   ++step_.number;
   step_.step = size;
   step_.regular = regular;
-  step_.between = nullptr;
-  if (control_.active() && solved)
-    step_.between = [this](std::span<const double> times, const std::function<void(const Configuration&)>& take) {
-      scheme_.between(next_, now_, times, take);
-    };
+  step_.within = nullptr;
+  if (control_.active() && solved) step_.within = [this] { return scheme_.within(next_, now_); };
   step_.chatter = locator_.chatters();
   const bool go_on = (*observer_)(now_, step_);
   step_.cuts = step_.locating = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "solve/run/events.hpp"
 #include "solve/run/step_control.hpp"
@@ -14,9 +15,8 @@ struct StepReport {
   double step = 0;      ///< h
   int cuts = 0;         ///< failed attempts before this one
   bool regular = true;  ///< false: the step ended for an event, not where a multiple of H or a cut asks for it
-  /// Hands on the motion at some times (ascending) within the step; only with a tolerance, and empty where the step is but a
-  /// drift across an event.
-  std::function<void(std::span<const double>, const std::function<void(const Configuration&)>&)> between;
+  /// Gives the motion within the step; only with a tolerance, and empty where the step is but a drift across an event.
+  std::function<std::unique_ptr<Within>()> within;
   int locating = 0;           ///< attempts spent on locating an event before this step
   bool chatter = false;       ///< the first time that events come too thick to be located
   std::vector<Event> events;  ///< that happened in this step

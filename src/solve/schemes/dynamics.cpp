@@ -19,30 +19,39 @@ Dynamics::Dynamics(SolverContext& context) : Scheme(context), error_(context.mod
   *unknowns_.out() = context.assembler.new_vector();
 }
 
-void Dynamics::between(const Configuration& from, const Configuration& to, std::span<const double> times,
-                       const std::function<void(const Configuration&)>& take) const {
-  const Interpolation motion(context_.motion, from, to);
-  Configuration c;
-  for (const double time : times) {
-    motion.at(time, c);
-    c.h = to.h;
-    auto v = context_.motion.velocities(c);
-    for (const auto& p : context_.motion.prescribed(time)) v[p.slot] = p.v;
-    context_.motion.set_velocities(v, c);
-    balance_between(from, to, c);
-    take(c);
-  }
-}
+class Dynamics::Inside : public Within {
+ public:
+  Inside(Dynamics& scheme, const Configuration& from, const Configuration& to)
+      : Within(from, to), scheme_(scheme), motion_(scheme.context_.motion, from, to) {}
 
-void Dynamics::balance_between(const Configuration& from, const Configuration& to, Configuration& c) const {
-  const double part = (c.time - from.time) / (to.time - from.time);
-  auto a = context_.motion.accelerations(from);
-  const auto end = context_.motion.accelerations(to);
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += part * (end[i] - a[i]);
-  for (std::size_t m = 0; m < c.multipliers.size(); ++m)
-    c.multipliers[m] = from.multipliers[m] + part * (to.multipliers[m] - from.multipliers[m]);
-  for (const auto& p : context_.motion.prescribed(c.time)) a[p.slot] = p.a;
-  context_.motion.set_accelerations(a, c);
+  void at(double time, Configuration& c) override {
+    const MotionSlots& slots = scheme_.context_.motion;
+    motion_.at(time, now_);
+    scheme_.prescribe_step(from().time, time, now_.y);
+    motion_.place(time, now_, c);
+    c.h = time - from().time;
+    auto v = slots.velocities(c), a = slots.accelerations(c);
+    for (const auto& p : slots.prescribed(time)) {
+      v[p.slot] = p.v;
+      a[p.slot] = p.a;
+    }
+    slots.set_velocities(v, c);
+    slots.set_accelerations(a, c);
+    const double part = c.h / (to().time - from().time);
+    for (std::size_t m = 0; m < c.multipliers.size(); ++m)
+      c.multipliers[m] += part * (to().multipliers[m] - from().multipliers[m]);
+  }
+
+  bool balance(Configuration& c) override { return scheme_.restore_balance(c); }
+
+ private:
+  Dynamics& scheme_;
+  Interpolation motion_;
+  Interpolation::Motion now_;
+};
+
+std::unique_ptr<Within> Dynamics::within(const Configuration& from, const Configuration& to) {
+  return std::make_unique<Inside>(*this, from, to);
 }
 
 Configuration Dynamics::glide(const Configuration& c, double h) const {

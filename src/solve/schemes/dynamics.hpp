@@ -19,14 +19,13 @@ class Dynamics : public Scheme {
   void drift(Configuration& c, double h) override;
   bool settle_friction(Configuration& c) override;
   void take_over(Configuration& c) override;
-  void between(const Configuration& from, const Configuration& to, std::span<const double> times,
-               const std::function<void(const Configuration&)>& take) const override;
+  std::unique_ptr<Within> within(const Configuration& from, const Configuration& to) override;
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
 
  protected:
-  /// Accelerations and multipliers at `c.time`, between the ends of a step: linear from end to end.
-  virtual void balance_between(const Configuration& from, const Configuration& to, Configuration& c) const;
+  /// Within::balance().
+  virtual bool restore_balance(Configuration& /*c*/) { return false; }
 
   /// Starts the scheme's memory from `c`, a solution at the start of the run.
   virtual void start_memory(const Configuration& c, const MasslessMotions* massless) = 0;
@@ -54,6 +53,7 @@ class Dynamics : public Scheme {
   StepError error_;
 
  private:
+  class Inside;
   /// What balance asks of motions without mass at one instant.
   struct Relaxed {
     std::vector<double> jump;   ///< of springs: to where their forces balance; one entry per motion slot

@@ -272,7 +272,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
 void Radau::keep(const Configuration& c, double h) {
   solver_.evaluate(c, h);
   kept_ = c;
-  kept_step_ = h;
+  kept_step_ = matrices_step_ = h;
   kept_scale_ = context_.assembler.scale();
 }
 
@@ -387,13 +387,59 @@ std::optional<double> Radau::local_error(const Configuration& from, double h, co
   return error_.over_tolerance(rates, context_.motion.velocities(to), h);
 }
 
-void Radau::balance_between(const Configuration& from, const Configuration& to, Configuration& c) const {
-  if (accelerations_.empty()) return Dynamics::balance_between(from, to, c);
-  std::vector<double> a(context_.motion.size());
-  accelerations_.at(c.time, 0, a);
+bool Radau::restore_balance(Configuration& c) {
+  if (!(matrices_step_ > 0) || accelerations_.empty()) return false;
+  const Configuration before = c;
+  const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
   multipliers_.at(c.time, 0, c.multipliers);
-  for (const auto& p : context_.motion.prescribed(c.time)) a[p.slot] = p.a;
-  context_.motion.set_accelerations(a, c);
+  // What is stiff or rigid finds its place, and what is not its acceleration. The change of places counts as one of accelerations
+  // too, by 13/h² times it, which is more than these were off by: forces are found anew with those of the motion.
+  for (int pass = 0; pass < 2; ++pass) {
+    context_.motion.set_velocities(v, c);
+    context_.motion.set_accelerations(a, c);
+    if (!balance_near(c)) {
+      c = before;
+      return false;
+    }
+  }
+  context_.redundancy.share(c);
+  return true;
+}
+
+bool Radau::balance_near(Configuration& c) {
+  const Numbering& numbering = context_.numbering;
+  Assembler& assembler = context_.assembler;
+  // K + (γ/h) C + (γ/h)² M, whose factors the step has left
+  const double rate = solver_.real_rate() / matrices_step_, precision = context_.options.precision;
+  std::vector<double> y(context_.motion.size());
+  double left_before = std::numeric_limits<double>::infinity();
+  constexpr int most = 8;
+  for (int k = 0; k <= most; ++k) {
+    assembler.residual(c, residuals_[0]);
+    const Imbalance found = imbalance(assembler, references_, residuals_[0]);
+    const double left = found.largest();
+    if (k > 0 && found.within(precision)) return true;
+    if (!std::isfinite(left) || (k > 1 && left > 0.5 * left_before) || !solver_.solve_real(residuals_[0], changes_[0]))
+      return false;
+    left_before = left;
+    const auto change = assembler.gather(changes_[0]);
+    std::fill(y.begin(), y.end(), 0.0);
+    context_.motion.scatter(change, y);
+    for (std::size_t e = 0; e < change.size(); ++e)
+      if (const Unknown& u = numbering.unknown(static_cast<int>(e)); u.multiplier) {
+        const std::size_t m = static_cast<std::size_t>(u.slot) - context_.motion.size();
+        c.multipliers[m] += assembler.scale()[m] * change[e];
+      }
+    auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
+    add(rate, y, v);
+    add(rate * rate, y, a);
+    const Configuration from = c;
+    context_.motion.move(from, y, c);
+    c = outside_of_steps(std::move(c));
+    context_.motion.set_velocities(v, c);
+    context_.motion.set_accelerations(a, c);
+  }
+  return false;
 }
 
 void Radau::accept() {
@@ -430,6 +476,7 @@ void Radau::load(const Snapshot& snapshot) {
     kept_ = context_.numbering.reference_configuration(0);
     load_configuration(part_of(snapshot, "radau/kept/"), kept_);
     keep(Configuration(kept_), h);
+    solver_.restore_factors();
     kept_scale_ = snapshot.array("radau/kept_scale");
   }
 }

@@ -23,7 +23,9 @@ class Radau final : public Dynamics {
   void load(const Snapshot& snapshot) override;
 
  private:
-  void balance_between(const Configuration& from, const Configuration& to, Configuration& c) const override;
+  bool restore_balance(Configuration& c) override;
+  /// Moves `c` until its forces balance, by the matrices kept; false where these do not lead there.
+  bool balance_near(Configuration& c);
   void start_memory(const Configuration& c, const MasslessMotions* massless) override;
   void restart_memory(const Configuration& c) override;
 
@@ -74,6 +76,7 @@ class Radau final : public Dynamics {
   std::vector<Owned<Vec>> residuals_, changes_;
   Configuration kept_;    ///< that the matrices were evaluated at
   double kept_step_ = 0;  ///< for steps of this; 0: they are to be evaluated
+  double matrices_step_ = 0;  ///< that they were last evaluated for; 0: never
   std::vector<double> kept_scale_;
   bool has_friction_ = false;
   Owned<Mat> balance_matrix_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -16,6 +15,26 @@ struct Outcome {
   std::optional<double> error;  ///< estimate of the step's local error over its tolerance, where one is asked for
 
   bool converged() const { return newton.converged; }
+};
+
+/// The motion between the ends of a step that stands. The ends must live as long.
+class Within {
+ public:
+  Within(const Configuration& from, const Configuration& to) : from_(from), to_(to) {}
+  virtual ~Within() = default;
+  Within(const Within&) = delete;
+  Within& operator=(const Within&) = delete;
+
+  const Configuration& from() const { return from_; }
+  const Configuration& to() const { return to_; }
+  /// `c` becomes the motion at a `time` between; its multipliers are a guess.
+  virtual void at(double time, Configuration& c) = 0;
+  /// Gives such a configuration the multipliers and accelerations that balance it, and moves what is stiff to where its forces
+  /// do. False where the scheme has no such balance, or does not find it; then `c` is as it was. Collective.
+  virtual bool balance(Configuration& c) = 0;
+
+ private:
+  const Configuration &from_, &to_;
 };
 
 /// One way of going from one instant to the next. It tries steps and says what happened; cutting, growth, events and output
@@ -35,9 +54,8 @@ class Scheme {
   virtual void accept() {}
   /// The power of the step that Outcome::error grows with.
   virtual int order_of_error() const { return 1; }
-  /// Hands on the motion at some `times` (ascending) between the ends of the step that was accepted last.
-  virtual void between(const Configuration& /*from*/, const Configuration& /*to*/, std::span<const double> /*times*/,
-                       const std::function<void(const Configuration&)>& /*take*/) const {}
+  /// The motion within the step that was accepted last; nullptr where there is none. Valid until the next attempt.
+  virtual std::unique_ptr<Within> within(const Configuration& /*from*/, const Configuration& /*to*/) { return nullptr; }
   /// Whether steps are to end at the events of the elements' switches; drift() is then defined.
   virtual bool meets_events() const { return false; }
   /// Moves an accepted configuration over a stretch much shorter than a step, past an event; what the scheme

@@ -173,8 +173,23 @@ bool StageSolver::solve(const std::vector<Owned<Vec>>& residuals, const std::vec
   return true;
 }
 
+double StageSolver::real_rate() const { return real().block.alpha; }
+
+const StageSolver::System& StageSolver::real() const {
+  return *std::find_if(systems_.begin(), systems_.end(), [](const System& s) { return !s.block.complex(); });
+}
+
+bool StageSolver::solve_real(Vec residual, Vec change) {
+  check_petsc(VecScale(residual, -1));
+  return real().solver->solve(residual, change);
+}
+
 void StageSolver::save(Snapshot& snapshot) const {
   for (std::size_t i = 0; i < systems_.size(); ++i) save_part(*systems_[i].solver, fmt::format("stages/{}/", i), snapshot);
+}
+
+void StageSolver::restore_factors() {
+  for (System& system : systems_) system.solver->restore_factors();
 }
 
 void StageSolver::load(const Snapshot& snapshot) {

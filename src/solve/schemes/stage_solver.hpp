@@ -20,14 +20,20 @@ class StageSolver {
 
   /// The weights of the real eigenvalue, or of the real part of the complex one where there is no real one.
   Weights weights(double h) const;
+  /// γ of the real eigenvalue: increments over γ/h and velocities of its system go together.
+  double real_rate() const;
   /// Evaluates the matrices at `c` for a step of h.
   void evaluate(const Configuration& c, double h);
   /// Changes of all stages' unknowns that bring the residuals, one vector for each stage, to zero; false when singular. Residuals
   /// are overwritten.
   bool solve(const std::vector<Owned<Vec>>& residuals, const std::vector<Owned<Vec>>& changes);
+  /// The same for the system of the real eigenvalue alone, with its factors as they are.
+  bool solve_real(Vec residual, Vec change);
   /// What the analyses were made for, for a restart.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
+  /// Factors the matrices as they stand as the run did that load() has taken over from.
+  void restore_factors();
 
  private:
   /// One block of the collocation.
@@ -38,6 +44,8 @@ class StageSolver {
     std::unique_ptr<LinearSolver> solver;
     Owned<Vec> right, solution;  ///< of a complex one
   };
+  /// That of the real eigenvalue: collocation with an odd number of stages has one.
+  const System& real() const;
   Mat new_double_matrix() const;
   /// [Re −Im; Im Re] with rows and columns 2i and 2i + 1 for the two parts of unknown i.
   void interleave(const System& system) const;
