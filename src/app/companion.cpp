@@ -21,11 +21,11 @@ namespace {
 constexpr double looser = 10, loosest = 0.05, longer = 2;
 /// Results are taken to differ by this power of the ratio of steps (docs/accuracy.md, The dial: what fits nine models best).
 /// Radau's own order is 5; less where forces are interpolated, and where teeth and stops make and lose contact.
-constexpr double order_of_alpha = 2, order_of_radau = 3.5;
+constexpr double order_of_alpha = 2, order_of_radau = 4;
 /// Ratios of steps nearer to 1 say nothing.
 constexpr double least_ratio = 1.02;
-/// No more values than this are kept.
-constexpr std::size_t most_values = std::size_t{1} << 23;
+/// No more values than this are kept, of no more instants: errors are means over time.
+constexpr std::size_t most_values = std::size_t{1} << 23, most_instants = 2000;
 /// A channel whose range is less than this part of the largest of its kind, or of its own size, tells of rounding.
 constexpr double no_range = 1e-6;
 
@@ -45,14 +45,15 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   SolverContext context(model, loose, comm);
   observe::Observer observer(context.assembler, moves(model), select_histories(model));
   observer.keep_ends();
-  Schedule schedule(model.commands.stepping, model.commands.archive);
-  const std::size_t expected = schedule.expected_samples();
+  choose_columns(observer, model);
+  const Schedule shown(model.commands.stepping, model.commands.archive);
+  const std::size_t expected = shown.expected_samples(), most = std::min(most_instants, most_values / (columns_.size() + 1));
   start_ = options.begin;
-  interval_ = schedule.even_step(options.step);
-  if (context.assembler.rank() == 0) {
-    choose_columns(observer, model);
-    interval_ *= std::ceil(static_cast<double>(expected * columns_.size()) / static_cast<double>(most_values));
-  }
+  interval_ = shown.even_step(options.step) * std::ceil(static_cast<double>(expected) / static_cast<double>(most));
+  deck::ArchiveCard archive = model.commands.archive;
+  archive.history_step = interval_;
+  archive.field_step.reset();
+  Schedule schedule(model.commands.stepping, archive);
   const auto scheme = make_scheme(context);
   order_of_steps_ = options.family == SolverOptions::Family::radau ? order_of_radau : order_of_alpha;
   estimate_.order = order_of_steps_ / scheme->order_of_error();

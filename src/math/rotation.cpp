@@ -46,8 +46,8 @@ Vec3 rotation_tangent_rate(const Vec3& y, const Vec3& rate) {
   // T = 1 − b Y + c Y² with b = (1 − cos a)/a² and c = (a − sin a)/a³; their slopes over a cancel below a half: series there
   const double a = y.norm(), a2 = a * a;
   const bool small = a < 0.5;
-  const double third = small ? 1.0 / 6 - a2 / 120 * (1 - a2 / 42 * (1 - a2 / 72 * (1 - a2 / 110 * (1 - a2 / 156))))
-                             : (a - std::sin(a)) / (a2 * a);
+  const double third =
+      small ? 1.0 / 6 - a2 / 120 * (1 - a2 / 42 * (1 - a2 / 72 * (1 - a2 / 110 * (1 - a2 / 156)))) : (a - std::sin(a)) / (a2 * a);
   const double slope_b = small ? -1.0 / 12 + a2 * (1.0 / 180 - a2 * (1.0 / 6720 - a2 * (1.0 / 453600 - a2 / 47900160)))
                                : (a * std::sin(a) - 2 * (1 - std::cos(a))) / (a2 * a2);
   const double slope_c = small ? -1.0 / 60 + a2 * (1.0 / 1260 - a2 * (1.0 / 60480 - a2 * (1.0 / 4989600 - a2 / 622702080)))

@@ -61,7 +61,8 @@ SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::Ste
   o.energy_error = analysis.energy;
   o.penalty = analysis.penalty.value_or(0);
   o.events = !analysis.events.is("NO");
-  if (!analysis.events.values.empty()) o.event_tolerance = analysis.events.values[0];
+  // where a force jumps the error of an event's instant is one of velocities, as large a part of what a step changes
+  o.event_tolerance = analysis.events.values.empty() ? std::max(1e-6, share_of_newton * o.tolerance) : analysis.events.values[0];
   return o;
 }
 

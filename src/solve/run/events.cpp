@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace engrane::solve {
 
@@ -20,14 +21,26 @@ constexpr int quick_attempts = 6, most_attempts = 60;
 constexpr double foreseen = 4;
 /// Attempts without a solution after which something else must be wrong.
 constexpr int most_failures = 30;
+/// The motion of switches is continued by no more than so many steps like the last.
+constexpr double farthest = 3;
+/// An event no farther behind the end of a step that was to meet it than this part of the step is met by another attempt.
+constexpr double near_miss = 0.25;
+
+/// The cubic with values a, b and rates da, db at 0 and h: a + s (c1 + s (c2 + s c3)), s = t/h.
+struct Cubic {
+  double h, a, c1, c2, c3;
+  Cubic(double a, double da, double b, double db, double h)
+      : h(h), a(a), c1(h * da), c2(3 * (b - a) - h * (2 * da + db)), c3(2 * (a - b) + h * (da + db)) {}
+  double operator()(double s) const { return a + s * (c1 + s * (c2 + s * c3)); }
+  double rate(double s) const { return (c1 + s * (2 * c2 + s * 3 * c3)) / h; }
+};
 
 }  // namespace
 
 std::optional<double> first_descent(double a, double da, double b, double db, double h, double band) {
   if (a < -band) return 0.0;
-  // p(s) = a + s (c1 + s (c2 + s c3)), s = t/h from 0 to 1
-  const double c1 = h * da, c2 = 3 * (b - a) - h * (2 * da + db), c3 = 2 * (a - b) + h * (da + db);
-  const auto p = [&](double s) { return a + s * (c1 + s * (c2 + s * c3)); };
+  const Cubic p(a, da, b, db, h);
+  const auto [c1, c2, c3] = std::tuple(p.c1, p.c2, p.c3);
   // between its extremes, roots of c1 + 2 c2 s + 3 c3 s², the cubic is monotone
   std::array<double, 4> knots{0, 1, 1, 1};
   std::size_t count = 1;
@@ -120,6 +133,18 @@ std::optional<double> Switches::first_change(const std::vector<Switch>& from, co
   return first;
 }
 
+std::optional<double> Switches::next_change(const std::vector<Switch>& from, const std::vector<Switch>& to, double h,
+                                            double ahead) const {
+  std::vector<Switch> then = to;
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    if (from[i].size == 0) then[i].size = 0;
+    const Cubic path(from[i].value, from[i].rate, to[i].value, to[i].rate, h);
+    then[i].value = path(1 + ahead / h);
+    then[i].rate = path.rate(1 + ahead / h);
+  }
+  return first_change(to, then, ahead);
+}
+
 double Switches::time_to_change(const std::vector<Switch>& now, double tolerance) const {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < side_.size(); ++i) {
@@ -154,6 +179,10 @@ void EventLocator::save(Snapshot& snapshot) const {
   snapshot.put("events/located", located_);
   snapshot.put("events/chattered", chattered_ ? 1 : 0);
   snapshot.put("events/told", told_ ? 1 : 0);
+  std::vector<double> before;
+  for (const Switch& one : before_) before.insert(before.end(), {one.value, one.rate, one.size});
+  snapshot.put("events/before", std::move(before));
+  snapshot.put("events/last_step", last_step_);
 }
 
 void EventLocator::load(const Snapshot& snapshot) {
@@ -161,13 +190,31 @@ void EventLocator::load(const Snapshot& snapshot) {
   located_ = static_cast<int>(snapshot.number("events/located"));
   chattered_ = snapshot.number("events/chattered") != 0;
   told_ = snapshot.number("events/told") != 0;
+  const std::vector<double>& before = snapshot.array("events/before");
+  before_.resize(before.size() / 3);
+  for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = {before[3 * i], before[3 * i + 1], before[3 * i + 2]};
+  last_step_ = snapshot.number("events/last_step");
+}
+
+double EventLocator::foresee(const Configuration& from, double size) {
+  aimed_ = 0;
+  if (!active_ || last_step_ <= 0 || size > farthest * last_step_) return size;
+  std::vector<Switch> now = switches_.at(from);
+  Switches::complete(before_, now, last_step_);
+  const auto event = switches_.next_change(before_, now, last_step_, size);
+  if (!event || *event <= shortest() || *event >= size) return size;
+  aimed_ = size;
+  return *event - 0.5 * tolerance_;
 }
 
 EventLocator::Finding EventLocator::inspect(const Configuration& from, double size, bool converged, Configuration& to) {
   Finding found;
   found.step = size;
-  if (!active_ || located_ >= most_events) return found;
-  std::vector<Switch> before = switches_.at(from), after;
+  if (!active_) return found;
+  before_ = switches_.at(from);
+  if (located_ >= most_events) return found;
+  std::vector<Switch>& before = before_;
+  std::vector<Switch> after;
   double ahead = 0;  // from `to` to the next event
   // a step that ends within rounding of an event may have taken either law at its end: as good as past it
   const auto change_within = [&](double h) {
@@ -175,14 +222,29 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
     Switches::complete(before, after, h);
     ahead = switches_.time_to_change(after, tolerance_);
     const auto change = switches_.first_change(before, after, h);
+    // the cubic knows more than the rates at its end
+    if (!change && ahead > tolerance_ && ahead < h)
+      if (const auto next = switches_.next_change(before, after, h, 2 * ahead)) ahead = *next;
     return change || ahead > 0.1 * tolerance_ ? change : h;
   };
   double free = 0, past = size, event = 0;  // no change up to `free`; one before `past`, or no solution there
   int failures = 0;
   if (converged) {
-    const auto seen = change_within(size);
-    if (!seen) return found;
-    event = *seen;
+    if (const auto seen = change_within(size)) {
+      event = *seen;
+    } else {
+      // a step that was to end just before an event has done so, or misses it by little
+      event = size + ahead;
+      if (ahead > near_miss * size || event >= aimed_) return found;
+      if (ahead <= tolerance_) {
+        if (++located_ == most_events) chattered_ = true;
+        found.kind = Finding::Kind::land;
+        found.drift = ahead + tolerance_;
+        return found;
+      }
+      free = size;
+      past = aimed_;
+    }
   } else {
     // where a force jumps, a step that would end at the jump has no solution
     event = switches_.time_to_change(before, tolerance_);

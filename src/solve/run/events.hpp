@@ -38,6 +38,8 @@ class Switches {
   /// Time from `from`, which is h before `to`, to the first change of a side: of the cubic that has the values and rates of both
   /// ends, so that a phase which begins and ends within the step is seen.
   std::optional<double> first_change(const std::vector<Switch>& from, const std::vector<Switch>& to, double h) const;
+  /// Time from `to` to the first change after it, of the same cubics continued, within `ahead`.
+  std::optional<double> next_change(const std::vector<Switch>& from, const std::vector<Switch>& to, double h, double ahead) const;
   /// Where a rate is unknown takes the slope of the chord from one to the other, h later, at both.
   static void complete(std::vector<Switch>& from, std::vector<Switch>& to, double h);
   /// Time from an instant to the next change of a side, as its values and rates foretell; infinite when none is near. What stays
@@ -87,6 +89,12 @@ class EventLocator {
     int attempts = 0;  ///< beyond the first
     std::optional<Outcome> outcome;
   };
+  /// How long a controlled step of at most `size` is to be tried: to the first event that the last step lets expect, a little
+  /// less than to there.
+  double foresee(const Configuration& from, double size);
+  /// A step of `size` stands; what was seen at its beginning tells where the next event is. After drifts nothing does.
+  void stepped(double size) { last_step_ = size; }
+  void forget() { last_step_ = 0; }
   /// After an attempt of `size` from `from` to `to`, converged or not.
   Finding inspect(const Configuration& from, double size, bool converged, Configuration& to);
 
@@ -102,6 +110,9 @@ class EventLocator {
   Switches switches_;
   double step_, sharpness_, tolerance_ = 0;
   bool active_ = false;
+  std::vector<Switch> before_;  ///< at the beginning of the last attempt
+  double last_step_ = 0;        ///< from there to the beginning of the next; 0: not known
+  double aimed_ = 0;            ///< the present attempt is to end near an event that was expected within so long; 0: it is not
   int located_ = 0;
   bool chattered_ = false, told_ = false;
 };

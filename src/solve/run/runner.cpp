@@ -120,6 +120,7 @@ bool Runner::reach(double target) {
       continue;
     }
     double size = next_size(left);
+    if (control_.active()) size = locator_.foresee(now_, size);
     Outcome outcome = scheme_.attempt(now_, size, next_);
     EventLocator::Finding found = locator_.inspect(now_, size, outcome.converged(), next_);
     using Kind = EventLocator::Finding::Kind;
@@ -147,6 +148,7 @@ bool Runner::reach(double target) {
     if (found.kind != Kind::drift) {
       if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // no drift from the sums of h
       scheme_.accept();
+      locator_.stepped(size);
       std::swap(now_, next_);
       // the inverse square of a short step enlarges rounding in accelerations and multipliers: they are found anew
       if (locator_.active() && size < noisy * (control_.active() ? h_ : options_.step)) scheme_.drift(now_, 0);
@@ -173,6 +175,7 @@ bool Runner::drift(double time, double target) {
   const bool arrives = left - time < locator_.shortest();
   const double size = arrives ? left : time;
   scheme_.drift(now_, size);
+  locator_.forget();
   if (arrives) now_.time = target;
   step_.newton = nullptr;
   return accepted(size, arrives, false);
@@ -188,6 +191,7 @@ void Runner::cut(double size, double shorter, const NewtonReport& report) {
 }
 
 bool Runner::accepted(double size, bool regular, bool solved) {
+  ended_ = now_.scalars;
   context_.assembler.commit(now_);
   step_.events.clear();
   if (locator_.active()) step_.events = locator_.switches().take(now_);
@@ -196,7 +200,7 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   step_.step = size;
   step_.regular = regular;
   step_.within = nullptr;
-  if (control_.active() && solved) step_.within = [this] { return scheme_.within(next_, now_); };
+  if (control_.active() && solved) step_.within = [this] { return scheme_.within(next_, now_, ended_); };
   step_.chatter = locator_.chatters();
   const bool go_on = (*observer_)(now_, step_);
   step_.cuts = step_.locating = 0;

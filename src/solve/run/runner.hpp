@@ -62,6 +62,7 @@ class Runner {
   StepControl control_;
   const Observer* observer_ = nullptr;
   Configuration now_, next_;
+  std::vector<double> ended_;  ///< scalars of now_ before whole turns were counted
   double h_;
   bool started_ = false;
   bool renewed_ = false;      ///< constraints have been analysed anew on the way to the present target

@@ -21,8 +21,8 @@ Dynamics::Dynamics(SolverContext& context) : Scheme(context), error_(context.mod
 
 class Dynamics::Inside : public Within {
  public:
-  Inside(Dynamics& scheme, const Configuration& from, const Configuration& to)
-      : Within(from, to), scheme_(scheme), motion_(scheme.context_.motion, from, to) {}
+  Inside(Dynamics& scheme, const Configuration& from, const Configuration& to, std::span<const double> scalars)
+      : Within(from, to), scheme_(scheme), motion_(scheme.context_.motion, from, to, scalars) {}
 
   void at(double time, Configuration& c) override {
     const MotionSlots& slots = scheme_.context_.motion;
@@ -50,8 +50,8 @@ class Dynamics::Inside : public Within {
   Interpolation::Motion now_;
 };
 
-std::unique_ptr<Within> Dynamics::within(const Configuration& from, const Configuration& to) {
-  return std::make_unique<Inside>(*this, from, to);
+std::unique_ptr<Within> Dynamics::within(const Configuration& from, const Configuration& to, std::span<const double> scalars) {
+  return std::make_unique<Inside>(*this, from, to, scalars);
 }
 
 Configuration Dynamics::glide(const Configuration& c, double h) const {

@@ -19,7 +19,7 @@ class Dynamics : public Scheme {
   void drift(Configuration& c, double h) override;
   bool settle_friction(Configuration& c) override;
   void take_over(Configuration& c) override;
-  std::unique_ptr<Within> within(const Configuration& from, const Configuration& to) override;
+  std::unique_ptr<Within> within(const Configuration& from, const Configuration& to, std::span<const double> scalars) override;
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
 

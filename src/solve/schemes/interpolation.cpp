@@ -15,7 +15,8 @@ Slots rotation(std::vector<double>& slots, std::size_t node) { return Slots(&slo
 
 }  // namespace
 
-Interpolation::Interpolation(const MotionSlots& motion, const Configuration& from, const Configuration& to)
+Interpolation::Interpolation(const MotionSlots& motion, const Configuration& from, const Configuration& to,
+                             std::span<const double> ended)
     : motion_(motion), from_(from), begin_(from.time), step_(to.time - from.time) {
   const std::size_t n = motion.size(), scalars = 6 * from.nodes.size();
   std::vector<double> end(n, 0.0), rate = motion.velocities(to), second = motion.accelerations(to);
@@ -30,7 +31,7 @@ Interpolation::Interpolation(const MotionSlots& motion, const Configuration& fro
     rotation(rate, i) = turning;
     rotation(second, i) = tangent.solve(b.A - rotation_tangent_rate(turned, turning));
   }
-  for (std::size_t i = 0; i < from.scalars.size(); ++i) end[scalars + i] = to.scalars[i] - from.scalars[i];
+  for (std::size_t i = 0; i < from.scalars.size(); ++i) end[scalars + i] = ended[i] - from.scalars[i];
   first_ = motion.velocities(from);
   second_ = motion.accelerations(from);
   third_.resize(n);
@@ -56,8 +57,7 @@ void Interpolation::at(double time, Motion& m) const {
   m.second.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     m.y[i] = s * (first_[i] + s * (second_[i] + s * (third_[i] + s * (fourth_[i] + s * fifth_[i]))));
-    m.rates[i] =
-        (first_[i] + s * (2 * second_[i] + s * (3 * third_[i] + s * (4 * fourth_[i] + s * 5 * fifth_[i])))) / step_;
+    m.rates[i] = (first_[i] + s * (2 * second_[i] + s * (3 * third_[i] + s * (4 * fourth_[i] + s * 5 * fifth_[i])))) / step_;
     m.second[i] = (2 * second_[i] + s * (6 * third_[i] + s * (12 * fourth_[i] + s * 20 * fifth_[i]))) / (step_ * step_);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solve/constraints/motion.hpp"
@@ -12,8 +13,8 @@ namespace engrane::solve {
 /// off by at most h⁶/46080 times the sixth derivative, and their second derivatives by h⁴/1920 times it.
 class Interpolation {
  public:
-  /// `from` and `to` are the ends, less than half a turn apart.
-  Interpolation(const MotionSlots& motion, const Configuration& from, const Configuration& to);
+  /// `from` and `to` are the ends, less than half a turn apart; `scalars` those of `to`, whole turns not taken away.
+  Interpolation(const MotionSlots& motion, const Configuration& from, const Configuration& to, std::span<const double> scalars);
 
   /// Displacements from the beginning by motion slot, their rates and second derivatives.
   struct Motion {

@@ -388,38 +388,38 @@ std::optional<double> Radau::local_error(const Configuration& from, double h, co
 }
 
 bool Radau::restore_balance(Configuration& c) {
-  if (!(matrices_step_ > 0) || accelerations_.empty()) return false;
+  if (!(matrices_step_ > 0)) return false;
   const Configuration before = c;
   const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
-  multipliers_.at(c.time, 0, c.multipliers);
+  if (!multipliers_.empty()) multipliers_.at(c.time, 0, c.multipliers);
   // What is stiff or rigid finds its place, and what is not its acceleration. The change of places counts as one of accelerations
   // too, by 13/h² times it, which is more than these were off by: forces are found anew with those of the motion.
-  for (int pass = 0; pass < 2; ++pass) {
-    context_.motion.set_velocities(v, c);
-    context_.motion.set_accelerations(a, c);
-    if (!balance_near(c)) {
-      c = before;
-      return false;
-    }
+  const bool moved = balance_near(c, 1);
+  context_.motion.set_velocities(v, c);
+  context_.motion.set_accelerations(a, c);
+  if (!moved || !balance_near(c, 8)) {
+    c = before;
+    return false;
   }
   context_.redundancy.share(c);
   return true;
 }
 
-bool Radau::balance_near(Configuration& c) {
+bool Radau::balance_near(Configuration& c, int most) {
   const Numbering& numbering = context_.numbering;
   Assembler& assembler = context_.assembler;
   // K + (γ/h) C + (γ/h)² M, whose factors the step has left
   const double rate = solver_.real_rate() / matrices_step_, precision = context_.options.precision;
   std::vector<double> y(context_.motion.size());
   double left_before = std::numeric_limits<double>::infinity();
-  constexpr int most = 8;
-  for (int k = 0; k <= most; ++k) {
+  for (int k = 0;; ++k) {
+    if (most == 1 && k == 1) return true;
     assembler.residual(c, residuals_[0]);
     const Imbalance found = imbalance(assembler, references_, residuals_[0]);
     const double left = found.largest();
-    if (k > 0 && found.within(precision)) return true;
-    if (!std::isfinite(left) || (k > 1 && left > 0.5 * left_before) || !solver_.solve_real(residuals_[0], changes_[0]))
+    if (found.within(precision)) return true;
+    if (k == most || !std::isfinite(left) || (k > 1 && left > 0.5 * left_before) ||
+        !solver_.solve_real(residuals_[0], changes_[0]))
       return false;
     left_before = left;
     const auto change = assembler.gather(changes_[0]);
@@ -439,7 +439,6 @@ bool Radau::balance_near(Configuration& c) {
     context_.motion.set_velocities(v, c);
     context_.motion.set_accelerations(a, c);
   }
-  return false;
 }
 
 void Radau::accept() {

@@ -24,8 +24,9 @@ class Radau final : public Dynamics {
 
  private:
   bool restore_balance(Configuration& c) override;
-  /// Moves `c` until its forces balance, by the matrices kept; false where these do not lead there.
-  bool balance_near(Configuration& c);
+  /// Moves `c` by the matrices kept until its forces balance, or once where that is the most; false where these do not lead
+  /// there.
+  bool balance_near(Configuration& c, int most);
   void start_memory(const Configuration& c, const MasslessMotions* massless) override;
   void restart_memory(const Configuration& c) override;
 
@@ -74,8 +75,8 @@ class Radau final : public Dynamics {
   std::vector<Configuration> configurations_;
   std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;
   std::vector<Owned<Vec>> residuals_, changes_;
-  Configuration kept_;    ///< that the matrices were evaluated at
-  double kept_step_ = 0;  ///< for steps of this; 0: they are to be evaluated
+  Configuration kept_;        ///< that the matrices were evaluated at
+  double kept_step_ = 0;      ///< for steps of this; 0: they are to be evaluated
   double matrices_step_ = 0;  ///< that they were last evaluated for; 0: never
   std::vector<double> kept_scale_;
   bool has_friction_ = false;

@@ -54,8 +54,12 @@ class Scheme {
   virtual void accept() {}
   /// The power of the step that Outcome::error grows with.
   virtual int order_of_error() const { return 1; }
-  /// The motion within the step that was accepted last; nullptr where there is none. Valid until the next attempt.
-  virtual std::unique_ptr<Within> within(const Configuration& /*from*/, const Configuration& /*to*/) { return nullptr; }
+  /// The motion within the step that was accepted last; nullptr where there is none. Valid until the next attempt. `scalars`:
+  /// those of its end before whole turns were counted.
+  virtual std::unique_ptr<Within> within(const Configuration& /*from*/, const Configuration& /*to*/,
+                                         std::span<const double> /*scalars*/) {
+    return nullptr;
+  }
   /// Whether steps are to end at the events of the elements' switches; drift() is then defined.
   virtual bool meets_events() const { return false; }
   /// Moves an accepted configuration over a stretch much shorter than a step, past an event; what the scheme

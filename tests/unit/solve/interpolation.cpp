@@ -32,7 +32,7 @@ TEST(Interpolation, HasPolynomialsOfDegreeFiveAndSteadySpinsExactly) {
   const Numbering numbering(model);
   const MotionSlots motion(model, numbering);
   const Configuration from = moving(numbering, 0.2), to = moving(numbering, 1.4);
-  const Interpolation between(motion, from, to);
+  const Interpolation between(motion, from, to, to.scalars);
   Interpolation::Motion m;
   for (const double t : {0.2, 0.5, 1.1, 1.4}) {
     Configuration c;
@@ -69,7 +69,7 @@ TEST(Interpolation, TurnsOfOrderSix) {
   double before = 0, before_second = 0;
   for (const double h : {0.4, 0.2, 0.1}) {
     const Configuration from = turning(numbering, 0.7), to = turning(numbering, 0.7 + h);
-    const Interpolation between(motion, from, to);
+    const Interpolation between(motion, from, to, to.scalars);
     Interpolation::Motion m;
     Configuration c;
     between.at(0.7 + 0.4 * h, m);
