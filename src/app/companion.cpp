@@ -10,6 +10,7 @@
 
 #include "app/instants.hpp"
 #include "app/selection.hpp"
+#include "output/progress.hpp"
 
 namespace engrane::app {
 
@@ -33,7 +34,7 @@ double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_
 
 }  // namespace
 
-Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm) {
+Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet) {
   const double begun = processor_time();
   const Model& model = reading.model;
   SolverOptions loose = options;
@@ -54,6 +55,10 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   archive.history_step = interval_;
   archive.field_step.reset();
   Schedule schedule(model.commands.stepping, archive);
+  using output::Progress;
+  Progress progress(options.begin, options.end,
+                    quiet || context.assembler.rank() != 0 ? Progress::Style::silent : Progress::suitable());
+  progress.label("for the estimate: ");
   const auto scheme = make_scheme(context);
   order_of_steps_ = options.family == SolverOptions::Family::radau ? order_of_radau : order_of_alpha;
   estimate_.order = order_of_steps_ / scheme->order_of_error();
@@ -76,6 +81,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     observer.observe(in_space(c), {step.step, 0, step.events.size()}, true, false);
     if (instants) instants->show([&](double time, const Schedule::Due&) { take(time); });
     if (schedule.even(c.time)) take(c.time);
+    progress.update(c.time, step.step, step.number);
     last = c.time;
     return true;
   };

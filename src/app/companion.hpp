@@ -16,8 +16,8 @@ namespace engrane::app {
 /// (Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, II.4, for one step; here for whole runs).
 class Companion {
  public:
-  /// Runs; collective. `options`: of the run that it goes with.
-  Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm);
+  /// Runs; collective. `options`: of the run that it goes with. `quiet`: without a word on how far it is.
+  Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet);
 
   /// An even instant of the run itself, with the observer's values there. On rank 0.
   void compare(double time, const std::vector<double>& values);

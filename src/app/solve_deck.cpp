@@ -156,7 +156,7 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
   forget_function_failures();
   Times times;
   std::optional<Companion> companion;
-  if (wanted.target > 0 && wanted.tolerance > 0 && !resumption) companion.emplace(reading, wanted, comm);
+  if (wanted.target > 0 && wanted.tolerance > 0 && !resumption) companion.emplace(reading, wanted, comm, options.quiet);
   if (companion && !companion->trouble().empty() && wanted.scheme_is_free)
     return another_scheme(wanted, companion->trouble(), rank);
   SolverContext context(reading.model, wanted, comm);
@@ -192,7 +192,6 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
   if (schedule.controlled()) observer.keep_ends();
   const Observer after_step = [&](const Configuration& solved, const StepReport& step) {
     starting = 0;
-    const auto watch = times.output();
     user::forget_failures();  // those of attempts that were cut
     forget_function_failures();
     // the configuration with its forces out of the plane, where somebody looks
@@ -203,13 +202,17 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
       return whole;
     };
     const bool checked = !reading.model.commands.checks.empty();
-    Schedule::Due due;
+    const auto seen = [&](const Configuration& found) -> const Configuration& { return in_space(found, true); };
+    std::optional<Instants> instants;
     if (schedule.controlled() && step.number > 0) {
-      const auto seen = [&](const Configuration& found) -> const Configuration& { return in_space(found, true); };
-      Instants instants(schedule, observer, seen, last_time, solved, step);
-      instants.observe_inside();
+      instants.emplace(schedule, observer, seen, last_time, solved, step);
+      instants->observe_inside();
+    }
+    const auto watch = times.output();
+    Schedule::Due due;
+    if (instants) {
       observe_step(context, observer, in_space(solved, true), step, {});
-      due = instants.show([&](double time, const Schedule::Due& now) {
+      due = instants->show([&](double time, const Schedule::Due& now) {
         if (rank == 0 && failure.empty()) try {
             if (companion) companion->compare(time, observer.values());
             writer->between(time, now);

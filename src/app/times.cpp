@@ -35,8 +35,8 @@ TimeSplit Times::split(const LinearSolver& solver) const {
   TimeSplit split;
   split.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
   const double factor = event("MatLUFactorSym").time + event("MatLUFactorNum").time;
-  split.parts = {{"element residuals", event("SNESFunctionEval").time},
-                 {"element tangents and assembly", event("SNESJacobianEval").time},
+  split.parts = {{"element residuals", event("Residual").time},
+                 {"element tangents and assembly", event("Tangent").time},
                  {"factorisation (" + solver.package() + ")", factor},
                  {"solution (" + solver.package() + ")", event("MatSolve").time},
                  {"output", output_}};

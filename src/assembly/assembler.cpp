@@ -252,6 +252,8 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
 }
 
 void Assembler::residual(const Configuration& configuration, Vec r) {
+  static const PetscLogEvent event = log_event("Residual");
+  const LoggedTime time(event);
   std::fill(carried_.begin(), carried_.end(), 0.0);
   Scatter::VectorSum sum(scatter_, r);
   const int motion = numbering_.motion_slots();
@@ -293,6 +295,8 @@ void Assembler::scale_multipliers(int part, std::span<double> k) const {
 }
 
 void Assembler::tangent(const Configuration& configuration, Weights weights, Mat into) {
+  static const PetscLogEvent event = log_event("Tangent");
+  const LoggedTime time(event);
   if (into == matrix_) ++changes_;
   Scatter::MatrixSum sum(scatter_, into);
   for_each_tangent(configuration, weights, [&](int part, std::span<double> k) {

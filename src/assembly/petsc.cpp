@@ -27,6 +27,12 @@ void check_petsc(PetscErrorCode code) {
   throw PetscFailure("PETSc error " + std::to_string(static_cast<int>(code)) + ": " + last_message);
 }
 
+PetscLogEvent log_event(const char* name) {
+  PetscLogEvent event = -1;
+  check_petsc(PetscLogEventRegister(name, PETSC_OBJECT_CLASSID, &event));
+  return event;
+}
+
 PetscSession::PetscSession(int& argc, char**& argv) {
   check_petsc(PetscInitialize(&argc, &argv, nullptr, nullptr));
   check_petsc(PetscPushErrorHandler(keep_message, nullptr));

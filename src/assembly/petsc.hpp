@@ -44,6 +44,21 @@ class Owned {
   Handle handle_ = nullptr;
 };
 
+/// A new event of PETSc's log.
+PetscLogEvent log_event(const char* name);
+
+/// Its time is counted as that of an event, for as long as this lives.
+class LoggedTime {
+ public:
+  explicit LoggedTime(PetscLogEvent event) : event_(event) { (void)PetscLogEventBegin(event_, 0, 0, 0, 0); }
+  ~LoggedTime() { (void)PetscLogEventEnd(event_, 0, 0, 0, 0); }
+  LoggedTime(const LoggedTime&) = delete;
+  LoggedTime& operator=(const LoggedTime&) = delete;
+
+ private:
+  PetscLogEvent event_;
+};
+
 /// Starts PETSc and MPI, and ends them. PETSc's errors are kept for check_petsc() instead of printed.
 class PetscSession {
  public:

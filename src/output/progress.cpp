@@ -40,7 +40,8 @@ Progress::~Progress() { finish(); }
 
 std::string Progress::line(double time, double step, long steps, double now) const {
   const double part = end_ != start_ ? std::clamp((time - start_) / (end_ - start_), 0.0, 1.0) : 1.0;
-  std::string text = fmt::format("{:3.0f} %  t = {:.6g}  h = {:.3g}  step {}", std::floor(100 * part), time, step, steps);
+  std::string text =
+      fmt::format("{}{:3.0f} %  t = {:.6g}  h = {:.3g}  step {}", label_, std::floor(100 * part), time, step, steps);
   const double elapsed = now - began_;
   const double rate = rate_ > 0 ? rate_ : elapsed > 0 ? static_cast<double>(steps) / elapsed : 0;
   if (rate > 0) text += fmt::format("  {:.{}f} steps/s", rate, rate < 10 ? 1 : 0);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <utility>
 
 namespace engrane::output {
 
@@ -24,6 +25,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// What stands before each line, where it is not the run itself.
+  void label(std::string text) { label_ = std::move(text); }
   /// After each accepted step: the time reached, the step's length and how many steps there have been.
   void update(double time, double step, long steps);
   /// Prints whole lines of text without mixing them with the progress line.
@@ -35,6 +38,7 @@ class Progress {
   std::string line(double time, double step, long steps, double now) const;
   void clear();
 
+  std::string label_;
   double start_, end_;
   Style style_;
   std::ostream& out_;
