@@ -71,8 +71,14 @@ std::vector<Switch> Switches::at(const Configuration& c) const {
   return values;
 }
 
+std::vector<Switch> Switches::before(const Configuration& c) const {
+  return !taken_.empty() && taken_at_ == c.time ? taken_ : at(c);
+}
+
 std::vector<Event> Switches::take(const Configuration& c) {
-  const std::vector<Switch> now = at(c);
+  taken_ = at(c);
+  taken_at_ = c.time;
+  const std::vector<Switch>& now = taken_;
   std::vector<Event> events;
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (now[i].size == 0) {
@@ -106,6 +112,7 @@ void Switches::save(Snapshot& snapshot) const { snapshot.put("events/sides", {si
 void Switches::load(const Snapshot& snapshot) {
   const std::vector<double>& sides = snapshot.array("events/sides");
   if (sides.size() != side_.size()) throw std::out_of_range("the restart point has another number of contacts and stops");
+  taken_.clear();
   std::transform(sides.begin(), sides.end(), side_.begin(), [](double side) { return static_cast<int>(side); });
 }
 
@@ -167,7 +174,7 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
   Finding found;
   found.step = size;
   if (!active_ || located_ >= most_events) return found;
-  std::vector<Switch> before = switches_.at(from), after;
+  std::vector<Switch> before = switches_.before(from), after;
   double ahead = 0;  // from `to` to the next event
   // a step that ends within rounding of an event may have taken either law at its end: as good as past it
   const auto change_within = [&](double h) {
