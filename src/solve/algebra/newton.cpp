@@ -62,11 +62,6 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
   check_petsc(SNESSetTolerances(snes_, 0, 0, 0, iterations, 100000));
   check_petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
   check_petsc(SNESSetFromOptions(snes_));
-  // norms are for who asks to see them: the test of convergence has its own measures
-  PetscBool watched = PETSC_FALSE, basic = PETSC_FALSE;
-  check_petsc(PetscOptionsHasName(nullptr, nullptr, "-snes_monitor", &watched));
-  check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(search), SNESLINESEARCHBASIC, &basic));
-  if (basic && !watched) check_petsc(SNESLineSearchSetComputeNorms(search, PETSC_FALSE));
 }
 
 NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply, Configuration& work) {
