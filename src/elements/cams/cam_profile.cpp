@@ -132,6 +132,7 @@ CamFoot CamProfile::nearest(const Vec2& q, std::optional<double> last) const {
 }
 
 CamFoot CamProfile::farthest(const Vec2& m) const {
+  if (const auto s = curve_->facing(m)) return at(*s);
   // the farthest sample, which is no nearer than the near side of any group
   double far = -std::numeric_limits<double>::infinity();
   for (const Group& group : groups_) far = std::max(far, group.center.dot(m) - group.radius);
