@@ -12,11 +12,6 @@ namespace {
 
 constexpr double whole_turn = 2 * std::numbers::pi;
 
-/// Newton's method squares its errors, so that after a change as small as this what is left of them is rounding.
-constexpr double last_change = 1e-10;
-/// Of a parameter, which runs through a turn.
-constexpr double rounding = 2 * std::numeric_limits<double>::epsilon();
-
 /// From −π to π.
 double difference(double a, double b) { return std::remainder(a - b, whole_turn); }
 
@@ -58,7 +53,8 @@ template <class F>
 double CamProfile::settle(std::size_t k, F slope) const {
   const double middle = step_ * static_cast<double>(k);
   double a = middle - step_, b = middle + step_;
-  bool bracketed = false;
+  for (int i = 0; i < 3 && slope(a).first > 0; ++i) a -= step_;
+  for (int i = 0; i < 3 && slope(b).first < 0; ++i) b += step_;
   // Newton's method, by halves where it would leave the bracket
   double s = middle;
   for (int i = 0; i < 100; ++i) {
@@ -66,18 +62,10 @@ double CamProfile::settle(std::size_t k, F slope) const {
     if (f == 0) break;
     (f < 0 ? a : b) = s;
     double next = s - f / df;
-    bool inside = df > 0 && next > a && next < b;
-    if (!inside && !bracketed) {
-      // only now does it matter whether the zero is between the neighbouring samples
-      bracketed = true;
-      for (int j = 0; j < 3 && slope(a).first > 0; ++j) a -= step_;
-      for (int j = 0; j < 3 && slope(b).first < 0; ++j) b += step_;
-      inside = df > 0 && next > a && next < b;
-    }
-    if (!inside) next = 0.5 * (a + b);
+    if (!(df > 0) || !(next > a && next < b)) next = 0.5 * (a + b);
     const double change = std::abs(next - s);
     s = next;
-    if (change <= (inside ? last_change : rounding) * whole_turn) break;
+    if (change <= 1e-16 * whole_turn) break;
   }
   return s;
 }
