@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <petsclog.h>
+#include <petscsnes.h>
 
 #include <algorithm>
 
@@ -29,7 +30,15 @@ constexpr double overhead_of_mumps = 100e-6;
 
 }  // namespace
 
-Times::Times() { check_petsc(PetscLogDefaultBegin()); }
+Times::Times() {
+  check_petsc(PetscLogDefaultBegin());
+  // PETSc times every vector operation: of small mechanisms that is a twentieth of a step, and nobody reads it
+  PetscBool viewed = PETSC_FALSE;
+  check_petsc(PetscOptionsHasName(nullptr, nullptr, "-log_view", &viewed));
+  if (viewed) return;
+  for (const PetscClassId kind : {VEC_CLASSID, KSP_CLASSID, PC_CLASSID, SNESLINESEARCH_CLASSID})
+    check_petsc(PetscLogEventDeactivateClass(kind));
+}
 
 TimeSplit Times::split(const LinearSolver& solver) const {
   TimeSplit split;

@@ -1,80 +1,70 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Work and precision against Exudyn (PyPI): the heavy top and a chain of rigid links, with the errors of
-tests/bench/accuracy.py.
+"""Work and precision against Exudyn (PyPI), in turn: ratios of time at equal error.
 
     python -m venv /tmp/exudyn && /tmp/exudyn/bin/pip install exudyn numpy h5py
-    /tmp/exudyn/bin/python tests/bench/against_exudyn.py build/bin/engrane [--models top chain]
-        [--links 20] [--runs 3]
+    /tmp/exudyn/bin/python tests/bench/against_exudyn.py build/bin/engrane
+        [--models crank chain3 chain20 chain100 valves top] [--runs 5] [--more] [--newton 1e-8]
 
-Both programs have the same bodies, joints, start and span; error: root of the mean square over the
-instants over the range, the worst of position and velocity of the last body. Truth: RADAU with TOL 1e-9;
-what the finest run of Exudyn is off from it shows that both solve the same model. Exudyn (one thread, rho
-0.8, sparse solver): generalised-alpha with full and with modified Newton (its default), trapezoidal rule
-with index 2, with bodies in Euler parameters (its default) and in rotation vectors as a Lie group. Its
-explicit schemes take no closed joints in Euler parameters, and it has no implicit scheme of a higher
-order. Processor time of Exudyn: of its solution alone; of this program: of the process without that of a
-run of one step. Least of --runs, in turn.
+Models (paired_models.py, exudyn_peer.py): spatial slider-crank, chains of 3, 20 and 100 links, a valve
+train, the heavy top. Both programs have the same bodies, joints, start and span; the cam is in Exudyn a lift
+over time. Error: root of the mean square over the instants over the range, the worst of position and velocity
+of the measured bodies. Truth: RADAU with TOL 1e-9; the error of the finest run of Exudyn against it shows
+that both solve the same model.
+
+Generalised-alpha with rho 0.8 and fixed steps in both, one thread. Exudyn: with modified Newton (its default)
+and full Newton, the module without checks of ranges, and of its linear solvers the fastest for the model and
+the iteration. Its processor time is that of its solution alone; that of this program is of the process
+without that of a run of one step. Each round runs every setting once. Times of tables: the least of the
+rounds. Ratios at equal error: both curves are interpolated in logarithms, in each round by itself; median,
+least and largest of the rounds.
+
+--more: bodies of Exudyn in rotation vectors, its trapezoidal rule, and the dial of this program. --newton:
+relative tolerance of Exudyn's iterations in place of its default.
 """
 
 import argparse
 import json
-import os
 import re
 import resource
+import statistics
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from paired_models import ENVIRONMENT, MODELS, RHO, ROOT, Model, deck
 
-ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "post")]
 from engrane_post import Results  # noqa: E402
 
-ENVIRONMENT = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-SPANS = {"top": 0.2, "chain": 1.0}
-STEPS = {"top": (125, 250, 500, 1000, 2000, 4000, 8000), "chain": (250, 500, 1000, 2000, 4000, 8000)}
-INTERVALS = {"top": 125, "chain": 250}
-
-
-def chain(links: int) -> str:
-    axes = ["0 1 0" if i % 2 == 0 else "0 0.6 0.8" for i in range(links)]
-    return "\n".join(
-        [
-            ".NOE",
-            *(f" I {i + 1} X {i + 0.5}" for i in range(links)),
-            ".MCE",
-            *(f" I {i + 1} INERTIA N {i + 1} M 1 J 0.001 0.084 0.084" for i in range(links)),
-            *(f" I {links + i + 1} HINGE N {i} {i + 1} AXIS {axes[i]} AT {i} 0 0" for i in range(links)),
-            ".CLM\n STRU ACC VAL 0 0 -9.81",
-            ".SAM TYPE DYNAMIC RHO 0.8",
-            ".SUB TF 1 H 0.001",
-            ".FIN 1\n",
-        ]
-    )
+CHANNELS = ("UX", "UY", "UZ", "VX", "VY", "VZ")
+SOLVERS = ("EXUdense", "EigenDense", "EigenSparse")
+KEPT, FULL = "Exudyn, modified Newton", "Exudyn, full Newton"
+KLU, MUMPS = "CHUNG KEPT, KLU", "CHUNG KEPT, MUMPS"
+RADAU, CONTROLLED = "RADAU TOL", "CHUNG TOL"
+TARGETS = [d * 10.0**-p for p in range(1, 9) for d in (1, 0.3)]
 
 
 class Own:
-    def __init__(self, binary: Path, folder: Path, model: str, links: int) -> None:
-        self.binary, self.folder, self.model = binary, folder, model
-        self.text = (
-            (ROOT / "decks/elements/bodies/rigid_body_top.dat").read_text(encoding="utf-8")
-            if model == "top"
-            else chain(links)
-        )
-        self.node = 2 if model == "top" else links
+    """Runs of this program."""
+
+    def __init__(self, binary: Path, folder: Path, name: str) -> None:
+        self.binary, self.folder, self.model = binary, folder, MODELS[name]
+        self.text = deck(name)
 
     def run(self, analysis: str, stepping: str, end: float | None = None) -> tuple[float, np.ndarray]:
-        """Seconds, and positions and velocities (instants x 6)."""
-        span = SPANS[self.model]
+        """Seconds of the process, and the channels of the measured nodes (instants x channels)."""
+        model = self.model
         text = re.sub(r"^\.CHK\n(?: .*\n)*", "", self.text, flags=re.M)
-        text = re.sub(r"^\.SAM .*", f".SAM TYPE DYNAMIC {analysis} ENERGY 0", text, flags=re.M)
-        names = ["UX", "UY", "UZ", "VX", "VY", "VZ"]
-        asked = "\n".join(f" NODE {self.node} {name} V 0 ATOL 1e30" for name in names)
-        interval = span / INTERVALS[self.model]
-        archive = f".SAI FIELDS DT {span!r} HISTORY DT {interval!r}\n.CHK\n{asked}"
-        text = re.sub(r"^\.SUB .*", f".SUB TF {end or span!r} {stepping}\n{archive}", text, flags=re.M)
+        static = " START STATIC" if model.static else ""
+        text = re.sub(r"^\.SAM .*", f".SAM TYPE DYNAMIC {analysis} ENERGY 0{static}", text, flags=re.M)
+        asked = "\n".join(f" NODE {n} {name} V 0 ATOL 1e30" for n in model.nodes for name in CHANNELS)
+        interval = model.span / model.intervals
+        archive = f".SAI FIELDS DT {model.span!r} HISTORY DT {interval!r}\n.CHK\n{asked}"
+        text = re.sub(r"^\.SUB .*", f".SUB TF {end or model.span!r} {stepping}\n{archive}", text, flags=re.M)
         path = self.folder / "own.dat"
         path.write_text(text, encoding="utf-8")
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -89,66 +79,25 @@ class Own:
             raise RuntimeError(" ".join(done.stderr.split())[:150])
         seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         with Results(path.with_suffix(".h5")) as results:
-            histories = [results.history(f"node/{self.node}/{name}") for name in names]
+            histories = [results.history(f"node/{n}/{name}") for n in model.nodes for name in CHANNELS]
         places = histories[0][0] / interval
         even = np.abs(places - np.round(places)) < 1e-3
         return seconds, np.array([values[even] for _, values in histories]).T
 
-
-PEER = """
-import json, sys, time, warnings
-warnings.simplefilter("ignore")
-import numpy as np, exudyn as exu
-from exudyn.utilities import *
-model, links, steps, span, intervals, scheme, kept, lie = json.loads(sys.argv[1])
-system = exu.SystemContainer()
-mbs = system.AddSystem()
-ground = mbs.AddObject(ObjectGround())
-node = dict(nodeType=exu.NodeType.RotationRotationVector) if lie else {}
-if model == "top":
-    spin = [0, 150, -4.61538]
-    body = mbs.CreateRigidBody(
-        inertia=RigidBodyInertia(mass=15, inertiaTensor=np.diag([0.234375, 0.46875, 0.234375])),
-        referencePosition=[0, 1, 0], gravity=[0, 0, -9.81], initialAngularVelocity=spin,
-        initialVelocity=list(np.cross(spin, [0, 1, 0])), **node)
-    mbs.CreateSphericalJoint(bodyNumbers=[ground, body], position=[0, 0, 0], show=False)
-else:
-    before = ground
-    for i in range(links):
-        body = mbs.CreateRigidBody(
-            inertia=RigidBodyInertia(mass=1, inertiaTensor=np.diag([0.001, 0.084, 0.084])),
-            referencePosition=[i + 0.5, 0, 0], gravity=[0, 0, -9.81], **node)
-        mbs.CreateRevoluteJoint(bodyNumbers=[before, body], position=[i, 0, 0],
-            axis=[0, 1, 0] if i % 2 == 0 else [0, 0.6, 0.8], useGlobalFrame=True, show=False)
-        before = body
-kinds = (exu.OutputVariableType.Displacement, exu.OutputVariableType.Velocity)
-sensors = [
-    mbs.AddSensor(SensorBody(bodyNumber=body, writeToFile=False, storeInternal=True, outputVariableType=kind))
-    for kind in kinds]
-mbs.Assemble()
-s = exu.SimulationSettings()
-s.timeIntegration.numberOfSteps, s.timeIntegration.endTime = steps, span
-s.timeIntegration.generalizedAlpha.spectralRadius = 0.8
-s.timeIntegration.newton.useModifiedNewton = kept
-s.solutionSettings.writeSolutionToFile = False
-s.solutionSettings.sensorsWritePeriod = span / intervals
-s.parallel.numberOfThreads = 1
-s.linearSolverType = exu.LinearSolverType.EigenSparse
-begun = time.process_time()
-mbs.SolveDynamic(s, solverType=getattr(exu.DynamicSolverType, scheme))
-seconds = time.process_time() - begun
-rows = np.hstack([mbs.GetSensorStoredData(sensor)[:, 1:] for sensor in sensors])
-print("RESULT", json.dumps([seconds, rows.tolist()]))
-"""
+    def start(self) -> float:
+        """Seconds of a run of one step."""
+        step = self.model.span / max(self.model.steps)
+        return min(self.run("SOLVER KLU", f"H {step!r}", step)[0] for _ in range(3))
 
 
-def run_exudyn(
-    folder: Path, model: str, links: int, steps: int, scheme: str, kept: bool, lie: bool
-) -> tuple[float, np.ndarray]:
-    script = folder / "peer.py"
-    script.write_text(PEER, encoding="utf-8")
-    words = json.dumps([model, links, steps, SPANS[model], INTERVALS[model], scheme, kept, lie])
-    done = subprocess.run([sys.executable, script, words], env=ENVIRONMENT, capture_output=True, text=True)
+def run_exudyn(name: str, steps: int, **words) -> tuple[float, np.ndarray]:
+    model = MODELS[name]
+    job = {"model": name, "steps": steps, "span": model.span, "intervals": model.intervals}
+    job |= {"scheme": "GeneralizedAlpha", "kept": True, "lie": False, "solver": "EigenSparse"} | words
+    script = Path(__file__).with_name("exudyn_peer.py")
+    done = subprocess.run(
+        [sys.executable, script, json.dumps(job)], env=ENVIRONMENT, capture_output=True, text=True
+    )
     found = re.search(r"^RESULT (.*)$", done.stdout, re.MULTILINE)
     if not found:
         raise RuntimeError(" ".join((done.stdout + done.stderr).split())[-150:])
@@ -158,9 +107,131 @@ def run_exudyn(
 
 def error(values: np.ndarray, truth: np.ndarray) -> float:
     ranges = np.ptp(truth, axis=0)
-    for kind in (slice(0, 3), slice(3, 6)):  # what hardly moves tells of rounding
-        ranges[kind] = np.where(ranges[kind] > 1e-6 * ranges[kind].max(), ranges[kind], np.inf)
+    kinds = np.arange(ranges.size) // 3 % 2  # what hardly moves tells of rounding
+    for kind in (0, 1):
+        largest = ranges[kinds == kind].max()
+        ranges[(kinds == kind) & (ranges <= 1e-6 * largest)] = np.inf
     return float((np.sqrt(np.mean((values - truth) ** 2, axis=0)) / ranges).max())
+
+
+@dataclass
+class Curve:
+    """A setting with several steps or tolerances: seconds of each in each round, and errors."""
+
+    runs: list[tuple[str, Callable[[], tuple[float, np.ndarray]]]]
+    own: bool  #: the start of the program is in its times
+    seconds: list[list[float]] = field(default_factory=list)  #: rounds x runs
+    errors: list[float] = field(default_factory=list)
+    failures: dict[int, str] = field(default_factory=dict)
+
+    def take_round(self, truth: np.ndarray, start: float) -> None:
+        times, errors = [], []
+        for i, (_, task) in enumerate(self.runs):
+            seconds, off = np.nan, np.nan
+            if i not in self.failures:
+                try:
+                    seconds, values = task()
+                    off = error(values, truth)
+                except (RuntimeError, ValueError) as failure:
+                    self.failures[i] = str(failure)
+            times.append(max(seconds - start, 1e-4) if self.own else seconds)
+            errors.append(off)
+        self.seconds.append(times)
+        self.errors = errors
+
+    def at(self, target: float, times: list[float]) -> float:
+        """Seconds at an error, NaN outside of the curve: between neighbours on both sides of it, least."""
+        found = []
+        for i in range(len(times) - 1):
+            (e0, e1), (t0, t1) = self.errors[i : i + 2], times[i : i + 2]
+            if e0 >= target >= e1 and e0 > e1:
+                part = np.log(e0 / target) / np.log(e0 / e1)
+                found.append(float(np.exp(np.log(t0) + part * np.log(t1 / t0))))
+        return min(found, default=np.nan)
+
+    @property
+    def least(self) -> list[float]:
+        return list(np.min(self.seconds, axis=0))
+
+
+def fastest_solver(name: str, model: Model, kept: bool) -> str:
+    steps = model.steps[len(model.steps) // 2]
+    times = {}
+    for solver in SOLVERS:
+        if solver.endswith("ense") and name == "chain100":
+            continue  # 1300 unknowns
+        try:
+            times[solver] = min(run_exudyn(name, steps, kept=kept, solver=solver)[0] for _ in range(3))
+        except RuntimeError as failure:
+            print(f"{solver} fails: {failure}")
+    told = ", ".join(f"{solver} {1e6 * seconds / steps:.0f}" for solver, seconds in times.items())
+    print(f"Exudyn, {'modified' if kept else 'full'} Newton, us per step: {told}.")
+    return min(times, key=lambda solver: times[solver])
+
+
+def curves(name: str, own: Own, more: bool, newton: float | None) -> dict[str, Curve]:
+    model = MODELS[name]
+
+    def fixed(analysis: str) -> Curve:
+        return Curve(
+            [(f"{n} steps", lambda n=n: own.run(analysis, f"H {model.span / n!r}")) for n in model.steps],
+            True,
+        )
+
+    def controlled(analysis: str, tolerances: str) -> Curve:
+        step = model.span / max(model.intervals, 1000)
+        return Curve(
+            [(f"TOL {t}", lambda t=t: own.run(analysis, f"H {step!r} TOL {t}")) for t in tolerances.split()],
+            True,
+        )
+
+    def peer(**words) -> Curve:
+        words["tolerance"] = newton
+        return Curve([(f"{n} steps", lambda n=n: run_exudyn(name, n, **words)) for n in model.steps], False)
+
+    kept, full = (fastest_solver(name, model, kept) for kept in (True, False))
+    found = {
+        KEPT: peer(kept=True, solver=kept),
+        FULL: peer(kept=False, solver=full),
+        KLU: fixed(f"RHO {RHO} SOLVER KLU TANGENT KEPT"),
+        MUMPS: fixed(f"RHO {RHO} SOLVER MUMPS TANGENT KEPT"),
+        CONTROLLED: controlled(f"RHO {RHO} SOLVER AUTO", "1e-2 1e-3 1e-4 1e-5 1e-6"),
+        RADAU: controlled("SCHEME RADAU SOLVER AUTO", "1e-2 1e-3 1e-4 1e-5 1e-6 1e-7"),
+    }
+    if more:
+        found["Exudyn, rotation vectors"] = peer(kept=True, lie=True, solver=kept)
+        found["Exudyn, trapezoidal, index 2"] = peer(kept=True, scheme="TrapezoidalIndex2", solver=kept)
+        step = model.span / 1000
+        words = ("FAST", "NORMAL", "FINE", "REFERENCE")
+        dial = [(word, lambda word=word: own.run(f"ACCURACY {word}", f"H {step!r}")) for word in words]
+        found["the dial, with its estimate"] = Curve(dial, True)
+    return found
+
+
+def ratio_rows(title: str, found: dict[str, Curve]) -> list[str]:
+    """At up to three errors that the generalised-alpha of both programs reach."""
+
+    def covered(target: float) -> bool:
+        return all(np.isfinite(found[c].at(target, found[c].least)) for c in (KEPT, FULL, KLU, MUMPS))
+
+    rows, targets = [], [t for t in TARGETS if covered(t)]
+    if len(targets) > 3:
+        targets = [targets[0], targets[len(targets) // 2], targets[-1]]
+    for target in targets:
+
+        def cell(peer: str, mine: str, target: float = target) -> str:
+            a, b = found[peer], found[mine]
+            ratios = [a.at(target, s) / b.at(target, t) for s, t in zip(a.seconds, b.seconds, strict=True)]
+            ratios = [r for r in ratios if np.isfinite(r)]
+            if not ratios:
+                return ""
+            return f"{statistics.median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
+
+        best = found[KEPT].at(target, found[KEPT].least)
+        pairs = ((KEPT, KLU), (FULL, KLU), (KEPT, MUMPS), (KEPT, RADAU))
+        cells = " | ".join(cell(*pair) for pair in pairs)
+        rows.append(f"| {title} | {target:.0e} | {best:.3f} | {cells} |")
+    return rows
 
 
 def main() -> None:
@@ -168,65 +239,32 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("binary", type=Path)
-    parser.add_argument("--models", nargs="+", choices=SPANS, default=list(SPANS))
-    parser.add_argument("--links", type=int, default=20)
-    parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("--models", nargs="+", choices=MODELS, default=list(MODELS))
+    parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--more", action="store_true")
+    parser.add_argument("--newton", type=float)
     a = parser.parse_args()
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        for model in a.models:
-            own = Own(a.binary.resolve(), folder, model, a.links)
-            span = SPANS[model]
-            truth = own.run("SCHEME RADAU SOLVER KLU", f"H {span / 1000!r} TOL 1e-9")[1]
-            jobs = {}
-            for n in STEPS[model]:
-                jobs[f"CHUNG RHO 0.8 KLU KEPT, {n} steps"] = (
-                    "own",
-                    "RHO 0.8 SOLVER KLU TANGENT KEPT",
-                    f"H {span / n!r}",
-                )
-            for tolerance in ("1e-3", "1e-4", "1e-5", "1e-6", "1e-7"):
-                jobs[f"RADAU KLU TOL {tolerance}"] = (
-                    "own",
-                    "SCHEME RADAU SOLVER KLU",
-                    f"H {span / 1000!r} TOL {tolerance}",
-                )
-            for rung in ("FAST", "NORMAL", "FINE", "REFERENCE"):
-                jobs[f"ACCURACY {rung}, with its estimate"] = (
-                    "own",
-                    f"ACCURACY {rung}",
-                    f"H {span / 1000!r}",
-                )
-            variants = (
-                ("GeneralizedAlpha", True, False, "generalised-alpha"),
-                ("GeneralizedAlpha", False, False, "generalised-alpha, full Newton"),
-                ("GeneralizedAlpha", True, True, "generalised-alpha, rotation vectors"),
-                ("TrapezoidalIndex2", True, False, "trapezoidal, index 2"),
-            )
-            for scheme, kept, lie, title in variants:
-                for n in STEPS[model]:
-                    jobs[f"Exudyn {title}, {n} steps"] = ("peer", n, scheme, kept, lie)
-            best: dict[str, float] = {}
-            errors: dict[str, str] = {}
-            start = min(own.run("SOLVER KLU", f"H {span / 1000!r}", span / 1000)[0] for _ in range(5))
+    with tempfile.TemporaryDirectory() as folder:
+        for name in a.models:
+            model = MODELS[name]
+            print(f"\n### {model.title}\n", flush=True)
+            own = Own(a.binary.resolve(), Path(folder), name)
+            truth = own.run("SCHEME RADAU SOLVER KLU", f"H {model.span / model.intervals!r} TOL 1e-9")[1]
+            found = curves(name, own, a.more, a.newton)
             for _ in range(a.runs):
-                for title, job in jobs.items():
-                    if errors.get(title, "").startswith("failed"):
-                        continue
-                    try:
-                        if job[0] == "own":
-                            seconds, values = own.run(*job[1:])
-                            seconds -= start
-                        else:
-                            seconds, values = run_exudyn(folder, model, a.links, *job[1:])
-                    except RuntimeError as failure:
-                        errors[title] = f"failed: {failure}"
-                        continue
-                    best[title] = min(best.get(title, np.inf), seconds)
-                    errors[title] = f"{error(values, truth):.1e}"
-            print(f"\n{model}\n\n| program and setting | s | error |\n|---|---|---|")
-            for title in jobs:
-                print(f"| {title} | {best.get(title, float('nan')):.3f} | {errors[title]} |", flush=True)
+                start = own.start()
+                for curve in found.values():
+                    curve.take_round(truth, start)
+            print("\n| program and setting | | s | error |\n|---|---|---:|---:|")
+            for title, curve in found.items():
+                for i, (label, _) in enumerate(curve.runs):
+                    told = curve.failures.get(i) or f"{curve.errors[i]:.1e}"
+                    print(f"| {title} | {label} | {curve.least[i]:.4f} | {told} |")
+            print("\nTimes of Exudyn over those of this program at equal error:\n")
+            pairs = "modified / KLU | full / KLU | modified / MUMPS | modified / RADAU"
+            print(f"| model | error | Exudyn, s | {pairs} |")
+            print("|---|---|---:|---|---|---|---|")
+            print("\n".join(ratio_rows(model.title, found)), flush=True)
 
 
 if __name__ == "__main__":

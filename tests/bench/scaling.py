@@ -4,7 +4,7 @@
     python tests/bench/scaling.py build/bin/engrane [other/engrane] [--models chain bars springs]
         [--sizes 100 1000 10000] [--steps 1] [--runs 3] [--check]
 
-chain: n links and hinges, as in chain.py; bars: n four-bars side by side, each with three constraints
+chain: n links and hinges, as in paired_models.py; bars: n four-bars side by side, each with three constraints
 too many; springs: n masses in a row, each on springs to its neighbours. KLU, one thread, results at the
 start and the end. The programs take turns; medians of the runs. `--check` measures `engrane check`
 instead, which reads and finds the start. Prints a Markdown table; an exponent is that from the size in the
@@ -20,7 +20,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-import chain
+from paired_models import ENVIRONMENT, with_steps
+from paired_models import chain_deck as links_deck
 
 INERTIA = "M 1 J 0.001 0.084 0.084"
 STEP = 0.001
@@ -38,7 +39,7 @@ def ending(steps: int, gravity: str) -> list[str]:
 
 
 def chain_deck(n: int, steps: int) -> str:
-    return chain.deck(n, steps, STEP, "KLU")
+    return with_steps(links_deck(n), "SCHEME CHUNG RHO 0.8 SOLVER KLU", STEP, steps)
 
 
 def bars_deck(n: int, steps: int) -> str:
@@ -79,7 +80,7 @@ def run(binary: Path, deck: Path, check: bool) -> tuple[float, float]:
         open(deck.with_suffix(".err"), "w+", encoding="utf-8") as errors,
     ):
         files = [(os.POSIX_SPAWN_DUP2, nowhere.fileno(), 1), (os.POSIX_SPAWN_DUP2, errors.fileno(), 2)]
-        child = os.posix_spawn(task[0], task, chain.ENVIRONMENT, file_actions=files)
+        child = os.posix_spawn(task[0], task, ENVIRONMENT, file_actions=files)
         _, status, usage = os.wait4(child, 0)
         if status != 0:
             errors.seek(0)

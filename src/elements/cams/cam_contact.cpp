@@ -67,7 +67,7 @@ void Cam::switches(const State& state, std::span<Switch> values) const {
       for (int l = 0; l < 3; ++l) along[i].R(k, l) = {s.R(k, l), first(k, l), second(k, l)};
     }
   }
-  const Taylor gap = contact<Taylor>(along, state.history).gap;
+  const Taylor gap = contact<Taylor>(along, state.history, &c.foot).gap;
   const double pressed = -c.gap, rate = -gap.d1, growth = -gap.d2;
   values[0] = {pressed, rate, c.foot.p.norm() + parts_.radius + parts_.profile->inset()};
   if (!parts_.law->damped()) return;

@@ -46,7 +46,8 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
   template <class T>
   using Nodes = std::array<typename Motion<T, 2>::Node, 2>;
 
-  /// The contact in a configuration. Its gap is right to the second derivative, all else to the first.
+  /// The contact in a configuration. Its gap is right to the second derivative, all else to the first. `known`: the foot, where
+  /// it has been found for the same configuration.
   template <class T>
   struct Contact {
     T gap;
@@ -58,7 +59,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
     CamFoot foot;
   };
   template <class T>
-  Contact<T> contact(const Nodes<T>& node, std::span<const double> history) const;
+  Contact<T> contact(const Nodes<T>& node, std::span<const double> history, const CamFoot* known = nullptr) const;
 
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
@@ -136,7 +137,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
 };
 
 template <class T>
-Cam::Contact<T> Cam::contact(const Nodes<T>& node, std::span<const double> history) const {
+Cam::Contact<T> Cam::contact(const Nodes<T>& node, std::span<const double> history, const CamFoot* known) const {
   const auto& [a, b] = node;
   const CamProfile& profile = *parts_.profile;
   const Vec3T<T> u = rotate(a.R, Vec3(parts_.axes.col(0))), v = rotate(a.R, Vec3(parts_.axes.col(1))),
@@ -153,7 +154,7 @@ Cam::Contact<T> Cam::contact(const Nodes<T>& node, std::span<const double> histo
     const T fx = dot(face, u), fy = dot(face, v), square = fx * fx + fy * fy;
     using std::sqrt;
     const T scale = T(1) / sqrt(square), mx = fx * scale, my = fy * scale;
-    const CamFoot foot = profile.farthest({value_of(mx), value_of(my)});
+    const CamFoot foot = known ? *known : profile.farthest({value_of(mx), value_of(my)});
     const Vec2 n{value_of(mx), value_of(my)}, t = turned_left(n);
     const T angle = t[0] * mx + t[1] * my;  // from the value, to second order
     const double reach = foot.p.dot(n), aside = foot.p.dot(t), radius = 1 / foot.curvature;
@@ -170,7 +171,7 @@ Cam::Contact<T> Cam::contact(const Nodes<T>& node, std::span<const double> histo
   std::optional<double> last;
   if (!parts_.law && history[1] != 0) last = history[0];
   const Vec2 q{value_of(x), value_of(y)};
-  const CamFoot foot = profile.nearest(q, last);
+  const CamFoot foot = known ? *known : profile.nearest(q, last);
   const double distance = (q - foot.p).dot(foot.n), bend = foot.curvature / (1 + foot.curvature * distance);
   const T dx = x - q[0], dy = y - q[1];
   const T along = foot.t[0] * dx + foot.t[1] * dy;

@@ -95,6 +95,8 @@ class EnvelopeOfFace final : public Moved {
     // the face's distance h is the support function of the envelope: p = h m + (dh/dφ) m', φ = −θ; d³h is its d2's
     return carried(s, {height_ + k * lift.f, -k * lift.d1}, {k * lift.d1, -k * lift.d2}, {k * lift.d2, -k * lift.d3});
   }
+  /// The face that made it looked that way when the cam had turned by s; a face that undercuts the profile is refused.
+  std::optional<double> facing(const Vec2& m) const override { return -std::atan2(m[1], m[0]); }
 
  private:
   double height_, slope_;

@@ -4,6 +4,7 @@
 
 #include <complex>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "elements/cams/cam_motion.hpp"
@@ -32,6 +33,11 @@ class CamCurve {
   virtual Point at(double s) const = 0;
   /// Follower's lift and derivatives where it touches at s; only a curve made from a motion has one.
   virtual const CamMotion* motion() const { return nullptr; }
+  /// Where the outward normal of the curve is the unit vector m, if that needs no search.
+  virtual std::optional<double> facing(const Vec2& m) const {
+    (void)m;
+    return {};
+  }
   /// How many pieces it is made of: what a search must look at.
   virtual std::size_t pieces() const = 0;
 };

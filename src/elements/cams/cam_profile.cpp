@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace engrane::elements::cams {
@@ -119,10 +120,14 @@ CamFoot CamProfile::nearest(const Vec2& q, std::optional<double> last) const {
 }
 
 CamFoot CamProfile::farthest(const Vec2& m) const {
+  if (const auto s = curve_->facing(m)) return at(*s);
+  // the farthest sample, which is no nearer than the near side of any group
+  double far = -std::numeric_limits<double>::infinity();
+  for (const Group& group : groups_) far = std::max(far, group.center.dot(m) - group.radius);
   std::size_t best = 0;
   double reach = -std::numeric_limits<double>::infinity();
   for (const Group& group : groups_) {
-    if (group.center.dot(m) + group.radius < reach) continue;
+    if (group.center.dot(m) + group.radius < std::max(far, reach)) continue;
     for (std::size_t k = group.begin; k < group.end; ++k)
       if (const double here = samples_[k].dot(m); here > reach) {
         reach = here;

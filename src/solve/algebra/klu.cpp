@@ -2,6 +2,7 @@
 #include "solve/algebra/klu.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -36,7 +37,7 @@ class Values {
 
 }  // namespace
 
-Klu::Klu(Mat matrix) : matrix_(matrix) {
+Klu::Klu(Mat matrix) : matrix_(matrix), enough_(good) {
   klu_defaults(&common_);
   check_petsc(PetscLogEventGetId("MatLUFactorNum", &factoring_));
   check_petsc(PetscLogEventGetId("MatSolve", &solving_));
@@ -48,6 +49,12 @@ void Klu::serve(PC pc) {
   check_petsc(PCShellSetContext(pc, this));
   check_petsc(PCShellSetSetUp(pc, set_up));
   check_petsc(PCShellSetApply(pc, apply));
+}
+
+void Klu::correct_only(bool corrections) {
+  const double enough = corrections ? worst_kept : good;
+  if (enough < enough_) proven_ = false;
+  enough_ = enough;
 }
 
 void Klu::forget() {
@@ -64,6 +71,7 @@ void Klu::find_pattern() {
   check_petsc(MatGetRowIJ(matrix_, 0, PETSC_FALSE, PETSC_FALSE, &rows, &begin_, &column_, &done));
   size_ = rows;
   residual_.resize(static_cast<std::size_t>(rows));
+  terms_.resize(residual_.size());
 }
 
 bool Klu::refactor() { return numeric_ && wait_ == 0 && refactor_now(); }
@@ -123,7 +131,8 @@ void Klu::restore_factors() {
 double Klu::backward_error(const double* right, const double* solution) {
   const Values values(matrix_);
   const double* a = values.get();
-  double worst = 0;
+  std::array<double, 8> largest{};
+  const bool told = kinds_.size() == terms_.size();
   for (int row = 0; row < size_; ++row) {
     double remainder = right[row], terms = std::abs(right[row]);
     for (PetscInt k = begin_[row]; k < begin_[row + 1]; ++k) {
@@ -133,7 +142,14 @@ double Klu::backward_error(const double* right, const double* solution) {
     }
     residual_[static_cast<std::size_t>(row)] = remainder;
     if (std::isnan(terms) || std::isinf(terms)) return std::numeric_limits<double>::infinity();
-    if (terms > 0) worst = std::max(worst, std::abs(remainder) / terms);
+    terms_[static_cast<std::size_t>(row)] = terms;
+    if (told) largest[kinds_[static_cast<std::size_t>(row)]] = std::max(largest[kinds_[static_cast<std::size_t>(row)]], terms);
+  }
+  double worst = 0;
+  for (std::size_t row = 0; row < terms_.size(); ++row) {
+    double terms = terms_[row];
+    if (told && terms <= worst_kept * largest[kinds_[row]]) terms = largest[kinds_[row]];
+    if (terms > 0) worst = std::max(worst, std::abs(residual_[row]) / terms);
   }
   return worst;
 }
@@ -142,10 +158,10 @@ double Klu::solve(const double* right, double* solution) {
   // the factors are those of the transpose
   std::copy_n(right, size_, solution);
   klu_tsolve(symbolic_, numeric_, size_, 1, solution, &common_);
-  if (proven_) return good;
+  if (proven_) return enough_;
   const double error = backward_error(right, solution);
-  proven_ = error <= good;
-  if (error <= good || !std::isfinite(error)) return error;
+  proven_ = error <= enough_;
+  if (proven_ || !std::isfinite(error)) return error;
   klu_tsolve(symbolic_, numeric_, size_, 1, residual_.data(), &common_);
   for (int i = 0; i < size_; ++i) solution[i] += residual_[static_cast<std::size_t>(i)];
   // what was good enough before is so after it

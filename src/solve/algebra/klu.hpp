@@ -4,6 +4,7 @@
 #include <klu.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assembly/petsc.hpp"
@@ -26,6 +27,12 @@ class Klu {
 
   /// Makes `pc` this solver; `this` must outlive it.
   void serve(PC pc);
+  /// What each row is: rows of one kind have one unit, so that their terms can be compared (fewer than 8 kinds).
+  void tell_kinds(std::vector<unsigned char> kinds) { kinds_ = std::move(kinds); }
+  /// Whether solutions are corrections with factors of another tangent. Those need not be as good as rounding allows: what an
+  /// iteration leaves of a residual is then the difference of the tangents. No refinement, no look at those after a first good
+  /// one.
+  void correct_only(bool corrections);
   /// Gives up pattern analysis and pivots.
   void forget();
   /// The pivots, by the matrix that they were chosen for, and for how long old ones are not tried.
@@ -54,7 +61,9 @@ class Klu {
   bool refactor_now();
   /// Solves, refines once where the backward error asks for it, and returns the backward error.
   double solve(const double* right, double* solution);
-  /// The remainder right − A solution goes to residual_; returns its size, each row over that of its terms.
+  /// The remainder right − A solution goes to residual_; returns its size, each row over that of its terms. Rows that the
+  /// rounding of others fills, as those of motions that lead out of the plane of a mechanism, count by the terms of the largest
+  /// row of their kind (after Arioli, Demmel and Duff, SIAM J. Matrix Anal. Appl. 10 (1989) 165, section 2).
   double backward_error(const double* right, const double* solution);
 
   Mat matrix_;
@@ -65,13 +74,15 @@ class Klu {
   klu_numeric* numeric_ = nullptr;
   std::vector<double> chosen_for_;  ///< values of the matrix that the pivots were chosen for
   bool stale_ = false;              ///< pivots are those of an earlier matrix
-  bool proven_ = false;             ///< a solution with these factors was good at once
+  bool proven_ = false;             ///< a solution with these factors was good enough at once
+  double enough_;                   ///< backward error of such a solution
   bool restored_ = false;           ///< the factors are those of restore_factors()
   bool proven_before_ = false;      ///< proven_ of the run that load() has taken the pivots of
   int trials_lost_ = 0;             ///< old pivots in a row that did not serve
   int wait_ = 0;                    ///< matrices for which old pivots are not tried
   PetscLogEvent factoring_ = -1, solving_ = -1;
-  std::vector<double> residual_;
+  std::vector<double> residual_, terms_;
+  std::vector<unsigned char> kinds_;  ///< of rows; empty: not told
 };
 
 }  // namespace engrane::solve

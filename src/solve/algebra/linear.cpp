@@ -158,6 +158,7 @@ Mat LinearSolver::factor() const {
 
 bool LinearSolver::solve(Vec right, Vec solution) {
   note_matrix();
+  correct_only(false);
   do {
     check_petsc(KSPSolve(ksp_, right, solution));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;

@@ -21,6 +21,15 @@ class LinearSolver {
   /// Factors the matrix as it stands and solves; false when it is singular to working precision.
   bool solve(Vec right, Vec solution);
 
+  /// What each row is (Klu::tell_kinds).
+  void tell_kinds(std::vector<unsigned char> kinds) {
+    if (klu_) klu_->tell_kinds(std::move(kinds));
+  }
+  /// Whether the next solutions are corrections with kept factors (Klu::correct_only).
+  void correct_only(bool corrections) {
+    if (klu_) klu_->correct_only(corrections);
+  }
+
   /// After a failure: gives MUMPS more room when that was all it lacked; true when it is worth another try.
   bool enlarge();
   /// Forgets the analysis, which looks at numbers too: after a failure, or before matrices of another kind.

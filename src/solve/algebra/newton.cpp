@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace engrane::solve {
 
@@ -20,6 +21,9 @@ constexpr double residual_of_slot = 225, tangent_over_residual = 5.4;
 /// A sliding speed that counts as none, over the speed below which friction is regularised.
 constexpr double resting = 1e-3;
 
+/// Kind of rows without a mechanical unit, after those of Measure.
+constexpr unsigned char signal_rows = 4;
+
 /// Whether factors for the one may serve for the other: how well, their contraction tells.
 bool similar(const Weights& a, const Weights& b) {
   const auto near = [](double x, double y) { return std::abs(x - y) <= 0.2 * std::abs(y); };
@@ -31,6 +35,7 @@ bool similar(const Weights& a, const Weights& b) {
 Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int iterations)
     : assembler_(assembler), solver_(solver), precision_(precision), references_(assembler, precision) {
   *residual_.out() = assembler.new_vector();
+  *guess_.out() = assembler.new_vector();
   check_petsc(SNESCreate(assembler.comm(), snes_.out()));
   check_petsc(SNESSetType(snes_, SNESNEWTONLS));
   check_petsc(SNESSetKSP(snes_, solver.ksp()));
@@ -50,6 +55,10 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
     const Layout& layout = part.element->layout();
     evaluation_ += residual_of_slot * static_cast<double>(layout.slots());
   }
+  std::vector<unsigned char> kinds;
+  for (const Unknown& u : assembler.numbering().unknowns())
+    kinds.push_back(u.first_order ? signal_rows : static_cast<unsigned char>(u.measure));
+  solver.tell_kinds(std::move(kinds));
   check_petsc(SNESSetTolerances(snes_, 0, 0, 0, iterations, 100000));
   check_petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
   check_petsc(SNESSetFromOptions(snes_));
@@ -63,9 +72,8 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   NewtonReport report;
   const std::vector<double> before = references_.memory();
   references_.begin(work);
-  Owned<Vec> guess;
-  *guess.out() = assembler_.new_vector();
-  check_petsc(VecCopy(x, guess));
+  solver_.correct_only(keep);
+  check_petsc(VecCopy(x, guess_));
   for (;;) {
     rows_.clear();
     failure_.clear();
@@ -77,7 +85,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
     report.converged = reason > 0;
     report.singular = reason == SNES_DIVERGED_LINEAR_SOLVE;
     if (report.singular && solver_.enlarge()) {
-      check_petsc(VecCopy(guess, x));
+      check_petsc(VecCopy(guess_, x));
       continue;
     }
     if (reason == SNES_DIVERGED_MAX_IT)

@@ -84,8 +84,14 @@ std::vector<Switch> Switches::at(const Configuration& c) const {
   return values;
 }
 
+std::vector<Switch> Switches::before(const Configuration& c) const {
+  return !taken_.empty() && taken_at_ == c.time ? taken_ : at(c);
+}
+
 std::vector<Event> Switches::take(const Configuration& c) {
-  const std::vector<Switch> now = at(c);
+  taken_ = at(c);
+  taken_at_ = c.time;
+  const std::vector<Switch>& now = taken_;
   std::vector<Event> events;
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (now[i].size == 0) {
@@ -119,6 +125,7 @@ void Switches::save(Snapshot& snapshot) const { snapshot.put("events/sides", {si
 void Switches::load(const Snapshot& snapshot) {
   const std::vector<double>& sides = snapshot.array("events/sides");
   if (sides.size() != side_.size()) throw std::out_of_range("the restart point has another number of contacts and stops");
+  taken_.clear();
   std::transform(sides.begin(), sides.end(), side_.begin(), [](double side) { return static_cast<int>(side); });
 }
 
@@ -199,7 +206,7 @@ void EventLocator::load(const Snapshot& snapshot) {
 double EventLocator::foresee(const Configuration& from, double size) {
   aimed_ = 0;
   if (!active_ || last_step_ <= 0 || size > farthest * last_step_) return size;
-  std::vector<Switch> now = switches_.at(from);
+  std::vector<Switch> now = switches_.before(from);
   Switches::complete(before_, now, last_step_);
   const auto event = switches_.next_change(before_, now, last_step_, size);
   if (!event || *event <= shortest() || *event >= size) return size;
@@ -211,7 +218,7 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
   Finding found;
   found.step = size;
   if (!active_) return found;
-  before_ = switches_.at(from);
+  before_ = switches_.before(from);
   if (located_ >= most_events) return found;
   std::vector<Switch>& before = before_;
   std::vector<Switch> after;

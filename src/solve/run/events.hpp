@@ -24,6 +24,8 @@ class Switches {
 
   bool empty() const { return places_.empty(); }
   std::vector<Switch> at(const Configuration& c) const;
+  /// The same for a configuration that a step begins in: as a rule that which take() has seen last.
+  std::vector<Switch> before(const Configuration& c) const;
 
   /// Takes the sides of an accepted configuration and returns the switches that have changed. A value that is mere rounding
   /// stays on the side it came from.
@@ -52,7 +54,9 @@ class Switches {
     int part, index;
   };
   std::vector<Place> places_;
-  std::vector<int> side_;  ///< 1 or −1
+  std::vector<int> side_;      ///< 1 or −1
+  std::vector<Switch> taken_;  ///< values that take() has seen last
+  double taken_at_ = 0;
 };
 
 /// First t in [0, h] at which the cubic with values a, b and rates da, db at 0 and h is below −`band`, when there is one: the
