@@ -74,14 +74,15 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
   if (!started_) {
     balance_.initial = sum.kinetic + sum.potential;
     initial_potential_ = sum.potential;
+    if (smooth_) powers_.add(c.time, std::array{sum.external, sum.dissipated});
   } else if (!moves_) {
     balance_.external_work += static_work(assembler_, supports_, before_, c);
   } else {
     const double half = 0.5 * (c.time - last_time_);
-    if (smooth_) {
-      if (powers_.empty()) powers_.add(last_time_, std::array{external_power_, dissipated_power_});
-      powers_.add(c.time, std::array{sum.external, sum.dissipated});
-      // Gauss's two points: exact for cubics
+    // nothing leads over an event: a force that jumps has no slope there
+    const bool continues = !powers_.empty();
+    if (smooth_) powers_.add(c.time, std::array{sum.external, sum.dissipated});
+    if (continues) {  // Gauss's two points: exact for cubics
       for (const double side : {-1.0, 1.0}) {
         std::array<double, 2> power{};
         powers_.at(last_time_ + half * (1 + side / std::numbers::sqrt3), 0, power);
