@@ -151,6 +151,8 @@ def limits() -> None:
 
 def run(program: str, folder: Path, patience: float) -> tuple[int, str, bool]:
     """Status, what was printed, and whether it had to be asked to stop. Status -9: it did not even then."""
+    # runs at the same time need a folder of Open MPI each: the program makes its own where it is given none
+    environment = {k: v for k, v in os.environ.items() if k != "OMPI_MCA_orte_tmpdir_base"}
     with open(folder / "printed", "w+b") as printed:
         process = subprocess.Popen(
             [program, "-q", "deck.dat", "-o", "out"],
@@ -159,7 +161,7 @@ def run(program: str, folder: Path, patience: float) -> tuple[int, str, bool]:
             stdout=printed,
             stderr=subprocess.STDOUT,
             preexec_fn=limits,
-            env=os.environ | {"TMPDIR": str(folder.parent)},
+            env=environment | {"TMPDIR": str(folder.parent)},
         )
         asked = False
         try:
