@@ -105,7 +105,12 @@ Schema analysis_card() {
       .option({"ZX", {"XZ"}, "the same in the plane ZX"});
   card.add("EVENTS", &AnalysisCard::events, "whether a DYNAMIC analysis ends steps where teeth begin and cease to touch")
       .synonyms({"EVENEMENTS"})
-      .option({"YES", {"OUI"}, "each such instant is located, to a fraction of H that may follow (1E-6)", 0, 1})
+      .option({"YES",
+               {"OUI"},
+               "each such instant is located, to a fraction of the step that may follow (1E-6; with TOL a hundredth of it where "
+               "that is more)",
+               0,
+               1})
       .option({"NO", {"NON"}, "steps pass over them"});
   card.add(
           "ENERGY", &AnalysisCard::energy,
