@@ -46,6 +46,11 @@ class Peer:
             **self.node,
         )
 
+    def slide(self, body: int, at, axis) -> None:
+        self.system.CreatePrismaticJoint(
+            bodyNumbers=[self.ground, body], position=list(at), axis=axis, show=False
+        )
+
     def between(self, first, second, function, **more) -> None:
         """A force along y between points (body, place on it) by time, distance along y and its rate."""
 
@@ -119,12 +124,7 @@ def slider_crank(peer: Peer, _: int) -> list:
         constrainedAxes=[1, 1, 1, 1, 0, 0],
         show=False,
     )
-    s.CreatePrismaticJoint(
-        bodyNumbers=[peer.ground, slider],
-        position=list(c.end),
-        axis=[1, 0, 0],
-        show=False,
-    )
+    peer.slide(slider, c.end, [1, 0, 0])
     return [rod, slider]
 
 
@@ -137,12 +137,7 @@ def valve_train(peer: Peer, _: int) -> list:
     valve = peer.body(v.valve_mass, v.small, [v.valve, v.base, 0], initialDisplacement=[0, -valve_down, 0])
     s = peer.system
     for body, x in ((tappet, 0), (valve, v.valve)):
-        s.CreatePrismaticJoint(
-            bodyNumbers=[peer.ground, body],
-            position=[x, v.base, 0],
-            axis=[0, 1, 0],
-            show=False,
-        )
+        peer.slide(body, [x, v.base, 0], [0, 1, 0])
     s.CreateRevoluteJoint(
         bodyNumbers=[peer.ground, rocker],
         position=list(v.pivot),

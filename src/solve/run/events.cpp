@@ -218,9 +218,9 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
   Finding found;
   found.step = size;
   if (!active_) return found;
-  before_ = switches_.before(from);
+  began_ = switches_.before(from);
   if (located_ >= most_events) return found;
-  std::vector<Switch>& before = before_;
+  std::vector<Switch>& before = began_;
   std::vector<Switch> after;
   double ahead = 0;  // from `to` to the next event
   // a step that ends within rounding of an event may have taken either law at its end: as good as past it

@@ -97,7 +97,10 @@ class EventLocator {
   /// less than to there.
   double foresee(const Configuration& from, double size);
   /// A step of `size` stands; what was seen at its beginning tells where the next event is. After drifts nothing does.
-  void stepped(double size) { last_step_ = size; }
+  void stepped(double size) {
+    before_ = began_;
+    last_step_ = size;
+  }
   void forget() { last_step_ = 0; }
   /// After an attempt of `size` from `from` to `to`, converged or not.
   Finding inspect(const Configuration& from, double size, bool converged, Configuration& to);
@@ -114,7 +117,8 @@ class EventLocator {
   Switches switches_;
   double step_, sharpness_, tolerance_ = 0;
   bool active_ = false;
-  std::vector<Switch> before_;  ///< at the beginning of the last attempt
+  std::vector<Switch> began_;   ///< at the beginning of the last attempt
+  std::vector<Switch> before_;  ///< at the beginning of the last step that stands
   double last_step_ = 0;        ///< from there to the beginning of the next; 0: not known
   double aimed_ = 0;            ///< the present attempt is to end near an event that was expected within so long; 0: it is not
   int located_ = 0;
