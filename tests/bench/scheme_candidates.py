@@ -11,9 +11,9 @@ with new factors for each correction or with kept ones, whichever is cheaper; un
 of 3 or 100 links with KLU and of 100 links with MUMPS. Errors are the largest of ten instants over the
 largest value there, of positions (q), velocities (v) and forces (f); the truth is an integration of index 1
 by Runge-Kutta of order 8, with projections. `ida` is SUNDIALS IDA, BDF of order 1 to 5 with steps of its
-own, on the stabilised index 2, where scikit-sundae is installed. --energy follows a double pendulum, a
-pendulum and the top for so many steps. --check compares errors of the prototype's generalised-alpha and
-Radau IIA with those of the program.
+own, on the stabilised index 2, where scikit-sundae is installed (see ida.py). `radau@20` and `ida@20` start
+anew 20 times, as after events. --energy follows a double pendulum, a pendulum and the top for so many
+steps. --check compares errors of the prototype's generalised-alpha and Radau IIA with those of the program.
 """
 
 import argparse
@@ -216,13 +216,13 @@ def cheapest(rows: list[dict], schemes, size, kinds, aim: float) -> float:
 
 
 def orders(rows: list[dict], scheme: str) -> list[str]:
-    """Of q, v and f, between the last two runs with errors above 1e-8."""
+    """Of q, v and f, between the last two runs with errors above 2e-7."""
     out = []
     for k in range(3):
         points = [
             (r["steps"], r["errors"][k])
             for r in rows
-            if r["scheme"] == scheme and r["errors"][k] > 1e-8 and r["keep"] == scheme.startswith("radau")
+            if r["scheme"] == scheme and r["errors"][k] > 2e-7 and r["keep"] == scheme.startswith("radau")
         ]
         if len(points) < 2:
             out.append("")
@@ -233,7 +233,7 @@ def orders(rows: list[dict], scheme: str) -> list[str]:
 
 
 def report(rows: list[dict], models, schemes) -> None:
-    print("\nOrders of q, v, f; G v over v at the last run of order 2\n")
+    print("\nOrders of q, v, f\n")
     print("| scheme | " + " | ".join(models) + " |\n|---" + "|---" * len(models) + "|")
     for scheme in schemes:
         if scheme.startswith("ida"):
@@ -263,8 +263,8 @@ COLOURS = {
     "alpha-ggl": ("#d55e00", "--"),
     "rattle": ("#009e73", "--"),
     "bdf3": ("#56b4e9", "--"),
-    "bdf4-ggl": ("#cc79a7", ":"),
     "bdf5": ("#0072b2", "--"),
+    "bdf5-ggl": ("#cc79a7", ":"),
     "ida": ("#e69f00", ":"),
 }
 
@@ -285,11 +285,11 @@ def picture(rows: list[dict], models, path: Path) -> None:
                 for r in mine:  # kept factors or new ones, whichever are cheaper
                     point = (cost(r["work"], *size) / 1e9, r["errors"][k])
                     best[r["steps"]] = min(best.get(r["steps"], (math.inf, 0)), point)
-                points = sorted(best.values())
+                points = list(best.values())
                 if points:
                     x, y = zip(*points, strict=True)
                     axis.loglog(x, y, style, color=colour, lw=1.4, marker="o", ms=2.5, label=label)
-            axis.set_ylim(1e-9, 1)
+            axis.set_ylim(1e-8, 1)
             axis.set_yticks([1e-8, 1e-6, 1e-4, 1e-2, 1])
             axis.grid(alpha=0.3)
             axis.set_title(f"{model}: {title}", fontsize=9)
@@ -316,13 +316,7 @@ def energies(steps: int) -> None:
     """Energy over the largest kinetic energy, at steps that cost the same as those of generalised-alpha."""
     print("\n| model | scheme | steps | cost, G | drift | swing |\n" + "|---" * 6 + "|")
     for make_model, h in ((lambda: Pendulum(1), 0.01), (lambda: Pendulum(2), 0.01), (Top, 2e-4)):
-        for name, ratio in (
-            ("alpha:1", 1),
-            ("alpha:0.9", 1),
-            ("alpha-ggl:1", 1),
-            ("rattle", 1),
-            ("radau", 4),
-        ):
+        for name, ratio in ENERGY_SCHEMES.items():
             model = make_model()
             scheme = make(name, model, h * ratio, True, PRECISION)
             base, kinetic, seen = model.energy(scheme.q, scheme.v), 0.0, []
