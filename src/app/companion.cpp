@@ -78,7 +78,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     std::optional<Instants> instants;
     if (step.number > 0) instants.emplace(schedule, observer, in_space, last, c, step);
     if (instants) instants->observe_inside();
-    observer.observe(in_space(c), {step.step, 0, step.events.size()}, true, false);
+    observer.observe(in_space(c), {step.step, 0, step.events.size(), step.corner}, true, false);
     if (instants) instants->show([&](double time, const Schedule::Due&) { take(time); });
     if (schedule.even(c.time)) take(c.time);
     progress.update(c.time, step.step, step.number);

@@ -119,7 +119,8 @@ void observe_step(SolverContext& context, observe::Observer& observer, const Con
                   const Schedule::Due& due) {
   const Model& model = context.model;
   const int iterations = step.newton ? step.newton->iterations : 0;
-  observer.observe(c, {step.step, iterations, step.events.size()}, due.sample || !model.commands.checks.empty(), due.frame);
+  observer.observe(c, {step.step, iterations, step.events.size(), step.corner}, due.sample || !model.commands.checks.empty(),
+                   due.frame);
   const bool last = c.time >= model.commands.stepping.end;
   if (context.redundancy.active() && (last || (step.number & (step.number - 1)) == 0))
     observer.find_not_unique(c, context.redundancy.undetermined(c));

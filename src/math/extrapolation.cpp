@@ -2,6 +2,7 @@
 #include "math/extrapolation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace engrane {
 
@@ -12,9 +13,31 @@ void Extrapolation::add(double time, std::span<const double> values) {
   count_ = std::min(count_ + 1, points_.size());
 }
 
-void Extrapolation::at(double time, double h, std::span<double> values) const {
+std::size_t Extrapolation::reach(double h) const {
   std::size_t points = 1;
   while (points < count_ && h <= longest_ * (points_[points - 1].time - points_[points].time)) ++points;
+  return points;
+}
+
+double Extrapolation::share(double time, double h) const {
+  // the same derivative times the product of the distances from the points, in both
+  const std::size_t points = reach(h);
+  const auto distances = [&](double from, std::size_t count) {
+    double product = 1;
+    for (std::size_t p = 0; p < count; ++p) product *= std::abs(from - points_[p].time);
+    return product;
+  };
+  constexpr int samples = 8;
+  double largest = 0;
+  for (int s = 1; s < samples; ++s) {
+    const double between = points_[0].time + (time - points_[0].time) * s / samples;
+    largest = std::max(largest, distances(between, points - 1) * (time - between));
+  }
+  return largest / distances(time, points);
+}
+
+void Extrapolation::at(double time, double h, std::span<double> values) const {
+  const std::size_t points = reach(h);
   std::fill(values.begin(), values.end(), 0.0);
   for (std::size_t p = 0; p < points; ++p) {
     double weight = 1;  // Lagrange's

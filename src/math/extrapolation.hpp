@@ -20,10 +20,14 @@ class Extrapolation {
 
   void clear() { count_ = 0; }
   bool empty() const { return count_ == 0; }
+  std::size_t points() const { return count_; }
   /// Values at a time after the others.
   void add(double time, std::span<const double> values);
   /// Writes what the polynomial for a step of h has at `time`, within this step.
   void at(double time, double h, std::span<double> values) const;
+  /// How far the polynomial through a new value at `time` and the latest ones departs from the truth since the last of them, over
+  /// how far at() was from the new value; as many points in both, for a step of h.
+  double share(double time, double h) const;
 
   /// Under `name`.
   void save(Snapshot& snapshot, const std::string& name) const;
@@ -34,6 +38,8 @@ class Extrapolation {
     double time = 0;
     std::vector<double> values;
   };
+  /// So many points serve for a step of h.
+  std::size_t reach(double h) const;
   std::vector<Point> points_;  ///< the latest first
   std::size_t count_ = 0;      ///< of them in use
   double longest_;

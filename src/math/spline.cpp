@@ -170,6 +170,41 @@ Jet Curve::at(double x) const {
           6 * p->c3};
 }
 
+std::vector<double> Curve::corners(double from, double to, std::size_t most) const {
+  const std::size_t n = pieces_.size();
+  const double first = pieces_.front().x0;
+  struct Side {
+    double value, slope;
+  };
+  std::vector<Side> ends(n);  // of each piece at the next one
+  double height = 0, steepest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Piece& p = pieces_[i];
+    const double s = i + 1 < n ? pieces_[i + 1].x0 - p.x0 : period_ ? first + *period_ - p.x0 : 0;
+    ends[i] = {p.c0 + s * (p.c1 + s * (p.c2 + s * p.c3)), p.c1 + s * (2 * p.c2 + 3 * s * p.c3)};
+    height = std::max({height, std::abs(p.c0), std::abs(ends[i].value)});
+    steepest = std::max({steepest, std::abs(p.c1), std::abs(ends[i].slope)});
+  }
+  std::vector<double> corners;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Piece& p = pieces_[i];
+    const Side before = i > 0 ? ends[i - 1] : period_ ? ends[n - 1] : Side{p.c0, 0};
+    // smaller differences are those of rounding
+    if (std::abs(p.c0 - before.value) > 1e-12 * height || std::abs(p.c1 - before.slope) > 1e-9 * steepest)
+      corners.push_back(p.x0);
+  }
+  std::vector<double> found;
+  if (corners.empty()) return found;
+  for (double turns = period_ ? std::floor((from - first) / *period_) : 0;; ++turns) {
+    for (const double corner : corners) {
+      const double x = period_ ? corner + turns * *period_ : corner;
+      if (from < x && x < to) found.push_back(x);
+      if (found.size() > most) return {};
+    }
+    if (!period_ || first + (turns + 1) * *period_ >= to) return found;
+  }
+}
+
 double Curve::from_start(double x) const {
   const auto [p, s, turns] = find(x);
   if (s < 0) return s * p->c0;

@@ -29,6 +29,8 @@ class Curve {
   Jet at(double x) const;
   /// ∫ from 0 to x, exact for the curve.
   double integral(double x) const { return from_start(x) - from_start_to_zero_; }
+  /// Where it jumps or has a corner between two abscissas, in increasing order; none where there are more than `most`.
+  std::vector<double> corners(double from, double to, std::size_t most) const;
 
  private:
   /// y = c0 + s (c1 + s (c2 + s c3)), s = x - x0.

@@ -170,7 +170,7 @@ class Builder {
   void settle_tolerance() {
     Commands& commands = model_.commands;
     if (!commands.stepping.tolerance) commands.stepping.tolerance = tolerance_of(commands.analysis);
-    if (!commands.stepping.tolerance || commands.analysis.type.is("DYNAMIC")) return;
+    if (!commands.stepping.tolerance || !commands.analysis.type.is("KINEMATIC")) return;
     commands.stepping.tolerance.reset();
     for (const deck::Record& record : deck_.records)
       if (record.get<deck::SteppingCard>())
@@ -181,8 +181,11 @@ class Builder {
   const Function* function(const deck::Record& record, int id) {
     if (id == 0) return nullptr;
     const auto it = model_.functions.find(id);
-    if (it != model_.functions.end())
-      return is_function_of_one_variable(it->second.get(), record.where("NF"), diagnostics_) ? it->second.get() : nullptr;
+    if (it != model_.functions.end()) {
+      if (!is_function_of_one_variable(it->second.get(), record.where("NF"), diagnostics_)) return nullptr;
+      model_.of_time.insert(it->second.get());
+      return it->second.get();
+    }
     diagnostics_.missing(".FCT", record.where("NF"), fmt::format("function {} does not exist", id),
                          fmt::format("declare it with .FCT I {}", id));
     return nullptr;
@@ -412,7 +415,8 @@ class Builder {
               return found ? *found : BuildContext::Found{};
             },
             &blocks_,
-            &notes_};
+            &notes_,
+            &model_.of_time};
   }
 
   /// Lets an element put a node where it needs it: one after another in the order of the deck.

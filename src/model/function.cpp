@@ -24,6 +24,7 @@ class CurveFunction final : public Function {
   explicit CurveFunction(Curve curve) : curve_(std::move(curve)) {}
   Jet at(double x) const override { return curve_.at(x); }
   double integral(double x) const override { return curve_.integral(x); }
+  std::vector<double> corners(double from, double to, std::size_t most) const override { return curve_.corners(from, to, most); }
 
  private:
   Curve curve_;
@@ -68,6 +69,12 @@ class StepFunction final : public Function {
             rise_ * 60 * s * (1 - s) * (1 - 2 * s) / (w * w), rise_ * (60 + 360 * s * (s - 1)) / (w * w * w)};
   }
   double integral(double x) const override { return from_t0(x) - from_t0_to_zero_; }
+  std::vector<double> corners(double from, double to, std::size_t most) const override {
+    std::vector<double> found;
+    for (const double x : {t0_, t0_ + width_})
+      if (rise_ != 0 && from < x && x < to) found.push_back(x);
+    return found.size() <= most ? found : std::vector<double>();
+  }
 
  private:
   double from_t0(double x) const {

@@ -65,6 +65,14 @@ double largest_length(const Model& model) {
 
 }  // namespace
 
+std::vector<double> Model::corners(double from, double to) const {
+  constexpr std::size_t most = 100;  // a function with more is a measured curve: what is between them is no smoother
+  std::set<double> all;
+  for (const Function* function : of_time)
+    for (const double x : function->corners(from, to, most)) all.insert(x);
+  return {all.begin(), all.end()};
+}
+
 void Model::measure() {
   extent_ = size_of_nodes(*this);
   if (extent_ == 0) extent_ = largest_length(*this);
@@ -111,6 +119,12 @@ const Function* BuildContext::function(int id, std::string_view keyword) const {
   diagnostics.missing(".FCT", record.where(keyword), "function " + std::to_string(id) + " does not exist",
                       "declare it with .FCT I " + std::to_string(id));
   return nullptr;
+}
+
+const Function* BuildContext::function_of_time(int id, std::string_view keyword) const {
+  const Function* found = function(id, keyword);
+  if (found && of_time) of_time->insert(found);
+  return found;
 }
 
 }  // namespace engrane

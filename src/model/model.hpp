@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,7 @@ struct Model {
   UnitSystem units;
   std::vector<Node> nodes;  ///< the ground first (id 0), then by id
   std::map<int, std::unique_ptr<Function>> functions;
+  std::set<const Function*> of_time;  ///< those whose variable is time
   std::vector<Part> parts;
   std::vector<Support> supports;
   std::vector<InitialValue> initial;
@@ -93,6 +95,8 @@ struct Model {
 
   int node_index(int id) const;  ///< -1 when there is no such node
   Vec3 gravity_at(double time) const;
+  /// Instants between two others at which a function of time has a corner (Function::corners), in increasing order.
+  std::vector<double> corners(double from, double to) const;
   /// The length that tolerances are measured with: the diagonal of the box around the nodes that elements use. Where all of
   /// them are in one place, but for rounding, the largest length that an element knows (radius of gyration, pitch radius,
   /// natural length); 1 where no length exists at all.

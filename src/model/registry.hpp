@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <typeindex>
 #include <utility>
 #include <vector>
@@ -53,10 +54,13 @@ struct BuildContext {
   std::function<Found(int id)> find_element = nullptr;
   /// Where elements of a kind meet in blocks; nullptr: each is alone in its own.
   BlockStore* blocks = nullptr;
-  BuildNotes* notes = nullptr;  ///< of this model; nullptr: everyone finds out alone
+  BuildNotes* notes = nullptr;                   ///< of this model; nullptr: everyone finds out alone
+  std::set<const Function*>* of_time = nullptr;  ///< functions of time that elements use; nullptr: nobody asks
 
   /// The function a keyword names, or nullptr with an error when it does not exist.
   const Function* function(int id, std::string_view keyword) const;
+  /// The same of a function of time: steps that follow their error end at its corners.
+  const Function* function_of_time(int id, std::string_view keyword) const;
   void error(std::string_view keyword, std::string message, std::string hint = {}) const {
     diagnostics.error(record.where(keyword), std::move(message), std::move(hint));
   }

@@ -43,7 +43,7 @@ SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::Ste
   o.begin = stepping.start;
   o.end = stepping.end;
   o.step = stepping.step;
-  o.tolerance = o.analysis == Analysis::dynamics ? stepping.tolerance.value_or(0) : 0;
+  o.tolerance = o.analysis == Analysis::kinematics ? 0 : stepping.tolerance.value_or(0);
   o.longest = stepping.longest.value_or(longest_part * (o.end - o.begin));
   o.cuts = analysis.cuts;
   o.package = analysis.solver.tag;

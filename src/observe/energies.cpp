@@ -105,6 +105,11 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
   if (!moves_) before_ = c;
 }
 
+void EnergyLedger::begin_anew() {
+  powers_.clear();
+  if (smooth_) powers_.add(last_time_, std::array{external_power_, dissipated_power_});
+}
+
 void EnergyLedger::save(Snapshot& snapshot) const {
   snapshot.put("observe/energies", {balance_.kinetic, balance_.potential, balance_.external_work, balance_.dissipated,
                                     balance_.initial, balance_.largest_error, external_power_, dissipated_power_, last_time_,

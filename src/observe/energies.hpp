@@ -44,6 +44,8 @@ class EnergyLedger {
   void integrate_smoothly() { smooth_ = true; }
   /// What follows does not continue what was.
   void forget() { powers_.clear(); }
+  /// What follows begins with the power of the configuration last added, but does not continue its course.
+  void begin_anew();
   const EnergyBalance& balance() const { return balance_; }
 
   /// For a restart; load() takes the configuration last added from the snapshot too.

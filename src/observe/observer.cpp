@@ -86,9 +86,11 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
   if (fields) find_fields(c);
   if (histories || keeps_ends_) evaluate_histories(c, step);
   if (!keeps_ends_) return;
-  if (!inside_) steady_ = 0;
   keep(c.time);
-  inside_ = false;
+  if (!std::exchange(inside_, false)) steady_ = 0;
+  if (!step.corner) return;
+  event_ = true;
+  ledger_.begin_anew();
 }
 
 void Observer::observe_inside(const Configuration& c) {

@@ -18,6 +18,7 @@ struct Step {
   double length = 0;
   int iterations = 0;      ///< of Newton's method
   std::size_t events = 0;  ///< met in it
+  bool corner = false;     ///< it ends where a function of time has a corner
 };
 
 /// Everything that is computed from accepted configurations: the energy balance, histories, fields, reactions, and which

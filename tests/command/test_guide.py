@@ -65,8 +65,13 @@ def place(tmp_path):
     """A folder with the decks and, as section 5 wants it, a copy of one with a name for the stiffness."""
     if not Path(os.environ.get("ENGRANE", "")).is_file():
         pytest.skip("the variable ENGRANE names no program")
-    (tmp_path / "decks").symlink_to(ROOT / "decks")
-    text = (ROOT / "decks/paper/spur_transmission_a.dat").read_text(encoding="utf-8")
+    paper = tmp_path / "decks/paper"
+    shutil.copytree(ROOT / "decks/paper", paper)
+    text = (paper / "spur_transmission_a.dat").read_text(encoding="utf-8")
+    # 15 000 steps, three times: a fifth of them, as long as five, do for pictures
+    assert ".SUB TF 0.03 H 2D-6" in text
+    long_steps = text[: text.index(".CHK")].replace("H 2D-6", "H 1D-5") + ".FIN 1\n"
+    (paper / "spur_transmission_a.dat").write_text(long_steps, encoding="utf-8")
     assert "`ABRE '/KM' '1.477E7'`" in GUIDE and "`KM /KM`" in GUIDE
     mine = "ABRE '/KM' '1.477E7'\n" + text.replace("KM 1.477E7", "KM /KM")
     assert mine.count("/KM") == 2

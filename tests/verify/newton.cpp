@@ -123,6 +123,45 @@ TEST(Newton, KeepsFactorsWithoutLosingDigits) {
   EXPECT_LT(iterations[1], 3 * iterations[0]);
 }
 
+/// A rotor with a rigid shaft on springs that stand still, and so turn once a revolution in its axes. Factors that did not turn
+/// with it would serve 1.7 degrees each, with 4.4 corrections a step.
+TEST(Newton, KeptFactorsTurnWithAShaft) {
+  DeckRun deck(R"(
+.NOE
+ I 1 X 0 0 0
+ I 2 X 0 0 0.5
+ I 3 X 0 0 0.2
+.MCE
+ I 1 RIGID N 3 1 2
+ I 2 INERTIA N 3 M 10 J 0.2 0.2 0.3
+ I 3 SPRING N 0 1 K 1E5 AT 1 0 0
+ I 4 SPRING N 0 1 K 2E5 AT 0 1 0
+ I 5 SPRING N 0 2 K 1E5 AT 1 0 0.5
+ I 6 SPRING N 0 2 K 2E5 AT 0 1 0.5
+ I 7 SPRING N 0 1 K 1E5 AT 0 0 -1
+.INI
+ VIT NOEUD 3 C 6 V 60
+.CLM
+ STRU ACC VAL 3 -9.81 1
+.SAM TYPE DYNAMIC SOLVER KLU TANGENT KEPT
+.SUB TF 0.4 H 5E-4
+)");
+  int steps = 0, iterations = 0, tangents = 0;
+  long changes = 0;
+  deck.run([&](const Configuration&, const StepReport& step) {
+    const long now = deck.context().assembler.changes();
+    if (step.number > 100) {
+      ++steps;
+      iterations += step.newton->iterations;
+      tangents += now != changes;
+    }
+    changes = now;
+  });
+  EXPECT_EQ(steps, 700);
+  EXPECT_LT(iterations, 2.2 * steps);
+  EXPECT_LT(tangents, 90);  // in 21 rad
+}
+
 TEST(Newton, ReportsTheFreeMotionOfASingularModel) {
   DeckRun deck(R"(
 .NOE

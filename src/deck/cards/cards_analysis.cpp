@@ -151,10 +151,10 @@ Schema stepping_card() {
       .unit(dimension::time)
       .positive()
       .required();
-  card.add("TOL", &SteppingCard::tolerance,
-           "DYNAMIC: the program chooses steps whose local error is at most this part of the range of each motion; H is then the "
-           "first "
-           "step and the time between results")
+  card.add(
+          "TOL", &SteppingCard::tolerance,
+          "DYNAMIC and STATIC: the program chooses steps whose local error is at most this part of the range of each motion, and "
+          "ends them at corners of functions of time; H is then the first step and the time between results")
       .synonyms({"TOLERANCE"})
       .positive()
       .below(1);

@@ -36,7 +36,7 @@ bool check_nodes(const BuildContext& context, const std::vector<int>& nodes) {
 bool find_function(const BuildContext& context, int id, const Function*& function) {
   function = nullptr;
   if (id == 0) return true;
-  function = context.function(id, "NF");
+  function = context.function_of_time(id, "NF");
   return function != nullptr;
 }
 

@@ -174,7 +174,7 @@ bool find_drive(const BuildContext& context, const CoordinateData& data, const C
     return false;
   }
   drive.rate_given = data.drive.is("SPEED");
-  drive.function = context.function(data.function, words.function);
+  drive.function = context.function_of_time(data.function, words.function);
   return drive.function != nullptr;
 }
 

@@ -33,7 +33,7 @@ bool similar(const Weights& a, const Weights& b) {
 }  // namespace
 
 Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int iterations)
-    : assembler_(assembler), solver_(solver), precision_(precision), references_(assembler, precision) {
+    : assembler_(assembler), solver_(solver), precision_(precision), frames_(assembler), references_(assembler, precision) {
   *residual_.out() = assembler.new_vector();
   *guess_.out() = assembler.new_vector();
   check_petsc(SNESCreate(assembler.comm(), snes_.out()));
@@ -62,6 +62,10 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
   check_petsc(SNESSetTolerances(snes_, 0, 0, 0, iterations, 100000));
   check_petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
   check_petsc(SNESSetFromOptions(snes_));
+  check_petsc(SNESSetUp(snes_));
+  // its own, which SNESSetUp() has set, are for inexact Newton methods
+  check_petsc(KSPSetPreSolve(solver.ksp(), before_solution, this));
+  check_petsc(KSPSetPostSolve(solver.ksp(), after_solution, this));
 }
 
 NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply, Configuration& work) {
@@ -77,7 +81,9 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   for (;;) {
     rows_.clear();
     failure_.clear();
+    solving_ = true;
     const PetscErrorCode code = SNESSolve(snes_, nullptr, x);
+    solving_ = false;
     if (!failure_.empty()) throw PetscFailure(failure_);
     check_petsc(code);
     SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
@@ -134,7 +140,12 @@ PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
   auto& self = *static_cast<Newton*>(context);
   try {
     // work_ is the configuration of the last residual, which SNES evaluates at the same point just before
+    const bool comparable =
+        self.matrix_of_factors_ == self.assembler_.changes() && similar(self.weights_, self.weights_of_factors_);
+    if (self.keep_) self.frames_.take_old(*self.work_, self.assembler_.matrix(), comparable);
     self.assembler_.tangent(*self.work_, self.weights_);
+    if (self.keep_) self.frames_.renew(*self.work_, self.assembler_.matrix(), [&](int equation) { return self.reach(equation); });
+    self.fresh_ = true;
     self.solver_.note_matrix();
     self.policy_.renewed();
     self.matrix_of_factors_ = self.assembler_.changes();
@@ -143,6 +154,19 @@ PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
     self.failure_ = e.what();
     return PETSC_ERR_LIB;
   }
+  return 0;
+}
+
+PetscErrorCode Newton::before_solution(KSP, Vec right, Vec, void* context) {
+  auto& self = *static_cast<Newton*>(context);
+  if (self.solving_ && self.keep_ && !self.fresh_) self.frames_.turn_right_side(*self.work_, right);
+  return 0;
+}
+
+PetscErrorCode Newton::after_solution(KSP, Vec, Vec solution, void* context) {
+  auto& self = *static_cast<Newton*>(context);
+  if (self.solving_ && self.keep_ && !self.fresh_) self.frames_.turn_solution(solution);
+  self.fresh_ = false;
   return 0;
 }
 
@@ -166,6 +190,7 @@ void Newton::save(Snapshot& snapshot) const {
   references_.save(snapshot);
   if (!policy_.usable() || matrix_of_factors_ != assembler_.changes()) return;
   policy_.save(snapshot);
+  frames_.save(snapshot);
   snapshot.put("newton/weights", {weights_of_factors_.q, weights_of_factors_.v, weights_of_factors_.a});
   solver_.save_factors(snapshot);
 }
@@ -175,6 +200,7 @@ void Newton::load(const Snapshot& snapshot) {
   policy_.forget();
   if (!snapshot.has("newton/factors") || !solver_.load_factors(snapshot)) return;
   policy_.load(snapshot);
+  frames_.load(snapshot);
   const std::vector<double>& weights = snapshot.array("newton/weights");
   weights_of_factors_ = {weights.at(0), weights.at(1), weights.at(2)};
   matrix_of_factors_ = assembler_.changes();

@@ -7,6 +7,7 @@
 
 #include "assembly/assembler.hpp"
 #include "base/snapshot.hpp"
+#include "solve/algebra/factor_frames.hpp"
 #include "solve/algebra/factor_policy.hpp"
 #include "solve/algebra/imbalance.hpp"
 #include "solve/algebra/linear.hpp"
@@ -64,6 +65,8 @@ class Newton {
  private:
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
   static PetscErrorCode form_jacobian(SNES, Vec x, Mat, Mat, void* self);
+  static PetscErrorCode before_solution(KSP, Vec right, Vec solution, void* self);
+  static PetscErrorCode after_solution(KSP, Vec right, Vec solution, void* self);
   static PetscErrorCode test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal, SNESConvergedReason* reason,
                                          void* self);
   static PetscErrorCode keep_sliding(SNESLineSearch, Vec x, Vec step, PetscBool* changed, void* self);
@@ -87,6 +90,9 @@ class Newton {
   Weights weights_, weights_of_factors_;
   bool keep_ = false;
   FactorPolicy policy_;
+  FactorFrames frames_;
+  bool solving_ = false;         ///< for others the solver takes its factors as they are
+  bool fresh_ = true;            ///< factors are those of the last residual's configuration
   long matrix_of_factors_ = -1;  ///< Assembler::changes() when the tangent was made that the factors belong to
   double evaluation_ = 0;        ///< instructions of a residual, about
   References references_;

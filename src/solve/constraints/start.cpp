@@ -435,9 +435,9 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += delta[i];
   motion_.set_velocities(v, c);
   if (redundancy_.active()) {
-    const double asked = largest(rate);
+    const double open = largest(rate);
     assembler_.constraint_rates(c, phi, rate, second);
-    if (const std::string conflict = redundancy_.rate_conflict(c, rate, std::max(asked, largest(v))); !conflict.empty())
+    if (const std::string conflict = redundancy_.rate_conflict(c, rate, std::max(open, largest(v))); !conflict.empty())
       throw SolutionFailure(conflict);
   }
   delta.resize(6 * c.nodes.size());  // scalars follow: their change says nothing

@@ -29,8 +29,8 @@ constexpr double near_miss = 0.25;
 /// The cubic with values a, b and rates da, db at 0 and h: a + s (c1 + s (c2 + s c3)), s = t/h.
 struct Cubic {
   double h, a, c1, c2, c3;
-  Cubic(double a, double da, double b, double db, double h)
-      : h(h), a(a), c1(h * da), c2(3 * (b - a) - h * (2 * da + db)), c3(2 * (a - b) + h * (da + db)) {}
+  Cubic(double y0, double v0, double y1, double v1, double step)
+      : h(step), a(y0), c1(h * v0), c2(3 * (y1 - y0) - h * (2 * v0 + v1)), c3(2 * (y0 - y1) + h * (v0 + v1)) {}
   double operator()(double s) const { return a + s * (c1 + s * (c2 + s * c3)); }
   double rate(double s) const { return (c1 + s * (2 * c2 + s * 3 * c3)) / h; }
 };

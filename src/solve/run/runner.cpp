@@ -16,6 +16,8 @@ namespace {
 
 /// With error control steps may be cut this much deeper than CUTS says.
 constexpr int deeper = 20;
+/// Part of the run below which two corners of functions of time count as one.
+constexpr double shortest_way = 1e-9;
 /// Part of H below which reactions would carry visible noise of rounding.
 constexpr double noisy = 0.1;
 
@@ -74,6 +76,7 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   step_.number = static_cast<int>(snapshot.number("runner/number"));
   renewed_ = snapshot.number("runner/renewed") != 0;
   pending_drift_ = snapshot.number("runner/pending_drift");
+  if (snapshot.number("runner/corner") != 0) scheme_.pass_corner(now_);
   started_ = true;
   return march();
 }
@@ -88,11 +91,21 @@ void Runner::save(Snapshot& snapshot) const {
   snapshot.put("runner/number", step_.number);
   snapshot.put("runner/renewed", renewed_ ? 1 : 0);
   snapshot.put("runner/pending_drift", pending_drift_);
+  snapshot.put("runner/corner", step_.corner ? 1 : 0);
 }
 
 bool Runner::march() {
   const double begin = options_.begin, end = options_.end, step = options_.step;
-  if (control_.active()) return now_.time >= end || reach(end);
+  if (control_.active()) {
+    for (const double corner : context_.model.corners(now_.time, end)) {
+      if (corner - now_.time < shortest_way * (end - begin) || end - corner < shortest_way * (end - begin)) continue;
+      corner_ = corner;
+      if (!reach(corner)) return false;
+      scheme_.pass_corner(now_);
+    }
+    corner_.reset();
+    return now_.time >= end || reach(end);
+  }
   // a last step shorter than a billionth of the others is the rounding of their sum
   const auto steps = static_cast<long long>(std::ceil((end - begin) / step * (1 - 1e-9)));
   const auto done = static_cast<long long>(std::floor((now_.time - begin) / step * (1 + 1e-15)));
@@ -199,6 +212,7 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   ++step_.number;
   step_.step = size;
   step_.regular = regular;
+  step_.corner = now_.time == corner_;
   step_.within = nullptr;
   if (control_.active() && solved) step_.within = [this] { return scheme_.within(next_, now_, ended_); };
   step_.chatter = locator_.chatters();

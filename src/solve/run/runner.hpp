@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "solve/run/events.hpp"
 #include "solve/run/step_control.hpp"
@@ -14,6 +15,7 @@ struct StepReport {
   int number = 0;       ///< from 1; 0 is the start
   double step = 0;      ///< h
   int cuts = 0;         ///< failed attempts before this one
+  bool corner = false;  ///< a function of time has a corner at the end of the step
   bool regular = true;  ///< false: the step ended for an event, not where a multiple of H or a cut asks for it
   /// Gives the motion within the step; only with a tolerance, and empty where the step is but a drift across an event.
   std::function<std::unique_ptr<Within>()> within;
@@ -65,8 +67,9 @@ class Runner {
   std::vector<double> ended_;  ///< scalars of now_ before whole turns were counted
   double h_;
   bool started_ = false;
-  bool renewed_ = false;      ///< constraints have been analysed anew on the way to the present target
-  double pending_drift_ = 0;  ///< time to drift over the event that the last step has landed before
+  bool renewed_ = false;          ///< constraints have been analysed anew on the way to the present target
+  std::optional<double> corner_;  ///< of a function of time, that is being approached
+  double pending_drift_ = 0;      ///< time to drift over the event that the last step has landed before
   StepReport step_;
 };
 

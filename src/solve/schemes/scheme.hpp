@@ -60,6 +60,8 @@ class Scheme {
                                          std::span<const double> /*scalars*/) {
     return nullptr;
   }
+  /// The accepted configuration is at a corner of a function of time: what lies before it tells little of what follows.
+  virtual void pass_corner(const Configuration&) {}
   /// Whether steps are to end at the events of the elements' switches; drift() is then defined.
   virtual bool meets_events() const { return false; }
   /// Moves an accepted configuration over a stretch much shorter than a step, past an event; what the scheme

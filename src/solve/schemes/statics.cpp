@@ -4,15 +4,57 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "solve/constraints/diagnosis.hpp"
 
 namespace engrane::solve {
 
+namespace {
+
+/// A polynomial is continued by a step of at most so many times the distance of its points.
+constexpr double longest_continuation = 4;
+/// A line through the ends of a first step departs so far from a parabola, over how far the line through its beginning and its
+/// middle is from its end.
+constexpr double share_of_first = 0.5;
+/// Derivatives that are not the same in both polynomials: an error is up to three times what their comparison tells.
+constexpr double safety = 3;
+
+}  // namespace
+
+/// On the polynomial through the equilibria; forces are not balanced anew.
+class Statics::Inside final : public Within {
+ public:
+  Inside(Statics& scheme, const Configuration& from, const Configuration& to) : Within(from, to), scheme_(scheme) {}
+
+  void at(double time, Configuration& c) override {
+    const std::size_t slots = scheme_.way_.size();
+    std::vector<double> y(slots);
+    scheme_.path_.at(time, 0, y);
+    for (std::size_t i = 0; i < slots; ++i) y[i] -= scheme_.way_[i] - scheme_.y_[i];
+    scheme_.prescribe_step(from().time, time, y);
+    c = from();
+    c.time = time;
+    c.h = time - from().time;
+    scheme_.context_.motion.move(from(), y, c);
+    scheme_.forces_.at(time, 0, c.multipliers);
+  }
+
+  bool balance(Configuration&) override { return false; }
+
+ private:
+  Statics& scheme_;
+};
+
 Statics::Statics(SolverContext& context)
     : Scheme(context),
       has_contacts_(std::any_of(context.model.parts.begin(), context.model.parts.end(),
-                                [](const Model::Part& part) { return !part.element->layout().switches.empty(); })) {
+                                [](const Model::Part& part) { return !part.element->layout().switches.empty(); })),
+      error_(context.model, context.numbering, context.options),
+      path_(points, longest_continuation),
+      forces_(points, longest_continuation),
+      way_(context.motion.size(), 0.0),
+      y_(way_.size(), 0.0) {
   *unknowns_.out() = context.assembler.new_vector();
 }
 
@@ -31,26 +73,110 @@ StartReport Statics::start(Configuration& c) {
     throw SolutionFailure(why + ". Loads given without NF act in full from the start: ramp them with a function of time");
   }
   c = std::move(balanced);
+  if (error_.wanted()) {
+    begin_path(c.time, c.multipliers);
+    error_.take(way_);
+  }
   return report;
 }
 
 Outcome Statics::attempt(const Configuration& from, double h, Configuration& to) {
-  std::vector<double> y(context_.motion.size(), 0.0);
-  prescribe_step(from.time, from.time + h, y);
-  const std::vector<double> prescribed = y;
+  if (!error_.wanted() || path_.empty()) return {find(from, h, to, false), {}};
+  if (has_middle_) begin_path(from.time, from.multipliers);  // of a step that does not stand
+  if (path_.points() == 1 && !find_middle(from, h)) return {find(from, h, to, false), {}};
+  if (NewtonReport report = find(from, h, to, true); report.converged) return {std::move(report), error(from, h)};
+  return {find(from, h, to, false), error(from, h)};
+}
+
+NewtonReport Statics::find(const Configuration& from, double h, Configuration& to, bool predicted) {
   to = from;
   to.time = from.time + h;
   to.h = h;
+  std::vector<double>& y = y_;
+  std::fill(y.begin(), y.end(), 0.0);
+  if (predicted) {
+    path_.at(to.time, h, y);
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] -= way_[i];
+    forces_.at(to.time, h, to.multipliers);
+  }
+  prescribe_step(from.time, from.time + h, y);
+  const std::vector<double> prescribed = y;
   NewtonReport report = balance(from, y, to);
-  if (!report.converged && has_contacts_) {
+  if (!report.converged && has_contacts_ && !predicted) {
     Configuration other = from;
     other.time = to.time;
-    if (NewtonReport across = balance_across_gaps(from, prescribed, other); across.converged) {
+    y = prescribed;
+    if (NewtonReport across = balance_across_gaps(from, y, other); across.converged) {
       to = std::move(other);
-      return {std::move(across), {}};
+      report = std::move(across);
     }
   }
-  return {std::move(report), {}};
+  tried_time_ = to.time;
+  tried_forces_ = to.multipliers;
+  return report;
+}
+
+bool Statics::find_middle(const Configuration& from, double h) {
+  Configuration middle;
+  if (!find(from, h / 2, middle, false).converged) return false;
+  std::vector<double> there = way_;
+  for (std::size_t i = 0; i < there.size(); ++i) there[i] += y_[i];
+  path_.add(middle.time, there);
+  forces_.add(middle.time, middle.multipliers);
+  has_middle_ = true;
+  return true;
+}
+
+std::optional<double> Statics::error(const Configuration& from, double h) const {
+  std::vector<double> off(way_.size()), there = way_;
+  path_.at(from.time + h, h, off);
+  const double share = path_.points() == 2 ? share_of_first : path_.share(from.time + h, h);
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    there[i] += y_[i];
+    off[i] = safety * share * (there[i] - off[i]);
+  }
+  return error_.over_tolerance(off, there, 1);
+}
+
+void Statics::accept() {
+  if (!error_.wanted()) return;
+  for (std::size_t i = 0; i < way_.size(); ++i) way_[i] += y_[i];
+  path_.add(tried_time_, way_);
+  forces_.add(tried_time_, tried_forces_);
+  error_.take(way_);
+  has_middle_ = false;
+}
+
+void Statics::begin_path(double time, std::span<const double> multipliers) {
+  path_.clear();
+  forces_.clear();
+  path_.add(time, way_);
+  forces_.add(time, multipliers);
+  has_middle_ = false;
+}
+
+void Statics::pass_corner(const Configuration& c) {
+  if (error_.wanted()) begin_path(c.time, c.multipliers);
+}
+
+std::unique_ptr<Within> Statics::within(const Configuration& from, const Configuration& to, std::span<const double>) {
+  return std::make_unique<Inside>(*this, from, to);
+}
+
+void Statics::save(Snapshot& snapshot) const {
+  error_.save(snapshot);
+  if (!error_.wanted()) return;
+  path_.save(snapshot, "scheme/path");
+  forces_.save(snapshot, "scheme/forces");
+  snapshot.put("scheme/way", way_);
+}
+
+void Statics::load(const Snapshot& snapshot) {
+  error_.load(snapshot);
+  if (!error_.wanted() || !snapshot.has("scheme/way")) return;
+  path_.load(snapshot, "scheme/path");
+  forces_.load(snapshot, "scheme/forces");
+  way_ = snapshot.array("scheme/way");
 }
 
 NewtonReport Statics::balance(const Configuration& from, std::span<double> y, Configuration& to) {
@@ -68,8 +194,7 @@ NewtonReport Statics::balance(const Configuration& from, std::span<double> y, Co
   return report;
 }
 
-NewtonReport Statics::balance_across_gaps(const Configuration& from, std::span<const double> prescribed, Configuration& to) {
-  std::vector<double> y(prescribed.begin(), prescribed.end());
+NewtonReport Statics::balance_across_gaps(const Configuration& from, std::span<double> y, Configuration& to) {
   NewtonReport report;
   int iterations = 0;
   for (const double contact_homotopy : {1.0, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6, 0.0}) {

@@ -25,6 +25,7 @@ constexpr double known = 1e-12;
 StepError::StepError(const Model& model, const Numbering& numbering, const SolverOptions& options)
     : tolerance_(options.tolerance) {
   if (!wanted()) return;
+  const double span = options.analysis == SolverOptions::Analysis::statics ? 1 : options.end - options.begin;
   const auto slots = static_cast<std::size_t>(numbering.motion_slots()), nodal = 6 * model.nodes.size();
   for (const Unknown& u : numbering.unknowns()) {
     if (u.multiplier) continue;
@@ -32,7 +33,7 @@ StepError::StepError(const Model& model, const Numbering& numbering, const Solve
     const std::size_t first = slot < nodal ? slot - slot % 3 : slot;
     if (groups_.empty() || groups_.back().first != first)
       groups_.push_back({first, slot < nodal ? std::size_t{3} : std::size_t{1}, static_cast<std::size_t>(u.measure),
-                         size_of(u, model.extent()), least_motion * size_of(u, model.extent()) / (options.end - options.begin)});
+                         size_of(u, model.extent()), least_motion * size_of(u, model.extent()) / span});
     groups_.back().free[slot - first] = true;
   }
   least_.assign(slots, std::numeric_limits<double>::infinity());

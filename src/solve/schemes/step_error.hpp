@@ -15,6 +15,8 @@ namespace engrane::solve {
 /// The local error of a step as schemes estimate it, compared with how fast things have moved so far: the position of a node
 /// departs from the truth at no more than TOL times the range of its velocity, its rotation and scalars alike. A vibration is
 /// judged by its own amplitude, however fast the shaft below it turns, and no unit counts.
+///
+/// Errors of equilibria do not add up: of statics, displacements stand in the place of velocities, and h is 1.
 class StepError {
  public:
   StepError(const Model& model, const Numbering& numbering, const SolverOptions& options);
