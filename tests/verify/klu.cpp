@@ -184,5 +184,29 @@ TEST(LinearSolver, TheEstimatedConditionIsThatOfTheMatrix) {
   }
 }
 
+TEST(LinearSolver, AutoTakesKluForChainsAndMumpsForLattices) {
+  const auto package = [](int x, int y, int z) {
+    const int n = x * y * z;
+    Owned<Mat> a;
+    check_petsc(MatCreateSeqAIJ(PETSC_COMM_SELF, n, n, 7, nullptr, a.out()));
+    const auto couple = [&](int i, int j) {
+      check_petsc(MatSetValue(a, i, j, 1, INSERT_VALUES));
+      check_petsc(MatSetValue(a, j, i, 1, INSERT_VALUES));
+    };
+    for (int i = 0; i < n; ++i) {
+      couple(i, i);
+      if (i % x + 1 < x) couple(i, i + 1);
+      if (i / x % y + 1 < y) couple(i, i + x);
+      if (i + x * y < n) couple(i, i + x * y);
+    }
+    check_petsc(MatAssemblyBegin(a, MAT_FINAL_ASSEMBLY));
+    check_petsc(MatAssemblyEnd(a, MAT_FINAL_ASSEMBLY));
+    return LinearSolver(a, "AUTO").package();
+  };
+  EXPECT_EQ(package(20000, 1, 1), "KLU");
+  EXPECT_EQ(package(10, 10, 1), "KLU");
+  EXPECT_EQ(package(18, 18, 18), "MUMPS");
+}
+
 }  // namespace
 }  // namespace engrane

@@ -6,7 +6,6 @@
 
 #include "solve/algebra/condition.hpp"
 #include "solve/algebra/rows.hpp"
-#include "solve/algebra/solver_cost.hpp"
 
 namespace engrane::solve {
 

@@ -7,6 +7,7 @@
 
 #include "solve/algebra/backward_error.hpp"
 #include "solve/algebra/factors.hpp"
+#include "solve/algebra/solver_cost.hpp"
 
 namespace engrane::solve {
 
@@ -49,6 +50,8 @@ class LinearSolver {
 
   /// What a factorisation and a solution cost.
   SolverWork work() const { return factors_->work(); }
+  /// What KLU and MUMPS cost for this matrix; on one rank.
+  ForeseenWork foreseen() const { return foresee_work(matrix_); }
   /// Memory of the factors in bytes, as the package reports it; 0 when it does not.
   double factor_bytes() const { return factors_->bytes(); }
 

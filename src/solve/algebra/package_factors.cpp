@@ -119,15 +119,16 @@ void PackageFactors::load(const Snapshot& snapshot) {
 
 SolverWork PackageFactors::work() const {
   if (!factors_) return {};
-  if (mumps()) {
-    PetscInt entries = 0;
-    check_petsc(MatMumpsGetInfog(factors_, 29, &entries));  // negative: in millions
-    return mumps_work(entries < 0 ? -1e6 * static_cast<double>(entries) : static_cast<double>(entries), 0);
-  }
   PetscInt rows = 0;
   check_petsc(MatGetSize(matrix_, &rows, nullptr));
-  const double n = static_cast<double>(rows);
-  return package_ == "UMFPACK" ? SolverWork{11300 * n, 420 * n} : SolverWork{7500 * n, 530 * n};
+  const auto n = static_cast<double>(rows);
+  if (package_ == "UMFPACK") return {11300 * n, 420 * n};
+  if (package_ == "SUPERLU") return {7500 * n, 530 * n};
+  PetscInt entries = 0;
+  PetscReal operations = 0;
+  check_petsc(MatMumpsGetInfog(factors_, 29, &entries));  // negative: in millions
+  check_petsc(MatMumpsGetRinfog(factors_, 3, &operations));
+  return mumps_work(n, (entries < 0 ? -1e6 : 1) * static_cast<double>(entries), operations);
 }
 
 double PackageFactors::bytes() const {

@@ -7,16 +7,17 @@
 
 namespace engrane::solve {
 
-/// Instructions of a factorisation with old pivots and of a solution by KLU, and of the same by MUMPS, whose factors have so many
-/// entries and take so many floating-point operations (docs/decisions/0027-solver-ladder.md).
+/// Instructions of a factorisation with old pivots and of a solution by KLU, whose factors have so many entries and take so many
+/// floating-point operations (docs/decisions/0027-solver-ladder.md).
 SolverWork klu_work(double entries, double operations);
-SolverWork mumps_work(double entries, double operations);
+/// The same by MUMPS, of a matrix with so many rows.
+SolverWork mumps_work(double rows, double entries, double operations);
 
 /// What KLU and MUMPS would cost, foreseen from the pattern of a sequential matrix: the same in every run.
 struct ForeseenWork {
   SolverWork klu, mumps;
-  /// Whether KLU is the cheaper one for one factorisation and one solution.
-  bool prefers_klu() const { return klu.factor + klu.solution <= mumps.factor + mumps.solution; }
+  /// What a factorisation and a solution by the other one would cost over those by `package`, MUMPS or KLU.
+  double other_over(const std::string& package) const;
 };
 ForeseenWork foresee_work(Mat matrix);
 
