@@ -17,11 +17,12 @@ namespace {
 /// A sequential matrix whose pattern stays, with LinearSolver on it.
 class Fixture {
  public:
-  explicit Fixture(const Eigen::MatrixXd& a, const std::string& package = "KLU") : n_(static_cast<int>(a.rows())) {
+  explicit Fixture(const Eigen::MatrixXd& a, const std::string& package = "KLU", const std::vector<unsigned char>& kinds = {})
+      : n_(static_cast<int>(a.rows())) {
     check_petsc(MatCreateSeqAIJ(PETSC_COMM_SELF, n_, n_, n_, nullptr, matrix_.out()));
     check_petsc(MatCreateVecs(matrix_, right_.out(), solution_.out()));
     set(a);
-    solver_ = std::make_unique<LinearSolver>(matrix_, package);
+    solver_ = std::make_unique<LinearSolver>(matrix_, package, kinds);
   }
 
   void set(const Eigen::MatrixXd& a) {
@@ -41,7 +42,7 @@ class Fixture {
     return true;
   }
 
-  void tell_kinds(std::vector<unsigned char> kinds) { solver_->tell_kinds(std::move(kinds)); }
+  double condition() { return solver_->condition(); }
   /// Matrices in a row for which old pivots did not serve.
   double lost() const {
     Snapshot snapshot;
@@ -107,8 +108,7 @@ TEST(Klu, RowsThatOnlyRoundingFillsSayNothingOfPivots) {
     return a;
   };
   const Eigen::VectorXd b = (Eigen::VectorXd(7) << 0.3, 0.7, 1.9, 0.4, 0, 0, 0).finished();
-  Fixture told(matrix(0.5)), untold(matrix(0.5));
-  told.tell_kinds({0, 0, 0, 0, 2, 2, 2});
+  Fixture told(matrix(0.5), "KLU", {0, 0, 0, 0, 2, 2, 2}), untold(matrix(0.5));
   double lost = 0;
   for (int k = 0; k < 20; ++k) {
     for (Fixture* f : {&told, &untold}) {
@@ -132,6 +132,80 @@ TEST(Klu, SingularIsSaidAndLeavesNothingBehind) {
   f.set(good);
   ASSERT_TRUE(f.solve(b));
   EXPECT_LT((f.x - good.inverse() * b).norm(), 1e-15);
+}
+
+TEST(LinearSolver, MumpsWithoutScalingIsRefined) {
+  // rows and columns of 24 decades: what pivots of 1e-12 leave of others is rounding until the solution is refined
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> entry(-1, 1), decade(-6, 6);
+  for (const char* package : {"MUMPS", "KLU", "UMFPACK", "SUPERLU"}) {
+    Fixture f(Eigen::MatrixXd::Identity(40, 40), package);
+    double worst = 0;
+    for (int k = 0; k < 20; ++k) {
+      Eigen::MatrixXd a(40, 40);
+      for (Eigen::Index i = 0; i < 40; ++i)
+        for (Eigen::Index j = 0; j < 40; ++j) a(i, j) = entry(random);
+      for (Eigen::Index i = 0; i < 40; ++i) a.row(i) *= std::pow(10, decade(random));
+      for (Eigen::Index j = 0; j < 40; ++j) a.col(j) *= std::pow(10, decade(random));
+      f.set(a);
+      ASSERT_TRUE(f.solve(Eigen::VectorXd::Random(40))) << package;
+      worst = std::max(worst, f.error);
+    }
+    EXPECT_LT(worst, good_solution) << package;
+  }
+}
+
+TEST(LinearSolver, EveryPackageSaysThatAMatrixIsSingular) {
+  const Eigen::Matrix3d good{{4, 1, 2}, {1, 5, 1}, {2, 1, 6}}, singular{{4, 1, 2}, {1, 5, 1}, {4, 1, 2}};
+  const Eigen::Vector3d b(1, 2, 3);
+  for (const char* package : {"MUMPS", "KLU", "UMFPACK", "SUPERLU"}) {
+    Fixture f(good, package);
+    ASSERT_TRUE(f.solve(b)) << package;
+    f.set(singular);
+    EXPECT_FALSE(f.solve(b)) << package;
+    f.set(good);
+    ASSERT_TRUE(f.solve(b)) << package;
+    EXPECT_LT((f.x - good.inverse() * b).norm(), 1e-15) << package;
+  }
+}
+
+TEST(LinearSolver, TheEstimatedConditionIsThatOfTheMatrix) {
+  std::mt19937 random(5);
+  for (const char* package : {"MUMPS", "KLU"}) {
+    for (int k = 0; k < 10; ++k) {
+      const Eigen::MatrixXd a = saddle_point(random, 24, 9);
+      const auto norm1 = [](const Eigen::MatrixXd& m) { return m.cwiseAbs().colwise().sum().maxCoeff(); };
+      const double exact = norm1(a) * norm1(a.inverse());
+      Fixture f(a, package);
+      ASSERT_TRUE(f.solve(Eigen::VectorXd::Random(33)));
+      EXPECT_LT(f.condition(), 1.001 * exact) << package;
+      EXPECT_GT(f.condition(), exact / 3) << package;
+    }
+  }
+}
+
+TEST(LinearSolver, AutoTakesKluForChainsAndMumpsForLattices) {
+  const auto package = [](int x, int y, int z) {
+    const int n = x * y * z;
+    Owned<Mat> a;
+    check_petsc(MatCreateSeqAIJ(PETSC_COMM_SELF, n, n, 7, nullptr, a.out()));
+    const auto couple = [&](int i, int j) {
+      check_petsc(MatSetValue(a, i, j, 1, INSERT_VALUES));
+      check_petsc(MatSetValue(a, j, i, 1, INSERT_VALUES));
+    };
+    for (int i = 0; i < n; ++i) {
+      couple(i, i);
+      if (i % x + 1 < x) couple(i, i + 1);
+      if (i / x % y + 1 < y) couple(i, i + x);
+      if (i + x * y < n) couple(i, i + x * y);
+    }
+    check_petsc(MatAssemblyBegin(a, MAT_FINAL_ASSEMBLY));
+    check_petsc(MatAssemblyEnd(a, MAT_FINAL_ASSEMBLY));
+    return LinearSolver(a, "AUTO").package();
+  };
+  EXPECT_EQ(package(20000, 1, 1), "KLU");
+  EXPECT_EQ(package(10, 10, 1), "KLU");
+  EXPECT_EQ(package(18, 18, 18), "MUMPS");
 }
 
 }  // namespace

@@ -71,8 +71,8 @@ Schema analysis_card() {
   card.add("SOLVER", &AnalysisCard::solver, "direct solver of the linear systems")
       .synonyms({"SOLVEUR"})
       .option({"MUMPS", {}, "multifrontal; the only one that runs in parallel"})
-      .option({"AUTO", {}, "KLU for small models on one process, else MUMPS"})
-      .option({"KLU", {}, "fastest for small mechanisms"})
+      .option({"AUTO", {}, "on one process the cheaper one of KLU and MUMPS, as their operations foretell; else MUMPS"})
+      .option({"KLU", {}, "fastest for mechanisms"})
       .option({"UMFPACK", {}, "multifrontal, serial"})
       .option({"SUPERLU", {}, "supernodal, serial"});
   card.add("START", &AnalysisCard::start, "state from which a DYNAMIC analysis starts")

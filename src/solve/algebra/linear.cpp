@@ -4,194 +4,173 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/algebra/condition.hpp"
+#include "solve/algebra/rows.hpp"
+
 namespace engrane::solve {
 
 namespace {
 
-/// Up to so many unknowns KLU takes less time than MUMPS; of chains and frames beyond too, which is no promise for meshes
-/// (docs/performance.md).
-constexpr PetscInt most_for_klu = 5000;
+/// Refinement that changes a solution by more than this part of its largest entry does not converge: the matrix is singular to
+/// working precision (Higham, Accuracy and Stability of Numerical Algorithms, 2002, section 12.1). The solution stays as it was:
+/// of a motion that nothing resists and nothing drives it holds rounding, and the correction holds that over rounding.
+constexpr double most_refinement = 0.5;
 
-MatSolverType petsc_name(const std::string& package) {
-  if (package == "UMFPACK") return MATSOLVERUMFPACK;
-  if (package == "SUPERLU") return MATSOLVERSUPERLU;
-  return MATSOLVERMUMPS;
+bool sequential(Mat matrix) {
+  PetscBool sequential = PETSC_FALSE;
+  check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(matrix), MATSEQAIJ, &sequential));
+  return sequential == PETSC_TRUE;
+}
+
+double largest(Vec vector) {
+  PetscReal norm = 0;
+  check_petsc(VecNorm(vector, NORM_INFINITY, &norm));
+  return norm;
 }
 
 }  // namespace
 
-LinearSolver::LinearSolver(Mat matrix, const std::string& package) : package_(package) {
+LinearSolver::LinearSolver(Mat matrix, const std::string& package, const std::vector<unsigned char>& kinds)
+    : matrix_(matrix),
+      package_(choose_package(matrix, package)),
+      factors_(make_factors(matrix, package_)),
+      backward_error_(matrix, kinds) {
+  check_petsc(PetscLogEventGetId("MatLUFactorNum", &factoring_));
+  check_petsc(PetscLogEventGetId("MatSolve", &solving_));
   MPI_Comm comm = PETSC_COMM_SELF;
   check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
-  int size = 1;
-  MPI_Comm_size(comm, &size);
-  sequential_ = size == 1;
-  PetscInt rows = 0;
-  check_petsc(MatGetSize(matrix, &rows, nullptr));
-  if (package_ == "AUTO") package_ = rows <= most_for_klu ? "KLU" : "MUMPS";
-  if (!sequential_) package_ = "MUMPS";
-  if (package_ == "KLU") klu_ = std::make_unique<Klu>(matrix);
+  check_petsc(MatCreateVecs(matrix, correction_.out(), nullptr));
   check_petsc(KSPCreate(comm, ksp_.out()));
   check_petsc(KSPSetOperators(ksp_, matrix, matrix));
   check_petsc(KSPSetType(ksp_, KSPPREONLY));
-  set_up();
-}
-
-void LinearSolver::set_up() {
   PC pc = nullptr;
   check_petsc(KSPGetPC(ksp_, &pc));
-  if (klu_) {
-    klu_->serve(pc);
-    check_petsc(KSPSetFromOptions(ksp_));
-    return;
-  }
-  check_petsc(PCSetType(pc, PCLU));
-  check_petsc(PCFactorSetMatSolverType(pc, petsc_name(package_)));
-  check_petsc(PCFactorSetUpMatSolverType(pc));
-  // MUMPS stops with -9 when pivoting needs more room than the analysis guessed
-  if (package_ == "MUMPS") check_petsc(MatMumpsSetIcntl(factor(), 14, mumps_room_));
+  check_petsc(PCSetType(pc, PCSHELL));
+  check_petsc(PCShellSetName(pc, (package_ + ", its solutions judged").c_str()));
+  check_petsc(PCShellSetContext(pc, this));
+  check_petsc(PCShellSetSetUp(pc, set_up));
+  check_petsc(PCShellSetApply(pc, apply));
   check_petsc(KSPSetFromOptions(ksp_));
 }
 
-Mat LinearSolver::matrix() const {
-  Mat matrix = nullptr;
-  check_petsc(KSPGetOperators(ksp_, &matrix, nullptr));
-  return matrix;
+void LinearSolver::correct_only(bool corrections) {
+  const double enough = corrections ? fair_solution : good_solution;
+  if (enough < enough_) proven_ = false;
+  enough_ = enough;
 }
 
-std::vector<double> LinearSolver::values() const {
-  const PetscScalar* values = nullptr;
-  MatInfo info{};
-  check_petsc(MatGetInfo(matrix(), MAT_LOCAL, &info));
-  check_petsc(MatSeqAIJGetArrayRead(matrix(), &values));
-  std::vector<double> all(values, values + static_cast<std::ptrdiff_t>(info.nz_used));
-  check_petsc(MatSeqAIJRestoreArrayRead(matrix(), &values));
-  return all;
+bool LinearSolver::solve(Vec right, Vec solution) {
+  correct_only(false);
+  check_petsc(KSPSolve(ksp_, right, solution));
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  check_petsc(KSPGetConvergedReason(ksp_, &reason));
+  if (reason > 0) return true;
+  reset();
+  return false;
 }
 
-bool LinearSolver::set_values(const std::vector<double>& values) {
-  MatInfo info{};
-  check_petsc(MatGetInfo(matrix(), MAT_LOCAL, &info));
-  if (values.empty() || values.size() != static_cast<std::size_t>(info.nz_used)) return false;
-  PetscScalar* into = nullptr;
-  check_petsc(MatSeqAIJGetArray(matrix(), &into));
-  std::copy(values.begin(), values.end(), into);
-  check_petsc(MatSeqAIJRestoreArray(matrix(), &into));
-  return true;
+void LinearSolver::reset() {
+  factors_->forget();
+  state_ = State::forgotten;
 }
 
-void LinearSolver::note_matrix() {
-  if (!klu_ && sequential_ && analysed_for_.empty()) analysed_for_ = values();
+bool LinearSolver::factor() {
+  const LoggedTime logged(factoring_);
+  proven_ = false;
+  state_ = factors_->factor() ? State::ready : State::singular;
+  return state_ == State::ready;
+}
+
+PetscErrorCode LinearSolver::set_up(PC pc) {
+  LinearSolver* self = nullptr;
+  PetscCall(PCShellGetContext(pc, &self));
+  try {
+    const bool regular = self->restored_ || self->factor();
+    return PCSetFailedReason(pc, regular ? PC_NOERROR : PC_FACTOR_NUMERIC_ZEROPIVOT);
+  } catch (const PetscFailure&) {
+    return PETSC_ERR_LIB;
+  }
+}
+
+PetscErrorCode LinearSolver::apply(PC pc, Vec right, Vec solution) {
+  LinearSolver* self = nullptr;
+  PetscCall(PCShellGetContext(pc, &self));
+  try {
+    if (self->state_ == State::forgotten) self->factor();
+    if (self->state_ == State::singular) return PCSetFailedReason(pc, PC_FACTOR_NUMERIC_ZEROPIVOT);
+    const LoggedTime logged(self->solving_);
+    self->solve_well(right, solution);
+    if (self->state_ == State::singular || !std::isfinite(self->error_))
+      return PCSetFailedReason(pc, PC_FACTOR_NUMERIC_ZEROPIVOT);
+  } catch (const PetscFailure&) {
+    return PETSC_ERR_LIB;
+  }
+  return 0;
+}
+
+void LinearSolver::solve_well(Vec right, Vec solution) {
+  solve_and_refine(right, solution);
+  if (error_ <= fair_solution) return factors_->served();
+  if (!factors_->improvable()) return;
+  proven_ = false;
+  state_ = factors_->improve() ? State::ready : State::singular;
+  if (state_ == State::ready) solve_and_refine(right, solution);
+}
+
+void LinearSolver::solve_and_refine(Vec right, Vec solution) {
+  factors_->solve(right, solution);
+  if (proven_) return;
+  error_ = backward_error_.of(right, solution);
+  proven_ = error_ <= enough_;
+  if (proven_ || !std::isfinite(error_)) return;
+  factors_->solve(backward_error_.residual(), correction_);
+  if (!(largest(correction_) <= most_refinement * largest(solution))) return;
+  check_petsc(VecAXPY(solution, 1, correction_));
+  // what was good enough before is so after it
+  if (error_ > fair_solution) error_ = backward_error_.of(right, solution);
 }
 
 void LinearSolver::save(Snapshot& snapshot) const {
-  if (klu_)
-    klu_->save(snapshot);
-  else if (sequential_)
-    snapshot.put("solver/" + package_, analysed_for_);
+  factors_->save(snapshot);
+  snapshot.put("solver/proven", proven_ ? 1 : 0);
 }
 
 void LinearSolver::load(const Snapshot& snapshot) {
-  if (klu_) {
-    if (snapshot.has("klu/chosen_for")) klu_->load(snapshot);
-    return;
-  }
-  // another package or another number of ranks: there is nothing to take over
-  if (!sequential_ || !snapshot.has("solver/" + package_)) return;
-  const std::vector<double>& values = snapshot.array("solver/" + package_);
-  if (!set_values(values)) return;
-  analysed_for_ = values;
-  check_petsc(KSPSetUp(ksp_));
+  factors_->load(snapshot);
+  if (snapshot.has("solver/proven")) proven_before_ = snapshot.number("solver/proven") != 0;
 }
 
 void LinearSolver::save_factors(Snapshot& snapshot) const {
-  if (sequential_) snapshot.put("factors/" + package_, values());
+  if (!sequential(matrix_)) return;
+  const Rows rows(matrix_);
+  snapshot.put("factors/" + package_, std::vector<double>(rows.value(), rows.value() + rows.entries()));
 }
 
 bool LinearSolver::load_factors(const Snapshot& snapshot) {
   const std::string name = "factors/" + package_;
-  if (!sequential_ || !snapshot.has(name) || !set_values(snapshot.array(name))) return false;
+  if (!sequential(matrix_) || !snapshot.has(name)) return false;
+  const std::vector<double>& values = snapshot.array(name);
+  if (values.size() != static_cast<std::size_t>(Rows(matrix_).entries())) return false;
+  PetscScalar* into = nullptr;
+  check_petsc(MatSeqAIJGetArray(matrix_, &into));
+  std::copy(values.begin(), values.end(), into);
+  check_petsc(MatSeqAIJRestoreArray(matrix_, &into));
   restore_factors();
   return true;
 }
 
 void LinearSolver::restore_factors() {
-  if (klu_) klu_->restore_factors();
-  check_petsc(KSPSetUp(ksp_));
+  restored_ = factors_->restore();
+  state_ = restored_ ? State::ready : State::singular;
+  proven_ = proven_before_;
+  check_petsc(KSPSetUp(ksp_));  // finds them made
+  restored_ = false;
 }
 
-LinearSolver::Work LinearSolver::work() const {
-  // counted for chains of 3, 20 and 100 links (docs/decisions/0024-kept-factors.md)
-  if (klu_) return {9 * klu_->operations() + 25 * klu_->entries(), 9 * klu_->entries()};
-  if (package_ == "MUMPS") {
-    PetscInt entries = 0;
-    check_petsc(MatMumpsGetInfog(factor(), 29, &entries));  // negative: in millions
-    const double count = entries < 0 ? -1e6 * static_cast<double>(entries) : static_cast<double>(entries);
-    return {3.1e5 + 408 * count, 4.6e5 + 43 * count};
-  }
-  PetscInt rows = 0;
-  check_petsc(MatGetSize(matrix(), &rows, nullptr));
-  const double n = static_cast<double>(rows);
-  return package_ == "UMFPACK" ? Work{11300 * n, 420 * n} : Work{7500 * n, 530 * n};
-}
-
-void LinearSolver::reset() {
-  Mat matrix = this->matrix();
-  PC pc = nullptr;
-  analysed_for_.clear();
-  check_petsc(KSPGetPC(ksp_, &pc));
-  check_petsc(PetscObjectReference(reinterpret_cast<PetscObject>(matrix)));
-  check_petsc(PCReset(pc));
-  if (klu_) klu_->forget();
-  check_petsc(KSPSetOperators(ksp_, matrix, matrix));
-  check_petsc(PetscObjectDereference(reinterpret_cast<PetscObject>(matrix)));
-  set_up();
-}
-
-Mat LinearSolver::factor() const {
-  PC pc = nullptr;
-  Mat f = nullptr;
-  check_petsc(KSPGetPC(ksp_, &pc));
-  check_petsc(PCFactorGetMatrix(pc, &f));
-  return f;
-}
-
-bool LinearSolver::solve(Vec right, Vec solution) {
-  note_matrix();
-  correct_only(false);
-  do {
-    check_petsc(KSPSolve(ksp_, right, solution));
-    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-    check_petsc(KSPGetConvergedReason(ksp_, &reason));
-    PetscReal norm = 0;
-    check_petsc(VecNorm(solution, NORM_INFINITY, &norm));
-    if (reason > 0 && std::isfinite(norm)) return true;
-  } while (enlarge());
-  reset();
-  return false;
-}
-
-bool LinearSolver::enlarge() {
-  if (package_ != "MUMPS") return false;
-  PetscInt info = 0;
-  check_petsc(MatMumpsGetInfog(factor(), 1, &info));
-  const bool short_of_room = info == -9 || info == -8 || info == -14 || info == -15;
-  if (!short_of_room || mumps_room_ > 3000) return false;
-  mumps_room_ *= 4;
-  check_petsc(MatMumpsSetIcntl(factor(), 14, mumps_room_));
-  return true;
-}
-
-double LinearSolver::factor_bytes() const {
-  if (klu_) return klu_->bytes();
-  MatInfo info{};
-  if (package_ == "MUMPS") {
-    PetscInt megabytes = 0;
-    check_petsc(MatMumpsGetInfog(factor(), 19, &megabytes));  // total over all ranks, in the factorisation
-    return 1e6 * static_cast<double>(megabytes);
-  }
-  check_petsc(MatGetInfo(factor(), MAT_GLOBAL_SUM, &info));
-  return info.nz_used * (sizeof(PetscScalar) + sizeof(PetscInt));
+double LinearSolver::condition() {
+  PetscReal norm = 0;
+  check_petsc(MatNorm(matrix_, NORM_1, &norm));
+  return norm * inverse_norm(*factors_, matrix_);
 }
 
 }  // namespace engrane::solve

@@ -5,15 +5,24 @@
 #include <string>
 #include <vector>
 
-#include "solve/algebra/klu.hpp"
+#include "solve/algebra/backward_error.hpp"
+#include "solve/algebra/factors.hpp"
+#include "solve/algebra/solver_cost.hpp"
 
 namespace engrane::solve {
 
-/// A direct solver on one matrix whose pattern never changes: the symbolic analysis is done once.
+/// A direct solver on one matrix whose pattern never changes: the symbolic analysis is done once. To PETSc it is a preconditioner
+/// (PCSHELL).
+///
+/// The first solution with each factorisation is judged by its backward error (BackwardError), refined where that helps and found
+/// with better factors where it does not; the others too, unless the first was as good as it can be.
 class LinearSolver {
  public:
-  /// `package` as in the deck: AUTO, MUMPS, KLU, UMFPACK, SUPERLU. On several ranks only MUMPS works and is taken.
-  LinearSolver(Mat matrix, const std::string& package);
+  /// `package` as in the deck: AUTO, MUMPS, KLU, UMFPACK, SUPERLU. On several ranks only MUMPS works and is taken. `kinds`: what
+  /// each row is (BackwardError).
+  LinearSolver(Mat matrix, const std::string& package, const std::vector<unsigned char>& kinds = {});
+  LinearSolver(const LinearSolver&) = delete;
+  LinearSolver& operator=(const LinearSolver&) = delete;
 
   KSP ksp() const { return ksp_; }
   const std::string& package() const { return package_; }
@@ -21,56 +30,58 @@ class LinearSolver {
   /// Factors the matrix as it stands and solves; false when it is singular to working precision.
   bool solve(Vec right, Vec solution);
 
-  /// What each row is (Klu::tell_kinds).
-  void tell_kinds(std::vector<unsigned char> kinds) {
-    if (klu_) klu_->tell_kinds(std::move(kinds));
-  }
-  /// Whether the next solutions are corrections with kept factors (Klu::correct_only).
-  void correct_only(bool corrections) {
-    if (klu_) klu_->correct_only(corrections);
-  }
+  /// Whether the next solutions are corrections with factors of another tangent. Those need not be as good as rounding allows:
+  /// what an iteration leaves of a residual is then the difference of the tangents. No refinement, no look at those after a first
+  /// good one.
+  void correct_only(bool corrections);
 
-  /// After a failure: gives MUMPS more room when that was all it lacked; true when it is worth another try.
-  bool enlarge();
   /// Forgets the analysis, which looks at numbers too: after a failure, or before matrices of another kind.
   void reset();
 
-  /// To be told of every matrix before it is factored: the first after an analysis was forgotten decides on the order of
-  /// elimination, which looks at numbers too, and is kept for save().
-  void note_matrix();
-  /// What the next solution owes to earlier ones: the matrix that the analysis was made for, and KLU's pivots. Only on one rank;
-  /// on several the analysis is made anew.
+  /// What the next solution owes to earlier ones.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
   /// The matrix whose factors go on to serve, as it stands; on one rank.
   void save_factors(Snapshot& snapshot) const;
-  /// Factors the matrix as it stands as the run did that load() has taken over from.
-  void restore_factors();
   /// Takes it back, after load(), and factors it; false where there is none.
   bool load_factors(const Snapshot& snapshot);
+  /// Factors the matrix as it stands as the run did that load() has taken over from.
+  void restore_factors();
 
-  /// What a factorisation and a solution cost, in instructions: counted, so the same in every run.
-  struct Work {
-    double factor = 0, solution = 0;
-  };
-  Work work() const;
-
+  /// What a factorisation and a solution cost.
+  SolverWork work() const { return factors_->work(); }
+  /// What KLU and MUMPS cost for this matrix; on one rank.
+  ForeseenWork foreseen() const { return foresee_work(matrix_); }
   /// Memory of the factors in bytes, as the package reports it; 0 when it does not.
-  double factor_bytes() const;
+  double factor_bytes() const { return factors_->bytes(); }
+
+  /// Condition of the matrix that was factored last, in the norm of the largest sum of a column: an estimate from its factors.
+  double condition();
+  /// Backward error of the last solution that was looked at.
+  double backward_error() const { return error_; }
 
  private:
-  Mat factor() const;
-  Mat matrix() const;
-  std::vector<double> values() const;
-  /// Writes the values of a matrix like this one; false where there are not as many as it has.
-  bool set_values(const std::vector<double>& values);
-  void set_up();
-  std::unique_ptr<Klu> klu_;  ///< before ksp_, which uses it
-  Owned<KSP> ksp_;
+  static PetscErrorCode set_up(PC pc);
+  static PetscErrorCode apply(PC pc, Vec right, Vec solution);
+  /// The matrix as it stands; false where it is singular.
+  bool factor();
+  void solve_well(Vec right, Vec solution);
+  /// Solves, refines once where the backward error asks for it, and notes the backward error.
+  void solve_and_refine(Vec right, Vec solution);
+
+  Mat matrix_;
   std::string package_;
-  bool sequential_ = false;
-  std::vector<double> analysed_for_;  ///< values of that matrix; empty: none has been analysed
-  int mumps_room_ = 50;               ///< ICNTL(14): per cent over the estimate
+  std::unique_ptr<Factors> factors_;
+  BackwardError backward_error_;
+  Owned<Vec> correction_;
+  Owned<KSP> ksp_;
+  enum class State { forgotten, ready, singular } state_ = State::forgotten;  ///< the factors are
+  bool proven_ = false;            ///< a solution with these factors was good enough at once
+  bool proven_before_ = false;     ///< proven_ of the run that load() has taken over from
+  bool restored_ = false;          ///< the factors are those of restore_factors()
+  double enough_ = good_solution;  ///< backward error of such a solution
+  double error_ = 0;
+  PetscLogEvent factoring_ = -1, solving_ = -1;
 };
 
 }  // namespace engrane::solve

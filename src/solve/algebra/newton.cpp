@@ -21,9 +21,6 @@ constexpr double residual_of_slot = 225, tangent_over_residual = 5.4;
 /// A sliding speed that counts as none, over the speed below which friction is regularised.
 constexpr double resting = 1e-3;
 
-/// Kind of rows without a mechanical unit, after those of Measure.
-constexpr unsigned char signal_rows = 4;
-
 /// Whether factors for the one may serve for the other: how well, their contraction tells.
 bool similar(const Weights& a, const Weights& b) {
   const auto near = [](double x, double y) { return std::abs(x - y) <= 0.2 * std::abs(y); };
@@ -35,7 +32,6 @@ bool similar(const Weights& a, const Weights& b) {
 Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int iterations)
     : assembler_(assembler), solver_(solver), precision_(precision), frames_(assembler), references_(assembler, precision) {
   *residual_.out() = assembler.new_vector();
-  *guess_.out() = assembler.new_vector();
   check_petsc(SNESCreate(assembler.comm(), snes_.out()));
   check_petsc(SNESSetType(snes_, SNESNEWTONLS));
   check_petsc(SNESSetKSP(snes_, solver.ksp()));
@@ -55,10 +51,6 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
     const Layout& layout = part.element->layout();
     evaluation_ += residual_of_slot * static_cast<double>(layout.slots());
   }
-  std::vector<unsigned char> kinds;
-  for (const Unknown& u : assembler.numbering().unknowns())
-    kinds.push_back(u.first_order ? signal_rows : static_cast<unsigned char>(u.measure));
-  solver.tell_kinds(std::move(kinds));
   check_petsc(SNESSetTolerances(snes_, 0, 0, 0, iterations, 100000));
   check_petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
   check_petsc(SNESSetFromOptions(snes_));
@@ -77,31 +69,23 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   const std::vector<double> before = references_.memory();
   references_.begin(work);
   solver_.correct_only(keep);
-  check_petsc(VecCopy(x, guess_));
-  for (;;) {
-    rows_.clear();
-    failure_.clear();
-    solving_ = true;
-    const PetscErrorCode code = SNESSolve(snes_, nullptr, x);
-    solving_ = false;
-    if (!failure_.empty()) throw PetscFailure(failure_);
-    check_petsc(code);
-    SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
-    check_petsc(SNESGetConvergedReason(snes_, &reason));
-    report.converged = reason > 0;
-    report.singular = reason == SNES_DIVERGED_LINEAR_SOLVE;
-    if (report.singular && solver_.enlarge()) {
-      check_petsc(VecCopy(guess_, x));
-      continue;
-    }
-    if (reason == SNES_DIVERGED_MAX_IT)
-      report.reason = "no convergence in " + std::to_string(rows_.size() - 1) + " iterations";
-    else if (report.singular)
-      report.reason = "the tangent matrix is singular";
-    else if (reason < 0)
-      report.reason = "the iteration left the range of numbers";
-    break;
-  }
+  rows_.clear();
+  failure_.clear();
+  solving_ = true;
+  const PetscErrorCode code = SNESSolve(snes_, nullptr, x);
+  solving_ = false;
+  if (!failure_.empty()) throw PetscFailure(failure_);
+  check_petsc(code);
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  check_petsc(SNESGetConvergedReason(snes_, &reason));
+  report.converged = reason > 0;
+  report.singular = reason == SNES_DIVERGED_LINEAR_SOLVE;
+  if (reason == SNES_DIVERGED_MAX_IT)
+    report.reason = "no convergence in " + std::to_string(rows_.size() - 1) + " iterations";
+  else if (report.singular)
+    report.reason = "the tangent matrix is singular";
+  else if (reason < 0)
+    report.reason = "the iteration left the range of numbers";
   policy_.end(report.converged);
   if (report.singular) solver_.reset();
   // What an iteration tried on its way is no measure of loads. At rest, where there may be none, its thousandth is one of their
@@ -146,7 +130,6 @@ PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
     self.assembler_.tangent(*self.work_, self.weights_);
     if (self.keep_) self.frames_.renew(*self.work_, self.assembler_.matrix(), [&](int equation) { return self.reach(equation); });
     self.fresh_ = true;
-    self.solver_.note_matrix();
     self.policy_.renewed();
     self.matrix_of_factors_ = self.assembler_.changes();
     self.weights_of_factors_ = self.weights_;
@@ -175,7 +158,7 @@ void Newton::choose_factors() {
     if (!keep_ || matrix_of_factors_ != assembler_.changes() || !similar(weights_, weights_of_factors_)) policy_.forget();
     double renewal = 0;
     if (policy_.usable()) {
-      const LinearSolver::Work work = solver_.work();
+      const SolverWork work = solver_.work();
       renewal = (tangent_over_residual * evaluation_ + work.factor) / (evaluation_ + work.solution);
     }
     policy_.begin(imbalance_.largest() / precision_, renewal);

@@ -83,7 +83,7 @@ class Newton {
   LinearSolver& solver_;
   double precision_;
   Owned<SNES> snes_;
-  Owned<Vec> residual_, guess_, trial_;
+  Owned<Vec> residual_, trial_;
   std::vector<int> sliding_parts_;  ///< elements with regularised friction
   const Apply* apply_ = nullptr;
   Configuration* work_ = nullptr;

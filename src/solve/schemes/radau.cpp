@@ -51,7 +51,8 @@ Radau::Radau(SolverContext& context)
       configurations_(static_cast<std::size_t>(collocation_.stages())),
       prescribed_(configurations_.size()),
       balance_matrix_(),
-      balance_((*balance_matrix_.out() = context.assembler.new_matrix(), balance_matrix_), context.solver.package()) {
+      balance_((*balance_matrix_.out() = context.assembler.new_matrix(), balance_matrix_), context.solver.package(),
+               kinds_of_rows(context.numbering)) {
   for (std::size_t i = 0; i < configurations_.size(); ++i) {
     *residuals_.emplace_back().out() = context.assembler.new_vector();
     *changes_.emplace_back().out() = context.assembler.new_vector();

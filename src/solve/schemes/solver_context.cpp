@@ -13,7 +13,7 @@ SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm
       options(std::move(chosen)),
       numbering(m),
       assembler(m, numbering, comm),
-      solver(assembler.matrix(), options.package),
+      solver(assembler.matrix(), options.package, kinds_of_rows(numbering)),
       newton(assembler, solver, options.precision, options.iterations),
       motion(m, numbering),
       redundancy(assembler, motion),

@@ -44,6 +44,9 @@ Weights weights_of(const Collocation::Block& b, double h) {
 
 StageSolver::StageSolver(Assembler& assembler, const Collocation& collocation, const std::string& package)
     : assembler_(assembler), collocation_(collocation) {
+  const std::vector<unsigned char> kinds = kinds_of_rows(assembler.numbering());
+  std::vector<unsigned char> kinds_of_pairs;
+  for (const unsigned char kind : kinds) kinds_of_pairs.insert(kinds_of_pairs.end(), 2, kind);
   for (const Collocation::Block& block : collocation.blocks) {
     System& system = systems_.emplace_back();
     system.block = block;
@@ -55,7 +58,7 @@ StageSolver::StageSolver(Assembler& assembler, const Collocation& collocation, c
     } else {
       *system.whole.out() = assembler.new_matrix();
     }
-    system.solver = std::make_unique<LinearSolver>(system.whole, package);
+    system.solver = std::make_unique<LinearSolver>(system.whole, package, block.complex() ? kinds_of_pairs : kinds);
   }
   for (Eigen::Index i = 0; i < collocation.stages(); ++i) {
     *transformed_.emplace_back().out() = assembler.new_vector();

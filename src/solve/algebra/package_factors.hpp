@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solve/algebra/factors.hpp"
+
+namespace engrane::solve {
+
+/// The packages that PETSc's own interface serves well: MUMPS, on any number of ranks, UMFPACK and SUPERLU.
+///
+/// MUMPS begins without scaling rows and columns: constraints are scaled to the forces beside them already, and scaling takes a
+/// part of the factorisation. Where a solution asks for better factors it scales, from then on.
+class PackageFactors : public Factors {
+ public:
+  PackageFactors(Mat matrix, std::string package);
+
+  bool factor() override;
+  void solve(Vec right, Vec solution) override { check_petsc(MatSolve(factors_, right, solution)); }
+  void solve_transposed(Vec right, Vec solution) override { check_petsc(MatSolveTranspose(factors_, right, solution)); }
+  /// By MUMPS with scaling.
+  bool improvable() const override { return mumps() && !scaled_; }
+  bool improve() override;
+  void forget() override;
+  /// The matrix that the analysis was made for: it decides on the order of elimination.
+  void save(Snapshot& snapshot) const override;
+  void load(const Snapshot& snapshot) override;
+  SolverWork work() const override;
+  double bytes() const override;
+
+ private:
+  bool mumps() const { return package_ == "MUMPS"; }
+  bool analyse();
+  /// Whether the last factorisation by MUMPS lacked nothing but room: it has more now.
+  bool enlarge();
+  bool failed() const;
+  /// Its values on one rank, which decide on the analysis.
+  void note_matrix();
+
+  Mat matrix_;
+  std::string package_;
+  bool sequential_ = false;
+  Owned<Mat> factors_;                ///< null before an analysis
+  std::vector<double> analysed_for_;  ///< values of that matrix, on one rank
+  bool scaled_ = false;               ///< MUMPS scales
+  int room_ = 50;                     ///< MUMPS' ICNTL(14): per cent over the estimate
+};
+
+}  // namespace engrane::solve
