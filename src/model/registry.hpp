@@ -54,6 +54,8 @@ struct BuildContext {
   /// Where elements of a kind meet in blocks; nullptr: each is alone in its own.
   BlockStore* blocks = nullptr;
   BuildNotes* notes = nullptr;  ///< of this model; nullptr: everyone finds out alone
+  /// Of the element: that of its record or, where the card has none, one after those of all others.
+  int number = 0;
 
   /// The function a keyword names, or nullptr with an error when it does not exist.
   const Function* function(int id, std::string_view keyword) const;
