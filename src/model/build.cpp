@@ -44,6 +44,8 @@ class Builder {
     for (const ElementRecord& element : elements_) place_node(element);
     for (const deck::Record& record : deck_.records) add_command(record);
     settle_tolerance();
+    if (deck::Tagged& displacements = model_.commands.analysis.displacements; has_mesh_ && !displacements.given())
+      displacements.tag = analysed_ ? "LARGE" : "SMALL";
     others_are_asked_for_ =
         std::any_of(elements_.begin(), elements_.end(), [](const ElementRecord& e) { return e.type->stage == 1; });
     model_.parts.reserve(elements_.size() + loads_.size());

@@ -40,9 +40,14 @@ class CellKernel {
   };
   static constexpr int most_points = 4;
 
+  /// Round an axis one point would leave the cell of three nodes a motion without strain.
+  static const std::vector<QuadraturePoint>& points() {
+    return Axi && N == 3 ? CellTraits<N>::load_points() : CellTraits<N>::stiffness_points();
+  }
+
   CellKernel(const Places& places, double thickness) {
-    static const auto samples = tabulate<N>(CellTraits<N>::stiffness_points());
-    static const auto& at = CellTraits<N>::stiffness_points();
+    static const auto& at = points();
+    static const auto samples = tabulate<N>(at);
     for (const ShapeSample<N>& s : samples) {
       const Eigen::Matrix2d jacobian = s.slope * places.transpose();  // rows: along ξ and η
       const Eigen::Matrix2d inverse = jacobian.inverse();

@@ -109,7 +109,7 @@ class PlaneCells final : public Block {
   const std::vector<Field>& fields() const override {
     static const std::vector<Field> all = [] {
       const std::vector<std::string> components{"XX", "YY", "ZZ", "XY"};
-      const int points = static_cast<int>(Traits::stiffness_points().size());
+      const int points = static_cast<int>(Kernel::points().size());
       const auto at_points = [points](Named named, std::vector<std::string> of) {
         return Field{std::move(named), Field::Place::point, std::move(of), points};
       };
@@ -196,7 +196,8 @@ class PlaneCells final : public Block {
     const double density = cell.section->law.density;
     const Eigen::Vector2d gravity = state.gravity.template head<2>();
     if (density == 0 || gravity.isZero(0)) return false;
-    static const auto samples = tabulate<N>(Traits::load_points());
+    // round an axis the radius makes one degree more
+    static const auto samples = tabulate<N>(Axi ? Traits::mass_points() : Traits::load_points());
     Eigen::Matrix<double, N, 1> share = Eigen::Matrix<double, N, 1>::Zero();
     for_each_point(cell, samples, [&share](const ShapeSample<N>& s, double volume) { share += volume * s.value; });
     for (Eigen::Index i = 0; i < N; ++i) weight.template segment<2>(2 * i) = density * share[i] * gravity;

@@ -9,11 +9,25 @@
 
 namespace engrane::solve {
 
+namespace {
+
+/// Whether forces are linear in the displacements: cells with small ones, and loads that depend on time alone.
+bool is_linear(const Model& model) {
+  const auto linear = [](const Model::Part& part) {
+    const bool dead = part.type == "ARETE" || (part.type == "CHA" && !part.element->layout().needs_any(0, NodeNeed::rotation));
+    return dead || part.element->cell_shape() != CellShape::none;
+  };
+  return model.commands.analysis.displacements.is("SMALL") && std::all_of(model.parts.begin(), model.parts.end(), linear);
+}
+
+}  // namespace
+
 Statics::Statics(SolverContext& context)
     : Scheme(context),
       has_contacts_(std::any_of(context.model.parts.begin(), context.model.parts.end(),
                                 [](const Model::Part& part) { return !part.element->layout().switches.empty(); })) {
   *unknowns_.out() = context.assembler.new_vector();
+  if (is_linear(context_.model)) context_.newton.keep_one_tangent();
 }
 
 StartReport Statics::start(Configuration& c) {
