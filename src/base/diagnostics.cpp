@@ -128,7 +128,7 @@ void print_one(std::ostream& out, const SourceMap& sources, const Diagnostic& di
   }
   out << (diagnostic.severity == Severity::error ? "error: " : "warning: ")
       << printable(where.known() && sources.foreign(where.file) ? without_quotes(diagnostic.message) : diagnostic.message);
-  if (diagnostic.repeats > 0) out << " (and " << diagnostic.repeats << " more times)";
+  if (diagnostic.repeats > 0) out << " (and " << counted(static_cast<std::size_t>(diagnostic.repeats), "more time") << ")";
   out << '\n';
   if (!where.known()) {
     if (!diagnostic.hint.empty()) out << "  = " << printable(diagnostic.hint) << '\n';
