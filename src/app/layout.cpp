@@ -10,9 +10,10 @@ namespace engrane::app {
 
 namespace {
 
-/// Whether something stands for the part in the mesh: all nodes but the ground are points of it.
+/// Whether something stands for the part in the mesh: all nodes but the ground are points of it. The edge of a cell is there as
+/// part of the cell.
 bool has_cell(const Model::Part& part) {
-  return std::any_of(part.nodes.begin(), part.nodes.end(), [](int node) { return node > 0; });
+  return part.type != "ARETE" && std::any_of(part.nodes.begin(), part.nodes.end(), [](int node) { return node > 0; });
 }
 
 }  // namespace

@@ -11,6 +11,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from engrane_post import Results
+from engrane_post.errors import UserError
 from runs import run
 
 FOLDER = Path(__file__).parents[2] / "decks" / "elements" / "structural"
@@ -203,4 +205,10 @@ def test_brackets(kind: str, hypothesis: str, tmp_path: Path) -> None:
         assert np.abs(here[order[0]][:, [0, 1, 3]] - stresses[cell][order[1]]).max() < 1e-8 * scale
         across = 0.3 * (here[:, 0] + here[:, 1]) if hypothesis == "strain" else 0 * here[:, 0]
         assert np.abs(here[:, 2] - across).max() < 1e-12 * scale
+    with Results(tmp_path / "deck.h5") as result:
+        means = result.cell_field("STRESS:XX", len(result.frame_times) - 1)
+        with pytest.raises(UserError, match="it has .*VON_MISES"):
+            result.cell_field("STRESS", 0)
+    expected = [stresses[cell][:, 0].mean() for cell in cells]
+    assert np.abs(means[: len(cells)] - expected).max() < 1e-8 * scale
     assert types == {{"t3": 4, "q4": 5, "t6": 36, "q8": 37}[kind]}
