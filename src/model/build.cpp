@@ -253,13 +253,23 @@ class Builder {
   /// Rotations of a node may be held all three, or two of them (it then turns about the third axis). Held alone, one
   /// component of a finite rotation has no meaning.
   void check_rotation_supports() {
-    std::vector<bool> rotates(model_.nodes.size(), false);
+    std::vector<unsigned> asked(model_.nodes.size(), 0);
     for (const Model::Part& part : model_.parts)
       for (std::size_t i = 0; i < part.nodes.size(); ++i)
-        if (part.element->layout().needs_any(i, NodeNeed::rotation)) rotates[static_cast<std::size_t>(part.nodes[i])] = true;
+        asked[static_cast<std::size_t>(part.nodes[i])] |= static_cast<unsigned>(part.element->layout().needs[i]);
+    const auto is_asked = [&](int node, NodeNeed what) {
+      return (asked[static_cast<std::size_t>(node)] & static_cast<unsigned>(what)) != 0;
+    };
     for (std::size_t i = 0; i < model_.supports.size(); ++i) {
       const Support& s = model_.supports[i];
-      if (s.component < 3 || !rotates[static_cast<std::size_t>(s.node)]) continue;
+      const bool turns = is_asked(s.node, NodeNeed::rotation),
+                 in_plane = asked[static_cast<std::size_t>(s.node)] == static_cast<unsigned>(NodeNeed::in_plane);
+      if (s.value != 0 && s.component > 1 && in_plane)
+        diagnostics_.error(support_locations_[i],
+                           fmt::format("component {} of node {} cannot be displaced: the node is one of plane cells",
+                                       s.component + 1, model_.nodes[static_cast<std::size_t>(s.node)].id),
+                           "its components are 1 and 2");
+      if (s.component < 3 || !turns) continue;
       int held = 0, moved = 0;
       for (std::size_t c = 3; c < 6; ++c)
         if (const int other = support_of_[static_cast<std::size_t>(s.node)][c]; other != none) {

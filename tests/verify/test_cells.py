@@ -207,7 +207,7 @@ def test_brackets(kind: str, hypothesis: str, tmp_path: Path) -> None:
         assert np.abs(here[:, 2] - across).max() < 1e-12 * scale
     with Results(tmp_path / "deck.h5") as result:
         means = result.cell_field("STRESS:XX", len(result.frame_times) - 1)
-        with pytest.raises(UserError, match="it has .*VON_MISES"):
+        with pytest.raises(UserError, match=r"it has .*VON_MISES"):
             result.cell_field("STRESS", 0)
     expected = [stresses[cell][:, 0].mean() for cell in cells]
     assert np.abs(means[: len(cells)] - expected).max() < 1e-8 * scale
