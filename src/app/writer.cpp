@@ -102,9 +102,6 @@ void Writer::resumed(const Resumption& from) {
 }
 
 void Writer::remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
-  // nothing continues a linear analysis of one step
-  const Commands& commands = reading_.model.commands;
-  if (!kept && commands.analysis.displacements.is("SMALL") && commands.stepping.step >= commands.stepping.end) return;
   if (!kept && !last && !results_.due()) return;
   Snapshot memory;
   runner.save(memory);
