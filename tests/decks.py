@@ -76,6 +76,12 @@ def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
     return found
 
 
+def size(values: np.ndarray) -> float:
+    """The largest number; fields have none where an element does not have the field."""
+    values = np.abs(np.asarray(values, float))
+    return float(np.max(values[~np.isnan(values)], initial=0))
+
+
 def differences(one: dict, other: dict, tolerance: float) -> list[str]:
     faults = [f"only in one of the results: {name}" for name in sorted(one.keys() ^ other.keys())]
     noise, noise_of_power = (float(one[name][1]) for name in ("", "POWER"))
@@ -85,18 +91,21 @@ def differences(one: dict, other: dict, tolerance: float) -> list[str]:
     )
     # A lateral force that is noise about zero is measured against the largest force, not against itself.
     # If all forces are noise, the rounding of the largest number there is counts.
-    largest = max((float(np.max(np.abs(values), initial=0)) for _, values in one.values()), default=0.0)
+    largest = max((size(values) for _, values in one.values()), default=0.0)
     scale = {}
     for unit, values in one.values():
         floor = 1e-16 * largest / tolerance
-        scale[unit] = max(scale.get(unit, floor), float(np.max(np.abs(values), initial=0)))
+        scale[unit] = max(scale.get(unit, floor), size(values))
     for name in sorted(one.keys() & other.keys()):
         unit, a = one[name]
         b = other[name][1]
         if a.shape != b.shape:
             faults.append(f"{name}: shape {a.shape} and {b.shape}")
             continue
-        gap = float(np.max(np.abs(a.astype(float) - b.astype(float)), initial=0))
+        apart = np.abs(a.astype(float) - b.astype(float))
+        if name.startswith("fields/"):
+            apart = np.where(np.isnan(a.astype(float)) & np.isnan(b.astype(float)), 0, apart)
+        gap = float(np.max(apart, initial=0))
         allowed = tolerance * scale[unit]
         if re.search("(s|time)²", unit):
             allowed = max(allowed, noise)

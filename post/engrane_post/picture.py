@@ -13,6 +13,7 @@ EXAMPLES = """  engrane picture run                          the last frame
   engrane picture run --time 0.01 -o run.png
   engrane picture run --both                   before and after, side by side
   engrane picture run --reference --view top   the model as the deck gives it, from above
+  engrane picture run --field VON_MISES        stresses of a mesh
   engrane picture run --view 1,0.5,2 --zoom 1.2"""
 
 
@@ -35,6 +36,12 @@ def add(commands: argparse._SubParsersAction) -> None:
     which.add_argument("--reference", action="store_true", help="the undeformed model")
     p.add_argument(
         "--both", action="store_true", help="reference and frame side by side, seen from the same place"
+    )
+    p.add_argument(
+        "--field",
+        default="",
+        metavar="NAME[:XX]",
+        help="colour the cells of a mesh by the means of a field over them: VON_MISES, STRESS:XX",
     )
     p.add_argument("-o", "--output", metavar="file", help="picture to write (.png .jpg)")
     p.set_defaults(run=run)
@@ -87,6 +94,8 @@ def run(args: argparse.Namespace) -> None:
         if not result.elements and len(result.points) == 0:
             raise UserError(f"{result.path} holds no nodes and no elements; there is nothing to draw.")
         frame = selected(result, args)
+        if args.field:
+            result.cell_field(args.field, max(0, frame.index or 0))  # says what there is when it is not
         frames = [result.reference(), frame] if args.both else [frame]
         render(result, frames, path, args)
     print(f"wrote {path}")
@@ -95,7 +104,7 @@ def run(args: argparse.Namespace) -> None:
 def render(result: Results, frames: list[Frame], path: str, args: argparse.Namespace) -> None:
     """Draws the frames side by side, as the command line says."""
     title = args.title if args.title is not None else (result.title or result.name)
-    picture(result, frames, path, args.size, args.view, args.zoom, title, upward=args.up)
+    picture(result, frames, path, args.size, args.view, args.zoom, title, upward=args.up, field=args.field)
 
 
 def picture(
@@ -108,6 +117,7 @@ def picture(
     title: str = "",
     bare: bool = False,
     upward: str | None = None,
+    field: str = "",
 ) -> None:
     """Draws the frames side by side; `bare` leaves the time out and the background white."""
     from . import view
@@ -119,7 +129,7 @@ def picture(
     plotter = pv.Plotter(off_screen=True, shape=(1, len(frames)), window_size=pixel_size, border=False)
     for i, frame in enumerate(frames):
         plotter.subplot(0, i)
-        Stage(scene, plotter).show(frame)
+        Stage(scene, plotter, field=field).show(frame)
         view.dress(plotter, title if i == 0 else "", "" if bare else view.caption(result, frame))
         if bare:
             plotter.set_background("white")

@@ -295,6 +295,31 @@ class Results:
         data = self.dataset(f"fields/{name}/{index:06d}")
         return None if data is None else np.asarray(data, float)
 
+    def cell_field(self, name: str, index: int) -> np.ndarray:
+        """One field over the cells of frame `index` >= 0, a value for each: `VON_MISES`, or a component,
+        `STRESS:XX`."""
+        field, _, component = name.partition(":")
+
+        def look(file: h5py.File) -> np.ndarray:
+            fields = {
+                key: str(group.attrs.get("components", "")).split()
+                for key, group in file.get("fields", {}).items()
+                if "center" in group.attrs
+            }
+            names = [f"{key}:{c}" for key, of in fields.items() for c in of] + [
+                k for k in fields if not fields[k]
+            ]
+            if name not in names:
+                raise UserError(
+                    f"{self.path} has no field {name} over its cells; "
+                    + (f"it has {', '.join(sorted(names))}." if names else "it has none at all.")
+                )
+            values = np.asarray(file[f"fields/{field}/{index:06d}"], float)
+            values = values.reshape(len(values), -1)
+            return values[:, fields[field].index(component) if component else 0]
+
+        return self.read(look)
+
     def reference(self) -> Frame:
         """The undeformed model."""
         zero = np.zeros_like(self.points)

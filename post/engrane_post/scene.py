@@ -51,6 +51,7 @@ class Item:
     edges: bool = False
     kind: str = ""
     element: int = 0
+    cells: list[int] | None = None  # of the mesh: for each face the cell whose values colour it
 
 
 class Scene:
@@ -369,13 +370,14 @@ class Scene:
             return
         owner = self.result.dataset("mesh/cell_elements")
         cells = shapes.cells(np.asarray(topology, int))
-        lines, faces = [], []
+        lines, faces, owners = [], [], []
         for i, (code, nodes) in enumerate(cells):
             mine = owner is not None and i < len(owner) and int(owner[i]) in drawn
             if code == 2 and not mine and len(set(nodes)) > 1:
                 lines.append(nodes)
             elif code in (3, 4, 5):
                 faces.append(nodes)
+                owners.append(i)
         order, first = self.ids, len(self.items)
         if lines:
             self._flexible(
@@ -384,6 +386,7 @@ class Scene:
         if faces:
             self._flexible(lambda p: shapes.surface(np.array([p[n] for n in order]), faces), CELL)
             self.items[-1].edges = True
+            self.items[-1].cells = owners
             self.items[-1].smooth = False
         self._name(first, "cell")
 
@@ -418,8 +421,9 @@ class Scene:
 class Stage:
     """A scene put into one view of a plotter; `show` moves it to a frame."""
 
-    def __init__(self, scene: Scene, plotter: pv.Plotter, opacity: float = 1.0) -> None:
+    def __init__(self, scene: Scene, plotter: pv.Plotter, opacity: float = 1.0, field: str = "") -> None:
         self.scene = scene
+        self.field = field
         self.actors = []
         for item in scene.items:
             mesh = item.mesh.copy()
@@ -438,6 +442,11 @@ class Stage:
             if item.remake is not None:
                 # Splitting edges would make a copy whose points no longer follow.
                 look["split_sharp_edges"] = False
+            if field and item.cells:
+                bar = dict(vertical=True, position_x=0.03, position_y=0.25, height=0.5, color="black")
+                del look["color"]
+                mesh.cell_data[field] = np.zeros(mesh.n_cells)
+                look.update(scalars=field, cmap="viridis", scalar_bar_args=bar)
             self.actors.append((item, mesh, plotter.add_mesh(mesh, **look)))
 
     def show(self, frame: Frame) -> None:
@@ -446,7 +455,19 @@ class Stage:
         for item, mesh, actor in self.actors:
             if item.remake is not None:
                 mesh.copy_from(item.remake(positions))
+                if self.field and item.cells:
+                    self._colour(mesh, actor, item.cells, frame)
                 if item.smooth:
                     mesh.compute_normals(inplace=True, split_vertices=False)
             elif item.node:
                 actor.user_matrix = self.scene.transform(item.node, frame)
+
+    def _colour(self, mesh: pv.PolyData, actor: pv.Actor, cells: list[int], frame: Frame) -> None:
+        """The means of the field over the cells, the undeformed model's are zero."""
+        values = np.zeros(len(cells))
+        if frame.index is not None:
+            values = self.scene.result.cell_field(self.field, frame.index)[cells]
+        mesh.cell_data[self.field] = values
+        mesh.set_active_scalars(self.field, "cell")
+        low, high = float(np.nanmin(values)), float(np.nanmax(values))
+        actor.mapper.scalar_range = (low, high if high > low else low + 1.0)

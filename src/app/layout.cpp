@@ -10,9 +10,10 @@ namespace engrane::app {
 
 namespace {
 
-/// Whether something stands for the part in the mesh: all nodes but the ground are points of it.
+/// Whether something stands for the part in the mesh: all nodes but the ground are points of it. The edge of a cell is there as
+/// part of the cell.
 bool has_cell(const Model::Part& part) {
-  return std::any_of(part.nodes.begin(), part.nodes.end(), [](int node) { return node > 0; });
+  return part.type != "ARETE" && std::any_of(part.nodes.begin(), part.nodes.end(), [](int node) { return node > 0; });
 }
 
 }  // namespace
@@ -33,7 +34,7 @@ output::ResultsLayout results_layout(const Reading& reading, const observe::Obse
   }
   for (const Model::Part& part : model.parts) {
     if (!has_cell(part)) continue;
-    output::Cell cell{{}, part.element->id(), false};
+    output::Cell cell{{}, part.element->id(), part.element->cell_shape() != CellShape::none};
     for (const int node : part.nodes)
       if (node > 0 && std::find(cell.points.begin(), cell.points.end(), node - 1) == cell.points.end())
         cell.points.push_back(node - 1);

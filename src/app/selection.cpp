@@ -61,7 +61,7 @@ bool is_supported(const Model& model, int node) {
 void check_check(const deck::Record& record, const deck::CheckCard& check, const deck::Deck& deck, const Model& model,
                  const std::map<int, int>& parts, Diagnostics& diagnostics) {
   std::string owner = "the run";
-  std::vector<std::string> names = names_of(observe::run_channels(moves(model)));
+  std::vector<std::string> names = names_of(observe::run_channels(moves(model), has_cells(model)));
   if (check.element) {
     const auto found = parts.find(*check.element);
     if (found == parts.end()) {

@@ -18,6 +18,7 @@ namespace {
 
 /// The plane that a model is solved in, or what one would save; empty when there is none and none was asked for.
 std::string describe_plane(const Model& model) {
+  if (has_cells(model) && !model.plane.active()) return "";  // cells have no unknowns out of their plane
   if (model.plane.active()) return fmt::format("the plane {}", plane_name(model.plane.normal));
   const bool asked = model.commands.analysis.plane.is("AUTO");
   const PlaneModel plane = asked ? PlaneModel{} : find_plane(model);
@@ -70,11 +71,8 @@ BuiltSummary summarize(const Model& model, const Numbering& numbering) {
   std::vector<bool> needed(6 * model.nodes.size(), false);
   for (const Model::Part& part : model.parts)
     for (std::size_t i = 0; i < part.nodes.size(); ++i)
-      for (int c = 0; c < 6; ++c) {
-        const NodeNeed need = c < 3 ? NodeNeed::translation : NodeNeed::rotation;
-        if (static_cast<unsigned>(part.element->layout().needs[i]) & static_cast<unsigned>(need))
-          needed[static_cast<std::size_t>(6 * part.nodes[i] + c)] = true;
-      }
+      for (int c = 0; c < 6; ++c)
+        if (part.element->layout().has(i, c)) needed[static_cast<std::size_t>(6 * part.nodes[i] + c)] = true;
   for (const Support& s : model.supports) {  // each component of a node once
     if (!needed[static_cast<std::size_t>(6 * s.node + s.component)] || plane.leaves_out(s.component)) continue;
     ++(s.component < 3 ? summary.translations : summary.rotations);
@@ -128,13 +126,18 @@ std::string describe_geometry(const Model& model) {
 
 std::string describe_masses(const Model& model, std::size_t most) {
   std::vector<MassRow> rows;
-  MassProperties sum;
+  MassProperties sum, cells;
   for (const Model::Part& part : model.parts) {
     const MassProperties one = mass_properties(model, part);
     if (!one.any()) continue;
-    rows.push_back({fmt::format("{} {}", part.type, part.element->id()), one.mass, one.centre, one.inertia});
     sum.add(one);
+    if (part.element->cell_shape() != CellShape::none) {
+      cells.add(one);
+      continue;
+    }
+    rows.push_back({fmt::format("{} {}", part.type, part.element->id()), one.mass, one.centre, one.inertia});
   }
+  if (cells.any()) rows.push_back({"cells", cells.mass, cells.centre, cells.inertia});
   return listing_masses(rows, {"all", sum.mass, sum.centre, sum.inertia}, model.units, most);
 }
 

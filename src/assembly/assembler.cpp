@@ -214,6 +214,7 @@ bool Assembler::released_equation(int equation) const {
 
 void Assembler::choose_scale(const Configuration& configuration, Weights weights, double fixed) {
   ++changes_;
+  if (scale_.empty()) return;
   if (fixed > 0) {
     std::fill(scale_.begin(), scale_.end(), fixed);
     return;

@@ -26,12 +26,9 @@ Numbering::Numbering(const Model& model) : model_(model), rotates_(model.nodes.s
     for (std::size_t i = 0; i < part.nodes.size(); ++i) {
       const auto node = static_cast<std::size_t>(part.nodes[i]);
       if (node == 0) continue;
-      const auto needs = static_cast<unsigned>(layout.needs[i]);
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (needs & static_cast<unsigned>(NodeNeed::translation)) used[6 * node + c] = true;
-        if (needs & static_cast<unsigned>(NodeNeed::rotation)) used[6 * node + 3 + c] = true;
-      }
-      if (needs & static_cast<unsigned>(NodeNeed::rotation)) rotates_[node] = true;
+      for (int c = 0; c < 6; ++c)
+        if (layout.has(i, c)) used[6 * node + static_cast<std::size_t>(c)] = true;
+      if (layout.needs_any(i, NodeNeed::rotation)) rotates_[node] = true;
     }
     scalars_ += static_cast<int>(layout.scalars.size());
     multipliers_ += static_cast<int>(layout.multipliers.size());
@@ -59,8 +56,7 @@ Numbering::Numbering(const Model& model) : model_(model), rotates_(model.nodes.s
     parts_.push_back({part_slots_.size(), scalar, multiplier, history_});
     for (std::size_t i = 0; i < layout.needs.size(); ++i)
       for (int c = 0; c < 6; ++c)
-        if (layout.needs_any(i, c < 3 ? NodeNeed::translation : NodeNeed::rotation))
-          part_slots_.push_back(6 * model.parts[p].nodes[i] + c);
+        if (layout.has(i, c)) part_slots_.push_back(6 * model.parts[p].nodes[i] + c);
     for (std::size_t i = 0; i < layout.scalars.size(); ++i) {
       const int slot = static_cast<int>(node_slots) + scalar++;
       part_slots_.push_back(slot);

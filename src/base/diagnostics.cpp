@@ -42,6 +42,14 @@ void Diagnostics::warning(Location where, std::string message, std::string hint)
   add({Severity::warning, where, std::move(message), std::move(hint)});
 }
 
+void Diagnostics::warning_once(const std::string& kind, Location where, std::string message, std::string hint) {
+  const auto [entry, fresh] = kinds_.try_emplace(kind, all_.size());
+  if (fresh)
+    warning(where, std::move(message), std::move(hint));
+  else
+    ++all_[entry->second].repeats;
+}
+
 void Diagnostics::missing(std::string_view declared_by, Location where, std::string message, std::string hint) {
   add({Severity::error, where, std::move(message), std::move(hint), declared_by});
 }
@@ -119,8 +127,9 @@ void print_one(std::ostream& out, const SourceMap& sources, const Diagnostic& di
     out << character_count(line.substr(0, std::min(bytes, line.size()))) + 1 << ": ";
   }
   out << (diagnostic.severity == Severity::error ? "error: " : "warning: ")
-      << printable(where.known() && sources.foreign(where.file) ? without_quotes(diagnostic.message) : diagnostic.message)
-      << '\n';
+      << printable(where.known() && sources.foreign(where.file) ? without_quotes(diagnostic.message) : diagnostic.message);
+  if (diagnostic.repeats > 0) out << " (and " << counted(static_cast<std::size_t>(diagnostic.repeats), "more time") << ")";
+  out << '\n';
   if (!where.known()) {
     if (!diagnostic.hint.empty()) out << "  = " << printable(diagnostic.hint) << '\n';
     return;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <deque>
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,7 +59,8 @@ struct Diagnostic {
   std::string message;
   std::string hint;  ///< the cure ("did you mean …", "give …"); may be empty
   std::string_view missing_from =
-      {};  ///< of something that was looked for in vain: the command that declares such things, `.NOE`
+      {};           ///< of something that was looked for in vain: the command that declares such things, `.NOE`
+  int repeats = 0;  ///< how often the same was met again
 };
 
 /// Collects everything that is wrong with a deck, so that one run reports all of it.
@@ -66,6 +68,8 @@ class Diagnostics {
  public:
   void error(Location where, std::string message, std::string hint = {});
   void warning(Location where, std::string message, std::string hint = {});
+  /// A warning that is given once for all of its kind, where it is met first, with the number of others.
+  void warning_once(const std::string& kind, Location where, std::string message, std::string hint = {});
   /// The error that something does not exist. `declared_by` is the command whose records are such things, a literal.
   void missing(std::string_view declared_by, Location where, std::string message, std::string hint = {});
   void add(Diagnostic diagnostic);
@@ -80,6 +84,7 @@ class Diagnostics {
 
  private:
   std::vector<Diagnostic> all_;
+  std::map<std::string, std::size_t> kinds_;  ///< of warning_once(): which of all
   int errors_ = 0;
 };
 

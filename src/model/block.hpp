@@ -40,7 +40,10 @@ class Block {
   virtual void commit(std::size_t e, const State& state, std::span<double> scalars, std::span<double> history) const;
 
   virtual Energies energies(std::size_t e, const State& state) const;
+  virtual bool applied(std::size_t /*e*/, const State& /*state*/, std::span<double> /*forces*/) const { return false; }
+  virtual CellShape cell_shape() const { return CellShape::none; }
   virtual bool is_body() const { return false; }
+  virtual bool is_linear(std::size_t) const { return false; }
   virtual Mat3 inertia_at(std::size_t e, int node) const;
   virtual const std::vector<Named>& channels() const;
   virtual void observe(std::size_t e, const State& state, std::span<double> values) const;
@@ -77,7 +80,10 @@ class BlockMember final : public Element {
     block_->commit(index_, state, scalars, history);
   }
   Energies energies(const State& state) const override { return block_->energies(index_, state); }
+  bool applied(const State& state, std::span<double> forces) const override { return block_->applied(index_, state, forces); }
+  CellShape cell_shape() const override { return block_->cell_shape(); }
   bool is_body() const override { return block_->is_body(); }
+  bool is_linear() const override { return block_->is_linear(index_); }
   Mat3 inertia_at(int node) const override { return block_->inertia_at(index_, node); }
   const std::vector<Named>& channels() const override { return block_->channels(); }
   void observe(const State& state, std::span<double> values) const override { block_->observe(index_, state, values); }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "deck/cards/initial_motion.hpp"
+#include "deck/cards/mesh_cards.hpp"
 #include "math/angle.hpp"
 #include "model/coordinate_channels.hpp"
 #include "model/frames.hpp"
@@ -32,20 +33,31 @@ class Builder {
       if (const auto* card = record.get<deck::FrameCard>()) frames_.add(record, *card, diagnostics_);
       if (const auto* card = record.get<deck::SteppingCard>()) stepping_ = card;
       if (const ElementType* type = type_of(record)) elements_.push_back({&record, type});
+      has_mesh_ = has_mesh_ || record.schema->name == cell_card;
+      analysed_ = analysed_ || record.get<deck::SteppingCard>() || (record.get<deck::AnalysisCard>() && record.given("TYPE"));
     }
+    // linear statics in one step
+    if (has_mesh_ && !analysed_) model_.commands.stepping.step = model_.commands.stepping.end;
     add_nodes();
     for (const deck::Record& record : deck_.records)
       if (record.get<deck::FunctionCard>()) add_function(record);
     for (const ElementRecord& element : elements_) place_node(element);
     for (const deck::Record& record : deck_.records) add_command(record);
     settle_tolerance();
+    if (deck::Tagged& displacements = model_.commands.analysis.displacements; has_mesh_ && !displacements.given())
+      displacements.tag = analysed_ ? "LARGE" : "SMALL";
     others_are_asked_for_ =
         std::any_of(elements_.begin(), elements_.end(), [](const ElementRecord& e) { return e.type->stage == 1; });
+    model_.parts.reserve(elements_.size() + loads_.size());
+    const auto is_numbered = [](const ElementRecord& element) { return element.record->id != 0; };
     for (int stage = 0; stage < 2; ++stage)
       for (const ElementRecord& element : elements_)
-        if (element.type->stage == stage) add_element(element);
+        if (element.type->stage == stage && is_numbered(element)) add_element(element, element.record->id);
     std::stable_sort(model_.parts.begin(), model_.parts.end(),
                      [](const Model::Part& a, const Model::Part& b) { return a.element->id() < b.element->id(); });
+    int number = model_.parts.empty() ? 0 : model_.parts.back().element->id();
+    for (const ElementRecord& element : elements_)
+      if (!is_numbered(element)) add_element(element, ++number);
     for (const deck::Record* record : initial_elements_) add_initial_coordinate(*record);
     add_loads();
     model_.nodes = nodes_.release();
@@ -115,10 +127,17 @@ class Builder {
     if (const auto* archive = record.get<deck::ArchiveCard>()) {
       add_archive(record, *archive);
       if (!archive->codes.empty())
-        diagnostics_.warning(record.where("STYP"), "STYP selects nothing in this version: all fields and histories are archived");
+        diagnostics_.warning_once("STYP", record.where("STYP"),
+                                  "STYP selects nothing in this version: all fields and histories are archived");
     }
-    if (record.get<deck::MaterialCard>())
-      diagnostics_.warning(record.location, "no element of this version takes a material: this one has no effect");
+    if (!has_mesh_)
+      if (const char* what = record.get<deck::MaterialCard>()     ? "material"
+                             : record.get<deck::HypothesisCard>() ? "formulation"
+                             : record.get<deck::PropertyCard>()   ? "property"
+                             : record.get<deck::AssignmentCard>() ? "assignment"
+                                                                  : nullptr)
+        diagnostics_.warning_once(what, record.location,
+                                  fmt::format("the deck has no cells (.MAI): this {} has no effect", what));
     if (const auto* check = record.get<deck::CheckCard>()) {
       model_.commands.checks.push_back(*check);
       model_.commands.check_locations.push_back(record.location);
@@ -237,9 +256,23 @@ class Builder {
   /// Rotations of a node may be held all three, or two of them (it then turns about the third axis). Held alone, one
   /// component of a finite rotation has no meaning.
   void check_rotation_supports() {
+    std::vector<unsigned> asked(model_.nodes.size(), 0);
+    for (const Model::Part& part : model_.parts)
+      for (std::size_t i = 0; i < part.nodes.size(); ++i)
+        asked[static_cast<std::size_t>(part.nodes[i])] |= static_cast<unsigned>(part.element->layout().needs[i]);
+    const auto is_asked = [&](int node, NodeNeed what) {
+      return (asked[static_cast<std::size_t>(node)] & static_cast<unsigned>(what)) != 0;
+    };
     for (std::size_t i = 0; i < model_.supports.size(); ++i) {
       const Support& s = model_.supports[i];
-      if (s.component < 3) continue;
+      const bool turns = is_asked(s.node, NodeNeed::rotation),
+                 in_plane = asked[static_cast<std::size_t>(s.node)] == static_cast<unsigned>(NodeNeed::in_plane);
+      if (s.value != 0 && s.component > 1 && in_plane)
+        diagnostics_.error(support_locations_[i],
+                           fmt::format("component {} of node {} cannot be displaced: the node is one of plane cells",
+                                       s.component + 1, model_.nodes[static_cast<std::size_t>(s.node)].id),
+                           "its components are 1 and 2");
+      if (s.component < 3 || !turns) continue;
       int held = 0, moved = 0;
       for (std::size_t c = 3; c < 6; ++c)
         if (const int other = support_of_[static_cast<std::size_t>(s.node)][c]; other != none) {
@@ -370,23 +403,30 @@ class Builder {
                                           card.values.front() * (degrees ? degree : 1), velocity, record.location});
   }
 
-  void add_element(const ElementRecord& element) {
+  void add_element(const ElementRecord& element, int number) {
     const deck::Record& record = *element.record;
     if (!check_references(record, diagnostics_)) return;
     const std::string& name = element.type->schema.name;
     const bool command = name.front() == '.';
-    if (command && taken(record)) return;
+    if (command && taken(number, record)) return;
     BuildContext context = context_of(record, diagnostics_);
+    context.number = number;
     auto built = element.type->build(context);
     if (BuildContext::Found* one = element.type->stage == 0 && others_are_asked_for_ ? find_in_mechanism(record.id) : nullptr) {
       one->element = built.get();
       one->faulty = !built;
     }
-    if (built) model_.parts.push_back({std::move(built), name.substr(command ? 1 : 0), &record, record.location, {}});
+    const std::string_view key = element.type->schema.key();
+    if (built)
+      model_.parts.push_back({std::move(built),
+                              key.empty() || !command ? name.substr(command ? 1 : 0) : std::string(key),
+                              &record,
+                              record.location,
+                              {}});
   }
 
   BuildContext::Found* find_in_mechanism(int id) {
-    if (mechanism_.empty())
+    if (!std::exchange(knows_mechanism_, true))
       for (const deck::Record& other : deck_.records)
         if (other.schema->command() == ".MCE") mechanism_.try_emplace(other.id, BuildContext::Found{&other});
     const auto found = mechanism_.find(id);
@@ -394,8 +434,8 @@ class Builder {
   }
 
   /// Results name elements by their numbers, so those of .MCE and of commands such as .LIA must differ.
-  bool taken(const deck::Record& record) {
-    const BuildContext::Found* found = find_in_mechanism(record.id);
+  bool taken(int number, const deck::Record& record) {
+    const BuildContext::Found* found = find_in_mechanism(number);
     if (!found) return false;
     const deck::Record& other = *found->record;
     diagnostics_.error(record.location, fmt::format("number {} is that of {} {}", record.id, other.schema->name, other.id),
@@ -416,6 +456,7 @@ class Builder {
             },
             &blocks_,
             &notes_,
+            0,
             &model_.of_time};
   }
 
@@ -484,14 +525,18 @@ class Builder {
   };
 
   static constexpr int none = -1;
+  static constexpr const char* cell_card = ".MAI";
 
   const deck::Deck& deck_;
   const std::vector<ElementType>& types_;
   Diagnostics& diagnostics_;
   NodePositions nodes_;
   std::unordered_map<const deck::Schema*, const ElementType*> types_by_schema_;
-  std::vector<ElementRecord> elements_;                         ///< in the order of the deck
-  std::unordered_map<int, BuildContext::Found> mechanism_;      ///< of .MCE by number, once asked for
+  std::vector<ElementRecord> elements_;                     ///< in the order of the deck
+  std::unordered_map<int, BuildContext::Found> mechanism_;  ///< of .MCE by number, once asked for
+  bool knows_mechanism_ = false;
+  bool analysed_ = false;                                       ///< .SAM TYPE or .SUB are given
+  bool has_mesh_ = false;                                       ///< some record is a cell
   bool others_are_asked_for_ = false;                           ///< some element is of stage 1
   std::unordered_map<int, const deck::Record*> placed_by_;      ///< which element placed a node
   std::unordered_map<int, std::vector<int>> placed_from_;       ///< nodes placed from a node, in the order of the deck

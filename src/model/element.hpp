@@ -12,8 +12,12 @@
 
 namespace engrane {
 
-/// What an element needs of a node: nodes get unknowns only where some element asks for them.
-enum class NodeNeed : unsigned char { translation = 1, rotation = 2, both = 3 };
+/// What an element needs of a node: nodes get unknowns only where some element asks for them. `in_plane`: translations along x
+/// and y alone.
+enum class NodeNeed : unsigned char { translation = 1, rotation = 2, both = 3, in_plane = 4 };
+
+/// What a cell of a mesh looks like; its nodes are the corners, then the mid-side nodes from the side of the first two on.
+enum class CellShape : unsigned char { none, triangle, triangle6, quadrilateral, quadrilateral8 };
 
 /// A named scalar of an element: an unknown of its own, a multiplier, or an output channel.
 struct Named {
@@ -83,8 +87,8 @@ struct GripShape {
   std::array<double, 3> lever{1, 1, 1};  ///< of each: speed of sliding over the rate of the coordinate
 };
 
-/// Which unknowns an element works on. Its local slots, in order: those that it asks of each node (three translations, three
-/// material rotation increments; of node 0, the ground, too), its scalars, its multipliers.
+/// Which unknowns an element works on. Its local slots, in order: those that it asks of each node (three translations, or two in
+/// the plane, three material rotation increments; of node 0, the ground, too), its scalars, its multipliers.
 struct Layout {
   std::vector<int> nodes;               ///< ids; 0 is the ground
   std::vector<NodeNeed> needs;          ///< one per node
@@ -101,7 +105,13 @@ struct Layout {
   bool needs_any(std::size_t node, NodeNeed what) const {
     return (static_cast<unsigned>(needs[node]) & static_cast<unsigned>(what)) != 0;
   }
-  /// First slot of a node's three translations or rotations; −1 when the element does not ask for them.
+  /// Whether it asks for a component of a node: 0 to 2 translations, 3 to 5 rotations.
+  bool has(std::size_t node, int component) const {
+    return needs_any(node, component < 3 ? NodeNeed::translation : NodeNeed::rotation) ||
+           (component < 2 && needs_any(node, NodeNeed::in_plane));
+  }
+  /// First slot of a node's three translations or rotations, or of its two in the plane; −1 when the element does not ask for
+  /// them.
   int node_slot(std::size_t node, NodeNeed what) const {
     if (!needs_any(node, what)) return -1;
     int slot = what == NodeNeed::rotation && needs_any(node, NodeNeed::translation) ? 3 : 0;
@@ -123,7 +133,10 @@ struct Layout {
 
  private:
   int width(std::size_t node) const {
-    return (needs_any(node, NodeNeed::translation) ? 3 : 0) + (needs_any(node, NodeNeed::rotation) ? 3 : 0);
+    return (needs_any(node, NodeNeed::translation) ? 3
+            : needs_any(node, NodeNeed::in_plane)  ? 2
+                                                   : 0) +
+           (needs_any(node, NodeNeed::rotation) ? 3 : 0);
   }
 };
 
@@ -200,6 +213,7 @@ struct Energies {
   double potential = 0;
   double dissipated = 0;  ///< power
   double external = 0;    ///< power of applied forces and drives
+  double strain = 0;      ///< part of `potential` that cells of a mesh hold as strain
 };
 
 /// A shape that stands for the element in pictures (docs/format.md), as JSON members without braces.
@@ -257,6 +271,10 @@ class Element {
   virtual void grip_limits(const State& state, std::span<double> limits) const;
 
   virtual Energies energies(const State& state) const;
+  /// Forces that act on the nodes from outside of the model, in the slots of the layout: loads and weight. False, and nothing
+  /// written, when there are none.
+  virtual bool applied(const State& /*state*/, std::span<double> /*forces*/) const { return false; }
+  virtual CellShape cell_shape() const { return CellShape::none; }
 
   /// Inertia tensor that the element gives to one of its nodes, about the node, in reference (global) components.
   virtual Mat3 inertia_at(int node) const;
@@ -273,6 +291,8 @@ class Element {
   virtual std::vector<Release> releases() const;
   /// Whether the element makes its nodes a body that can have mass; advice against motions that no inertia resists looks here.
   virtual bool is_body() const { return false; }
+  /// Its forces at rest are linear in the displacements: one tangent serves any equilibrium.
+  virtual bool is_linear() const { return false; }
 
   /// Warnings for the user at the end of a run: sentences without the element's name, from the history as committed last.
   virtual std::vector<std::string> remarks(std::span<const double> /*history*/) const { return {}; }

@@ -56,6 +56,35 @@ class Shaken {
   std::vector<double> still_, moved_;
 };
 
+/// Of an element whose nodes move along x and y only. Accelerations 1, x and y of all nodes along x give its mass matrix times
+/// these, and hence all moments of its mass in the plane; across it all mass is at the height of the nodes.
+MassProperties plane_mass_properties(const Model& model, const Model::Part& part) {
+  ElementAtRest body(model, part);
+  const std::size_t count = body.nodes.size();
+  std::vector<double> still(2 * count), moved(2 * count);
+  part.element->residual(body.view(), still);
+  Eigen::Matrix3d moments;  // of 1, x and y with one another
+  const Vec3 origin = body.nodes.front().x;
+  const auto function = [&](std::size_t i, Eigen::Index of) { return of == 0 ? 1 : body.nodes[i].x[of - 1] - origin[of - 1]; };
+  for (Eigen::Index column = 0; column < 3; ++column) {
+    for (std::size_t i = 0; i < count; ++i) body.nodes[i].a = Vec3(function(i, column), 0, 0);
+    part.element->residual(body.view(), moved);
+    for (Eigen::Index row = 0; row < 3; ++row) {
+      double sum = 0;
+      for (std::size_t i = 0; i < count; ++i) sum += function(i, row) * (moved[2 * i] - still[2 * i]);
+      moments(row, column) = sum;
+      if (column == 0 && row == 0 && sum == 0) return {};
+    }
+  }
+  MassProperties found;
+  found.mass = moments(0, 0);
+  const Eigen::Vector2d from = moments.block<2, 1>(1, 0) / found.mass;
+  const Eigen::Matrix2d second = moments.block<2, 2>(1, 1) - found.mass * from * from.transpose();
+  found.centre = origin + Vec3(from[0], from[1], 0);
+  found.inertia << second(1, 1), -second(0, 1), 0, -second(1, 0), second(0, 0), 0, 0, 0, second.trace();
+  return found;
+}
+
 }  // namespace
 
 void MassProperties::add(const MassProperties& other) {
@@ -69,6 +98,10 @@ void MassProperties::add(const MassProperties& other) {
 MassProperties mass_properties(const Model& model, const Model::Part& part) {
   MassProperties found;
   if (part.nodes.empty() || part.element->layout().node_slots() == 0) return found;
+  if (part.element->layout().needs_any(0, NodeNeed::in_plane)) {
+    if (part.element->cell_shape() == CellShape::none) return found;  // a load
+    return plane_mass_properties(model, part);
+  }
   Shaken shaken(model, part);
   // most elements of a large model have no mass: one look at them is enough
   const Resistance any = shaken.under(Vec3(0.83, -0.51, 0.22), Vec3(-0.37, 0.61, 0.7));

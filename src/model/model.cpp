@@ -89,6 +89,11 @@ double mass_at_first_node(const Model& model, const Model::Part& part) {
   return moved[0] - still[0];
 }
 
+bool has_cells(const Model& model) {
+  return std::any_of(model.parts.begin(), model.parts.end(),
+                     [](const Model::Part& part) { return part.element->cell_shape() != CellShape::none; });
+}
+
 std::string parameters_json(const Model::Part& part) {
   const auto* load = part.record->get<deck::LoadCard>();
   if (!load || load->nodes.size() + load->groups.size() < 2) return deck::record_json(*part.record);

@@ -108,6 +108,9 @@ struct Model {
   double extent_ = 1;
 };
 
+/// Whether the deck has a mesh.
+bool has_cells(const Model& model);
+
 /// Mass that an element gives to the translation of its first node, from its residual under a unit acceleration.
 double mass_at_first_node(const Model& model, const Model::Part& part);
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "model/templated_element.hpp"
@@ -52,6 +53,14 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
     return e;
   }
 
+  bool applied(const State& state, std::span<double> forces) const override {
+    const Vec3 force = factor(state) * force_, moment = factor(state) * (state.nodes[0].R.transpose() * moment_);
+    double* out = forces.data();
+    if (layout().needs_any(0, NodeNeed::translation)) out = std::copy_n(force.data(), 3, out);
+    std::copy_n(moment.data(), 3, out);
+    return true;
+  }
+
   const std::vector<Named>& channels() const override { return named(!force_.isZero(0), !moment_.isZero(0)); }
 
   void observe(const State& state, std::span<double> values) const override {
@@ -80,10 +89,61 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
   const Function* function_;
 };
 
+/// A force alone, which depends on nothing but time.
+class NodeForce final : public Element {
+ public:
+  NodeForce(int id, int node, const Vec3& at, const Vec3& force, const Function* function)
+      : Element(id), at_(at), force_(force), function_(function) {
+    layout_.nodes = {node};
+    // in the plane XY it does not ask for what the nodes of plane cells do not have
+    layout_.needs = {force[2] == 0 ? NodeNeed::in_plane : NodeNeed::translation};
+  }
+
+  const Layout& layout() const override { return layout_; }
+  bool is_linear() const override { return true; }
+  void residual(const State& state, std::span<double> r) const override {
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] = -factor(state) * force_[static_cast<Eigen::Index>(i)];
+  }
+  void tangent(const State& state, Weights, std::span<double> r, std::span<double> k) const override {
+    residual(state, r);
+    std::fill(k.begin(), k.end(), 0.0);
+  }
+  void constraint_rates(const State&, std::span<double>, std::span<double>, std::span<double>) const override {}
+
+  Energies energies(const State& state) const override {
+    Energies e;
+    e.external = factor(state) * force_.dot(state.nodes[0].v);
+    return e;
+  }
+  bool applied(const State& state, std::span<double> forces) const override {
+    residual(state, forces);
+    for (double& force : forces) force = -force;
+    return true;
+  }
+
+  const std::vector<Named>& channels() const override { return named(true, false); }
+  void observe(const State& state, std::span<double> values) const override {
+    for (std::size_t i = 0; i < 3; ++i) values[i] = factor(state) * force_[static_cast<Eigen::Index>(i)];
+  }
+  Drawing drawing() const override {
+    const Vec3 axis = force_.normalized();
+    return {fmt::format(R"("shape": "arrow", "node": {}, "center": [{}, {}, {}], "axis": [{}, {}, {}])", layout_.nodes[0], at_[0],
+                        at_[1], at_[2], axis[0], axis[1], axis[2])};
+  }
+
+ private:
+  double factor(const State& state) const { return function_ ? function_->at(state.time).f : 1.0; }
+
+  Vec3 at_, force_;
+  const Function* function_;
+  Layout layout_;
+};
+
 }  // namespace
 
 std::unique_ptr<Element> make_node_load(int id, int node, const Vec3& at, const Vec3& force, const Vec3& moment,
                                         const Function* function) {
+  if (moment.isZero(0) && !force.isZero(0)) return std::make_unique<NodeForce>(id, node, at, force, function);
   return std::make_unique<NodeLoad>(id, node, at, force, moment, function);
 }
 

@@ -162,7 +162,7 @@ class Examination {
     std::size_t slot = 0;
     for (std::size_t i = 0; i < layout.needs.size(); ++i)
       for (int c = 0; c < 6; ++c)
-        if (layout.needs_any(i, c < 3 ? NodeNeed::translation : NodeNeed::rotation)) {
+        if (layout.has(i, c)) {
           nodes_[slot] = part.nodes[i];
           components_[slot++] = part.nodes[i] == 0 ? -1 : c;
         }
@@ -384,8 +384,7 @@ std::vector<int> slots_out_of_plane(const Model& model, const PlaneModel& plane)
   for (const Model::Part& part : model.parts)
     for (std::size_t i = 0; i < part.nodes.size(); ++i)
       for (int c = 0; c < 6; ++c)
-        if (part.nodes[i] > 0 && part.element->layout().needs_any(i, c < 3 ? NodeNeed::translation : NodeNeed::rotation))
-          needed[static_cast<std::size_t>(6 * part.nodes[i] + c)] = true;
+        if (part.nodes[i] > 0 && part.element->layout().has(i, c)) needed[static_cast<std::size_t>(6 * part.nodes[i] + c)] = true;
   for (const Support& s : model.supports) needed[static_cast<std::size_t>(6 * s.node + s.component)] = false;
   std::vector<int> slots;
   for (std::size_t slot = 0; slot < needed.size(); ++slot)

@@ -54,7 +54,9 @@ struct BuildContext {
   std::function<Found(int id)> find_element = nullptr;
   /// Where elements of a kind meet in blocks; nullptr: each is alone in its own.
   BlockStore* blocks = nullptr;
-  BuildNotes* notes = nullptr;                   ///< of this model; nullptr: everyone finds out alone
+  BuildNotes* notes = nullptr;  ///< of this model; nullptr: everyone finds out alone
+  /// Of the element: that of its record or, where the card has none, one after those of all others.
+  int number = 0;
   std::set<const Function*>* of_time = nullptr;  ///< functions of time that elements use; nullptr: nobody asks
 
   /// The function a keyword names, or nullptr with an error when it does not exist.

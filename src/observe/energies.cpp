@@ -25,6 +25,7 @@ Energies own_energies(Assembler& assembler, const Configuration& c) {
     sum.potential += e.potential;
     sum.external += e.external;
     sum.dissipated += e.dissipated;
+    sum.strain += e.strain;
   }
   return sum;
 }
@@ -33,9 +34,9 @@ Energies own_energies(Assembler& assembler, const Configuration& c) {
 
 Energies total_energies(Assembler& assembler, const Configuration& c) {
   const Energies own = own_energies(assembler, c);
-  double sums[4] = {own.kinetic, own.potential, own.dissipated, own.external};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, assembler.comm());
-  return {sums[0], sums[1], sums[2], sums[3]};
+  double sums[5] = {own.kinetic, own.potential, own.dissipated, own.external, own.strain};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, assembler.comm());
+  return {sums[0], sums[1], sums[2], sums[3], sums[4]};
 }
 
 double static_work(Assembler& assembler, Reactions& supports, const Configuration& from, const Configuration& to) {
@@ -71,6 +72,7 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
   for (const Reaction& reaction : reactions) sum.external += reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]);
   balance_.kinetic = sum.kinetic;
   balance_.potential = sum.potential;
+  balance_.strain = sum.strain;
   if (!started_) {
     balance_.initial = sum.kinetic + sum.potential;
     initial_potential_ = sum.potential;
@@ -119,7 +121,13 @@ void EnergyLedger::save(Snapshot& snapshot) const {
 
 void EnergyLedger::load(const Snapshot& snapshot) {
   const std::vector<double>& state = snapshot.array("observe/energies");
-  balance_ = {state.at(0), state.at(1), state.at(2), state.at(3), state.at(4), state.at(5)};
+  balance_ = {};
+  balance_.kinetic = state.at(0);
+  balance_.potential = state.at(1);
+  balance_.external_work = state.at(2);
+  balance_.dissipated = state.at(3);
+  balance_.initial = state.at(4);
+  balance_.largest_error = state.at(5);
   external_power_ = state.at(6);
   dissipated_power_ = state.at(7);
   last_time_ = state.at(8);

@@ -14,6 +14,7 @@ namespace engrane::observe {
 /// Energies of the whole model and the work done since the start.
 struct EnergyBalance {
   double kinetic = 0, potential = 0;
+  double strain = 0;  ///< part of the potential energy: of cells
   double external_work = 0, dissipated = 0;
   double initial = 0;        ///< kinetic + potential at the start
   double largest_error = 0;  ///< largest |error()| so far

@@ -8,6 +8,9 @@
 #include <set>
 #include <utility>
 
+#include "model/masses.hpp"
+#include "observe/loads.hpp"
+
 namespace engrane::observe {
 
 namespace {
@@ -22,7 +25,7 @@ bool of_motion(const Dimension& d) {
 
 }  // namespace
 
-std::vector<Named> run_channels(bool moves) {
+std::vector<Named> run_channels(bool moves, bool cells) {
   std::vector<Named> channels{{"STEP", dimension::time, "time step"},
                               {"ITERATIONS", dimension::none, "Newton iterations of the step"},
                               {"EVENTS", dimension::none, "events met since the start: teeth that begin or cease to touch"},
@@ -35,6 +38,15 @@ std::vector<Named> run_channels(bool moves) {
     channels.push_back({name, dimension::force, "sum of what supports and the elements on node 0 exert on the model, global"});
   for (const char* name : {"GROUND_MOMENT_X", "GROUND_MOMENT_Y", "GROUND_MOMENT_Z"})
     channels.push_back({name, dimension::moment, "its moment about the origin, global"});
+  if (!cells) return channels;
+  channels.push_back({"STRAIN_ENERGY", dimension::energy, "energy that the cells hold as strain"});
+  channels.push_back({"LOAD_WORK", dimension::energy, "work u·F of all loads on the displacements from the reference"});
+  for (const char* name : {"LOAD_FORCE_X", "LOAD_FORCE_Y", "LOAD_FORCE_Z"})
+    channels.push_back({name, dimension::force, "sum of all loads, weight included, global"});
+  for (const char* name : {"LOAD_MOMENT_X", "LOAD_MOMENT_Y", "LOAD_MOMENT_Z"})
+    channels.push_back({name, dimension::moment, "their moment about the origin, global"});
+  channels.push_back({"MASS", dimension::mass, "mass of all elements"});
+  channels.push_back({"EQUATIONS", dimension::none, "number of equations"});
   return channels;
 }
 
@@ -44,10 +56,16 @@ Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
       supports_(assembler),
       histories_(assembler, supports_, moves, selection),
       ledger_(assembler, supports_, moves),
-      run_channels_(observe::run_channels(moves)),
+      run_channels_(observe::run_channels(moves, has_cells(assembler.model()))),
       values_(histories_.columns() + run_channels_.size(), 0.0),
       element_fields_(assembler),
-      ends_(most_ends, std::numeric_limits<double>::infinity()) {}
+      cells_(has_cells(assembler.model())),
+      ends_(most_ends, std::numeric_limits<double>::infinity()) {
+  if (!cells_) return;
+  for (int p = assembler.first_part(); p < assembler.end_part(); ++p)
+    mass_ += mass_properties(assembler.model(), assembler.model().parts[static_cast<std::size_t>(p)]).mass;
+  MPI_Allreduce(MPI_IN_PLACE, &mass_, 1, MPI_DOUBLE, MPI_SUM, assembler.comm());
+}
 
 int Observer::channel(const std::string& owner, const std::string& name) const {
   const auto place = [&name](const std::vector<Named>& channels) {
@@ -122,6 +140,7 @@ void Observer::keep(double time) {
 void Observer::evaluate_histories(const Configuration& c, const Step& step) {
   const std::vector<double>& values = histories_.evaluate(c, last_reactions_);
   const Resultant ground = supports_.resultant(c, last_reactions_);
+  const LoadSum loads = cells_ ? sum_loads(assembler_, c) : LoadSum{};
   if (assembler_.rank() != 0) return;
   const EnergyBalance& e = ledger_.balance();
   auto out = std::copy(values.begin(), values.end(), values_.begin());
@@ -133,6 +152,12 @@ void Observer::evaluate_histories(const Configuration& c, const Step& step) {
              : std::vector{step.length, static_cast<double>(step.iterations), events_, e.potential, e.external_work, e.error()};
   out = std::copy(run.begin(), run.end(), out);
   for (const Vec3* part : {&ground.force, &ground.moment}) out = std::copy(part->data(), part->data() + 3, out);
+  if (!cells_) return;
+  *out++ = e.strain;
+  *out++ = loads.work;
+  for (const Vec3* part : {&loads.force, &loads.moment}) out = std::copy(part->data(), part->data() + 3, out);
+  *out++ = mass_;
+  *out++ = static_cast<double>(assembler_.numbering().equations());
 }
 
 void Observer::keep_ends() {

@@ -86,6 +86,8 @@ class Observer {
   std::vector<Reaction> last_reactions_;
   std::vector<int> not_unique_;
   double events_ = 0;
+  bool cells_;       ///< the model has a mesh
+  double mass_ = 0;  ///< of all, where it has
 
   void evaluate_histories(const Configuration& c, const Step& step);
   /// What a value is between two ends: on the polynomial, of the motion, or that of the end after it.
@@ -105,6 +107,6 @@ class Observer {
 };
 
 /// Channels of the whole model.
-std::vector<Named> run_channels(bool moves);
+std::vector<Named> run_channels(bool moves, bool cells);
 
 }  // namespace engrane::observe

@@ -44,7 +44,7 @@ std::size_t Batch::bytes() const {
 }
 
 MixedTopology mixed_topology(const ResultsLayout& layout) {
-  constexpr std::int32_t polyline = 2, triangle = 4, quadrilateral = 5;
+  constexpr std::int32_t polyline = 2, triangle = 4, quadrilateral = 5, triangle6 = 36, quadrilateral8 = 37;
   MixedTopology topology;
   // A vertex has no type code that all readers take the same way, and some take no polyline of more than two points.
   const auto line = [&](int a, int b, int element) {
@@ -54,8 +54,8 @@ MixedTopology mixed_topology(const ResultsLayout& layout) {
   for (std::size_t c = 0; c < layout.cells.size(); ++c) {
     const Cell& cell = layout.cells[c];
     const std::size_t n = cell.points.size();
-    if (cell.surface && (n == 3 || n == 4)) {
-      topology.data.push_back(n == 3 ? triangle : quadrilateral);
+    if (cell.surface && (n == 3 || n == 4 || n == 6 || n == 8)) {
+      topology.data.push_back(n == 3 ? triangle : n == 4 ? quadrilateral : n == 6 ? triangle6 : quadrilateral8);
       topology.data.insert(topology.data.end(), cell.points.begin(), cell.points.end());
       topology.elements.push_back(cell.element);
     } else if (n == 1) {

@@ -26,11 +26,12 @@ struct HistoryTable {
   }
 };
 
-/// What stands for (a part of) an element in the mesh: a point, a polyline, a triangle or a quadrilateral.
+/// What stands for (a part of) an element in the mesh: a point, a polyline, a triangle or a quadrilateral, these also with
+/// mid-side nodes behind their corners.
 struct Cell {
   std::vector<int> points;  ///< 0-based places in ResultsLayout::points
   int element = 0;          ///< id
-  bool surface = false;     ///< three or four points are a face, not a line
+  bool surface = false;     ///< three, four, six or eight points are a face, not a line
 };
 
 /// A field over the cells, beside those over the nodes.

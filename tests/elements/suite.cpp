@@ -55,8 +55,7 @@ struct Slots {
   bool ground(std::size_t slot) const { return slot < first_scalar() && layout.nodes[slot / 6] == 0; }
   bool needed(std::size_t slot) const {
     if (slot >= first_scalar()) return true;
-    const auto need = slot % 6 < 3 ? NodeNeed::translation : NodeNeed::rotation;
-    return (static_cast<int>(layout.needs[slot / 6]) & static_cast<int>(need)) != 0;
+    return layout.has(slot / 6, static_cast<int>(slot % 6));
   }
   std::string name(std::size_t slot) const {
     if (slot >= first_multiplier()) return "multiplier " + layout.multipliers[slot - first_multiplier()].name;
@@ -284,9 +283,10 @@ void check_power(const Subject& s, const Element& element, StateBuffer state) {
 
 void check_rigid(const Subject& s, const Element& element, Random& random) {
   StateBuffer state(element, s.nodes);
-  const Mat3 Q = uniform_rotation(random);
-  const Vec3 shift = 10 * s.length * uniform_vector(random), spin = s.velocity / s.length * uniform_vector(random),
-             speed = s.velocity * uniform_vector(random);
+  const Mat3 Q = uniform_rotation(s, random);
+  const Vec3 shift = 10 * s.length * uniform_vector(s, random),
+             spin = s.velocity / s.length * (s.in_plane ? Vec3(uniform(random) * Vec3::UnitZ()) : uniform_vector(random)),
+             speed = s.velocity * uniform_vector(s, random);
   for (std::size_t i = 0; i < state.nodes.size(); ++i) {
     NodeState& node = state.nodes[i];
     node.x = Q * node.x + shift;
@@ -320,8 +320,8 @@ void expect_rotated(const Slots& slots, const Vector& r, const Vector& rotated, 
 }
 
 void check_objectivity(const Subject& s, const Element& element, const StateBuffer& state, Random& random) {
-  const Mat3 Q = uniform_rotation(random);
-  const Vec3 shift = s.length * uniform_vector(random);
+  const Mat3 Q = uniform_rotation(s, random);
+  const Vec3 shift = s.length * uniform_vector(s, random);
   StateBuffer moved = state;
   moved.gravity = Q * state.gravity;
   for (std::size_t i = 0; i < moved.nodes.size(); ++i) {
@@ -336,7 +336,7 @@ void check_objectivity(const Subject& s, const Element& element, const StateBuff
 }
 
 void check_rotated_copy(const Subject& s, const Element& element, const StateBuffer& state, Random& random) {
-  const Mat3 Q = uniform_rotation(random);
+  const Mat3 Q = uniform_rotation(s, random);
   const auto copy = s.build(Q);
   ASSERT_NE(copy, nullptr);
   StateBuffer original = state;
@@ -425,7 +425,7 @@ void check_mass(const Subject& s, const Element& element, StateBuffer state, Ran
     for (std::size_t i = 0; i < state.nodes.size(); ++i) force += Vec3(r[6 * i], r[6 * i + 1], r[6 * i + 2]);
     return force;
   };
-  const Vec3 a = uniform_vector(random), g = uniform_vector(random), none = Vec3::Zero();
+  const Vec3 a = uniform_vector(s, random), g = uniform_vector(s, random), none = Vec3::Zero();
   const double m = *s.mass;
   const Vec3 internal = total(none, none);
   EXPECT_LE((total(a, none) - internal - m * a).norm(), 1e-13 * (std::abs(m) + internal.norm())) << "resistance to acceleration";

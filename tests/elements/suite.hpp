@@ -24,6 +24,10 @@ double uniform(Random& random);
 Vec3 uniform_vector(Random& random);
 /// Uniform over the rotations.
 Mat3 uniform_rotation(Random& random);
+/// The same of what a subject may do: in its plane, where it has one.
+struct Subject;
+Vec3 uniform_vector(const Subject& subject, Random& random);
+Mat3 uniform_rotation(const Subject& subject, Random& random);
 
 /// Owns everything a State views, and moves it in the coordinates that tangents differentiate by.
 class StateBuffer {
@@ -83,6 +87,7 @@ struct Subject {
   std::function<std::unique_ptr<Element>(const Mat3& turn)> build;
   /// Bends a random state to where the element has a meaning (teeth in contact, lengths not zero); may be empty.
   std::function<void(StateBuffer&, Random&)> adjust = {};
+  bool in_plane = false;            ///< it moves in the plane XY only: so do random states, and turns are about z
   double length = 1;                ///< size of random displacements, and unit of difference steps
   double velocity = 1;              ///< size of random velocities and, per unit time, accelerations
   double force = 1;                 ///< size of random multipliers

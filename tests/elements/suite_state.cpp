@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "elements/suite.hpp"
 #include "math/rotation.hpp"
@@ -26,6 +27,16 @@ Mat3 uniform_rotation(Random& random) {
   std::normal_distribution<double> normal;
   const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
   return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix();
+}
+
+Vec3 uniform_vector(const Subject& subject, Random& random) {
+  Vec3 v = uniform_vector(random);
+  if (subject.in_plane) v[2] = 0;
+  return v;
+}
+
+Mat3 uniform_rotation(const Subject& subject, Random& random) {
+  return subject.in_plane ? rotation_exp(Vec3(std::numbers::pi * uniform(random) * Vec3::UnitZ())) : uniform_rotation(random);
 }
 
 StateBuffer::StateBuffer(const Element& element, const NodeMap& places) {
@@ -122,9 +133,9 @@ StateBuffer random_state(const Subject& s, const Element& element, Random& rando
   for (std::size_t i = 0; i < state.nodes.size(); ++i) {
     if (state.is_ground(i)) continue;
     NodeState& node = state.nodes[i];
-    node.x += s.length * uniform_vector(random);
-    node.v = s.velocity * uniform_vector(random);
-    node.a = s.velocity * s.velocity / s.length * uniform_vector(random);
+    node.x += s.length * uniform_vector(s, random);
+    node.v = s.velocity * uniform_vector(s, random);
+    node.a = s.velocity * s.velocity / s.length * uniform_vector(s, random);
     node.W = s.velocity / s.length * uniform_vector(random);
     node.A = std::pow(s.velocity / s.length, 2) * uniform_vector(random);
     const Vec3 axis = uniform_vector(random).normalized();
@@ -137,7 +148,7 @@ StateBuffer random_state(const Subject& s, const Element& element, Random& rando
   }
   for (double& multiplier : state.multipliers) multiplier = s.force * uniform(random);
   state.time = std::abs(uniform(random)) * s.length / s.velocity;
-  state.gravity = uniform_vector(random);
+  state.gravity = uniform_vector(s, random);
   state.penalty = s.penalty;
   if (s.adjust) s.adjust(state, random);
   return state;
@@ -151,7 +162,7 @@ std::vector<std::size_t> full_places(const Layout& layout) {
   const std::size_t nodes = layout.nodes.size();
   for (std::size_t i = 0; i < nodes; ++i)
     for (std::size_t c = 0; c < 6; ++c)
-      if (layout.needs_any(i, c < 3 ? NodeNeed::translation : NodeNeed::rotation)) places.push_back(6 * i + c);
+      if (layout.has(i, static_cast<int>(c))) places.push_back(6 * i + c);
   for (std::size_t i = 0; places.size() < static_cast<std::size_t>(layout.slots()); ++i) places.push_back(6 * nodes + i);
   return places;
 }

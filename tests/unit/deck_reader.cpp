@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "deck/cards/mesh_cards.hpp"
 #include "deck/read/reader.hpp"
 #include "deck_testing.hpp"
 
@@ -94,11 +95,67 @@ TEST(DeckReader, LocationsOfFields) {
 }
 
 TEST(DeckReader, RecognisedButNotInThisVersion) {
-  EXPECT_EQ(only_message(".MAI I 1 N 1 2 0 -3"),
-            "`.MAI` is recognised but not in this version: the cells of a finite-element mesh");
-  EXPECT_EQ(only_message(".CLM PRE GROUP 1 V 3"), "`.CLM PRE` is recognised but not in this version: pressure on faces of cells");
-  EXPECT_EQ(only_message(".CLM FIX NOEUD 1 C 1 PRE GROUP 1 V 3"),
-            "`.CLM PRE` is recognised but not in this version: pressure on faces of cells");
+  EXPECT_EQ(only_message(".ASE I 1 N 1 2 0 -3"), "`.ASE` is recognised but not in this version: assembly of super-elements");
+  const std::string face = "`.CLM FACE` is recognised but not in this version: pressure on faces of solid cells";
+  EXPECT_EQ(only_message(".CLM FACE I 1 2 PRE V 3"), face);
+  EXPECT_EQ(only_message(".CLM FIX NOEUD 1 C 1 FACE I 1 2 PRE V 3"), face);
+}
+
+TEST(DeckReader, ObjectsStandBeforeTheirRecord) {
+  const ReadDeck deck = read(
+      ".CLM ADD\n GROUP \"Clamped(1)\" FIX C 1 2 3 4 5 6 \n STRU ACC VAL 0 -9810 0\n NOEUD 49 CHA  C 2 V -1500\n"
+      " NOEUD 49 CHA  C 1 V 250\n NOEUD 1 A 3 GROUP 7 DEP C 1 V 2.\n NOEUD 4 C 2 V 1. CHA NOEUD 5 C 1 V 3 NOEUD 6 FIX C 1\n");
+  EXPECT_EQ(deck.messages(), "");
+  ASSERT_EQ(deck.deck.records.size(), 8U);
+  EXPECT_EQ(deck.at<FixCard>(0).groups, std::vector<std::string>{"Clamped(1)"});
+  EXPECT_EQ(deck.at<GravityCard>(1).acceleration[1], -9810);
+  EXPECT_EQ(deck.at<LoadCard>(2).nodes, std::vector<int>{49});
+  EXPECT_EQ(deck.at<LoadCard>(3).values, std::vector<double>{250});
+  EXPECT_EQ(deck.at<DisplacementCard>(4).nodes, (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(deck.at<DisplacementCard>(4).groups, std::vector<std::string>{"7"});
+  EXPECT_EQ(deck.at<DisplacementCard>(5).nodes, std::vector<int>{4}) << "no other record is named";
+  EXPECT_EQ(deck.at<LoadCard>(6).nodes, std::vector<int>{5});
+  EXPECT_EQ(deck.at<FixCard>(7).nodes, std::vector<int>{6});
+  EXPECT_EQ(only_message(".CLM NOEUD 4"), "`NOEUD` is not followed by a record of .CLM");
+  EXPECT_EQ(only_message(".CLM NOEUD 4 FAX C 1"), "`FAX` starts no record of .CLM");
+}
+
+TEST(DeckReader, RowsOfGroups) {
+  const ReadDeck deck =
+      read(".SEL\n GROUP 2 NOEUDS NOM \"a (1): b\"\n I 1 J 7 K 3 \n I 95 \n I 98 J 99\n GROUP 3 MAILLE NOM \"c\"\n I 4\n");
+  EXPECT_EQ(deck.messages(), "");
+  EXPECT_EQ(deck.at<GroupCard>(0).ids, (std::vector<int>{1, 4, 7, 95, 98, 99}));
+  EXPECT_EQ(deck.at<GroupCard>(0).name, "a (1): b");
+  EXPECT_TRUE(deck.at<GroupCard>(1).kind.is("ELEMENTS"));
+  EXPECT_EQ(deck.at<GroupCard>(1).ids, std::vector<int>{4});
+}
+
+TEST(DeckReader, PropertiesOfCells) {
+  const ReadDeck deck = read(
+      ".HYP MEMB BIDIM GROUP \"plate (1)\"\n.PHP\n GROUP \"plate (1)\" THICK VAL 0.5 ! Thickness \n GROUP 2 THICK 3.\n.AEL\n I 1 "
+      "THETA "
+      "12.5\n I 2 THETA -3.25\n\n I 1 J 7 K 3 MAT 1\n GROUP 2 MAT 4\n");
+  EXPECT_EQ(deck.messages(), "");
+  ASSERT_EQ(deck.deck.records.size(), 7U);
+  EXPECT_EQ(deck.at<HypothesisCard>(0).formulation, "MEMB");
+  EXPECT_EQ(deck.at<HypothesisCard>(0).variant, "BIDIM");
+  EXPECT_EQ(deck.at<PropertyCard>(1).thickness, 0.5);
+  EXPECT_EQ(deck.at<PropertyCard>(2).groups, std::vector<std::string>{"2"});
+  EXPECT_EQ(deck.at<AssignmentCard>(4).theta, -3.25);
+  EXPECT_EQ(deck.at<AssignmentCard>(5).cells, (std::vector<int>{1, 4, 7}));
+  EXPECT_EQ(deck.at<AssignmentCard>(6).material, 4);
+}
+
+TEST(DeckReader, WhatIsSkippedIsSaidOnce) {
+  const ReadDeck deck = read(
+      "MODE M -1 LECTURE 40\n.ALGO\n AXER 1\n.ALGO\n AXER 2\n#INQ (/N,NOD,,MAX)\n#INQ (/E,ELE,,MAX)\n.SAI\n ARCHIVE STRUCTURE "
+      "STYPE -221\n"
+      " ARCHIVE STRUCTURE STYP 1411 77 78\n ARCHIVE STRUCTURE STYP 78 223\nRETURN\n");
+  EXPECT_EQ(deck.diagnostics.errors(), 0) << deck.messages();
+  EXPECT_EQ(deck.diagnostics.warnings(), 4) << deck.messages();
+  EXPECT_NE(deck.messages().find("(and 1 more time)"), std::string::npos);
+  EXPECT_NE(deck.messages().find("STYP 77 78 are not known"), std::string::npos) << deck.messages();
+  EXPECT_EQ(deck.at<ArchiveCard>(0).codes, (std::vector<int>{1411, 223}));
 }
 
 /// Decks in a folder of their own.

@@ -85,7 +85,8 @@ Schema group_card() {
   Card<GroupCard> card(".SEL", {".SELECTION"}, "Named groups of nodes or elements");
   card.chapter(model_chapter).key("GROUP");
   card.describe(
-      "What a group holds is given by numbers and ranges (`1 A 20`, or `I 1 J 20 K 1`: from, to, step), by TOUT, by a box, by "
+      "What a group holds is given by numbers and ranges (`1 A 20`, or `I 1 J 20 K 1`: from, to, step; `I 7`), by TOUT, by a "
+      "box, by "
       "other "
       "groups, or by the attribute of elements; several of these add up. Other cards name a group by its number or by its name.");
   card.add("NOM", &GroupCard::name, "name").synonyms({"NAME"});
@@ -95,7 +96,7 @@ Schema group_card() {
       .option({"NODES", {"NOEUDS", "NOEUD"}, "nodes"})
       .option({"ELEMENTS", {"MAILLES", "MAILLE"}, "elements"})
       .option({"FACES", {}, "faces of cells: recognised, not in this version"});
-  card.add("IDS", &GroupCard::ids, "numbers and ranges").refers(Reference::node).at_least(1).positional();
+  card.add("IDS", &GroupCard::ids, "numbers and ranges").refers(Reference::node).at_least(1).positional().repeats();
   card.add("TOUT", &GroupCard::all, "all of them").synonyms({"ALL"});
   card.add("UNION", &GroupCard::united, "other groups whose members belong to this one")
       .refers(Reference::group)
@@ -143,7 +144,7 @@ std::vector<Schema> model_cards() {
 const std::vector<Schema>& general_commands() {
   static const std::vector<Schema> all = [] {
     std::vector<Schema> cards = model_cards();
-    for (std::vector<Schema> more : {condition_cards(), analysis_cards()})
+    for (std::vector<Schema> more : {mesh_cards(), condition_cards(), analysis_cards()})
       cards.insert(cards.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     return cards;
   }();

@@ -126,6 +126,7 @@ struct AnalysisCard {
   Tagged tangent{"FULL", {}};       ///< FULL, KEPT: whether tangents of a DYNAMIC analysis serve several iterations and steps
   int iterations = 20;              ///< most Newton iterations before the step is cut
   int cuts = 10;                    ///< most halvings of one step
+  Tagged displacements{"", {}};     ///< DISPLACEMENTS SMALL, LARGE: of cells; by itself SMALL unless the deck has TYPE or .SUB
   Tagged plane{"NO", {}};           ///< PLANE NO, AUTO, XY, YZ, ZX: three unknowns a node where all motion stays in a plane
   Tagged events{"YES", {}};         ///< EVENTS YES [tolerance] or NO: steps end where contact begins and ends
   double energy = 1;                ///< ENERGY: largest error of the energy balance, over the energy there was; 0: any
@@ -146,15 +147,16 @@ struct SteppingCard {
 
 /// `.SAI` what is archived: rate of the fields, rate of the histories, whose histories and which, and restart points.
 struct ArchiveCard : NodeTarget {
-  std::optional<double> field_step;    ///< CHAMPS/FIELDS DT: time between archived fields
-  std::optional<double> history_step;  ///< HISTORY DT: time between history samples; 0 or missing: every step
-  std::vector<int> codes;              ///< STYP codes
-  bool newton = false;                 ///< NEWTON: the listing shows every iteration
-  std::vector<int> elements;           ///< ELEMENT ids and ranges whose histories are kept
-  std::vector<std::string> kinds;      ///< TYPE names of cards whose elements' histories are kept
-  std::vector<std::string> channels;   ///< CHANNEL: of those, only these
-  Tagged keep;                         ///< KEEP ALL, NONE: histories of all elements and nodes, or of none
-  std::optional<double> restart_step;  ///< RESTART DT: time between restart points that stay in the file
+  std::optional<double> field_step;             ///< CHAMPS/FIELDS DT: time between archived fields
+  std::optional<double> history_step;           ///< HISTORY DT: time between history samples; 0 or missing: every step
+  std::vector<int> codes;                       ///< STYP codes
+  bool archives = false, of_structure = false;  ///< ARCHIVE STRUCTURE: words without effect
+  bool newton = false;                          ///< NEWTON: the listing shows every iteration
+  std::vector<int> elements;                    ///< ELEMENT ids and ranges whose histories are kept
+  std::vector<std::string> kinds;               ///< TYPE names of cards whose elements' histories are kept
+  std::vector<std::string> channels;            ///< CHANNEL: of those, only these
+  Tagged keep;                                  ///< KEEP ALL, NONE: histories of all elements and nodes, or of none
+  std::optional<double> restart_step;           ///< RESTART DT: time between restart points that stay in the file
 };
 
 /// `.CHK`: what the run must give.

@@ -95,6 +95,13 @@ Schema analysis_card() {
       .at_least(1)
       .at_most(1000);
   card.add("CUTS", &AnalysisCard::cuts, "how often a step may be halved").synonyms({"COUPES"}).at_least(0).at_most(50);
+  card.add("DISPLACEMENTS", &AnalysisCard::displacements,
+           "of the cells of a mesh: small, so that forces are linear in them, or of any size; SMALL when the deck has neither "
+           "TYPE "
+           "nor `.SUB`, and then the analysis is one step; else LARGE")
+      .synonyms({"DEPLACEMENTS"})
+      .option({"SMALL", {"PETITS", "LINEAR"}, "strains and forces of the undeformed configuration"})
+      .option({"LARGE", {"GRANDS", "NONLINEAR"}, "the strains of Green and Lagrange"});
   card.add("PLANE", &AnalysisCard::plane,
            "whether the mechanism is solved in a plane: three unknowns a node, and no constraints out of it")
       .synonyms({"PLAN"})
@@ -202,7 +209,11 @@ Schema archive_card() {
       .filler({"DT"})
       .unit(dimension::time)
       .at_least(0);
-  card.add("STYP", &ArchiveCard::codes, "result codes to archive; codes unknown here are skipped with a warning")
+  card.add("ARCHIVE", &ArchiveCard::archives, "a word of BACON before STYP, without effect").repeats();
+  card.add("STRUCTURE", &ArchiveCard::of_structure, "likewise").repeats();
+  card.add("STYP", &ArchiveCard::codes,
+           "result codes to archive, below zero not to archive; codes unknown here are skipped with a warning")
+      .repeats()
       .codes({{163, "displacement"},
               {191, "rotation"},
               {223, "reaction force"},

@@ -20,8 +20,11 @@ constexpr const char* chapter = "Boundary conditions, loads and functions";
 
 constexpr const char* clm_text =
     "`.CLM` alone starts afresh: the records of an earlier `.CLM` are dropped, and a warning says so. `.CLM ADD` adds to them. "
-    "NOEUD or GROUP given again behind other keywords starts the next record of the same kind: "
-    "`FIX NOEUD 1 C 1 2 3 NOEUD 4 C 2` holds two records.";
+    "NOEUD and GROUP stand before the word of the record or behind it: `NOEUD 1 FIX C 1 2 3` is `FIX NOEUD 1 C 1 2 3`. Given "
+    "again behind other keywords they start the next record, of the same kind where no other is named: "
+    "`FIX NOEUD 1 C 1 2 3 NOEUD 4 C 2` holds two records. Components that the model does not have, such as 3 to 6 of a plane "
+    "mesh, "
+    "are held without effect.";
 
 template <class Data>
 void add_target(Card<Data>& card) {
@@ -69,7 +72,7 @@ Schema fix_card() {
   add_target(card);
   add_components(card, "components that are held: 1 to 3 translations, 4 to 6 rotations, along the global axes");
   finish_with_target(card);
-  card.example(".CLM\n FIX NOEUD 1 C 1 2 3 4 5 6\n FIX GROUP \"frame\" C 1 2 3");
+  card.example(".CLM\n NOEUD 1 FIX C 1 2 3 4 5 6\n GROUP \"frame\" FIX C 1 2 3");
   return card.schema();
 }
 
@@ -85,7 +88,7 @@ Schema displacement_card() {
       .required();
   card.add("NF", &DisplacementCard::function, "number of the function of time; 0: constant").refers(Reference::function);
   finish_with_target(card);
-  card.example(".CLM\n DEP NOEUD 7 C 1 V 0.02 NF 1");
+  card.example(".CLM\n NOEUD 7 DEP C 1 V 0.02 NF 1");
   return card.schema();
 }
 
@@ -93,7 +96,8 @@ Schema load_card() {
   Card<LoadCard> card(".CLM CHA", {".BOUNDARY", "CHARGE", "LOAD"}, "Forces and moments on nodes, fixed in space");
   card.chapter(chapter).redefines();
   card.describe(
-      "The value times the function NF of time; without a function the value holds from the start. The load of each node has "
+      "The value times the function NF of time; without a function the value holds from the start. Loads on one node add up. "
+      "The load of each node has "
       "the histories FORCE_X to FORCE_Z if it has a force and MOMENT_X to MOMENT_Z if it has a moment, as an element of type CHA "
       "with a number after those of all others.");
   add_target(card);
@@ -101,7 +105,7 @@ Schema load_card() {
   card.add("V", &LoadCard::values, "force or moment: one for all components or one for each").values(1, 6).required();
   card.add("NF", &LoadCard::function, "number of the function of time; 0: constant").refers(Reference::function);
   finish_with_target(card);
-  card.example(".CLM\n CHA NOEUD 4 C 6 V -945.8");
+  card.example(".CLM\n NOEUD 4 CHA C 6 V -945.8");
   return card.schema();
 }
 

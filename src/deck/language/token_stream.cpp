@@ -160,8 +160,12 @@ void TokenStream::push(const std::vector<Token>& tokens) {
       told_of_comment_ = true;
       return;
     }
-    if (token.is_word() && (token.text == "&" || begins_with_word(token.text, "#INQ"))) {
-      diagnostics_.warning(token.where, token.quoted() + " is not used by engrane and is skipped");
+    if (token.is_word() && begins_with_word(token.text, "#INQ")) {
+      diagnostics_.warning_once("#INQ", token.where, "`#INQ` (an inquiry) is not used by engrane: its line is skipped");
+      return;
+    }
+    if (token.is_word() && token.text == "&") {
+      diagnostics_.warning_once("&", token.where, token.quoted() + " is not used by engrane and is skipped");
       continue;
     }
     tokens_.push_back(token);
@@ -238,23 +242,29 @@ void TokenStream::abbreviation(const std::vector<Token>& tokens) {
 }
 
 void TokenStream::mode(const std::vector<Token>& tokens) {
-  if (tokens.size() > 1 && same_word(tokens[1].text, "LECT")) {
-    if (tokens.size() < 3 || !tokens[2].is_number() || tokens[2].value < 1 || tokens[2].value > most_columns ||
-        tokens[2].value != static_cast<int>(tokens[2].value))
-      return diagnostics_.error(tokens[1].where,
-                                "MODE LECT needs the number of columns to read, 1 to " + std::to_string(most_columns),
-                                "MODE LECT 132");
-    columns_ = static_cast<int>(tokens[2].value);
-    return surplus(tokens, 3);
+  if (tokens.size() < 2) return diagnostics_.warning_once("MODE", tokens.front().where, "`MODE` without a setting is skipped");
+  for (std::size_t i = 1; i < tokens.size();) {
+    const Token& setting = tokens[i++];
+    const bool numbered = i < tokens.size() && tokens[i].is_number();
+    if (setting.is_word() && setting.text.size() >= 4 && begins_with_word("LECTURE", setting.text)) {
+      if (!numbered || tokens[i].value < 1 || tokens[i].value > most_columns ||
+          tokens[i].value != static_cast<int>(tokens[i].value))
+        return diagnostics_.error(setting.where,
+                                  "MODE LECT needs the number of columns to read, 1 to " + std::to_string(most_columns),
+                                  "MODE LECT 132");
+      columns_ = static_cast<int>(tokens[i++].value);
+      if (i < tokens.size() && !tokens[i].is_word())
+        return diagnostics_.error(tokens[i].where, "nothing but another setting may follow MODE LECT");
+      continue;
+    }
+    const std::string name = "MODE " + std::string(setting.text);
+    diagnostics_.warning_once(name, setting.where, "`" + name + "` is not used by engrane and is skipped");
+    while (i < tokens.size() && !tokens[i].is_word()) ++i;
   }
-  std::string setting = "MODE";
-  if (tokens.size() > 1) setting += " " + std::string(tokens[1].text);
-  diagnostics_.warning(tokens.front().where, "`" + setting + "` is not used by engrane and is skipped");
 }
 
 void TokenStream::leave_file(const Token& word) {
-  if (open_.size() < 2)
-    return diagnostics_.error(word.where, "RETURN outside a file read by INPUT", "EXIT or .FIN ends the deck");
+  if (open_.size() < 2) return finish(word);
   const OpenFile left = open_.back();
   open_.pop_back();
   warn_of_rest(left, word);

@@ -80,6 +80,13 @@ class CommandTable {
     Command& command = commands_[entry->second];
     command.schemas.push_back(&schema);
     command.keys.command = command.name;
+    for (const Field& field : schema.fields) {
+      if (schema.key().empty() || !field.leads || (field.reference != Reference::node && field.reference != Reference::group))
+        continue;
+      const auto same = [&](const Field* object) { return object->keyword == field.keyword; };
+      std::vector<const Field*>& objects = command.keys.objects;
+      if (std::none_of(objects.begin(), objects.end(), same)) objects.push_back(&field);
+    }
     if (!schema.key().empty()) {
       command.keys.keyed.push_back(&schema);
       command.keys.elsewhere = recognised_keys(command.name);
@@ -131,6 +138,7 @@ class Reader {
   Deck run(const std::vector<std::string>& cards) {
     read_commands();
     for (const std::string& card : cards) read_instead(card);
+    records_.report_skipped();
     set_faulty_apart();
     for (const Record& record : deck_.faulty) deck_.incomplete.emplace(record.schema->command());
     return std::move(deck_);
@@ -207,7 +215,8 @@ class Reader {
 
   void report(const Recognised& known, const Token& word) {
     if (known.skipped())
-      diagnostics_.warning(word.where, "`" + known.name + "` (" + known.meaning + ") is not used by engrane and is skipped");
+      diagnostics_.warning_once(known.name, word.where,
+                                "`" + known.name + "` (" + known.meaning + ") is not used by engrane and is skipped");
     else
       diagnostics_.error(word.where, "`" + known.name + "` is recognised but not in this version: " + known.meaning, known.cure);
   }
@@ -386,24 +395,54 @@ class Reader {
     if (!good) record.faulty = true;
   }
 
-  /// Records that start with their card's key: `FIX NOEUD 1 C 1 2 3`. A leading keyword given again starts another one.
+  /// Records with a key: `NOEUD 1 FIX C 1 2 3`, or `FIX NOEUD 1 C 1 2 3`. A leading keyword given again behind the key starts
+  /// another one: `FIX NOEUD 1 C 1 NOEUD 2 C 3`.
   void read_keyed(const Command& command) {
     const Schema* current = nullptr;
     for (;;) {
       const Token token = tokens_.peek();
       if (token.is_end() || token.is_command()) return;
-      const Schema* next = keyed_schema(command.keys, token);
-      const Field* lead = current && token.is_word() ? match_field(*current, token.text).entry : nullptr;
+      std::vector<Heading> object;
+      const bool good = records_.read_object(command.keys, command.only(), object);
+      const Token key = tokens_.peek();
+      const Schema* next = keyed_schema(command.keys, key);
+      const std::string_view leading = !object.empty() ? object.front().field->keyword : token.is_word() ? token.text : "";
+      const Field* lead = current && !leading.empty() ? match_field(*current, leading).entry : nullptr;
       if (!next && !(lead && lead->leads)) {
-        unknown_key(command, token);
+        if (!good)
+          skip_faulty_object(command);
+        else if (object.empty() || find_recognised(command.name, key.text))
+          unknown_key(command, key);
+        else
+          refuse_object(command, token);
         continue;
       }
       if (next) {
         tokens_.skip();
         current = next;
       }
-      read_record(*current, command, token.where);
+      read_record(*current, command, token.where, object, good);
     }
+  }
+
+  void skip_faulty_object(const Command& command) {
+    deck_.incomplete.insert(command.name);
+    records_.skip_to_line(command.keys);
+  }
+
+  /// `NOEUD 4 C 1`: what is to be done with the node?
+  void refuse_object(const Command& command, const Token& object) {
+    const Token key = tokens_.peek();
+    std::vector<std::string> names;
+    for (const Schema* schema : command.keys.keyed) names.emplace_back(schema->key());
+    const bool stray = key.is_word() && !key.is_command() && !key.fault;
+    std::string hint = stray ? did_you_mean_card(key.text, schema_words(command.keys.keyed), command.name) : "";
+    if (hint.empty()) hint = "`" + std::string(object.text) + " 4 " + names.front() + " …`; records are " + join(names, " or ");
+    diagnostics_.error(stray ? key.where : object.where,
+                       stray ? key.quoted() + " starts no record of " + command.name
+                             : object.quoted() + " is not followed by a record of " + command.name,
+                       hint);
+    skip_faulty_object(command);
   }
 
   void unknown_key(const Command& command, const Token& token) {
@@ -435,7 +474,8 @@ class Reader {
     while (!at_boundary(tokens_, command.keys)) read_record(schema, command, tokens_.peek().where);
   }
 
-  void read_record(const Schema& schema, const Command& command, const Location& where) {
+  void read_record(const Schema& schema, const Command& command, const Location& where, const std::vector<Heading>& object = {},
+                   bool good = true) {
     Record record;
     record.schema = &schema;
     record.location = where;
@@ -447,7 +487,8 @@ class Reader {
         record.faulty = true;
       }
     }
-    records_.read(record, command.keys, {});
+    records_.read(record, command.keys, {}, object);
+    if (!good) record.faulty = true;
     deck_.records.push_back(std::move(record));
   }
 

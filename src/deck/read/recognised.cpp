@@ -12,21 +12,18 @@ namespace engrane::deck {
 
 const std::vector<Recognised>& recognised_commands() {
   static const std::vector<Recognised> all{
-      {".MAI", "the cells of a finite-element mesh", "give mechanism elements in .MCE and remove .MAI"},
       {".COL", "joining nodes that lie closer than a tolerance",
        "use the same node in both parts, or .MCE RIGID, and remove .COL"},
       {".AXL", "local axes of nodes", "give directions by AXIS in .MCE, nodes in a .FRAME, and remove .AXL"},
-      {".HYP", "which formulation a group of cells gets", "the TYPE of an .MCE record says it; remove .HYP"},
-      {".PHP", "physical properties of cells (thickness, section)", "give them in the .MCE record and remove .PHP"},
       {".BPR", "the library of beam profiles", "give the section in the .MCE record and remove .BPR"},
-      {".AEL", "materials and properties of cells", "give them in the .MCE record and remove .AEL"},
       {".ASE", "assembly of super-elements", "remove .ASE"},
       {".STO", "storage of super-elements", "remove .STO"},
       {".CLT", "thermal conditions", "remove .CLT"},
-      {".CLM PRE", "pressure on faces of cells", "give the resulting forces with CHA and remove PRE"},
+      {".CLM FACE", "pressure on faces of solid cells", "give the resulting forces with CHA and remove FACE"},
       {".CLM LIA", "linear relations between displacements", "write it as a record of .LIA"},
       {".DES", "drawing", ""},
       {".ALG", "settings of the solution algorithms", ""},
+      {".GEL", "the temperature of all elements, on which nothing depends", ""},
   };
   return all;
 }

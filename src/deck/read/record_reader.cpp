@@ -32,10 +32,12 @@ struct RecordReader::Reading {
 
 std::string record_title(const Schema& schema, int id) { return id == 0 ? schema.name : schema.name + " " + std::to_string(id); }
 
-void RecordReader::read(Record& record, const RecordKeys& keys, const std::vector<Heading>& headings) {
+void RecordReader::read(Record& record, const RecordKeys& keys, const std::vector<Heading>& headings,
+                        const std::vector<Heading>& object) {
   given_.clear();
   locations_.clear();
   Reading reading{record, *record.schema, keys};
+  take_object(reading, object);
   while (!at_boundary(tokens_, keys) && !begins_next(reading)) read_item(reading);
   for (const Heading& heading : headings) {
     if (given(*heading.field)) continue;
@@ -44,6 +46,32 @@ void RecordReader::read(Record& record, const RecordKeys& keys, const std::vecto
   }
   record.field_locations = locations_;
   finish(reading);
+}
+
+bool RecordReader::read_object(const RecordKeys& keys, const Schema& schema, std::vector<Heading>& object) {
+  bool good = true;
+  while (const Field* field = named_object(keys, tokens_.peek())) {
+    if (std::any_of(object.begin(), object.end(), [&](const Heading& one) { return one.field == field; })) break;
+    const Token keyword = tokens_.take();
+    FieldReading& result = values_.read(*field, schema, keys, keyword.where);
+    good = good && !result.faulty;
+    object.push_back({field, result.values, result.where});
+  }
+  return good;
+}
+
+void RecordReader::take_object(Reading& reading, const std::vector<Heading>& object) {
+  for (const Heading& one : object) {
+    const Field* field = reading.schema.find(one.field->keyword);
+    if (!field) {
+      diagnostics_.error(one.where, reading.schema.name + " takes no " + one.field->keyword);
+      reading.record.faulty = true;
+      continue;
+    }
+    given_.push_back({field, one.where, one.values.numbers.size()});
+    locate(*field, one.where);
+    field->store(reading.record.data, one.values);
+  }
 }
 
 const RecordReader::Given* RecordReader::given(const Field& field) const {
@@ -64,6 +92,7 @@ void RecordReader::locate(const Field& field, const Location& where) {
 /// `FIX NOEUD 1 C 1 NOEUD 2 C 3`: the second NOEUD begins another FIX.
 bool RecordReader::begins_next(const Reading& reading) {
   const Token& token = tokens_.peek();
+  if (named_object(reading.keys, token) && !match_field(reading.schema, token.text).entry) return true;
   if (!token.is_word() || !reading.past_leads || reading.schema.numbered) return false;
   const Match<Field> match = match_field(reading.schema, token.text);
   if (!match.entry || !match.entry->leads) return false;
@@ -73,7 +102,7 @@ bool RecordReader::begins_next(const Reading& reading) {
 /// The first positional field that was not given and can take the token.
 const Field* RecordReader::positional_field(const Reading& reading, const Token& token) const {
   for (const Field& field : reading.schema.fields) {
-    if (!field.positional || given(field)) continue;
+    if (!field.positional || (given(field) && !field.repeats)) continue;
     const bool text = field.type == FieldType::text;
     if (token.kind == Token::Kind::text && text) return &field;
     if (token.is_number() && (field.type == FieldType::integer || field.type == FieldType::real)) return &field;
@@ -113,7 +142,7 @@ void RecordReader::read_field(Reading& reading, const Field& field, const Token*
   const Location start = keyword ? keyword->where : tokens_.peek().where;
   FieldReading& result = values_.read(field, reading.schema, reading.keys, start);
   if (!field.leads) reading.past_leads = true;
-  if (appends(reading, field)) {
+  if (appends(reading, field) || (field.repeats && given(field))) {
     const std::vector<double> before = field.load(reading.record.data).numbers;
     result.values.numbers.insert(result.values.numbers.begin(), before.begin(), before.end());
     std::erase_if(given_, [&](const Given& one) { return one.field == &field; });

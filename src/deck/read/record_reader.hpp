@@ -28,8 +28,16 @@ class RecordReader {
   RecordReader(TokenStream& tokens, Diagnostics& diagnostics)
       : tokens_(tokens), diagnostics_(diagnostics), values_(tokens, diagnostics) {}
 
-  /// Reads fields into `record`, whose schema, id, location and default data are set; checks what is missing.
-  void read(Record& record, const RecordKeys& keys, const std::vector<Heading>& headings);
+  /// Reads fields into `record`, whose schema, id, location and default data are set; checks what is missing. `object`: whom it
+  /// speaks of, where that stands before the record's key.
+  void read(Record& record, const RecordKeys& keys, const std::vector<Heading>& headings,
+            const std::vector<Heading>& object = {});
+
+  /// Reads the objects that stand before a record's key: `GROUP "frame"` of `GROUP "frame" FIX C 1`. False: with an error.
+  bool read_object(const RecordKeys& keys, const Schema& schema, std::vector<Heading>& object);
+
+  /// Says what was skipped in all of the deck.
+  void report_skipped() { values_.report_unknown_codes(); }
 
   /// Reads the keywords before the first record. What cannot stand there is an error.
   std::vector<Heading> read_headings(const Schema& schema, const RecordKeys& keys);
@@ -44,6 +52,7 @@ class RecordReader {
   struct Reading;
 
   bool begins_next(const Reading& reading);
+  void take_object(Reading& reading, const std::vector<Heading>& object);
   void read_item(Reading& reading);
   const Field* positional_field(const Reading& reading, const Token& token) const;
   void read_field(Reading& reading, const Field& field, const Token* keyword);

@@ -48,6 +48,14 @@ bool at_number_key(TokenStream& tokens, const RecordKeys& keys) {
   return keys.number_key == "GROUP" && (same_word(token.text, "GR") || same_word(token.text, "GROUPE"));
 }
 
+const Field* named_object(const RecordKeys& keys, const Token& token) {
+  if (!token.is_word()) return nullptr;
+  for (const Field* object : keys.objects)
+    for (const std::string& spelling : object->spellings)
+      if (same_word(token.text, spelling)) return object;
+  return nullptr;
+}
+
 const Schema* keyed_schema(const RecordKeys& keys, const Token& token) {
   if (!token.is_word()) return nullptr;
   const Match<Schema> match = match_schema(keys.keyed, token.text);
@@ -150,7 +158,7 @@ void ValueReader::read_numbers(Work& work) {
   }
 }
 
-/// `751 A 2249` or `I 1 J 5000 K 1`, where a list of ids stands. A keyword of the card that reads the same goes first.
+/// `751 A 2249`, `I 1 J 5000 K 1` or `I 1`, where a list of ids stands. A keyword of the card that reads the same goes first.
 bool ValueReader::read_range(Work& work) {
   if (work.field.type != FieldType::integer || work.field.reference == Reference::nothing) return false;
   const auto word_then_number = [&](std::size_t at, std::string_view word) {
@@ -163,9 +171,15 @@ bool ValueReader::read_range(Work& work) {
     append_range(work, first, take(work), 1);
     return true;
   }
-  if (work.keys.number_key == "I" || !word_then_number(0, "I") || !word_then_number(2, "J")) return false;
-  take(work);
+  const bool after_keyword = work.field.keyword == "I" && at_value_number(work) && word_then_number(1, "J");
+  if (!after_keyword && (work.keys.number_key == "I" || !word_then_number(0, "I"))) return false;
+  if (!after_keyword) take(work);
   const Token first = take(work);
+  if (!word_then_number(0, "J")) {
+    check_number(work, first);
+    append(work, first.value, first.repeat, first.where);
+    return true;
+  }
   take(work);
   const Token last = take(work);
   double step = 1;
@@ -333,10 +347,21 @@ void ValueReader::skip_unknown_codes(Work& work) {
                         [&](const Code& code) { return code.number == static_cast<int>(number); });
   };
   for (double number : numbers)
-    if (unknown(number))
-      diagnostics_.warning(work.result.where,
-                           work.field.keyword + " " + format_number(number) + " is not known here and is skipped");
+    if (number > 0 && unknown(number)) {  // one below zero is not to be archived
+      UnknownCodes& all = unknown_codes_.try_emplace(work.field.keyword, UnknownCodes{work.result.where, {}}).first->second;
+      all.codes.insert(static_cast<int>(number));
+    }
   numbers.erase(std::remove_if(numbers.begin(), numbers.end(), unknown), numbers.end());
+}
+
+void ValueReader::report_unknown_codes() {
+  for (const auto& [keyword, unknown] : unknown_codes_) {
+    std::string list;
+    for (const int code : unknown.codes) list += " " + std::to_string(code);
+    diagnostics_.warning(unknown.where,
+                         keyword + list + (unknown.codes.size() == 1 ? " is" : " are") + " not known here and skipped");
+  }
+  unknown_codes_.clear();
 }
 
 }  // namespace engrane::deck

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,11 +20,15 @@ struct RecordKeys {
   std::string number_key;                ///< `I`, or `GROUP` in `.SEL`; empty when records have no number
   bool rows = false;                     ///< a number at the start of a line begins a record
   std::vector<const Schema*> keyed;      ///< `FIX`, `DEP`, … of `.CLM`
+  std::vector<const Field*> objects;     ///< `NOEUD`, `GROUP`: whom records speak of, before or behind the record's own key
   std::vector<RecognisedKey> elsewhere;  ///< `PRE`: records of the command that BACON has and this version has not
 };
 
 /// Is the next token the key of a numbered record, or the number of a row?
 bool at_number_key(TokenStream& tokens, const RecordKeys& keys);
+
+/// The object that a word names, in full; nullptr when it names none.
+const Field* named_object(const RecordKeys& keys, const Token& token);
 
 /// Does the next token begin another record or command, or end the deck?
 bool at_boundary(TokenStream& tokens, const RecordKeys& keys);
@@ -46,6 +52,9 @@ class ValueReader {
   /// until the next call.
   FieldReading& read(const Field& field, const Schema& schema, const RecordKeys& keys, Location keyword);
 
+  /// Warns of all codes that were not known, once for each keyword.
+  void report_unknown_codes();
+
  private:
   struct Work;
 
@@ -64,10 +73,17 @@ class ValueReader {
   void check_count(Work& work, int least, int most, const Option* option = nullptr);
   void skip_unknown_codes(Work& work);
 
+  /// Codes of a keyword that mean nothing here.
+  struct UnknownCodes {
+    Location where;
+    std::set<int> codes;
+  };
+
   TokenStream& tokens_;
   Diagnostics& diagnostics_;
-  FieldReading reading_;  ///< of the field being read; kept for its memory
-  int repeated_ = 0;      ///< values that ranges and repeat counts have produced in this deck
+  std::map<std::string, UnknownCodes> unknown_codes_;  ///< by keyword
+  FieldReading reading_;                               ///< of the field being read; kept for its memory
+  int repeated_ = 0;                                   ///< values that ranges and repeat counts have produced in this deck
 };
 
 /// `3 values`, `1 to 3 values`, `at least 1 value`.

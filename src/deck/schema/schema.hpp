@@ -64,6 +64,7 @@ struct Field {
   bool positional = false;  ///< its values may come without the keyword: the first field not yet given takes them
   bool leads = false;       ///< given again it starts the next record (NOEUD, GROUP); in a numbered one the lists go on
   bool heading = false;     ///< may stand before the first record of the command and then holds for all of them
+  bool repeats = false;     ///< given again in a record, its list goes on
   std::string whole;        ///< the keyword whose array this field is one entry of (Y and Z of X); empty otherwise
   int part = 0;             ///< which entry, from 0
   double lower = -std::numeric_limits<double>::infinity();
@@ -176,6 +177,10 @@ class FieldBuilder {
   }
   FieldBuilder& leads() {
     field().leads = true;
+    return *this;
+  }
+  FieldBuilder& repeats() {
+    field().repeats = true;
     return *this;
   }
   FieldBuilder& heading() {

@@ -154,6 +154,11 @@ PetscErrorCode Newton::after_solution(KSP, Vec, Vec solution, void* context) {
 }
 
 void Newton::choose_factors() {
+  if (one_tangent_) {
+    const bool made = policy_.usable() && matrix_of_factors_ == assembler_.changes();
+    check_petsc(SNESSetLagJacobian(snes_, made ? -1 : -2));
+    return;
+  }
   if (rows_.size() == 1) {
     if (!keep_ || matrix_of_factors_ != assembler_.changes() || !similar(weights_, weights_of_factors_)) policy_.forget();
     double renewal = 0;
@@ -171,7 +176,7 @@ void Newton::choose_factors() {
 
 void Newton::save(Snapshot& snapshot) const {
   references_.save(snapshot);
-  if (!policy_.usable() || matrix_of_factors_ != assembler_.changes()) return;
+  if (one_tangent_ || !policy_.usable() || matrix_of_factors_ != assembler_.changes()) return;
   policy_.save(snapshot);
   frames_.save(snapshot);
   snapshot.put("newton/weights", {weights_of_factors_.q, weights_of_factors_.v, weights_of_factors_.a});

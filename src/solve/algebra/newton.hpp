@@ -44,6 +44,10 @@ class Newton {
   /// factors of earlier solutions serve as long as that pays; else each iteration makes its own.
   NewtonReport solve(Vec x, Weights weights, bool keep, const Apply& apply, Configuration& work);
 
+  /// From now on one tangent and its factors serve all solutions: that of a linear model never changes.
+  void keep_one_tangent() { one_tangent_ = true; }
+  bool keeps_one_tangent() const { return one_tangent_; }
+
   /// The largest force that an element has contributed so far.
   double largest_force() const { return references_.largest_force(); }
 
@@ -89,6 +93,7 @@ class Newton {
   Configuration* work_ = nullptr;
   Weights weights_, weights_of_factors_;
   bool keep_ = false;
+  bool one_tangent_ = false;
   FactorPolicy policy_;
   FactorFrames frames_;
   bool solving_ = false;         ///< for others the solver takes its factors as they are

@@ -55,7 +55,8 @@ Runner::Runner(SolverContext& context, Scheme& scheme)
 bool Runner::run(const Observer& observer, const std::function<void(const StartReport&)>& started) {
   observer_ = &observer;
   started(scheme_.start(now_));
-  context_.solver.reset();  // the start solved with matrices of other kinds; the steps deserve their own analysis
+  // the start solved with matrices of other kinds; the steps deserve their own analysis
+  if (!context_.newton.keeps_one_tangent()) context_.solver.reset();
   context_.assembler.commit(now_);
   if (locator_.active()) locator_.switches().take(now_);
   next_ = now_;

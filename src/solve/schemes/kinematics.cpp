@@ -86,10 +86,10 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
     const double enlarged = context_.start.amplification(to);
     if (!(std::pow(enlarged, 4) * std::numeric_limits<double>::epsilon() > unknown)) return outcome;
     throw SolutionFailure(
-        fmt::format("too close to a singular position at t = {:.6g}: rounding of positions is enlarged {:.1g} times, and "
-                    "accelerations and forces "
-                    "are not known. Choose steps that do not end so close to it, or drive another joint",
-                    to.time, enlarged));
+        fmt::format("too close to a singular position at t = {:.6g} (bars in line, or a drive at a dead point): rounding of "
+                    "positions is enlarged so much that accelerations and forces are not known. Choose steps that do not end "
+                    "so close to it, or drive another joint",
+                    to.time));
   }
   // In a singular position (bars in line, a dead point) the equations do not say how the motion goes on. A little farther on they
   // do; the limit is the same where there is one.

@@ -56,6 +56,9 @@ Statics::Statics(SolverContext& context)
       way_(context.motion.size(), 0.0),
       y_(way_.size(), 0.0) {
   *unknowns_.out() = context.assembler.new_vector();
+  if (std::all_of(context.model.parts.begin(), context.model.parts.end(),
+                  [](const Model::Part& part) { return part.element->is_linear(); }))
+    context_.newton.keep_one_tangent();
 }
 
 StartReport Statics::start(Configuration& c) {

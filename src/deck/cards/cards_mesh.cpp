@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "deck/cards/card_chapters.hpp"
+#include "deck/cards/cards.hpp"
+#include "deck/cards/mesh_cards.hpp"
+
+namespace engrane::deck {
+
+namespace {
+
+constexpr const char* chapter = "Meshes";
+
+Schema hypothesis_card() {
+  Card<HypothesisCard> card(".HYP", {".HYPOTHESIS", ".HYPOTHESE"}, "Which formulation the cells of a group get");
+  card.chapter(chapter);
+  card.describe(
+      "`MEMB BIDIM` (or `CONT PLAN`) is plane stress, `DEFO PLAN` plane strain, `AXIS` axisymmetric about the global y axis with "
+      "radius x. Other formulations of BACON are refused by their name. Of several records on a cell the last holds.");
+  card.add("FORMULATION", &HypothesisCard::formulation, "MEMBRANE, CONTRAINTE, DEFORMATION or AXISYMETRIQUE, or their beginning")
+      .positional()
+      .required();
+  card.add("VARIANT", &HypothesisCard::variant, "BIDIM behind MEMBRANE, PLANE behind the others").positional();
+  card.add("GROUP", &HypothesisCard::groups, "groups of cells: names or numbers; none: all cells")
+      .refers(Reference::group)
+      .values(1, detail::any_number);
+  card.example(".HYP MEMB BIDIM GROUP \"web\"").example(".HYP DEFO PLAN GROUP \"dam\"").example(".HYP AXIS GROUP \"ring\"");
+  return card.schema();
+}
+
+Schema property_card() {
+  Card<PropertyCard> card(".PHP", {".PROPERTIES"}, "Physical properties of cells");
+  card.chapter(chapter);
+  card.add("GROUP", &PropertyCard::groups, "groups of cells: names or numbers")
+      .refers(Reference::group)
+      .values(1, detail::any_number)
+      .required()
+      .leads();
+  card.add("THICK", &PropertyCard::thickness, "thickness; plane strain without it has 1")
+      .synonyms({"EPAISSEUR", "THICKNESS"})
+      .unit(dimension::length)
+      .filler({"VAL", "V"})
+      .positive()
+      .required();
+  card.example(".PHP\n GROUP \"web\" THICK VAL 8.");
+  return card.schema();
+}
+
+Schema assignment_card() {
+  Card<AssignmentCard> card(".AEL", {".ASSIGN"}, "Materials and material axes of cells");
+  card.chapter(chapter);
+  card.add("I", &AssignmentCard::cells, "cells: one, or a range `I 1 J 72 K 1`").refers(Reference::element).at_least(1).leads();
+  card.add("GROUP", &AssignmentCard::groups, "groups of cells: names or numbers")
+      .refers(Reference::group)
+      .values(1, detail::any_number)
+      .leads();
+  card.add("MAT", &AssignmentCard::material, "number of the `.MAT`").synonyms({"MATERIAL", "MATERIAU"}).at_least(1);
+  card.add("THETA", &AssignmentCard::theta, "angle from the x axis to the first axis of the material, in degrees");
+  card.finish([](AssignmentCard& data, Record& record, Diagnostics& diagnostics) {
+    if (data.cells.empty() && data.groups.empty())
+      diagnostics.error(record.location, ".AEL names no cells", "I 1 J 72 K 1 MAT 1, or GROUP \"plate\" MAT 1");
+    if (!data.material && !data.theta)
+      diagnostics.error(record.location, ".AEL gives the cells nothing", "MAT the number of a material, THETA an angle");
+  });
+  card.example(".AEL\n I 1 J 72 K 1 MAT 1\n I 3 THETA 30.");
+  return card.schema();
+}
+
+}  // namespace
+
+std::vector<Schema> mesh_cards() { return {hypothesis_card(), property_card(), assignment_card()}; }
+
+}  // namespace engrane::deck

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a deck says of the cells of a mesh beside `.MAI` itself.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace engrane::deck {
+
+/// `.HYP MEMB BIDIM GROUP "plate"`: which formulation cells get.
+struct HypothesisCard {
+  std::string formulation, variant;  ///< `MEMB`, `BIDIM`, as written
+  std::vector<std::string> groups;   ///< of cells, by name or number; none: all cells
+};
+
+/// `.PHP GROUP "plate" THICK VAL t`: physical properties of cells.
+struct PropertyCard {
+  std::vector<std::string> groups;
+  std::optional<double> thickness;
+};
+
+/// `.AEL I a J b K s MAT m`, `.AEL I n THETA angle`: what cells are made of.
+struct AssignmentCard {
+  std::vector<int> cells;
+  std::vector<std::string> groups;
+  std::optional<int> material;
+  std::optional<double> theta;  ///< degrees, from the global x axis to the first axis of the material
+};
+
+}  // namespace engrane::deck

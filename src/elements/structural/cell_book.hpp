@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "elements/materials/plane_elasticity.hpp"
+#include "model/registry.hpp"
+
+namespace engrane::elements::structural {
+
+/// What cells of one material, hypothesis and thickness share.
+struct CellSection {
+  materials::Hypothesis hypothesis;
+  materials::PlaneElasticity law;
+  double thickness = 1;
+  bool linear = true;  ///< small displacements
+};
+
+/// What a deck says of its cells in `.HYP`, `.MAT`, `.PHP`, `.AEL` and `.SEL`, looked up by the number of a cell. Faults are
+/// reported while it is made, each once, however many cells have it.
+class CellBook {
+ public:
+  CellBook(const std::vector<deck::Record>& records, Diagnostics& diagnostics);
+
+  /// The book of a model; made when the first cell asks for it, and each time where nothing is shared.
+  static std::shared_ptr<const CellBook> of(const BuildContext& context);
+
+  /// The record of `.MAI`; nullptr when there is no such cell.
+  const deck::Record* record(int cell) const;
+  /// nullptr: something is missing, and was reported.
+  std::shared_ptr<const CellSection> section(int cell) const;
+
+ private:
+  struct Cell {
+    const deck::Record* record;
+    const deck::Record* hypothesis = nullptr;
+    const deck::Record* material = nullptr;
+    double thickness = 0;  ///< 0: not given
+    std::shared_ptr<const CellSection> section = nullptr;
+  };
+  using Group = std::vector<std::size_t>;  ///< indices of cells
+
+  void read_cells(const std::vector<deck::Record>& records);
+  void read_groups(const std::vector<deck::Record>& records);
+  void read_properties(const std::vector<deck::Record>& records);
+  void make_sections(bool linear);
+
+  /// Cells of groups, by name or number; an unknown one is an error.
+  Group members(const deck::Record& record, const std::vector<std::string>& groups);
+  const Cell* find(int cell) const;
+  std::size_t index(int cell) const;
+  /// One error for all cells that lack something.
+  template <class Lacks>
+  void report_lack(const Lacks& lacks, const std::string& what, const std::string& cure);
+
+  Diagnostics& diagnostics_;
+  std::vector<Cell> cells_;  ///< by number
+  std::map<std::string, Group> groups_;
+};
+
+}  // namespace engrane::elements::structural

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "observe/loads.hpp"
+
+#include <array>
+#include <vector>
+
+#include "math/rotation.hpp"
+
+namespace engrane::observe {
+
+LoadSum sum_loads(const Assembler& assembler, const Configuration& c) {
+  const Model& model = assembler.model();
+  std::vector<double> forces;
+  LoadSum sum;
+  for (int p = assembler.first_part(); p < assembler.end_part(); ++p) {
+    const Model::Part& part = model.parts[static_cast<std::size_t>(p)];
+    const Layout& layout = part.element->layout();
+    forces.resize(static_cast<std::size_t>(layout.slots()));
+    if (!part.element->applied(assembler.view(p, c), forces)) continue;
+    std::size_t slot = 0;
+    for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+      const auto node = static_cast<std::size_t>(part.nodes[i]);
+      const NodeState& state = c.nodes[node];
+      Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+      for (int k = 0; k < 6; ++k)
+        if (layout.has(i, k)) (k < 3 ? force : moment)[k % 3] = forces[slot++];
+      moment = state.R * moment;
+      sum.force += force;
+      sum.moment += moment + state.x.cross(force);
+      const Vec3 displacement = state.x - model.nodes[node].x + Eigen::Map<const Vec3>(&c.remainders[6 * node]);
+      sum.work += force.dot(displacement) + moment.dot(rotation_log(state.R));
+    }
+  }
+  std::array<double, 7> all{sum.force[0], sum.force[1], sum.force[2], sum.moment[0], sum.moment[1], sum.moment[2], sum.work};
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, assembler.comm());
+  return {{all[0], all[1], all[2]}, {all[3], all[4], all[5]}, all[6]};
+}
+
+}  // namespace engrane::observe
