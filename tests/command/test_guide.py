@@ -67,6 +67,9 @@ def place(tmp_path):
         pytest.skip("the variable ENGRANE names no program")
     paper = tmp_path / "decks/paper"
     shutil.copytree(ROOT / "decks/paper", paper)
+    for other in (ROOT / "decks").iterdir():
+        if other.name != "paper":
+            (tmp_path / "decks" / other.name).symlink_to(other)
     text = (paper / "spur_transmission_a.dat").read_text(encoding="utf-8")
     # 15 000 steps, three times: a fifth of them, as long as five, do for pictures
     assert ".SUB TF 0.03 H 2D-6" in text

@@ -123,4 +123,4 @@ def test_what_has_no_effect_is_said(tmp_path):
     deck = BREAKS.replace("sqrt(0.5-T)", "1") + idle
     ended = run(deck, tmp_path)
     assert ended.returncode == 0
-    assert "STYP selects nothing" in ended.stderr and "this one has no effect" in ended.stderr
+    assert "STYP selects nothing" in ended.stderr and "this material has no effect" in ended.stderr

@@ -211,9 +211,9 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
     const double unit = grip_lever();
     const auto against = [&](const Vec3T<T>& way, const Vec3T<T>& velocity, const T& part) {
       const T sliding = dot(way, velocity) * grip.direction;
-      const T drag = friction.law.at(T(value_of(part) < 0 ? T(-sliding) : sliding), load) * load * part;
-      if (report) report->friction_power += value_of(drag) * value_of(sliding);
-      return Vec3T<T>(way * T(drag * -grip.direction));
+      const T friction_force = friction.law.at(T(value_of(part) < 0 ? T(-sliding) : sliding), load) * load * part;
+      if (report) report->friction_power += value_of(friction_force) * value_of(sliding);
+      return Vec3T<T>(way * T(friction_force * -grip.direction));
     };
     const double at_rest = friction.law.static_coefficient(value_of(load)) * value_of(load);
     if (!friction.profile) {
