@@ -134,7 +134,7 @@ TEST(Klu, SingularIsSaidAndLeavesNothingBehind) {
   EXPECT_LT((f.x - good.inverse() * b).norm(), 1e-15);
 }
 
-TEST(LinearSolver, MumpsWithoutScalingIsRefined) {
+TEST(LinearSolver, BadlyScaledMatricesAreSolvedToRounding) {
   // rows and columns of 24 decades: what pivots of 1e-12 leave of others is rounding until the solution is refined
   std::mt19937 random(3);
   std::uniform_real_distribution<double> entry(-1, 1), decade(-6, 6);

@@ -52,10 +52,7 @@ bool PackageFactors::analyse() {
   if (factors_) return true;
   note_matrix();
   check_petsc(MatGetFactor(matrix_, petsc_name(package_), MAT_FACTOR_LU, factors_.out()));
-  if (mumps()) {
-    check_petsc(MatMumpsSetIcntl(factors_, 14, room_));
-    if (!scaled_) check_petsc(MatMumpsSetIcntl(factors_, 8, 0));
-  }
+  if (mumps()) check_petsc(MatMumpsSetIcntl(factors_, 14, room_));
   MatFactorInfo info;
   check_petsc(MatFactorInfoInitialize(&info));
   check_petsc(MatLUFactorSymbolic(factors_, matrix_, nullptr, nullptr, &info));
@@ -87,19 +84,12 @@ bool PackageFactors::enlarge() {
   return true;
 }
 
-bool PackageFactors::improve() {
-  scaled_ = true;
-  forget();
-  return factor();
-}
-
 void PackageFactors::forget() {
   factors_ = {};
   analysed_for_.clear();
 }
 
 void PackageFactors::save(Snapshot& snapshot) const {
-  snapshot.put("solver/scaled", scaled_ ? 1 : 0);
   if (sequential_) snapshot.put("solver/" + package_, factors_ ? analysed_for_ : std::vector<double>());
 }
 
@@ -107,7 +97,6 @@ void PackageFactors::load(const Snapshot& snapshot) {
   // another package or another number of ranks: there is nothing to take over
   if (!sequential_ || !snapshot.has("solver/" + package_)) return;
   forget();
-  scaled_ = snapshot.number("solver/scaled") != 0;
   const std::vector<double>& values = snapshot.array("solver/" + package_);
   if (values.empty() || values.size() != static_cast<std::size_t>(Rows(matrix_).entries())) return;
   PetscScalar* into = nullptr;

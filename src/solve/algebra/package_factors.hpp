@@ -9,9 +9,6 @@
 namespace engrane::solve {
 
 /// The packages that PETSc's own interface serves well: MUMPS, on any number of ranks, UMFPACK and SUPERLU.
-///
-/// MUMPS begins without scaling rows and columns: constraints are scaled to the forces beside them already, and scaling takes a
-/// part of the factorisation. Where a solution asks for better factors it scales, from then on.
 class PackageFactors : public Factors {
  public:
   PackageFactors(Mat matrix, std::string package);
@@ -19,9 +16,6 @@ class PackageFactors : public Factors {
   bool factor() override;
   void solve(Vec right, Vec solution) override { check_petsc(MatSolve(factors_, right, solution)); }
   void solve_transposed(Vec right, Vec solution) override { check_petsc(MatSolveTranspose(factors_, right, solution)); }
-  /// By MUMPS with scaling.
-  bool improvable() const override { return mumps() && !scaled_; }
-  bool improve() override;
   void forget() override;
   /// The matrix that the analysis was made for: it decides on the order of elimination.
   void save(Snapshot& snapshot) const override;
@@ -43,7 +37,6 @@ class PackageFactors : public Factors {
   bool sequential_ = false;
   Owned<Mat> factors_;                ///< null before an analysis
   std::vector<double> analysed_for_;  ///< values of that matrix, on one rank
-  bool scaled_ = false;               ///< MUMPS scales
   int room_ = 50;                     ///< MUMPS' ICNTL(14): per cent over the estimate
 };
 
