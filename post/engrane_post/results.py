@@ -320,6 +320,11 @@ class Results:
 
         return self.read(look)
 
+    def cell_field_unit(self, name: str) -> str:
+        """The unit of such a field, in brackets."""
+        field = name.partition(":")[0]
+        return self.read(lambda file: bracketed(text(file["fields"][field].attrs.get("unit", ""))))
+
     def reference(self) -> Frame:
         """The undeformed model."""
         zero = np.zeros_like(self.points)

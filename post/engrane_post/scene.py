@@ -443,10 +443,12 @@ class Stage:
                 # Splitting edges would make a copy whose points no longer follow.
                 look["split_sharp_edges"] = False
             if field and item.cells:
-                bar = dict(vertical=True, position_x=0.03, position_y=0.25, height=0.5, color="black")
+                bar = dict(vertical=True, position_x=0.045, position_y=0.25, height=0.5, color="black")
+                bar["title"] = f"{field} {scene.result.cell_field_unit(field)}".strip()
                 del look["color"]
                 mesh.cell_data[field] = np.zeros(mesh.n_cells)
-                look.update(scalars=field, cmap="viridis", scalar_bar_args=bar)
+                # without lights colours are those of the bar
+                look.update(scalars=field, cmap="viridis", scalar_bar_args=bar, lighting=False)
             self.actors.append((item, mesh, plotter.add_mesh(mesh, **look)))
 
     def show(self, frame: Frame) -> None:

@@ -24,9 +24,10 @@ def direction(scene: Scene, frames: list[Frame]) -> tuple[np.ndarray, np.ndarray
     """From where to look (unit vector from the model to the eye) and what is up.
 
     Wheels are seen best nearly along their axles, so the eye stands about 35 degrees off the commonest axle;
-    without wheels off the direction in which the model is thinnest."""
+    without wheels off the direction in which the model is thinnest. A plane mesh is seen from straight
+    before it."""
     axes = np.array([w.frame[:, 0] * w.shape.radius for w in scene.wheels])
-    crossed = False
+    crossed = flat = False
     if len(axes):
         values, vectors = np.linalg.eigh(axes.T @ axes)
         front = vectors[:, -1]
@@ -35,6 +36,9 @@ def direction(scene: Scene, frames: list[Frame]) -> tuple[np.ndarray, np.ndarray
         corners = scene.corners(frames)
         values, vectors = np.linalg.eigh(np.cov((corners - corners.mean(axis=0)).T))
         front = vectors[:, 0]
+        flat = plane_mesh(scene)
+        if flat:
+            front = np.array([0, 0, 1.0])
     front = front * (1 if front[np.argmax(np.abs(front))] >= 0 else -1)
     candidates = [np.array([0, 0, 1.0]), np.array([0, 1.0, 0])]
     up = next((c for c in candidates if abs(c @ front) < 0.75), np.array([1.0, 0, 0]))
@@ -44,9 +48,18 @@ def direction(scene: Scene, frames: list[Frame]) -> tuple[np.ndarray, np.ndarray
         front = front / np.linalg.norm(front)
     up = up - front * (up @ front)
     up = up / np.linalg.norm(up)
+    if flat:
+        return front, up
     side = np.cross(up, front)
     eye = front + (0.62 if crossed else 0.5) * side + (0.55 if crossed else 0.38) * up
     return eye / np.linalg.norm(eye), up
+
+
+def plane_mesh(scene: Scene) -> bool:
+    """Whether there are cells, all in the plane XY, with nothing but loads on them."""
+    meshes = [item.mesh.points for item in scene.items if item.cells]
+    others = {item.kind for item in scene.items if not item.cells}
+    return bool(meshes) and others <= {"load"} and all(np.ptp(points[:, 2]) == 0 for points in meshes)
 
 
 def eye_of(view: str) -> np.ndarray:

@@ -13,6 +13,8 @@ import numpy as np
 import pytest
 from engrane_post import Results
 from engrane_post.errors import UserError
+from engrane_post.scene import Scene
+from engrane_post.view import direction
 from runs import run
 
 FOLDER = Path(__file__).parents[2] / "decks" / "elements" / "structural"
@@ -209,6 +211,9 @@ def test_brackets(kind: str, hypothesis: str, tmp_path: Path) -> None:
         means = result.cell_field("STRESS:XX", len(result.frame_times) - 1)
         with pytest.raises(UserError, match=r"it has .*VON_MISES"):
             result.cell_field("STRESS", 0)
+        assert result.cell_field_unit("STRESS:XX") == "[mN/mm²]"
+        eye, up = direction(Scene(result), [result.reference()])
+        assert eye == pytest.approx([0, 0, 1]) and up == pytest.approx([0, 1, 0])  # straight before the plane
     expected = [stresses[cell][:, 0].mean() for cell in cells]
     assert np.abs(means[: len(cells)] - expected).max() < 1e-8 * scale
     assert types == {{"t3": 4, "q4": 5, "t6": 36, "q8": 37}[kind]}
