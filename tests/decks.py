@@ -50,8 +50,9 @@ def wishes(deck: Path) -> dict[str, list[str]]:
 
 def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
     """Dataset or channel -> (unit, values): all numbers of mesh, fields and histories. Under "" stands the
-    noise of accelerations, which are differences of rounded positions over the square of the step; under
-    "POWER" that of powers: of speeds, differences over the step, times the largest force."""
+    noise of accelerations, which are differences of positions over the square of the step: Newton's iteration
+    ends where corrections are 1e-13 of the lengths (docs/theory.md). Under "POWER" that of powers: of speeds,
+    differences of rounded positions over the step, times the largest force."""
     found = {}
 
     def keep(name, item):
@@ -71,7 +72,7 @@ def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
     shortest = float(np.min(steps, initial=1.0))
     rounding = np.finfo(float).eps * extent
     forces = [np.max(np.abs(values), initial=0) for name, (_, values) in found.items() if "FORCE" in name]
-    found[""] = ("", np.array(rounding / shortest**2))
+    found[""] = ("", np.array(1e-13 * extent / shortest**2))
     found["POWER"] = ("", np.array(rounding / shortest * max(forces, default=0)))
     return found
 
