@@ -48,15 +48,23 @@ Elastic turned(const Elastic& material, const Mat3& axes) {
 }
 
 Elasticity law_of(Hypothesis hypothesis, const Elastic& material) {
-  Elasticity law{Moduli::Zero(), material.expansion, Voigt::Zero(), material.density};
-  if (hypothesis != Hypothesis::plane_stress) {
-    law.stiffness = Eigen::LLT<Moduli>(material.compliance).solve(Moduli::Identity());
+  Elasticity law;
+  law.expansion = law.growth = material.expansion;
+  law.density = material.density;
+  constexpr std::array<Eigen::Index, 3> in_plane{0, 1, 3};
+  constexpr Eigen::Index zz = 2;
+  if (hypothesis == Hypothesis::plane_stress) {
+    const Mat3 stiffness = Mat3(material.compliance(in_plane, in_plane)).inverse();
+    law.stiffness(in_plane, in_plane) = stiffness;
+    law.transverse(in_plane) = stiffness * material.compliance(in_plane, zz);
     return law;
   }
-  constexpr std::array<Eigen::Index, 3> in_plane{0, 1, 3};
-  const Mat3 stiffness = Mat3(material.compliance(in_plane, in_plane)).inverse();
-  law.stiffness(in_plane, in_plane) = stiffness;
-  law.transverse(in_plane) = stiffness * material.compliance(in_plane, 2);
+  law.stiffness = Eigen::LLT<Moduli>(material.compliance).solve(Moduli::Identity());
+  if (hypothesis == Hypothesis::plane_strain) {
+    // E_zz = C_zz S_zz + α_zz ΔT = 0 leaves the stress S_zz = −α_zz ΔT/C_zz in a body that is free in the plane
+    law.held = 1 / material.compliance(zz, zz);
+    law.growth(in_plane) -= law.held * material.expansion[zz] * material.compliance(in_plane, zz);
+  }
   return law;
 }
 

@@ -50,6 +50,11 @@ Elastic turned(const Elastic& material, const Mat3& axes);
 struct Elasticity {
   Moduli stiffness = Moduli::Zero();
   Voigt expansion = Voigt::Zero();
+  /// Of the strains that the cell has, those of a body free to grow: α, and where strain along z is none, as much more as the
+  /// stress there makes of it.
+  Voigt growth = Voigt::Zero();
+  /// A body that has grown so still has the energy held (α_zz ΔT)²/2 per volume; zero but where strain along z is none.
+  double held = 0;
   /// E_zz = α_zz ΔT + transverse · (E − α ΔT): what plane stress makes of the strain along z; zero otherwise.
   Voigt transverse = Voigt::Zero();
   double density = 0;

@@ -80,7 +80,8 @@ class Cells final : public Block {
     Energies energies;
     for (int i = 0; i < kernel.count(); ++i) {
       const auto strain = Kernel::elastic(law, i, Kernel::strain(kernel.deformation(kernel.point(i), sum.moves), law.linear));
-      energies.strain += kernel.point(i).volume / 2 * strain.dot(law.stiffness * strain);
+      const double held = rise(cell, state, Kernel::samples()[static_cast<std::size_t>(i)]) * section.law.expansion[2];
+      energies.strain += kernel.point(i).volume / 2 * (strain.dot(law.stiffness * strain) + section.law.held * held * held);
     }
     Vector weight;
     energies.potential = energies.strain;
@@ -177,7 +178,7 @@ class Cells final : public Block {
     const materials::Elasticity& material = cell.section->law;
     Law law{Kernel::reduced(material.stiffness), {}, cell.warmth != nullptr, cell.section->linear};
     for (std::size_t i = 0; law.is_warm && i < Kernel::samples().size(); ++i)
-      law.free[i] = rise(cell, state, Kernel::samples()[i]) * Kernel::reduced(material.expansion);
+      law.free[i] = rise(cell, state, Kernel::samples()[i]) * Kernel::reduced(material.growth);
     return law;
   }
 
@@ -203,7 +204,6 @@ class Cells final : public Block {
       p.strain.setZero();
       p.strain(Kernel::components) = Kernel::strain(now, section.linear);
       const double warmer = rise(cell, state, Kernel::result_samples()[static_cast<std::size_t>(i)]);
-      // of plane stress and strain alike, what is out of the plane does no work
       Stress elastic = p.strain - warmer * material.expansion;
       const Stress second = material.stiffness * elastic;
       if (section.hypothesis == materials::Hypothesis::plane_stress)

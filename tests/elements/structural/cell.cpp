@@ -52,11 +52,13 @@ NodeMap node_map(const std::vector<Eigen::Vector2d>& places) {
   return nodes;
 }
 
-std::unique_ptr<Element> cell(const std::vector<Eigen::Vector2d>& places, const std::shared_ptr<const CellSection>& of) {
+std::unique_ptr<Element> cell(const std::vector<Eigen::Vector2d>& places, const std::shared_ptr<const CellSection>& of,
+                              double rise = 0) {
   const std::map<std::size_t, CellShape> shapes{
       {3, CellShape::triangle}, {6, CellShape::triangle6}, {4, CellShape::quadrilateral}, {8, CellShape::quadrilateral8}};
   CellPlan plan{1, shapes.at(places.size()), numbers(places.size()), {}, of};
   for (const Eigen::Vector2d& x : places) plan.places.emplace_back(x[0], x[1], 0);
+  if (rise != 0) plan.warmth = std::make_shared<const std::vector<Warmth>>(places.size(), Warmth{rise});
   return make_plane_cell(plan, nullptr);
 }
 
@@ -292,6 +294,33 @@ TEST(Cell, RingsGrow) {
         EXPECT_NEAR(strain(p, 1), 0, 1e-13);
         EXPECT_NEAR(strain(p, 2), e, 1e-13);
       }
+    }
+}
+
+/// A warm body that is free in its plane: no stress there; in plane strain it grows by 1 + ν as much and is pressed along z.
+TEST(Cell, WarmthOfABodyFreeInItsPlane) {
+  constexpr double alpha = 1e-3, rise = 7;
+  for (const std::size_t count : {3U, 6U, 4U, 8U})
+    for (const Hypothesis hypothesis : hypotheses) {
+      materials::Elastic material = materials::isotropic(young, poisson);
+      material.expansion.head<3>().setConstant(alpha);
+      const auto of = std::make_shared<CellSection>(CellSection{hypothesis, materials::law_of(hypothesis, material), 1, true});
+      const auto places = distorted(count);
+      const auto element = cell(places, of, rise);
+      const bool held = hypothesis == Hypothesis::plane_strain;
+      const double grows = alpha * rise * (held ? 1 + poisson : 1);
+      const StateBuffer state =
+          moved(*element, node_map(places), [&](const Eigen::Vector2d& x) { return Eigen::Vector2d(grows * x); });
+      const Eigen::MatrixXd stress = field_of(*element, state, "STRESS"), strain = field_of(*element, state, "STRAIN");
+      for (Eigen::Index p = 0; p < stress.rows(); ++p) {
+        for (const Eigen::Index k : {0, 1, 3}) EXPECT_NEAR(stress(p, k), 0, 1e-13 * young);
+        EXPECT_NEAR(stress(p, 2), held ? -young * alpha * rise : 0, 1e-13 * young);
+        EXPECT_NEAR(strain(p, 2), held ? 0 : alpha * rise, 1e-15);
+      }
+      for (const double r : residual_of(*element, state)) EXPECT_NEAR(r, 0, 1e-13 * young);
+      const double density = field_of(*element, state, "STRAIN_ENERGY_DENSITY")(0, 0);
+      EXPECT_NEAR(density, held ? young * std::pow(alpha * rise, 2) / 2 : 0, 1e-15);
+      EXPECT_NEAR(element->energies(state.view()).strain, held ? density * area_of(places, false) : 0, 1e-14);
     }
 }
 
