@@ -4,6 +4,9 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
+
+import numpy as np
 
 from . import options
 from .errors import UserError
@@ -14,6 +17,7 @@ EXAMPLES = """  engrane picture run                          the last frame
   engrane picture run --both                   before and after, side by side
   engrane picture run --reference --view top   the model as the deck gives it, from above
   engrane picture run --field VON_MISES        stresses of a mesh
+  engrane picture run --deformed 50            its displacements 50 times as large
   engrane picture run --view 1,0.5,2 --zoom 1.2"""
 
 
@@ -42,6 +46,9 @@ def add(commands: argparse._SubParsersAction) -> None:
         default="",
         metavar="NAME[:XX]",
         help="colour the cells of a mesh by the means of a field over them: VON_MISES, STRESS:XX",
+    )
+    p.add_argument(
+        "--deformed", type=float, default=1.0, metavar="f", help="show displacements f times as large"
     )
     p.add_argument("-o", "--output", metavar="file", help="picture to write (.png .jpg)")
     p.set_defaults(run=run)
@@ -81,10 +88,17 @@ def selected(result: Results, args: argparse.Namespace) -> Frame:
     return result.frame(-1 if args.frame is None else args.frame)
 
 
+def enlarged(frame: Frame, factor: float) -> Frame:
+    """The frame with displacements and rotations so many times as large."""
+    return replace(frame, displacement=factor * frame.displacement, rotation=factor * frame.rotation)
+
+
 def run(args: argparse.Namespace) -> None:
     """Draws one picture."""
     if not args.zoom > 0:
         raise UserError("--zoom must be above 0.")
+    if not np.isfinite(args.deformed):
+        raise UserError("--deformed must be a number.")
     with Results(args.result) as result:
         path = options.check_output(
             args.output or options.default_output(result, ["picture"], ".png"), (".png", ".jpg", ".jpeg")
@@ -96,6 +110,7 @@ def run(args: argparse.Namespace) -> None:
         frame = selected(result, args)
         if args.field:
             result.cell_field(args.field, max(0, frame.index or 0))  # says what there is when it is not
+        frame = enlarged(frame, args.deformed)
         frames = [result.reference(), frame] if args.both else [frame]
         render(result, frames, path, args)
     print(f"wrote {path}")

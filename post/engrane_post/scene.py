@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from . import belts, linkage, shapes
+from . import belts, cells, linkage, shapes
 from .graphics import pv
 from .results import Element, Frame, Results
 from .wheels import collect
@@ -51,7 +51,7 @@ class Item:
     edges: bool = False
     kind: str = ""
     element: int = 0
-    cells: list[int] | None = None  # of the mesh: for each face the cell whose values colour it
+    cells: np.ndarray | None = None  # of the mesh: for each face the cell whose values colour it
 
 
 class Scene:
@@ -364,29 +364,32 @@ class Scene:
         return linkage.LINK_COLORS[slot % len(linkage.LINK_COLORS)]
 
     def _cells(self, drawn: set[int]) -> None:
-        """Cells of elements that bring no drawing (beams, membranes); surfaces and solids always."""
+        """Cells of elements that bring no drawing (beams, membranes); surfaces and the outside of solids
+        always."""
         topology = self.result.dataset("mesh/topology")
         if topology is None:
             return
         owner = self.result.dataset("mesh/cell_elements")
-        cells = shapes.cells(np.asarray(topology, int))
-        lines, faces, owners = [], [], []
-        for i, (code, nodes) in enumerate(cells):
-            mine = owner is not None and i < len(owner) and int(owner[i]) in drawn
-            if code == 2 and not mine and len(set(nodes)) > 1:
-                lines.append(nodes)
-            elif code in (3, 4, 5):
-                faces.append(nodes)
-                owners.append(i)
+        found = cells.runs(topology)
+        lines = []
+        for run in (r for r in found if r.code in (2, 34)):
+            for number, nodes in enumerate(
+                (run.nodes[:, :2] if run.code == 34 else run.nodes).tolist(), run.first
+            ):
+                mine = owner is not None and number < len(owner) and int(owner[number]) in drawn
+                if not mine and len(set(nodes)) > 1:
+                    lines.append(nodes)
+        faces = cells.outer_faces(found)
         order, first = self.ids, len(self.items)
         if lines:
             self._flexible(
                 lambda p: shapes.tubes(np.array([p[n] for n in order]), lines, 0.006 * self.size), BODY
             )
         if faces:
-            self._flexible(lambda p: shapes.surface(np.array([p[n] for n in order]), faces), CELL)
+            tables, owners = [f for f, _ in faces], [o for _, o in faces]
+            self._flexible(lambda p: shapes.surface(np.array([p[n] for n in order]), tables), CELL)
             self.items[-1].edges = True
-            self.items[-1].cells = owners
+            self.items[-1].cells = np.concatenate(owners)
             self.items[-1].smooth = False
         self._name(first, "cell")
 
@@ -442,7 +445,7 @@ class Stage:
             if item.remake is not None:
                 # Splitting edges would make a copy whose points no longer follow.
                 look["split_sharp_edges"] = False
-            if field and item.cells:
+            if field and item.cells is not None:
                 bar = dict(vertical=True, position_x=0.045, position_y=0.25, height=0.5, color="black")
                 bar["title"] = f"{field} {scene.result.cell_field_unit(field)}".strip()
                 del look["color"]
@@ -457,18 +460,18 @@ class Stage:
         for item, mesh, actor in self.actors:
             if item.remake is not None:
                 mesh.copy_from(item.remake(positions))
-                if self.field and item.cells:
+                if self.field and item.cells is not None:
                     self._colour(mesh, actor, item.cells, frame)
                 if item.smooth:
                     mesh.compute_normals(inplace=True, split_vertices=False)
             elif item.node:
                 actor.user_matrix = self.scene.transform(item.node, frame)
 
-    def _colour(self, mesh: pv.PolyData, actor: pv.Actor, cells: list[int], frame: Frame) -> None:
+    def _colour(self, mesh: pv.PolyData, actor: pv.Actor, numbers: np.ndarray, frame: Frame) -> None:
         """The means of the field over the cells, the undeformed model's are zero."""
-        values = np.zeros(len(cells))
+        values = np.zeros(len(numbers))
         if frame.index is not None:
-            values = self.scene.result.cell_field(self.field, frame.index)[cells]
+            values = self.scene.result.cell_field(self.field, frame.index)[numbers]
         mesh.cell_data[self.field] = values
         mesh.set_active_scalars(self.field, "cell")
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
