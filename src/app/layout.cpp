@@ -10,10 +10,9 @@ namespace engrane::app {
 
 namespace {
 
-/// Whether something stands for the part in the mesh: all nodes but the ground are points of it. The edge of a cell is there as
-/// part of the cell.
+/// Whether something stands for the part in the mesh: all nodes but the ground are points of it.
 bool has_cell(const Model::Part& part) {
-  return part.type != "ARETE" && std::any_of(part.nodes.begin(), part.nodes.end(), [](int node) { return node > 0; });
+  return part.element->in_mesh() && std::any_of(part.nodes.begin(), part.nodes.end(), [](int node) { return node > 0; });
 }
 
 }  // namespace

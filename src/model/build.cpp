@@ -34,18 +34,16 @@ class Builder {
       if (const auto* card = record.get<deck::SteppingCard>()) stepping_ = card;
       if (const ElementType* type = type_of(record)) elements_.push_back({&record, type});
       has_mesh_ = has_mesh_ || record.schema->name == cell_card;
-      analysed_ = analysed_ || record.get<deck::SteppingCard>() || (record.get<deck::AnalysisCard>() && record.given("TYPE"));
     }
     // linear statics in one step
-    if (has_mesh_ && !analysed_) model_.commands.stepping.step = model_.commands.stepping.end;
+    if (has_mesh_ && !deck::says_analysis(deck_.records)) model_.commands.stepping.step = model_.commands.stepping.end;
     add_nodes();
     for (const deck::Record& record : deck_.records)
       if (record.get<deck::FunctionCard>()) add_function(record);
     for (const ElementRecord& element : elements_) place_node(element);
     for (const deck::Record& record : deck_.records) add_command(record);
     settle_tolerance();
-    if (deck::Tagged& displacements = model_.commands.analysis.displacements; has_mesh_ && !displacements.given())
-      displacements.tag = analysed_ ? "LARGE" : "SMALL";
+    if (has_mesh_) model_.commands.analysis.displacements.tag = deck::has_small_displacements(deck_.records) ? "SMALL" : "LARGE";
     others_are_asked_for_ =
         std::any_of(elements_.begin(), elements_.end(), [](const ElementRecord& e) { return e.type->stage == 1; });
     model_.parts.reserve(elements_.size() + loads_.size());
@@ -146,6 +144,7 @@ class Builder {
     if (const auto* dep = record.get<deck::DisplacementCard>())
       add_supports(record, *dep, dep->components, dep->values, dep->function);
     if (const auto* load = record.get<deck::LoadCard>()) add_load(record, *load);
+    if (const auto* temperature = record.get<deck::TemperatureCard>()) add_temperature(record, *temperature);
     if (const auto* gravity = record.get<deck::GravityCard>()) {
       const auto& g = gravity->acceleration;
       model_.gravity.push_back({Vec3(g[0], g[1], g[2]), function(record, gravity->function)});
@@ -322,6 +321,11 @@ class Builder {
     }
   }
 
+  void add_temperature(const deck::Record& record, const deck::TemperatureCard& card) {
+    const Function* f = function(record, card.function);
+    for (const int id : groups_.resolve(record, card)) temperatures_[id] = {card.rise, f};
+  }
+
   void add_loads() {
     int id = 0;
     for (const Model::Part& part : model_.parts) id = std::max(id, part.element->id());
@@ -457,7 +461,8 @@ class Builder {
             &blocks_,
             &notes_,
             0,
-            &model_.of_time};
+            &model_.of_time,
+            &temperatures_};
   }
 
   /// Lets an element put a node where it needs it: one after another in the order of the deck.
@@ -535,7 +540,6 @@ class Builder {
   std::vector<ElementRecord> elements_;                     ///< in the order of the deck
   std::unordered_map<int, BuildContext::Found> mechanism_;  ///< of .MCE by number, once asked for
   bool knows_mechanism_ = false;
-  bool analysed_ = false;                                       ///< .SAM TYPE or .SUB are given
   bool has_mesh_ = false;                                       ///< some record is a cell
   bool others_are_asked_for_ = false;                           ///< some element is of stage 1
   std::unordered_map<int, const deck::Record*> placed_by_;      ///< which element placed a node
@@ -547,6 +551,7 @@ class Builder {
   Frames frames_;
   NodeGroups groups_;
   BlockStore blocks_;
+  Temperatures temperatures_;
   std::vector<Load> loads_;
   std::vector<const deck::Record*> initial_elements_;  ///< of `.INI`, that speak of elements
   std::vector<std::array<int, 6>> support_of_;         ///< by node and component: which of the supports, or none

@@ -16,8 +16,21 @@ namespace engrane {
 /// and y alone.
 enum class NodeNeed : unsigned char { translation = 1, rotation = 2, both = 3, in_plane = 4 };
 
-/// What a cell of a mesh looks like; its nodes are the corners, then the mid-side nodes from the side of the first two on.
-enum class CellShape : unsigned char { none, triangle, triangle6, quadrilateral, quadrilateral8 };
+/// What a cell of a mesh looks like; its nodes are the corners, then the mid-side nodes from the side of the first two on. Of a
+/// solid: the corners of its base and of its top, then the middles of the sides of the base, of the top, and of those between.
+enum class CellShape : unsigned char {
+  none,
+  triangle,
+  triangle6,
+  quadrilateral,
+  quadrilateral8,
+  tetrahedron,
+  tetrahedron10,
+  wedge,
+  wedge15,
+  hexahedron,
+  hexahedron20
+};
 
 /// A named scalar of an element: an unknown of its own, a multiplier, or an output channel.
 struct Named {
@@ -37,6 +50,7 @@ struct Field : Named {
   Place place = Place::element;
   std::vector<std::string> components = {};  ///< `XX`, `YY`, `XY`; none: a scalar
   int points = 1;                            ///< of Place::point: how many an element has
+  bool averaged = false;                     ///< of Place::node: shown as means over the elements of a group that share a node
 
   /// How many numbers it has on an element of so many nodes.
   std::size_t size(std::size_t nodes) const {
@@ -275,6 +289,13 @@ class Element {
   /// written, when there are none.
   virtual bool applied(const State& /*state*/, std::span<double> /*forces*/) const { return false; }
   virtual CellShape cell_shape() const { return CellShape::none; }
+  /// Whether something stands for the element in the mesh of the results; a pressure is there as part of its cell.
+  virtual bool in_mesh() const { return true; }
+  /// Fields that are averaged at nodes (Field::averaged) jump between elements of different groups: those of other material.
+  virtual int field_group() const { return 0; }
+  /// Energy norm, squared, of the difference between its stresses and those that the averages at its nodes interpolate
+  /// (Zienkiewicz and Zhu 1987, Int. J. Numer. Methods Eng. 24); `averages`: of its first averaged field, a row for each node.
+  virtual double recovery_error(const State& /*state*/, std::span<const double> /*averages*/) const { return 0; }
 
   /// Inertia tensor that the element gives to one of its nodes, about the node, in reference (global) components.
   virtual Mat3 inertia_at(int node) const;

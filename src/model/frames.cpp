@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "math/angle.hpp"
@@ -47,6 +48,25 @@ Vec3 Frames::to_global(const deck::Record& record, const deck::NodeCard& node, D
     local = given[0] * Vec3(std::cos(theta) * std::cos(phi), std::sin(theta) * std::cos(phi), std::sin(phi));
   }
   return frame.origin + frame.axes * local;
+}
+
+std::optional<Mat3> Frames::axes_at(int frame, const Vec3& place) const {
+  const auto it = frames_.find(frame);
+  if (it == frames_.end()) return {};
+  const Frame& f = it->second;
+  if (f.kind == Kind::cartesian) return f.axes;
+  const Vec3 local = f.axes.transpose() * (place - f.origin);
+  const double theta = std::atan2(local[1], local[0]);
+  const Mat3 about = Eigen::AngleAxisd(theta, Vec3::UnitZ()).toRotationMatrix();
+  if (f.kind == Kind::cylindrical) return Mat3(f.axes * about);
+  // the elevation φ turns the radial axis towards the third one
+  const double phi = std::atan2(local[2], std::hypot(local[0], local[1]));
+  return Mat3(f.axes * about * Eigen::AngleAxisd(-phi, Vec3::UnitY()).toRotationMatrix());
+}
+
+bool Frames::is_curved(int frame) const {
+  const auto it = frames_.find(frame);
+  return it != frames_.end() && it->second.kind != Kind::cartesian;
 }
 
 }  // namespace engrane

@@ -19,7 +19,7 @@ void sort_and_unite(std::vector<int>& ids) {
 }  // namespace
 
 void NodeGroups::add(const deck::Record& record, const deck::GroupCard& card) {
-  if (card.kind.is("ELEMENTS")) return;  // nothing refers to groups of elements yet
+  if (!card.kind.is("NODES")) return;  // those who refer to groups of elements and faces find them by themselves
   Group group;
   group.all = card.all && nodes_.by_number().size() > 1;
   for (const int id : card.ids) {

@@ -15,6 +15,7 @@
 #include "model/element.hpp"
 #include "model/function.hpp"
 #include "model/node_positions.hpp"
+#include "model/temperatures.hpp"
 
 namespace engrane {
 
@@ -58,6 +59,7 @@ struct BuildContext {
   /// Of the element: that of its record or, where the card has none, one after those of all others.
   int number = 0;
   std::set<const Function*>* of_time = nullptr;  ///< functions of time that elements use; nullptr: nobody asks
+  const Temperatures* temperatures = nullptr;    ///< of nodes (`.CLM TEMP`); nullptr: there are none
 
   /// The function a keyword names, or nullptr with an error when it does not exist.
   const Function* function(int id, std::string_view keyword) const;

@@ -8,6 +8,11 @@
 
 namespace engrane::observe {
 
+Vec3 place_of_force(const Model& model, const Configuration& c, int node) {
+  const auto at = static_cast<std::size_t>(node);
+  return model.commands.analysis.displacements.is("SMALL") ? model.nodes[at].x : c.nodes[at].x;
+}
+
 LoadSum sum_loads(const Assembler& assembler, const Configuration& c) {
   const Model& model = assembler.model();
   std::vector<double> forces;
@@ -26,7 +31,7 @@ LoadSum sum_loads(const Assembler& assembler, const Configuration& c) {
         if (layout.has(i, k)) (k < 3 ? force : moment)[k % 3] = forces[slot++];
       moment = state.R * moment;
       sum.force += force;
-      sum.moment += moment + state.x.cross(force);
+      sum.moment += moment + place_of_force(model, c, part.nodes[i]).cross(force);
       const Vec3 displacement = state.x - model.nodes[node].x + Eigen::Map<const Vec3>(&c.remainders[6 * node]);
       sum.work += force.dot(displacement) + moment.dot(rotation_log(state.R));
     }

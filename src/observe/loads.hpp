@@ -5,8 +5,12 @@
 
 namespace engrane::observe {
 
-/// The sum of all loads and weights, global components, the moment about the origin, and their work on the displacements from
-/// the reference configuration: u·F, twice the strain energy where all is linear and no support moves.
+/// Where a force on a node acts; small displacements do not move it.
+Vec3 place_of_force(const Model& model, const Configuration& c, int node);
+
+/// The sum of loads on nodes, of pressures and of the weight of cells, global components, the moment about the origin, and their
+/// work on the displacements from the reference configuration: u·F, twice the strain energy where all is linear and no support
+/// moves.
 struct LoadSum {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double work = 0;

@@ -40,9 +40,9 @@ std::vector<Named> run_channels(bool moves, bool cells) {
     channels.push_back({name, dimension::moment, "its moment about the origin, global"});
   if (!cells) return channels;
   channels.push_back({"STRAIN_ENERGY", dimension::energy, "energy that the cells hold as strain"});
-  channels.push_back({"LOAD_WORK", dimension::energy, "work u·F of all loads on the displacements from the reference"});
+  channels.push_back({"LOAD_WORK", dimension::energy, "work u·F of these loads on the displacements from the reference"});
   for (const char* name : {"LOAD_FORCE_X", "LOAD_FORCE_Y", "LOAD_FORCE_Z"})
-    channels.push_back({name, dimension::force, "sum of all loads, weight included, global"});
+    channels.push_back({name, dimension::force, "sum of loads on nodes, pressures and the weight of cells, global"});
   for (const char* name : {"LOAD_MOMENT_X", "LOAD_MOMENT_Y", "LOAD_MOMENT_Z"})
     channels.push_back({name, dimension::moment, "their moment about the origin, global"});
   channels.push_back({"MASS", dimension::mass, "mass of all elements"});

@@ -6,6 +6,8 @@
 #include <set>
 #include <span>
 
+#include "observe/loads.hpp"
+
 namespace engrane::observe {
 
 Reactions::Reactions(Assembler& assembler) : assembler_(assembler) {
@@ -68,7 +70,7 @@ Resultant Reactions::resultant(const Configuration& c, const std::vector<Reactio
   for (const Reaction& reaction : reactions) {
     if (reaction.node == 0) continue;
     all.force += reaction.force;
-    all.moment += reaction.torque + c.nodes[static_cast<std::size_t>(reaction.node)].x.cross(reaction.force);
+    all.moment += reaction.torque + place_of_force(assembler_.model(), c, reaction.node).cross(reaction.force);
   }
   return all;
 }

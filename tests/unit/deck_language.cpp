@@ -32,7 +32,7 @@ TEST(DeckLanguage, RecordsEndAtTheNextKey) {
 TEST(DeckLanguage, MaterialOverFourLines) {
   const ReadDeck deck = read(".MAT\n I 1 NOM \"steel\"\n BEHA \"ELASTIC\"\n YT 2.1E+11\n NT .3 M 7850.\n");
   EXPECT_EQ(deck.messages(), "");
-  EXPECT_EQ(deck.at<MaterialCard>(0).young, 2.1e11);
+  EXPECT_EQ(deck.at<MaterialCard>(0).young, std::vector{2.1e11});
   EXPECT_EQ(deck.at<MaterialCard>(0).density, 7850);
 }
 

@@ -82,20 +82,22 @@ Schema frame_card() {
 }
 
 Schema group_card() {
-  Card<GroupCard> card(".SEL", {".SELECTION"}, "Named groups of nodes or elements");
+  Card<GroupCard> card(".SEL", {".SELECTION"}, "Named groups of nodes, elements or faces");
   card.chapter(model_chapter).key("GROUP");
   card.describe(
       "What a group holds is given by numbers and ranges (`1 A 20`, or `I 1 J 20 K 1`: from, to, step; `I 7`), by TOUT, by a "
       "box, by "
       "other "
-      "groups, or by the attribute of elements; several of these add up. Other cards name a group by its number or by its name.");
+      "groups, or by the attribute of elements; several of these add up. A face is given by its cell and its number there (`I 57 "
+      "3`). "
+      "Other cards name a group by its number or by its name.");
   card.add("NOM", &GroupCard::name, "name").synonyms({"NAME"});
   card.add("KIND", &GroupCard::kind, "what the group holds")
       .synonyms({"GENRE"})
       .positional()
       .option({"NODES", {"NOEUDS", "NOEUD"}, "nodes"})
       .option({"ELEMENTS", {"MAILLES", "MAILLE"}, "elements"})
-      .option({"FACES", {}, "faces of cells: recognised, not in this version"});
+      .option({"FACES", {"FACE", "ARETES", "ARETE"}, "faces of cells, edges in a plane: rows `I cell face`"});
   card.add("IDS", &GroupCard::ids, "numbers and ranges").refers(Reference::node).at_least(1).positional().repeats();
   card.add("TOUT", &GroupCard::all, "all of them").synonyms({"ALL"});
   card.add("UNION", &GroupCard::united, "other groups whose members belong to this one")
@@ -108,9 +110,13 @@ Schema group_card() {
   card.add("AT", &GroupCard::attribute, "elements with this attribute").synonyms({"ATTRIBUTE", "ATTRIBUT"});
   card.finish([](GroupCard& group, Record& record, Diagnostics& diagnostics) {
     group.number = record.id;
-    if (group.kind.is("FACES"))
-      diagnostics.error(record.where("KIND"), "groups of FACES are recognised but not in this version",
-                        "there are no cells to have faces; remove the group");
+    if (group.kind.is("FACES")) {
+      group.faces = std::exchange(group.ids, {});
+      if (group.faces.empty() || group.faces.size() % 2 != 0 || group.all || !group.box.empty() || group.attribute)
+        diagnostics.error(record.location, "group " + std::to_string(record.id) + " of faces needs pairs of numbers",
+                          "a row `I 57 3` for each: the number of a cell, then that of its face");
+      return;
+    }
     if (!group.all && group.ids.empty() && group.united.empty() && group.box.empty() && !group.attribute)
       diagnostics.error(record.location, "group " + std::to_string(record.id) + " holds nothing",
                         "give numbers, TOUT, UNION, BOITE or AT");
@@ -127,10 +133,24 @@ Schema material_card() {
   card.chapter(model_chapter).numbered();
   card.add("NOM", &MaterialCard::name, "name").synonyms({"NAME"});
   card.add("BEHA", &MaterialCard::behaviour, "behaviour").synonyms({"BEHAVIOUR", "BEHAVIOR", "COMPORTEMENT"});
-  card.add("YT", &MaterialCard::young, "Young's modulus").synonyms({"YOUNG"}).unit(dimension::pressure).positive();
-  card.add("NT", &MaterialCard::poisson, "Poisson's ratio").synonyms({"POISSON", "NU"}).above(-1).at_most(0.5);
+  card.add("YT", &MaterialCard::young, "Young's modulus; of an orthotropic material three, along its axes")
+      .synonyms({"YOUNG"})
+      .unit(dimension::pressure)
+      .positive()
+      .values(1, 3);
+  card.add("NT", &MaterialCard::poisson,
+           "Poisson's ratio; of an orthotropic material ν12, ν23, ν13: strain along 2 of a stress along 1")
+      .synonyms({"POISSON", "NU"})
+      .values(1, 3);
+  card.add("G", &MaterialCard::shear, "shear moduli of an orthotropic material: G12, G23, G13")
+      .synonyms({"GT"})
+      .unit(dimension::pressure)
+      .positive()
+      .values(1, 3);
   card.add("M", &MaterialCard::density, "mass per volume").synonyms({"DENSITY", "DENSITE"}).unit({-3, 1, 0, 0}).at_least(0);
-  card.add("A", &MaterialCard::expansion, "coefficient of thermal expansion, per degree").synonyms({"EXPANSION"});
+  card.add("A", &MaterialCard::expansion, "coefficient of thermal expansion, per degree; of an orthotropic material three")
+      .synonyms({"EXPANSION"})
+      .values(1, 3);
   card.example(".MAT\n I 1 NOM \"steel\" BEHA \"ELASTIC\" YT 2.1E+11 NT 0.3 M 7850.");
   return card.schema();
 }

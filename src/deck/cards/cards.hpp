@@ -43,19 +43,22 @@ struct FrameCard {
 struct GroupCard {
   int number = 0;
   std::string name;
-  Tagged kind{"NODES", {}};         ///< NODES, ELEMENTS, FACES (recognised, refused)
+  Tagged kind{"NODES", {}};         ///< NODES, ELEMENTS, FACES
   bool all = false;                 ///< TOUT
   std::vector<int> ids;             ///< ids and ranges `1 A 20`, expanded by the reader
   std::vector<std::string> united;  ///< UNION: names or numbers of groups
   std::vector<double> box;          ///< BOITE xmin xmax ymin ymax zmin zmax
   std::optional<int> attribute;     ///< MAILLE AT n
+  /// Of a group of faces: cells, and the numbers of their faces (edges, in a plane), in pairs.
+  std::vector<int> faces;
 };
 
-/// `.MAT I id NOM "steel" BEHA "ELASTIC" YT … NT … M …`
+/// `.MAT I id NOM "steel" BEHA "ELASTIC" YT … NT … M …`; orthotropic with `YT e1 e2 e3 NT n12 n23 n13 G g12 g23 g13`.
 struct MaterialCard {
   std::string name;
   std::string behaviour = "ELASTIC";
-  std::optional<double> young, poisson, density, expansion;
+  std::vector<double> young, poisson, shear, expansion;  ///< one value, or those of three axes; none: not given
+  std::optional<double> density;
 };
 
 /// Which nodes a record of `.CLM` or `.INI` speaks of.
@@ -67,6 +70,12 @@ struct NodeTarget {
 /// `.CLM FIX NOEUD n C 1 2 3`
 struct FixCard : NodeTarget {
   std::vector<int> components;  ///< 1–3 translations, 4–6 rotations
+};
+
+/// `.CLM TEMP GROUP "rim" V 80. [NF f]`: how much warmer nodes are than where bodies are free of stress.
+struct TemperatureCard : NodeTarget {
+  double rise = 0;
+  int function = 0;
 };
 
 /// `.CLM DEP NOEUD n C c V value [NF f]`: prescribed displacement (rotation in degrees for C 4–6).
@@ -176,5 +185,11 @@ struct CheckCard {
 
 /// The schemas of all general commands, in the order of the manual.
 const std::vector<Schema>& general_commands();
+
+/// Whether a deck says what is analysed, by `.SUB` or TYPE of `.SAM`; a mesh without is one of linear statics in one step.
+bool says_analysis(const std::vector<Record>& records);
+/// Whether the displacements of a deck with a mesh count as small: DISPLACEMENTS of the last `.SAM`, or what says_analysis()
+/// tells.
+bool has_small_displacements(const std::vector<Record>& records);
 
 }  // namespace engrane::deck

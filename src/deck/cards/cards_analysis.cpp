@@ -336,6 +336,19 @@ Schema check_card() {
 
 }  // namespace
 
+bool says_analysis(const std::vector<Record>& records) {
+  return std::any_of(records.begin(), records.end(), [](const Record& record) {
+    return record.get<SteppingCard>() || (record.get<AnalysisCard>() && record.given("TYPE"));
+  });
+}
+
+bool has_small_displacements(const std::vector<Record>& records) {
+  const AnalysisCard* last = nullptr;
+  for (const Record& record : records)
+    if (const auto* card = record.get<AnalysisCard>()) last = card;
+  return last && last->displacements.given() ? last->displacements.is("SMALL") : !says_analysis(records);
+}
+
 std::vector<Schema> analysis_cards() { return {analysis_card(), stepping_card(), archive_card(), check_card()}; }
 
 }  // namespace engrane::deck

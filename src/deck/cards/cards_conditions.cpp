@@ -55,10 +55,12 @@ template <class Data>
 void check_target(const Data& data, const Record& record, Diagnostics& diagnostics) {
   if (data.nodes.empty() && data.groups.empty())
     diagnostics.error(record.location, record.schema->name + " names no nodes", "give NOEUD numbers or GROUP names");
-  std::vector<int> sorted = data.components;
-  std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
-    diagnostics.error(record.where("C"), "a component is named twice", "C takes each of 1 to 6 once");
+  if constexpr (requires { data.components; }) {
+    std::vector<int> sorted = data.components;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+      diagnostics.error(record.where("C"), "a component is named twice", "C takes each of 1 to 6 once");
+  }
 }
 
 template <class Data>
@@ -106,6 +108,23 @@ Schema load_card() {
   card.add("NF", &LoadCard::function, "number of the function of time; 0: constant").refers(Reference::function);
   finish_with_target(card);
   card.example(".CLM\n NOEUD 4 CHA C 6 V -945.8");
+  return card.schema();
+}
+
+Schema temperature_card() {
+  Card<TemperatureCard> card(".CLM TEMP", {".BOUNDARY", "TEMPERATURE"}, "Temperatures of the nodes of a mesh");
+  card.chapter(chapter).redefines();
+  card.describe(
+      "Between the nodes of a cell the temperature is what its shape functions make of it; a node without a record is as warm as "
+      "where bodies are free of stress. Materials expand by A of `.MAT` times the value. Of several records on a node the last "
+      "holds.");
+  add_target(card);
+  card.add("V", &TemperatureCard::rise, "how much warmer the nodes are than where bodies are free of stress, in degrees")
+      .synonyms({"VAL"})
+      .required();
+  card.add("NF", &TemperatureCard::function, "number of the function of time, a factor; 0: constant").refers(Reference::function);
+  finish_with_target(card);
+  card.example(".CLM\n GROUP \"rim\" TEMP V 80.\n NOEUD 1 TEMP V 20. NF 3");
   return card.schema();
 }
 
@@ -236,8 +255,8 @@ std::vector<Schema> condition_cards() {
   position.examples = {".INI\n DEP NOEUD 3 C 4 V 5.", ".INI\n DEP ELEMENT 2 V 30.\n DEP ELEMENT 4 COORDINATE SLIDE V 0.1"};
   velocity.examples = {".INI\n VIT GROUP \"rotor\" C 6 V (12000*PI/30)",
                        ".INI\n VIT ELEMENT 2 V 40.\n VIT GROUP \"carriage\" AXIS 0 0 1  AT 0.5 0 0  V 10."};
-  return {fix_card(),      displacement_card(), load_card(),        gravity_card(),
-          function_card(), std::move(position), std::move(velocity)};
+  return {fix_card(),     displacement_card(), load_card(),         temperature_card(),
+          gravity_card(), function_card(),     std::move(position), std::move(velocity)};
 }
 
 }  // namespace engrane::deck

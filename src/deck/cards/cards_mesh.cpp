@@ -14,8 +14,10 @@ Schema hypothesis_card() {
   card.chapter(chapter);
   card.describe(
       "`MEMB BIDIM` (or `CONT PLAN`) is plane stress, `DEFO PLAN` plane strain, `AXIS` axisymmetric about the global y axis with "
-      "radius x. Other formulations of BACON are refused by their name. Of several records on a cell the last holds.");
-  card.add("FORMULATION", &HypothesisCard::formulation, "MEMBRANE, CONTRAINTE, DEFORMATION or AXISYMETRIQUE, or their beginning")
+      "radius x; solids have VOLUME, also without a record. Other formulations of BACON are refused by their name. Of several "
+      "records on a cell the last holds.");
+  card.add("FORMULATION", &HypothesisCard::formulation,
+           "MEMBRANE, CONTRAINTE, DEFORMATION, AXISYMETRIQUE or VOLUME, or their beginning")
       .positional()
       .required();
   card.add("VARIANT", &HypothesisCard::variant, "BIDIM behind MEMBRANE, PLANE behind the others").positional();
@@ -53,12 +55,19 @@ Schema assignment_card() {
       .values(1, detail::any_number)
       .leads();
   card.add("MAT", &AssignmentCard::material, "number of the `.MAT`").synonyms({"MATERIAL", "MATERIAU"}).at_least(1);
-  card.add("THETA", &AssignmentCard::theta, "angle from the x axis to the first axis of the material, in degrees");
+  card.add("THETA", &AssignmentCard::theta,
+           "angle about the z axis from the x axis to the first axis of the material, in degrees");
+  card.add("FRAME", &AssignmentCard::frame,
+           "`.FRAME` whose axes are meant instead of the global ones; of a cylindrical one the radial, the circumferential and "
+           "the third axis at the middle of each cell")
+      .synonyms({"REPERE"})
+      .at_least(1);
   card.finish([](AssignmentCard& data, Record& record, Diagnostics& diagnostics) {
     if (data.cells.empty() && data.groups.empty())
       diagnostics.error(record.location, ".AEL names no cells", "I 1 J 72 K 1 MAT 1, or GROUP \"plate\" MAT 1");
-    if (!data.material && !data.theta)
-      diagnostics.error(record.location, ".AEL gives the cells nothing", "MAT the number of a material, THETA an angle");
+    if (!data.material && !data.theta && !data.frame)
+      diagnostics.error(record.location, ".AEL gives the cells nothing",
+                        "MAT the number of a material, THETA an angle, FRAME axes");
   });
   card.example(".AEL\n I 1 J 72 K 1 MAT 1\n I 3 THETA 30.");
   return card.schema();

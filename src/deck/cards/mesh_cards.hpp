@@ -25,7 +25,8 @@ struct AssignmentCard {
   std::vector<int> cells;
   std::vector<std::string> groups;
   std::optional<int> material;
-  std::optional<double> theta;  ///< degrees, from the global x axis to the first axis of the material
+  std::optional<double> theta;  ///< degrees, from the x axis of the frame to the first axis of the material
+  std::optional<int> frame;     ///< `.FRAME` of the axes; none: the global one
 };
 
 }  // namespace engrane::deck

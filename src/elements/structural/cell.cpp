@@ -6,99 +6,115 @@
 #include <algorithm>
 
 #include "elements/structural/cell_book.hpp"
-#include "elements/structural/plane_cells.hpp"
+#include "elements/structural/cell_topology.hpp"
+#include "elements/structural/make_cell.hpp"
 
 namespace engrane::elements::structural {
 
 namespace {
 
+constexpr const char* how_plane =
+    "N n1 n2 n3 [n4], or N n1 -m12 n2 -m23 n3 -m31, mid-side nodes below zero between their corners";
+constexpr const char* how_solid =
+    "N base 0 top, as 1 2 3 0 4, 1 2 3 0 4 5 6 or 1 2 3 4 0 5 6 7 8; with mid-side nodes N base 0 uprights 0 top";
+
 /// Reports what is wrong with the list of nodes; they are then nothing.
-std::optional<std::vector<int>> nodes_of(const CellData& data, BuildContext& context) {
-  auto nodes = ordered_nodes(data);
-  if (!nodes) {
+std::optional<Connectivity> nodes_of(const CellData& data, BuildContext& context) {
+  auto cell = connectivity(data.nodes);
+  if (!cell) {
+    const bool solid = std::find(data.nodes.begin(), data.nodes.end(), 0) != data.nodes.end();
     const auto corners = std::count_if(data.nodes.begin(), data.nodes.end(), [](int n) { return n > 0; });
-    const auto middles = static_cast<long>(data.nodes.size()) - corners;
-    std::string what = fmt::format("a cell of {} corners and {} mid-side nodes is not in this version", corners, middles);
-    if ((corners == 3 || corners == 4) && middles > 0)
+    const auto middles = std::count_if(data.nodes.begin(), data.nodes.end(), [](int n) { return n < 0; });
+    std::string what = fmt::format("a {} of {} corners and {} mid-side nodes is not in this version", solid ? "solid" : "cell",
+                                   corners, middles);
+    if (!solid && (corners == 3 || corners == 4) && middles > 0)
       what = middles == corners ? "mid-side nodes do not stand between their corners"
                                 : fmt::format("{} of {} mid-side nodes are missing", corners - middles, corners);
-    context.error("N", what, "N n1 n2 n3 [n4], or N n1 -m12 n2 -m23 n3 -m31, mid-side nodes below zero between their corners");
+    context.error("N", what, solid ? how_solid : how_plane);
     return {};
   }
-  for (std::size_t i = 0; i < nodes->size(); ++i) {
-    const int id = (*nodes)[i];
-    if (id == 0 || !context.nodes.contains(id)) {
+  for (std::size_t i = 0; i < cell->nodes.size(); ++i) {
+    const int id = cell->nodes[i];
+    if (!context.nodes.contains(id)) {
       context.diagnostics.missing(".NOE", context.record.where("N"),
                                   fmt::format("node {} of cell {} does not exist", id, context.record.id));
       return {};
     }
-    if (std::find(nodes->begin(), nodes->begin() + static_cast<std::ptrdiff_t>(i), id) !=
-        nodes->begin() + static_cast<std::ptrdiff_t>(i)) {
+    const auto end = cell->nodes.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(cell->nodes.begin(), end, id) != end) {
       context.error("N", fmt::format("node {} is named twice", id), "each corner and each middle of a side is a node of its own");
       return {};
     }
   }
-  return nodes;
+  return cell;
+}
+
+/// Whether a plane cell can stand where it is; faults are reported.
+bool fits_plane(const CellPlan& plan, BuildContext& context) {
+  double size = 0;
+  for (const Vec3& x : plan.places) size = std::max(size, (x - plan.places.front()).head<2>().norm());
+  const double near = 1e-9 * size;
+  const auto any = [&plan](const auto& is) { return std::any_of(plan.places.begin(), plan.places.end(), is); };
+  if (any([&](const Vec3& x) { return std::abs(x[2] - plan.places.front()[2]) > near; }))
+    context.error("N", fmt::format("cell {} does not lie in a plane of constant z", plan.id),
+                  "plane cells lie in the plane of x and y: give all of their nodes the same Z");
+  else if (!is_regular_plane(plan.shape, plan.places))
+    context.error("N", fmt::format("cell {} is turned inside out, or has no area", plan.id),
+                  "its corners must go round it in turn, and a middle of a side must be near the middle");
+  else if (plan.section->hypothesis == materials::Hypothesis::axisymmetric && any([near](const Vec3& x) { return x[0] < -near; }))
+    context.error("N", fmt::format("cell {} reaches over the axis", plan.id),
+                  "of an axisymmetric cell x is the radius, and y the axis: no node has a negative X");
+  else
+    return true;
+  return false;
+}
+
+/// Temperatures of the nodes; nothing where none of them has one.
+std::shared_ptr<const std::vector<Warmth>> warmth_of(const std::vector<int>& nodes, const BuildContext& context) {
+  if (!context.temperatures || context.temperatures->empty()) return nullptr;
+  std::vector<Warmth> found(nodes.size());
+  bool any = false;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const auto at = context.temperatures->find(nodes[i]); at != context.temperatures->end()) {
+      found[i] = at->second;
+      any = true;
+    }
+  return any ? std::make_shared<const std::vector<Warmth>>(std::move(found)) : nullptr;
 }
 
 std::unique_ptr<Element> build(const CellData& data, BuildContext& context) {
-  const auto nodes = nodes_of(data, context);
+  auto cell = nodes_of(data, context);
   const std::shared_ptr<const CellSection> section = CellBook::of(context)->section(context.record.id);
-  if (!nodes || !section) return nullptr;
-  std::vector<Eigen::Vector2d> places;
-  const double height = context.nodes.at(nodes->front())[2];
-  double size = 0;
-  for (const int id : *nodes) {
-    places.emplace_back(context.nodes.at(id).head<2>());
-    size = std::max(size, (places.back() - places.front()).norm());
-  }
-  for (const int id : *nodes)
-    if (std::abs(context.nodes.at(id)[2] - height) > 1e-9 * size) {
-      context.error("N", fmt::format("cell {} does not lie in a plane of constant z", context.record.id),
-                    "cells of this version are of the plane: give all of their nodes the same Z");
-      return nullptr;
-    }
-  if (!has_area(places)) {
-    context.error("N", fmt::format("cell {} is turned inside out, or has no area", context.record.id),
-                  "its corners must go round it in turn, and a middle of a side must be near the middle");
-    return nullptr;
-  }
-  if (section->hypothesis == materials::Hypothesis::axisymmetric &&
-      std::any_of(places.begin(), places.end(), [size](const auto& x) { return x[0] < -1e-9 * size; })) {
-    context.error("N", fmt::format("cell {} reaches over the axis", context.record.id),
-                  "of an axisymmetric cell x is the radius, and y the axis: no node has a negative X");
-    return nullptr;
-  }
-  return make_plane_cell(context.record.id, *nodes, places, section, context.blocks);
+  if (!cell || !section) return nullptr;
+  CellPlan plan{context.record.id, cell->shape, std::move(cell->nodes), {}, section};
+  for (const int id : plan.nodes) plan.places.push_back(context.nodes.at(id));
+  plan.warmth = warmth_of(plan.nodes, context);
+  if (!is_solid(plan.shape)) return fits_plane(plan, context) ? make_plane_cell(plan, context.blocks) : nullptr;
+  if (is_regular_solid(plan.shape, plan.places)) return make_solid_cell(plan, context.blocks);
+  context.error(
+      "N", fmt::format("cell {} is turned inside out, or has no volume", plan.id),
+      "the corners of its base go round it in turn, those of its top stand over them in the same order, and a middle of "
+      "a side must be near the middle");
+  return nullptr;
 }
 
 }  // namespace
 
-std::optional<std::vector<int>> ordered_nodes(const CellData& data) {
-  const auto middle = [](int n) { return n < 0; };
-  const auto middles = std::count_if(data.nodes.begin(), data.nodes.end(), middle);
-  const std::size_t corners = data.nodes.size() - static_cast<std::size_t>(middles);
-  if (corners < 3 || corners > 4) return {};
-  if (middles == 0) return data.nodes;
-  if (static_cast<std::size_t>(middles) != corners) return {};
-  std::vector<int> nodes;
-  for (std::size_t i = 0; i < data.nodes.size(); i += 2) {
-    if (middle(data.nodes[i]) || !middle(data.nodes[i + 1])) return {};
-    nodes.push_back(data.nodes[i]);
-  }
-  for (std::size_t i = 1; i < data.nodes.size(); i += 2) nodes.push_back(-data.nodes[i]);
-  return nodes;
-}
-
 ElementType cell_type() {
-  deck::Card<CellData> card(".MAI", {".MAILLES", ".CELLS"}, "Cells of a mesh: plane cells of 3, 6, 4 or 8 nodes");
+  deck::Card<CellData> card(".MAI", {".MAILLES", ".CELLS"},
+                            "Cells of a mesh: plane cells of 3, 6, 4 or 8 nodes, solids of 4, 10, 6, 15, 8 or 20");
   card.numbered()
       .chapter("Meshes")
       .describe(
-          "Corners stand in turn, either way round; a mid-side node is below zero and stands between its corners. What a cell is "
-          "comes from `.HYP` (plane stress, plane strain, axisymmetric), `.PHP` (thickness) and `.AEL` (its `.MAT`). Its nodes "
-          "move along x and y. Without `.SAM TYPE` and `.SUB` the analysis is linear statics in one step.")
-      .example(".MAI\n I 1 AT 1 0 N 1 8 9 2\n I 2 AT 1 0 N 9 -24 11 -25 13 -26");
+          "Corners stand in turn, either way round; a mid-side node is below zero and stands between its corners. Of a solid the "
+          "corners of the base are followed by a 0 and those of the top: `1 2 3 0 4` is a tetrahedron, `1 2 3 0 4 5 6` a wedge, "
+          "`1 2 3 4 0 5 6 7 8` a hexahedron. With mid-side nodes those of the sides from base to top stand between two zeros. "
+          "What "
+          "a cell is comes from `.HYP` (plane stress, plane strain, axisymmetric, volume), `.PHP` (thickness) and `.AEL` (its "
+          "`.MAT`). The nodes of plane cells move along x and y. Without `.SAM TYPE` and `.SUB` the analysis is linear statics "
+          "in one step.")
+      .example(".MAI\n I 1 AT 1 0 N 1 8 9 2\n I 2 AT 1 0 N 9 -24 11 -25 13 -26")
+      .example(".MAI\n I 1 N 1 2 3 0 4\n I 2 N 1 -5 2 -6 3 -7 0 -8 -9 -10 0 4");
   card.add("AT", &CellData::attribute, "attribute by which `.SEL` may choose cells; a 0 behind it separates it from N")
       .synonyms({"ATTRIBUTE", "ATTRIBUT"})
       .values(1, 3);

@@ -3,16 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <set>
 #include <tuple>
 
 #include "base/text.hpp"
 #include "deck/cards/cards.hpp"
-#include "deck/cards/mesh_cards.hpp"
 #include "elements/structural/cell.hpp"
+#include "elements/structural/cell_material.hpp"
 #include "math/angle.hpp"
 
 namespace engrane::elements::structural {
@@ -30,6 +30,7 @@ std::optional<Hypothesis> hypothesis_of(const deck::HypothesisCard& card) {
   if (begins("MEMBRANE", card.formulation) && begins("BIDIM", card.variant)) return Hypothesis::plane_stress;
   if (begins("CONTRAINTE", card.formulation) && variant("PLANE")) return Hypothesis::plane_stress;
   if (begins("DEFORMATION", card.formulation) && variant("PLANE")) return Hypothesis::plane_strain;
+  if (begins("VOLUME", card.formulation) && card.variant.empty()) return Hypothesis::solid;
   if ((begins("AXISYMETRIQUE", card.formulation) || begins("AXISYMMETRIC", card.formulation)) && card.variant.empty())
     return Hypothesis::axisymmetric;
   return {};
@@ -42,28 +43,18 @@ std::string names_of(const std::vector<std::string>& groups) {
   return groups.empty() ? "all cells" : (groups.size() == 1 ? "group " : "groups ") + names;
 }
 
-/// `.SAM` and `.SUB` say what is analysed: without them a deck is one of linear statics.
-bool is_linear(const std::vector<deck::Record>& records) {
-  bool analysed = false;
-  for (const deck::Record& record : records) {
-    const auto* analysis = record.get<deck::AnalysisCard>();
-    if (analysis && analysis->displacements.given()) return analysis->displacements.is("SMALL");
-    analysed = analysed || (analysis && record.given("TYPE")) || record.get<deck::SteppingCard>();
-  }
-  return !analysed;
-}
-
 }  // namespace
 
-CellBook::CellBook(const std::vector<deck::Record>& records, Diagnostics& diagnostics) : diagnostics_(diagnostics) {
+CellBook::CellBook(const std::vector<deck::Record>& records, const NodePositions& nodes, Diagnostics& diagnostics)
+    : diagnostics_(diagnostics) {
   read_cells(records);
   read_groups(records);
   read_properties(records);
-  make_sections(is_linear(records));
+  make_sections(deck::has_small_displacements(records), nodes);
 }
 
 std::shared_ptr<const CellBook> CellBook::of(const BuildContext& context) {
-  const auto make = [&context] { return std::make_shared<const CellBook>(*context.records, context.diagnostics); };
+  const auto make = [&context] { return std::make_shared<const CellBook>(*context.records, context.nodes, context.diagnostics); };
   return context.notes ? context.notes->get<std::shared_ptr<const CellBook>>(make) : make();
 }
 
@@ -95,9 +86,18 @@ std::shared_ptr<const CellSection> CellBook::section(int cell) const {
   return found ? found->section : nullptr;
 }
 
+const std::vector<int>* CellBook::faces(const std::string& group) const {
+  const auto found = faces_.find(group);
+  return found == faces_.end() ? nullptr : &found->second;
+}
+
 void CellBook::read_groups(const std::vector<deck::Record>& records) {
   for (const deck::Record& record : records) {
     const auto* card = record.get<deck::GroupCard>();
+    if (card && card->kind.is("FACES")) {
+      if (!card->name.empty()) faces_[card->name] = card->faces;
+      if (card->number != 0) faces_[std::to_string(card->number)] = card->faces;
+    }
     if (!card || !card->kind.is("ELEMENTS")) continue;
     Group group;
     const auto chosen = [&](const Cell& cell) {
@@ -137,40 +137,51 @@ CellBook::Group CellBook::members(const deck::Record& record, const std::vector<
 }
 
 void CellBook::read_properties(const std::vector<deck::Record>& records) {
-  std::map<int, const deck::Record*> materials;
   std::set<std::string> refused;
-  for (const deck::Record& record : records)
-    if (record.get<deck::MaterialCard>()) materials[record.id] = &record;
+  Diagnostics told;  // faults of frames are reported where the model reads them
+  for (const deck::Record& record : records) {
+    if (record.get<deck::MaterialCard>()) materials_[record.id] = &record;
+    if (const auto* frame = record.get<deck::FrameCard>()) frames_.add(record, *frame, told);
+  }
   for (const deck::Record& record : records) {
     if (const auto* hypothesis = record.get<deck::HypothesisCard>()) {
       const std::string words = hypothesis->formulation + (hypothesis->variant.empty() ? "" : " " + hypothesis->variant);
       if (!hypothesis_of(*hypothesis) && refused.insert(upper(words)).second)
         diagnostics_.error(record.where("FORMULATION"),
                            fmt::format("the formulation {} ({}) is not in this version", words, names_of(hypothesis->groups)),
-                           "there are MEMB BIDIM and CONT PLAN (plane stress), DEFO PLAN (plane strain) and AXIS");
+                           "there are MEMB BIDIM and CONT PLAN (plane stress), DEFO PLAN (plane strain), AXIS and VOLUME");
       if (hypothesis->groups.empty())
         for (Cell& cell : cells_) cell.hypothesis = &record;
       for (const std::size_t i : members(record, hypothesis->groups)) cells_[i].hypothesis = &record;
     }
     if (const auto* property = record.get<deck::PropertyCard>())
       for (const std::size_t i : members(record, property->groups)) cells_[i].thickness = property->thickness.value_or(0);
-    if (const auto* assignment = record.get<deck::AssignmentCard>()) {
-      Group group = members(record, assignment->groups);
-      for (const int id : assignment->cells)
-        if (const std::size_t at = index(id); at < cells_.size())
-          group.push_back(at);
-        else
-          diagnostics_.missing(".MAI", record.where("I"), fmt::format("cell {} does not exist", id));
-      if (!assignment->material) continue;  // THETA turns nothing of an isotropic material
-      const auto material = materials.find(*assignment->material);
-      if (material == materials.end()) {
-        diagnostics_.missing(".MAT", record.where("MAT"), fmt::format("material {} does not exist", *assignment->material),
-                             fmt::format("declare it with .MAT I {}", *assignment->material));
-        for (const std::size_t i : group) cells_[i].material = &record;  // told once
-        continue;
-      }
-      for (const std::size_t i : group) cells_[i].material = material->second;
-    }
+    if (const auto* assignment = record.get<deck::AssignmentCard>()) assign(record, *assignment);
+  }
+}
+
+void CellBook::assign(const deck::Record& record, const deck::AssignmentCard& assignment) {
+  Group group = members(record, assignment.groups);
+  for (const int id : assignment.cells)
+    if (const std::size_t at = index(id); at < cells_.size())
+      group.push_back(at);
+    else
+      diagnostics_.missing(".MAI", record.where("I"), fmt::format("cell {} does not exist", id));
+  const deck::Record* material = nullptr;
+  if (assignment.material) {
+    const auto found = materials_.find(*assignment.material);
+    if (found == materials_.end())
+      diagnostics_.missing(".MAT", record.where("MAT"), fmt::format("material {} does not exist", *assignment.material),
+                           fmt::format("declare it with .MAT I {}", *assignment.material));
+    material = found == materials_.end() ? &record : found->second;  // told once: the cells have one, as far as it goes
+  }
+  for (const std::size_t i : group) {
+    Cell& cell = cells_[i];
+    if (material) cell.material = material;
+    if (!assignment.theta && !assignment.frame) continue;
+    if (assignment.theta) cell.theta = *assignment.theta;
+    if (assignment.frame) cell.frame = *assignment.frame;
+    cell.axes = &record;
   }
 }
 
@@ -183,52 +194,83 @@ void CellBook::report_lack(const Lacks& lacks, const std::string& what, const st
     if (!first) first = &cell;
     ++count;
   }
-  if (count == 1) diagnostics_.error(first->record->location, fmt::format("cell {} {}", first->record->id, what), cure);
-  if (count > 1)
-    diagnostics_.error(first->record->location, fmt::format("cell {} {}, nor have {} others", first->record->id, what, count - 1),
-                       cure);
+  const std::string others = count > 1 ? fmt::format(", nor have {} others", count - 1) : "";
+  if (count > 0) diagnostics_.error(first->record->location, fmt::format("cell {} {}{}", first->record->id, what, others), cure);
 }
 
-void CellBook::make_sections(bool linear) {
-  const auto hypothesis = [](const Cell& cell) {
+std::optional<Mat3> CellBook::axes_of(const Cell& cell, const NodePositions& nodes) {
+  Mat3 axes = Mat3::Identity();
+  if (cell.frame != 0) {
+    Vec3 middle = Vec3::Zero();
+    int count = 0;
+    for (const int id : cell.record->get<CellData>()->nodes)
+      if (id > 0 && nodes.contains(id)) {
+        middle += nodes.at(id);
+        ++count;
+      }
+    const auto found = frames_.axes_at(cell.frame, count > 0 ? Vec3(middle / count) : middle);
+    if (!found) {
+      diagnostics_.missing(".FRAME", cell.axes->where("FRAME"), fmt::format("frame {} does not exist", cell.frame),
+                           fmt::format("declare it with .FRAME I {}", cell.frame));
+      return {};
+    }
+    axes = *found;
+  }
+  return Mat3(axes * Eigen::AngleAxisd(cell.theta.value_or(0) * degree, Vec3::UnitZ()).toRotationMatrix());
+}
+
+std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypothesis hypothesis, const Mat3& axes,
+                                                          bool linear) {
+  const auto [entry, fresh] = elastic_.try_emplace({cell.material->id, hypothesis});
+  if (fresh) entry->second = elastic_of(*cell.material, hypothesis, diagnostics_);
+  if (!entry->second) return nullptr;
+  const materials::Elastic material = materials::turned(*entry->second, axes);
+  if (hypothesis != Hypothesis::solid && !materials::is_plane(material)) {
+    diagnostics_.error(cell.axes->where("FRAME"), fmt::format("the axes of material {} lead out of the plane", cell.material->id),
+                       "of a plane cell one axis of the material is z");
+    return nullptr;
+  }
+  const bool has_thickness = hypothesis == Hypothesis::plane_stress || hypothesis == Hypothesis::plane_strain;
+  return std::make_shared<CellSection>(CellSection{hypothesis, materials::law_of(hypothesis, material),
+                                                   has_thickness && cell.thickness > 0 ? cell.thickness : 1.0, linear});
+}
+
+void CellBook::make_sections(bool linear, const NodePositions& nodes) {
+  const auto is_solid_cell = [](const Cell& cell) {
+    const std::vector<int>& written = cell.record->get<CellData>()->nodes;
+    return std::find(written.begin(), written.end(), 0) != written.end();
+  };
+  const auto hypothesis = [&](const Cell& cell) {
+    if (!cell.hypothesis && is_solid_cell(cell)) return std::optional(Hypothesis::solid);
     return cell.hypothesis ? hypothesis_of(*cell.hypothesis->get<deck::HypothesisCard>()) : std::nullopt;
   };
-  const auto is_stress = [&](const Cell& cell) { return hypothesis(cell) == Hypothesis::plane_stress; };
-  report_lack([](const Cell& cell) { return !cell.hypothesis; }, "has no formulation",
+  const auto fits = [&](const Cell& cell) {
+    const auto found = hypothesis(cell);
+    return !found || (*found == Hypothesis::solid) == is_solid_cell(cell);
+  };
+  const auto is_stress = [&](const Cell& cell) { return hypothesis(cell) == Hypothesis::plane_stress && fits(cell); };
+  report_lack([&](const Cell& cell) { return !cell.hypothesis && !is_solid_cell(cell); }, "has no formulation",
               ".HYP MEMB BIDIM GROUP \"name\" (plane stress), DEFO PLAN (plane strain) or AXIS");
+  report_lack([&](const Cell& cell) { return !fits(cell); }, "has not the form that its formulation asks for",
+              "VOLUME is for solids, whose nodes hold a 0 (N 1 2 3 0 4); the other formulations are for plane cells");
   report_lack([](const Cell& cell) { return !cell.material; }, "has no material", ".AEL I 1 J 9 K 1 MAT 1");
   report_lack([&](const Cell& cell) { return is_stress(cell) && cell.thickness == 0; }, "has no thickness",
               "plane stress needs .PHP GROUP \"name\" THICK VAL t");
-  std::set<int> faulty;
-  std::map<std::tuple<Hypothesis, int, double>, std::shared_ptr<const CellSection>> sections;
+  using Key = std::tuple<Hypothesis, int, double, double, int>;
+  std::map<Key, std::shared_ptr<const CellSection>> sections;
   for (Cell& cell : cells_) {
     const auto formulation = hypothesis(cell);
-    const auto* material = cell.material ? cell.material->get<deck::MaterialCard>() : nullptr;
-    if (!formulation || !material || (*formulation == Hypothesis::plane_stress && cell.thickness == 0)) continue;
-    const double thickness = cell.thickness > 0 ? cell.thickness : 1;
-    const deck::Record& of = *cell.material;
-    std::shared_ptr<const CellSection>& section = sections[{*formulation, of.id, thickness}];
-    if (!section) {
-      const bool incompressible = material->poisson && *material->poisson >= 0.5 && *formulation != Hypothesis::plane_stress;
-      const bool elastic = begins("ELASTIC", material->behaviour) || begins("ELASTIQUE", material->behaviour);
-      if (!material->young || !material->poisson || incompressible || !elastic) {
-        if (!faulty.insert(of.id).second) continue;
-        if (!elastic)
-          diagnostics_.error(of.where("BEHA"), fmt::format("the behaviour \"{}\" is not in this version", material->behaviour),
-                             "there is \"ELASTIC\"");
-        else if (incompressible)
-          diagnostics_.error(of.where("NT"), "a material with NT 0.5 keeps its volume, which these cells cannot",
-                             "take NT below 0.5, such as 0.49");
-        else
-          diagnostics_.error(of.location, fmt::format("material {} of cells needs YT and NT", of.id),
-                             "Young's modulus YT and Poisson's ratio NT");
+    const bool has_material = cell.material && cell.material->get<deck::MaterialCard>();
+    if (!formulation || !fits(cell) || !has_material || (is_stress(cell) && cell.thickness == 0)) continue;
+    const bool alone = frames_.is_curved(cell.frame);  // with axes of its own
+    const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame};
+    if (!alone)
+      if (const auto known = sections.find(key); known != sections.end()) {
+        cell.section = known->second;
         continue;
       }
-      section = std::make_shared<CellSection>(CellSection{
-          *formulation, materials::isotropic(*formulation, *material->young, *material->poisson, material->density.value_or(0)),
-          *formulation == Hypothesis::axisymmetric ? 1 : thickness, linear});
-    }
-    cell.section = section;
+    if (const auto axes = axes_of(cell, nodes)) cell.section = make_section(cell, *formulation, *axes, linear);
+    if (!alone) sections.emplace(key, cell.section);
   }
 }
 

@@ -3,11 +3,15 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "elements/materials/plane_elasticity.hpp"
+#include "deck/cards/mesh_cards.hpp"
+#include "elements/materials/elasticity.hpp"
+#include "elements/structural/cell_topology.hpp"
+#include "model/frames.hpp"
 #include "model/registry.hpp"
 
 namespace engrane::elements::structural {
@@ -15,7 +19,7 @@ namespace engrane::elements::structural {
 /// What cells of one material, hypothesis and thickness share.
 struct CellSection {
   materials::Hypothesis hypothesis;
-  materials::PlaneElasticity law;
+  materials::Elasticity law;
   double thickness = 1;
   bool linear = true;  ///< small displacements
 };
@@ -24,13 +28,15 @@ struct CellSection {
 /// reported while it is made, each once, however many cells have it.
 class CellBook {
  public:
-  CellBook(const std::vector<deck::Record>& records, Diagnostics& diagnostics);
+  CellBook(const std::vector<deck::Record>& records, const NodePositions& nodes, Diagnostics& diagnostics);
 
   /// The book of a model; made when the first cell asks for it, and each time where nothing is shared.
   static std::shared_ptr<const CellBook> of(const BuildContext& context);
 
   /// The record of `.MAI`; nullptr when there is no such cell.
   const deck::Record* record(int cell) const;
+  /// Pairs of a cell and its face, counted from 1, of a group of faces; nullptr when there is no such group.
+  const std::vector<int>* faces(const std::string& group) const;
   /// nullptr: something is missing, and was reported.
   std::shared_ptr<const CellSection> section(int cell) const;
 
@@ -39,7 +45,10 @@ class CellBook {
     const deck::Record* record;
     const deck::Record* hypothesis = nullptr;
     const deck::Record* material = nullptr;
-    double thickness = 0;  ///< 0: not given
+    double thickness = 0;                ///< 0: not given
+    std::optional<double> theta = {};    ///< degrees
+    int frame = 0;                       ///< 0: the global one
+    const deck::Record* axes = nullptr;  ///< where they were given
     std::shared_ptr<const CellSection> section = nullptr;
   };
   using Group = std::vector<std::size_t>;  ///< indices of cells
@@ -47,7 +56,12 @@ class CellBook {
   void read_cells(const std::vector<deck::Record>& records);
   void read_groups(const std::vector<deck::Record>& records);
   void read_properties(const std::vector<deck::Record>& records);
-  void make_sections(bool linear);
+  void assign(const deck::Record& record, const deck::AssignmentCard& assignment);
+  void make_sections(bool linear, const NodePositions& nodes);
+  std::shared_ptr<const CellSection> make_section(const Cell& cell, materials::Hypothesis hypothesis, const Mat3& axes,
+                                                  bool linear);
+  /// Axes of the material of a cell; nothing where its frame does not exist, which is reported.
+  std::optional<Mat3> axes_of(const Cell& cell, const NodePositions& nodes);
 
   /// Cells of groups, by name or number; an unknown one is an error.
   Group members(const deck::Record& record, const std::vector<std::string>& groups);
@@ -60,6 +74,10 @@ class CellBook {
   Diagnostics& diagnostics_;
   std::vector<Cell> cells_;  ///< by number
   std::map<std::string, Group> groups_;
+  std::map<std::string, std::vector<int>> faces_;
+  std::map<int, const deck::Record*> materials_;
+  std::map<std::pair<int, materials::Hypothesis>, std::optional<materials::Elastic>> elastic_;  ///< by material
+  Frames frames_;
 };
 
 }  // namespace engrane::elements::structural

@@ -1,56 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forces and tangent of one plane cell, summed over its Gauss points, in total Lagrangian form: the linear cell is the
-// derivative of the one with large displacements at rest, by the same lines.
+// Forces and tangent of one cell, summed over its Gauss points, in total Lagrangian form: the linear cell is the derivative of
+// the one with large displacements at rest, by the same lines.
 #pragma once
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "elements/materials/plane_elasticity.hpp"
+#include "elements/materials/elasticity.hpp"
 #include "elements/structural/cell_shapes.hpp"
 
 namespace engrane::elements::structural {
 
-/// The cell of four nodes has two displacement modes of its own, 1 − ξ² and 1 − η², each along x and y.
-constexpr int internal_modes(int nodes) { return nodes == 4 ? 2 : 0; }
+/// Cells of four and eight nodes have displacement modes of their own, 1 − ξ², 1 − η² and, of a solid, 1 − ζ², each along all
+/// directions.
+constexpr int internal_modes(CellShape shape) {
+  return shape == CellShape::quadrilateral ? 2 : shape == CellShape::hexahedron ? 3 : 0;
+}
 
-/// N nodes; `Axi`: round the y axis, where x is the radius. Nodes and internal modes stand side by side as columns.
-template <int N, bool Axi>
+/// `Axi`: round the y axis, where x is the radius. Nodes and internal modes stand side by side as columns.
+template <CellShape S, bool Axi>
 class CellKernel {
  public:
-  static constexpr int modes = internal_modes(N);
+  using Traits = CellTraits<S>;
+  static constexpr int N = Traits::nodes, D = Traits::dimension;
+  static constexpr int modes = internal_modes(S);
   static constexpr int columns = N + modes;
-  static constexpr int strains = Axi ? 4 : 3;
-  static constexpr int size = 2 * columns;
+  static constexpr int shears = D == 3 ? 3 : 1;
+  static constexpr int normals = D == 3 || Axi ? 3 : 2;
+  static constexpr int strains = normals + shears;
+  static constexpr int size = D * columns;
+  /// Where the strains stand among xx, yy, zz, xy, yz, zx.
+  static constexpr std::array<Eigen::Index, static_cast<std::size_t>(strains)> components = [] {
+    std::array<Eigen::Index, static_cast<std::size_t>(strains)> at{};
+    for (int i = 0; i < strains; ++i) at[static_cast<std::size_t>(i)] = i < normals ? i : 3 + i - normals;
+    return at;
+  }();
 
-  using Places = Eigen::Matrix<double, 2, N>;
-  using Moves = Eigen::Matrix<double, 2, columns>;  ///< displacements of the nodes, amplitudes of the modes
+  using Places = Eigen::Matrix<double, D, N>;
+  using Moves = Eigen::Matrix<double, D, columns>;  ///< displacements of the nodes, amplitudes of the modes
   using Forces = Eigen::Matrix<double, size, 1>;
   using Tangent = Eigen::Matrix<double, size, size>;
   using Strain = Eigen::Matrix<double, strains, 1>;
   using Stiffness = Eigen::Matrix<double, strains, strains>;
+  using Square = Eigen::Matrix<double, D, D>;
 
   /// Geometry of a Gauss point in the reference configuration.
   struct Point {
     double volume = 0;  ///< that the point stands for
-    Eigen::Matrix<double, 2, columns> gradient;
+    Eigen::Matrix<double, D, columns> gradient;
     Eigen::Matrix<double, 1, columns> hoop;  ///< strain round the axis of each column's displacement along x; Axi only
   };
-  static constexpr int most_points = 4;
+  static constexpr int most_points = D == 3 ? 9 : 4;
 
   /// Round an axis one point would leave the cell of three nodes a motion without strain.
-  static const std::vector<QuadraturePoint>& points() {
-    return Axi && N == 3 ? CellTraits<N>::load_points() : CellTraits<N>::stiffness_points();
+  static const QuadratureRule& points() {
+    return Axi && S == CellShape::triangle ? Traits::load_points() : Traits::stiffness_points();
+  }
+  static const std::vector<typename Traits::Sample>& samples() {
+    static const auto all = tabulate<S>(points());
+    return all;
   }
 
   CellKernel(const Places& places, double thickness) {
-    static const auto& at = points();
-    static const auto samples = tabulate<N>(at);
-    for (const ShapeSample<N>& s : samples) {
-      const Eigen::Matrix2d jacobian = s.slope * places.transpose();  // rows: along ξ and η
-      const Eigen::Matrix2d inverse = jacobian.inverse();
+    for (const auto& s : samples()) {
+      const Square jacobian = s.slope * places.transpose();  // rows: along ξ, η, ζ
+      const Square inverse = jacobian.inverse();
       Point& p = points_[count_];
       p.gradient.template leftCols<N>() = inverse * s.slope;
       p.volume = s.weight * std::abs(jacobian.determinant()) * thickness;
@@ -61,13 +78,12 @@ class CellKernel {
         p.hoop.template leftCols<N>() = s.value.transpose() / radius;
       }
       if constexpr (modes > 0) {
-        const QuadraturePoint& place = at[static_cast<std::size_t>(count_)];
-        Eigen::Matrix2d slope = Eigen::Matrix2d::Zero();
-        slope(0, 0) = -2 * place.xi;
-        slope(1, 1) = -2 * place.eta;
-        p.gradient.template rightCols<modes>() = inverse * slope;
-        if constexpr (Axi)
-          p.hoop.template rightCols<modes>() << (1 - place.xi * place.xi) / radius, (1 - place.eta * place.eta) / radius;
+        const QuadraturePoint& q = points()[static_cast<std::size_t>(count_)];
+        const double place[3] = {q.xi, q.eta, q.zeta};
+        for (int i = 0; i < modes; ++i) {
+          p.gradient.col(N + i) = -2 * place[i] * inverse.col(i);
+          if constexpr (Axi) p.hoop[N + i] = (1 - place[i] * place[i]) / radius;
+        }
       }
       ++count_;
     }
@@ -77,27 +93,26 @@ class CellKernel {
   int count() const { return count_; }
   const Point& point(int i) const { return points_[i]; }
 
-  /// Deformation at a point: F in the plane and, round an axis, its entry of the circumference.
+  /// Deformation at a point: F and, round an axis, its entry of the circumference.
   struct Deformation {
-    Eigen::Matrix2d F;
+    Square F = Square::Identity();
     double hoop = 1;
   };
   Deformation deformation(const Point& p, const Moves& moves) const {
     Deformation d;
-    d.F = Eigen::Matrix2d::Identity() + moves * p.gradient.transpose();
+    d.F += moves * p.gradient.transpose();
     if constexpr (Axi) d.hoop += moves.row(0).dot(p.hoop);
     return d;
   }
 
   /// Strain of Green and Lagrange, or its linear part.
   static Strain strain(const Deformation& d, bool linear) {
-    const Eigen::Matrix2d H = d.F - Eigen::Matrix2d::Identity();
-    Eigen::Matrix2d E = (H + H.transpose()) / 2;
+    const Square H = d.F - Square::Identity();
+    Square E = (H + H.transpose()) / 2;
     if (!linear) E += H.transpose() * H / 2;
     Strain e;
-    e[0] = E(0, 0);
-    e[1] = E(1, 1);
-    e[strains - 1] = 2 * E(0, 1);
+    for (int i = 0; i < D; ++i) e[i] = E(i, i);
+    for (int i = 0; i < shears; ++i) e[normals + i] = 2 * E(i, (i + 1) % D);
     if constexpr (Axi) {
       const double h = d.hoop - 1;
       e[2] = linear ? h : h + h * h / 2;
@@ -105,74 +120,81 @@ class CellKernel {
     return e;
   }
 
-  static Stiffness reduced(const Eigen::Matrix4d& full) {
-    if constexpr (Axi) {
-      return full;
-    } else {
-      Stiffness k;
-      k << full(0, 0), full(0, 1), full(0, 3), full(1, 0), full(1, 1), full(1, 3), full(3, 0), full(3, 1), full(3, 3);
-      return k;
-    }
+  /// What the cell is made of: stresses are stiffness · (strain − free), with the strain that warmth alone gives at each point.
+  struct Law {
+    Stiffness stiffness;
+    std::array<Strain, static_cast<std::size_t>(most_points)> free{};
+    bool is_warm = false;
+    bool linear = true;  ///< small displacements
+  };
+  static Stiffness reduced(const materials::Moduli& full) { return full(components, components); }
+  static Strain reduced(const materials::Voigt& full) { return full(components); }
+
+  /// Strain less that of warmth, at a point.
+  static Strain elastic(const Law& law, int point, Strain strain) {
+    if (law.is_warm) strain -= law.free[static_cast<std::size_t>(point)];
+    return strain;
   }
 
   /// Resisting forces and, where wanted, their derivative, of nodes and modes for any amplitudes of the modes.
-  void sum(const Stiffness& law, bool linear, const Moves& moves, Forces& r, Tangent* k) const {
+  void sum(const Law& law, const Moves& moves, Forces& r, Tangent* k) const {
     r.setZero();
     if (k) k->setZero();
+    Eigen::Matrix<double, strains, size> b;
     for (int i = 0; i < count_; ++i) {
       const Point& p = points_[i];
       const Deformation now = deformation(p, moves);
-      const Strain stress = p.volume * (law * strain(now, linear));
-      const Deformation at = linear ? Deformation{Eigen::Matrix2d::Identity()} : now;
-      Eigen::Matrix<double, strains, size> b;
-      for (int j = 0; j < columns; ++j) {
-        const double x = p.gradient(0, j), y = p.gradient(1, j);
-        for (int a = 0; a < 2; ++a) {
-          const double along = at.F(a, 0), across = at.F(a, 1);
-          b(0, 2 * j + a) = along * x;
-          b(1, 2 * j + a) = across * y;
-          b(strains - 1, 2 * j + a) = along * y + across * x;
-          if constexpr (Axi) b(2, 2 * j + a) = a == 0 ? at.hoop * p.hoop[j] : 0;
+      const Strain stress = p.volume * (law.stiffness * elastic(law, i, strain(now, law.linear)));
+      const Deformation at = law.linear ? Deformation{} : now;
+      for (int j = 0; j < columns; ++j)
+        for (int a = 0; a < D; ++a) {
+          const int column = D * j + a;
+          for (int n = 0; n < D; ++n) b(n, column) = at.F(a, n) * p.gradient(n, j);
+          for (int n = 0; n < shears; ++n) {
+            const int m = (n + 1) % D;
+            b(normals + n, column) = at.F(a, n) * p.gradient(m, j) + at.F(a, m) * p.gradient(n, j);
+          }
+          if constexpr (Axi) b(2, column) = a == 0 ? at.hoop * p.hoop[j] : 0;
         }
-      }
       r.noalias() += b.transpose() * stress;
       if (!k) continue;
-      k->noalias() += b.transpose() * (p.volume * law * b);
-      if (!linear) add_geometric(p, stress, *k);
+      const Eigen::Matrix<double, strains, size> c = p.volume * law.stiffness * b;
+      k->noalias() += b.transpose() * c;
+      if (!law.linear) add_geometric(p, stress, *k);
     }
   }
 
   /// What is left of forces and tangent once the modes carry no force.
   struct Condensed {
     Moves moves;  ///< with the amplitudes of the modes
-    Eigen::Matrix<double, 2 * N, 1> forces;
-    Eigen::Matrix<double, 2 * N, 2 * N> tangent;
+    Eigen::Matrix<double, D * N, 1> forces;
+    Eigen::Matrix<double, D * N, D * N> tangent;
   };
 
   /// Forces on the nodes for their displacements. The modes are found by Newton's iteration, which begins at zero, so that the
   /// forces are a function of the displacements alone; where it finds no balance the forces are not numbers.
-  void condense(const Stiffness& law, bool linear, const Places& displacements, bool wants_tangent, Condensed& out) const {
+  void condense(const Law& law, const Places& displacements, bool wants_tangent, Condensed& out) const {
     out.moves.template leftCols<N>() = displacements;
     Forces r;
     Tangent k;
     if constexpr (modes == 0) {
-      sum(law, linear, out.moves, r, wants_tangent ? &k : nullptr);
+      sum(law, out.moves, r, wants_tangent ? &k : nullptr);
       out.forces = r;
       if (wants_tangent) out.tangent = k;
     } else {
-      constexpr int nodal = 2 * N, own = 2 * modes, most = 25;
+      constexpr int nodal = D * N, own = D * modes, most = 25;
       // its square is rounding: the last correction is carried over to the forces to first order
       constexpr double small = 1e-9;
       out.moves.template rightCols<modes>().setZero();
       for (int iteration = 0; iteration < most; ++iteration) {
-        sum(law, linear, out.moves, r, &k);
+        sum(law, out.moves, r, &k);
         const Eigen::Matrix<double, own, nodal + 1> right =
             (Eigen::Matrix<double, own, nodal + 1>() << k.template bottomLeftCorner<own, nodal>(), r.template tail<own>())
                 .finished();
         const Eigen::Matrix<double, own, nodal + 1> solved = k.template bottomRightCorner<own, own>().partialPivLu().solve(right);
         const Eigen::Matrix<double, own, 1> change = -solved.col(nodal);
-        out.moves.template rightCols<modes>() += Eigen::Map<const Eigen::Matrix<double, 2, modes>>(change.data());
-        if (!linear && !(change.norm() * points_[0].gradient.template rightCols<modes>().norm() < small)) continue;
+        out.moves.template rightCols<modes>() += Eigen::Map<const Eigen::Matrix<double, D, modes>>(change.data());
+        if (!law.linear && !(change.norm() * points_[0].gradient.template rightCols<modes>().norm() < small)) continue;
         out.forces = r.template head<nodal>() + k.template topRightCorner<nodal, own>() * change;
         if (wants_tangent)
           out.tangent = k.template topLeftCorner<nodal, nodal>() -
@@ -189,7 +211,7 @@ class CellKernel {
   /// have no mean, whatever the shape of the cell.
   void remove_mean() {
     double volume = 0;
-    Eigen::Matrix<double, 2, modes> gradient = Eigen::Matrix<double, 2, modes>::Zero();
+    Eigen::Matrix<double, D, modes> gradient = Eigen::Matrix<double, D, modes>::Zero();
     Eigen::Matrix<double, 1, modes> hoop = Eigen::Matrix<double, 1, modes>::Zero();
     for (int i = 0; i < count_; ++i) {
       volume += points_[i].volume;
@@ -204,15 +226,14 @@ class CellKernel {
 
   /// Stress times the second derivative of the strain; `stress` times the volume.
   static void add_geometric(const Point& p, const Strain& stress, Tangent& k) {
-    Eigen::Matrix2d S;
-    S << stress[0], stress[strains - 1], stress[strains - 1], stress[1];
-    const Eigen::Matrix<double, columns, columns> g = p.gradient.transpose() * S * p.gradient;
+    Square second;
+    for (int i = 0; i < D; ++i) second(i, i) = stress[i];
+    for (int i = 0; i < shears; ++i) second(i, (i + 1) % D) = second((i + 1) % D, i) = stress[normals + i];
+    const Eigen::Matrix<double, columns, columns> g = p.gradient.transpose() * second * p.gradient;
     for (int j = 0; j < columns; ++j)
       for (int i = 0; i < columns; ++i) {
-        double radial = g(i, j);
-        if constexpr (Axi) radial += stress[2] * p.hoop[i] * p.hoop[j];
-        k(2 * i, 2 * j) += radial;
-        k(2 * i + 1, 2 * j + 1) += g(i, j);
+        for (int a = 0; a < D; ++a) k(D * i + a, D * j + a) += g(i, j);
+        if constexpr (Axi) k(D * i, D * j) += stress[2] * p.hoop[i] * p.hoop[j];
       }
   }
 

@@ -7,15 +7,13 @@ namespace engrane::elements::structural {
 
 namespace {
 
-/// Products of the Gauss–Legendre rule with itself.
-std::vector<QuadraturePoint> squared(const std::vector<std::pair<double, double>>& rule) {
-  std::vector<QuadraturePoint> points;
+/// Products of a rule with itself.
+QuadratureRule squared(const LineRule& rule) {
+  QuadratureRule points;
   for (const auto& [eta, of_eta] : rule)
     for (const auto& [xi, of_xi] : rule) points.push_back({xi, eta, of_xi * of_eta});
   return points;
 }
-
-const double two_point = 1 / std::sqrt(3.0), three_point = std::sqrt(0.6);
 
 /// The bilinear function of the corner (a, b) of the square.
 struct Bilinear {
@@ -30,29 +28,35 @@ struct Bilinear {
 
 }  // namespace
 
-ShapeSample<3> CellTraits<3>::sample(const QuadraturePoint& p) {
-  ShapeSample<3> s;
+const LineRule& gauss_legendre(int points) {
+  static const double two = 1 / std::sqrt(3.0), three = std::sqrt(0.6);
+  static const LineRule two_points{{-two, 1}, {two, 1}}, three_points{{-three, 5.0 / 9}, {0, 8.0 / 9}, {three, 5.0 / 9}};
+  return points == 2 ? two_points : three_points;
+}
+
+auto CellTraits<CellShape::triangle>::sample(const QuadraturePoint& p) -> Sample {
+  Sample s;
   s.weight = p.weight;
   s.value << 1 - p.xi - p.eta, p.xi, p.eta;
   s.slope << -1, 1, 0, -1, 0, 1;
   return s;
 }
 
-const std::vector<QuadraturePoint>& CellTraits<3>::stiffness_points() {
-  static const std::vector<QuadraturePoint> points{{1.0 / 3, 1.0 / 3, 0.5}};
+const QuadratureRule& CellTraits<CellShape::triangle>::stiffness_points() {
+  static const QuadratureRule points{{1.0 / 3, 1.0 / 3, 0.5}};
   return points;
 }
 
-const std::vector<QuadraturePoint>& CellTraits<3>::load_points() {
+const QuadratureRule& CellTraits<CellShape::triangle>::load_points() {
   constexpr double a = 1.0 / 6, b = 2.0 / 3, w = 1.0 / 6;
-  static const std::vector<QuadraturePoint> points{{a, a, w}, {b, a, w}, {a, b, w}};
+  static const QuadratureRule points{{a, a, w}, {b, a, w}, {a, b, w}};
   return points;
 }
 
-ShapeSample<6> CellTraits<6>::sample(const QuadraturePoint& p) {
+auto CellTraits<CellShape::triangle6>::sample(const QuadraturePoint& p) -> Sample {
   const double l[3] = {1 - p.xi - p.eta, p.xi, p.eta};
   const Eigen::Vector2d slope[3] = {{-1, -1}, {1, 0}, {0, 1}};
-  ShapeSample<6> s;
+  Sample s;
   s.weight = p.weight;
   for (Eigen::Index i = 0; i < 3; ++i) {
     const Eigen::Index j = (i + 1) % 3;
@@ -66,12 +70,12 @@ ShapeSample<6> CellTraits<6>::sample(const QuadraturePoint& p) {
 
 /// Degree 4 (Dunavant 1985, Int. J. Num. Meth. Eng. 21): products of two quadratic functions. The roots and weights are those of
 /// its table in closed form.
-const std::vector<QuadraturePoint>& CellTraits<6>::mass_points() {
-  static const std::vector<QuadraturePoint> points = [] {
+const QuadratureRule& CellTraits<CellShape::triangle6>::mass_points() {
+  static const QuadratureRule points = [] {
     const double ten = std::sqrt(10.0), inner = std::sqrt(38 - 44 * std::sqrt(0.4));
     const double mean = (8 - ten) / 18, half = inner / 18, sum = 1.0 / 6, apart = std::sqrt(213125 - 53320 * ten) / 3720;
     const double a = mean + half, b = mean - half, wa = (sum + apart) / 2, wb = (sum - apart) / 2;
-    std::vector<QuadraturePoint> six;
+    QuadratureRule six;
     for (const auto& [c, w] : {std::pair(a, wa), std::pair(b, wb)})
       for (const auto& [xi, eta] : {std::pair(c, c), std::pair(1 - 2 * c, c), std::pair(c, 1 - 2 * c)})
         six.push_back({xi, eta, w});
@@ -80,8 +84,8 @@ const std::vector<QuadraturePoint>& CellTraits<6>::mass_points() {
   return points;
 }
 
-ShapeSample<4> CellTraits<4>::sample(const QuadraturePoint& p) {
-  ShapeSample<4> s;
+auto CellTraits<CellShape::quadrilateral>::sample(const QuadraturePoint& p) -> Sample {
+  Sample s;
   s.weight = p.weight;
   for (std::size_t i = 0; i < 4; ++i) {
     const Bilinear n(i, p);
@@ -92,18 +96,18 @@ ShapeSample<4> CellTraits<4>::sample(const QuadraturePoint& p) {
   return s;
 }
 
-const std::vector<QuadraturePoint>& CellTraits<4>::stiffness_points() {
-  static const std::vector<QuadraturePoint> points = squared({{-two_point, 1}, {two_point, 1}});
+const QuadratureRule& CellTraits<CellShape::quadrilateral>::stiffness_points() {
+  static const QuadratureRule points = squared(gauss_legendre(2));
   return points;
 }
 
-const std::vector<QuadraturePoint>& CellTraits<4>::load_points() {
-  static const std::vector<QuadraturePoint> points = squared({{-three_point, 5.0 / 9}, {0, 8.0 / 9}, {three_point, 5.0 / 9}});
+const QuadratureRule& CellTraits<CellShape::quadrilateral>::load_points() {
+  static const QuadratureRule points = squared(gauss_legendre(3));
   return points;
 }
 
-ShapeSample<8> CellTraits<8>::sample(const QuadraturePoint& p) {
-  ShapeSample<8> s;
+auto CellTraits<CellShape::quadrilateral8>::sample(const QuadraturePoint& p) -> Sample {
+  Sample s;
   s.weight = p.weight;
   for (std::size_t i = 0; i < 4; ++i) {
     const Bilinear n(i, p);
@@ -125,15 +129,15 @@ ShapeSample<8> CellTraits<8>::sample(const QuadraturePoint& p) {
 
 std::array<EdgeSample, 3> edge_samples(std::size_t nodes) {
   std::array<EdgeSample, 3> samples{};
-  const double s[3] = {-three_point, 0, three_point}, weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
   for (std::size_t i = 0; i < 3; ++i) {
-    samples[i].weight = weight[i];
+    const auto [s, weight] = gauss_legendre(3)[i];
+    samples[i].weight = weight;
     if (nodes == 2) {
-      samples[i].value = {(1 - s[i]) / 2, (1 + s[i]) / 2, 0};
+      samples[i].value = {(1 - s) / 2, (1 + s) / 2, 0};
       samples[i].slope = {-0.5, 0.5, 0};
     } else {
-      samples[i].value = {s[i] * (s[i] - 1) / 2, s[i] * (s[i] + 1) / 2, 1 - s[i] * s[i]};
-      samples[i].slope = {s[i] - 0.5, s[i] + 0.5, -2 * s[i]};
+      samples[i].value = {s * (s - 1) / 2, s * (s + 1) / 2, 1 - s * s};
+      samples[i].slope = {s - 0.5, s + 0.5, -2 * s};
     }
   }
   return samples;

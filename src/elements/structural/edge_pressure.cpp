@@ -39,6 +39,7 @@ class EdgePressures final : public Block {
 
   std::size_t size() const override { return edges_.size(); }
   const Layout& layout() const override { return layout_; }
+  bool in_mesh() const override { return false; }
   std::span<const int> node_ids(std::size_t e) const override { return std::span(edges_[e].nodes).first(layout_.nodes.size()); }
 
   void residual(std::size_t first, std::span<const State> states, std::span<double> r) const override {
@@ -126,25 +127,33 @@ std::unique_ptr<Element> build(const EdgePressureData& data, BuildContext& conte
                                 "ARETE I cell edge: the number of a cell of .MAI, then that of its edge");
     return nullptr;
   }
-  const auto nodes = ordered_nodes(*record->get<CellData>());
+  const auto cell_nodes = connectivity(record->get<CellData>()->nodes);
   const std::shared_ptr<const CellSection> section = book->section(cell);
-  if (!nodes || !section) return nullptr;  // the cell has faults of its own
-  const std::size_t corners = nodes->size() <= 4 ? nodes->size() : nodes->size() / 2;
-  if (side < 1 || static_cast<std::size_t>(side) > corners) {
-    context.error("I", fmt::format("cell {} has no edge {}", cell, side),
-                  fmt::format("its edges are 1 to {}: edge k begins at its corner k", corners));
+  if (!cell_nodes || !section) return nullptr;  // the cell has faults of its own
+  const auto& [shape, nodes] = *cell_nodes;
+  const int faces = face_count(shape);
+  if (is_solid(shape)) {
+    context.error("I", fmt::format("cell {} is a solid", cell), "pressure on a solid acts on a face: FACE I cell face PRE V p");
     return nullptr;
   }
-  const std::size_t first = static_cast<std::size_t>(side) - 1, count = nodes->size() > corners ? 3 : 2;
-  EdgePressures::Edge edge{{(*nodes)[first], (*nodes)[(first + 1) % corners], 0}, {}, data.pressure, function, section};
-  if (count == 3) edge.nodes[2] = (*nodes)[corners + first];
-  const auto at = [&context](int id) { return Eigen::Vector2d(context.nodes.at(id).head<2>()); };
-  for (const int id : *nodes)
+  if (side < 1 || side > faces) {
+    context.error("I", fmt::format("cell {} has no edge {}", cell, side),
+                  fmt::format("its edges are 1 to {}: edge k begins at its corner k", faces));
+    return nullptr;
+  }
+  for (const int id : nodes)
     if (!context.nodes.contains(id)) return nullptr;
-  for (std::size_t i = 0; i < count; ++i) edge.places[i] = at(edge.nodes[i]);
+  EdgePressures::Edge edge{{}, {}, data.pressure, function, section};
+  const std::vector<int> places = face_nodes(shape, side - 1);
+  const std::size_t count = places.size();
+  const auto at = [&](int i) { return Eigen::Vector2d(context.nodes.at(nodes[static_cast<std::size_t>(i)]).head<2>()); };
+  for (std::size_t i = 0; i < count; ++i) {
+    edge.nodes[i] = nodes[static_cast<std::size_t>(places[i])];
+    edge.places[i] = at(places[i]);
+  }
   double area = 0;  // of the polygon of the corners, twice
-  for (std::size_t i = 0; i < corners; ++i) {
-    const Eigen::Vector2d a = at((*nodes)[i]), b = at((*nodes)[(i + 1) % corners]);
+  for (const auto& [first, last] : sides(shape)) {
+    const Eigen::Vector2d a = at(first), b = at(last);
     area += a[0] * b[1] - a[1] * b[0];
   }
   if (area < 0) edge.pressure = -edge.pressure;

@@ -34,13 +34,11 @@ std::vector<unsigned char> kinds_of_rows(const Numbering& numbering) {
 }
 
 BackwardError::BackwardError(Mat matrix, const std::vector<unsigned char>& kinds) : matrix_(matrix) {
-  PetscBool sequential = PETSC_FALSE;
-  check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(matrix), MATSEQAIJ, &sequential));
   check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm_));
   check_petsc(MatCreateVecs(matrix, nullptr, residual_.out()));
   PetscInt first = 0, end = 0;
   check_petsc(MatGetOwnershipRange(matrix, &first, &end));
-  parallel_ = !sequential;
+  parallel_ = !is_sequential(matrix);
   terms_.resize(static_cast<std::size_t>(end - first));
   if (!kinds.empty()) kinds_.assign(kinds.begin() + first, kinds.begin() + end);
 }

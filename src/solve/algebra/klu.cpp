@@ -64,10 +64,7 @@ bool Klu::refactor() {
 }
 
 bool Klu::factor_with_new_pivots() {
-  {
-    const Rows rows(matrix_);
-    chosen_for_.assign(rows.value(), rows.value() + rows.entries());
-  }
+  chosen_for_ = values_of(matrix_);
   return factor_chosen();
 }
 

@@ -16,12 +16,6 @@ namespace {
 /// of a motion that nothing resists and nothing drives it holds rounding, and the correction holds that over rounding.
 constexpr double most_refinement = 0.5;
 
-bool sequential(Mat matrix) {
-  PetscBool sequential = PETSC_FALSE;
-  check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(matrix), MATSEQAIJ, &sequential));
-  return sequential == PETSC_TRUE;
-}
-
 double largest(Vec vector) {
   PetscReal norm = 0;
   check_petsc(VecNorm(vector, NORM_INFINITY, &norm));
@@ -141,20 +135,12 @@ void LinearSolver::load(const Snapshot& snapshot) {
 }
 
 void LinearSolver::save_factors(Snapshot& snapshot) const {
-  if (!sequential(matrix_)) return;
-  const Rows rows(matrix_);
-  snapshot.put("factors/" + package_, std::vector<double>(rows.value(), rows.value() + rows.entries()));
+  if (is_sequential(matrix_)) snapshot.put("factors/" + package_, values_of(matrix_));
 }
 
 bool LinearSolver::load_factors(const Snapshot& snapshot) {
   const std::string name = "factors/" + package_;
-  if (!sequential(matrix_) || !snapshot.has(name)) return false;
-  const std::vector<double>& values = snapshot.array(name);
-  if (values.size() != static_cast<std::size_t>(Rows(matrix_).entries())) return false;
-  PetscScalar* into = nullptr;
-  check_petsc(MatSeqAIJGetArray(matrix_, &into));
-  std::copy(values.begin(), values.end(), into);
-  check_petsc(MatSeqAIJRestoreArray(matrix_, &into));
+  if (!is_sequential(matrix_) || !snapshot.has(name) || !set_values(matrix_, snapshot.array(name))) return false;
   restore_factors();
   return true;
 }

@@ -20,12 +20,6 @@ MatSolverType petsc_name(const std::string& package) {
   return MATSOLVERMUMPS;
 }
 
-bool is_sequential(Mat matrix) {
-  PetscBool sequential = PETSC_FALSE;
-  check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(matrix), MATSEQAIJ, &sequential));
-  return sequential == PETSC_TRUE;
-}
-
 }  // namespace
 
 std::unique_ptr<Factors> make_factors(Mat matrix, const std::string& package) {
@@ -42,15 +36,9 @@ bool PackageFactors::failed() const {
   return error != MAT_FACTOR_NOERROR;
 }
 
-void PackageFactors::note_matrix() {
-  if (!sequential_) return;
-  const Rows rows(matrix_);
-  analysed_for_.assign(rows.value(), rows.value() + rows.entries());
-}
-
 bool PackageFactors::analyse() {
   if (factors_) return true;
-  note_matrix();
+  if (sequential_) analysed_for_ = values_of(matrix_);
   check_petsc(MatGetFactor(matrix_, petsc_name(package_), MAT_FACTOR_LU, factors_.out()));
   if (mumps()) check_petsc(MatMumpsSetIcntl(factors_, 14, room_));
   MatFactorInfo info;
@@ -98,12 +86,7 @@ void PackageFactors::load(const Snapshot& snapshot) {
   if (!sequential_ || !snapshot.has("solver/" + package_)) return;
   forget();
   const std::vector<double>& values = snapshot.array("solver/" + package_);
-  if (values.empty() || values.size() != static_cast<std::size_t>(Rows(matrix_).entries())) return;
-  PetscScalar* into = nullptr;
-  check_petsc(MatSeqAIJGetArray(matrix_, &into));
-  std::copy(values.begin(), values.end(), into);
-  check_petsc(MatSeqAIJRestoreArray(matrix_, &into));
-  factor();
+  if (!values.empty() && set_values(matrix_, values)) factor();
 }
 
 SolverWork PackageFactors::work() const {

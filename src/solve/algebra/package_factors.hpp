@@ -29,8 +29,6 @@ class PackageFactors : public Factors {
   /// Whether the last factorisation by MUMPS lacked nothing but room: it has more now.
   bool enlarge();
   bool failed() const;
-  /// Its values on one rank, which decide on the analysis.
-  void note_matrix();
 
   Mat matrix_;
   std::string package_;

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "assembly/petsc.hpp"
 
 namespace engrane::solve {
+
+/// Whether a matrix is that of one rank, whose rows Rows shows.
+bool is_sequential(Mat matrix);
+/// The entries of a sequential matrix, and the other way round: false where there are not as many.
+std::vector<double> values_of(Mat matrix);
+bool set_values(Mat matrix, const std::vector<double>& values);
 
 /// The rows of a sequential matrix, for as long as this lives. Its values must not be changed meanwhile.
 class Rows {

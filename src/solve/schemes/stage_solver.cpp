@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "solve/algebra/rows.hpp"
 #include "solve/schemes/snapshot_part.hpp"
 
 namespace engrane::solve {
@@ -98,8 +99,7 @@ void StageSolver::interleave(const System& system) const {
   const Numbering& numbering = assembler_.numbering();
   PetscInt first = 0, end = 0;
   check_petsc(MatGetOwnershipRange(system.real, &first, &end));
-  PetscBool sequential = PETSC_FALSE;
-  check_petsc(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(static_cast<Mat>(system.whole)), MATSEQAIJ, &sequential));
+  const bool sequential = is_sequential(system.whole);
   PetscScalar* values = nullptr;
   if (sequential) check_petsc(MatSeqAIJGetArray(system.whole, &values));
   std::vector<PetscInt> columns;

@@ -114,8 +114,10 @@ NewtonReport Statics::find(const Configuration& from, double h, Configuration& t
       report = std::move(across);
     }
   }
-  tried_time_ = to.time;
-  tried_forces_ = to.multipliers;
+  if (error_.wanted()) {
+    tried_time_ = to.time;
+    tried_forces_ = to.multipliers;
+  }
   return report;
 }
 

@@ -5,9 +5,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <map>
 #include <numbers>
 
-#include "elements/structural/plane_cells.hpp"
+#include "elements/structural/cell_topology.hpp"
+#include "elements/structural/make_cell.hpp"
 #include "elements/suite.hpp"
 #include "math/rotation.hpp"
 
@@ -20,7 +22,9 @@ using materials::Hypothesis;
 constexpr double young = 70, poisson = 0.3, density = 2.7, thickness = 0.4;
 
 std::shared_ptr<const CellSection> section(Hypothesis hypothesis, bool linear, double nu = poisson) {
-  return std::make_shared<CellSection>(CellSection{hypothesis, materials::isotropic(hypothesis, young, nu, density),
+  materials::Elastic material = materials::isotropic(young, nu);
+  material.density = density;
+  return std::make_shared<CellSection>(CellSection{hypothesis, materials::law_of(hypothesis, material),
                                                    hypothesis == Hypothesis::axisymmetric ? 1 : thickness, linear});
 }
 
@@ -49,7 +53,11 @@ NodeMap node_map(const std::vector<Eigen::Vector2d>& places) {
 }
 
 std::unique_ptr<Element> cell(const std::vector<Eigen::Vector2d>& places, const std::shared_ptr<const CellSection>& of) {
-  return make_plane_cell(1, numbers(places.size()), places, of, nullptr);
+  const std::map<std::size_t, CellShape> shapes{
+      {3, CellShape::triangle}, {6, CellShape::triangle6}, {4, CellShape::quadrilateral}, {8, CellShape::quadrilateral8}};
+  CellPlan plan{1, shapes.at(places.size()), numbers(places.size()), {}, of};
+  for (const Eigen::Vector2d& x : places) plan.places.emplace_back(x[0], x[1], 0);
+  return make_plane_cell(plan, nullptr);
 }
 
 /// Area, or volume round the axis, by Gauss points enough for curved sides: of the polygon of many points on the sides.
@@ -288,11 +296,18 @@ TEST(Cell, RingsGrow) {
 }
 
 TEST(Cell, NodesAreOrdered) {
-  EXPECT_EQ(ordered_nodes({{}, {5, 6, 7}}), (std::vector{5, 6, 7}));
-  EXPECT_EQ(ordered_nodes({{}, {1, -4, 2, -5, 3, -6}}), (std::vector{1, 2, 3, 4, 5, 6}));
-  EXPECT_FALSE(ordered_nodes({{}, {1, -4, 2, -5, 3}}));
-  EXPECT_FALSE(ordered_nodes({{}, {1, 2, 3, -4, -5, -6}}));
-  EXPECT_FALSE(ordered_nodes({{}, {1, 2, 3, 4, 5}}));
+  const auto nodes = [](std::vector<int> written) { return connectivity(written)->nodes; };
+  EXPECT_EQ(nodes({5, 6, 7}), (std::vector{5, 6, 7}));
+  EXPECT_EQ(nodes({1, -4, 2, -5, 3, -6}), (std::vector{1, 2, 3, 4, 5, 6}));
+  for (const std::vector<int>& wrong : std::vector<std::vector<int>>{{1, -4, 2, -5, 3},
+                                                                     {1, 2, 3, -4, -5, -6},
+                                                                     {1, 2, 3, 4, 5},
+                                                                     {1, 2, 3, 0, 4, 5},
+                                                                     {1, 2, 3, 4, 0, 5},
+                                                                     {1, -5, 2, -6, 3, -7, 0, 4},
+                                                                     {1, 2, 3, 0, 8, 9, 10, 0, 4},
+                                                                     {0}})
+    EXPECT_FALSE(connectivity(wrong));
 }
 
 }  // namespace

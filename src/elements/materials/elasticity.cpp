@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/materials/elasticity.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <array>
+
+namespace engrane::elements::materials {
+
+namespace {
+
+constexpr Eigen::Index first[6] = {0, 1, 2, 0, 1, 2}, second[6] = {0, 1, 2, 1, 2, 0};
+
+}  // namespace
+
+Elastic isotropic(double young, double poisson) {
+  return orthotropic({Vec3::Constant(young), Vec3::Constant(poisson), Vec3::Constant(young / (2 * (1 + poisson)))});
+}
+
+Elastic orthotropic(const Orthotropic& c) {
+  Elastic material;
+  material.compliance.diagonal() << c.young.cwiseInverse(), c.shear.cwiseInverse();
+  for (Eigen::Index i = 0; i < 3; ++i) {  // ν12 and ν23 belong to axes 1 and 2, ν13 to axes 1 and 3
+    const Eigen::Index a = i == 2 ? 0 : i, b = i == 2 ? 2 : i + 1;
+    material.compliance(a, b) = material.compliance(b, a) = -c.poisson[i] / c.young[a];
+  }
+  return material;
+}
+
+bool is_stable(const Elastic& material) { return Eigen::LLT<Moduli>(material.compliance).info() == Eigen::Success; }
+
+bool is_plane(const Elastic& material) {
+  constexpr double rounding = 1e-12;
+  return material.compliance.bottomLeftCorner<2, 4>().norm() <= rounding * material.compliance.norm() &&
+         material.expansion.tail<2>().norm() <= rounding * material.expansion.norm();
+}
+
+Elastic turned(const Elastic& material, const Mat3& axes) {
+  // column j: the components in space of the j-th unit strain along the axes of the material
+  Moduli strain;
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    Mat3 unit = Mat3::Zero();
+    unit(first[j], second[j]) = unit(second[j], first[j]) = j < 3 ? 1 : 0.5;
+    const Mat3 seen = axes * unit * axes.transpose();
+    for (Eigen::Index i = 0; i < 6; ++i) strain(i, j) = (i < 3 ? 1 : 2) * seen(first[i], second[i]);
+  }
+  return {strain * material.compliance * strain.transpose(), strain * material.expansion, material.density};
+}
+
+Elasticity law_of(Hypothesis hypothesis, const Elastic& material) {
+  Elasticity law{Moduli::Zero(), material.expansion, Voigt::Zero(), material.density};
+  if (hypothesis != Hypothesis::plane_stress) {
+    law.stiffness = Eigen::LLT<Moduli>(material.compliance).solve(Moduli::Identity());
+    return law;
+  }
+  constexpr std::array<Eigen::Index, 3> in_plane{0, 1, 3};
+  const Mat3 stiffness = Mat3(material.compliance(in_plane, in_plane)).inverse();
+  law.stiffness(in_plane, in_plane) = stiffness;
+  law.transverse(in_plane) = stiffness * material.compliance(in_plane, 2);
+  return law;
+}
+
+}  // namespace engrane::elements::materials

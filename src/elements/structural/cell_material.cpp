@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/structural/cell_material.hpp"
+
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+
+namespace engrane::elements::structural {
+
+namespace {
+
+using materials::Elastic;
+using materials::Hypothesis;
+
+Vec3 along_axes(const std::vector<double>& values) {
+  return values.size() == 3 ? Vec3(values[0], values[1], values[2]) : Vec3::Constant(values.empty() ? 0.0 : values.front());
+}
+
+/// The word of a deck begins the word of the language, with three letters or more.
+bool begins(std::string_view language, const std::string& word) { return word.size() >= 3 && begins_with_word(language, word); }
+
+std::optional<Elastic> isotropic_of(const deck::Record& record, const deck::MaterialCard& card, Hypothesis hypothesis,
+                                    Diagnostics& diagnostics) {
+  const double young = card.young.front(), poisson = card.poisson.front();
+  if (!card.shear.empty())
+    diagnostics.error(record.where("G"), "the shear modulus of an isotropic material follows from YT and NT",
+                      "leave G out, or give three values of YT, NT and G");
+  else if (!(poisson > -1 && poisson <= 0.5))
+    diagnostics.error(record.where("NT"), fmt::format("NT {} is not Poisson's ratio of an elastic material", poisson),
+                      "NT is above -1 and at most 0.5");
+  else if (poisson == 0.5 && hypothesis != Hypothesis::plane_stress)
+    diagnostics.error(record.where("NT"), "a material with NT 0.5 keeps its volume, which these cells cannot",
+                      "take NT below 0.5, such as 0.49");
+  else
+    return materials::isotropic(young, poisson);
+  return {};
+}
+
+std::optional<Elastic> orthotropic_of(const deck::Record& record, const deck::MaterialCard& card, Diagnostics& diagnostics) {
+  Elastic material = materials::orthotropic({along_axes(card.young), along_axes(card.poisson), along_axes(card.shear)});
+  if (materials::is_stable(material)) return material;
+  diagnostics.error(record.where("NT"),
+                    fmt::format("material {} would give energy away: its constants are of no elastic material", record.id),
+                    "NT holds ν12 ν23 ν13, with ν12² below E1/E2, ν23² below E2/E3 and ν13² below E1/E3");
+  return {};
+}
+
+}  // namespace
+
+std::optional<Elastic> elastic_of(const deck::Record& record, Hypothesis hypothesis, Diagnostics& diagnostics) {
+  const auto& card = *record.get<deck::MaterialCard>();
+  const std::size_t count = card.young.size();
+  std::optional<Elastic> material;
+  if (!begins("ELASTIC", card.behaviour) && !begins("ELASTIQUE", card.behaviour))
+    diagnostics.error(record.where("BEHA"), fmt::format("the behaviour \"{}\" is not in this version", card.behaviour),
+                      "there is \"ELASTIC\"");
+  else if (count == 0 || card.poisson.empty())
+    diagnostics.error(record.location, fmt::format("material {} of cells needs YT and NT", record.id),
+                      "Young's modulus YT and Poisson's ratio NT");
+  else if (count == 1 && card.poisson.size() == 1 && card.expansion.size() <= 1)
+    material = isotropic_of(record, card, hypothesis, diagnostics);
+  else if (count == 3 && card.poisson.size() == 3 && card.shear.size() == 3 && card.expansion.size() != 2)
+    material = orthotropic_of(record, card, diagnostics);
+  else
+    diagnostics.error(record.location, fmt::format("material {} is neither isotropic nor orthotropic", record.id),
+                      "one value of YT, NT and A, or three each of YT, NT (ν12 ν23 ν13), G (G12 G23 G13) and A");
+  if (!material) return {};
+  material->density = card.density.value_or(0);
+  material->expansion.head<3>() = along_axes(card.expansion);
+  return material;
+}
+
+}  // namespace engrane::elements::structural
