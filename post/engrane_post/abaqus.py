@@ -5,14 +5,15 @@ is passed over. Faces of a surface become cells of their own, as other programs 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from .errors import UserError
+from .raw_mesh import RawCells, RawMesh
 
 #: the node count that a type's number stands for, by the first letters of the types
 PLANE = {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"}
@@ -62,10 +63,8 @@ class _Found:
     spelling: dict[str, str] = field(default_factory=dict)
 
 
-def read(path: str | Path) -> Any:
-    """A meshio.Mesh with its sets."""
-    import meshio
-
+def read(path: str | Path) -> RawMesh:
+    """With its sets."""
     path, found = Path(path), _Found()
     sections = list(_sections(path, 0))
     parts = [s for s in sections if s.keyword in ("PART", "INSTANCE")]
@@ -97,9 +96,9 @@ def read(path: str | Path) -> Any:
     }
     for name, faces in found.surfaces.items():
         _add_surface(name, faces, found, blocks, cell_sets)
-    return meshio.Mesh(
+    return RawMesh(
         points,
-        blocks,
+        [RawCells(kind, nodes) for kind, nodes in blocks],
         point_sets={
             found.spelling[name]: rows(np.concatenate(members), f"*NSET {found.spelling[name]}")
             for name, members in found.node_sets.items()
@@ -141,7 +140,7 @@ def _among(labels: np.ndarray, members: list[np.ndarray]) -> np.ndarray:
     return np.flatnonzero(np.isin(labels, np.concatenate(members)))
 
 
-def _sections(path: Path, depth: int) -> Any:
+def _sections(path: Path, depth: int) -> Iterator[_Section]:
     if depth > 20:
         raise UserError(f"{path}: *INCLUDE goes round in a circle.")
     if not path.is_file():

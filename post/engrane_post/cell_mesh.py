@@ -133,7 +133,7 @@ def of_file(mesh: FileMesh, scale: float = 1.0, merge: float | None = None) -> C
         notes.append(f"{turned} of {main} cells are numbered inside out; they have been turned.")
     if folded:
         notes.append(
-            f"{count(folded, 'cells')} fold over themselves, the first is cell {first_folded}: mend the mesh."
+            f"cells that fold over themselves: {folded}, the first is cell {first_folded}; mend the mesh."
         )
     if dimension == 2:
         _stand_in_plane(out, path)
@@ -277,7 +277,7 @@ def _groups(
         )
     if between:
         out.notes.append(
-            f"{count(between, 'faces')} in groups lie between two cells; each counts as a face of the cell "
+            f"faces in groups that lie between two cells: {between}; each counts as a face of the cell "
             "with the lower number."
         )
 

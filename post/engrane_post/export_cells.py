@@ -13,6 +13,7 @@ from . import abaqus
 from .cells import BY_XDMF, Kind, runs
 from .errors import UserError
 from .mesh import Mesh, Step
+from .raw_mesh import meshio_library
 from .results import Field, Frame, Results
 
 #: endings of files for one frame
@@ -80,7 +81,8 @@ class Cells:
             )
             if values is not None:
                 rows = self.order if field.of_cells else self.used
-                (cells if field.of_cells else nodes)[name] = np.asarray(values, float)[rows]
+                values = np.asarray(values, float).reshape(len(values), -1)[rows]
+                (cells if field.of_cells else nodes)[name] = values if values.shape[1] > 1 else values[:, 0]
         return nodes, cells
 
     def by_block(self, values: np.ndarray) -> list[np.ndarray]:
@@ -153,8 +155,7 @@ def write_frame(cells: Cells, frame: Frame, path: Path) -> list[str]:
 def _by_meshio(
     cells: Cells, nodes: dict[str, np.ndarray], own: dict[str, np.ndarray], path: Path
 ) -> list[str]:
-    import meshio
-
+    meshio = meshio_library()
     suffix, fields = path.suffix.lower(), cells.result.fields
     held = HELD.get(suffix)
     left = [] if held else sorted([*nodes, *own])

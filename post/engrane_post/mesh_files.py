@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from .cells import dimension_of
+from .cells import BY_NAME, dimension_of
 from .errors import UserError
+from .raw_mesh import meshio_library
 
 #: numbers of parts or groups that readers hand over with the cells, and what a group without a name is called
 TAGS = {
@@ -50,9 +51,8 @@ class FileMesh:
 
 
 def open_mesh(path: str | Path) -> Any:
-    """The meshio.Mesh of a file."""
-    import meshio
-
+    """The mesh of a file as meshio has it."""
+    meshio = meshio_library()
     if not Path(path).is_file():
         raise UserError(f"There is no file {path}.")
     try:
@@ -84,6 +84,10 @@ def read(path: str | Path) -> FileMesh:
         bad = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
         raise UserError(f"{path}: the coordinates of node {bad + 1} are not numbers.")
     blocks = [(b.type, np.asarray(b.data)) for b in source.cells]
+    if Path(path).suffix.lower() == ".med":  # the base of a solid runs the other way round than in VTK
+        blocks = [
+            (n, t[:, BY_NAME[n].mirror] if dimension_of(n) == 3 and n in BY_NAME else t) for n, t in blocks
+        ]
     mesh = FileMesh(Path(path), points, blocks)
     for name, members in source.cell_sets.items():
         if not name.startswith("gmsh:") and len(members) == len(blocks):

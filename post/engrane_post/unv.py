@@ -8,12 +8,12 @@ round the top."""
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from .cells import BY_NAME, alike
 from .errors import UserError
+from .raw_mesh import RawCells, RawMesh
 
 # finite element descriptors
 NAMES = {
@@ -35,10 +35,8 @@ GROUPS = ("2435", "2452", "2467", "2477")
 NODE, ELEMENT = 7, 8
 
 
-def read(path: str | Path) -> Any:
-    """A meshio.Mesh with its groups as sets of cells and of points."""
-    import meshio
-
+def read(path: str | Path) -> RawMesh:
+    """With its groups as sets of cells and of points."""
     sets: dict[str, list[list[str]]] = {}
     for number, lines in _datasets(Path(path).read_text(encoding="latin-1")):
         sets.setdefault(number, []).append(lines)
@@ -57,7 +55,7 @@ def read(path: str | Path) -> Any:
         wanted = members[members[:, 0] == ELEMENT, 1]
         if len(wanted):
             cell_sets[name] = [np.flatnonzero(np.isin(n, wanted)) for n in names]
-    return meshio.Mesh(points, blocks, point_sets=point_sets, cell_sets=cell_sets)
+    return RawMesh(points, blocks, point_sets=point_sets, cell_sets=cell_sets)
 
 
 class _Rows:
@@ -94,10 +92,10 @@ def _nodes(lines: list[str]) -> tuple[np.ndarray, np.ndarray]:
     return labels, np.array(numbers, float).reshape(-1, 3)
 
 
-def _cells(lines: list[str], row_of: _Rows, path: str | Path) -> tuple[list[Any], list[np.ndarray]]:
+def _cells(lines: list[str], row_of: _Rows, path: str | Path) -> tuple[list[RawCells], list[np.ndarray]]:
     """Blocks of cells and the labels of their cells."""
     data = np.array(" ".join(lines).split(), np.int64)
-    blocks: list[Any] = []
+    blocks: list[RawCells] = []
     names: list[np.ndarray] = []
     at = 0
     while at + 6 <= len(data):
@@ -116,7 +114,7 @@ def _cells(lines: list[str], row_of: _Rows, path: str | Path) -> tuple[list[Any]
             nodes = nodes[:, place]
         elif name == "line3":
             nodes = nodes[:, [0, 2, 1]]
-        blocks.append((name, nodes))
+        blocks.append(RawCells(name, nodes))
         names.append(table[:, 0])
     return blocks, names
 

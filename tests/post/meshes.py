@@ -8,6 +8,9 @@ from pathlib import Path
 
 import meshio
 import numpy as np
+from engrane_post.raw_mesh import meshio_library
+
+meshio_library()  # knows wedges of 15 nodes now
 
 TRIANGLE = np.array([[0, 0, 0], [2, 0, 0], [0, 1, 0]], float)
 SQUARE = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], float)
