@@ -169,6 +169,9 @@ def _by_meshio(
             name: cells.by_block(values)
             for name, values in ({"element": cells.cell_ids.astype(float)} | own).items()
         }
+    if suffix == ".msh":  # of every cell two numbers are wanted: of its group and of its part
+        for name in ("gmsh:physical", "gmsh:geometrical"):
+            mesh.cell_data[name] = [np.ones(len(t), int) for _, t in tables]
     if suffix == ".med":
         mesh.field_data["med:nom"] = [
             [c[:16] for c in fields[n].components] if n in fields and fields[n].components else [n[:16]]

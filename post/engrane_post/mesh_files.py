@@ -33,6 +33,8 @@ TAGS = {
     "part": "part",
 }
 HINTS = {
+    "Incompatible cell data. Cell block": "it holds fields over its cells, which meshio cannot sort: "
+    "write the mesh alone",
     "Incompatible cell data 'gmsh:physical'": "some cells are in no physical group: save the mesh without "
     "'Save all elements', or with all of them in groups",
 }
@@ -110,7 +112,7 @@ def _tagged_cells(source: Any, mesh: FileMesh) -> None:
     names = {
         (int(v[0]), int(v[1])): name
         for name, v in source.field_data.items()
-        if np.size(v) == 2 and np.issubdtype(np.asarray(v).dtype, np.integer)
+        if len(v) == 2 and all(isinstance(n, int | np.integer) for n in v)
     }
     for key, word in TAGS.items():
         if key not in data or (key == "gmsh:physical" and mesh.cell_groups and not names):
