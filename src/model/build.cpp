@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <array>
 #include <unordered_map>
 #include <utility>
@@ -55,7 +56,7 @@ class Builder {
                      [](const Model::Part& a, const Model::Part& b) { return a.element->id() < b.element->id(); });
     int number = model_.parts.empty() ? 0 : model_.parts.back().element->id();
     for (const ElementRecord& element : elements_)
-      if (!is_numbered(element)) add_element(element, ++number);
+      if (!is_numbered(element)) number += add_element(element, number + 1);
     for (const deck::Record* record : initial_elements_) add_initial_coordinate(*record);
     add_loads();
     model_.nodes = nodes_.release();
@@ -407,26 +408,32 @@ class Builder {
                                           card.values.front() * (degrees ? degree : 1), velocity, record.location});
   }
 
-  void add_element(const ElementRecord& element, int number) {
+  /// How many elements came of the record.
+  int add_element(const ElementRecord& element, int number) {
     const deck::Record& record = *element.record;
-    if (!check_references(record, diagnostics_)) return;
+    if (!check_references(record, diagnostics_)) return 0;
     const std::string& name = element.type->schema.name;
     const bool command = name.front() == '.';
-    if (command && taken(number, record)) return;
+    if (command && taken(number, record)) return 0;
     BuildContext context = context_of(record, diagnostics_);
     context.number = number;
-    auto built = element.type->build(context);
+    std::vector<std::unique_ptr<Element>> all(1), more;
+    context.more = &more;
+    all.front() = element.type->build(context);
     if (BuildContext::Found* one = element.type->stage == 0 && others_are_asked_for_ ? find_in_mechanism(record.id) : nullptr) {
-      one->element = built.get();
-      one->faulty = !built;
+      one->element = all.front().get();
+      one->faulty = !all.front();
     }
+    if (!all.front()) return 0;
+    std::move(more.begin(), more.end(), std::back_inserter(all));
     const std::string_view key = element.type->schema.key();
-    if (built)
+    for (std::unique_ptr<Element>& built : all)
       model_.parts.push_back({std::move(built),
                               key.empty() || !command ? name.substr(command ? 1 : 0) : std::string(key),
                               &record,
                               record.location,
                               {}});
+    return static_cast<int>(all.size());
   }
 
   BuildContext::Found* find_in_mechanism(int id) {

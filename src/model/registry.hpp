@@ -60,6 +60,8 @@ struct BuildContext {
   int number = 0;
   std::set<const Function*>* of_time = nullptr;  ///< functions of time that elements use; nullptr: nobody asks
   const Temperatures* temperatures = nullptr;    ///< of nodes (`.CLM TEMP`); nullptr: there are none
+  /// What a record without a number of its own makes beyond the element that it gives back, numbered on from `number`.
+  std::vector<std::unique_ptr<Element>>* more = nullptr;
 
   /// The function a keyword names, or nullptr with an error when it does not exist.
   const Function* function(int id, std::string_view keyword) const;
