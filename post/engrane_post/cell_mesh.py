@@ -87,7 +87,10 @@ def of_file(mesh: FileMesh, scale: float = 1.0, merge: float | None = None) -> C
         (dimension_of(name) for name, nodes in blocks if len(nodes) and name in BY_NAME), default=0
     )
     if dimension == 0:
-        found = ", ".join(_counted(name, len(nodes)) for name, nodes in blocks if len(nodes)) or "no cells"
+        every: dict[str, int] = {}
+        for name, nodes in blocks:
+            every[name] = every.get(name, 0) + len(nodes)
+        found = ", ".join(_counted(name, k) for name, k in every.items() if k) or "no cells"
         raise UserError(
             f"{path} has nothing that a deck can take: {found}. Cells are triangles and quadrilaterals of "
             "a plane, tetrahedra, wedges and hexahedra, of first or second order."

@@ -40,6 +40,9 @@ HINTS = {
 }
 
 
+NASTRAN = (".bdf", ".fem", ".nas")
+
+
 @dataclass
 class FileMesh:
     """A mesh as its file has it: points (n x 3), cells by meshio's names of their kinds, and groups: which
@@ -63,10 +66,10 @@ def open_mesh(path: str | Path) -> Any:
             from . import abaqus, unv
 
             return (unv if suffix == ".unv" else abaqus).read(path)
-        with (
-            np.errstate(over="ignore"),
-            redirect_stdout(StringIO()),
-        ):  # its guess whether an STL is binary may overflow
+        # its guess whether an STL is binary may overflow; it writes empty lines
+        with np.errstate(over="ignore"), redirect_stdout(StringIO()):
+            if suffix in NASTRAN:
+                return meshio.read(_bulk_data(Path(path)), file_format="nastran")
             return meshio.read(path)
     except UserError:
         raise
@@ -74,6 +77,12 @@ def open_mesh(path: str | Path) -> Any:
         reason = str(error) or type(error).__name__
         hint = next((h for sign, h in HINTS.items() if sign in reason), reason)
         raise UserError(f"{path} is no mesh that can be read ({hint}).") from None
+
+
+def _bulk_data(path: Path) -> StringIO:
+    """Of a Nastran file, which other programs also write without the line that begins it."""
+    text = path.read_text(encoding="latin-1")
+    return StringIO(text if "BEGIN BULK" in text.upper() else f"BEGIN BULK\n{text}")
 
 
 def read(path: str | Path) -> FileMesh:
