@@ -90,7 +90,9 @@ def selected(result: Results, args: argparse.Namespace) -> Frame:
 
 def enlarged(frame: Frame, factor: float) -> Frame:
     """The frame with displacements and rotations so many times as large."""
-    return replace(frame, displacement=factor * frame.displacement, rotation=factor * frame.rotation)
+    return replace(
+        frame, displacement=factor * frame.displacement, rotation=factor * frame.rotation, factor=factor
+    )
 
 
 def run(args: argparse.Namespace) -> None:

@@ -58,6 +58,7 @@ class Frame:
     displacement: np.ndarray
     rotation: np.ndarray
     index: int | None = None
+    factor: float = 1.0  # displacements are shown so many times as large
 
 
 @dataclass(frozen=True)

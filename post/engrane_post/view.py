@@ -143,8 +143,9 @@ def write(plotter: pv.Plotter, text: str, place: tuple[float, float], name: str)
 
 
 def caption(result: Results, frame: Frame) -> str:
-    """`t = 0.0125 s`, or that this is the reference."""
+    """`t = 0.0125 s`, or that this is the reference, and how much displacements are enlarged."""
     if frame.time is None:
         return "reference"
     unit = result.time_unit
-    return f"t = {frame.time:.6g} {'' if unit.startswith('[') else unit}".strip()
+    time = f"t = {frame.time:.6g} {'' if unit.startswith('[') else unit}".strip()
+    return time if frame.factor == 1 else f"{time}, displacements x {frame.factor:g}"

@@ -131,9 +131,12 @@ def test_picture_of_solids(command, tmp_path: Path) -> None:
 def test_deformed(command, tmp_path: Path) -> None:
     from engrane_post.picture import enlarged
     from engrane_post.scene import Scene
+    from engrane_post.view import caption
 
     with Results(row_of_cells(tmp_path / "row.h5")) as result:
         scene, frame = Scene(result), result.frame(-1)
+        assert caption(result, frame) == "t = 1 s"
+        assert caption(result, enlarged(frame, 50)) == "t = 1 s, displacements x 50"
         once, more = (scene.positions(f)[13] - result.points[1] for f in (frame, enlarged(frame, 50)))
     assert np.abs(once).max() > 0 and more == pytest.approx(50 * once)
     assert command("picture", tmp_path / "row.h5", "--deformed", "nan", "-o", tmp_path / "a.png")[0] == 1
