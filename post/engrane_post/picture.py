@@ -12,6 +12,7 @@ from . import options
 from .errors import UserError
 from .results import Frame, Results
 
+BAR = 0.15  # of the width, for the colours of a field
 EXAMPLES = """  engrane picture run                          the last frame
   engrane picture run --time 0.01 -o run.png
   engrane picture run --both                   before and after, side by side
@@ -139,18 +140,28 @@ def picture(
     """Draws the frames side by side; `bare` leaves the time out and the background white."""
     from . import view
     from .graphics import pv
-    from .scene import Scene, Stage
+    from .scene import Scene, Stage, limits_of
 
     scene = Scene(result)
+    limits = None
+    if field:  # views beside each other share the bar of the first
+        drawn = [item.cells for item in scene.items if item.cells is not None]
+        fields = [result.cell_field(field, f.index) for f in frames if f.index is not None]
+        shown = [values[cells] for values in fields for cells in drawn]
+        limits = limits_of([*shown, np.zeros(len(frames) - len(fields))])
     pixel_size = pixels(size, (1800, 900) if len(frames) > 1 else (1400, 1000))
     plotter = pv.Plotter(off_screen=True, shape=(1, len(frames)), window_size=pixel_size, border=False)
+    stages = []
+    for i in range(len(frames)):  # first all: a bar of the same name changes the colours of those before
+        plotter.subplot(0, i)
+        stages.append(Stage(scene, plotter, field=field, limits=limits))
     for i, frame in enumerate(frames):
         plotter.subplot(0, i)
-        Stage(scene, plotter, field=field).show(frame)
+        stages[i].show(frame)
         view.dress(plotter, title if i == 0 else "", "" if bare else view.caption(result, frame))
         if bare:
             plotter.set_background("white")
-        view.aim(plotter, scene, frames, view_from, zoom, upward)
+        view.aim(plotter, scene, frames, view_from, zoom, upward, BAR if field else 0.0)
         plotter.enable_anti_aliasing("ssaa")
     plotter.screenshot(path)
     plotter.close()

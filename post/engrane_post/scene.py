@@ -422,11 +422,20 @@ class Scene:
 
 
 class Stage:
-    """A scene put into one view of a plotter; `show` moves it to a frame."""
+    """A scene put into one view of a plotter; `show` moves it to a frame. `limits`: of the colours of the
+    field, those of what is shown unless given."""
 
-    def __init__(self, scene: Scene, plotter: pv.Plotter, opacity: float = 1.0, field: str = "") -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        plotter: pv.Plotter,
+        opacity: float = 1.0,
+        field: str = "",
+        limits: tuple[float, float] | None = None,
+    ) -> None:
         self.scene = scene
         self.field = field
+        self.limits = limits
         self.actors = []
         for item in scene.items:
             mesh = item.mesh.copy()
@@ -446,12 +455,13 @@ class Stage:
                 # Splitting edges would make a copy whose points no longer follow.
                 look["split_sharp_edges"] = False
             if field and item.cells is not None:
-                bar = dict(vertical=True, position_x=0.045, position_y=0.25, height=0.5, color="black")
-                bar["title"] = f"{field} {scene.result.cell_field_unit(field)}".strip()
+                bar = dict(vertical=True, position_x=0.05, position_y=0.25, height=0.5, color="black")
+                bar["title"] = f"{field}\n{scene.result.cell_field_unit(field)}".strip()
                 del look["color"]
                 mesh.cell_data[field] = np.zeros(mesh.n_cells)
                 # without lights colours are those of the bar
                 look.update(scalars=field, cmap="viridis", scalar_bar_args=bar, lighting=False)
+                look.update(ambient=0.0, diffuse=1.0, specular=0.0)
             self.actors.append((item, mesh, plotter.add_mesh(mesh, **look)))
 
     def show(self, frame: Frame) -> None:
@@ -474,5 +484,11 @@ class Stage:
             values = self.scene.result.cell_field(self.field, frame.index)[numbers]
         mesh.cell_data[self.field] = values
         mesh.set_active_scalars(self.field, "cell")
-        low, high = float(np.nanmin(values)), float(np.nanmax(values))
+        low, high = self.limits or limits_of([values])
         actor.mapper.scalar_range = (low, high if high > low else low + 1.0)
+
+
+def limits_of(values: list[np.ndarray]) -> tuple[float, float]:
+    """Least and largest of all that are numbers."""
+    known = np.concatenate([v[np.isfinite(v)] for v in values])
+    return (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)

@@ -128,6 +128,51 @@ def test_picture_of_solids(command, tmp_path: Path) -> None:
         assert item.mesh.n_cells == 4 + 2 * (4 + 5 + 6)
 
 
+def test_colours_mean_the_same(tmp_path: Path) -> None:
+    """Before and after share a bar: nothing before is not the least of after."""
+    import pyvista as pv
+    from engrane_post.scene import Scene, Stage, limits_of
+
+    assert limits_of([np.array([3.0, np.nan, -2.0]), np.zeros(1)]) == (-2, 3)
+    assert limits_of([np.array([np.nan])]) == (0, 0)
+    with Results(row_of_cells(tmp_path / "row.h5")) as result:
+        plotter = pv.Plotter(off_screen=True)
+        stage = Stage(Scene(result), plotter, field="VON_MISES", limits=(-5.0, 300.0))
+        for frame in (result.reference(), result.frame(-1)):
+            stage.show(frame)
+            (actor,) = (a for item, _, a in stage.actors if item.cells is not None)
+            assert actor.mapper.scalar_range == (-5, 300)
+        plotter.close()
+
+
+def test_colour_before(command, tmp_path: Path) -> None:
+    """Stresses from -100 to 100: the zero of the undeformed cell is in the middle of the bar, green."""
+    from PIL import Image
+
+    path = models.write(
+        tmp_path / "m.h5",
+        {i + 1: tuple(x) for i, x in enumerate(2 * meshes.SQUARE)} | {5: (8, 0, 0), 6: (8, 2, 0)},
+        [],
+        np.array([0.0]),
+        np.zeros((1, 6, 3)),
+        cells=[(5, [0, 1, 2, 3], 1), (5, [1, 4, 5, 2], 2)],
+    )
+    with h5py.File(path, "a") as f:
+        group = f.create_group("fields/S")
+        group.attrs.update(center="Cell", unit="Pa")
+        group["000000"] = np.array([[-100.0], [100.0]])
+    words = ("--field", "S", "--both", "--title", "", "--size", "800x300", "-o", tmp_path / "m.png")
+    assert command("picture", path, *words) == (0, f"wrote {tmp_path / 'm.png'}\n", "")
+    image = np.asarray(Image.open(tmp_path / "m.png").convert("RGB")).astype(int)
+
+    def share(view: slice, color: tuple[int, int, int]) -> float:
+        return float((np.abs(image[:, view] - color).max(axis=2) < 12).mean())
+
+    middle, least, most = (33, 145, 140), (68, 1, 84), (253, 231, 37)  # of viridis
+    assert share(slice(90, 400), middle) > 0.1 > 0.01 > share(slice(90, 400), least)
+    assert min(share(slice(490, 800), c) for c in (least, most)) > 0.05
+
+
 def test_deformed(command, tmp_path: Path) -> None:
     from engrane_post.picture import enlarged
     from engrane_post.scene import Scene
