@@ -17,7 +17,7 @@ from .raw_mesh import meshio_library
 from .results import Field, Frame, Results
 
 #: endings of files for one frame
-FILES = (".vtu", ".vtk", ".med", ".msh", ".inp", ".bdf", ".su2", ".mesh")
+FILES = (".vtu", ".vtk", ".med", ".msh", ".inp", ".bdf")
 #: endings of files for many
 SERIES = (".vtkhdf", ".pvd")
 HELD = {".vtu": "all", ".vtk": "all", ".med": "all", ".msh": "some"}  # fields; the others hold none

@@ -311,6 +311,13 @@ def test_inp(command, tmp_path: Path) -> None:
     assert any(line.startswith("101, 13, 15, 17") for line in lines)
 
 
+def test_bdf(command, tmp_path: Path) -> None:
+    path = row_of_cells(tmp_path / "row.h5")
+    status, out, _ = command("export", path, "--mesh", tmp_path / "out.bdf")
+    assert status == 0 and "left out: STRESS, VON_MISES, displacement" in out
+    check_solids(tmp_path / "out.bdf")
+
+
 @pytest.mark.parametrize("name", ["out.vtkhdf", "out.pvd"])
 def test_series(name: str, command, tmp_path: Path) -> None:
     """All frames, fields of nodes and of cells changing with them."""
