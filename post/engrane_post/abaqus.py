@@ -168,15 +168,8 @@ def _sections(path: Path, depth: int) -> Iterator[_Section]:
 def _take(section: _Section, found: _Found, path: Path) -> None:
     p = section.parameters
     if section.keyword == "NODE" and section.lines:
-        width = section.lines[0].rstrip().rstrip(",").count(",") + 1
-        # missing coordinates are zero; rows of different length are read one by one
-        table = [s.rstrip().rstrip(",").split(",") for s in section.lines]
-        rows = np.array(
-            table if all(len(r) == width for r in table) else [[*r, *["0"] * (4 - len(r))][:4] for r in table]
-        )
-        coordinates = np.zeros((len(rows), 3))
-        coordinates[:, : min(rows.shape[1], 4) - 1] = rows[:, 1:4].astype(float)
-        found.labels.append(rows[:, 0].astype(np.int64))
+        labels, coordinates = _nodes(section.lines)
+        found.labels.append(labels)
         found.points.append(coordinates)
         _into(found, found.node_sets, p.get("NSET"), [found.labels[-1]])
     elif section.keyword == "ELEMENT" and section.lines:
@@ -201,6 +194,17 @@ def _take(section: _Section, found: _Found, path: Path) -> None:
         found.surfaces.setdefault(p["NAME"].upper(), []).extend(
             (r[0].upper(), r[1].upper()) for r in rows if len(r) > 1
         )
+
+
+def _nodes(lines: list[str]) -> tuple[np.ndarray, np.ndarray]:
+    """Labels and coordinates; those that a line lacks are zero."""
+    flat = ",".join(lines).replace(",", " ").split()
+    if len(flat) == 4 * len(lines) and all(line.count(",") in (3, 4) for line in lines):
+        table = np.array(flat, float).reshape(-1, 4)
+    else:
+        rows = [[w.strip() or "0" for w in line.split(",")] for line in lines]
+        table = np.array([[*row, "0", "0", "0"][:4] for row in rows], float)
+    return table[:, 0].astype(np.int64), table[:, 1:]
 
 
 def _into(found: _Found, sets: dict[str, list[np.ndarray]], name: str | None, more: list[np.ndarray]) -> None:

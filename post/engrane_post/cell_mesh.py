@@ -81,7 +81,8 @@ def of_file(mesh: FileMesh, scale: float = 1.0, merge: float | None = None) -> C
     one = np.arange(len(points))
     if merge is not None and len(points):
         one, joined = merged(points, merge)
-        notes.append(f"{count(joined, 'nodes')} of {len(points)} joined with others at their place.")
+        said = f"{count(joined, 'nodes')} of {len(points)}" if joined else "No nodes"
+        notes.append(f"{said} joined with others at their place.")
     blocks = [(name, one[nodes]) for name, nodes in mesh.blocks]
     dimension = max(
         (dimension_of(name) for name, nodes in blocks if len(nodes) and name in BY_NAME), default=0

@@ -27,6 +27,10 @@ TAGS = {
     "su2:tag": "tag",
     "mdpa:property": "property",
     "cellentityids": "entity",
+    "materialids": "material",
+    "physicalids": "physical",
+    "groupids": "group",
+    "partids": "part",
     "material": "material",
     "group": "group",
     "region": "region",
@@ -124,9 +128,7 @@ def _tagged_cells(source: Any, mesh: FileMesh) -> None:
         if len(v) == 2 and all(isinstance(n, int | np.integer) for n in v)
     }
     for key, word in TAGS.items():
-        if key not in data or (key == "gmsh:physical" and mesh.cell_groups and not names):
-            continue
-        for b, tags in enumerate(data[key]):
+        for b, tags in enumerate(data.get(key, ())):
             tags = np.asarray(tags)
             if tags.ndim != 1 or not np.issubdtype(tags.dtype, np.integer):
                 continue

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from engrane_post import Results
 from engrane_post.cells import BY_NAME, BY_XDMF, outer_faces, runs
+from engrane_post.surfaces import KINDS
 
 CODES = {"triangle": 4, "quad": 5, "tetra": 6, "wedge": 8, "hexahedron": 9, "triangle6": 36, "quad8": 37}
 CODES |= {"tetra10": 38, "wedge15": 40, "hexahedron20": 48}
@@ -316,6 +317,24 @@ def test_bdf(command, tmp_path: Path) -> None:
     status, out, _ = command("export", path, "--mesh", tmp_path / "out.bdf")
     assert status == 0 and "left out: STRESS, VON_MISES, displacement" in out
     check_solids(tmp_path / "out.bdf")
+
+
+def test_surfaces(command, tmp_path: Path) -> None:
+    """What is drawn of cells moves with them in the surfaces of `engrane export` without --mesh."""
+    from test_export import grids
+
+    path = row_of_cells(tmp_path / "row.h5")
+    assert command("export", path, "-o", tmp_path / "out", "--no-forces")[0] == 0
+    _, found = grids(tmp_path / "out.vtkhdf")
+    with Results(path) as result:
+        for k, grid in enumerate(found):
+            places = result.points + result.frame(k).displacement
+            part = grid.cell_data["part"]
+            assert set(grid.cell_data["kind"]) == {KINDS.index("cell")}  # the bar, the cells
+            cells = grid.extract_cells(np.flatnonzero(part == part.max()))
+            assert cells.n_cells == 4 + 2 * (4 + 5 + 6)
+            near = np.abs(places[None] - np.asarray(cells.points, float)[:, None]).max(axis=2).min(axis=1)
+            assert near.max() < 1e-5
 
 
 @pytest.mark.parametrize("name", ["out.vtkhdf", "out.pvd"])

@@ -332,6 +332,20 @@ def test_surfaces_of_abaqus(kind: str, tmp_path: Path) -> None:
     assert faces == {f"S{k}": [[1, own]] for k, own in enumerate(order, 1)}
 
 
+def test_nodes_of_abaqus() -> None:
+    """Coordinates that a line lacks are zero, also where the numbers happen to be as many."""
+    from engrane_post.abaqus import _nodes
+
+    for lines, wanted in (
+        (["1, 2., 3.", "2, 4."], [[2, 3, 0], [4, 0, 0]]),
+        (["1, 2., 3.,", "2, , 4.,"], [[2, 3, 0], [0, 4, 0]]),
+        (["1, 2., 3., 4.", " 2,5.,6.,7.,"], [[2, 3, 4], [5, 6, 7]]),
+        (["1, 2., 3.", "2, 4., 5., 6., 7."], [[2, 3, 0], [4, 5, 6]]),
+    ):
+        labels, points = _nodes(lines)
+        assert labels.tolist() == [1, 2] and points.tolist() == wanted
+
+
 def test_faults_of_abaqus(command, tmp_path: Path) -> None:
     file = tmp_path / "mesh.inp"
     for text, said in (
