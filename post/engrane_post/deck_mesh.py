@@ -116,9 +116,7 @@ def template(mesh: CellMesh) -> str:
     else:
         lines += [f" NOEUD 1 FIX C {held}"]
     if faces:
-        cell, face = faces[0].members[0]
-        word = "FACE" if solid else "ARETE"
-        lines += [f" {word} I {cell} {face} PRE V 1000.       ! one face; positive presses on the cell"]
+        lines += [f' GROUP "{faces[-1].name}" PRE V 1000.   ! positive presses on the cells']
     lines += [
         f"! Elements of .MCE take numbers from {last + 1} on, further nodes from {len(mesh.points) + 1} on.",
         ".SAI FIELDS DT 0.01",

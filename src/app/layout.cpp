@@ -33,7 +33,7 @@ output::ResultsLayout results_layout(const Reading& reading, const observe::Obse
   }
   for (const Model::Part& part : model.parts) {
     if (!has_cell(part)) continue;
-    output::Cell cell{{}, part.element->id(), part.element->cell_shape() != CellShape::none};
+    output::Cell cell{{}, part.element->id(), part.element->cell_shape()};
     for (const int node : part.nodes)
       if (node > 0 && std::find(cell.points.begin(), cell.points.end(), node - 1) == cell.points.end())
         cell.points.push_back(node - 1);

@@ -43,10 +43,6 @@ class Block {
   virtual bool applied(std::size_t /*e*/, const State& /*state*/, std::span<double> /*forces*/) const { return false; }
   virtual CellShape cell_shape() const { return CellShape::none; }
   virtual bool in_mesh() const { return true; }
-  virtual int field_group(std::size_t /*e*/) const { return 0; }
-  virtual double recovery_error(std::size_t /*e*/, const State& /*state*/, std::span<const double> /*averages*/) const {
-    return 0;
-  }
   virtual bool is_body() const { return false; }
   virtual bool is_linear(std::size_t) const { return false; }
   virtual Mat3 inertia_at(std::size_t e, int node) const;
@@ -88,10 +84,6 @@ class BlockMember final : public Element {
   bool applied(const State& state, std::span<double> forces) const override { return block_->applied(index_, state, forces); }
   CellShape cell_shape() const override { return block_->cell_shape(); }
   bool in_mesh() const override { return block_->in_mesh(); }
-  int field_group() const override { return block_->field_group(index_); }
-  double recovery_error(const State& state, std::span<const double> averages) const override {
-    return block_->recovery_error(index_, state, averages);
-  }
   bool is_body() const override { return block_->is_body(); }
   bool is_linear() const override { return block_->is_linear(index_); }
   Mat3 inertia_at(int node) const override { return block_->inertia_at(index_, node); }

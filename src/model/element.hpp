@@ -50,7 +50,6 @@ struct Field : Named {
   Place place = Place::element;
   std::vector<std::string> components = {};  ///< `XX`, `YY`, `XY`; none: a scalar
   int points = 1;                            ///< of Place::point: how many an element has
-  bool averaged = false;                     ///< of Place::node: shown as means over the elements of a group that share a node
 
   /// How many numbers it has on an element of so many nodes.
   std::size_t size(std::size_t nodes) const {
@@ -291,11 +290,6 @@ class Element {
   virtual CellShape cell_shape() const { return CellShape::none; }
   /// Whether something stands for the element in the mesh of the results; a pressure is there as part of its cell.
   virtual bool in_mesh() const { return true; }
-  /// Fields that are averaged at nodes (Field::averaged) jump between elements of different groups: those of other material.
-  virtual int field_group() const { return 0; }
-  /// Energy norm, squared, of the difference between its stresses and those that the averages at its nodes interpolate
-  /// (Zienkiewicz and Zhu 1987, Int. J. Numer. Methods Eng. 24); `averages`: of its first averaged field, a row for each node.
-  virtual double recovery_error(const State& /*state*/, std::span<const double> /*averages*/) const { return 0; }
 
   /// Inertia tensor that the element gives to one of its nodes, about the node, in reference (global) components.
   virtual Mat3 inertia_at(int node) const;

@@ -27,6 +27,35 @@ hsize_t even_pieces(hsize_t total, hsize_t most) {
 
 std::string table_place(const HistoryTable& table) { return "history/" + table.path; }
 
+/// Of the cells of XDMF 3.
+std::int32_t xdmf_code(CellShape shape) {
+  switch (shape) {
+    case CellShape::triangle:
+      return 4;
+    case CellShape::triangle6:
+      return 36;
+    case CellShape::quadrilateral:
+      return 5;
+    case CellShape::quadrilateral8:
+      return 37;
+    case CellShape::tetrahedron:
+      return 6;
+    case CellShape::tetrahedron10:
+      return 38;
+    case CellShape::wedge:
+      return 8;
+    case CellShape::wedge15:
+      return 40;
+    case CellShape::hexahedron:
+      return 9;
+    case CellShape::hexahedron20:
+      return 48;
+    case CellShape::none:
+      break;
+  }
+  return 2;
+}
+
 std::string frame_name(std::size_t index) { return fmt::format("{:06}", index); }
 
 }  // namespace
@@ -44,7 +73,7 @@ std::size_t Batch::bytes() const {
 }
 
 MixedTopology mixed_topology(const ResultsLayout& layout) {
-  constexpr std::int32_t polyline = 2, triangle = 4, quadrilateral = 5, triangle6 = 36, quadrilateral8 = 37;
+  constexpr std::int32_t polyline = 2;
   MixedTopology topology;
   // A vertex has no type code that all readers take the same way, and some take no polyline of more than two points.
   const auto line = [&](int a, int b, int element) {
@@ -54,8 +83,8 @@ MixedTopology mixed_topology(const ResultsLayout& layout) {
   for (std::size_t c = 0; c < layout.cells.size(); ++c) {
     const Cell& cell = layout.cells[c];
     const std::size_t n = cell.points.size();
-    if (cell.surface && (n == 3 || n == 4 || n == 6 || n == 8)) {
-      topology.data.push_back(n == 3 ? triangle : n == 4 ? quadrilateral : n == 6 ? triangle6 : quadrilateral8);
+    if (cell.shape != CellShape::none) {
+      topology.data.push_back(xdmf_code(cell.shape));
       topology.data.insert(topology.data.end(), cell.points.begin(), cell.points.end());
       topology.elements.push_back(cell.element);
     } else if (n == 1) {

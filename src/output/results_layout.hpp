@@ -29,9 +29,9 @@ struct HistoryTable {
 /// What stands for (a part of) an element in the mesh: a point, a polyline, a triangle or a quadrilateral, these also with
 /// mid-side nodes behind their corners.
 struct Cell {
-  std::vector<int> points;  ///< 0-based places in ResultsLayout::points
-  int element = 0;          ///< id
-  bool surface = false;     ///< three, four, six or eight points are a face, not a line
+  std::vector<int> points;            ///< 0-based places in ResultsLayout::points
+  int element = 0;                    ///< id
+  CellShape shape = CellShape::none;  ///< of a cell of a mesh; none: the points stand on a line
 };
 
 /// A field over the cells, beside those over the nodes.

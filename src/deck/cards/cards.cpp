@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/cards/cards.hpp"
 
+#include <fmt/format.h>
+
 #include <iterator>
 #include <utility>
 
@@ -111,8 +113,7 @@ Schema group_card() {
   card.finish([](GroupCard& group, Record& record, Diagnostics& diagnostics) {
     group.number = record.id;
     if (group.kind.is("FACES")) {
-      group.faces = std::exchange(group.ids, {});
-      if (group.faces.empty() || group.faces.size() % 2 != 0 || group.all || !group.box.empty() || group.attribute)
+      if (group.ids.empty() || group.ids.size() % 2 != 0 || group.all || !group.box.empty() || group.attribute)
         diagnostics.error(record.location, "group " + std::to_string(record.id) + " of faces needs pairs of numbers",
                           "a row `I 57 3` for each: the number of a cell, then that of its face");
       return;
@@ -133,25 +134,36 @@ Schema material_card() {
   card.chapter(model_chapter).numbered();
   card.add("NOM", &MaterialCard::name, "name").synonyms({"NAME"});
   card.add("BEHA", &MaterialCard::behaviour, "behaviour").synonyms({"BEHAVIOUR", "BEHAVIOR", "COMPORTEMENT"});
-  card.add("YT", &MaterialCard::young, "Young's modulus; of an orthotropic material three, along its axes")
+  card.add("YT", &MaterialCard::young, "Young's modulus: one, or those along three axes")
       .synonyms({"YOUNG"})
       .unit(dimension::pressure)
       .positive()
       .values(1, 3);
   card.add("NT", &MaterialCard::poisson,
-           "Poisson's ratio; of an orthotropic material ν12, ν23, ν13: strain along 2 of a stress along 1")
+           "Poisson's ratio: one, or ν12 ν23 ν13 (ν12: contraction along axis 2 for a pull along axis 1)")
       .synonyms({"POISSON", "NU"})
       .values(1, 3);
-  card.add("G", &MaterialCard::shear, "shear moduli of an orthotropic material: G12, G23, G13")
+  card.add("G", &MaterialCard::shear, "shear moduli G12 G23 G13 of an orthotropic material")
       .synonyms({"GT"})
       .unit(dimension::pressure)
       .positive()
       .values(1, 3);
   card.add("M", &MaterialCard::density, "mass per volume").synonyms({"DENSITY", "DENSITE"}).unit({-3, 1, 0, 0}).at_least(0);
-  card.add("A", &MaterialCard::expansion, "coefficient of thermal expansion, per degree; of an orthotropic material three")
+  card.add("A", &MaterialCard::expansion, "coefficient of thermal expansion, per degree: one, or those along three axes")
       .synonyms({"EXPANSION"})
       .values(1, 3);
+  card.finish([](MaterialCard& data, Record& record, Diagnostics& diagnostics) {
+    for (const auto& [keyword, values] : {std::pair("YT", &data.young), std::pair("NT", &data.poisson),
+                                          std::pair("G", &data.shear), std::pair("A", &data.expansion)})
+      if (values->size() == 2)
+        diagnostics.error(record.where(keyword), std::string(keyword) + " takes 1 or 3 values, 2 given",
+                          "one of an isotropic material, three of an orthotropic one");
+    if (data.poisson.size() == 1 && !(data.poisson.front() > -1 && data.poisson.front() <= 0.5))
+      diagnostics.error(record.where("NT"), fmt::format("NT = {} is out of range", data.poisson.front()),
+                        "NT (Poisson's ratio) is greater than -1 and at most 0.5");
+  });
   card.example(".MAT\n I 1 NOM \"steel\" BEHA \"ELASTIC\" YT 2.1E+11 NT 0.3 M 7850.");
+  card.example(".MAT\n I 2 NOM \"ply\" BEHA \"ELASTIC\" YT 140000. 10000. 10000. NT 0.3 0.45 0.3 G 5000. 3400. 5000.");
   return card.schema();
 }
 

@@ -45,12 +45,10 @@ struct GroupCard {
   std::string name;
   Tagged kind{"NODES", {}};         ///< NODES, ELEMENTS, FACES
   bool all = false;                 ///< TOUT
-  std::vector<int> ids;             ///< ids and ranges `1 A 20`, expanded by the reader
+  std::vector<int> ids;             ///< ids and ranges `1 A 20`, expanded by the reader; of FACES pairs of a cell and a face
   std::vector<std::string> united;  ///< UNION: names or numbers of groups
   std::vector<double> box;          ///< BOITE xmin xmax ymin ymax zmin zmax
   std::optional<int> attribute;     ///< MAILLE AT n
-  /// Of a group of faces: cells, and the numbers of their faces (edges, in a plane), in pairs.
-  std::vector<int> faces;
 };
 
 /// `.MAT I id NOM "steel" BEHA "ELASTIC" YT … NT … M …`; orthotropic with `YT e1 e2 e3 NT n12 n23 n13 G g12 g23 g13`.

@@ -38,7 +38,7 @@ void RecordReader::read(Record& record, const RecordKeys& keys, const std::vecto
   locations_.clear();
   Reading reading{record, *record.schema, keys};
   take_object(reading, object);
-  while (!at_boundary(tokens_, keys) && !begins_next(reading)) read_item(reading);
+  while (names_field(reading) || (!at_boundary(tokens_, keys) && !begins_next(reading))) read_item(reading);
   for (const Heading& heading : headings) {
     if (given(*heading.field)) continue;
     heading.field->store(record.data, heading.values);
@@ -87,6 +87,14 @@ void RecordReader::locate(const Field& field, const Location& where) {
       return;
     }
   locations_.push_back({&field, where});
+}
+
+/// `ARETE I 57 3 PRE V 5.`: the word that begins a record of its own, `GROUP "flank" PRE V 5.`, is a keyword of this one.
+bool RecordReader::names_field(const Reading& reading) const {
+  const Token& token = tokens_.peek();
+  if (!keyed_schema(reading.keys, token)) return false;
+  const Field* field = match_field(reading.schema, token.text).entry;
+  return field && !given(*field);
 }
 
 /// `FIX NOEUD 1 C 1 NOEUD 2 C 3`: the second NOEUD begins another FIX.

@@ -51,6 +51,7 @@ class RecordReader {
  private:
   struct Reading;
 
+  bool names_field(const Reading& reading) const;
   bool begins_next(const Reading& reading);
   void take_object(Reading& reading, const std::vector<Heading>& object);
   void read_item(Reading& reading);

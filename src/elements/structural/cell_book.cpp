@@ -95,8 +95,8 @@ void CellBook::read_groups(const std::vector<deck::Record>& records) {
   for (const deck::Record& record : records) {
     const auto* card = record.get<deck::GroupCard>();
     if (card && card->kind.is("FACES")) {
-      if (!card->name.empty()) faces_[card->name] = card->faces;
-      if (card->number != 0) faces_[std::to_string(card->number)] = card->faces;
+      if (!card->name.empty()) faces_[card->name] = card->ids;
+      if (card->number != 0) faces_[std::to_string(card->number)] = card->ids;
     }
     if (!card || !card->kind.is("ELEMENTS")) continue;
     Group group;

@@ -53,19 +53,26 @@ class CellKernel {
     Eigen::Matrix<double, D, columns> gradient;
     Eigen::Matrix<double, 1, columns> hoop;  ///< strain round the axis of each column's displacement along x; Axi only
   };
-  static constexpr int most_points = D == 3 ? 9 : 4;
+  static constexpr int most_points = S == CellShape::hexahedron20 ? 27 : D == 3 ? 9 : 4;
 
   /// Round an axis one point would leave the cell of three nodes a motion without strain.
   static const QuadratureRule& points() {
     return Axi && S == CellShape::triangle ? Traits::load_points() : Traits::stiffness_points();
   }
-  static const std::vector<typename Traits::Sample>& samples() {
-    static const auto all = tabulate<S>(points());
+  using Samples = std::vector<typename Traits::Sample>;
+  static const Samples& samples() {
+    static const Samples all = tabulate<S>(points());
+    return all;
+  }
+  /// Those where stresses are given.
+  static const Samples& result_samples() {
+    static const Samples all = tabulate<S>(Traits::result_points() ? *Traits::result_points() : points());
     return all;
   }
 
-  CellKernel(const Places& places, double thickness) {
-    for (const auto& s : samples()) {
+  /// `at` other than the points of the stiffness: only of cells without modes, whose mean is that over the cell.
+  CellKernel(const Places& places, double thickness, const Samples& at = samples()) {
+    for (const auto& s : at) {
       const Square jacobian = s.slope * places.transpose();  // rows: along ξ, η, ζ
       const Square inverse = jacobian.inverse();
       Point& p = points_[count_];

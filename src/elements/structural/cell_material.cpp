@@ -25,9 +25,6 @@ std::optional<Elastic> isotropic_of(const deck::Record& record, const deck::Mate
   if (!card.shear.empty())
     diagnostics.error(record.where("G"), "the shear modulus of an isotropic material follows from YT and NT",
                       "leave G out, or give three values of YT, NT and G");
-  else if (!(poisson > -1 && poisson <= 0.5))
-    diagnostics.error(record.where("NT"), fmt::format("NT {} is not Poisson's ratio of an elastic material", poisson),
-                      "NT is above -1 and at most 0.5");
   else if (poisson == 0.5 && hypothesis != Hypothesis::plane_stress)
     diagnostics.error(record.where("NT"), "a material with NT 0.5 keeps its volume, which these cells cannot",
                       "take NT below 0.5, such as 0.49");

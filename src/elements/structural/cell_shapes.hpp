@@ -35,6 +35,8 @@ template <int N, int Corners, int D>
 struct CellNodes {
   static constexpr int nodes = N, corners = Corners, dimension = D;
   using Sample = ShapeSample<N, D>;
+  /// Where stresses are given, other than at the points of the stiffness.
+  static const QuadratureRule* result_points() { return nullptr; }
 };
 
 /// Shape functions and rules of quadrature; the order of nodes is that of CellShape.
@@ -116,8 +118,10 @@ struct CellTraits<CellShape::hexahedron> : CellNodes<8, 8, 3> {
 template <>
 struct CellTraits<CellShape::hexahedron20> : CellNodes<20, 8, 3> {
   static Sample sample(const QuadraturePoint& p);
-  static const QuadratureRule& stiffness_points() { return CellTraits<CellShape::hexahedron>::stiffness_points(); }
+  static const QuadratureRule& stiffness_points() { return load_points(); }
   static const QuadratureRule& load_points() { return CellTraits<CellShape::hexahedron>::load_points(); }
+  /// Where its stresses are best (Barlow 1976, Int. J. Numer. Methods Eng. 10).
+  static const QuadratureRule* result_points() { return &CellTraits<CellShape::hexahedron>::stiffness_points(); }
   static const QuadratureRule& mass_points() { return load_points(); }
 };
 

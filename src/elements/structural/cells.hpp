@@ -109,7 +109,7 @@ class Cells final : public Block {
                                                          : std::vector<std::string>{"XX", "YY", "ZZ", "XY", "YZ", "ZX"};
       const std::vector<std::string> principal =
           D == 2 ? std::vector<std::string>{"1", "2", "ZZ"} : std::vector<std::string>{"1", "2", "3"};
-      const int points = static_cast<int>(Kernel::points().size());
+      const int points = static_cast<int>(Kernel::result_samples().size());
       const auto at_points = [points](Named named, std::vector<std::string> of) {
         return Field{std::move(named), Field::Place::point, std::move(of), points};
       };
@@ -155,7 +155,7 @@ class Cells final : public Block {
     std::shared_ptr<const std::vector<Warmth>> warmth;  ///< of each node; none: no change of temperature
   };
 
-  /// Stresses and strains at a Gauss point, in all six components.
+  /// Stresses and strains where results are given, in all six components.
   struct AtPoint {
     Stress stress, strain;
     double energy;
@@ -176,15 +176,14 @@ class Cells final : public Block {
   static Law law_of(const Cell& cell, const State& state) {
     const materials::Elasticity& material = cell.section->law;
     Law law{Kernel::reduced(material.stiffness), {}, cell.warmth != nullptr, cell.section->linear};
-    for (int i = 0; law.is_warm && i < static_cast<int>(Kernel::points().size()); ++i)
-      law.free[static_cast<std::size_t>(i)] = rise(cell, state, i) * Kernel::reduced(material.expansion);
+    for (std::size_t i = 0; law.is_warm && i < Kernel::samples().size(); ++i)
+      law.free[i] = rise(cell, state, Kernel::samples()[i]) * Kernel::reduced(material.expansion);
     return law;
   }
 
-  /// How much warmer a Gauss point is than in the reference configuration.
-  static double rise(const Cell& cell, const State& state, int point) {
+  /// How much warmer a point is than in the reference configuration.
+  static double rise(const Cell& cell, const State& state, const Sample& s) {
     if (!cell.warmth) return 0;
-    const Sample& s = Kernel::samples()[static_cast<std::size_t>(point)];
     double sum = 0;
     for (Eigen::Index i = 0; i < N; ++i) sum += s.value[i] * (*cell.warmth)[static_cast<std::size_t>(i)].at(state.time);
     return sum;
@@ -197,12 +196,13 @@ class Cells final : public Block {
     typename Kernel::Condensed sum;
     kernel.condense(law_of(cell, state), displacements(cell, state), false, sum);
     std::vector<AtPoint> points;
-    for (int i = 0; i < kernel.count(); ++i) {
-      const auto now = kernel.deformation(kernel.point(i), sum.moves);
+    const Kernel at = Traits::result_points() ? Kernel(cell.places, section.thickness, Kernel::result_samples()) : kernel;
+    for (int i = 0; i < at.count(); ++i) {
+      const auto now = at.deformation(at.point(i), sum.moves);
       AtPoint& p = points.emplace_back();
       p.strain.setZero();
       p.strain(Kernel::components) = Kernel::strain(now, section.linear);
-      const double warmer = rise(cell, state, i);
+      const double warmer = rise(cell, state, Kernel::result_samples()[static_cast<std::size_t>(i)]);
       // of plane stress and strain alike, what is out of the plane does no work
       Stress elastic = p.strain - warmer * material.expansion;
       const Stress second = material.stiffness * elastic;

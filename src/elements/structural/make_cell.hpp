@@ -27,4 +27,8 @@ std::unique_ptr<Element> make_solid_cell(const CellPlan& plan, BlockStore* block
 bool is_regular_plane(CellShape shape, const std::vector<Vec3>& places);
 bool is_regular_solid(CellShape shape, const std::vector<Vec3>& places);
 
+/// Above zero where the corners of a regular cell go round right-handed: counterclockwise in a plane, the top of a solid above
+/// its base as seen from there.
+double handedness(CellShape shape, const std::vector<Vec3>& places);
+
 }  // namespace engrane::elements::structural

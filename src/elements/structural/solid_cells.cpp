@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "elements/structural/cell_topology.hpp"
 #include "elements/structural/cells.hpp"
 #include "elements/structural/make_cell.hpp"
 
@@ -36,6 +37,22 @@ std::unique_ptr<Element> make_solid_cell(const CellPlan& plan, BlockStore* block
     default:
       return add_cell<CellShape::hexahedron20, false>(plan, blocks);
   }
+}
+
+double handedness(CellShape shape, const std::vector<Vec3>& places) {
+  const auto corner = [&places](int i) { return places[static_cast<std::size_t>(i)]; };
+  if (!is_solid(shape)) {
+    double area = 0;  // twice that of the polygon of the corners
+    for (const auto& [a, b] : sides(shape)) area += corner(a)[0] * corner(b)[1] - corner(a)[1] * corner(b)[0];
+    return area;
+  }
+  Vec3 base = Vec3::Zero(), centre = Vec3::Zero();  // the area of the base, and what lies over its middle
+  const int corners = corner_count(shape);
+  for (int i = 0; i < corners; ++i) centre += corner(i) / corners;
+  const std::vector<int> under = face_nodes(shape, 0);
+  const std::size_t count = has_middles(shape) ? under.size() / 2 : under.size();
+  for (std::size_t i = 0; i < count; ++i) base += (corner(under[i]) - centre).cross(corner(under[(i + 1) % count]) - centre);
+  return base.dot(corner(under.front()) - centre);
 }
 
 }  // namespace engrane::elements::structural

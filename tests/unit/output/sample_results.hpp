@@ -45,7 +45,7 @@ inline ResultsLayout sample_layout(std::size_t channels = 2) {
   layout.units.given = true;
   layout.node_ids = {10, 20, 30, 40};
   layout.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)};
-  layout.cells = {{{0, 1, 2}, 1, false}, {{3}, 2, false}, {{0, 1, 2}, 3, true}, {{0, 1, 2, 3}, 4, true}};
+  layout.cells = {{{0, 1, 2}, 1}, {{3}, 2}, {{0, 1, 2}, 3, CellShape::triangle}, {{0, 1, 2, 3}, 4, CellShape::quadrilateral}};
   layout.cell_fields = {{{"STRESS", dimension::pressure, "stress"}, {}}};
   layout.point_fields = {{layout.cell_fields[0], {2, 3, 3}, {0, 0, 1}}};
   for (const char* name : {"displacement", "rotation", "velocity"}) layout.node_fields.push_back({name, dimension::length, name});

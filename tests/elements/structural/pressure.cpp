@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "elements/structural/edge_pressure.hpp"
+#include "elements/structural/pressure.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/structural/group_pressure.hpp"
+
+#include <fmt/format.h>
+
+#include "elements/structural/pressures.hpp"
+
+namespace engrane::elements::structural {
+
+namespace {
+
+std::unique_ptr<Element> build(const GroupPressureData& data, BuildContext& context) {
+  const Function* function = nullptr;
+  if (data.function != 0 && !(function = context.function(data.function, "NF"))) return nullptr;
+  const std::shared_ptr<const CellBook> book = CellBook::of(context);
+  std::unique_ptr<Element> first;
+  int number = context.number;
+  for (const std::string& name : data.groups) {
+    const std::vector<int>* faces = book->faces(name);
+    if (!faces) {
+      context.diagnostics.missing(".SEL", context.record.where("GROUP"), fmt::format("there is no group of faces \"{}\"", name),
+                                  "declare it with .SEL GROUP n FACES, and a row `I 57 3` (cell, face) for each");
+      continue;
+    }
+    for (std::size_t i = 0; i + 1 < faces->size(); i += 2) {
+      auto one = make_pressure({(*faces)[i], (*faces)[i + 1], data.pressure, function}, number, "GROUP", *book, context);
+      if (!one) continue;
+      ++number;
+      if (!first)
+        first = std::move(one);
+      else if (context.more)
+        context.more->push_back(std::move(one));
+    }
+  }
+  return first;
+}
+
+}  // namespace
+
+ElementType group_pressure_type() {
+  deck::Card<GroupPressureData> card(".CLM PRE", {".BOUNDARY", "PRESSION", "PRESSURE"}, "Pressure on groups of faces");
+  card.chapter("Boundary conditions, loads and functions")
+      .redefines()
+      .describe(
+          "On all faces of groups of faces (`.SEL GROUP n FACES`), of solids or of plane cells. A positive pressure pushes into "
+          "the "
+          "cells. With large displacements it follows the faces.")
+      .example(".CLM\n GROUP \"flank\" PRE V 5.\n PRE GROUP \"bore\" V 2. NF 1");
+  card.add("GROUP", &GroupPressureData::groups, "groups of faces: names or numbers")
+      .refers(deck::Reference::group)
+      .values(1, deck::detail::any_number)
+      .required()
+      .leads();
+  card.add("V", &GroupPressureData::pressure, "pressure, positive into the cells")
+      .synonyms({"VAL"})
+      .unit(dimension::pressure)
+      .required();
+  card.add("NF", &GroupPressureData::function, "number of the function of time; 0: constant")
+      .refers(deck::Reference::function)
+      .at_least(0);
+  return element_type(card, build);
+}
+
+}  // namespace engrane::elements::structural

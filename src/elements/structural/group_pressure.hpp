@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deck/schema/schema.hpp"
+#include "model/registry.hpp"
+
+namespace engrane::elements::structural {
+
+/// `.CLM GROUP "flank" PRE V p [NF f]`: pressure on all faces of groups.
+struct GroupPressureData {
+  std::vector<std::string> groups;
+  double pressure = 0;  ///< positive against the outward normal
+  int function = 0;
+};
+
+ElementType group_pressure_type();
+
+}  // namespace engrane::elements::structural
