@@ -540,7 +540,8 @@ def run_plate(command, tmp_path: Path) -> Path:
     with_cards(
         tmp_path / "deck.dat",
         '.MAT\n I 1 BEHA "ELASTIC" YT 2E11 NT 0.25\n.HYP MEMB BIDIM\n.PHP\n GROUP "plate" THICK VAL 0.01\n'
-        f'.AEL\n GROUP "plate" MAT 1\n.CLM\n GROUP "left nodes" FIX C 1\n GROUP "corner" FIX C 2\n GROUP "right" PRE V -1E6\n',
+        '.AEL\n GROUP "plate" MAT 1\n.CLM\n GROUP "left nodes" FIX C 1\n GROUP "corner" FIX C 2\n'
+        ' GROUP "right" PRE V -1E6\n',
     )
     done = subprocess.run(
         [program(), tmp_path / "deck.dat", "-o", tmp_path / "run"], capture_output=True, text=True
