@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`engrane plot | spectrum | orders | picture | animate | export | sweep | study | inertia ...`."""
+"""`engrane plot | spectrum | orders | picture | animate | export | import | sweep | study ...`."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ EPILOG = """examples:
   engrane picture run --both -o run.png            the mechanism before and after
   engrane animate run --fps 20 -o run.gif          the mechanism in motion
   engrane export run                               moving surfaces and forces for ParaView
+  engrane import wheel.msh                         a mesh of another program as a deck
   engrane sweep gear.dat -D KM=1E8:1E9:1E8         a deck for many values: table and diagram
   engrane study gear.dat                           which scheme and step reach an error in the least time
   engrane inertia part.stl --density 7850          mass, centre and tensor of a part for RIGID
@@ -32,7 +33,20 @@ engrane <command> --help tells more."""
 
 def parser() -> argparse.ArgumentParser:
     """The command line; each command's module adds its own words."""
-    from . import animate, export, figures, gallery, histories, inertia, lines, orders, picture, study, sweep
+    from . import (
+        animate,
+        export,
+        figures,
+        gallery,
+        histories,
+        import_mesh,
+        inertia,
+        lines,
+        orders,
+        picture,
+        study,
+        sweep,
+    )
 
     top = argparse.ArgumentParser(
         prog="engrane",
@@ -48,6 +62,7 @@ def parser() -> argparse.ArgumentParser:
         picture,
         animate,
         export,
+        import_mesh,
         sweep,
         study,
         inertia,

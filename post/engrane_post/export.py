@@ -9,10 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from . import options
+from . import export_cells, options
 from .animate import frame_numbers
 from .errors import UserError
 from .mesh import Mesh, Step
+from .picture import selected
 from .results import Frame, Results
 
 MOST_FRAMES = 100
@@ -21,6 +22,8 @@ EXAMPLES = f"""\
   engrane export run --frames 400 --from 0.1  more of them, from a later time on
   engrane export run --every 1                all frames that the deck archived (.SAI)
   engrane export run --vtu                    run.pvd and run_forces.pvd, a .vtu file for each frame
+  engrane export run --mesh run.med           a mesh with the fields of the last frame (.vtu .msh ...)
+  engrane export run --mesh run_cells.vtkhdf  those of all frames
 
 In ParaView open run.vtkhdf (5.12 and later) or run.hdf.series (5.11), press Apply and play. For the
 colours of `engrane picture` colour by `color` with Map Scalars off; for one kind of thing, Threshold on
@@ -52,6 +55,17 @@ def add(commands: argparse._SubParsersAction) -> None:
         metavar="n",
         help=f"take at most n frames, evenly spaced (default {MOST_FRAMES})",
     )
+    p.add_argument(
+        "--mesh",
+        metavar="file",
+        help="instead: the cells of a mesh with all fields that the format holds, at one frame "
+        f"({' '.join(export_cells.FILES)}) or at all ({' '.join(export_cells.SERIES)})",
+    )
+    one = p.add_mutually_exclusive_group()
+    one.add_argument(
+        "--frame", type=int, metavar="n", help="with --mesh: frame number (default -1, the last)"
+    )
+    one.add_argument("--time", type=float, metavar="t", help="with --mesh: the frame nearest to this time")
     p.add_argument("--no-forces", action="store_true", help="only the surfaces")
     p.add_argument("-o", "--output", metavar="prefix", help="names of the files without their endings")
     p.set_defaults(run=run)
@@ -61,6 +75,11 @@ def run(args: argparse.Namespace) -> None:
     """Writes the files asked for."""
     if args.frames is not None and args.frames < 1:
         raise UserError("--frames must be 1 or more.")
+    if args.mesh is None and (args.frame is not None or args.time is not None):
+        raise UserError("--frame and --time go with --mesh; --from and --to choose the frames otherwise.")
+    if args.mesh is not None:
+        _mesh(args)
+        return
     with Results(args.result) as result:
         result.frame(0)  # no frames: say so before anything is made
         most = args.frames or MOST_FRAMES
@@ -76,6 +95,25 @@ def run(args: argparse.Namespace) -> None:
             args.vtu,
             not args.no_forces,
         )
+
+
+def _mesh(args: argparse.Namespace) -> None:
+    """The cells as a file of another program."""
+    path = Path(options.check_output(args.mesh, export_cells.FILES + export_cells.SERIES))
+    with Results(args.result) as result:
+        cells = export_cells.Cells.of(result)
+        if path.suffix.lower() in export_cells.SERIES:
+            result.frame(0)
+            most = args.frames or MOST_FRAMES
+            numbers = frame_numbers(result.frame_times, args.start, args.end, args.every, most)
+            made = export_cells.write_series(cells, [result.frame(i) for i in numbers], path)
+            print(f"wrote {len(cells.order)} cells at {len(numbers)} frames to {made}")
+            return
+        args.reference = not len(result.frame_times)
+        left = export_cells.write_frame(cells, selected(result, args), path)
+    if left:
+        print(f"note: {path.suffix} files hold no fields; left out: {', '.join(left)}.")
+    print(f"wrote {len(cells.order)} cells to {path}")
 
 
 def _without_ending(name: str) -> str:

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import UserError
+from .mesh_files import open_mesh
 
 #: solid cells as tetrahedra of their corners; quadratic cells by their corners, which keeps flat faces exact
 HEXAHEDRON = ((0, 1, 3, 4), (1, 2, 3, 6), (1, 6, 4, 5), (3, 4, 6, 7), (1, 3, 4, 6))
@@ -56,15 +57,7 @@ class MassProperties:
 
 def read(path: str | Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Points and cells by kind of any mesh that meshio reads; quadratic cells by their corners."""
-    import meshio
-
-    if not Path(path).is_file():
-        raise UserError(f"There is no file {path}.")
-    try:
-        with np.errstate(over="ignore"):  # its guess whether an STL is binary may overflow
-            mesh = meshio.read(path)
-    except (Exception, SystemExit) as error:  # meshio ends the program on a format that it does not know
-        raise UserError(f"{path} is no mesh that can be read ({error or type(error).__name__}).") from None
+    mesh = open_mesh(path)
     points = np.zeros((len(mesh.points), 3))
     points[:, : mesh.points.shape[1]] = mesh.points
     cells: dict[str, np.ndarray] = {}

@@ -27,8 +27,10 @@ class Mesh:
 
 @dataclass
 class Step:
-    """What a frame adds: its time, the points (n x 3) and an array for each name with a row for each."""
+    """What a frame adds: its time, the points (n x 3), and by name arrays with a row for each point, each
+    cell."""
 
     time: float
     points: np.ndarray
     point_data: dict[str, np.ndarray] = field(default_factory=dict)
+    cell_data: dict[str, np.ndarray] = field(default_factory=dict)

@@ -4,16 +4,21 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
+
+import numpy as np
 
 from . import options
 from .errors import UserError
 from .results import Frame, Results
 
+BAR = 0.15  # of the width, for the colours of a field
 EXAMPLES = """  engrane picture run                          the last frame
   engrane picture run --time 0.01 -o run.png
   engrane picture run --both                   before and after, side by side
   engrane picture run --reference --view top   the model as the deck gives it, from above
   engrane picture run --field VON_MISES        stresses of a mesh
+  engrane picture run --deformed 50            its displacements 50 times as large
   engrane picture run --view 1,0.5,2 --zoom 1.2"""
 
 
@@ -42,6 +47,9 @@ def add(commands: argparse._SubParsersAction) -> None:
         default="",
         metavar="NAME[:XX]",
         help="colour the cells of a mesh by the means of a field over them: VON_MISES, STRESS:XX",
+    )
+    p.add_argument(
+        "--deformed", type=float, default=1.0, metavar="f", help="show displacements f times as large"
     )
     p.add_argument("-o", "--output", metavar="file", help="picture to write (.png .jpg)")
     p.set_defaults(run=run)
@@ -81,10 +89,19 @@ def selected(result: Results, args: argparse.Namespace) -> Frame:
     return result.frame(-1 if args.frame is None else args.frame)
 
 
+def enlarged(frame: Frame, factor: float) -> Frame:
+    """The frame with displacements and rotations so many times as large."""
+    return replace(
+        frame, displacement=factor * frame.displacement, rotation=factor * frame.rotation, factor=factor
+    )
+
+
 def run(args: argparse.Namespace) -> None:
     """Draws one picture."""
     if not args.zoom > 0:
         raise UserError("--zoom must be above 0.")
+    if not np.isfinite(args.deformed):
+        raise UserError("--deformed must be a number.")
     with Results(args.result) as result:
         path = options.check_output(
             args.output or options.default_output(result, ["picture"], ".png"), (".png", ".jpg", ".jpeg")
@@ -96,6 +113,7 @@ def run(args: argparse.Namespace) -> None:
         frame = selected(result, args)
         if args.field:
             result.cell_field(args.field, max(0, frame.index or 0))  # says what there is when it is not
+        frame = enlarged(frame, args.deformed)
         frames = [result.reference(), frame] if args.both else [frame]
         render(result, frames, path, args)
     print(f"wrote {path}")
@@ -122,18 +140,28 @@ def picture(
     """Draws the frames side by side; `bare` leaves the time out and the background white."""
     from . import view
     from .graphics import pv
-    from .scene import Scene, Stage
+    from .scene import Scene, Stage, limits_of
 
     scene = Scene(result)
+    limits = None
+    if field:  # views beside each other share the bar of the first
+        drawn = [item.cells for item in scene.items if item.cells is not None]
+        fields = [result.cell_field(field, f.index) for f in frames if f.index is not None]
+        shown = [values[cells] for values in fields for cells in drawn]
+        limits = limits_of([*shown, np.zeros(len(frames) - len(fields))])
     pixel_size = pixels(size, (1800, 900) if len(frames) > 1 else (1400, 1000))
     plotter = pv.Plotter(off_screen=True, shape=(1, len(frames)), window_size=pixel_size, border=False)
+    stages = []
+    for i in range(len(frames)):  # first all: a bar of the same name changes the colours of those before
+        plotter.subplot(0, i)
+        stages.append(Stage(scene, plotter, field=field, limits=limits))
     for i, frame in enumerate(frames):
         plotter.subplot(0, i)
-        Stage(scene, plotter, field=field).show(frame)
+        stages[i].show(frame)
         view.dress(plotter, title if i == 0 else "", "" if bare else view.caption(result, frame))
         if bare:
             plotter.set_background("white")
-        view.aim(plotter, scene, frames, view_from, zoom, upward)
+        view.aim(plotter, scene, frames, view_from, zoom, upward, BAR if field else 0.0)
         plotter.enable_anti_aliasing("ssaa")
     plotter.screenshot(path)
     plotter.close()

@@ -58,6 +58,17 @@ class Frame:
     displacement: np.ndarray
     rotation: np.ndarray
     index: int | None = None
+    factor: float = 1.0  # displacements are shown so many times as large
+
+
+@dataclass(frozen=True)
+class Field:
+    """What is archived at every frame: over nodes, or over cells with the names of its components."""
+
+    name: str
+    of_cells: bool
+    unit: str
+    components: list[str]
 
 
 @dataclass
@@ -295,17 +306,31 @@ class Results:
         data = self.dataset(f"fields/{name}/{index:06d}")
         return None if data is None else np.asarray(data, float)
 
+    @property
+    def fields(self) -> dict[str, Field]:
+        """All fields by name."""
+
+        def look(file: h5py.File) -> dict[str, Field]:
+            return {
+                key: Field(
+                    key,
+                    "center" in group.attrs,
+                    text(group.attrs.get("unit", "")),
+                    text(group.attrs.get("components", "")).split(),
+                )
+                for key, group in file.get("fields", {}).items()
+                if isinstance(group, h5py.Group)
+            }
+
+        return self.read(look)
+
     def cell_field(self, name: str, index: int) -> np.ndarray:
         """One field over the cells of frame `index` >= 0, a value for each: `VON_MISES`, or a component,
         `STRESS:XX`."""
         field, _, component = name.partition(":")
+        fields = {f.name: f.components for f in self.fields.values() if f.of_cells}
 
         def look(file: h5py.File) -> np.ndarray:
-            fields = {
-                key: str(group.attrs.get("components", "")).split()
-                for key, group in file.get("fields", {}).items()
-                if "center" in group.attrs
-            }
             names = [f"{key}:{c}" for key, of in fields.items() for c in of] + [
                 k for k in fields if not fields[k]
             ]

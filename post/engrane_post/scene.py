@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from . import belts, linkage, shapes
+from . import belts, cells, linkage, shapes
 from .graphics import pv
 from .results import Element, Frame, Results
 from .wheels import collect
@@ -51,7 +51,7 @@ class Item:
     edges: bool = False
     kind: str = ""
     element: int = 0
-    cells: list[int] | None = None  # of the mesh: for each face the cell whose values colour it
+    cells: np.ndarray | None = None  # of the mesh: for each face the cell whose values colour it
 
 
 class Scene:
@@ -364,29 +364,32 @@ class Scene:
         return linkage.LINK_COLORS[slot % len(linkage.LINK_COLORS)]
 
     def _cells(self, drawn: set[int]) -> None:
-        """Cells of elements that bring no drawing (beams, membranes); surfaces and solids always."""
+        """Cells of elements that bring no drawing (beams, membranes); surfaces and the outside of solids
+        always."""
         topology = self.result.dataset("mesh/topology")
         if topology is None:
             return
         owner = self.result.dataset("mesh/cell_elements")
-        cells = shapes.cells(np.asarray(topology, int))
-        lines, faces, owners = [], [], []
-        for i, (code, nodes) in enumerate(cells):
-            mine = owner is not None and i < len(owner) and int(owner[i]) in drawn
-            if code == 2 and not mine and len(set(nodes)) > 1:
-                lines.append(nodes)
-            elif code in (3, 4, 5):
-                faces.append(nodes)
-                owners.append(i)
+        found = cells.runs(topology)
+        lines = []
+        for run in (r for r in found if r.code in (2, 34)):
+            for number, nodes in enumerate(
+                (run.nodes[:, :2] if run.code == 34 else run.nodes).tolist(), run.first
+            ):
+                mine = owner is not None and number < len(owner) and int(owner[number]) in drawn
+                if not mine and len(set(nodes)) > 1:
+                    lines.append(nodes)
+        faces = cells.outer_faces(found)
         order, first = self.ids, len(self.items)
         if lines:
             self._flexible(
                 lambda p: shapes.tubes(np.array([p[n] for n in order]), lines, 0.006 * self.size), BODY
             )
         if faces:
-            self._flexible(lambda p: shapes.surface(np.array([p[n] for n in order]), faces), CELL)
+            tables, owners = [f for f, _ in faces], [o for _, o in faces]
+            self._flexible(lambda p: shapes.surface(np.array([p[n] for n in order]), tables), CELL)
             self.items[-1].edges = True
-            self.items[-1].cells = owners
+            self.items[-1].cells = np.concatenate(owners)
             self.items[-1].smooth = False
         self._name(first, "cell")
 
@@ -419,11 +422,20 @@ class Scene:
 
 
 class Stage:
-    """A scene put into one view of a plotter; `show` moves it to a frame."""
+    """A scene put into one view of a plotter; `show` moves it to a frame. `limits`: of the colours of the
+    field, those of what is shown unless given."""
 
-    def __init__(self, scene: Scene, plotter: pv.Plotter, opacity: float = 1.0, field: str = "") -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        plotter: pv.Plotter,
+        opacity: float = 1.0,
+        field: str = "",
+        limits: tuple[float, float] | None = None,
+    ) -> None:
         self.scene = scene
         self.field = field
+        self.limits = limits
         self.actors = []
         for item in scene.items:
             mesh = item.mesh.copy()
@@ -442,13 +454,14 @@ class Stage:
             if item.remake is not None:
                 # Splitting edges would make a copy whose points no longer follow.
                 look["split_sharp_edges"] = False
-            if field and item.cells:
-                bar = dict(vertical=True, position_x=0.045, position_y=0.25, height=0.5, color="black")
-                bar["title"] = f"{field} {scene.result.cell_field_unit(field)}".strip()
+            if field and item.cells is not None:
+                bar = dict(vertical=True, position_x=0.05, position_y=0.25, height=0.5, color="black")
+                bar["title"] = f"{field}\n{scene.result.cell_field_unit(field)}".strip()
                 del look["color"]
                 mesh.cell_data[field] = np.zeros(mesh.n_cells)
                 # without lights colours are those of the bar
                 look.update(scalars=field, cmap="viridis", scalar_bar_args=bar, lighting=False)
+                look.update(ambient=0.0, diffuse=1.0, specular=0.0)
             self.actors.append((item, mesh, plotter.add_mesh(mesh, **look)))
 
     def show(self, frame: Frame) -> None:
@@ -457,19 +470,25 @@ class Stage:
         for item, mesh, actor in self.actors:
             if item.remake is not None:
                 mesh.copy_from(item.remake(positions))
-                if self.field and item.cells:
+                if self.field and item.cells is not None:
                     self._colour(mesh, actor, item.cells, frame)
                 if item.smooth:
                     mesh.compute_normals(inplace=True, split_vertices=False)
             elif item.node:
                 actor.user_matrix = self.scene.transform(item.node, frame)
 
-    def _colour(self, mesh: pv.PolyData, actor: pv.Actor, cells: list[int], frame: Frame) -> None:
+    def _colour(self, mesh: pv.PolyData, actor: pv.Actor, numbers: np.ndarray, frame: Frame) -> None:
         """The means of the field over the cells, the undeformed model's are zero."""
-        values = np.zeros(len(cells))
+        values = np.zeros(len(numbers))
         if frame.index is not None:
-            values = self.scene.result.cell_field(self.field, frame.index)[cells]
+            values = self.scene.result.cell_field(self.field, frame.index)[numbers]
         mesh.cell_data[self.field] = values
         mesh.set_active_scalars(self.field, "cell")
-        low, high = float(np.nanmin(values)), float(np.nanmax(values))
+        low, high = self.limits or limits_of([values])
         actor.mapper.scalar_range = (low, high if high > low else low + 1.0)
+
+
+def limits_of(values: list[np.ndarray]) -> tuple[float, float]:
+    """Least and largest of all that are numbers."""
+    known = np.concatenate([v[np.isfinite(v)] for v in values])
+    return (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)

@@ -227,53 +227,13 @@ def turn_arrow(
     ).extract_surface(algorithm="dataset_surface")
 
 
-def cells(topology: np.ndarray) -> list[tuple[int, list[int]]]:
-    """(type code, 0-based points) of an XDMF mixed topology; stops where the array is cut or a code is
-    unknown."""
-    counted = (1, 2, 3)
-    fixed = {
-        4: 3,
-        5: 4,
-        6: 4,
-        7: 5,
-        8: 6,
-        9: 8,
-        34: 3,
-        35: 9,
-        36: 6,
-        37: 8,
-        38: 10,
-        39: 13,
-        40: 15,
-        41: 18,
-        48: 20,
-        49: 24,
-    }
-    out, i = [], 0
-    data = [int(v) for v in np.ravel(topology)]
-    while i < len(data):
-        code = data[i]
-        if code in counted and i + 1 < len(data):
-            count, i = data[i + 1], i + 2
-        elif code in fixed:
-            count, i = fixed[code], i + 1
-        else:
-            break
-        if count < 0 or i + count > len(data):
-            break
-        nodes = data[i : i + count]
-        # Quadratic faces are drawn by their corners.
-        out.append(({36: 4, 37: 5, 34: 2}.get(code, code), nodes[: {36: 3, 37: 4, 34: 2}.get(code, count)]))
-        i += count
-    return out
-
-
 def tubes(points: np.ndarray, lines: list[list[int]], radius: float) -> pv.PolyData:
     """Round bars along polylines."""
     table = np.concatenate([[len(line), *line] for line in lines])
     return pv.PolyData(points, lines=table).tube(radius=radius, n_sides=14)
 
 
-def surface(points: np.ndarray, faces: list[list[int]]) -> pv.PolyData:
-    """Mesh of faces."""
-    return pv.PolyData(points, faces=np.concatenate([[len(f), *f] for f in faces]))
+def surface(points: np.ndarray, faces: list[np.ndarray]) -> pv.PolyData:
+    """Mesh of polygons, given as tables of those with as many points."""
+    table = [np.insert(f, 0, f.shape[1], axis=1).ravel() for f in faces]
+    return pv.PolyData(points, faces=np.concatenate(table))

@@ -57,8 +57,8 @@ def direction(scene: Scene, frames: list[Frame]) -> tuple[np.ndarray, np.ndarray
 
 def plane_mesh(scene: Scene) -> bool:
     """Whether there are cells, all in the plane XY, with nothing but loads on them."""
-    meshes = [item.mesh.points for item in scene.items if item.cells]
-    others = {item.kind for item in scene.items if not item.cells}
+    meshes = [item.mesh.points for item in scene.items if item.cells is not None]
+    others = {item.kind for item in scene.items if item.cells is None}
     return bool(meshes) and others <= {"load"} and all(np.ptp(points[:, 2]) == 0 for points in meshes)
 
 
@@ -85,8 +85,10 @@ def aim(
     view: str | None,
     zoom: float = 1.0,
     upward: str | None = None,
+    left: float = 0.0,
 ) -> None:
-    """Points the camera of the current view at everything the frames show; `upward` is x, y or z."""
+    """Points the camera of the current view at everything the frames show; `upward` is x, y or z, `left` the
+    part of the width that stays free for a colour bar."""
     eye, up = direction(scene, frames)
     if view:
         eye = eye_of(view)
@@ -108,9 +110,15 @@ def aim(
     slope = np.tan(np.radians(angle / 2))
     aspect = plotter.window_size[0] / plotter.shape[1] / plotter.window_size[1]
     offset = corners - middle
-    reach = np.maximum(np.abs(offset @ vertical), np.abs(offset @ side) / aspect) / slope * 1.12 / zoom
+    reach = (
+        np.maximum(np.abs(offset @ vertical), np.abs(offset @ side) / aspect / (1 - left))
+        / slope
+        * 1.12
+        / zoom
+    )
     distance = float((reach + offset @ eye).max())
     distance = max(distance, 0.1 * scene.size)
+    middle = middle - side * left * slope * aspect * distance  # what is seen goes to the right
     camera = plotter.camera
     camera.view_angle = angle
     camera.focal_point = middle
@@ -132,7 +140,7 @@ def dress(plotter: pv.Plotter, title: str, caption: str) -> None:
     if title:
         write(plotter, title, (0.02, 0.945), "title")
     if caption:
-        write(plotter, caption, (0.78, 0.03), "caption")
+        write(plotter, caption, (min(0.78, 1 - 0.0125 * len(caption)), 0.03), "caption")
 
 
 def write(plotter: pv.Plotter, text: str, place: tuple[float, float], name: str) -> None:
@@ -143,8 +151,9 @@ def write(plotter: pv.Plotter, text: str, place: tuple[float, float], name: str)
 
 
 def caption(result: Results, frame: Frame) -> str:
-    """`t = 0.0125 s`, or that this is the reference."""
+    """`t = 0.0125 s`, or that this is the reference, and how much displacements are enlarged."""
     if frame.time is None:
         return "reference"
     unit = result.time_unit
-    return f"t = {frame.time:.6g} {'' if unit.startswith('[') else unit}".strip()
+    time = f"t = {frame.time:.6g} {'' if unit.startswith('[') else unit}".strip()
+    return time if frame.factor == 1 else f"{time}, displacements x {frame.factor:g}"

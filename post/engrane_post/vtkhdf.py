@@ -32,14 +32,15 @@ def write(path: Path, mesh: Mesh, times: np.ndarray, steps: Iterable[Step]) -> N
         size = 0
         for k, step in enumerate(steps):
             arrays = {"Points": step.points} | {f"PointData/{n}": a for n, a in step.point_data.items()}
+            arrays |= {f"CellData/{n}": a for n, a in step.cell_data.items()}
             if k == 0:
                 size = len(step.points)
                 root["NumberOfPoints"] = np.array([size], np.int64)
                 for name, rows in arrays.items():
                     series[name] = _growing(root, name, rows, count)
             for name, rows in arrays.items():
-                series[name][k * size : (k + 1) * size] = rows
-        _steps(root, times, size, {n.removeprefix("PointData/") for n in series})
+                series[name][k * len(rows) : (k + 1) * len(rows)] = rows
+        _steps(root, times, size, len(mesh.types), set(series))
 
 
 def _head(file: h5py.File, version: tuple[int, int]) -> h5py.Group:
@@ -71,10 +72,11 @@ def _growing(root: h5py.Group, name: str, rows: np.ndarray, count: int) -> h5py.
     return root.create_dataset(name, shape, rows.dtype, chunks=chunk, **PACKED)
 
 
-def _steps(root: h5py.Group, times: np.ndarray, size: int, moving: set[str]) -> None:
-    """Where each step finds its rows: its own points and what moves with them, and everybody's cells."""
+def _steps(root: h5py.Group, times: np.ndarray, size: int, cells: int, moving: set[str]) -> None:
+    """Where each step finds its rows: its own points and what changes with them, and everybody's cells."""
     count = len(times)
     own = np.arange(count, dtype=np.int64) * size
+    of_cells = np.arange(count, dtype=np.int64) * cells
     shared = np.zeros(count, np.int64)
     steps = root.create_group("Steps")
     steps.attrs["NSteps"] = np.int64(count)
@@ -85,9 +87,9 @@ def _steps(root: h5py.Group, times: np.ndarray, size: int, moving: set[str]) -> 
     steps["CellOffsets"] = shared[:, None]
     steps["ConnectivityIdOffsets"] = shared[:, None]
     for name in root["PointData"]:
-        steps[f"PointDataOffsets/{name}"] = own if name in moving else shared
+        steps[f"PointDataOffsets/{name}"] = own if f"PointData/{name}" in moving else shared
     for name in root["CellData"]:
-        steps[f"CellDataOffsets/{name}"] = shared
+        steps[f"CellDataOffsets/{name}"] = of_cells if f"CellData/{name}" in moving else shared
 
 
 def write_series(path: Path) -> Path:
@@ -112,18 +114,23 @@ def write_series(path: Path) -> Path:
 
 def _one_step(path: Path, source: h5py.Group, origin: str, k: int) -> None:
     """A file of version 1.0 with views of the k-th step's rows and links to what stays."""
-    points = int(source["NumberOfPoints"][0])
+    count = {kind: int(source[f"NumberOf{kind}"][0]) for kind in ("Points", "Cells")}
     steps = source["Steps"]
-    views = {"Points": int(steps["PointOffsets"][k])}
-    views |= {f"PointData/{n}": int(steps[f"PointDataOffsets/{n}"][k]) for n in source["PointData"]}
+    views = {"Points": (int(steps["PointOffsets"][k]), count["Points"])}
+    for data, size in (("PointData", count["Points"]), ("CellData", count["Cells"])):
+        views |= {f"{data}/{n}": (int(steps[f"{data}Offsets/{n}"][k]), size) for n in source[data]}
     with h5py.File(path, "w") as file:
         root = _head(file, (1, 0))
         for name in ("NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"):
             root[name] = source[name][()]
-        for name, start in views.items():
+        root.create_group("CellData")
+        for name, (start, size) in views.items():
             item = source[name]
-            layout = h5py.VirtualLayout((points, *item.shape[1:]), item.dtype)
-            layout[...] = h5py.VirtualSource(origin, item.name, item.shape)[start : start + points]
+            if len(item) == size:  # the same at every step
+                root[name] = h5py.ExternalLink(origin, item.name)
+                continue
+            layout = h5py.VirtualLayout((size, *item.shape[1:]), item.dtype)
+            layout[...] = h5py.VirtualSource(origin, item.name, item.shape)[start : start + size]
             root.create_virtual_dataset(name, layout)
-        for name in ("Connectivity", "Offsets", "Types", "CellData"):
+        for name in ("Connectivity", "Offsets", "Types"):
             root[name] = h5py.ExternalLink(origin, source[name].name)

@@ -26,7 +26,7 @@ def write_collection(prefix: Path, mesh: Mesh, steps: Iterable[Step]) -> tuple[P
     size = 0
     for k, step in enumerate(steps):
         grid = pv.UnstructuredGrid(rows, mesh.types, step.points)
-        grid.cell_data.update(mesh.cell_data)
+        grid.cell_data.update(mesh.cell_data | step.cell_data)
         grid.point_data.update(mesh.point_data | step.point_data)
         path = folder / f"{k:06d}.vtu"
         grid.save(path)

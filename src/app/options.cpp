@@ -156,8 +156,8 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
       options.task = Options::Task::completion;
       for (const CLI::App* task : app.get_subcommands({})) options.tasks.push_back(task->get_name());
       // the launcher's own
-      for (const char* task : {"plot", "spectrum", "orders", "picture", "animate", "export", "sweep", "study", "inertia",
-                               "figures", "gallery", "demo", "test"})
+      for (const char* task : {"plot", "spectrum", "orders", "picture", "animate", "export", "import", "sweep", "study",
+                               "inertia", "figures", "gallery", "demo", "test"})
         options.tasks.emplace_back(task);
       for (const CLI::Option* option : app.get_options())
         if (!option->get_lnames().empty()) options.words.push_back("--" + option->get_lnames().front());

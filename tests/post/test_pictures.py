@@ -9,9 +9,10 @@ import models
 import numpy as np
 import pytest
 from engrane_post import Results
+from engrane_post.cells import runs
 from engrane_post.gear_mesh import WheelShape, teeth_mesh
 from engrane_post.results import Element
-from engrane_post.shapes import cells, plate
+from engrane_post.shapes import plate
 from engrane_post.wheels import collect
 
 
@@ -171,8 +172,28 @@ def test_cam_plate() -> None:
 
 def test_topology() -> None:
     data = np.array([1, 1, 0, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5, 0, 1, 2, 3, 36, 0, 1, 2, 3, 4, 5])
-    assert cells(data) == [(1, [0]), (2, [0, 1, 2]), (4, [0, 1, 2]), (5, [0, 1, 2, 3]), (4, [0, 1, 2])]
-    assert cells(data[:5]) == [(1, [0])]  # cut in the middle of a cell
+
+    def found(data: np.ndarray) -> list:
+        return [(run.code, run.first, run.nodes.tolist()) for run in runs(data)]
+
+    assert found(data) == [
+        (1, 0, [[0]]),
+        (2, 1, [[0, 1, 2]]),
+        (4, 2, [[0, 1, 2]]),
+        (5, 3, [[0, 1, 2, 3]]),
+        (36, 4, [[0, 1, 2, 3, 4, 5]]),
+    ]
+    assert found(data[:5]) == [(1, 0, [[0]])]  # cut in the middle of a cell
+    # many of a kind, whose points may look like codes, and lines of different length
+    many = np.concatenate(
+        [[4, 4, 4, 4]] * 50 + [[5, 4, 4, 4, 4]] * 3 + [[2, 2, 4, 5]] * 20 + [[2, 3, 2, 2, 2]]
+    )
+    assert [(r.code, r.first, r.nodes.shape) for r in runs(many)] == [
+        (4, 0, (50, 3)),
+        (5, 50, (3, 4)),
+        (2, 53, (20, 2)),
+        (2, 73, (1, 3)),
+    ]
 
 
 def test_picture(two: Path, bevel: Path, command, tmp_path: Path) -> None:

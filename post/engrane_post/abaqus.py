@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads the mesh of an Abaqus input file: *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE, *INCLUDE. Everything else
+is passed over. Faces of a surface become cells of their own, as other programs write them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+
+from .errors import UserError
+from .raw_mesh import RawCells, RawMesh
+
+#: the node count that a type's number stands for, by the first letters of the types
+PLANE = {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"}
+SOLID = {4: "tetra", 5: "pyramid", 6: "wedge", 8: "hexahedron", 10: "tetra10", 15: "wedge15"}
+SOLID |= {13: "pyramid13", 20: "hexahedron20", 27: "hexahedron27"}
+FAMILIES = (
+    (re.compile(r"(?:DC|AC|C)3D(\d+)"), SOLID),
+    (re.compile(r"(?:CPS|CPE|CPEG|CAX|CGAX|DC2D|DCAX|AC2D|ACAX|M3D|SFM3D|R3D|DS|S|SC)(\d+)"), PLANE),
+    (re.compile(r"STRI(3|6)"), PLANE),
+)
+LINES = {"2": "line", "3": "line3"}
+BARS = re.compile(r"(?:T2D|T3D|B2|B3|R2D|SAX|RAX)(\d)")
+#: corners of the faces S1, S2, … of solids, from 0 (Abaqus Elements Guide, Three-dimensional solid elements)
+FACES = {
+    "tetra": ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)),
+    "wedge": ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
+    "hexahedron": ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)),
+    "triangle": ((0, 1), (1, 2), (2, 0)),
+    "quad": ((0, 1), (1, 2), (2, 3), (3, 0)),
+}
+BASIC = {"tetra10": "tetra", "wedge15": "wedge", "hexahedron20": "hexahedron", "triangle6": "triangle"}
+BASIC |= {"quad8": "quad"}
+
+
+@dataclass
+class _Section:
+    """A keyword line with its parameters, in capitals, and the data lines below it."""
+
+    keyword: str
+    parameters: dict[str, str]
+    lines: list[str]
+
+    def integers(self) -> np.ndarray:
+        return np.array(",".join(self.lines).replace(",", " ").split(), np.int64)
+
+
+@dataclass
+class _Found:
+    """What has been read so far. Sets hold labels."""
+
+    labels: list[np.ndarray] = field(default_factory=list)
+    points: list[np.ndarray] = field(default_factory=list)
+    blocks: list[tuple[str, np.ndarray, np.ndarray]] = field(default_factory=list)  # kind, labels, nodes
+    node_sets: dict[str, list[np.ndarray]] = field(default_factory=dict)
+    cell_sets: dict[str, list[np.ndarray]] = field(default_factory=dict)
+    surfaces: dict[str, list[tuple[str, str]]] = field(default_factory=dict)
+    spelling: dict[str, str] = field(default_factory=dict)
+
+
+def read(path: str | Path) -> RawMesh:
+    """With its sets."""
+    path, found = Path(path), _Found()
+    sections = list(_sections(path, 0))
+    parts = [s for s in sections if s.keyword in ("PART", "INSTANCE")]
+    if sum(s.keyword == "PART" for s in parts) > 1 or sum(s.keyword == "INSTANCE" for s in parts) > 1:
+        raise UserError(f"{path} has several parts; write it without parts and instances, as one mesh.")
+    if any(s.keyword == "INSTANCE" and s.lines for s in parts):
+        raise UserError(
+            f"{path}: *INSTANCE moves its part; write the mesh where it belongs, without instances."
+        )
+    for section in sections:
+        _take(section, found, path)
+    if not found.points or not found.blocks:
+        raise UserError(f"{path} has no *NODE and *ELEMENT.")
+    labels = np.concatenate(found.labels)
+    labels, last = np.unique(labels[::-1], return_index=True)  # a node given twice: the later holds
+    points = np.concatenate(found.points)[::-1][last]
+
+    def rows(wanted: np.ndarray, who: str) -> np.ndarray:
+        place = np.minimum(np.searchsorted(labels, wanted), len(labels) - 1)
+        unknown = wanted[labels[place] != wanted]
+        if unknown.size:
+            raise UserError(f"{path}: {who} names node {unknown.flat[0]}, which has no *NODE.")
+        return place
+
+    blocks = [(kind, rows(nodes, "*ELEMENT")) for kind, _, nodes in found.blocks]
+    cell_sets = {
+        found.spelling[name]: [_among(block[1], members) for block in found.blocks]
+        for name, members in found.cell_sets.items()
+    }
+    for name, faces in found.surfaces.items():
+        _add_surface(name, faces, found, blocks, cell_sets)
+    return RawMesh(
+        points,
+        [RawCells(kind, nodes) for kind, nodes in blocks],
+        point_sets={
+            found.spelling[name]: rows(np.concatenate(members), f"*NSET {found.spelling[name]}")
+            for name, members in found.node_sets.items()
+        },
+        cell_sets=cell_sets,
+    )
+
+
+#: element types that are written for kinds of cells: solids, and plane stress
+TYPES = {"triangle": "CPS3", "quad": "CPS4", "triangle6": "CPS6", "quad8": "CPS8", "tetra": "C3D4"}
+TYPES |= {
+    "wedge": "C3D6",
+    "hexahedron": "C3D8",
+    "tetra10": "C3D10",
+    "wedge15": "C3D15",
+    "hexahedron20": "C3D20",
+}
+
+
+def write(
+    path: Path, points: np.ndarray, node_ids: np.ndarray, blocks: list[tuple[str, np.ndarray, np.ndarray]]
+) -> None:
+    """Nodes, and cells by kind (rows of points) with their numbers; 16 numbers on a line at most."""
+    with path.open("w", encoding="utf-8") as file:
+        file.write("*HEADING\n engrane\n*NODE\n")
+        columns = [points[:, k].tolist() for k in range(3)]
+        rows = chain.from_iterable(zip(node_ids.tolist(), *columns, strict=True))
+        file.write(("%d, %r, %r, %r\n" * len(points)) % tuple(rows))
+        for kind, nodes, ids in blocks:
+            file.write(f"*ELEMENT, TYPE={TYPES[kind]}\n")
+            width = nodes.shape[1] + 1
+            words = ["%d"] * width
+            line = ", ".join(words[:16]) + (",\n" + ", ".join(words[16:]) if width > 16 else "") + "\n"
+            table = np.column_stack([ids, node_ids[nodes]])
+            file.write((line * len(table)) % tuple(table.ravel().tolist()))
+
+
+def _among(labels: np.ndarray, members: list[np.ndarray]) -> np.ndarray:
+    return np.flatnonzero(np.isin(labels, np.concatenate(members)))
+
+
+def _sections(path: Path, depth: int) -> Iterator[_Section]:
+    if depth > 20:
+        raise UserError(f"{path}: *INCLUDE goes round in a circle.")
+    if not path.is_file():
+        raise UserError(f"There is no file {path}.")
+    lines = path.read_text(encoding="latin-1").splitlines()
+    marks = [i for i, line in enumerate(lines) if line.startswith("*") and not line.startswith("**")]
+    for begin, end in zip(marks, [*marks[1:], len(lines)], strict=True):
+        head = lines[begin]
+        while head.rstrip().endswith(",") and begin + 1 < end:
+            begin += 1
+            head += lines[begin]
+        words = [w.strip() for w in head[1:].split(",")]
+        parameters = {}
+        for word in words[1:]:
+            key, _, value = word.partition("=")
+            parameters[key.strip().upper()] = value.strip().strip('"')
+        keyword = words[0].upper()
+        if keyword == "INCLUDE":
+            yield from _sections(path.parent / parameters.get("INPUT", ""), depth + 1)
+            continue
+        data = [s for s in lines[begin + 1 : end] if s.strip() and not s.startswith("**")]
+        yield _Section(keyword, parameters, data)
+
+
+def _take(section: _Section, found: _Found, path: Path) -> None:
+    p = section.parameters
+    if section.keyword == "NODE" and section.lines:
+        labels, coordinates = _nodes(section.lines)
+        found.labels.append(labels)
+        found.points.append(coordinates)
+        _into(found, found.node_sets, p.get("NSET"), [found.labels[-1]])
+    elif section.keyword == "ELEMENT" and section.lines:
+        kind, nodes = _kind(p.get("TYPE", "").upper())
+        if not nodes:  # not a mesh's: springs, masses, connectors
+            nodes = section.lines[0].rstrip().rstrip(",").count(",")
+        data = section.integers()
+        if nodes < 1 or len(data) % (nodes + 1):
+            raise UserError(
+                f"{path}: *ELEMENT, TYPE={p.get('TYPE', '')} has {len(data)} numbers, which are no rows of "
+                f"a label and {nodes} nodes."
+            )
+        data = data.reshape(-1, nodes + 1)
+        found.blocks.append((kind, data[:, 0], data[:, 1:]))
+        _into(found, found.cell_sets, p.get("ELSET"), [data[:, 0]])
+    elif section.keyword in ("NSET", "ELSET") and section.keyword in p:
+        sets = found.node_sets if section.keyword == "NSET" else found.cell_sets
+        _into(found, sets, p[section.keyword], _members(section, sets, path))
+    elif section.keyword == "SURFACE" and "NAME" in p and p.get("TYPE", "ELEMENT").upper() == "ELEMENT":
+        rows = [[w.strip() for w in s.split(",")] for s in section.lines]
+        found.spelling.setdefault(p["NAME"].upper(), p["NAME"])
+        found.surfaces.setdefault(p["NAME"].upper(), []).extend(
+            (r[0].upper(), r[1].upper()) for r in rows if len(r) > 1
+        )
+
+
+def _nodes(lines: list[str]) -> tuple[np.ndarray, np.ndarray]:
+    """Labels and coordinates; those that a line lacks are zero."""
+    flat = ",".join(lines).replace(",", " ").split()
+    if len(flat) == 4 * len(lines) and all(line.count(",") in (3, 4) for line in lines):
+        table = np.array(flat, float).reshape(-1, 4)
+    else:
+        rows = [[w.strip() or "0" for w in line.split(",")] for line in lines]
+        table = np.array([[*row, "0", "0", "0"][:4] for row in rows], float)
+    return table[:, 0].astype(np.int64), table[:, 1:]
+
+
+def _into(found: _Found, sets: dict[str, list[np.ndarray]], name: str | None, more: list[np.ndarray]) -> None:
+    if name:
+        found.spelling.setdefault(name.upper(), name)
+        sets.setdefault(name.upper(), []).extend(more)
+
+
+def _members(section: _Section, sets: dict[str, list[np.ndarray]], path: Path) -> list[np.ndarray]:
+    """Labels of a set: numbers, ranges, names of other sets."""
+    if "GENERATE" in section.parameters:
+        out = []
+        for line in section.lines:
+            low, high, *step = (int(w) for w in line.rstrip().rstrip(",").split(","))
+            out.append(np.arange(low, high + 1, step[0] if step else 1))
+        return out
+    words = " ".join(section.lines).replace(",", " ").split()
+    names = [w for w in words if not w.isdigit()]
+    unknown = [n for n in names if n.upper() not in sets]
+    if unknown:
+        raise UserError(f"{path}: *{section.keyword} names {unknown[0]}, which is no set before it.")
+    numbers = np.array([w for w in words if w.isdigit()], np.int64)
+    return [numbers, *(m for n in names for m in sets[n.upper()])]
+
+
+def _kind(word: str) -> tuple[str, int]:
+    """Of an element type: meshio's name and the number of nodes; 0 when it is not known."""
+    for pattern, kinds in FAMILIES:
+        match = pattern.match(word)
+        if match and int(match[1]) in kinds:
+            return kinds[int(match[1])], int(match[1])
+    match = BARS.match(word)
+    if match:
+        digit = {"1": "2", "2": "3", "3": "2"}[match[1]] if word.startswith("B") else match[1]
+        if digit in LINES:
+            return LINES[digit], int(digit)
+    return word or "?", 0
+
+
+def _add_surface(
+    name: str,
+    faces: list[tuple[str, str]],
+    found: _Found,
+    blocks: list[tuple[str, np.ndarray]],
+    cell_sets: dict[str, list[np.ndarray]],
+) -> None:
+    """The faces as cells of their corners, in a group with the name of the surface."""
+    corners: dict[int, list[np.ndarray]] = {}
+    for who, face in faces:
+        wanted = np.array([int(who)]) if who.isdigit() else np.concatenate(found.cell_sets.get(who, [[]]))
+        k = int(face[1:]) if face[:1] == "S" and face[1:].isdigit() else 0
+        for (kind, labels, _), (_, nodes) in zip(found.blocks, blocks, strict=False):
+            loops = FACES.get(BASIC.get(kind, kind), ())
+            mine = np.isin(labels, wanted)
+            if 1 <= k <= len(loops) and mine.any():
+                loop = list(loops[k - 1])
+                corners.setdefault(len(loop), []).append(nodes[mine][:, loop])
+    spelled = found.spelling[name]
+    for size, rows in corners.items():
+        block = ({2: "line", 3: "triangle", 4: "quad"}[size], np.concatenate(rows))
+        for members in cell_sets.values():
+            members.append(np.zeros(0, int))
+        own = cell_sets.setdefault(spelled, [])
+        own += [np.zeros(0, int)] * (len(blocks) + 1 - len(own))
+        own[-1] = np.arange(len(block[1]))
+        blocks.append(block)

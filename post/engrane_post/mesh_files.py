@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads the mesh files of other programs: points, cells, and the groups that each names in its own way."""
+
+from __future__ import annotations
+
+from contextlib import redirect_stdout
+from dataclasses import dataclass, field
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .cells import BY_NAME, dimension_of
+from .errors import UserError
+from .raw_mesh import meshio_library
+
+#: numbers of parts or groups that readers hand over with the cells, and what a group without a name is called
+TAGS = {
+    "gmsh:physical": "physical",
+    "medit:ref": "ref",
+    "nastran:ref": "property",
+    "avsucd:material": "material",
+    "flac3d:group": "group",
+    "tetgen:ref": "ref",
+    "ugrid:ref": "ref",
+    "su2:tag": "tag",
+    "mdpa:property": "property",
+    "cellentityids": "entity",
+    "materialids": "material",
+    "physicalids": "physical",
+    "groupids": "group",
+    "partids": "part",
+    "material": "material",
+    "group": "group",
+    "region": "region",
+    "part": "part",
+}
+HINTS = {
+    "Incompatible cell data. Cell block": "it holds fields over its cells, which meshio cannot sort: "
+    "write the mesh alone",
+    "Incompatible cell data 'gmsh:physical'": "some cells are in no physical group: save the mesh without "
+    "'Save all elements', or with all of them in groups",
+}
+
+
+NASTRAN = (".bdf", ".fem", ".nas")
+
+
+@dataclass
+class FileMesh:
+    """A mesh as its file has it: points (n x 3), cells by meshio's names of their kinds, and groups: which
+    cells of each block, which points."""
+
+    path: Path
+    points: np.ndarray
+    blocks: list[tuple[str, np.ndarray]]
+    cell_groups: dict[str, list[np.ndarray]] = field(default_factory=dict)
+    point_groups: dict[str, np.ndarray] = field(default_factory=dict)
+
+
+def open_mesh(path: str | Path) -> Any:
+    """The mesh of a file as meshio has it."""
+    meshio = meshio_library()
+    if not Path(path).is_file():
+        raise UserError(f"There is no file {path}.")
+    try:
+        suffix = Path(path).suffix.lower()
+        if suffix in (".unv", ".inp"):
+            from . import abaqus, unv
+
+            return (unv if suffix == ".unv" else abaqus).read(path)
+        # its guess whether an STL is binary may overflow; it writes empty lines
+        with np.errstate(over="ignore"), redirect_stdout(StringIO()):
+            if suffix in NASTRAN:
+                return meshio.read(_bulk_data(Path(path)), file_format="nastran")
+            return meshio.read(path)
+    except UserError:
+        raise
+    except (Exception, SystemExit) as error:  # meshio ends the program on a format that it does not know
+        reason = str(error) or type(error).__name__
+        hint = next((h for sign, h in HINTS.items() if sign in reason), reason)
+        raise UserError(f"{path} is no mesh that can be read ({hint}).") from None
+
+
+def _bulk_data(path: Path) -> StringIO:
+    """Of a Nastran file, which other programs also write without the line that begins it."""
+    text = path.read_text(encoding="latin-1")
+    return StringIO(text if "BEGIN BULK" in text.upper() else f"BEGIN BULK\n{text}")
+
+
+def read(path: str | Path) -> FileMesh:
+    """Points, cells and groups of a file."""
+    source = open_mesh(path)
+    given = np.asarray(source.points, float)
+    points = np.zeros((len(given), 3))
+    points[:, : given.shape[1]] = given
+    if not np.isfinite(points).all():
+        bad = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
+        raise UserError(f"{path}: the coordinates of node {bad + 1} are not numbers.")
+    blocks = [(b.type, np.asarray(b.data)) for b in source.cells]
+    if Path(path).suffix.lower() == ".med":  # the base of a solid runs the other way round than in VTK
+        blocks = [
+            (n, t[:, BY_NAME[n].mirror] if dimension_of(n) == 3 and n in BY_NAME else t) for n, t in blocks
+        ]
+    mesh = FileMesh(Path(path), points, blocks)
+    for name, members in source.cell_sets.items():
+        if not name.startswith("gmsh:") and len(members) == len(blocks):
+            mesh.cell_groups[name] = [_indices(m) for m in members]
+    for name, rows in source.point_sets.items():
+        mesh.point_groups[name] = _indices(rows)
+    _tagged_cells(source, mesh)
+    _families(source, mesh)
+    return mesh
+
+
+def _indices(members: Any) -> np.ndarray:
+    """Of a set, which a file may leave empty."""
+    return np.zeros(0, int) if members is None else np.asarray(members, int).ravel()
+
+
+def _tagged_cells(source: Any, mesh: FileMesh) -> None:
+    """Groups from numbers that every cell has. Names of Gmsh's numbers belong to one dimension."""
+    data = {name.lower(): values for name, values in source.cell_data.items()}
+    names = {
+        (int(v[0]), int(v[1])): name
+        for name, v in source.field_data.items()
+        if len(v) == 2 and all(isinstance(n, int | np.integer) for n in v)
+    }
+    for key, word in TAGS.items():
+        for b, tags in enumerate(data.get(key, ())):
+            tags = np.asarray(tags)
+            if tags.ndim != 1 or not np.issubdtype(tags.dtype, np.integer):
+                continue
+            dimension = dimension_of(mesh.blocks[b][0])
+            for tag in np.unique(tags):
+                name = names.get((int(tag), dimension), f"{word} {tag}")
+                # sets of the same name say it better: a cell may be in several
+                if (tag == 0 and word != "property") or name in source.cell_sets:
+                    continue
+                found = mesh.cell_groups.setdefault(name, [np.zeros(0, int) for _ in mesh.blocks])
+                found[b] = np.union1d(found[b], np.flatnonzero(tags == tag))
+
+
+def _families(source: Any, mesh: FileMesh) -> None:
+    """Groups of MED: each cell and point has the number of a family, which is in several groups."""
+    families = getattr(source, "cell_tags", {})
+    for b, tags in enumerate(source.cell_data.get("cell_tags", [])):
+        for family, groups in families.items():
+            rows = np.flatnonzero(np.asarray(tags) == family)
+            for name in groups if len(rows) else ():
+                found = mesh.cell_groups.setdefault(str(name), [np.zeros(0, int) for _ in mesh.blocks])
+                found[b] = np.union1d(found[b], rows)
+    tags = np.asarray(source.point_data.get("point_tags", []))
+    for family, groups in getattr(source, "point_tags", {}).items():
+        rows = np.flatnonzero(tags == family)
+        for name in groups if len(rows) else ():
+            old = mesh.point_groups.get(str(name), np.zeros(0, int))
+            mesh.point_groups[str(name)] = np.union1d(old, rows)
