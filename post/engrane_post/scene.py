@@ -489,6 +489,12 @@ class Stage:
 
 
 def limits_of(values: list[np.ndarray]) -> tuple[float, float]:
-    """Least and largest of all that are numbers."""
+    """Least and largest of all that are numbers; a constant field, but for rounding, from nothing to its value,
+    so that it has one colour."""
     known = np.concatenate([v[np.isfinite(v)] for v in values])
-    return (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
+    if not len(known):
+        return 0.0, 0.0
+    least, most = float(known.min()), float(known.max())
+    if most - least <= 1e-6 * max(-least, most):
+        return min(least, 0.0), max(most, 0.0)
+    return least, most

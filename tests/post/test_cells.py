@@ -136,6 +136,10 @@ def test_colours_mean_the_same(tmp_path: Path) -> None:
 
     assert limits_of([np.array([3.0, np.nan, -2.0]), np.zeros(1)]) == (-2, 3)
     assert limits_of([np.array([np.nan])]) == (0, 0)
+    assert limits_of([np.array([200.0, 200.0 + 1e-12])]) == pytest.approx(
+        (0, 200)
+    )  # not the colours of rounding
+    assert limits_of([np.array([-5.0, -5.0])]) == (-5, 0)
     with Results(row_of_cells(tmp_path / "row.h5")) as result:
         plotter = pv.Plotter(off_screen=True)
         stage = Stage(Scene(result), plotter, field="VON_MISES", limits=(-5.0, 300.0))
