@@ -489,8 +489,8 @@ class Stage:
 
 
 def limits_of(values: list[np.ndarray]) -> tuple[float, float]:
-    """Least and largest of all that are numbers; a constant field, but for rounding, from nothing to its value,
-    so that it has one colour."""
+    """Least and largest of all that are numbers; of a field that is constant but for rounding nothing and its
+    value, so that it has one colour."""
     known = np.concatenate([v[np.isfinite(v)] for v in values])
     if not len(known):
         return 0.0, 0.0
