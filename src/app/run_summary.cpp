@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/options.hpp"
@@ -75,6 +76,10 @@ Json run_json(const RunSummary& run) {
     json["accuracy"] = {{"estimated_error", number(run.accuracy->error)},
                         {"channel", text(run.accuracy->channel)},
                         {"tolerance", number(run.accuracy->tolerance)}};
+  if (run.conditioning)
+    json["linear_system"] = {{"condition", number(run.conditioning->condition)},
+                             {"backward_error", number(run.conditioning->backward_error)},
+                             {"error_bound", number(run.conditioning->error())}};
   if (run.energies)
     json["energies"] = {{"kinetic", number(run.energies->kinetic)},
                         {"potential", number(run.energies->potential)},
@@ -90,6 +95,22 @@ Json run_json(const RunSummary& run) {
 }
 
 }  // namespace
+
+double Conditioning::error() const {
+  return std::min(1.0, condition * std::max(backward_error, std::numeric_limits<double>::epsilon()));
+}
+
+std::string Conditioning::describe() const {
+  return fmt::format(
+      "  condition         {:.1e}   estimate from the factors, largest sum of a column; in the units of the deck\n"
+      "  backward error    {:.1e}   of the last solution that was judged\n"
+      "  {}\n",
+      condition, backward_error,
+      error() < 1
+          ? fmt::format("error bound       {:.1e}   of its largest entry: a Newton correction, found anew in each iteration",
+                        error())
+          : "error bound       none: a change in the last digit of the matrix may change the whole solution");
+}
 
 std::string RunSummary::outcome() const {
   switch (status) {

@@ -13,6 +13,17 @@
 
 namespace engrane::app {
 
+/// How well the last linear system of a run determines its solution (`--condition`).
+struct Conditioning {
+  double condition = 0;       ///< estimate, in the norm of the largest sum of a column
+  double backward_error = 0;  ///< of the last solution that was judged
+
+  /// A bound on the relative error of the solution (Higham 2002, Accuracy and Stability of Numerical Algorithms, 7.1): how far
+  /// a change of the matrix in the last digit, or by the backward error, moves it. At most 1.
+  double error() const;
+  std::string describe() const;
+};
+
 /// What came of one deck, for the summary of several and for `--json`. Quantities in the units of the deck.
 struct RunSummary {
   std::string deck;
@@ -24,6 +35,7 @@ struct RunSummary {
   long steps = 0, iterations = 0, cuts = 0, events = 0;
   double time = 0, end = 0;  ///< reached, and asked for by .SUB
   std::optional<ErrorEstimate> accuracy;
+  std::optional<Conditioning> conditioning;        ///< where --condition asks for it
   double seconds = 0;                              ///< of the clock on the wall
   std::vector<output::CheckResult> checks;         ///< of .CHK
   std::vector<output::CheckResult> results;        ///< of --result: only what was computed counts

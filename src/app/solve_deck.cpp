@@ -292,6 +292,9 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
       return {exit_status::fine, sharper};
     }
   }
+  if (options.condition)
+    if (const std::optional<double> condition = context.solver.condition(); condition && rank == 0)
+      writer->conditioning({*condition, context.solver.backward_error()});
   failure = with_causes(std::move(failure), comm, rank, ranks);
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {

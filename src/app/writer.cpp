@@ -251,6 +251,10 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
     listing_.write(listing_section("Accuracy"));
     listing_.write(accuracy_);
   }
+  if (summary_.conditioning) {
+    listing_.write(listing_section("Last linear system"));
+    listing_.write(summary_.conditioning->describe());
+  }
   listing_.write(listing_section("Effort"));
   listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1, iterations_,
                              steps_ > 1 ? static_cast<double>(iterations_) / static_cast<double>(steps_ - 1) : 0.0, cuts_));

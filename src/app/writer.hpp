@@ -44,6 +44,8 @@ class Writer {
   void step(const Configuration& c, const solve::StepReport& step, const Schedule::Due& due, const Numbering& numbering);
   /// An instant within the step that the next call of step() is about.
   void between(double time, const Schedule::Due& due);
+  /// For the listing and the summary.
+  void conditioning(const Conditioning& found) { summary_.conditioning = found; }
   /// What the results are estimated to be off by, for the listing; `target` is what ACCURACY asks for.
   void accuracy(const ErrorEstimate& estimate, double target);
   /// Ends listing and results; returns the exit status.

@@ -13,6 +13,7 @@ TESTS = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TESTS.parent / "post"))
 sys.path.insert(0, str(TESTS))
 
+from ranks import on_ranks  # noqa: E402
 from small_decks import PENDULUM  # noqa: E402
 
 
@@ -23,9 +24,10 @@ def engrane(tmp_path):
     if not Path(program).is_file():
         pytest.skip("the variable ENGRANE names no program")
 
-    def call(*words, timeout=120, **options):
+    def call(*words, timeout=120, ranks=1, **options):
+        command = on_ranks(ranks, [program, *words]) if ranks > 1 else [program, *words]
         return subprocess.run(
-            [program, *words], cwd=tmp_path, capture_output=True, text=True, timeout=timeout, **options
+            command, cwd=tmp_path, capture_output=True, text=True, timeout=timeout, **options
         )
 
     call.folder = tmp_path

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the listing counts up, against sums by hand and the results themselves."""
 
+import json
 import re
 
 import h5py
@@ -97,3 +98,37 @@ def test_the_terminal_names_files_and_commands(run, engrane):
     assert "engrane plot two element/" in run[0]
     assert "engrane picture two" in run[0]
     assert engrane("-q", "two.dat").stdout == ""
+
+
+# 1 N/m beside 1e8 N/m in a row, along x: the matrix is [[1 + k, -k], [-k, k]]
+SPRINGS = """.NOE
+ I 1 X 1 0 0
+ I 2 X 2 0 0
+.MCE
+ I 1 SPRING N 0 1 K 1
+ I 2 SPRING N 1 2 K 1E8
+.CLM
+ NOEUD 1 2 FIX C 2 3
+ NOEUD 2 CHA C 1 V 1E-3
+.SAM TYPE STATIC
+.SUB TF 1 H 1
+"""
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_condition(ranks, engrane):
+    (engrane.folder / "springs.dat").write_text(SPRINGS)
+    done = engrane("springs.dat", "--condition", "--json", ranks=ranks)
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)["runs"][0]["linear_system"]
+    assert found["condition"] == pytest.approx(
+        4e8, rel=1e-6
+    )  # sums of columns: 2 k + 1, and 2 of the inverse
+    assert found["backward_error"] < 1e-14
+    assert found["error_bound"] == pytest.approx(4e8 * max(found["backward_error"], 2**-52), rel=1e-6)
+    listing = (engrane.folder / "springs.lst").read_text()
+    assert "condition         4.0e+08" in listing
+    done = engrane("springs.dat", ranks=ranks)
+    assert (
+        "linear_system" not in done.stdout and "condition" not in (engrane.folder / "springs.lst").read_text()
+    )

@@ -42,7 +42,7 @@ class Fixture {
     return true;
   }
 
-  double condition() { return solver_->condition(); }
+  double condition() { return solver_->condition().value(); }
   /// Matrices in a row for which old pivots did not serve.
   double lost() const {
     Snapshot snapshot;

@@ -153,7 +153,8 @@ void LinearSolver::restore_factors() {
   restored_ = false;
 }
 
-double LinearSolver::condition() {
+std::optional<double> LinearSolver::condition() {
+  if (state_ != State::ready) return {};
   PetscReal norm = 0;
   check_petsc(MatNorm(matrix_, NORM_1, &norm));
   return norm * inverse_norm(*factors_, matrix_);

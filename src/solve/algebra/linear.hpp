@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,7 +57,8 @@ class LinearSolver {
   double factor_bytes() const { return factors_->bytes(); }
 
   /// Condition of the matrix that was factored last, in the norm of the largest sum of a column: an estimate from its factors.
-  double condition();
+  /// Nothing where there are none. Collective.
+  std::optional<double> condition();
   /// Backward error of the last solution that was looked at.
   double backward_error() const { return error_; }
 
