@@ -16,6 +16,7 @@
 #include "app/terminal.hpp"
 #include "app/times.hpp"
 #include "app/writer.hpp"
+#include "deck/cards/cards.hpp"
 #include "model/function_failure.hpp"
 #include "solve/constraints/diagnosis.hpp"
 #include "user/routine.hpp"
@@ -304,7 +305,9 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
                 explain_unresolved(context.assembler, context.newton, runner.now(), observer.energies().handled());
             !unresolved.empty())
           writer->warn(unresolved);
-      if (runner.started()) writer->remember(runner.now(), runner, false, true);
+      // linear statics in one step, which no card asks for, cannot go on
+      const bool over = complete && has_cells(reading.model) && !deck::says_analysis(reading.deck.records);
+      if (runner.started() && !over) writer->remember(runner.now(), runner, false, true);
       status = writer->finish(complete ? RunStatus::complete : RunStatus::failed, failure, times.split(context.solver));
     } catch (const OutputError& e) {
       failure = e.what();

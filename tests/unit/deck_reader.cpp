@@ -96,9 +96,9 @@ TEST(DeckReader, LocationsOfFields) {
 
 TEST(DeckReader, RecognisedButNotInThisVersion) {
   EXPECT_EQ(only_message(".ASE I 1 N 1 2 0 -3"), "`.ASE` is recognised but not in this version: assembly of super-elements");
-  const std::string face = "`.CLM FACE` is recognised but not in this version: pressure on faces of solid cells";
-  EXPECT_EQ(only_message(".CLM FACE I 1 2 PRE V 3"), face);
-  EXPECT_EQ(only_message(".CLM FIX NOEUD 1 C 1 FACE I 1 2 PRE V 3"), face);
+  const std::string relation = "`.CLM LIA` is recognised but not in this version: linear relations between displacements";
+  EXPECT_EQ(only_message(".CLM LIA 1 2 PRE V 3"), relation);
+  EXPECT_EQ(only_message(".CLM FIX NOEUD 1 C 1 LIA 1 2 PRE V 3"), relation);
 }
 
 TEST(DeckReader, ObjectsStandBeforeTheirRecord) {

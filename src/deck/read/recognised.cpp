@@ -19,7 +19,6 @@ const std::vector<Recognised>& recognised_commands() {
       {".ASE", "assembly of super-elements", "remove .ASE"},
       {".STO", "storage of super-elements", "remove .STO"},
       {".CLT", "thermal conditions", "remove .CLT"},
-      {".CLM FACE", "pressure on faces of solid cells", "give the resulting forces with CHA and remove FACE"},
       {".CLM LIA", "linear relations between displacements", "write it as a record of .LIA"},
       {".DES", "drawing", ""},
       {".ALG", "settings of the solution algorithms", ""},
