@@ -325,6 +325,8 @@ class Builder {
   void add_temperature(const deck::Record& record, const deck::TemperatureCard& card) {
     const Function* f = function(record, card.function);
     for (const int id : groups_.resolve(record, card)) temperatures_[id] = {card.rise, f};
+    if (!has_mesh_)
+      diagnostics_.warning_once("TEMP", record.location, "the deck has no cells (.MAI): their temperatures have no effect");
   }
 
   void add_loads() {

@@ -19,7 +19,12 @@ void sort_and_unite(std::vector<int>& ids) {
 }  // namespace
 
 void NodeGroups::add(const deck::Record& record, const deck::GroupCard& card) {
-  if (!card.kind.is("NODES")) return;  // those who refer to groups of elements and faces find them by themselves
+  if (!card.kind.is("NODES")) {  // those who refer to groups of elements and faces find them by themselves
+    const char* what = card.kind.is("FACES") ? "faces" : "elements";
+    if (card.number != 0) of_others_[std::to_string(card.number)] = what;
+    if (!card.name.empty()) of_others_[card.name] = what;
+    return;
+  }
   Group group;
   group.all = card.all && nodes_.by_number().size() > 1;
   for (const int id : card.ids) {
@@ -109,6 +114,11 @@ std::optional<std::size_t> NodeGroups::find(const std::string& name) const {
 }
 
 void NodeGroups::report_unknown_group(const deck::Record& record, std::string_view keyword, const std::string& name) const {
+  if (const auto other = of_others_.find(name); other != of_others_.end()) {
+    diagnostics_.error(record.where(keyword), fmt::format("group \"{}\" holds {}, and nodes are meant here", name, other->second),
+                       "declare a group of NOEUDS");
+    return;
+  }
   std::vector<std::string> known;
   for (const auto& [key, group] : declared_) known.push_back(key);
   std::sort(known.begin(), known.end());  // of several as near the first is named

@@ -41,10 +41,11 @@ class NodeGroups {
 
   const NodePositions& nodes_;
   Diagnostics& diagnostics_;
-  std::vector<Group> groups_;                              ///< in the order of the deck
-  std::unordered_map<std::string, std::size_t> declared_;  ///< by number and by name; the last of a name counts
-  std::vector<int> by_x_;                                  ///< indices of the nodes by first coordinate, once asked for
-  int searches_ = 0;                                       ///< how many targets were resolved
+  std::vector<Group> groups_;                               ///< in the order of the deck
+  std::unordered_map<std::string, std::size_t> declared_;   ///< by number and by name; the last of a name counts
+  std::unordered_map<std::string, const char*> of_others_;  ///< groups of elements and faces: what they hold
+  std::vector<int> by_x_;                                   ///< indices of the nodes by first coordinate, once asked for
+  int searches_ = 0;                                        ///< how many targets were resolved
 };
 
 }  // namespace engrane

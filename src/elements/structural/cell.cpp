@@ -89,6 +89,10 @@ std::unique_ptr<Element> build(const CellData& data, BuildContext& context) {
   CellPlan plan{context.record.id, cell->shape, std::move(cell->nodes), {}, section};
   for (const int id : plan.nodes) plan.places.push_back(context.nodes.at(id));
   plan.warmth = warmth_of(plan.nodes, context);
+  if (plan.warmth && section->law.expansion.isZero(0))
+    context.diagnostics.warning_once("warm", context.record.location,
+                                     fmt::format("the material of cell {} does not expand: TEMP has no effect on it", plan.id),
+                                     "A of its .MAT is the coefficient of thermal expansion");
   if (!is_solid(plan.shape)) return fits_plane(plan, context) ? make_plane_cell(plan, context.blocks) : nullptr;
   if (is_regular_solid(plan.shape, plan.places)) return make_solid_cell(plan, context.blocks);
   context.error(

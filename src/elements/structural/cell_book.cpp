@@ -226,8 +226,10 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
   if (!entry->second) return nullptr;
   const materials::Elastic material = materials::turned(*entry->second, axes);
   if (hypothesis != Hypothesis::solid && !materials::is_plane(material)) {
-    diagnostics_.error(cell.axes->where("FRAME"), fmt::format("the axes of material {} lead out of the plane", cell.material->id),
-                       "of a plane cell one axis of the material is z");
+    if (crooked_.insert(cell.material->id).second)
+      diagnostics_.error(cell.axes->where("FRAME"),
+                         fmt::format("the axes of material {} lead out of the plane", cell.material->id),
+                         "of a plane cell one axis of the material is z");
     return nullptr;
   }
   const bool has_thickness = hypothesis == Hypothesis::plane_stress || hypothesis == Hypothesis::plane_strain;

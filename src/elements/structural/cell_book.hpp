@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,6 +78,7 @@ class CellBook {
   std::map<std::string, std::vector<int>> faces_;
   std::map<int, const deck::Record*> materials_;
   std::map<std::pair<int, materials::Hypothesis>, std::optional<materials::Elastic>> elastic_;  ///< by material
+  std::set<int> crooked_;  ///< materials whose axes were told to lead out of the plane
   Frames frames_;
 };
 
