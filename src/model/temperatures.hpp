@@ -13,6 +13,7 @@ struct Warmth {
   const Function* function = nullptr;  ///< of time, a factor
 
   double at(double time) const { return rise * (function ? function->at(time).f : 1); }
+  double rate(double time) const { return function ? rise * function->at(time).d1 : 0; }
 };
 
 /// By the number of the node; the others are as warm as in the reference configuration.

@@ -221,3 +221,42 @@ def test_brackets(kind: str, hypothesis: str, tmp_path: Path) -> None:
     expected = [stresses[cell][:, 0].mean() for cell in cells]
     assert np.abs(means[: len(cells)] - expected).max() < 1e-8 * scale
     assert types == {{"t3": 4, "q4": 5, "t6": 36, "q8": 37}[kind]}
+
+
+WARMED = """.NOE
+ I 1 X 0 Y 0
+ I 2 X 100 Y 0
+ I 3 X 100 Y 10
+ I 4 X 0 Y 10
+.MAI
+ I 1 N 1 2 3 4
+.SEL
+ GROUP 1 MAILLES NOM "bar" TOUT
+ GROUP 2 NOEUDS NOM "all" TOUT
+.MAT
+ I 1 BEHA "ELASTIC" YT 200000. NT 0.3 M 7.8E-9 A 1.2E-5
+.HYP DEFO PLAN GROUP "bar"
+.AEL
+ GROUP "bar" MAT 1
+.CLM
+ NOEUD 1 4 FIX C 1
+ NOEUD 1 FIX C 2
+ GROUP "all" TEMP V 100. NF 1
+.FCT
+ I 1 STEP 0 0 1E-4 1
+.SAM TYPE DYNAMIC
+.SUB TF 2E-4 H {step}
+"""
+
+
+def test_warmth_does_work(tmp_path: Path) -> None:
+    """A bar held at one end swings as it is warmed, in plane strain: the balance of energies closes to the
+    second order of the step, and what is held along z, E (alpha T)**2/2, is most of the energy."""
+    errors = []
+    for step in (1e-6, 5e-7):
+        result = run(WARMED.format(step=step), tmp_path)
+        work = result["run/EXTERNAL_WORK"][-1]
+        errors.append(abs(result["run/ENERGY_ERROR"][-1]) / work)
+    assert errors[0] < 1e-4
+    assert errors[0] / errors[1] == pytest.approx(4, rel=0.1)
+    assert work == pytest.approx(200000 * (1.2e-5 * 100) ** 2 / 2 * 1000, rel=0.1)

@@ -7,6 +7,7 @@
 #include <array>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 #include "elements/structural/cell_kernel.hpp"
 #include "elements/structural/make_cell.hpp"
@@ -79,9 +80,16 @@ class Cells final : public Block {
     kernel.condense(law, moved, false, sum);
     Energies energies;
     for (int i = 0; i < kernel.count(); ++i) {
+      const double volume = kernel.point(i).volume;
       const auto strain = Kernel::elastic(law, i, Kernel::strain(kernel.deformation(kernel.point(i), sum.moves), law.linear));
-      const double held = rise(cell, state, Kernel::samples()[static_cast<std::size_t>(i)]) * section.law.expansion[2];
-      energies.strain += kernel.point(i).volume / 2 * (strain.dot(law.stiffness * strain) + section.law.held * held * held);
+      const typename Kernel::Strain stress = law.stiffness * strain;
+      energies.strain += volume / 2 * strain.dot(stress);
+      if (!law.is_warm) continue;
+      // V also depends on the warmth ΔT: its change does the work ∂V/∂ΔT dΔT
+      const Sample& s = Kernel::samples()[static_cast<std::size_t>(i)];
+      const double held = section.law.held * section.law.expansion[2] * section.law.expansion[2], warmer = rise(cell, state, s);
+      energies.strain += volume / 2 * held * warmer * warmer;
+      energies.external += volume * (held * warmer - Kernel::reduced(section.law.growth).dot(stress)) * rise_rate(cell, state, s);
     }
     Vector weight;
     energies.potential = energies.strain;
@@ -182,11 +190,18 @@ class Cells final : public Block {
     return law;
   }
 
-  /// How much warmer a point is than in the reference configuration.
+  /// How much warmer a point is than in the reference configuration, and how fast it gets warmer.
   static double rise(const Cell& cell, const State& state, const Sample& s) {
+    return between_nodes(cell, s, [&state](const Warmth& w) { return w.at(state.time); });
+  }
+  static double rise_rate(const Cell& cell, const State& state, const Sample& s) {
+    return between_nodes(cell, s, [&state](const Warmth& w) { return w.rate(state.time); });
+  }
+  template <class Of>
+  static double between_nodes(const Cell& cell, const Sample& s, const Of& of) {
     if (!cell.warmth) return 0;
     double sum = 0;
-    for (Eigen::Index i = 0; i < N; ++i) sum += s.value[i] * (*cell.warmth)[static_cast<std::size_t>(i)].at(state.time);
+    for (Eigen::Index i = 0; i < N; ++i) sum += s.value[i] * of((*cell.warmth)[static_cast<std::size_t>(i)]);
     return sum;
   }
 
@@ -197,7 +212,9 @@ class Cells final : public Block {
     typename Kernel::Condensed sum;
     kernel.condense(law_of(cell, state), displacements(cell, state), false, sum);
     std::vector<AtPoint> points;
-    const Kernel at = Traits::result_points() ? Kernel(cell.places, section.thickness, Kernel::result_samples()) : kernel;
+    std::optional<Kernel> others;
+    if (Traits::result_points()) others.emplace(cell.places, section.thickness, Kernel::result_samples());
+    const Kernel& at = others ? *others : kernel;
     for (int i = 0; i < at.count(); ++i) {
       const auto now = at.deformation(at.point(i), sum.moves);
       AtPoint& p = points.emplace_back();
