@@ -116,7 +116,7 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
       ->type_name("QUANTITY")
       ->allow_extra_args(false);
   app.add_flag("--condition", options.condition,
-               "the listing ends with the condition of the last linear system, and how many digits of its solution are sure");
+               "the listing also gives the condition of the last linear system, and a bound on the error of its solution");
   app.add_option("--until", options.until, "stop at this time; --restart continues from there")->type_name("TIME");
   auto* restart =
       app.add_option("--restart", options.restart, "continue these results, as .SAM RESTART does")->type_name("PREFIX");

@@ -21,7 +21,7 @@ struct Options {
   std::string usage;        ///< of man: what --help prints
   std::vector<std::string> tasks, words;  ///< of completion: subcommands, and options of a run
   bool quiet = false;                     ///< no progress
-  bool condition = false;                 ///< the listing tells the condition of the last linear system
+  bool condition = false;                 ///< the listing gives the condition of the last linear system
   std::optional<double> until;            ///< the run is interrupted at the first step that ends then or later
   std::string restart;  ///< prefix of the results to restart from, whatever the deck says; empty: what the deck says
   std::optional<double> restart_time;

@@ -293,9 +293,11 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
       return {exit_status::fine, sharper};
     }
   }
-  if (options.condition)
-    if (const std::optional<double> condition = context.solver.condition(); condition && rank == 0)
-      writer->conditioning({*condition, context.solver.backward_error()});
+  if (options.condition) {
+    const std::optional<double> condition = context.solver.condition();
+    if (rank == 0 && condition) writer->conditioning({*condition, context.solver.backward_error()});
+    if (rank == 0 && !condition) writer->note("engrane: --condition: no linear system was solved whose factors could tell");
+  }
   failure = with_causes(std::move(failure), comm, rank, ranks);
   int status = complete ? exit_status::fine : exit_status::solution_failed;
   if (rank == 0) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <unordered_map>
 #include <utility>
 
@@ -419,23 +418,19 @@ class Builder {
     if (command && taken(number, record)) return 0;
     BuildContext context = context_of(record, diagnostics_);
     context.number = number;
-    std::vector<std::unique_ptr<Element>> all(1), more;
+    std::vector<std::unique_ptr<Element>> more;
     context.more = &more;
-    all.front() = element.type->build(context);
+    auto built = element.type->build(context);
     if (BuildContext::Found* one = element.type->stage == 0 && others_are_asked_for_ ? find_in_mechanism(record.id) : nullptr) {
-      one->element = all.front().get();
-      one->faulty = !all.front();
+      one->element = built.get();
+      one->faulty = !built;
     }
-    if (!all.front()) return 0;
-    std::move(more.begin(), more.end(), std::back_inserter(all));
+    if (!built) return 0;
     const std::string_view key = element.type->schema.key();
-    for (std::unique_ptr<Element>& built : all)
-      model_.parts.push_back({std::move(built),
-                              key.empty() || !command ? name.substr(command ? 1 : 0) : std::string(key),
-                              &record,
-                              record.location,
-                              {}});
-    return static_cast<int>(all.size());
+    const std::string type = key.empty() || !command ? name.substr(command ? 1 : 0) : std::string(key);
+    model_.parts.push_back({std::move(built), type, &record, record.location, {}});
+    for (std::unique_ptr<Element>& one : more) model_.parts.push_back({std::move(one), type, &record, record.location, {}});
+    return static_cast<int>(1 + more.size());
   }
 
   BuildContext::Found* find_in_mechanism(int id) {

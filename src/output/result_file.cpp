@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
 
@@ -27,33 +28,11 @@ hsize_t even_pieces(hsize_t total, hsize_t most) {
 
 std::string table_place(const HistoryTable& table) { return "history/" + table.path; }
 
-/// Of the cells of XDMF 3.
+/// Of XDMF 3. Cells that are none of a mesh are lines.
 std::int32_t xdmf_code(CellShape shape) {
-  switch (shape) {
-    case CellShape::triangle:
-      return 4;
-    case CellShape::triangle6:
-      return 36;
-    case CellShape::quadrilateral:
-      return 5;
-    case CellShape::quadrilateral8:
-      return 37;
-    case CellShape::tetrahedron:
-      return 6;
-    case CellShape::tetrahedron10:
-      return 38;
-    case CellShape::wedge:
-      return 8;
-    case CellShape::wedge15:
-      return 40;
-    case CellShape::hexahedron:
-      return 9;
-    case CellShape::hexahedron20:
-      return 48;
-    case CellShape::none:
-      break;
-  }
-  return 2;
+  // in the order of CellShape
+  static constexpr std::array<std::int32_t, 11> codes{2, 4, 36, 5, 37, 6, 38, 8, 40, 9, 48};
+  return codes.at(static_cast<std::size_t>(shape));
 }
 
 std::string frame_name(std::size_t index) { return fmt::format("{:06}", index); }
@@ -73,7 +52,7 @@ std::size_t Batch::bytes() const {
 }
 
 MixedTopology mixed_topology(const ResultsLayout& layout) {
-  constexpr std::int32_t polyline = 2;
+  const std::int32_t polyline = xdmf_code(CellShape::none);
   MixedTopology topology;
   // A vertex has no type code that all readers take the same way, and some take no polyline of more than two points.
   const auto line = [&](int a, int b, int element) {

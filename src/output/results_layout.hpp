@@ -26,8 +26,7 @@ struct HistoryTable {
   }
 };
 
-/// What stands for (a part of) an element in the mesh: a point, a polyline, a triangle or a quadrilateral, these also with
-/// mid-side nodes behind their corners.
+/// What stands for (a part of) an element in the mesh: a point, a polyline, or a cell.
 struct Cell {
   std::vector<int> points;            ///< 0-based places in ResultsLayout::points
   int element = 0;                    ///< id

@@ -61,7 +61,7 @@ def tube(boxes: int, corners: int, second: bool) -> tuple[Block, str]:
 
 @pytest.mark.parametrize(
     ("corners", "second", "order"),
-    [(4, False, 1.5), (4, True, 2.8), (6, False, 1.5), (6, True, 2.8), (8, False, 1.8), (8, True, 2.8)],
+    [(4, False, 1.9), (4, True, 2.8), (6, False, 1.9), (6, True, 2.9), (8, False, 1.9), (8, True, 3.6)],
 )
 def test_tube_converges(corners: int, second: bool, order: float, tmp_path: Path) -> None:
     """Lamé, plane strain: radial displacement of all nodes, and its order as the mesh gets finer."""
@@ -76,7 +76,7 @@ def test_tube_converges(corners: int, second: bool, order: float, tmp_path: Path
         radial = (found[:, :2] * block.points[:, :2]).sum(axis=1) / radius
         errors.append(np.sqrt(np.mean((radial - expected) ** 2)) / expected.max())
     assert np.log2(errors[0] / errors[1]) > order, errors
-    assert errors[1] < (3e-3 if second else 6e-2), errors
+    assert errors[1] < (3e-4 if second else 1e-2), errors
 
 
 @pytest.mark.parametrize(("corners", "second"), [(4, True), (6, True), (8, False), (8, True)])
@@ -104,5 +104,5 @@ def test_elastica(corners: int, second: bool, tmp_path: Path) -> None:
     result = run("\n".join(deck), tmp_path)
     found = displacements(result.file)[end].mean(axis=0) / length
     # the beam of the elastica neither stretches nor shears, this one does by some (h/L)**2
-    assert found[2] == pytest.approx(0.66996, abs=1.5e-3)
-    assert found[0] == pytest.approx(-0.32894, abs=1.5e-3)
+    assert found[2] == pytest.approx(0.66996, abs=5e-4)
+    assert found[0] == pytest.approx(-0.32894, abs=5e-4)

@@ -88,11 +88,8 @@ Schema group_card() {
   card.chapter(model_chapter).key("GROUP");
   card.describe(
       "What a group holds is given by numbers and ranges (`1 A 20`, or `I 1 J 20 K 1`: from, to, step; `I 7`), by TOUT, by a "
-      "box, by "
-      "other "
-      "groups, or by the attribute of elements; several of these add up. A face is given by its cell and its number there (`I 57 "
-      "3`). "
-      "Other cards name a group by its number or by its name.");
+      "box, by other groups, or by the attribute of elements; several of these add up. Faces are given one by one, by their cell "
+      "and their number there (`I 57 3`). Other cards name a group by its number or by its name.");
   card.add("NOM", &GroupCard::name, "name").synonyms({"NAME"});
   card.add("KIND", &GroupCard::kind, "what the group holds")
       .synonyms({"GENRE"})
@@ -113,7 +110,8 @@ Schema group_card() {
   card.finish([](GroupCard& group, Record& record, Diagnostics& diagnostics) {
     group.number = record.id;
     if (group.kind.is("FACES")) {
-      if (group.ids.empty() || group.ids.size() % 2 != 0 || group.all || !group.box.empty() || group.attribute)
+      if (group.ids.empty() || group.ids.size() % 2 != 0 || group.all || !group.united.empty() || !group.box.empty() ||
+          group.attribute)
         diagnostics.error(record.location, "group " + std::to_string(record.id) + " of faces needs pairs of numbers",
                           "a row `I 57 3` for each: the number of a cell, then that of its face");
       return;

@@ -38,7 +38,7 @@ void RecordReader::read(Record& record, const RecordKeys& keys, const std::vecto
   locations_.clear();
   Reading reading{record, *record.schema, keys};
   take_object(reading, object);
-  while (names_field(reading) || (!at_boundary(tokens_, keys) && !begins_next(reading))) read_item(reading);
+  while ((!at_boundary(tokens_, keys) && !begins_next(reading)) || names_field(reading)) read_item(reading);
   for (const Heading& heading : headings) {
     if (given(*heading.field)) continue;
     heading.field->store(record.data, heading.values);

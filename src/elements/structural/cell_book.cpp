@@ -194,7 +194,7 @@ void CellBook::report_lack(const Lacks& lacks, const std::string& what, const st
     if (!first) first = &cell;
     ++count;
   }
-  const std::string others = count > 1 ? fmt::format(", nor have {} others", count - 1) : "";
+  const std::string others = count > 1 ? fmt::format(" (the first of {})", count) : "";
   if (count > 0) diagnostics_.error(first->record->location, fmt::format("cell {} {}{}", first->record->id, what, others), cure);
 }
 
@@ -253,7 +253,7 @@ void CellBook::make_sections(bool linear, const NodePositions& nodes) {
   const auto is_stress = [&](const Cell& cell) { return hypothesis(cell) == Hypothesis::plane_stress && fits(cell); };
   report_lack([&](const Cell& cell) { return !cell.hypothesis && !is_solid_cell(cell); }, "has no formulation",
               ".HYP MEMB BIDIM GROUP \"name\" (plane stress), DEFO PLAN (plane strain) or AXIS");
-  report_lack([&](const Cell& cell) { return !fits(cell); }, "has not the form that its formulation asks for",
+  report_lack([&](const Cell& cell) { return !fits(cell); }, "does not fit its formulation",
               "VOLUME is for solids, whose nodes hold a 0 (N 1 2 3 0 4); the other formulations are for plane cells");
   report_lack([](const Cell& cell) { return !cell.material; }, "has no material", ".AEL I 1 J 9 K 1 MAT 1");
   report_lack([&](const Cell& cell) { return is_stress(cell) && cell.thickness == 0; }, "has no thickness",

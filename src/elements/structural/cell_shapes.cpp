@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "elements/structural/shape_functions.hpp"
+
 namespace engrane::elements::structural {
 
 namespace {
@@ -14,17 +16,6 @@ QuadratureRule squared(const LineRule& rule) {
     for (const auto& [xi, of_xi] : rule) points.push_back({xi, eta, of_xi * of_eta});
   return points;
 }
-
-/// The bilinear function of the corner (a, b) of the square.
-struct Bilinear {
-  double a, b, value, along_xi, along_eta;
-  Bilinear(std::size_t corner, const QuadraturePoint& p)
-      : a(corner == 1 || corner == 2 ? 1 : -1),
-        b(corner >= 2 ? 1 : -1),
-        value((1 + a * p.xi) * (1 + b * p.eta) / 4),
-        along_xi(a * (1 + b * p.eta) / 4),
-        along_eta(b * (1 + a * p.xi) / 4) {}
-};
 
 }  // namespace
 
@@ -54,18 +45,7 @@ const QuadratureRule& CellTraits<CellShape::triangle>::load_points() {
 }
 
 auto CellTraits<CellShape::triangle6>::sample(const QuadraturePoint& p) -> Sample {
-  const double l[3] = {1 - p.xi - p.eta, p.xi, p.eta};
-  const Eigen::Vector2d slope[3] = {{-1, -1}, {1, 0}, {0, 1}};
-  Sample s;
-  s.weight = p.weight;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const Eigen::Index j = (i + 1) % 3;
-    s.value[i] = l[i] * (2 * l[i] - 1);
-    s.slope.col(i) = (4 * l[i] - 1) * slope[i];
-    s.value[3 + i] = 4 * l[i] * l[j];
-    s.slope.col(3 + i) = 4 * (l[j] * slope[i] + l[i] * slope[j]);
-  }
-  return s;
+  return quadratic_simplex<CellShape::triangle6>(p);
 }
 
 /// Degree 4 (Dunavant 1985, Int. J. Num. Meth. Eng. 21): products of two quadratic functions. The roots and weights are those of
@@ -85,15 +65,7 @@ const QuadratureRule& CellTraits<CellShape::triangle6>::mass_points() {
 }
 
 auto CellTraits<CellShape::quadrilateral>::sample(const QuadraturePoint& p) -> Sample {
-  Sample s;
-  s.weight = p.weight;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Bilinear n(i, p);
-    const auto at = static_cast<Eigen::Index>(i);
-    s.value[at] = n.value;
-    s.slope.col(at) << n.along_xi, n.along_eta;
-  }
-  return s;
+  return linear_cube<CellShape::quadrilateral>(p);
 }
 
 const QuadratureRule& CellTraits<CellShape::quadrilateral>::stiffness_points() {
@@ -107,24 +79,7 @@ const QuadratureRule& CellTraits<CellShape::quadrilateral>::load_points() {
 }
 
 auto CellTraits<CellShape::quadrilateral8>::sample(const QuadraturePoint& p) -> Sample {
-  Sample s;
-  s.weight = p.weight;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Bilinear n(i, p);
-    const double bend = n.a * p.xi + n.b * p.eta - 1;
-    const auto at = static_cast<Eigen::Index>(i);
-    s.value[at] = n.value * bend;
-    s.slope.col(at) << n.along_xi * bend + n.value * n.a, n.along_eta * bend + n.value * n.b;
-  }
-  const double x = 1 - p.xi * p.xi, y = 1 - p.eta * p.eta;
-  for (const double side : {-1.0, 1.0}) {
-    const Eigen::Index along_x = side < 0 ? 4 : 6, along_y = side < 0 ? 7 : 5;
-    s.value[along_x] = x * (1 + side * p.eta) / 2;
-    s.slope.col(along_x) << -p.xi * (1 + side * p.eta), x * side / 2;
-    s.value[along_y] = y * (1 + side * p.xi) / 2;
-    s.slope.col(along_y) << y * side / 2, -p.eta * (1 + side * p.xi);
-  }
-  return s;
+  return quadratic_cube<CellShape::quadrilateral8>(p);
 }
 
 std::array<EdgeSample, 3> edge_samples(std::size_t nodes) {

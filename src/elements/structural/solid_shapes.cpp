@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "elements/structural/cell_shapes.hpp"
+#include "elements/structural/shape_functions.hpp"
 
 namespace engrane::elements::structural {
 
@@ -29,20 +29,6 @@ void add_four(QuadratureRule& points, double a, double weight) {
   const double b = 1 - 3 * a;
   points.insert(points.end(), {{a, a, weight, a}, {b, a, weight, a}, {a, b, weight, a}, {a, a, weight, b}});
 }
-
-using Slope = Eigen::Vector3d;
-
-/// The trilinear function of a corner of the cube, whose coordinates are a, b, c.
-struct Trilinear {
-  double a, b, c, value;
-  Slope slope;
-  Trilinear(Eigen::Index corner, const QuadraturePoint& p)
-      : a(corner % 4 == 1 || corner % 4 == 2 ? 1 : -1), b(corner % 4 >= 2 ? 1 : -1), c(corner >= 4 ? 1 : -1) {
-    const double x = 1 + a * p.xi, y = 1 + b * p.eta, z = 1 + c * p.zeta;
-    value = x * y * z / 8;
-    slope << a * y * z / 8, b * x * z / 8, c * x * y / 8;
-  }
-};
 
 /// Coordinates of the triangle of a wedge, and their slopes.
 struct Triangle {
@@ -77,21 +63,7 @@ const QuadratureRule& CellTraits<CellShape::tetrahedron>::load_points() {
 }
 
 auto CellTraits<CellShape::tetrahedron10>::sample(const QuadraturePoint& p) -> Sample {
-  const double l[4] = {1 - p.xi - p.eta - p.zeta, p.xi, p.eta, p.zeta};
-  const Slope slope[4] = {Slope::Constant(-1), Slope::UnitX(), Slope::UnitY(), Slope::UnitZ()};
-  constexpr int ends[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
-  Sample s;
-  s.weight = p.weight;
-  for (Eigen::Index i = 0; i < 4; ++i) {
-    s.value[i] = l[i] * (2 * l[i] - 1);
-    s.slope.col(i) = (4 * l[i] - 1) * slope[i];
-  }
-  for (Eigen::Index k = 0; k < 6; ++k) {
-    const auto [i, j] = ends[k];
-    s.value[4 + k] = 4 * l[i] * l[j];
-    s.slope.col(4 + k) = 4 * (l[j] * slope[i] + l[i] * slope[j]);
-  }
-  return s;
+  return quadratic_simplex<CellShape::tetrahedron10>(p);
 }
 
 /// Degree 5, 14 points (Walkington 2000, Quadrature on simplices of arbitrary dimension, Carnegie Mellon University): products of
@@ -167,14 +139,7 @@ const QuadratureRule& CellTraits<CellShape::wedge15>::mass_points() {
 }
 
 auto CellTraits<CellShape::hexahedron>::sample(const QuadraturePoint& p) -> Sample {
-  Sample s;
-  s.weight = p.weight;
-  for (Eigen::Index i = 0; i < 8; ++i) {
-    const Trilinear n(i, p);
-    s.value[i] = n.value;
-    s.slope.col(i) = n.slope;
-  }
-  return s;
+  return linear_cube<CellShape::hexahedron>(p);
 }
 
 const QuadratureRule& CellTraits<CellShape::hexahedron>::stiffness_points() {
@@ -188,30 +153,7 @@ const QuadratureRule& CellTraits<CellShape::hexahedron>::load_points() {
 }
 
 auto CellTraits<CellShape::hexahedron20>::sample(const QuadraturePoint& p) -> Sample {
-  Sample s;
-  s.weight = p.weight;
-  for (Eigen::Index i = 0; i < 8; ++i) {
-    const Trilinear n(i, p);
-    const double bend = n.a * p.xi + n.b * p.eta + n.c * p.zeta - 2;
-    s.value[i] = n.value * bend;
-    s.slope.col(i) = n.slope * bend + n.value * Slope(n.a, n.b, n.c);
-  }
-  // the middle of a side lies between two corners, whose coordinates along the side cancel
-  constexpr int ends[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-  const double place[3] = {p.xi, p.eta, p.zeta};
-  for (Eigen::Index k = 0; k < 12; ++k) {
-    const Trilinear n(ends[k][0], p), m(ends[k][1], p);
-    const double corner[3] = {(n.a + m.a) / 2, (n.b + m.b) / 2, (n.c + m.c) / 2};
-    double value[3], slope[3];
-    for (int i = 0; i < 3; ++i) {
-      value[i] = corner[i] == 0 ? 1 - place[i] * place[i] : 1 + corner[i] * place[i];
-      slope[i] = corner[i] == 0 ? -2 * place[i] : corner[i];
-    }
-    s.value[8 + k] = value[0] * value[1] * value[2] / 4;
-    s.slope.col(8 + k) << slope[0] * value[1] * value[2] / 4, value[0] * slope[1] * value[2] / 4,
-        value[0] * value[1] * slope[2] / 4;
-  }
-  return s;
+  return quadratic_cube<CellShape::hexahedron20>(p);
 }
 
 }  // namespace engrane::elements::structural

@@ -3,46 +3,30 @@
 
 #include <gtest/gtest.h>
 
-#include "deck/read/reader.hpp"
-#include "elements/suite.hpp"
-#include "model/model.hpp"
+#include "elements/structural/deck_model.hpp"
 
 namespace engrane::elements::structural {
 namespace {
 
 using namespace suite;
 
-/// A deck with one solid and a pressure of 3 on some of its faces.
-struct Solid {
-  Solid(const std::string& cell, int nodes, const std::string& faces, const char* size) {
-    const double x[8][3] = {{0, 0, 0},       {1.2, 0.1, 0}, {1.1, 0.9, 0.1}, {-0.1, 1, 0},
-                            {0.1, 0.1, 0.8}, {1, 0, 1},     {1.2, 1.1, 0.9}, {0, 1.2, 1.1}};
-    std::string text = ".NOE\n";
-    for (int i = 0; i < std::min(nodes, 8); ++i)
-      text += " I " + std::to_string(i + 1) + " X " + std::to_string(x[i][0]) + " Y " + std::to_string(x[i][1]) + " Z " +
-              std::to_string(x[i][2]) + "\n";
-    if (nodes == 10) {  // of a tetrahedron, one side bent
-      text.resize(text.find(" I 5 "));
-      text +=
-          " I 5 X 0.6 Y 0.05\n I 6 X 1.2 Y 0.5 Z 0.07\n I 7 X 0.5 Y 0.4 Z 0.05\n"
-          " I 8 X -0.05 Y 0.5\n I 9 X 0.5 Y 0.6\n I 10 X 0.5 Y 1. Z 0.1\n";
-    }
-    text += ".MAI\n I 1 N " + cell + "\n.MAT\n I 1 YT 70 NT 0.3\n.AEL\n I 1 MAT 1\n.SEL GROUP 1 NOM \"skin\" FACES\n" + faces +
-            ".CLM\n GROUP \"skin\" PRE V 3.\n.SAM TYPE STATIC DISPLACEMENTS " + size + "\n";
-    Diagnostics diagnostics;
-    SourceMap sources;
-    deck = deck::read_text("test", text, catalogue(element_types()), sources, diagnostics);
-    model = build_model(deck, element_types(), diagnostics);
-    for (const Diagnostic& d : diagnostics.all()) ADD_FAILURE() << d.message;
+/// A solid, and a pressure of 3 on some of its faces.
+std::string solid_deck(const std::string& cell, int nodes, const std::string& faces, const char* size) {
+  const double x[8][3] = {{0, 0, 0},       {1.2, 0.1, 0}, {1.1, 0.9, 0.1}, {-0.1, 1, 0},
+                          {0.1, 0.1, 0.8}, {1, 0, 1},     {1.2, 1.1, 0.9}, {0, 1.2, 1.1}};
+  std::string text = ".NOE\n";
+  for (int i = 0; i < std::min(nodes, 8); ++i)
+    text += " I " + std::to_string(i + 1) + " X " + std::to_string(x[i][0]) + " Y " + std::to_string(x[i][1]) + " Z " +
+            std::to_string(x[i][2]) + "\n";
+  if (nodes == 10) {  // of a tetrahedron, one side bent
+    text.resize(text.find(" I 5 "));
+    text +=
+        " I 5 X 0.6 Y 0.05\n I 6 X 1.2 Y 0.5 Z 0.07\n I 7 X 0.5 Y 0.4 Z 0.05\n"
+        " I 8 X -0.05 Y 0.5\n I 9 X 0.5 Y 0.6\n I 10 X 0.5 Y 1. Z 0.1\n";
   }
-  NodeMap nodes() const {
-    NodeMap places;
-    for (const auto& node : model.nodes) places[node.id] = node.x;
-    return places;
-  }
-  deck::Deck deck;
-  Model model;
-};
+  return text + ".MAI\n I 1 N " + cell + "\n.MAT\n I 1 YT 70 NT 0.3\n.AEL\n I 1 MAT 1\n.SEL GROUP 1 NOM \"skin\" FACES\n" +
+         faces + ".CLM\n GROUP \"skin\" PRE V 3.\n.SAM TYPE STATIC DISPLACEMENTS " + size + "\n";
+}
 
 struct Kind {
   const char* cell;
@@ -61,7 +45,7 @@ std::string all_faces(int count) {
 TEST(GroupPressure, OnAClosedSkinIsInBalance) {
   for (const char* size : {"SMALL", "LARGE"})
     for (const Kind& kind : kinds) {
-      const Solid solid(kind.cell, kind.nodes, all_faces(kind.faces), size);
+      const DeckModel solid(solid_deck(kind.cell, kind.nodes, all_faces(kind.faces), size));
       ASSERT_EQ(solid.model.parts.size(), static_cast<std::size_t>(1 + kind.faces));
       Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
       double each = 0;
@@ -86,7 +70,7 @@ TEST(GroupPressure, OnAClosedSkinIsInBalance) {
 /// Pushes into the cell, whichever way its corners go round.
 TEST(GroupPressure, PushesInward) {
   for (const Kind& kind : {Kind{"1 2 3 4 0 5 6 7 8", 8, 6}, Kind{"4 3 2 1 0 8 7 6 5", 8, 6}}) {
-    const Solid solid(kind.cell, kind.nodes, " I 1 6\n", "SMALL");  // the top
+    const DeckModel solid(solid_deck(kind.cell, kind.nodes, " I 1 6\n", "SMALL"));  // the top
     const Element& element = *solid.model.parts.back().element;
     std::vector<double> forces(12);
     element.applied(StateBuffer(element, solid.nodes()).view(), forces);
@@ -99,14 +83,14 @@ TEST(GroupPressure, TangentsOfLargeDisplacements) {
   for (const Kind& kind : kinds) cases.emplace_back(kind, kind.faces);
   for (const auto& [kind, face] : cases) {
     const std::string row = " I 1 " + std::to_string(face) + "\n";
-    const Solid solid(kind.cell, kind.nodes, row, "LARGE");
+    const DeckModel solid(solid_deck(kind.cell, kind.nodes, row, "LARGE"));
     Subject s;
     s.name = kind.cell;
     s.nodes = solid.nodes();
     s.length = 0.2;
     s.build = [kind = kind, row](const Mat3&) {
-      static std::vector<std::unique_ptr<Solid>> kept;
-      kept.push_back(std::make_unique<Solid>(kind.cell, kind.nodes, row, "LARGE"));
+      static std::vector<std::unique_ptr<DeckModel>> kept;
+      kept.push_back(std::make_unique<DeckModel>(solid_deck(kind.cell, kind.nodes, row, "LARGE")));
       return std::move(kept.back()->model.parts.back().element);
     };
     s.skip[Check::lagrange] = "a load";

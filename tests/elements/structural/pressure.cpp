@@ -5,9 +5,7 @@
 
 #include <numbers>
 
-#include "deck/read/reader.hpp"
-#include "elements/suite.hpp"
-#include "model/model.hpp"
+#include "elements/structural/deck_model.hpp"
 
 namespace engrane::elements::structural {
 namespace {
@@ -15,28 +13,15 @@ namespace {
 using namespace suite;
 
 /// The pressure of a deck with one cell, whichever its kind.
-struct Loaded {
-  Loaded(const std::string& cell, const std::string& hypothesis, const std::string& analysis, int edge) {
-    Diagnostics diagnostics;
-    SourceMap sources;
-    deck = deck::read_text("test",
-                           ".NOE\n I 1 X 1. Y 0.1\n I 2 X 2.3 Y -0.2\n I 3 X 2.1 Y 1.3\n I 4 X 0.8 Y 0.9\n I 5 X 1.7 Y 0.\n"
-                           " I 6 X 2.15 Y 0.6\n I 7 X 1.4 Y 1.05\n I 8 X 0.95 Y 0.5\n.MAI\n I 1 N " +
-                               cell + "\n.MAT\n I 1 YT 70 NT 0.3\n.AEL\n I 1 MAT 1\n.HYP " + hypothesis +
-                               "\n.SEL\n GROUP 1 MAILLES TOUT\n.PHP GROUP 1 THICK VAL 0.4\n.CLM ARETE I 1 " +
-                               std::to_string(edge) + " PRE V 3.\n" + analysis,
-                           catalogue(element_types()), sources, diagnostics);
-    model = build_model(deck, element_types(), diagnostics);
-    for (const Diagnostic& d : diagnostics.all()) ADD_FAILURE() << d.message;
-  }
+struct Loaded : DeckModel {
+  Loaded(const std::string& cell, const std::string& hypothesis, const std::string& analysis, int edge)
+      : DeckModel(
+            ".NOE\n I 1 X 1. Y 0.1\n I 2 X 2.3 Y -0.2\n I 3 X 2.1 Y 1.3\n I 4 X 0.8 Y 0.9\n I 5 X 1.7 Y 0.\n"
+            " I 6 X 2.15 Y 0.6\n I 7 X 1.4 Y 1.05\n I 8 X 0.95 Y 0.5\n.MAI\n I 1 N " +
+            cell + "\n.MAT\n I 1 YT 70 NT 0.3\n.AEL\n I 1 MAT 1\n.HYP " + hypothesis +
+            "\n.SEL\n GROUP 1 MAILLES TOUT\n.PHP GROUP 1 THICK VAL 0.4\n.CLM ARETE I 1 " + std::to_string(edge) + " PRE V 3.\n" +
+            analysis) {}
   const Element& pressure() const { return *model.parts.back().element; }
-  NodeMap nodes() const {
-    NodeMap places;
-    for (const auto& node : model.nodes) places[node.id] = node.x;
-    return places;
-  }
-  deck::Deck deck;
-  Model model;
 };
 
 const std::string large = ".SAM TYPE STATIC DISPLACEMENTS LARGE\n", small = ".SAM TYPE STATIC DISPLACEMENTS SMALL\n";
