@@ -110,7 +110,8 @@ def _mesh(args: argparse.Namespace) -> None:
             print(f"wrote {len(cells.order)} cells at {len(numbers)} frames to {made}")
             return
         args.reference = not len(result.frame_times)
-        left = export_cells.write_frame(cells, selected(result, args), path)
+        with options.whole_file(path) as part:
+            left = export_cells.write_frame(cells, selected(result, args), part)
     if left:
         print(f"note: {path.suffix} files hold no fields; left out: {', '.join(left)}.")
     print(f"wrote {len(cells.order)} cells to {path}")

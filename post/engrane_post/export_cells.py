@@ -180,8 +180,9 @@ def _by_meshio(
     try:
         meshio.write(path, mesh, file_format="gmsh22" if suffix == ".msh" else None)
     except (Exception, SystemExit) as error:
-        path.unlink(missing_ok=True)
-        raise UserError(f"{path} cannot be written: {error or type(error).__name__}.") from None
+        raise UserError(
+            f"The cells cannot be written as {suffix}: {error or type(error).__name__}."
+        ) from None
     return left
 
 

@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> None:
         print("\n  ".join([f"{args.mesh}:", *found]))
         return
     title = Path(args.mesh).stem.replace('"', "'")
-    with path.open("w", encoding="utf-8") as file:
+    with options.whole_file(path) as part, part.open("w", encoding="utf-8") as file:
         deck_mesh.write(file, mesh, title, f"mesh of {Path(args.mesh).name}")
     print("\n  ".join([f"wrote {path}", *found]))
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import argparse
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -121,6 +123,17 @@ def default_output(result: Results, words: list[str], suffix: str) -> str:
     """`run_element_7_NORMAL_FORCE.png` in the current folder."""
     stem = "_".join([result.name, *(re.sub(r"[^A-Za-z0-9]+", "_", w) for w in words)])
     return stem[:120] + suffix
+
+
+@contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """A name beside `path` to write to: it takes the place of what is there once all is written."""
+    part = path.with_name(f"{path.stem}.part{path.suffix}")
+    try:
+        yield part
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def check_output(path: str, suffixes: tuple[str, ...]) -> str:

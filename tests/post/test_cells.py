@@ -251,6 +251,22 @@ def test_med(command, tmp_path: Path) -> None:
     check_solids(file)
 
 
+def test_what_is_there_is_not_lost(command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A file that cannot be written to its end leaves the one of its name, and nothing beside it."""
+    path, file = row_of_cells(tmp_path / "row.h5"), tmp_path / "out.med"
+    file.write_text("from before")
+
+    def fails(name, *_, **__):
+        Path(name).write_text("half")
+        raise ValueError("the disk is full")
+
+    monkeypatch.setattr(meshio, "write", fails)
+    status, _, err = command("export", path, "--mesh", file)
+    assert status != 0 and "cannot be written as .med: the disk is full" in err
+    assert file.read_text() == "from before"
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["out.med", "row.h5"]
+
+
 def check_solids(file: Path) -> None:
     """The cells are as they were, none of them inside out."""
     from engrane_post.cell_mesh import of_file
