@@ -58,7 +58,13 @@ int print_model(const Reading& reading, std::ostream& out) {
   }
   out << "\nThe start\n"
       << describe_start(model, report) << '\n'
-      << describe_mobility(context.assembler, c, context.redundancy.mobility()) << describe_price(reading, context, c);
+      << describe_mobility(context.assembler, c, context.redundancy.mobility());
+  try {
+    out << describe_price(reading, context, c);
+  } catch (const MemoryShortage& shortage) {
+    out << "\n  " << shortage.what() << '\n';
+    return exit_status::solution_failed;
+  }
   return exit_status::fine;
 }
 

@@ -89,6 +89,8 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     runner.run(seen, [](const StartReport&) {});
   } catch (const SolutionFailure& failure) {
     estimate_.trouble = failure.what();
+  } catch (const MemoryShortage& failure) {
+    estimate_.trouble = failure.what();
   }
   steps_ = runner.steps();
   begun_ = processor_time();

@@ -16,6 +16,7 @@
 #include "app/terminal.hpp"
 #include "app/times.hpp"
 #include "app/writer.hpp"
+#include "base/memory.hpp"
 #include "deck/cards/cards.hpp"
 #include "model/function_failure.hpp"
 #include "solve/constraints/diagnosis.hpp"
@@ -127,6 +128,8 @@ void observe_step(SolverContext& context, observe::Observer& observer, const Con
     observer.find_not_unique(c, context.redundancy.undetermined(c));
 }
 
+/// Bytes of factors that a run speaks of before it takes them.
+constexpr double worth_announcing = 1e9;
 /// With ACCURACY a run may be repeated so often with another tolerance, or another scheme.
 constexpr int most_repeats = 3;
 /// Part of the tolerance that the next has at least: estimates of coarse runs are coarse.
@@ -181,6 +184,12 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
     if (rank == 0) std::cerr << "engrane: " << terminal_text(trouble) << '\n';
     return {exit_status::solution_failed, {}};
   }
+  if (rank == 0 && !options.quiet)
+    context.solver.announce = [&](const ForeseenFactors& foreseen) {
+      if (foreseen.bytes < worth_announcing) return;
+      writer->note(fmt::format("engrane: the factors of {} equations will take about {:.1f} GB; {:.1f} GB are free",
+                               context.numbering.equations(), foreseen.bytes / 1e9, available_memory() / 1e9));
+    };
   const std::string& asked = reading.model.commands.analysis.solver.tag;
   if (rank == 0 && asked != "AUTO" && context.solver.package() != asked)
     writer->note("engrane: on several processes MUMPS solves, not " + asked);
@@ -268,6 +277,8 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
   } catch (const SolutionFailure& e) {
     failure = e.what();
     unsolved = true;
+  } catch (const MemoryShortage& e) {
+    failure = e.what();
   }
   starting = 0;
   if (unsolved && wanted.scheme_is_free) return another_scheme(wanted, failure, rank);
@@ -300,16 +311,12 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
   }
   failure = with_causes(std::move(failure), comm, rank, ranks);
   int status = complete ? exit_status::fine : exit_status::solution_failed;
+  std::string unresolved;
+  if (complete) unresolved = explain_unresolved(context.assembler, context.newton, runner.now(), observer.energies().handled());
   if (rank == 0) {
     try {
-      if (complete)
-        if (const std::string unresolved =
-                explain_unresolved(context.assembler, context.newton, runner.now(), observer.energies().handled());
-            !unresolved.empty())
-          writer->warn(unresolved);
-      // linear statics in one step, which no card asks for, cannot go on
-      const bool over = complete && has_cells(reading.model) && !deck::says_analysis(reading.deck.records);
-      if (runner.started() && !over) writer->remember(runner.now(), runner, false, true);
+      if (!unresolved.empty()) writer->warn(unresolved);
+      if (runner.started()) writer->remember(runner.now(), runner, false, true);
       status = writer->finish(complete ? RunStatus::complete : RunStatus::failed, failure, times.split(context.solver));
     } catch (const OutputError& e) {
       failure = e.what();

@@ -102,6 +102,8 @@ void Writer::resumed(const Resumption& from) {
 }
 
 void Writer::remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
+  // linear statics in one step, which no card asks for, cannot go on; a restart point would hold its matrix
+  if (has_cells(reading_.model) && !deck::says_analysis(reading_.deck.records)) return;
   if (!kept && !last && !results_.due()) return;
   Snapshot memory;
   runner.save(memory);

@@ -31,7 +31,6 @@ Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm co
       end_row_(scatter_.end_row()) {
   MPI_Comm_rank(comm, &rank_);
   MPI_Comm_size(comm, &size_);
-  *matrix_.out() = scatter_.new_matrix();
   find_batches();
 
   const auto multipliers = static_cast<std::size_t>(numbering.slots() - numbering.motion_slots());
@@ -298,7 +297,7 @@ void Assembler::scale_multipliers(int part, std::span<double> k) const {
 void Assembler::tangent(const Configuration& configuration, Weights weights, Mat into) {
   static const PetscLogEvent event = log_event("Tangent");
   const LoggedTime time(event);
-  if (into == matrix_) ++changes_;
+  if (into == matrix()) ++changes_;
   Scatter::MatrixSum sum(scatter_, into);
   for_each_tangent(configuration, weights, [&](int part, std::span<double> k) {
     scale_multipliers(part, k);
@@ -312,7 +311,7 @@ void Assembler::tangent(const Configuration& configuration, Weights weights, Mat
 }
 
 void Assembler::projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into) {
-  if (into == matrix_) ++changes_;
+  if (into == matrix()) ++changes_;
   const bool mass = metric != Metric::geometric;
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
   std::vector<double> inertia(motion, 0.0);

@@ -37,7 +37,7 @@ class Assembler {
   /// This rank's share of Model::parts: from first_part() to before end_part().
   int first_part() const { return first_part_; }
   int end_part() const { return end_part_; }
-  Mat matrix() const { return matrix_; }
+  Mat matrix() const { return scatter_.matrix(); }
   Vec new_vector() const { return scatter_.new_vector(); }
   /// A matrix like matrix(), of the caller's.
   Mat new_matrix() const { return scatter_.new_matrix(); }
@@ -81,7 +81,7 @@ class Assembler {
   /// Counts what makes factors of matrix() useless: every writing into it, other scales, other constraints released or idle.
   long changes() const { return changes_; }
   /// The scaled tangent, in matrix().
-  void tangent(const Configuration& configuration, Weights weights) { tangent(configuration, weights, matrix_); }
+  void tangent(const Configuration& configuration, Weights weights) { tangent(configuration, weights, matrix()); }
   /// The same in a matrix of new_matrix().
   void tangent(const Configuration& configuration, Weights weights, Mat into);
 
@@ -94,7 +94,7 @@ class Assembler {
   /// [D −Bᵀ; −B 0] (unscaled) in matrix(), D by metric. Unknowns without mass get a negligible one; the equations in
   /// `held`, in any order, one so large that everything else moves first.
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held = {}) {
-    projection(configuration, metric, held, matrix_);
+    projection(configuration, metric, held, matrix());
   }
   /// The same in a matrix of new_matrix().
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into);
@@ -155,7 +155,6 @@ class Assembler {
   int first_part_ = 0, end_part_ = 0;  ///< this rank's share
   Scatter scatter_;
   PetscInt first_row_ = 0, end_row_ = 0;
-  Owned<Mat> matrix_;
   Owned<Vec> everywhere_;
   Owned<VecScatter> to_all_;
   std::vector<double> scale_;

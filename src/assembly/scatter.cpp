@@ -14,12 +14,12 @@ Scatter::Scatter(const Numbering& numbering, int first_part, int end_part, MPI_C
 
 void Scatter::find_pattern() {
   const int n = numbering_.equations();
-  check_petsc(MatCreate(comm_, pattern_.out()));
-  check_petsc(MatSetSizes(pattern_, PETSC_DECIDE, PETSC_DECIDE, n, n));
-  check_petsc(MatSetType(pattern_, MATAIJ));
-  check_petsc(MatSetFromOptions(pattern_));
+  check_petsc(MatCreate(comm_, matrix_.out()));
+  check_petsc(MatSetSizes(matrix_, PETSC_DECIDE, PETSC_DECIDE, n, n));
+  check_petsc(MatSetType(matrix_, MATAIJ));
+  check_petsc(MatSetFromOptions(matrix_));
   PetscLayout rows_of_ranks = nullptr, columns_of_ranks = nullptr;
-  check_petsc(MatGetLayouts(pattern_, &rows_of_ranks, &columns_of_ranks));
+  check_petsc(MatGetLayouts(matrix_, &rows_of_ranks, &columns_of_ranks));
   check_petsc(PetscLayoutSetUp(rows_of_ranks));
   check_petsc(PetscLayoutSetUp(columns_of_ranks));
   check_petsc(PetscLayoutGetRange(rows_of_ranks, &first_row_, &end_row_));
@@ -56,16 +56,16 @@ void Scatter::find_pattern() {
     row_begin.push_back(static_cast<PetscInt>(columns.size()));
   }
   // of the two the one that is not of the matrix's type does nothing
-  check_petsc(MatSeqAIJSetPreallocationCSR(pattern_, row_begin.data(), columns.data(), nullptr));
-  check_petsc(MatMPIAIJSetPreallocationCSR(pattern_, row_begin.data(), columns.data(), nullptr));
-  check_petsc(MatSetOption(pattern_, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
+  check_petsc(MatSeqAIJSetPreallocationCSR(matrix_, row_begin.data(), columns.data(), nullptr));
+  check_petsc(MatMPIAIJSetPreallocationCSR(matrix_, row_begin.data(), columns.data(), nullptr));
+  check_petsc(MatSetOption(matrix_, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
 }
 
 void Scatter::find_places() {
   const PetscInt *row_begin = nullptr, *columns = nullptr;
   PetscInt rows = 0;
   PetscBool done = PETSC_FALSE;
-  check_petsc(MatGetRowIJ(pattern_, 0, PETSC_FALSE, PETSC_FALSE, &rows, &row_begin, &columns, &done));
+  check_petsc(MatGetRowIJ(matrix_, 0, PETSC_FALSE, PETSC_FALSE, &rows, &row_begin, &columns, &done));
   begin_.reserve(static_cast<std::size_t>(end_part_ - first_part_) + 1);
   for (int p = first_part_; p < end_part_; ++p) {
     const auto slots = numbering_.part_slots(p);
@@ -91,18 +91,18 @@ void Scatter::find_places() {
   begin_.push_back({runs_.size(), places_.size()});
   runs_.shrink_to_fit();
   places_.shrink_to_fit();
-  check_petsc(MatRestoreRowIJ(pattern_, 0, PETSC_FALSE, PETSC_FALSE, &rows, &row_begin, &columns, &done));
+  check_petsc(MatRestoreRowIJ(matrix_, 0, PETSC_FALSE, PETSC_FALSE, &rows, &row_begin, &columns, &done));
 }
 
 Mat Scatter::new_matrix() const {
   Mat matrix = nullptr;
-  check_petsc(MatDuplicate(pattern_, MAT_SHARE_NONZERO_PATTERN, &matrix));
+  check_petsc(MatDuplicate(matrix_, MAT_SHARE_NONZERO_PATTERN, &matrix));
   return matrix;
 }
 
 Vec Scatter::new_vector() const {
   Vec vector = nullptr;
-  check_petsc(MatCreateVecs(pattern_, nullptr, &vector));
+  check_petsc(MatCreateVecs(matrix_, nullptr, &vector));
   return vector;
 }
 

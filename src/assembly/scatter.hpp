@@ -18,11 +18,13 @@ class Scatter {
   Scatter(const Numbering& numbering, int first_part, int end_part, MPI_Comm comm);
 
   /// A matrix with a place for every pair of equations that share an element, and for every diagonal entry: factorisations
-  /// expect those, projections write them. The caller owns it.
+  /// expect those, projections write them.
+  Mat matrix() const { return matrix_; }
+  /// Another one like it. The caller owns it.
   Mat new_matrix() const;
   Vec new_vector() const;
 
-  /// Sums into a matrix of new_matrix(), from zero; finish() (collective) must be called once all is added.
+  /// Sums into matrix() or a matrix of new_matrix(), from zero; finish() (collective) must be called once all is added.
   class MatrixSum {
    public:
     MatrixSum(const Scatter& scatter, Mat matrix);
@@ -83,7 +85,7 @@ class Scatter {
   MPI_Comm comm_;
   int size_ = 1, first_part_, end_part_;
   PetscInt first_row_ = 0, end_row_ = 0;
-  Owned<Mat> pattern_;  ///< never written
+  Owned<Mat> matrix_;
   std::vector<Begin> begin_;
   std::vector<Run> runs_;
   std::vector<PetscInt> places_;

@@ -233,10 +233,15 @@ class Cells final : public Block {
 
   /// The residual goes to `r`; `sum` has what resists, and its tangent where that is wanted.
   static void resist(const Cell& cell, const State& state, bool wants_tangent, typename Kernel::Condensed& sum, double* r) {
-    const Kernel kernel(cell.places, cell.section->thickness);
-    kernel.condense(law_of(cell, state), displacements(cell, state), wants_tangent, sum);
     Eigen::Map<Vector> out(r);
-    out = sum.forces;
+    const Places moved = displacements(cell, state);
+    if (wants_tangent || cell.warmth || !moved.isZero(0)) {
+      const Kernel kernel(cell.places, cell.section->thickness);
+      kernel.condense(law_of(cell, state), moved, wants_tangent, sum);
+      out = sum.forces;
+    } else {
+      out.setZero();  // as it is asked when masses are found
+    }
     add_inertia_and_weight(cell, state, out);
   }
 

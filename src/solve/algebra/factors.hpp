@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "assembly/petsc.hpp"
@@ -14,6 +16,16 @@ struct SolverWork {
   double factor = 0, solution = 0;
 };
 
+/// What factors will take, as their analysis foretells: bytes on all ranks, operations with floating-point numbers.
+struct ForeseenFactors {
+  double bytes = 0, operations = 0;
+};
+
+/// There is not enough memory for what was asked for; the text is for the user.
+struct MemoryShortage : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// The factors of one matrix whose pattern never changes, by one package: a rung of the solver ladder. A package factors and
 /// solves; whether a solution is good enough, and what to do where it is not, LinearSolver decides for all of them.
 class Factors {
@@ -23,8 +35,11 @@ class Factors {
   Factors(const Factors&) = delete;
   Factors& operator=(const Factors&) = delete;
 
-  /// Of the matrix as it stands; false where it is singular.
+  /// Of the matrix as it stands; false where it is singular. Throws MemoryShortage before it takes more than there is.
   virtual bool factor() = 0;
+  /// Chooses the order of elimination, unless that is done, and tells what factor() will take; nothing where the package does not
+  /// tell.
+  virtual std::optional<ForeseenFactors> foresee() { return {}; }
   virtual void solve(Vec right, Vec solution) = 0;
   virtual void solve_transposed(Vec right, Vec solution) = 0;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solve/algebra/condition.hpp"
 #include "solve/algebra/rows.hpp"
@@ -55,12 +56,18 @@ void LinearSolver::correct_only(bool corrections) {
 
 bool LinearSolver::solve(Vec right, Vec solution) {
   correct_only(false);
-  check_petsc(KSPSolve(ksp_, right, solution));
+  const PetscErrorCode code = KSPSolve(ksp_, right, solution);
+  rethrow();
+  check_petsc(code);
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   check_petsc(KSPGetConvergedReason(ksp_, &reason));
   if (reason > 0) return true;
   reset();
   return false;
+}
+
+void LinearSolver::rethrow() {
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void LinearSolver::reset() {
@@ -71,6 +78,10 @@ void LinearSolver::reset() {
 bool LinearSolver::factor() {
   const LoggedTime logged(factoring_);
   proven_ = false;
+  if (announce) {
+    if (const auto foreseen = factors_->foresee()) announce(*foreseen);
+    announce = nullptr;
+  }
   state_ = factors_->factor() ? State::ready : State::singular;
   return state_ == State::ready;
 }
@@ -81,7 +92,8 @@ PetscErrorCode LinearSolver::set_up(PC pc) {
   try {
     const bool regular = self->restored_ || self->factor();
     return PCSetFailedReason(pc, regular ? PC_NOERROR : PC_FACTOR_NUMERIC_ZEROPIVOT);
-  } catch (const PetscFailure&) {
+  } catch (...) {
+    self->failure_ = std::current_exception();
     return PETSC_ERR_LIB;
   }
 }
@@ -96,7 +108,8 @@ PetscErrorCode LinearSolver::apply(PC pc, Vec right, Vec solution) {
     self->solve_well(right, solution);
     if (self->state_ == State::singular || !std::isfinite(self->error_))
       return PCSetFailedReason(pc, PC_FACTOR_NUMERIC_ZEROPIVOT);
-  } catch (const PetscFailure&) {
+  } catch (...) {
+    self->failure_ = std::current_exception();
     return PETSC_ERR_LIB;
   }
   return 0;

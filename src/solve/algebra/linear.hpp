@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,13 +30,22 @@ class LinearSolver {
   KSP ksp() const { return ksp_; }
   const std::string& package() const { return package_; }
 
-  /// Factors the matrix as it stands and solves; false when it is singular to working precision.
+  /// Called once, before the first factorisation, with what the package foresees of it.
+  std::function<void(const ForeseenFactors&)> announce;
+
+  /// Factors the matrix as it stands and solves; false when it is singular to working precision. Throws MemoryShortage.
   bool solve(Vec right, Vec solution);
 
   /// Whether the next solutions are corrections with factors of another tangent. Those need not be as good as rounding allows:
   /// what an iteration leaves of a residual is then the difference of the tangents. No refinement, no look at those after a first
   /// good one.
   void correct_only(bool corrections);
+
+  /// Throws what ended a solution within PETSc; nothing where nothing did.
+  void rethrow();
+
+  /// What factors of the matrix as it stands will take, without making them; nothing where the package does not tell.
+  std::optional<ForeseenFactors> foresee() { return factors_->foresee(); }
 
   /// Forgets the analysis, which looks at numbers too: after a failure, or before matrices of another kind.
   void reset();
@@ -83,6 +94,7 @@ class LinearSolver {
   bool restored_ = false;          ///< the factors are those of restore_factors()
   double enough_ = good_solution;  ///< backward error of such a solution
   double error_ = 0;
+  std::exception_ptr failure_;  ///< to be thrown once PETSc has been left
   PetscLogEvent factoring_ = -1, solving_ = -1;
 };
 

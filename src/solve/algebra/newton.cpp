@@ -75,6 +75,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   const PetscErrorCode code = SNESSolve(snes_, nullptr, x);
   solving_ = false;
   if (!failure_.empty()) throw PetscFailure(failure_);
+  solver_.rethrow();
   check_petsc(code);
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   check_petsc(SNESGetConvergedReason(snes_, &reason));

@@ -8,7 +8,7 @@
 
 namespace engrane::solve {
 
-/// The packages that PETSc's own interface serves well: MUMPS, on any number of ranks, UMFPACK and SUPERLU.
+/// What PETSc's own interface to a package serves well: UMFPACK, SUPERLU and, with what Mumps adds, MUMPS.
 class PackageFactors : public Factors {
  public:
   PackageFactors(Mat matrix, std::string package);
@@ -23,19 +23,18 @@ class PackageFactors : public Factors {
   SolverWork work() const override;
   double bytes() const override;
 
- private:
-  bool mumps() const { return package_ == "MUMPS"; }
-  bool analyse();
-  /// Whether the last factorisation by MUMPS lacked nothing but room: it has more now.
-  bool enlarge();
+ protected:
+  /// Takes over the values that an analysis is made for from a matrix of the same pattern.
+  void note_analysed();
   bool failed() const;
 
   Mat matrix_;
+  Owned<Mat> factors_;  ///< null before an analysis
+
+ private:
   std::string package_;
   bool sequential_ = false;
-  Owned<Mat> factors_;                ///< null before an analysis
   std::vector<double> analysed_for_;  ///< values of that matrix, on one rank
-  int room_ = 50;                     ///< MUMPS' ICNTL(14): per cent over the estimate
 };
 
 }  // namespace engrane::solve

@@ -133,6 +133,26 @@ std::string advice(const Assembler& assembler, const std::vector<int>& order, co
          ": give it a mass (INERTIA), make it part of a body (RIGID), or hold it by a support or spring";
 }
 
+/// Whether the matrix itself tells that rounding of positions is no visible part of the loads. In a linear model without
+/// constraints it is the sum of positive semidefinite parts, none of which has a larger entry than its diagonal.
+bool surely_resolved(const Assembler& assembler, const Newton& newton, double visible, double least_load) {
+  const auto& unknowns = assembler.numbering().unknowns();
+  const bool forces = std::all_of(unknowns.begin(), unknowns.end(),
+                                  [](const Unknown& u) { return !u.multiplier && u.measure == Measure::force; });
+  if (!newton.keeps_one_tangent() || !forces || unknowns.empty()) return false;
+  Owned<Vec> diagonal;
+  *diagonal.out() = assembler.new_vector();
+  check_petsc(MatGetDiagonal(assembler.matrix(), diagonal));
+  PetscReal stiffest = 0;
+  check_petsc(VecNorm(diagonal, NORM_INFINITY, &stiffest));
+  double reach = 0, load = std::numeric_limits<double>::infinity();
+  for (int row = 0; row < assembler.numbering().equations(); ++row) {
+    reach = std::max(reach, newton.reach(row));
+    load = std::min(load, std::max(newton.load(row), least_load));
+  }
+  return std::numeric_limits<double>::epsilon() * stiffest * reach <= visible * load;
+}
+
 }  // namespace
 
 std::string explain_singular(Assembler& assembler, const std::string& what, Resistance resistance) {
@@ -181,16 +201,21 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
   const Numbering& numbering = assembler.numbering();
   const auto& parts = assembler.model().parts;
   const double least = energy / assembler.model().extent();
-  double worst = visible, worst_noise = 0;
-  int worst_equation = -1;
-  std::size_t culprit = 0;
+  if (surely_resolved(assembler, newton, visible, least)) return {};
+  struct {
+    double part;
+    int rank;
+  } worst{visible, assembler.rank()};  // as MPI_DOUBLE_INT wants it
+  double worst_noise = 0;
+  int worst_equation = -1, culprit = -1;
   std::vector<double> r, k;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const auto& slots = numbering.part_slots(static_cast<int>(p));
-    const std::size_t n = slots.size(), of_nodes = static_cast<std::size_t>(parts[p].element->layout().node_slots());
+  for (int p = assembler.first_part(); p < assembler.end_part(); ++p) {
+    const Element& element = *parts[static_cast<std::size_t>(p)].element;
+    const auto& slots = numbering.part_slots(p);
+    const std::size_t n = slots.size(), of_nodes = static_cast<std::size_t>(element.layout().node_slots());
     r.assign(n, 0);
     k.assign(n * n, 0);
-    parts[p].element->tangent(assembler.view(static_cast<int>(p), configuration), {1, 0, 0, 0}, r, k);
+    element.tangent(assembler.view(p, configuration), {1, 0, 0, 0}, r, k);
     for (std::size_t i = 0; i < of_nodes; ++i) {
       const int row = numbering.equation(slots[i]);
       if (row < 0) continue;
@@ -205,22 +230,27 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
       if (!(energy > 1e3 * noise * place)) continue;
       const double size = numbering.unknown(row).measure == Measure::moment ? energy : least;
       const double part = noise / std::max(newton.load(row), size);
-      if (!(part > worst)) continue;
-      worst = part;
+      if (!(part > worst.part)) continue;
+      worst.part = part;
       worst_noise = noise;
       worst_equation = row;
       culprit = p;
     }
   }
+  // the first of the ranks that found the worst tells the others
+  MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, assembler.comm());
+  MPI_Bcast(&worst_equation, 1, MPI_INT, worst.rank, assembler.comm());
+  MPI_Bcast(&culprit, 1, MPI_INT, worst.rank, assembler.comm());
+  MPI_Bcast(&worst_noise, 1, MPI_DOUBLE, worst.rank, assembler.comm());
   if (worst_equation < 0) return {};
+  const Model::Part& stiff = parts[static_cast<std::size_t>(culprit)];
   const bool turns = numbering.unknown(worst_equation).measure == Measure::moment;
   return fmt::format(
       "{} {} is so stiff that the rounding of positions makes {:.2g} {} in it, {:.2g} of the loads of {}: its forces are known "
       "no "
       "better. Take a rigid joint (WELD, DISTANCE) for it, or a stiffness at most {:.0g} of this one",
-      parts[culprit].type, parts[culprit].element->id(), worst_noise,
-      assembler.model().units.label(turns ? dimension::moment : dimension::force), worst, numbering.describe(worst_equation),
-      1e-6 / worst);
+      stiff.type, stiff.element->id(), worst_noise, assembler.model().units.label(turns ? dimension::moment : dimension::force),
+      worst.part, numbering.describe(worst_equation), 1e-6 / worst.part);
 }
 
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report) {

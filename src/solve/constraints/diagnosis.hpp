@@ -22,7 +22,7 @@ std::string explain_free_motion(Assembler& assembler, const Configuration& confi
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report);
 
 /// Names the element whose stiffness makes the rounding of positions a visible part of the loads, when there is one. `energy`:
-/// what was in the machine or passed through it.
+/// what was in the machine or passed through it. Collective.
 std::string explain_unresolved(const Assembler& assembler, const Newton& newton, const Configuration& configuration,
                                double energy);
 

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/algebra/mumps.hpp"
+
+#include <fmt/format.h>
+
+#include "base/memory.hpp"
+#include "solve/algebra/solver_cost.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+/// Pivots that are not where the analysis expects them take room; without pivoting the estimate is nearly exact.
+constexpr int some_room = 10, usual_room = 50, most_room = 3000;
+
+constexpr double gigabyte = 1e9, megabyte = 1e6;
+
+double infog(Mat factors, PetscInt index) {
+  PetscInt value = 0;
+  check_petsc(MatMumpsGetInfog(factors, index, &value));
+  return static_cast<double>(value);
+}
+
+/// Counts that may be negative: in millions.
+double count(double value) { return value < 0 ? -1e6 * value : value; }
+
+PetscInt rows_of(Mat matrix) {
+  PetscInt rows = 0;
+  check_petsc(MatGetSize(matrix, &rows, nullptr));
+  return rows;
+}
+
+MPI_Comm comm_of(Mat matrix) {
+  MPI_Comm comm = PETSC_COMM_SELF;
+  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
+  return comm;
+}
+
+}  // namespace
+
+void Mumps::become(Form form) {
+  PackageFactors::forget();
+  form_ = form;
+}
+
+void Mumps::forget() { become(Form::unknown); }
+
+bool Mumps::analyse() {
+  if (factors_) return !failed();
+  if (form_ == Form::unknown)
+    form_ = !symmetry_.symmetric() ? Form::general : symmetry_.positive_diagonal() ? Form::definite : Form::symmetric;
+  if (form_ != Form::definite) note_analysed();  // without pivots to choose the pattern alone decides
+  const bool symmetric = form_ != Form::general;
+  if (symmetric) check_petsc(MatSetOption(matrix_, MAT_SPD, form_ == Form::definite ? PETSC_TRUE : PETSC_FALSE));
+  check_petsc(MatGetFactor(matrix_, MATSOLVERMUMPS, symmetric ? MAT_FACTOR_CHOLESKY : MAT_FACTOR_LU, factors_.out()));
+  room_ = form_ == Form::definite ? some_room : usual_room;
+  check_petsc(MatMumpsSetIcntl(factors_, 14, room_));
+  MatFactorInfo info;
+  check_petsc(MatFactorInfoInitialize(&info));
+  check_petsc(symmetric ? MatCholeskyFactorSymbolic(factors_, matrix_, nullptr, &info)
+                        : MatLUFactorSymbolic(factors_, matrix_, nullptr, nullptr, &info));
+  if (failed()) return false;
+  refuse_without_memory();
+  return true;
+}
+
+bool Mumps::factor_as_analysed() {
+  MatFactorInfo info;
+  check_petsc(MatFactorInfoInitialize(&info));
+  do {
+    check_petsc(MatFactorClearError(factors_));
+    check_petsc(form_ == Form::general ? MatLUFactorNumeric(factors_, matrix_, &info)
+                                       : MatCholeskyFactorNumeric(factors_, matrix_, &info));
+    if (!failed()) return true;
+  } while (enlarge());
+  return false;
+}
+
+bool Mumps::factor() {
+  if (factors_ && form_ != Form::general && !symmetry_.symmetric()) become(Form::general);
+  if (analyse() && factor_as_analysed()) return true;
+  if (form_ == Form::definite) {  // a pivot on the diagonal may be zero where others are not
+    become(Form::symmetric);
+    return factor();
+  }
+  forget();  // MUMPS does not factor again after a failure
+  return false;
+}
+
+bool Mumps::improve() {
+  become(form_ == Form::definite ? Form::symmetric : Form::general);
+  return factor();
+}
+
+bool Mumps::enlarge() {
+  const auto info = static_cast<int>(infog(factors_, 1));
+  const bool short_of_room = info == -9 || info == -8 || info == -14 || info == -15;
+  if (!short_of_room || room_ > most_room) return false;
+  room_ *= 4;
+  check_petsc(MatMumpsSetIcntl(factors_, 14, room_));
+  return true;
+}
+
+void Mumps::save(Snapshot& snapshot) const {
+  PackageFactors::save(snapshot);
+  snapshot.put("solver/MUMPS form", static_cast<int>(form_));
+}
+
+void Mumps::load(const Snapshot& snapshot) {
+  forget();
+  if (snapshot.has("solver/MUMPS form")) form_ = static_cast<Form>(static_cast<int>(snapshot.number("solver/MUMPS form")));
+  PackageFactors::load(snapshot);
+}
+
+std::optional<ForeseenFactors> Mumps::foresee() {
+  if (!analyse()) return {};
+  return foreseen();
+}
+
+ForeseenFactors Mumps::foreseen() const {
+  PetscReal operations = 0;
+  check_petsc(MatMumpsGetRinfog(factors_, 1, &operations));
+  return {megabyte * infog(factors_, 17), operations};
+}
+
+void Mumps::refuse_without_memory() const {
+  // ranks of one machine share its memory
+  MPI_Comm machine = MPI_COMM_NULL;
+  MPI_Comm_split_type(comm_of(matrix_), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  int sharing = 1;
+  MPI_Comm_size(machine, &sharing);
+  MPI_Comm_free(&machine);
+  double most[] = {megabyte * infog(factors_, 16) * sharing, -available_memory()};
+  MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, comm_of(matrix_));
+  if (most[0] <= -most[1]) return;
+  throw MemoryShortage(
+      fmt::format("the factors of the {} equations would take {:.1f} GB on one machine, where {:.1f} GB are free: run on more "
+                  "machines, or take a "
+                  "coarser mesh",
+                  rows_of(matrix_), most[0] / gigabyte, -most[1] / gigabyte));
+}
+
+SolverWork Mumps::work() const {
+  if (!factors_) return {};
+  PetscReal operations = 0;
+  check_petsc(MatMumpsGetRinfog(factors_, 3, &operations));
+  return mumps_work(static_cast<double>(rows_of(matrix_)), count(infog(factors_, 29)), operations);
+}
+
+double Mumps::bytes() const { return factors_ ? megabyte * infog(factors_, 19) : 0; }  // of all ranks, in the factorisation
+
+}  // namespace engrane::solve

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/algebra/symmetry.hpp"
+
+#include <cmath>
+
+namespace engrane::solve {
+
+namespace {
+
+/// Parts of the largest entry of a row: rounding of a sum of some hundred terms.
+constexpr double rounding = 1e-12;
+
+PetscInt local_size(Vec vector) {
+  PetscInt size = 0;
+  check_petsc(VecGetLocalSize(vector, &size));
+  return size;
+}
+
+/// Whether all ranks say yes.
+bool everywhere(bool yes, Mat matrix) {
+  MPI_Comm comm = PETSC_COMM_SELF;
+  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
+  int all = yes ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_LAND, comm);
+  return all != 0;
+}
+
+}  // namespace
+
+void SymmetryTest::prepare() {
+  if (probe_) return;
+  check_petsc(MatCreateVecs(matrix_, probe_.out(), product_.out()));
+  check_petsc(VecDuplicate(product_, transposed_.out()));
+  check_petsc(VecDuplicate(product_, largest_.out()));
+  // parts of multiples of the golden ratio: no two entries, sums or differences are alike, and none depends on the ranks
+  constexpr double golden = 0.61803398874989485;
+  PetscInt first = 0, end = 0;
+  PetscScalar* x = nullptr;
+  check_petsc(VecGetOwnershipRange(probe_, &first, &end));
+  check_petsc(VecGetArray(probe_, &x));
+  for (PetscInt i = first; i < end; ++i) {
+    const double turns = golden * static_cast<double>(i + 1);
+    x[i - first] = 0.5 + turns - std::floor(turns);
+  }
+  check_petsc(VecRestoreArray(probe_, &x));
+}
+
+bool SymmetryTest::symmetric() {
+  prepare();
+  check_petsc(MatMult(matrix_, probe_, product_));
+  check_petsc(MatMultTranspose(matrix_, probe_, transposed_));
+  check_petsc(MatGetRowMaxAbs(matrix_, largest_, nullptr));
+  const PetscScalar *ax = nullptr, *atx = nullptr, *largest = nullptr;
+  check_petsc(VecGetArrayRead(product_, &ax));
+  check_petsc(VecGetArrayRead(transposed_, &atx));
+  check_petsc(VecGetArrayRead(largest_, &largest));
+  bool same = true;
+  for (PetscInt i = 0, n = local_size(product_); same && i < n; ++i)
+    same = std::abs(ax[i] - atx[i]) <= rounding * std::abs(largest[i]);
+  check_petsc(VecRestoreArrayRead(product_, &ax));
+  check_petsc(VecRestoreArrayRead(transposed_, &atx));
+  check_petsc(VecRestoreArrayRead(largest_, &largest));
+  return everywhere(same, matrix_);
+}
+
+bool SymmetryTest::positive_diagonal() {
+  prepare();
+  check_petsc(MatGetDiagonal(matrix_, product_));
+  const PetscScalar* d = nullptr;
+  check_petsc(VecGetArrayRead(product_, &d));
+  bool positive = true;
+  for (PetscInt i = 0, n = local_size(product_); positive && i < n; ++i) positive = d[i] > 0;
+  check_petsc(VecRestoreArrayRead(product_, &d));
+  return everywhere(positive, matrix_);
+}
+
+}  // namespace engrane::solve
