@@ -184,9 +184,9 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
     if (rank == 0) std::cerr << "engrane: " << terminal_text(trouble) << '\n';
     return {exit_status::solution_failed, {}};
   }
-  if (rank == 0 && !options.quiet)
+  if (!options.quiet)  // on every rank, since all foresee together
     context.solver.announce = [&](const ForeseenFactors& foreseen) {
-      if (foreseen.bytes < worth_announcing) return;
+      if (rank != 0 || foreseen.bytes < worth_announcing) return;
       writer->note(fmt::format("engrane: the factors of {} equations will take about {:.1f} GB; {:.1f} GB are free",
                                context.numbering.equations(), foreseen.bytes / 1e9, available_memory() / 1e9));
     };

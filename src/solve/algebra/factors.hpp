@@ -38,7 +38,7 @@ class Factors {
   /// Of the matrix as it stands; false where it is singular. Throws MemoryShortage before it takes more than there is.
   virtual bool factor() = 0;
   /// Chooses the order of elimination, unless that is done, and tells what factor() will take; nothing where the package does not
-  /// tell.
+  /// tell. Collective.
   virtual std::optional<ForeseenFactors> foresee() { return {}; }
   virtual void solve(Vec right, Vec solution) = 0;
   virtual void solve_transposed(Vec right, Vec solution) = 0;

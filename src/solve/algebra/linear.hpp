@@ -30,7 +30,7 @@ class LinearSolver {
   KSP ksp() const { return ksp_; }
   const std::string& package() const { return package_; }
 
-  /// Called once, before the first factorisation, with what the package foresees of it.
+  /// Called once, before the first factorisation, with what the package foresees of it; set on every rank or on none.
   std::function<void(const ForeseenFactors&)> announce;
 
   /// Factors the matrix as it stands and solves; false when it is singular to working precision. Throws MemoryShortage.
