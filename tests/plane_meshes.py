@@ -18,6 +18,7 @@ HYPOTHESES = {
     "strain": '.HYP DEFO PLAN GROUP "all"',
     "axis": '.HYP AXIS GROUP "all"',
 }
+THIN = 0.002  # thickness of gravity_strip in plane stress
 
 
 class PlaneMesh(Mesh):
@@ -64,10 +65,12 @@ class PlaneMesh(Mesh):
                 found[nodes] += weight * length * np.outer(value, traction(point, normal))
         return found
 
-    def model(self, hypothesis: str, young: float, poisson: float, thickness: float = 1.0) -> list[str]:
+    def model(
+        self, hypothesis: str, young: float, poisson: float, thickness: float = 1.0, density: float = 0.0
+    ) -> list[str]:
         """A deck up to the groups of nodes and edges, which are to follow: group 1 has all cells."""
         return [
-            f'.MAT\n I 1 BEHA "ELASTIC" YT {young!r} NT {poisson!r}',
+            f'.MAT\n I 1 BEHA "ELASTIC" YT {young!r} NT {poisson!r}' + (f" M {density!r}" if density else ""),
             *self.deck(),
             '.SEL\n GROUP 1 MAILLES NOM "all" TOUT',
             HYPOTHESES[hypothesis].format(thickness=thickness),
@@ -102,3 +105,47 @@ def nodal_forces(forces: np.ndarray) -> list[str]:
         f" NOEUD {node + 1} CHA C {component + 1} V {forces[node, component]:.16g}"
         for node, component in np.argwhere(forces)
     ]
+
+
+def gravity_strip(boxes, nodes: int, hypothesis: str) -> tuple[Sheet, list[str], np.ndarray, np.ndarray]:
+    """A bent strip, or a bent ring, clamped at one end (within), under weight and forces at the nodes of the
+    other: its mesh and deck, forces on nodes, the acceleration of gravity. tests/bench/calculix.py gives the
+    same to CalculiX. In plane stress it is thin, see there."""
+
+    def place(u):
+        x, y = u
+        return np.array(
+            [
+                1 + 10 * x + 0.3 * np.sin(3 * x) * np.sin(np.pi * y),
+                1.5 * y + 0.3 * x * y + 0.2 * x * x + 0.06 * np.sin(np.pi * y) * np.cos(5 * x),
+            ]
+        )
+
+    mesh, thickness = Sheet(boxes, nodes, place), THIN if hypothesis == "stress" else 1.0
+    end = mesh.nodes(lambda u: u[0] == 1)
+    forces = np.zeros_like(mesh.points)
+    forces[end] = np.array([50, -100]) * thickness / len(end)
+    gravity = np.array([0, -1e8] if hypothesis == "axis" else [0.6e8, -0.8e8])
+    deck = [
+        *mesh.model(hypothesis, 210000.0, 0.3, thickness, 7.8e-9),
+        mesh.group(2, "wall", mesh.nodes(lambda u: u[0] == 0)),
+        '.CLM\n GROUP "wall" FIX C 1 2',
+        f" STRU ACC VAL {gravity[0]} {gravity[1]} 0.",
+        *nodal_forces(forces),
+        ".FIN 1",
+    ]
+    return mesh, deck, forces, gravity
+
+
+def ring_means(mesh: Sheet, ring: bool) -> np.ndarray:
+    """Factors of displacements, by nodes and components, for what CalculiX prints of axisymmetric cells. It
+    has wedges of 2 degrees, at whose ends a radial displacement u is u cos 1° along x, and prints means over
+    the nodes of an arc: two for a mid-side node; of the three for a corner the lack is a third, as found by
+    comparing. What is left falls with the size of cells."""
+    factors = np.ones((len(mesh.points), 3))
+    if ring:
+        less = 1 - np.cos(np.pi / 180)
+        factors[:, 0] -= less
+        for cell in mesh.cells:
+            factors[cell[: mesh.corners], 0] = 1 - less / 3
+    return factors

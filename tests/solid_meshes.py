@@ -41,7 +41,7 @@ class Mesh:
         unit: list[np.ndarray] = []
 
         def node(x) -> int:
-            key = tuple(np.round(np.asarray(x) * 5040).astype(int))
+            key = tuple(np.round(x, 9))
             if key not in known:
                 known[key] = len(unit)
                 unit.append(np.asarray(x, dtype=float))

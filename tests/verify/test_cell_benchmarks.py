@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cook's membrane, a plate with a hole and a thick tube: errors of plane and axisymmetric cells and the
-orders in which they fall. docs/verification.md has the tables; bounds are what was measured, rounded."""
+orders in which they fall; a strip and a ring by CalculiX. docs/verification.md has the tables; bounds are
+what was measured, rounded."""
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
+import numpy as np
 import pytest
-from cell_problems import COOK, PLANE, Hole, cook, even_tube, orders, stiff_tube
+from cell_problems import COOK, PLANE, Hole, cook, even_tube, orders, solve, stiff_tube
+from plane_meshes import gravity_strip, ring_means
 
 
 @pytest.mark.parametrize(
@@ -112,3 +116,29 @@ def test_nearly_incompressible_tube(hypothesis: str, nodes: int, tmp_path: Path)
         rows = 9 if hypothesis == "strain" else 1
         share = stiff_tube(hypothesis, poisson).solve(nodes, rows, tmp_path)[1]
         assert share == pytest.approx(expected, abs=6e-5)
+
+
+# written by tests/bench/calculix.py --write, CalculiX 2.20, which prints seven digits
+REFERENCE = json.loads((Path(__file__).parent / "calculix.json").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize(
+    ("kind", "nodes", "hypothesis", "difference"),
+    [
+        ("CPE3", 3, "strain", 2.5e-7),
+        ("CPE6", 6, "strain", 1.5e-7),
+        ("CPE8R", 8, "strain", 1.5e-7),
+        # wedges of 2 degrees, not rings
+        ("CAX6", 6, "axis", 2.1e-6),
+        ("CAX8R", 8, "axis", 1.0e-6),
+        # solids whose strain across has no jumps
+        ("CPS6", 6, "stress", 2.4e-4),
+        ("CPS8R", 8, "stress", 9.5e-5),
+    ],
+)
+def test_calculix(kind: str, nodes: int, hypothesis: str, difference: float, tmp_path: Path) -> None:
+    """A bent strip or ring under weight and forces, all displacements."""
+    mesh, deck, _, _ = gravity_strip(REFERENCE[kind]["boxes"][:2], nodes, hypothesis)
+    expected = np.array(REFERENCE[kind]["displacement"])
+    found = solve(deck[:-1], tmp_path) * ring_means(mesh, hypothesis == "axis")
+    assert np.abs(found - expected).max() < difference * np.abs(expected).max()
