@@ -80,13 +80,14 @@ class PlaneMesh(Mesh):
 
 
 class Sheet(PlaneMesh):
-    """`boxes`: how many along x and y; `nodes` of a cell: 3, 6, 4 or 8. Diagonals of triangles alternate."""
+    """`boxes`: how many along x and y; `nodes` of a cell: 3, 6, 4 or 8. Diagonals of triangles alternate, or
+    run all one way."""
 
-    def __init__(self, boxes, nodes: int, place: Callable, curved: bool = False):
+    def __init__(self, boxes, nodes: int, place: Callable, curved: bool = False, alternating: bool = True):
         corners, second = KINDS[nodes]
         cells = []
         for j, i in np.ndindex(boxes[1], boxes[0]):
-            mirror = corners == 3 and (i + j) % 2
+            mirror = alternating and corners == 3 and (i + j) % 2
             box = [((i + (1 - a if mirror else a)) / boxes[0], (j + b) / boxes[1]) for a, b in SQUARE]
             cells += [[box[q] for q in cut] for cut in CUTS[corners]]
         super().__init__(cells, second, place, curved)

@@ -76,10 +76,16 @@ def main() -> None:
         ratios = (0.3, 0.49, 0.499, 0.4999)
         head("Thick tube, nearly incompressible", "", "nodes", *ratios)
         for hypothesis in ("strain", "axis"):
-            for nodes in PLANE:
-                rows = 9 if hypothesis == "strain" else 1
-                shares = [stiff_tube(hypothesis, nu).solve(nodes, rows, folder)[1] for nu in ratios]
-                row(hypothesis, nodes, *(f"{s:.4f}" for s in shares))
+            rows = 9 if hypothesis == "strain" else 1
+            kinds = [(nodes, True) for nodes in PLANE]
+            if hypothesis == "strain":
+                kinds += [(3, False), (6, False)]
+            for nodes, alternating in kinds:
+                shares = [
+                    stiff_tube(hypothesis, nu, alternating).solve(nodes, rows, folder)[1] for nu in ratios
+                ]
+                name = f"{nodes}{'' if alternating else ', diagonals one way'}"
+                row(hypothesis, name, *(f"{s:.4f}" for s in shares))
 
         head("Straight beam", "cell", *(f"{shape}: {', '.join(LOADS)}" for shape in SHAPES))
         for nodes in PLANE:
