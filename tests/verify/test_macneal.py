@@ -91,6 +91,11 @@ def test_curved_and_twisted_beams(kind: str, tmp_path: Path) -> None:
         assert found[:2] == pytest.approx(HEX8_CURVED, abs=6e-4)
 
 
+def test_twisted_beam_converges_to_theory(tmp_path: Path) -> None:
+    for load, lack in (("in plane", 2.1e-3), ("out of plane", 1.1e-3)):
+        assert 0 < 1 - solid_beam("twisted", "H20", load, tmp_path, finer=2) < lack
+
+
 # Nodes and cells of the patches
 PLANE_PATCH = [
     (0, 0),
