@@ -29,44 +29,56 @@ CUTS = {
 MIRRORED = {4: (0, 2, 1, 3), 6: (0, 2, 1, 3, 5, 4), 8: (0, 3, 2, 1, 4, 7, 6, 5)}
 
 
-class Block:
-    """`boxes`: how many along x, y, z; `place`: from the unit cube to space. Middles of sides are put there
-    too where `curved`, else between their corners."""
+class Mesh:
+    """Cells of one shape, given by the places of their corners in the unit square or cube, and `place` from
+    there to space. Middles of sides are put there too where `curved`, else between their corners."""
 
-    def __init__(self, boxes, corners: int, second: bool, place: Callable, curved: bool = False):
-        self.corners, self.second = corners, second
+    sides: dict[int, list[tuple[int, int]]]  # by the number of corners
+
+    def __init__(self, cells, second: bool, place: Callable, curved: bool = False):
+        self.corners, self.second = len(cells[0]), second
         known: dict[tuple, int] = {}
         unit: list[np.ndarray] = []
 
         def node(x) -> int:
-            key = tuple(np.round(np.asarray(x) * 5040).astype(int))
+            key = tuple(np.round(x, 9))
             if key not in known:
                 known[key] = len(unit)
                 unit.append(np.asarray(x, dtype=float))
             return known[key]
 
-        self.cells = []
-        for k, j, i in np.ndindex(boxes[2], boxes[1], boxes[0]):
-            mirror = (i + j + (k if corners == 4 else 0)) % 2
-            box = [
-                ((i + (1 - a if mirror else a)) / boxes[0], (j + b) / boxes[1], (k + c) / boxes[2])
-                for a, b, c in BOX
-            ]
-            for cut in CUTS[corners]:
-                at = [box[cut[q]] for q in (MIRRORED[corners] if mirror else range(corners))]
-                cell = [node(x) for x in at]
-                if second:
-                    cell += [node((np.add(at[a], at[b])) / 2) for a, b in SIDES[corners]]
-                self.cells.append(cell)
+        middles = self.sides[self.corners] if second else []
+        self.cells = [[*map(node, at), *(node(np.add(at[a], at[b]) / 2) for a, b in middles)] for at in cells]
         self.unit = np.array(unit)
         self.points = np.array([place(x) for x in self.unit])
-        for cell in self.cells if second and not curved else []:
-            for (a, b), middle in zip(SIDES[corners], cell[corners:], strict=True):
+        for cell in self.cells if not curved else []:
+            for (a, b), middle in zip(middles, cell[self.corners :], strict=True):
                 self.points[middle] = (self.points[cell[a]] + self.points[cell[b]]) / 2
 
     def nodes(self, where: Callable) -> np.ndarray:
-        """Indices of the nodes whose places in the unit cube are so."""
+        """Indices of the nodes whose places in the unit square or cube are so."""
         return np.flatnonzero([where(x) for x in self.unit])
+
+    def deck(self) -> list[str]:
+        """`.NOE` and `.MAI`."""
+        lines = [".NOE"]
+        for i, point in enumerate(self.points, 1):
+            lines.append(f" I {i} " + " ".join(f"{c} {x:.16g}" for c, x in zip("XYZ", point, strict=False)))
+        lines += [".MAI"]
+        return lines + [f" I {e} AT 1 0 N {self.connectivity(cell)}" for e, cell in enumerate(self.cells, 1)]
+
+    def group(self, number: int, name: str, nodes) -> str:
+        rows = [" ".join(str(i + 1) for i in nodes[k : k + 20]) for k in range(0, len(nodes), 20)]
+        return f' GROUP {number} NOM "{name}" NOEUDS\n  ' + "\n  ".join(rows)
+
+    def group_of_faces(self, number: int, name: str, where: Callable) -> list[str]:
+        return [f' GROUP {number} NOM "{name}" FACES', *(f"  I {e} {f}" for e, f in self.faces(where))]
+
+
+class SolidMesh(Mesh):
+    """Tetrahedra, wedges or hexahedra."""
+
+    sides = SIDES
 
     def faces(self, where: Callable) -> list[tuple[int, int]]:
         """Cell and face, counted from 1, of the faces whose corners are so."""
@@ -76,6 +88,23 @@ class Block:
             for f, face in enumerate(FACES[self.corners])
             if all(where(self.unit[cell[i]]) for i in face)
         ]
+
+    def spread(self, where: Callable, force) -> np.ndarray:
+        """Forces on the nodes from a force spread evenly over flat faces, triangles and parallelograms, with
+        the shape functions of the cell."""
+        found = np.zeros_like(self.points)
+        total = 0.0
+        for cell, face in self.faces(where):
+            nodes, at = self.cells[cell - 1], FACES[self.corners][face - 1]
+            a, b, c = (self.points[nodes[i]] for i in at[:3])
+            area = np.linalg.norm(np.cross(b - a, c - a)) * (0.5 if len(at) == 3 else 1)
+            corner = (0.0 if len(at) == 3 else -1 / 12) if self.second else 1 / len(at)
+            found[[nodes[i] for i in at]] += corner * area * np.asarray(force)
+            for k, (i, j) in enumerate(SIDES[self.corners] if self.second else []):
+                if i in at and j in at:
+                    found[nodes[self.corners + k]] += area / 3 * np.asarray(force)
+            total += area
+        return found / total
 
     def connectivity(self, cell: list[int]) -> str:
         """As `.MAI` has it behind N."""
@@ -93,19 +122,21 @@ class Block:
         below = [f"{v} -{m}" for v, m in zip(first, middles, strict=False)]
         return f"{' '.join(below)} 0 {' '.join(f'-{v}' for v in upright)} 0 {' '.join(above)}"
 
-    def deck(self) -> list[str]:
-        """`.NOE` and `.MAI`."""
-        lines = [".NOE"]
-        lines += [f" I {i} X {x:.16g} Y {y:.16g} Z {z:.16g}" for i, (x, y, z) in enumerate(self.points, 1)]
-        lines += [".MAI"]
-        return lines + [f" I {e} AT 1 0 N {self.connectivity(cell)}" for e, cell in enumerate(self.cells, 1)]
 
-    def group(self, number: int, name: str, nodes) -> str:
-        rows = [" ".join(str(i + 1) for i in nodes[k : k + 20]) for k in range(0, len(nodes), 20)]
-        return f' GROUP {number} NOM "{name}" NOEUDS\n  ' + "\n  ".join(rows)
+class Block(SolidMesh):
+    """`boxes`: how many along x, y, z; the rest as for any mesh."""
 
-    def group_of_faces(self, number: int, name: str, where: Callable) -> list[str]:
-        return [f' GROUP {number} NOM "{name}" FACES', *(f"  I {e} {f}" for e, f in self.faces(where))]
+    def __init__(self, boxes, corners: int, second: bool, place: Callable, curved: bool = False):
+        cells = []
+        for k, j, i in np.ndindex(boxes[2], boxes[1], boxes[0]):
+            mirror = (i + j + (k if corners == 4 else 0)) % 2
+            box = [
+                ((i + (1 - a if mirror else a)) / boxes[0], (j + b) / boxes[1], (k + c) / boxes[2])
+                for a, b, c in BOX
+            ]
+            order = MIRRORED[corners] if mirror else range(corners)
+            cells += [[box[cut[q]] for q in order] for cut in CUTS[corners]]
+        super().__init__(cells, second, place, curved)
 
 
 def gravity_beam(boxes, corners: int, second: bool) -> tuple[Block, list[str], np.ndarray]:
