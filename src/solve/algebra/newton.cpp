@@ -233,6 +233,34 @@ PetscErrorCode Newton::keep_sliding(SNESLineSearch, Vec x, Vec step, PetscBool* 
   return 0;
 }
 
+bool Newton::left_to_rounding() const {
+  constexpr double some = 4 * std::numeric_limits<double>::epsilon();
+  const auto size = [this](PetscInt equation) {
+    const Unknown& u = assembler_.numbering().unknown(static_cast<int>(equation));
+    const double place = u.node < 0 || u.item > 2 ? 0 : work_->nodes[static_cast<std::size_t>(u.node)].x[u.item];
+    return std::max(references_.length(static_cast<int>(equation)), std::abs(place));
+  };
+  Mat matrix = assembler_.matrix();
+  PetscInt first = 0, end = 0;
+  const PetscScalar* left = nullptr;
+  check_petsc(VecGetOwnershipRange(residual_, &first, &end));
+  check_petsc(VecGetArrayRead(residual_, &left));
+  int yes = 1;
+  for (PetscInt row = first; yes && row < end; ++row) {
+    PetscInt count = 0;
+    const PetscInt* column = nullptr;
+    const PetscScalar* value = nullptr;
+    check_petsc(MatGetRow(matrix, row, &count, &column, &value));
+    double noise = 0;
+    for (PetscInt i = 0; i < count; ++i) noise += some * std::abs(value[i]) * size(column[i]);
+    check_petsc(MatRestoreRow(matrix, row, &count, &column, &value));
+    if (!(std::abs(left[row - first]) <= noise)) yes = 0;
+  }
+  check_petsc(VecRestoreArrayRead(residual_, &left));
+  MPI_Allreduce(MPI_IN_PLACE, &yes, 1, MPI_INT, MPI_LAND, assembler_.comm());
+  return yes != 0;
+}
+
 bool Newton::judge(int iteration) {
   row_.iteration = iteration;
   double forces = 0;  // largest change of a multiplier
@@ -256,6 +284,7 @@ bool Newton::judge(int iteration) {
   }
   rows_.push_back(row_);
   if (imbalance_.within(precision_)) return true;
+  if (one_tangent_ && iteration > 0 && left_to_rounding()) return true;
   const double changed = std::max(row_.correction, forces);
   if (iteration > 1 && changed <= no_correction) return true;
   const double left = imbalance_.largest();

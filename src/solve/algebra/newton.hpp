@@ -82,6 +82,9 @@ class Newton {
   /// Decides whether the next correction is made with the factors there are.
   void choose_factors();
   bool judge(int iteration);
+  /// Whether what is left of every force of a linear model is no more than the rounding of positions makes: nothing better can be
+  /// found. Collective.
+  bool left_to_rounding() const;
 
   Assembler& assembler_;
   LinearSolver& solver_;
