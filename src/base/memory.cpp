@@ -2,6 +2,7 @@
 #include "base/memory.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -26,12 +27,20 @@ double free_on_machine() {
   return unlimited;
 }
 
+/// What the user allows, in GB.
+double allowed() {
+  const char* text = std::getenv("ENGRANE_MEMORY");
+  char* end = nullptr;
+  const double gigabytes = text ? std::strtod(text, &end) : 0;
+  return text && end != text && *end == '\0' && gigabytes > 0 ? 1e9 * gigabytes : unlimited;
+}
+
 }  // namespace
 
 double available_memory() {
   const double limit = number_in("/sys/fs/cgroup/memory.max");
   const double used = limit < unlimited ? number_in("/sys/fs/cgroup/memory.current") : 0;
-  return std::min(free_on_machine(), used < unlimited ? std::max(0.0, limit - used) : limit);
+  return std::min({free_on_machine(), used < unlimited ? std::max(0.0, limit - used) : limit, allowed()});
 }
 
 }  // namespace engrane

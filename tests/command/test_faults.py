@@ -181,3 +181,41 @@ def test_parts_of_a_deck_are_shown(engrane):
     (engrane.folder / "mine" / "deck.dat").write_text('.NOE\n I 1 X 0 0 0\nINPUT "../part"\nINPUT "near"\n')
     said = engrane("check", "mine/deck.dat").stderr
     assert "I 2 X 0 0 wrong" in said and "I 3 X 0 0 bad" in said
+
+
+def net(side: int) -> str:
+    """Point masses on springs to their neighbours, held at the first."""
+    lines = [".NOE"]
+    lines += [f" I {1 + i + side * j} X {i} {j} 0" for j in range(side) for i in range(side)]
+    lines.append(".MCE")
+    number = 0
+    for node in range(1, side * side + 1):
+        beside = [node + 1] if node % side else []
+        for other in [*beside, node + side, node + side + 1 if beside else 0]:
+            if 0 < other <= side * side:
+                number += 1
+                lines.append(f" I {number} SPRING N {node} {other} K 100")
+        number += 1
+        lines.append(f" I {number} INERTIA N {node} M 1")
+    return "\n".join(
+        [
+            *lines,
+            ".CLM FIX NOEUD 1 C 1 2 3",
+            ".CLM STRU ACC VAL 0 0 -9.81",
+            ".SAM TYPE DYNAMIC SOLVER MUMPS",
+            ".SUB TF 0.1 H 0.1\n",
+        ]
+    )
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_memory_that_is_not_there(ranks, engrane, monkeypatch):
+    """Factors that do not fit are refused before they are made, by a run and by check."""
+    monkeypatch.setenv("ENGRANE_MEMORY", "1e-4")
+    (engrane.folder / "net.dat").write_text(net(25))
+    done = engrane("net.dat", ranks=ranks)
+    assert done.returncode == 2
+    assert "equations would take" in done.stderr and "0.0001 GB are free" in done.stderr
+    if ranks == 1:
+        done = engrane("check", "net.dat")
+        assert done.returncode == 2 and "equations would take" in done.stdout

@@ -2,78 +2,22 @@
 // KLU keeps its pivots from one matrix to the next: the solutions must not show it.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
-#include <random>
+#include <algorithm>
 
-#include "base/snapshot.hpp"
-#include "solve/algebra/linear.hpp"
+#include "linear_system.hpp"
 
-namespace engrane {
+namespace engrane::test {
 
 using namespace solve;
 
 namespace {
 
-/// A sequential matrix whose pattern stays, with LinearSolver on it.
-class Fixture {
- public:
-  explicit Fixture(const Eigen::MatrixXd& a, const std::string& package = "KLU", const std::vector<unsigned char>& kinds = {})
-      : n_(static_cast<int>(a.rows())) {
-    check_petsc(MatCreateSeqAIJ(PETSC_COMM_SELF, n_, n_, n_, nullptr, matrix_.out()));
-    check_petsc(MatCreateVecs(matrix_, right_.out(), solution_.out()));
-    set(a);
-    solver_ = std::make_unique<LinearSolver>(matrix_, package, kinds);
-  }
-
-  void set(const Eigen::MatrixXd& a) {
-    a_ = a;
-    for (int i = 0; i < n_; ++i)
-      for (int j = 0; j < n_; ++j) check_petsc(MatSetValue(matrix_, i, j, a(i, j), INSERT_VALUES));
-    check_petsc(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
-    check_petsc(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
-  }
-
-  bool solve(const Eigen::VectorXd& b) {
-    for (int i = 0; i < n_; ++i) check_petsc(VecSetValue(right_, i, b[i], INSERT_VALUES));
-    if (!solver_->solve(right_, solution_)) return false;
-    x.resize(n_);
-    for (int i = 0; i < n_; ++i) check_petsc(VecGetValues(solution_, 1, &i, &x[i]));
-    error = ((b - a_ * x).cwiseAbs().array() / (a_.cwiseAbs() * x.cwiseAbs() + b.cwiseAbs()).array()).maxCoeff();
-    return true;
-  }
-
-  double condition() { return solver_->condition().value(); }
-  /// Matrices in a row for which old pivots did not serve.
-  double lost() const {
-    Snapshot snapshot;
-    solver_->save(snapshot);
-    return snapshot.number("klu/trials_lost");
-  }
-
-  Eigen::VectorXd x;
-  double error = 0;  ///< backward, largest over the rows
-
- private:
-  int n_;
-  Eigen::MatrixXd a_;
-  Owned<Mat> matrix_;
-  Owned<Vec> right_, solution_;
-  std::unique_ptr<LinearSolver> solver_;
-};
-
-/// [M −Bᵀ; −B 0] with entries of very different sizes.
-Eigen::MatrixXd saddle_point(std::mt19937& random, int motions, int constraints) {
-  std::uniform_real_distribution<double> entry(-1, 1), decade(-3, 3);
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(motions + constraints, motions + constraints);
-  for (int i = 0; i < motions; ++i) a(i, i) = std::pow(10, decade(random));
-  for (int i = motions; i < motions + constraints; ++i)
-    for (int j = 0; j < motions; ++j) a(i, j) = a(j, i) = entry(random);
-  return a;
-}
+/// Matrices in a row for which old pivots did not serve.
+double lost_trials(const LinearSystem& system) { return system.memory().number("klu/trials_lost"); }
 
 TEST(Klu, AnyMatrixOfThePatternIsSolvedToRounding) {
   std::mt19937 random(7);
-  Fixture f(saddle_point(random, 24, 9));
+  LinearSystem f(saddle_point(random, 24, 9));
   for (int k = 0; k < 50; ++k) {
     f.set(saddle_point(random, 24, 9));
     ASSERT_TRUE(f.solve(Eigen::VectorXd::Random(33)));
@@ -82,7 +26,7 @@ TEST(Klu, AnyMatrixOfThePatternIsSolvedToRounding) {
 }
 
 TEST(Klu, PivotsThatVanishAreReplaced) {
-  Fixture f(Eigen::Matrix3d{{4, 1, 2}, {1, 5, 1}, {2, 1, 6}});
+  LinearSystem f(Eigen::Matrix3d{{4, 1, 2}, {1, 5, 1}, {2, 1, 6}});
   const Eigen::Vector3d b(1, 2, 3);
   ASSERT_TRUE(f.solve(b));
   for (const double pivot : {1e-9, 1e-17, 0.0}) {
@@ -108,15 +52,15 @@ TEST(Klu, RowsThatOnlyRoundingFillsSayNothingOfPivots) {
     return a;
   };
   const Eigen::VectorXd b = (Eigen::VectorXd(7) << 0.3, 0.7, 1.9, 0.4, 0, 0, 0).finished();
-  Fixture told(matrix(0.5), "KLU", {0, 0, 0, 0, 2, 2, 2}), untold(matrix(0.5));
+  LinearSystem told(matrix(0.5), "KLU", {0, 0, 0, 0, 2, 2, 2}), untold(matrix(0.5));
   double lost = 0;
   for (int k = 0; k < 20; ++k) {
-    for (Fixture* f : {&told, &untold}) {
+    for (LinearSystem* f : {&told, &untold}) {
       f->set(matrix(0.5 + 0.01 * k));
       ASSERT_TRUE(f->solve(b));
     }
-    EXPECT_EQ(told.lost(), 0) << "matrix " << k;
-    lost = std::max(lost, untold.lost());
+    EXPECT_EQ(lost_trials(told), 0) << "matrix " << k;
+    lost = std::max(lost, lost_trials(untold));
     EXPECT_LT((told.x - matrix(0.5 + 0.01 * k).fullPivLu().solve(b)).norm(), 1e-14);
   }
   EXPECT_GT(lost, 0);
@@ -125,7 +69,7 @@ TEST(Klu, RowsThatOnlyRoundingFillsSayNothingOfPivots) {
 TEST(Klu, SingularIsSaidAndLeavesNothingBehind) {
   const Eigen::Matrix3d good{{4, 1, 2}, {1, 5, 1}, {2, 1, 6}}, singular{{4, 1, 2}, {1, 5, 1}, {4, 1, 2}};
   const Eigen::Vector3d b(1, 2, 3);
-  Fixture f(good);
+  LinearSystem f(good);
   ASSERT_TRUE(f.solve(b));
   f.set(singular);
   EXPECT_FALSE(f.solve(b));
@@ -139,7 +83,7 @@ TEST(LinearSolver, BadlyScaledMatricesAreSolvedToRounding) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> entry(-1, 1), decade(-6, 6);
   for (const char* package : {"MUMPS", "KLU", "UMFPACK", "SUPERLU"}) {
-    Fixture f(Eigen::MatrixXd::Identity(40, 40), package);
+    LinearSystem f(Eigen::MatrixXd::Identity(40, 40), package);
     double worst = 0;
     for (int k = 0; k < 20; ++k) {
       Eigen::MatrixXd a(40, 40);
@@ -159,7 +103,7 @@ TEST(LinearSolver, EveryPackageSaysThatAMatrixIsSingular) {
   const Eigen::Matrix3d good{{4, 1, 2}, {1, 5, 1}, {2, 1, 6}}, singular{{4, 1, 2}, {1, 5, 1}, {4, 1, 2}};
   const Eigen::Vector3d b(1, 2, 3);
   for (const char* package : {"MUMPS", "KLU", "UMFPACK", "SUPERLU"}) {
-    Fixture f(good, package);
+    LinearSystem f(good, package);
     ASSERT_TRUE(f.solve(b)) << package;
     f.set(singular);
     EXPECT_FALSE(f.solve(b)) << package;
@@ -176,7 +120,7 @@ TEST(LinearSolver, TheEstimatedConditionIsThatOfTheMatrix) {
       const Eigen::MatrixXd a = saddle_point(random, 24, 9);
       const auto norm1 = [](const Eigen::MatrixXd& m) { return m.cwiseAbs().colwise().sum().maxCoeff(); };
       const double exact = norm1(a) * norm1(a.inverse());
-      Fixture f(a, package);
+      LinearSystem f(a, package);
       ASSERT_TRUE(f.solve(Eigen::VectorXd::Random(33)));
       EXPECT_LT(f.condition(), 1.001 * exact) << package;
       EXPECT_GT(f.condition(), exact / 3) << package;
@@ -209,4 +153,4 @@ TEST(LinearSolver, AutoTakesKluForChainsAndMumpsForLattices) {
 }
 
 }  // namespace
-}  // namespace engrane
+}  // namespace engrane::test

@@ -260,3 +260,40 @@ def test_warmth_does_work(tmp_path: Path) -> None:
     assert errors[0] < 1e-4
     assert errors[0] / errors[1] == pytest.approx(4, rel=0.1)
     assert work == pytest.approx(200000 * (1.2e-5 * 100) ** 2 / 2 * 1000, rel=0.1)
+
+
+def tip_of_one_cell(load: float, folder: Path) -> float:
+    """Over the load; the run must need one correction."""
+    deck = f"""
+.NOE
+ I 1 X 0 Y 0
+ I 2 X 100 Y 0
+ I 3 X 100 Y 10
+ I 4 X 0 Y 10
+.MAI
+ I 1 N 1 2 3 4
+.SEL
+ GROUP 1 MAILLES NOM "all" TOUT
+.MAT
+ I 1 BEHA "ELASTIC" YT 200000. NT 0.3
+.HYP MEMB BIDIM GROUP "all"
+.PHP GROUP "all" THICK VAL 1.
+.AEL
+ GROUP "all" MAT 1
+.CLM
+ NOEUD 1 4 FIX C 1 2
+ NOEUD 2 CHA C 2 V {load}
+.FIN 1
+"""
+    solved = run(deck, folder)
+    assert "1 Newton iterations" in solved.file.with_suffix(".lst").read_text(encoding="utf-8")
+    with h5py.File(solved.file) as results:
+        frames = results["fields/displacement"]
+        return frames[sorted(frames)[-1]][1, 1] / load
+
+
+def test_loads_of_any_size(tmp_path: Path) -> None:
+    """Linear statics is linear, also where displacements are far larger than the model."""
+    expected = tip_of_one_cell(1e4, tmp_path)
+    for load in (1.0, 1e8):
+        assert tip_of_one_cell(load, tmp_path) == pytest.approx(expected, rel=1e-11)

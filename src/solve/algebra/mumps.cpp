@@ -134,7 +134,7 @@ void Mumps::refuse_without_memory() const {
   MPI_Allreduce(MPI_IN_PLACE, most, 2, MPI_DOUBLE, MPI_MAX, comm_of(matrix_));
   if (most[0] <= -most[1]) return;
   throw MemoryShortage(
-      fmt::format("the factors of the {} equations would take {:.1f} GB on one machine, where {:.1f} GB are free: run on more "
+      fmt::format("the factors of the {} equations would take {:.3g} GB on one machine, where {:.3g} GB are free: run on more "
                   "machines, or take a "
                   "coarser mesh",
                   rows_of(matrix_), most[0] / gigabyte, -most[1] / gigabyte));
