@@ -219,8 +219,8 @@ std::optional<Mat3> CellBook::axes_of(const Cell& cell, const NodePositions& nod
   return Mat3(axes * Eigen::AngleAxisd(cell.theta.value_or(0) * degree, Vec3::UnitZ()).toRotationMatrix());
 }
 
-std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypothesis hypothesis, const Mat3& axes,
-                                                          bool linear) {
+std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypothesis hypothesis, const Mat3& axes, bool linear,
+                                                          int number) {
   const auto [entry, fresh] = elastic_.try_emplace({cell.material->id, hypothesis});
   if (fresh) entry->second = elastic_of(*cell.material, hypothesis, diagnostics_);
   if (!entry->second) return nullptr;
@@ -234,7 +234,7 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
   }
   const bool has_thickness = hypothesis == Hypothesis::plane_stress || hypothesis == Hypothesis::plane_strain;
   return std::make_shared<CellSection>(CellSection{hypothesis, materials::law_of(hypothesis, material),
-                                                   has_thickness && cell.thickness > 0 ? cell.thickness : 1.0, linear});
+                                                   has_thickness && cell.thickness > 0 ? cell.thickness : 1.0, linear, number});
 }
 
 void CellBook::make_sections(bool linear, const NodePositions& nodes) {
@@ -260,18 +260,25 @@ void CellBook::make_sections(bool linear, const NodePositions& nodes) {
               "plane stress needs .PHP GROUP \"name\" THICK VAL t");
   using Key = std::tuple<Hypothesis, int, double, double, int>;
   std::map<Key, std::shared_ptr<const CellSection>> sections;
+  std::map<Key, int> numbers;
   for (Cell& cell : cells_) {
     const auto formulation = hypothesis(cell);
     const bool has_material = cell.material && cell.material->get<deck::MaterialCard>();
     if (!formulation || !fits(cell) || !has_material || (is_stress(cell) && cell.thickness == 0)) continue;
     const bool alone = frames_.is_curved(cell.frame);  // with axes of its own
     const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame};
+    Key group = key;
+    if (cell.material->get<deck::MaterialCard>()->young.size() == 1) {  // decks give axes to isotropic cells too, each its own
+      std::get<3>(group) = 0;
+      std::get<4>(group) = 0;
+    }
+    const int number = numbers.try_emplace(group, static_cast<int>(numbers.size())).first->second;
     if (!alone)
       if (const auto known = sections.find(key); known != sections.end()) {
         cell.section = known->second;
         continue;
       }
-    if (const auto axes = axes_of(cell, nodes)) cell.section = make_section(cell, *formulation, *axes, linear);
+    if (const auto axes = axes_of(cell, nodes)) cell.section = make_section(cell, *formulation, *axes, linear, number);
     if (!alone) sections.emplace(key, cell.section);
   }
 }

@@ -23,6 +23,9 @@ struct CellSection {
   materials::Elasticity law;
   double thickness = 1;
   bool linear = true;  ///< small displacements
+  /// Which of the sections of the deck: cells of one have the same material, hypothesis and thickness, and axes that are given in
+  /// the same way where they matter. Where these turn from cell to cell, as in a cylindrical frame, each has a struct of its own.
+  int number = 0;
 };
 
 /// What a deck says of its cells in `.HYP`, `.MAT`, `.PHP`, `.AEL` and `.SEL`, looked up by the number of a cell. Faults are
@@ -60,7 +63,7 @@ class CellBook {
   void assign(const deck::Record& record, const deck::AssignmentCard& assignment);
   void make_sections(bool linear, const NodePositions& nodes);
   std::shared_ptr<const CellSection> make_section(const Cell& cell, materials::Hypothesis hypothesis, const Mat3& axes,
-                                                  bool linear);
+                                                  bool linear, int number);
   /// Axes of the material of a cell; nothing where its frame does not exist, which is reported.
   std::optional<Mat3> axes_of(const Cell& cell, const NodePositions& nodes);
 

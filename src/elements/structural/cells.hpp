@@ -2,7 +2,7 @@
 // Blocks of cells of one shape, in the plane, round an axis or in space.
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -10,7 +10,9 @@
 #include <optional>
 
 #include "elements/structural/cell_kernel.hpp"
+#include "elements/structural/cell_recovery.hpp"
 #include "elements/structural/make_cell.hpp"
+#include "math/stress.hpp"
 
 namespace engrane::elements::structural {
 
@@ -26,6 +28,7 @@ class Cells final : public Block {
   using Vector = Eigen::Matrix<double, D * N, 1>;
   using Square = Eigen::Matrix<double, D * N, D * N>;
   using Stress = materials::Voigt;
+  static constexpr int width = D == 2 ? 4 : 6;  ///< components of stress among the results
 
  public:
   Cells() {
@@ -119,14 +122,14 @@ class Cells final : public Block {
       const std::vector<std::string> principal =
           D == 2 ? std::vector<std::string>{"1", "2", "ZZ"} : std::vector<std::string>{"1", "2", "3"};
       const int points = static_cast<int>(Kernel::result_samples().size());
-      const auto at_points = [points](Named named, std::vector<std::string> of) {
-        return Field{std::move(named), Field::Place::point, std::move(of), points};
+      const auto at_points = [points](Named named, std::vector<std::string> of, bool averaged = false) {
+        return Field{std::move(named), Field::Place::point, std::move(of), points, averaged};
       };
       return std::vector<Field>{
           at_points(
               {"STRESS", dimension::pressure, D == 2 ? "true stress; ZZ: normal to the plane, or round the axis" : "true stress"},
-              components),
-          at_points({"STRAIN", dimension::none, "strain of Green and Lagrange, shear half the angle"}, components),
+              components, true),
+          at_points({"STRAIN", dimension::none, "strain of Green and Lagrange, shear half the angle"}, components, true),
           at_points({"VON_MISES", dimension::pressure, "equivalent stress of von Mises"}, {}),
           at_points({"PRINCIPAL", dimension::pressure,
                      D == 2 ? "principal stresses in the plane, and ZZ" : "principal stresses, the largest first"},
@@ -138,7 +141,6 @@ class Cells final : public Block {
 
   void evaluate_fields(std::size_t e, const State& state, std::span<double> values) const override {
     const Cell& cell = cells_[e];
-    constexpr std::size_t width = D == 2 ? 4 : 6;
     const std::vector<AtPoint> points = at_points(cell, state);
     double* out = values.data();
     const auto put = [&out, &points](std::size_t row, const auto& value) {
@@ -151,9 +153,48 @@ class Cells final : public Block {
     put(width, [](const AtPoint& p) -> Stress {
       return (Stress() << p.strain.template head<3>(), p.strain.template tail<3>() / 2).finished();
     });
-    put(1, [](const AtPoint& p) { return std::array{von_mises(p.stress)}; });
-    put(3, [](const AtPoint& p) { return principal(p.stress); });
+    put(1, [](const AtPoint& p) { return std::array{von_mises(shown(p.stress))}; });
+    put(3, [](const AtPoint& p) { return principal_stresses(shown(p.stress)); });
     put(1, [](const AtPoint& p) { return std::array{p.energy}; });
+  }
+
+  int section(std::size_t e) const override { return cells_[e].section->number; }
+
+  const Eigen::MatrixXd* extrapolation() const override {
+    static const Eigen::MatrixXd all =
+        structural::extrapolation<S>(Traits::result_points() ? *Traits::result_points() : Kernel::points());
+    return &all;
+  }
+
+  /// Where displacements are large, the true stress given is taken back by the deformation of each point.
+  StressEnergies stress_energies(std::size_t e, const State& state, std::span<const double> at_nodes) const override {
+    const Cell& cell = cells_[e];
+    const CellSection& section = *cell.section;
+    const Eigen::Map<const Eigen::Matrix<double, width, N>> given(at_nodes.data());
+    const Kernel kernel(cell.places, section.thickness);
+    const typename Kernel::Moves moves = moves_of(cell, state, kernel);
+    const Eigen::LLT<typename Kernel::Stiffness> moduli(Kernel::reduced(section.law.stiffness));
+    const auto energy = [&moduli](const Stress& stress) {
+      return moduli.matrixL().solve(Kernel::reduced(stress)).squaredNorm() / 2;
+    };
+    // exact for the square of the difference in straight cells
+    const auto& samples = Kernel::modes > 0 ? Kernel::samples() : masses();
+    StressEnergies sum;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      std::optional<Kernel> other;
+      if constexpr (Kernel::modes == 0) other.emplace(cell.places, section.thickness, std::span(samples).subspan(i, 1));
+      const typename Kernel::Point& point = other ? other->point(0) : kernel.point(static_cast<int>(i));
+      const AtPoint p = at_point(section, kernel.deformation(point, moves), rise(cell, state, samples[i]));
+      Stress wanted = Stress::Zero();
+      wanted.template head<width>() = given * samples[i].value;
+      if (!section.linear) {
+        const Mat3 back = p.F.inverse();
+        wanted = components_of(p.F.determinant() * back * symmetric_tensor(shown(wanted)) * back.transpose());
+      }
+      sum.stress += point.volume * energy(p.second);
+      sum.difference += point.volume * energy(wanted - p.second);
+    }
+    return sum;
   }
 
  private:
@@ -164,10 +205,12 @@ class Cells final : public Block {
     std::shared_ptr<const std::vector<Warmth>> warmth;  ///< of each node; none: no change of temperature
   };
 
-  /// Stresses and strains where results are given, in all six components.
+  /// Stresses and strains at a point, in all six components.
   struct AtPoint {
     Stress stress, strain;
-    double energy;
+    Stress second;  ///< Piola–Kirchhoff; with small displacements the stress
+    double energy = 0;
+    Mat3 F;  ///< with the third direction; not set with small displacements
   };
 
   static const std::vector<Sample>& masses() {
@@ -205,29 +248,45 @@ class Cells final : public Block {
     return sum;
   }
 
-  std::vector<AtPoint> at_points(const Cell& cell, const State& state) const {
-    const CellSection& section = *cell.section;
-    const materials::Elasticity& material = section.law;
-    const Kernel kernel(cell.places, section.thickness);
+  /// Displacements of the nodes with the amplitudes of the modes.
+  static typename Kernel::Moves moves_of(const Cell& cell, const State& state, const Kernel& kernel) {
+    if constexpr (Kernel::modes == 0) return displacements(cell, state);
     typename Kernel::Condensed sum;
     kernel.condense(law_of(cell, state), displacements(cell, state), false, sum);
+    return sum.moves;
+  }
+
+  static AtPoint at_point(const CellSection& section, const typename Kernel::Deformation& now, double warmer) {
+    const materials::Elasticity& material = section.law;
+    AtPoint p;
+    p.strain.setZero();
+    p.strain(Kernel::components) = Kernel::strain(now, section.linear);
+    const Stress elastic = p.strain - warmer * material.expansion;
+    p.second = material.stiffness * elastic;
+    if (section.hypothesis == materials::Hypothesis::plane_stress)
+      p.strain[2] = material.transverse.dot(elastic) + warmer * material.expansion[2];
+    p.energy = p.second.dot(elastic) / 2;
+    p.stress = p.second;
+    if (section.linear) return p;
+    p.F.setZero();
+    p.F.template topLeftCorner<D, D>() = now.F;
+    // in the plane with the stretch along z that the strain there is
+    if constexpr (D == 2) p.F(2, 2) = Axi ? now.hoop : std::sqrt(std::max(1 + 2 * p.strain[2], 0.0));
+    p.stress = components_of(p.F * symmetric_tensor(shown(p.second)) * p.F.transpose() / p.F.determinant());
+    return p;
+  }
+
+  static std::vector<AtPoint> at_points(const Cell& cell, const State& state) {
+    const CellSection& section = *cell.section;
+    const Kernel kernel(cell.places, section.thickness);
+    const typename Kernel::Moves moves = moves_of(cell, state, kernel);
     std::vector<AtPoint> points;
     std::optional<Kernel> others;
     if (Traits::result_points()) others.emplace(cell.places, section.thickness, Kernel::result_samples());
     const Kernel& at = others ? *others : kernel;
-    for (int i = 0; i < at.count(); ++i) {
-      const auto now = at.deformation(at.point(i), sum.moves);
-      AtPoint& p = points.emplace_back();
-      p.strain.setZero();
-      p.strain(Kernel::components) = Kernel::strain(now, section.linear);
-      const double warmer = rise(cell, state, Kernel::result_samples()[static_cast<std::size_t>(i)]);
-      Stress elastic = p.strain - warmer * material.expansion;
-      const Stress second = material.stiffness * elastic;
-      if (section.hypothesis == materials::Hypothesis::plane_stress)
-        p.strain[2] = material.transverse.dot(elastic) + warmer * material.expansion[2];
-      p.energy = second.dot(elastic) / 2;
-      p.stress = section.linear ? second : true_stress(now, second, p.strain[2]);
-    }
+    for (int i = 0; i < at.count(); ++i)
+      points.push_back(at_point(section, at.deformation(at.point(i), moves),
+                                rise(cell, state, Kernel::result_samples()[static_cast<std::size_t>(i)])));
     return points;
   }
 
@@ -288,30 +347,9 @@ class Cells final : public Block {
         for (Eigen::Index c = 0; c < D; ++c) k(D * i + c, D * j + c) += mass(i, j);
   }
 
-  static Mat3 tensor(const Stress& s) { return (Mat3() << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]).finished(); }
-
-  /// σ = F S Fᵀ / det F; in the plane with the stretch along z that the strain there is.
-  static Stress true_stress(const typename Kernel::Deformation& d, const Stress& second, double strain_z) {
-    Mat3 F = Mat3::Zero();
-    F.topLeftCorner<D, D>() = d.F;
-    if constexpr (D == 2) F(2, 2) = Axi ? d.hoop : std::sqrt(std::max(1 + 2 * strain_z, 0.0));
-    const Mat3 sigma = F * tensor(second) * F.transpose() / F.determinant();
-    return (Stress() << sigma.diagonal(), sigma(0, 1), sigma(1, 2), sigma(2, 0)).finished();
-  }
-
-  static double von_mises(const Stress& s) {
-    const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
-    return std::sqrt((xy * xy + yz * yz + zx * zx) / 2 + 3 * s.tail<3>().squaredNorm());
-  }
-
-  static std::array<double, 3> principal(const Stress& s) {
-    if constexpr (D == 2) {
-      const double middle = (s[0] + s[1]) / 2, radius = std::hypot((s[0] - s[1]) / 2, s[3]);
-      return {middle + radius, middle - radius, s[2]};
-    }
-    const Vec3 values = Eigen::SelfAdjointEigenSolver<Mat3>(tensor(s), Eigen::EigenvaluesOnly).eigenvalues();
-    return {values[2], values[1], values[0]};
-  }
+  static Stress components_of(const Mat3& s) { return (Stress() << s.diagonal(), s(0, 1), s(1, 2), s(2, 0)).finished(); }
+  /// The components among the results.
+  static std::span<const double> shown(const Stress& s) { return {s.data(), static_cast<std::size_t>(width)}; }
 
   Layout layout_;
   std::vector<Cell> cells_;
