@@ -133,6 +133,7 @@ class Builder {
                              : record.get<deck::HypothesisCard>() ? "formulation"
                              : record.get<deck::PropertyCard>()   ? "property"
                              : record.get<deck::AssignmentCard>() ? "assignment"
+                             : record.get<deck::RotationCard>()   ? "rotation"
                                                                   : nullptr)
         diagnostics_.warning_once(what, record.location,
                                   fmt::format("the deck has no cells (.MAI): this {} has no effect", what));

@@ -10,75 +10,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 from engrane_post import Results
+from plane_meshes import PlaneMesh
 from runs import run
 from test_cells import Shape
 
 INNER, OUTER, PRESSURE, YOUNG, POISSON = 1.0, 2.0, 100.0, 1000.0, 0.3
 
 
-class Plane:
-    """A patch of plane cells of so many nodes over a unit square cut into boxes, placed by `place`."""
-
-    def __init__(self, boxes: int, nodes: int, place) -> None:
-        known: dict[tuple[float, float], int] = {}
-        unit: list[tuple[float, float]] = []
-
-        def node(x: tuple[float, float]) -> int:
-            key = (round(x[0], 9), round(x[1], 9))
-            if key not in known:
-                known[key] = len(unit)
-                unit.append(x)
-            return known[key]
-
-        self.cells: list[list[int]] = []
-        self.corners = 3 if nodes in (3, 6) else 4
-        for j in range(boxes):
-            for i in range(boxes):
-                box = [((i + a) / boxes, (j + b) / boxes) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
-                for cut in [(0, 1, 2), (0, 2, 3)] if self.corners == 3 else [(0, 1, 2, 3)]:
-                    at = [box[c] for c in cut]
-                    cell = [node(x) for x in at]
-                    if nodes > self.corners:
-                        cell += [
-                            node(((a[0] + b[0]) / 2, (a[1] + b[1]) / 2))
-                            for a, b in zip(at, at[1:] + at[:1], strict=True)
-                        ]
-                    self.cells.append(cell)
-        self.unit = np.array(unit)
-        self.points = np.array([place(*x) for x in unit])
-
-    def deck(self, hypothesis: str, material: str = f"YT {YOUNG} NT {POISSON}") -> str:
-        rows = [".NOE", *(f" I {i} X {x:.17g} Y {y:.17g}" for i, (x, y) in enumerate(self.points, 1)), ".MAI"]
-        for e, cell in enumerate(self.cells, 1):
-            n = [c + 1 for c in cell]
-            corners, middles = n[: self.corners], [-m for m in n[self.corners :]]
-            pairs = zip(corners, middles, strict=True) if middles else ((c,) for c in corners)
-            rows.append(f" I {e} AT 1 0 N {' '.join(str(k) for pair in pairs for k in pair)}")
-        rows.append(f'.SEL GROUP 1 NOM "all" MAILLE TOUT\n.HYP {hypothesis} GROUP "all"')
-        rows.append(f'.MAT I 1 BEHA "ELASTIC" {material}\n.AEL GROUP "all" MAT 1')
-        return "\n".join(rows)
-
-    def nodes(self, where) -> str:
-        return " ".join(str(i) for i, x in enumerate(self.unit, 1) if where(x))
-
-    def edges(self, where) -> list[tuple[int, int]]:
-        """Cell and edge, counted from 1, whose corners are so."""
-        return [
-            (e, k + 1)
-            for e, cell in enumerate(self.cells, 1)
-            for k in range(self.corners)
-            if where(self.unit[cell[k]]) and where(self.unit[cell[(k + 1) % self.corners]])
-        ]
-
-
-def tube(boxes: int, nodes: int) -> tuple[Plane, str]:
+def tube(boxes: int, nodes: int) -> tuple[PlaneMesh, str]:
     """A quarter of a thick tube under inner pressure, plane strain."""
 
     def place(u: float, v: float) -> tuple[float, float]:
         radius, angle = INNER + (OUTER - INNER) * u, np.pi / 2 * v
         return radius * np.cos(angle), radius * np.sin(angle)
 
-    mesh = Plane(boxes, nodes, place)
+    mesh = PlaneMesh(boxes, nodes, place)
     bore = mesh.edges(lambda x: x[0] == 0)
     deck = mesh.deck("DEFO PLAN")
     deck += f"\n.CLM\n NOEUD {mesh.nodes(lambda x: x[1] == 0)} FIX C 2"
@@ -120,7 +66,7 @@ def square_points(kind: int) -> list[tuple[float, float, float]]:
     return [((1 + x) / 2, (1 + y) * (1 - x) / 4, w * (1 - x) / 8) for x, y, w in points]
 
 
-def true_error(mesh: Plane, kind: int, results: Results) -> float:
+def true_error(mesh: PlaneMesh, kind: int, results: Results) -> float:
     """Half the square of the energy norm of the error, by cells' own shape functions from displacements; of
     four nodes, which have internal modes, by bilinear functions through the points of the results."""
     shape = Shape(kind)
@@ -181,7 +127,7 @@ def test_effectivity(kind: int, tmp_path: Path) -> None:
     assert found[1][2] < found[0][2]
 
 
-def averaged(mesh: Plane, kind: int, results: Results) -> np.ndarray:
+def averaged(mesh: PlaneMesh, kind: int, results: Results) -> np.ndarray:
     """From the points of each cell to its nodes by least squares, then the mean over the cells at each."""
     powers = [(0, 0), (1, 0), (0, 1)] + ([(1, 1)] if mesh.corners == 4 else [])
     sixth, two = 1 / 6, 2 / 3
@@ -232,9 +178,9 @@ def test_averages_are_those_of_the_points(kind: int, tmp_path: Path) -> None:
             )
 
 
-def strips(kind: int, large: bool) -> tuple[Plane, str]:
+def strips(kind: int, large: bool) -> tuple[PlaneMesh, str]:
     """Two strips side by side, the upper one twice as stiff, both stretched by one per cent along x."""
-    mesh = Plane(2, kind, lambda u, v: (u + 0.2 * v * u * (1 - u) * (v - 0.5) * (1 - v), v))
+    mesh = PlaneMesh(2, kind, lambda u, v: (u + 0.2 * v * u * (1 - u) * (v - 0.5) * (1 - v), v))
     upper = [e for e, cell in enumerate(mesh.cells, 1) if mesh.unit[cell][:, 1].mean() > 0.5]
     deck = mesh.deck("CONT PLAN", "YT 1000. NT 0.")
     deck += '\n.PHP GROUP "all" THICK VAL 1.\n.MAT I 2 BEHA "ELASTIC" YT 2000. NT 0.\n.AEL\n'

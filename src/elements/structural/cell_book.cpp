@@ -45,16 +45,17 @@ std::string names_of(const std::vector<std::string>& groups) {
 
 }  // namespace
 
-CellBook::CellBook(const std::vector<deck::Record>& records, const NodePositions& nodes, Diagnostics& diagnostics)
-    : diagnostics_(diagnostics) {
+CellBook::CellBook(const BuildContext& context) : diagnostics_(context.diagnostics) {
+  const std::vector<deck::Record>& records = *context.records;
   read_cells(records);
   read_groups(records);
   read_properties(records);
-  make_sections(deck::has_small_displacements(records), nodes);
+  read_rotations(context);
+  make_sections(deck::has_small_displacements(records), context.nodes);
 }
 
 std::shared_ptr<const CellBook> CellBook::of(const BuildContext& context) {
-  const auto make = [&context] { return std::make_shared<const CellBook>(*context.records, context.nodes, context.diagnostics); };
+  const auto make = [&context] { return std::make_shared<const CellBook>(context); };
   return context.notes ? context.notes->get<std::shared_ptr<const CellBook>>(make) : make();
 }
 
@@ -84,6 +85,11 @@ const deck::Record* CellBook::record(int cell) const {
 std::shared_ptr<const CellSection> CellBook::section(int cell) const {
   const Cell* found = find(cell);
   return found ? found->section : nullptr;
+}
+
+std::shared_ptr<const CellRotation> CellBook::rotation(int cell) const {
+  const Cell* found = find(cell);
+  return found ? found->rotation : nullptr;
 }
 
 const std::vector<int>* CellBook::faces(const std::string& group) const {
@@ -157,6 +163,28 @@ void CellBook::read_properties(const std::vector<deck::Record>& records) {
     if (const auto* property = record.get<deck::PropertyCard>())
       for (const std::size_t i : members(record, property->groups)) cells_[i].thickness = property->thickness.value_or(0);
     if (const auto* assignment = record.get<deck::AssignmentCard>()) assign(record, *assignment);
+  }
+}
+
+void CellBook::read_rotations(const BuildContext& context) {
+  const deck::AnalysisCard* analysis = nullptr;
+  for (const deck::Record& record : *context.records)
+    if (const auto* card = record.get<deck::AnalysisCard>()) analysis = card;
+  for (const deck::Record& record : *context.records) {
+    const auto* card = record.get<deck::RotationCard>();
+    if (!card) continue;
+    if (analysis && !analysis->type.is("STATIC"))
+      diagnostics_.error(record.location, "ROT is a load of statics: what moves in axes that turn has Coriolis forces too",
+                         "TYPE STATIC in .SAM, or let the body itself turn");
+    auto rotation = std::make_shared<CellRotation>();
+    rotation->record = &record;
+    rotation->speed = card->speed;
+    rotation->axis = Vec3(card->axis.data()).stableNormalized();
+    rotation->point = Vec3(card->point.data());
+    if (card->function != 0)
+      if (const auto found = context.functions.find(card->function); found != context.functions.end())
+        rotation->function = found->second.get();
+    for (const std::size_t i : members(record, card->groups)) cells_[i].rotation = rotation;
   }
 }
 

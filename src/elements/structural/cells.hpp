@@ -42,6 +42,7 @@ class Cells final : public Block {
     for (Eigen::Index i = 0; i < N; ++i) cell.places.col(i) = plan.places[static_cast<std::size_t>(i)].template head<D>();
     cell.section = plan.section;
     cell.warmth = plan.warmth;
+    cell.rotation = plan.rotation;
     return cells_.size() - 1;
   }
 
@@ -67,7 +68,11 @@ class Cells final : public Block {
       // symmetric, so that rows and columns need no care
       Eigen::Map<Square> tangent(k.data() + i * D * D * N * N);
       tangent = weights.q * sum.tangent;
-      if (weights.a != 0) add_mass(cell, weights.a, tangent);
+      if (weights.a != 0) add_mass(cell, weights.a, Mat3::Identity(), tangent);
+      if (cell.rotation && !cell.section->linear) {
+        const double speed = cell.rotation->speed_at(states[i].time);
+        add_mass(cell, -weights.q * speed * speed, cell.rotation->projection(), tangent);
+      }
     }
   }
 
@@ -97,6 +102,7 @@ class Cells final : public Block {
     Vector weight;
     energies.potential = energies.strain;
     if (weigh(cell, state, weight)) energies.potential -= weight.dot(moved.reshaped());
+    if (Vector outward = Vector::Zero(); add_centrifugal(cell, state, outward)) energies.external += outward.dot(rates(state));
     if (section.law.density != 0) {
       Places v;
       for (Eigen::Index i = 0; i < N; ++i) v.col(i) = state.nodes[static_cast<std::size_t>(i)].v.template head<D>();
@@ -109,10 +115,10 @@ class Cells final : public Block {
   }
 
   bool applied(std::size_t e, const State& state, std::span<double> forces) const override {
-    Vector weight;
-    if (!weigh(cells_[e], state, weight)) return false;
-    std::copy_n(weight.data(), D * N, forces.begin());
-    return true;
+    Vector sum = Vector::Zero();
+    const bool heavy = weigh(cells_[e], state, sum), turns = add_centrifugal(cells_[e], state, sum);
+    if (heavy || turns) std::copy_n(sum.data(), D * N, forces.begin());
+    return heavy || turns;
   }
 
   const std::vector<Field>& fields() const override {
@@ -203,6 +209,7 @@ class Cells final : public Block {
     Places places;
     std::shared_ptr<const CellSection> section;
     std::shared_ptr<const std::vector<Warmth>> warmth;  ///< of each node; none: no change of temperature
+    std::shared_ptr<const CellRotation> rotation;       ///< none: it does not turn
   };
 
   /// Stresses and strains at a point, in all six components.
@@ -323,10 +330,38 @@ class Cells final : public Block {
     return true;
   }
 
+  static Vector rates(const State& state) {
+    Vector v;
+    for (Eigen::Index i = 0; i < N; ++i)
+      v.template segment<D>(D * i) = state.nodes[static_cast<std::size_t>(i)].v.template head<D>();
+    return v;
+  }
+
+  /// Adds ∫ N_i ρ ω² P (x − o) dV, with P across the axis and a point o on it; false when the cell does not turn.
+  static bool add_centrifugal(const Cell& cell, const State& state, Vector& forces) {
+    const double density = cell.section->law.density;
+    if (!cell.rotation || density == 0) return false;
+    const CellRotation& turn = *cell.rotation;
+    const double speed = turn.speed_at(state.time);
+    const Mat3 across = turn.projection();
+    Places arms, outward = Places::Zero();
+    for (Eigen::Index i = 0; i < N; ++i) {
+      Vec3 x = state.nodes[static_cast<std::size_t>(i)].x;
+      if (cell.section->linear) x.head<D>() = cell.places.col(i);
+      arms.col(i) = (across * (x - turn.point)).template head<D>();
+    }
+    for_each_point(cell, masses(), [&](const Sample& s, double volume) {
+      outward += density * speed * speed * volume * (arms * s.value) * s.value.transpose();
+    });
+    forces += outward.reshaped();
+    return true;
+  }
+
   static void add_inertia_and_weight(const Cell& cell, const State& state, Eigen::Map<Vector>& r) {
     const double density = cell.section->law.density;
     if (density == 0) return;
     if (Vector weight; weigh(cell, state, weight)) r -= weight;
+    if (Vector outward = Vector::Zero(); add_centrifugal(cell, state, outward)) r -= outward;
     Places a;
     for (Eigen::Index i = 0; i < N; ++i) a.col(i) = state.nodes[static_cast<std::size_t>(i)].a.template head<D>();
     if (a.isZero(0)) return;
@@ -336,15 +371,15 @@ class Cells final : public Block {
     r += inertia.reshaped();
   }
 
-  static void add_mass(const Cell& cell, double factor, Eigen::Map<Square>& k) {
+  /// Adds the mass matrix times `factor`, with the directions along which it acts.
+  static void add_mass(const Cell& cell, double factor, const Mat3& directions, Eigen::Map<Square>& k) {
     const double density = cell.section->law.density;
     if (density == 0) return;
     Eigen::Matrix<double, N, N> mass = Eigen::Matrix<double, N, N>::Zero();
     for_each_point(cell, masses(),
                    [&](const Sample& s, double volume) { mass += factor * density * volume * s.value * s.value.transpose(); });
     for (Eigen::Index i = 0; i < N; ++i)
-      for (Eigen::Index j = 0; j < N; ++j)
-        for (Eigen::Index c = 0; c < D; ++c) k(D * i + c, D * j + c) += mass(i, j);
+      for (Eigen::Index j = 0; j < N; ++j) k.template block<D, D>(D * i, D * j) += mass(i, j) * directions.topLeftCorner<D, D>();
   }
 
   static Stress components_of(const Mat3& s) { return (Stress() << s.diagonal(), s(0, 1), s(1, 2), s(2, 0)).finished(); }

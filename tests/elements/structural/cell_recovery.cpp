@@ -38,25 +38,25 @@ void expect_exact(const QuadratureRule& points, const std::vector<QuadraturePoin
   for (std::size_t i = 0; i < at.size(); ++i) EXPECT_NEAR(found[static_cast<Eigen::Index>(i)], function(at[i]), 1e-13);
 }
 
-const std::vector<QuadraturePoint> triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
-    square{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, tetrahedron{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0, 1}},
-    wedge{{0, 0, 0, -1}, {1, 0, 0, -1}, {0, 1, 0, -1}, {0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}},
-    cube{{-1, -1, 0, -1}, {1, -1, 0, -1}, {1, 1, 0, -1}, {-1, 1, 0, -1},
-         {-1, -1, 0, 1},  {1, -1, 0, 1},  {1, 1, 0, 1},  {-1, 1, 0, 1}};
+const std::vector<QuadraturePoint> of_triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+    of_square{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, of_tetrahedron{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0, 1}},
+    of_wedge{{0, 0, 0, -1}, {1, 0, 0, -1}, {0, 1, 0, -1}, {0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}},
+    of_cube{{-1, -1, 0, -1}, {1, -1, 0, -1}, {1, 1, 0, -1}, {-1, 1, 0, -1},
+            {-1, -1, 0, 1},  {1, -1, 0, 1},  {1, 1, 0, 1},  {-1, 1, 0, 1}};
 
 /// What the functions of the corners can be is extrapolated exactly, to the middles of sides too.
 TEST(CellRecovery, ExtrapolatesTheFunctionsOfTheCorners) {
-  using enum CellShape;
-  expect_exact<CellShape::triangle>(CellTraits<CellShape::triangle>::stiffness_points(), triangle, constant);
-  expect_exact<triangle6>(CellTraits<triangle6>::stiffness_points(), triangle, linear);
-  expect_exact<quadrilateral>(CellTraits<quadrilateral>::stiffness_points(), square, bilinear);
-  expect_exact<quadrilateral8>(CellTraits<quadrilateral8>::stiffness_points(), square, bilinear);
-  expect_exact<CellShape::tetrahedron>(CellTraits<CellShape::tetrahedron>::stiffness_points(), tetrahedron, constant);
-  expect_exact<tetrahedron10>(CellTraits<tetrahedron10>::stiffness_points(), tetrahedron, linear);
-  expect_exact<CellShape::wedge>(CellTraits<CellShape::wedge>::stiffness_points(), wedge, product);
-  expect_exact<wedge15>(CellTraits<wedge15>::stiffness_points(), wedge, product);
-  expect_exact<hexahedron>(CellTraits<hexahedron>::stiffness_points(), cube, trilinear);
-  expect_exact<hexahedron20>(*CellTraits<hexahedron20>::result_points(), cube, trilinear);
+  using S = CellShape;
+  expect_exact<S::triangle>(CellTraits<CellShape::triangle>::stiffness_points(), of_triangle, constant);
+  expect_exact<S::triangle6>(CellTraits<S::triangle6>::stiffness_points(), of_triangle, linear);
+  expect_exact<S::quadrilateral>(CellTraits<S::quadrilateral>::stiffness_points(), of_square, bilinear);
+  expect_exact<S::quadrilateral8>(CellTraits<S::quadrilateral8>::stiffness_points(), of_square, bilinear);
+  expect_exact<S::tetrahedron>(CellTraits<CellShape::tetrahedron>::stiffness_points(), of_tetrahedron, constant);
+  expect_exact<S::tetrahedron10>(CellTraits<S::tetrahedron10>::stiffness_points(), of_tetrahedron, linear);
+  expect_exact<S::wedge>(CellTraits<CellShape::wedge>::stiffness_points(), of_wedge, product);
+  expect_exact<S::wedge15>(CellTraits<S::wedge15>::stiffness_points(), of_wedge, product);
+  expect_exact<S::hexahedron>(CellTraits<S::hexahedron>::stiffness_points(), of_cube, trilinear);
+  expect_exact<S::hexahedron20>(*CellTraits<S::hexahedron20>::result_points(), of_cube, trilinear);
 }
 
 /// With more points than functions the nearest is taken: what no function can be leaves no trace where it is orthogonal to them.
