@@ -73,37 +73,8 @@ Schema assignment_card() {
   return card.schema();
 }
 
-Schema rotation_card() {
-  Card<RotationCard> card(".CLM ROT", {".BOUNDARY", "ROTATION"}, "Centrifugal load of cells that turn about an axis");
-  card.chapter("Boundary conditions, loads and functions").redefines();
-  card.describe(
-      "Statics in axes that turn with the body: a force of density times the square of the speed times the distance from the "
-      "axis, "
-      "outwards. With large displacements the distance is that of the moved point. Of several records on a cell the last "
-      "holds.");
-  card.add("GROUP", &RotationCard::groups, "groups of cells: names or numbers")
-      .refers(Reference::group)
-      .values(1, detail::any_number)
-      .required()
-      .leads();
-  card.add("VAL", &RotationCard::speed, "speed, radians per unit of time")
-      .synonyms({"V"})
-      .unit(dimension::angular_velocity)
-      .required();
-  card.add("AXE", &RotationCard::axis, "direction of the axis").synonyms({"AXIS"}).required();
-  card.add("AT", &RotationCard::point, "a point on the axis; by itself the origin").unit(dimension::length);
-  card.add("NF", &RotationCard::function, "number of the function of time that multiplies the speed; 0: constant")
-      .refers(Reference::function);
-  card.finish([](RotationCard& data, Record& record, Diagnostics& diagnostics) {
-    if (data.axis == std::array<double, 3>{})
-      diagnostics.error(record.where("AXE"), "the axis of ROT has no direction", "AXE 0 0 1 is the z axis");
-  });
-  card.example(".CLM\n GROUP \"disc\" ROT VAL 100. AXE 0 0 1");
-  return card.schema();
-}
-
 }  // namespace
 
-std::vector<Schema> mesh_cards() { return {hypothesis_card(), property_card(), assignment_card(), rotation_card()}; }
+std::vector<Schema> mesh_cards() { return {hypothesis_card(), property_card(), assignment_card()}; }
 
 }  // namespace engrane::deck
