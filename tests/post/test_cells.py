@@ -142,7 +142,7 @@ def two_sections(path: Path) -> Path:
 
 
 def test_fields_at_nodes(command, tmp_path: Path) -> None:
-    """Each section has its own value where two meet, faces between them are not seen, colours are those of the
+    """Each section has its own value where two meet, faces between are not seen, colours are those of the
     nodes; files for other programs have both."""
     import pyvista as pv
     from engrane_post.scene import Scene, colours
