@@ -42,6 +42,20 @@ class PlaneMesh(Mesh):
         pairs = zip(cell[: self.corners], cell[self.corners :], strict=True)
         return " ".join(f"{v + 1} -{m + 1}" for v, m in pairs)
 
+    def names(self, where: Callable) -> str:
+        """Numbers of the nodes that are so, as a deck has them."""
+        return " ".join(str(i + 1) for i in self.nodes(where))
+
+    def text(self, hypothesis: str, material: str = "YT 1000. NT 0.3") -> str:
+        """A deck of one material up to its loads; the group "all" has all cells."""
+        return "\n".join(
+            [
+                *self.deck(),
+                f'.SEL GROUP 1 NOM "all" MAILLE TOUT\n.HYP {hypothesis} GROUP "all"',
+                f'.MAT I 1 BEHA "ELASTIC" {material}\n.AEL GROUP "all" MAT 1',
+            ]
+        )
+
     def edge(self, cell: int, side: int) -> list[int]:
         """Nodes of an edge, counted from 0: its corners, then its middle. Cell and side count from 1."""
         nodes = self.cells[cell - 1]

@@ -219,9 +219,10 @@ def alike(data: np.ndarray, columns: tuple[int, ...], width: int) -> np.ndarray:
     return data[: count * width].reshape(-1, width)
 
 
-def outer_faces(found: list[Run]) -> list[tuple[np.ndarray, np.ndarray]]:
-    """What is seen of cells: plane cells, and the faces of solids that belong to one solid only. Tables of
-    polygons with as many points each, and for each polygon the number of its cell."""
+def outer_faces(found: list[Run], place: np.ndarray | None = None) -> list[tuple[np.ndarray, np.ndarray]]:
+    """What is seen of cells: plane cells, and the faces of solids that belong to one solid only; points with
+    the same `place` are one. Tables of polygons with as many points each, and for each polygon the number of
+    its cell."""
     out: list[tuple[np.ndarray, np.ndarray]] = []
     solids = [(r, BY_XDMF[r.code]) for r in found if r.code in BY_XDMF and BY_XDMF[r.code].dimension == 3]
     for run in found:
@@ -237,7 +238,8 @@ def outer_faces(found: list[Run]) -> list[tuple[np.ndarray, np.ndarray]]:
         ]
         if not faces:
             continue
-        single = _met_once(np.concatenate([run.nodes[:, list(corners)] for run, corners, _ in faces]))
+        met = np.concatenate([run.nodes[:, list(corners)] for run, corners, _ in faces])
+        single = _met_once(met if place is None else place[met])
         at = 0
         for run, _, polygon in faces:
             mine = np.flatnonzero(single[at : at + len(run.nodes)])

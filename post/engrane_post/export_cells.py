@@ -83,6 +83,11 @@ class Cells:
                 rows = self.order if field.of_cells else self.used
                 values = np.asarray(values, float).reshape(len(values), -1)[rows]
                 (cells if field.of_cells else nodes)[name] = values if values.shape[1] > 1 else values[:, 0]
+        for name in self.result.averages:
+            values = self.result.dataset(f"nodes/{name}/{frame.index:06d}")
+            if values is not None:
+                values = np.asarray(values, float).reshape(len(values), -1)[self.used]
+                nodes[name] = values if values.shape[1] > 1 else values[:, 0]
         return nodes, cells
 
     def by_block(self, values: np.ndarray) -> list[np.ndarray]:

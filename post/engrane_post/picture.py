@@ -46,7 +46,8 @@ def add(commands: argparse._SubParsersAction) -> None:
         "--field",
         default="",
         metavar="NAME[:XX]",
-        help="colour the cells of a mesh by the means of a field over them: VON_MISES, STRESS:XX",
+        help="colour the cells of a mesh by a field, VON_MISES, STRESS:XX: averaged at nodes where it is "
+        "known there, else its means over the cells",
     )
     p.add_argument(
         "--deformed", type=float, default=1.0, metavar="f", help="show displacements f times as large"
@@ -140,15 +141,15 @@ def picture(
     """Draws the frames side by side; `bare` leaves the time out and the background white."""
     from . import view
     from .graphics import pv
-    from .scene import Scene, Stage, limits_of
+    from .scene import Scene, Stage, colours, limits_of
 
     scene = Scene(result)
     limits = None
     if field:  # views beside each other share the bar of the first
-        drawn = [item.cells for item in scene.items if item.cells is not None]
-        fields = [result.cell_field(field, f.index) for f in frames if f.index is not None]
-        shown = [values[cells] for values in fields for cells in drawn]
-        limits = limits_of([*shown, np.zeros(len(frames) - len(fields))])
+        drawn = [item for item in scene.items if item.cells is not None]
+        limits = limits_of(
+            [np.zeros(0), *(colours(result, field, f, item)[1] for f in frames for item in drawn)]
+        )
     pixel_size = pixels(size, (1800, 900) if len(frames) > 1 else (1400, 1000))
     plotter = pv.Plotter(off_screen=True, shape=(1, len(frames)), window_size=pixel_size, border=False)
     stages = []

@@ -283,7 +283,8 @@ class Results:
 
     @cached_property
     def points(self) -> np.ndarray:
-        """Reference positions, n x 3."""
+        """Reference positions, n x 3: of the nodes, then of those where several sections of cells meet, once
+        more for each further section."""
         return np.asarray(self._mesh("points"), float).reshape(-1, 3)
 
     def _mesh(self, name: str) -> np.ndarray:
@@ -308,17 +309,24 @@ class Results:
 
     @property
     def fields(self) -> dict[str, Field]:
-        """All fields by name."""
+        """All fields over nodes and over cells by name."""
+        return self._fields("fields")
 
+    @property
+    def averages(self) -> dict[str, Field]:
+        """Those averaged at nodes over the cells of a section, by name; some are over the cells too."""
+        return self._fields("nodes")
+
+    def _fields(self, folder: str) -> dict[str, Field]:
         def look(file: h5py.File) -> dict[str, Field]:
             return {
                 key: Field(
                     key,
-                    "center" in group.attrs,
+                    text(group.attrs.get("center", "")) == "Cell",
                     text(group.attrs.get("unit", "")),
                     text(group.attrs.get("components", "")).split(),
                 )
-                for key, group in file.get("fields", {}).items()
+                for key, group in file.get(folder, {}).items()
                 if isinstance(group, h5py.Group)
             }
 
@@ -327,23 +335,24 @@ class Results:
     def cell_field(self, name: str, index: int) -> np.ndarray:
         """One field over the cells of frame `index` >= 0, a value for each: `VON_MISES`, or a component,
         `STRESS:XX`."""
-        field, _, component = name.partition(":")
         fields = {f.name: f.components for f in self.fields.values() if f.of_cells}
+        names = _component_names(fields)
+        if name not in names:
+            raise UserError(
+                f"{self.path} has no field {name} over its cells; "
+                + (f"it has {', '.join(sorted(names))}." if names else "it has none at all.")
+            )
+        return self._component("fields", name, fields, index)
 
-        def look(file: h5py.File) -> np.ndarray:
-            names = [f"{key}:{c}" for key, of in fields.items() for c in of] + [
-                k for k in fields if not fields[k]
-            ]
-            if name not in names:
-                raise UserError(
-                    f"{self.path} has no field {name} over its cells; "
-                    + (f"it has {', '.join(sorted(names))}." if names else "it has none at all.")
-                )
-            values = np.asarray(file[f"fields/{field}/{index:06d}"], float)
-            values = values.reshape(len(values), -1)
-            return values[:, fields[field].index(component) if component else 0]
+    def average(self, name: str, index: int) -> np.ndarray | None:
+        """The same averaged at the nodes, a value for each of `points`; None where there is no such field."""
+        fields = {f.name: f.components for f in self.averages.values()}
+        return self._component("nodes", name, fields, index) if name in _component_names(fields) else None
 
-        return self.read(look)
+    def _component(self, folder: str, name: str, fields: dict[str, list[str]], index: int) -> np.ndarray:
+        field, _, component = name.partition(":")
+        values = self.read(lambda f: np.asarray(f[f"{folder}/{field}/{index:06d}"], float))
+        return values.reshape(len(values), -1)[:, fields[field].index(component) if component else 0]
 
     def cell_field_unit(self, name: str) -> str:
         """The unit of such a field, in brackets."""
@@ -383,6 +392,11 @@ class Results:
         if len(self.frame_times) == 0:
             return self.frame(0)
         return self.frame(int(np.argmin(np.abs(self.frame_times - time))))
+
+
+def _component_names(fields: dict[str, list[str]]) -> list[str]:
+    """`STRESS:XX`, or a scalar's name."""
+    return [f"{key}:{c}" for key, of in fields.items() for c in of] + [k for k in fields if not fields[k]]
 
 
 @dataclass(frozen=True)

@@ -52,6 +52,7 @@ class Item:
     kind: str = ""
     element: int = 0
     cells: np.ndarray | None = None  # of the mesh: for each face the cell whose values colour it
+    points: np.ndarray | None = None  # and the points that are seen
 
 
 class Scene:
@@ -379,7 +380,7 @@ class Scene:
                 mine = owner is not None and number < len(owner) and int(owner[number]) in drawn
                 if not mine and len(set(nodes)) > 1:
                     lines.append(nodes)
-        faces = cells.outer_faces(found)
+        faces = cells.outer_faces(found, np.array([self.row[n] for n in self.ids], int))
         order, first = self.ids, len(self.items)
         if lines:
             self._flexible(
@@ -390,6 +391,7 @@ class Scene:
             self._flexible(lambda p: shapes.surface(np.array([p[n] for n in order]), tables), CELL)
             self.items[-1].edges = True
             self.items[-1].cells = np.concatenate(owners)
+            self.items[-1].points = np.unique(np.concatenate([t.ravel() for t in tables]))
             self.items[-1].smooth = False
         self._name(first, "cell")
 
@@ -437,6 +439,7 @@ class Stage:
         self.field = field
         self.limits = limits
         self.actors = []
+        smooth = bool(field) and scene.result.average(field, 0) is not None
         for item in scene.items:
             mesh = item.mesh.copy()
             look = dict(
@@ -458,7 +461,9 @@ class Stage:
                 bar = dict(vertical=True, position_x=0.05, position_y=0.25, height=0.5, color="black")
                 bar["title"] = f"{field}\n{scene.result.cell_field_unit(field)}".strip()
                 del look["color"]
-                mesh.cell_data[field] = np.zeros(mesh.n_cells)
+                (mesh.point_data if smooth else mesh.cell_data)[field] = np.zeros(
+                    mesh.n_points if smooth else mesh.n_cells
+                )
                 # without lights colours are those of the bar
                 look.update(scalars=field, cmap="viridis", scalar_bar_args=bar, lighting=False)
                 look.update(ambient=0.0, diffuse=1.0, specular=0.0)
@@ -471,21 +476,32 @@ class Stage:
             if item.remake is not None:
                 mesh.copy_from(item.remake(positions))
                 if self.field and item.cells is not None:
-                    self._colour(mesh, actor, item.cells, frame)
+                    self._colour(mesh, actor, item, frame)
                 if item.smooth:
                     mesh.compute_normals(inplace=True, split_vertices=False)
             elif item.node:
                 actor.user_matrix = self.scene.transform(item.node, frame)
 
-    def _colour(self, mesh: pv.PolyData, actor: pv.Actor, numbers: np.ndarray, frame: Frame) -> None:
-        """The means of the field over the cells, the undeformed model's are zero."""
-        values = np.zeros(len(numbers))
-        if frame.index is not None:
-            values = self.scene.result.cell_field(self.field, frame.index)[numbers]
-        mesh.cell_data[self.field] = values
-        mesh.set_active_scalars(self.field, "cell")
-        low, high = self.limits or limits_of([values])
+    def _colour(self, mesh: pv.PolyData, actor: pv.Actor, item: Item, frame: Frame) -> None:
+        values, seen = colours(self.scene.result, self.field, frame, item)
+        at = "point" if values is not seen else "cell"
+        (mesh.point_data if at == "point" else mesh.cell_data)[self.field] = values
+        mesh.set_active_scalars(self.field, at)
+        low, high = self.limits or limits_of([seen])
         actor.mapper.scalar_range = (low, high if high > low else low + 1.0)
+
+
+def colours(result: Results, field: str, frame: Frame, item: Item) -> tuple[np.ndarray, np.ndarray]:
+    """The field on an item of the mesh: its average at each point, or else its mean over the cell of each
+    face; and those that are seen, for faces the same array. The undeformed model's are zero."""
+    assert item.cells is not None
+    nodal = result.average(field, frame.index or 0)
+    if nodal is not None:
+        values = nodal if frame.index is not None else np.zeros(len(nodal))
+        return values, values[item.points]
+    of_cells = result.cell_field(field, frame.index or 0)[item.cells]
+    values = of_cells if frame.index is not None else np.zeros(len(of_cells))
+    return values, values
 
 
 def limits_of(values: list[np.ndarray]) -> tuple[float, float]:

@@ -66,18 +66,28 @@ def schema_of(text: str) -> Schema:
 
 
 def read_card(deck_text: str, name: str, schema: Schema) -> Card | None:
-    """A card from the text that the program wrote; None when the deck has none."""
-    keywords = schema[name]
-    lines = iter(deck_text.splitlines())
-    found = next((line for line in lines if line.split(" ")[0] == name), None)
-    if found is None:
-        return None
-    words = found.removesuffix(" $")
-    for line in lines:
+    """A card from the text that the program wrote, of all its records; None when the deck has none."""
+    cards: list[str] = []
+    inside = False
+    for line in deck_text.splitlines():
         if line.startswith("."):
-            break
-        if not line.lstrip().startswith("!"):
-            words += " " + line.removesuffix(" $")
+            inside = line.split(" ")[0] == name
+            if inside:
+                cards.append(line.removesuffix(" $"))
+        elif inside and not line.lstrip().startswith("!"):
+            cards[-1] += " " + line.removesuffix(" $")
+    if not cards:
+        return None
+    items: dict[str, tuple[str, ...]] = {}
+    for words in cards:
+        for word, values in _items(words, schema[name]):
+            known = items.get(word, ())
+            items[word] = known if known == values else known + values
+    return Card(name, tuple(items.items()))
+
+
+def _items(words: str, keywords: dict) -> list[tuple[str, tuple[str, ...]]]:
+    """Keywords of a card with their values."""
     items: list[tuple[str, list[str]]] = []
     for word in re.findall(r'"[^"]*"|\S+', words)[1:]:
         # a keyword may be a value too: behind one that must have a value and has none yet
@@ -86,7 +96,7 @@ def read_card(deck_text: str, name: str, schema: Schema) -> Card | None:
             items.append((word, []))
         elif items:
             items[-1][1].append(word)
-    return Card(name, tuple((word, tuple(values)) for word, values in items))
+    return [(word, tuple(values)) for word, values in items]
 
 
 @dataclass(frozen=True)

@@ -31,12 +31,18 @@ output::ResultsLayout results_layout(const Reading& reading, const observe::Obse
     layout.node_ids.push_back(model.nodes[i].id);
     layout.points.push_back(model.nodes[i].x);
   }
+  for (const int node : observer.points().copies()) {
+    layout.node_ids.push_back(model.nodes[static_cast<std::size_t>(node)].id);
+    layout.points.push_back(model.nodes[static_cast<std::size_t>(node)].x);
+  }
   for (const Model::Part& part : model.parts) {
     if (!has_cell(part)) continue;
     output::Cell cell{{}, part.element->id(), part.element->cell_shape()};
-    for (const int node : part.nodes)
-      if (node > 0 && std::find(cell.points.begin(), cell.points.end(), node - 1) == cell.points.end())
-        cell.points.push_back(node - 1);
+    for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+      if (part.nodes[i] == 0) continue;
+      const int point = observer.points().at(part, i);
+      if (std::find(cell.points.begin(), cell.points.end(), point) == cell.points.end()) cell.points.push_back(point);
+    }
     layout.cells.push_back(std::move(cell));
   }
   for (const observe::Table& table : observer.tables())
@@ -52,6 +58,7 @@ output::ResultsLayout results_layout(const Reading& reading, const observe::Obse
       points.elements.push_back(id);
     }
   }
+  for (const observe::AveragedField& field : observer.averages()) layout.averages.push_back({field.named, field.components});
   layout.node_fields = observe::nodal_field_names(observer.moves());
   layout.expected_samples = expected_samples;
   return layout;
@@ -59,7 +66,15 @@ output::ResultsLayout results_layout(const Reading& reading, const observe::Obse
 
 output::FrameValues frame_values(const Model& model, const observe::Observer& observer) {
   output::FrameValues values;
-  for (const observe::NodalField& field : observer.fields()) values.nodes.emplace_back(field.rows);
+  const std::vector<int>& copies = observer.points().copies();
+  for (const observe::NodalField& field : observer.fields()) {
+    std::vector<double>& rows = values.nodes.emplace_back(field.rows);
+    for (const int node : copies) {
+      const auto row = field.rows.begin() + 3 * (node - 1);
+      rows.insert(rows.end(), row, row + 3);
+    }
+  }
+  for (const observe::AveragedField& field : observer.averages()) values.averages.push_back(field.rows);
   for (const observe::ElementField& field : observer.element_fields()) {
     std::vector<double>& rows = values.cells.emplace_back();
     for (std::size_t p = 0; p < model.parts.size(); ++p)

@@ -16,7 +16,8 @@ namespace {
 
 /// Cards that may differ: what is done with a model.
 bool free_to_change(const deck::Schema& card) {
-  static constexpr std::array names{".SAM", ".SUB", ".SAI", ".CHK", ".TITRE", ".UNIT", ".FCT", ".CLM CHA", ".CLM STRU", ".INI"};
+  static constexpr std::array names{".SAM", ".SUB",     ".SAI",      ".CHK",     ".TITRE", ".UNIT",
+                                    ".FCT", ".CLM CHA", ".CLM STRU", ".CLM ROT", ".INI"};
   return std::any_of(names.begin(), names.end(), [&](std::string_view name) { return card.name.starts_with(name); });
 }
 

@@ -86,6 +86,10 @@ Json run_json(const RunSummary& run) {
                         {"external_work", number(run.energies->external_work)},
                         {"dissipated", number(run.energies->dissipated)},
                         {"error", number(run.energies->error())}};
+  if (run.stress_error)
+    json["stress_error"] = {{"relative", number(run.stress_error->relative())},
+                            {"energy", number(run.stress_error->difference)},
+                            {"strain_energy", number(run.stress_error->energy)}};
   json["checks"] = checks_json(run.checks, true);
   json["results"] = checks_json(run.results, false);
   Json files = Json::array();

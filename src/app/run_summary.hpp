@@ -9,6 +9,7 @@
 #include "base/diagnostics.hpp"
 #include "deck/read/reader.hpp"
 #include "observe/energies.hpp"
+#include "observe/fields.hpp"
 #include "output/results_layout.hpp"
 
 namespace engrane::app {
@@ -35,11 +36,12 @@ struct RunSummary {
   long steps = 0, iterations = 0, cuts = 0, events = 0;
   double time = 0, end = 0;  ///< reached, and asked for by .SUB
   std::optional<ErrorEstimate> accuracy;
-  std::optional<Conditioning> conditioning;        ///< where --condition asks for it
-  double seconds = 0;                              ///< of the clock on the wall
-  std::vector<output::CheckResult> checks;         ///< of .CHK
-  std::vector<output::CheckResult> results;        ///< of --result: only what was computed counts
-  std::optional<observe::EnergyBalance> energies;  ///< at the last step
+  std::optional<Conditioning> conditioning;          ///< where --condition asks for it
+  std::optional<observe::StressError> stress_error;  ///< of the last frame
+  double seconds = 0;                                ///< of the clock on the wall
+  std::vector<output::CheckResult> checks;           ///< of .CHK
+  std::vector<output::CheckResult> results;          ///< of --result: only what was computed counts
+  std::optional<observe::EnergyBalance> energies;    ///< at the last step
   std::vector<std::string> files;
 
   /// `complete`, `wrong deck`, …: what the status means.

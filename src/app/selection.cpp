@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "observe/observer.hpp"
 
@@ -85,13 +86,23 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
     report_channel(record.where("QUANTITY"), owner, check.quantity, names, diagnostics);
 }
 
-void check_archive(const deck::Record& record, const deck::ArchiveCard& said, const deck::Deck& deck, const Model& model,
-                   const std::map<int, int>& parts, Diagnostics& diagnostics) {
-  const deck::ArchiveCard& archive = model.commands.archive;  // with the members of groups
-  for (const int id : archive.elements)
-    if (!parts.contains(id) && !is_in_deck(deck, id))
-      diagnostics.missing(".MCE", record.where(said.elements.empty() ? "GROUP" : "ELEMENT"),
-                          fmt::format("there is no element {}", id));
+/// Elements that records of `.SAI` name but the deck does not have, each told once: by number, then those of groups.
+void check_archived_elements(const deck::Deck& deck, const Model& model, const std::map<int, int>& parts,
+                             Diagnostics& diagnostics) {
+  std::set<int> told;
+  const auto check = [&](const Location& where, const std::vector<int>& ids) {
+    for (const int id : ids)
+      if (!parts.contains(id) && !is_in_deck(deck, id) && told.insert(id).second)
+        diagnostics.missing(".MCE", where, fmt::format("there is no element {}", id));
+  };
+  for (const deck::Record& record : deck.records)
+    if (const auto* said = record.get<deck::ArchiveCard>()) check(record.where("ELEMENT"), said->elements);
+  for (const deck::Record& record : deck.records)
+    if (record.get<deck::ArchiveCard>() && record.given("GROUP"))
+      check(record.where("GROUP"), model.commands.archive.elements);  // with the members of groups
+}
+
+void check_archive(const deck::Record& record, const deck::ArchiveCard& archive, const Model& model, Diagnostics& diagnostics) {
   std::vector<std::string> types;
   for (const Model::Part& part : model.parts)
     if (std::find(types.begin(), types.end(), part.type) == types.end()) types.push_back(part.type);
@@ -164,9 +175,10 @@ std::string left_out_histories(const Model& model) {
 
 void check_targets(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   const std::map<int, int> parts = parts_by_id(model);
+  check_archived_elements(deck, model, parts, diagnostics);
   for (const deck::Record& record : deck.records) {
     if (const auto* check = record.get<deck::CheckCard>()) check_check(record, *check, deck, model, parts, diagnostics);
-    if (const auto* archive = record.get<deck::ArchiveCard>()) check_archive(record, *archive, deck, model, parts, diagnostics);
+    if (const auto* archive = record.get<deck::ArchiveCard>()) check_archive(record, *archive, model, diagnostics);
   }
 }
 

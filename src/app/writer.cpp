@@ -249,10 +249,15 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
   }
   summary_.checks = std::move(results);
   summary_.energies = observer_.energies();
-  if (!accuracy_.empty()) {
+  summary_.stress_error = observer_.stress_error();
+  if (!accuracy_.empty() || summary_.stress_error) {
     listing_.write(listing_section("Accuracy"));
     listing_.write(accuracy_);
   }
+  if (summary_.stress_error)
+    listing_.write(fmt::format(
+        "  estimated error of the stresses, energy norm: {:.3g} %   (Zienkiewicz and Zhu; by cells in the field ERROR)\n",
+        100 * summary_.stress_error->relative()));
   if (summary_.conditioning) {
     listing_.write(listing_section("Last linear system"));
     listing_.write(summary_.conditioning->describe());

@@ -50,6 +50,11 @@ class Block {
   virtual void observe(std::size_t e, const State& state, std::span<double> values) const;
   virtual const std::vector<Field>& fields() const;
   virtual void evaluate_fields(std::size_t e, const State& state, std::span<double> values) const;
+  virtual int section(std::size_t) const { return -1; }
+  virtual const Eigen::MatrixXd* extrapolation() const { return nullptr; }
+  virtual StressEnergies stress_energies(std::size_t /*e*/, const State& /*state*/, std::span<const double> /*at_nodes*/) const {
+    return {};
+  }
   virtual std::vector<Derived> derived(std::size_t e) const;
   virtual Drawing drawing(std::size_t e) const;
 };
@@ -92,6 +97,11 @@ class BlockMember final : public Element {
   const std::vector<Field>& fields() const override { return block_->fields(); }
   void evaluate_fields(const State& state, std::span<double> values) const override {
     block_->evaluate_fields(index_, state, values);
+  }
+  int section() const override { return block_->section(index_); }
+  const Eigen::MatrixXd* extrapolation() const override { return block_->extrapolation(); }
+  StressEnergies stress_energies(const State& state, std::span<const double> at_nodes) const override {
+    return block_->stress_energies(index_, state, at_nodes);
   }
   std::vector<Derived> derived() const override { return block_->derived(index_); }
   Drawing drawing() const override { return block_->drawing(index_); }

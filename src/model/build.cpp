@@ -10,6 +10,7 @@
 #include "deck/cards/initial_motion.hpp"
 #include "deck/cards/mesh_cards.hpp"
 #include "math/angle.hpp"
+#include "model/archive.hpp"
 #include "model/coordinate_channels.hpp"
 #include "model/frames.hpp"
 #include "model/groups.hpp"
@@ -133,6 +134,7 @@ class Builder {
                              : record.get<deck::HypothesisCard>() ? "formulation"
                              : record.get<deck::PropertyCard>()   ? "property"
                              : record.get<deck::AssignmentCard>() ? "assignment"
+                             : record.get<deck::RotationCard>()   ? "rotation"
                                                                   : nullptr)
         diagnostics_.warning_once(what, record.location,
                                   fmt::format("the deck has no cells (.MAI): this {} has no effect", what));
@@ -159,7 +161,8 @@ class Builder {
 
   /// Puts the members of the card's groups to its nodes and elements.
   void add_archive(const deck::Record& record, const deck::ArchiveCard& card) {
-    deck::ArchiveCard& archive = model_.commands.archive = card;
+    deck::ArchiveCard& archive = model_.commands.archive;
+    engrane::add_archive(archive, record, diagnostics_);
     deck::NodeTarget nodes{card.nodes, {}};
     for (const std::string& name : card.groups) {
       const deck::GroupCard* elements = nullptr;
@@ -175,7 +178,8 @@ class Builder {
       for (const deck::Record& other : deck_.records)
         if (elements->all && other.schema->command() == ".MCE") archive.elements.push_back(other.id);
     }
-    archive.nodes = groups_.resolve(record, nodes);
+    const std::vector<int> found = groups_.resolve(record, nodes);
+    archive.nodes.insert(archive.nodes.end(), found.begin(), found.end());
   }
 
   void set_stepping(const deck::Record& record, const deck::SteppingCard& card) {

@@ -50,6 +50,7 @@ struct Field : Named {
   Place place = Place::element;
   std::vector<std::string> components = {};  ///< `XX`, `YY`, `XY`; none: a scalar
   int points = 1;                            ///< of Place::point: how many an element has
+  bool averaged = false;                     ///< extrapolated to the nodes as well, and averaged there (Element::section)
 
   /// How many numbers it has on an element of so many nodes.
   std::size_t size(std::size_t nodes) const {
@@ -229,6 +230,13 @@ struct Energies {
   double strain = 0;      ///< part of `potential` that cells of a mesh hold as strain
 };
 
+/// Half the square of the energy norm ∫ S·C⁻¹S dV of an element's stress S (second Piola–Kirchhoff where displacements are large,
+/// C its moduli), and of the difference between another stress and it.
+struct StressEnergies {
+  double stress = 0;
+  double difference = 0;
+};
+
 /// A shape that stands for the element in pictures (docs/format.md), as JSON members without braces.
 using Drawing = std::vector<std::string>;
 
@@ -301,6 +309,15 @@ class Element {
   /// Fields, and all their values: field by field, in each place by place, in each component by component.
   virtual const std::vector<Field>& fields() const;
   virtual void evaluate_fields(const State& state, std::span<double> values) const;
+
+  /// Elements of one section, which are numbered from 0, have stresses without jumps between them: fields with
+  /// Field::averaged are averaged at their common nodes. −1: the element has no such fields.
+  virtual int section() const { return -1; }
+  /// From a field's values at its points to those at its nodes: nodes × points. nullptr: of an element without section.
+  virtual const Eigen::MatrixXd* extrapolation() const { return nullptr; }
+  /// The stress of the element, and how it differs from the one between the values given at its nodes: rows of the components of
+  /// its field STRESS.
+  virtual StressEnergies stress_energies(const State& /*state*/, std::span<const double> /*at_nodes*/) const { return {}; }
 
   /// Changes that hold less, the usual ones of machines first.
   virtual std::vector<Release> releases() const;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "math/rotation.hpp"
+#include "math/stress.hpp"
 
 namespace engrane::observe {
 
@@ -42,9 +43,25 @@ const std::vector<NodalKind>& nodal_kinds() {
   return kinds;
 }
 
+constexpr const char* stress = "STRESS";
+
+/// A field of elements that, at nodes, is that of the averaged stress.
+struct DerivedKind {
+  const char* name;
+  void (*value)(std::span<const double> stress, double* out);
+};
+
+const std::vector<DerivedKind>& derived_kinds() {
+  static const std::vector<DerivedKind> kinds = {
+      {"VON_MISES", [](std::span<const double> s, double* out) { *out = von_mises(s); }},
+      {"PRINCIPAL", [](std::span<const double> s, double* out) { std::ranges::copy(principal_stresses(s), out); }},
+  };
+  return kinds;
+}
+
 }  // namespace
 
-ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler) {
+ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler), points_(assembler.model()), averages_(points_) {
   const Model& model = assembler.model();
   std::map<std::string, std::size_t> known;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
@@ -55,8 +72,9 @@ ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler) {
       const std::size_t size = field.size(model.parts[p].nodes.size());
       const std::size_t width = field.components.empty() ? 1 : field.components.size();
       if (std::vector<int>& parts = fields_[at->second].place_parts; width == fields_[at->second].width()) {
-        uses_.push_back({static_cast<int>(p), at->second, first, size / width, parts.size()});
+        uses_.push_back({static_cast<int>(p), at->second, first, size / width, parts.size(), field.averaged});
         parts.insert(parts.end(), size / width, static_cast<int>(p));
+        if (field.averaged) averages_.declare(field, model.parts[p]);
       }
       first += size;
     }
@@ -65,15 +83,27 @@ ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler) {
   for (std::size_t f = 0; f < fields_.size(); ++f)
     if (std::none_of(uses_.begin(), uses_.end(), [f](const Use& use) { return use.field == f && use.places > 1; }))
       fields_[f].place_parts.clear();
+  if (averages_.empty()) return;
+  for (const DerivedKind& kind : derived_kinds())
+    if (const auto at = known.find(kind.name); at != known.end()) {
+      const ElementField& field = fields_[at->second];
+      averages_.derive(stress, {field.named, field.components, {}}, kind.value);
+    }
+  stress_ = known.at(stress);
+  error_ = fields_.size();
+  fields_.push_back({{"ERROR", dimension::energy, "strain energy of the estimated error of the stress"}, {}, {}, {}, {}});
 }
 
-void ElementFields::evaluate(const Configuration& c) {
+bool ElementFields::has(std::size_t field, const Model::Part& part) const {
+  if (field == error_) return part.element->section() >= 0 && has(stress_, part);
+  const std::vector<Field>& own = part.element->fields();
+  return std::any_of(own.begin(), own.end(), [&](const Field& one) {
+    return one.name == fields_[field].named.name && std::max<std::size_t>(1, one.components.size()) == fields_[field].width();
+  });
+}
+
+void ElementFields::evaluate_own(const Configuration& c) {
   const Model& model = assembler_.model();
-  // parts that other ranks evaluate are zero, and so is the sum until it is known who has the field
-  for (ElementField& field : fields_) {
-    field.rows.assign(model.parts.size() * field.width(), 0.0);
-    field.places.assign(field.place_parts.size() * field.width(), 0.0);
-  }
   std::vector<double> values;
   int evaluated = -1;
   for (const Use& use : uses_) {
@@ -87,13 +117,47 @@ void ElementFields::evaluate(const Configuration& c) {
       evaluated = use.part;
     }
     ElementField& field = fields_[use.field];
+    const auto own = std::span<const double>(values).subspan(use.first, use.places * field.width());
     double* row = field.rows.data() + static_cast<std::size_t>(use.part) * field.width();
     for (std::size_t place = 0; place < use.places; ++place)
-      for (std::size_t k = 0; k < field.width(); ++k)
-        row[k] += values[use.first + place * field.width() + k] / static_cast<double>(use.places);
+      for (std::size_t k = 0; k < field.width(); ++k) row[k] += own[place * field.width() + k] / static_cast<double>(use.places);
     if (!field.place_parts.empty())
-      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(use.first), use.places * field.width(),
-                  field.places.begin() + static_cast<std::ptrdiff_t>(use.row * field.width()));
+      std::copy(own.begin(), own.end(), field.places.begin() + static_cast<std::ptrdiff_t>(use.row * field.width()));
+    if (use.averaged) averages_.add(field.named.name, part, own);
+  }
+}
+
+void ElementFields::estimate_errors(const Configuration& c) {
+  energies_.assign(2, 0.0);
+  for (int p = assembler_.first_part(); p < assembler_.end_part(); ++p) {
+    const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(p)];
+    const std::span<const double> recovered = averages_.at_nodes(stress, part);
+    if (recovered.empty()) continue;
+    const StressEnergies found = part.element->stress_energies(assembler_.view(p, c), recovered);
+    energies_[0] += found.stress;
+    energies_[1] += found.difference;
+    fields_[*error_].rows[static_cast<std::size_t>(p)] = found.difference;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, energies_.data(), 2, MPI_DOUBLE, MPI_SUM, assembler_.comm());
+}
+
+std::optional<StressError> ElementFields::stress_error() const {
+  if (energies_.empty()) return {};
+  return StressError{energies_[0], energies_[1]};
+}
+
+void ElementFields::evaluate(const Configuration& c) {
+  const Model& model = assembler_.model();
+  // parts that other ranks evaluate are zero, and so is the sum until it is known who has the field
+  for (ElementField& field : fields_) {
+    field.rows.assign(model.parts.size() * field.width(), 0.0);
+    field.places.assign(field.place_parts.size() * field.width(), 0.0);
+  }
+  averages_.clear();
+  evaluate_own(c);
+  if (error_) {
+    averages_.finish(assembler_.comm());
+    estimate_errors(c);
   }
   const bool root = assembler_.rank() == 0;
   for (std::size_t f = 0; f < fields_.size(); ++f) {
@@ -101,11 +165,10 @@ void ElementFields::evaluate(const Configuration& c) {
     for (std::vector<double>* all : {&field.rows, &field.places})
       MPI_Reduce(root ? MPI_IN_PLACE : all->data(), all->data(), static_cast<int>(all->size()), MPI_DOUBLE, MPI_SUM, 0,
                  assembler_.comm());
-    std::vector<char> has(model.parts.size(), 0);
-    for (const Use& use : uses_)
-      if (use.field == f) has[static_cast<std::size_t>(use.part)] = 1;
-    for (std::size_t i = 0; i < field.rows.size(); ++i)
-      if (!has[i / field.width()]) field.rows[i] = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t p = 0; p < model.parts.size(); ++p)
+      if (!has(f, model.parts[p]))
+        std::fill_n(field.rows.begin() + static_cast<std::ptrdiff_t>(p * field.width()), field.width(),
+                    std::numeric_limits<double>::quiet_NaN());
   }
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "model/model.hpp"
+#include "observe/nodal_averages.hpp"
 #include "observe/reactions.hpp"
 
 namespace engrane::observe {
@@ -29,6 +32,15 @@ struct ElementField {
   std::size_t width() const { return components.empty() ? 1 : components.size(); }
 };
 
+/// What the stresses of all cells are estimated to be off by, after Zienkiewicz and Zhu (1987), Int. J. Numer. Methods Eng. 24.
+struct StressError {
+  double energy = 0;      ///< half the square of the energy norm of the stresses, summed over the cells
+  double difference = 0;  ///< the same of the averaged stresses less them
+
+  /// Part of the energy norm, eq. 20 there: η² = ‖e‖² / (‖σ‖² + ‖e‖²).
+  double relative() const { return difference > 0 ? std::sqrt(difference / (energy + difference)) : 0; }
+};
+
 /// The fields that the elements of a model declare. Fields of one name are one field; who declares it first says its components.
 class ElementFields {
  public:
@@ -45,7 +57,15 @@ class ElementFields {
       replace(field.rows);
       replace(field.places);
     }
+    averages_.replace(replace);
+    replace(energies_);
   }
+
+  const SectionPoints& points() const { return points_; }
+  /// Fields averaged at nodes; rows as evaluated last, on rank 0.
+  const std::vector<AveragedField>& averages() const { return averages_.fields(); }
+  /// Of the last evaluation; nothing before it, and where no element has stresses.
+  std::optional<StressError> stress_error() const;
 
  private:
   /// One field of one part.
@@ -55,10 +75,20 @@ class ElementFields {
     std::size_t first = 0;   ///< of its numbers among all that the part evaluates
     std::size_t places = 1;  ///< nodes or points
     std::size_t row = 0;     ///< of the first in ElementField::places
+    bool averaged = false;   ///< at nodes as well
   };
+  void evaluate_own(const Configuration& c);
+  void estimate_errors(const Configuration& c);
+  bool has(std::size_t field, const Model::Part& part) const;
+
   Assembler& assembler_;
+  SectionPoints points_;
+  NodalAverages averages_;
   std::vector<ElementField> fields_;
-  std::vector<Use> uses_;  ///< of all ranks, by part
+  std::vector<Use> uses_;             ///< of all ranks, by part
+  std::optional<std::size_t> error_;  ///< in fields_: the estimated error, which no element declares
+  std::size_t stress_ = 0;            ///< in fields_: what it is the error of
+  std::vector<double> energies_;      ///< those of StressError
 };
 
 /// Names and units of the fields over the nodes; velocities are among them where something moves.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,11 @@ class Observer {
   /// Of the last configuration for which fields were wanted.
   const std::vector<NodalField>& fields() const { return fields_; }
   const std::vector<ElementField>& element_fields() const { return element_fields_.fields(); }
+  /// Fields averaged at nodes, and the points that they have values at.
+  const std::vector<AveragedField>& averages() const { return element_fields_.averages(); }
+  const SectionPoints& points() const { return element_fields_.points(); }
+  /// Of the last fields; nothing where there are none or no element has stresses.
+  std::optional<StressError> stress_error() const { return element_fields_.stress_error(); }
   const EnergyBalance& energies() const { return ledger_.balance(); }
   const std::vector<Reaction>& reactions() const { return last_reactions_; }
   /// Columns of values() that were found not to be unique so far, ascending.

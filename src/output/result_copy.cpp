@@ -139,6 +139,8 @@ std::vector<double> ResultFile::copy_from(hid_t earlier, std::size_t samples, st
       bring(fmt::format("fields/{}/{:06}", field.named.name, f), cells, field.width(), unknown);
     for (const PointField& one : layout_->point_fields)
       bring(fmt::format("points/{}/{:06}", one.field.named.name, f), one.elements.size(), one.field.width(), unknown);
+    for (const CellField& field : layout_->averages)
+      bring(fmt::format("nodes/{}/{:06}", field.named.name, f), layout_->points.size(), field.width(), unknown);
   }
   if (!times.empty()) {
     Growing list = open_growing("fields/time");

@@ -45,6 +45,7 @@ std::size_t Batch::bytes() const {
     numbers += frame.values.size();
     for (const std::vector<double>& field : frame.cells) numbers += field.size();
     for (const std::vector<double>& field : frame.points) numbers += field.size();
+    for (const std::vector<double>& field : frame.averages) numbers += field.size();
   }
   for (const RestartPoint& point : restarts)
     for (const auto& [name, array] : point.memory.arrays()) numbers += array.size();
@@ -171,6 +172,10 @@ void ResultFile::create_fields() {
     if (!field.components.empty()) at(group).attribute("components", fmt::format("{}", fmt::join(field.components, " ")));
   };
   for (const CellField& field : layout.cell_fields) describe(at(fields).group(field.named.name), field, "Cell");
+  if (!layout.averages.empty()) {
+    const Handle nodes = at(file_).group("nodes");
+    for (const CellField& field : layout.averages) describe(at(nodes).group(field.named.name), field, "Node");
+  }
   if (layout.point_fields.empty()) return;
   const Handle points = at(file_).group("points");
   for (const PointField& one : layout.point_fields) {
@@ -258,6 +263,7 @@ void ResultFile::append_frame(const Batch::Frame& frame) {
                       shape);
   append_cell_fields(frame, name);
   append_point_fields(frame, name);
+  append_averages(frame, name);
   grow(time, &frame.time, 1);
 }
 
@@ -281,6 +287,15 @@ void ResultFile::append_point_fields(const Batch::Frame& frame, const std::strin
     assert(frame.points[f].size() == one.elements.size() * one.field.width());
     const hsize_t shape[2] = {one.elements.size(), one.field.width()};
     at(file_).numbers(fmt::format("points/{}/{}", one.field.named.name, name), frame.points[f], shape);
+  }
+}
+
+void ResultFile::append_averages(const Batch::Frame& frame, const std::string& name) {
+  for (std::size_t f = 0; f < layout_->averages.size(); ++f) {
+    const CellField& field = layout_->averages[f];
+    assert(frame.averages[f].size() == layout_->points.size() * field.width());
+    const hsize_t shape[2] = {layout_->points.size(), field.width()};
+    at(file_).numbers(fmt::format("nodes/{}/{}", field.named.name, name), frame.averages[f], shape);
   }
 }
 

@@ -26,6 +26,7 @@ struct Batch {
     std::vector<double> values;               ///< in the order of ResultsLayout::node_fields, each n × 3
     std::vector<std::vector<double>> cells;   ///< in the order of ResultsLayout::cell_fields
     std::vector<std::vector<double>> points;  ///< in the order of ResultsLayout::point_fields
+    std::vector<std::vector<double>> averages;
   };
   std::vector<double> times;
   std::vector<double> values;  ///< a row of channel_count() per sample
@@ -92,6 +93,7 @@ class ResultFile {
   void append_frame(const Batch::Frame& frame);
   void append_cell_fields(const Batch::Frame& frame, const std::string& name);
   void append_point_fields(const Batch::Frame& frame, const std::string& name);
+  void append_averages(const Batch::Frame& frame, const std::string& name);
   void write_restart(const std::string& name, const RestartPoint& point, bool compressed);
   void copy_histories(hid_t earlier, std::size_t samples);
   hdf5::Place at(const hdf5::Handle& handle) const { return {handle.id(), path_}; }

@@ -91,7 +91,7 @@ void Results::frame(double time, const FrameValues& values) {
   Batch::Frame frame;
   frame.time = time;
   assert(values.nodes.size() == layout_.node_fields.size());
-  for (const std::span<const double> field : values.nodes) {
+  for (const std::vector<double>& field : values.nodes) {
     assert(field.size() == 3 * layout_.points.size());
     frame.values.insert(frame.values.end(), field.begin(), field.end());
   }
@@ -99,6 +99,8 @@ void Results::frame(double time, const FrameValues& values) {
   frame.cells = values.cells;
   assert(values.points.size() == layout_.point_fields.size());
   frame.points = values.points;
+  assert(values.averages.size() == layout_.averages.size());
+  frame.averages = values.averages;
   gathered_->frames.push_back(std::move(frame));
   ++frames_;
 }

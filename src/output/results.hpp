@@ -22,12 +22,14 @@ enum class RunStatus : unsigned char { complete, failed };
 
 /// The fields of a frame.
 struct FrameValues {
-  /// Those of ResultsLayout::node_fields: a row of three global components for each node of the layout.
-  std::vector<std::span<const double>> nodes;
+  /// Those of ResultsLayout::node_fields: a row of three global components for each of ResultsLayout::points.
+  std::vector<std::vector<double>> nodes;
   /// Those of ResultsLayout::cell_fields: a row of CellField::width() for each of ResultsLayout::cells.
   std::vector<std::vector<double>> cells = {};
   /// Those of ResultsLayout::point_fields: a row of CellField::width() for each of PointField::elements.
   std::vector<std::vector<double>> points = {};
+  /// Those of ResultsLayout::averages: a row of CellField::width() for each of ResultsLayout::points.
+  std::vector<std::vector<double>> averages = {};
 };
 
 /// Writes a run's numbers (docs/format.md) and their XDMF index.

@@ -33,7 +33,7 @@ struct Cell {
   CellShape shape = CellShape::none;  ///< of a cell of a mesh; none: the points stand on a line
 };
 
-/// A field over the cells, beside those over the nodes.
+/// A field with any components, beside those over the nodes with three global ones: over the cells, or over the points.
 struct CellField {
   Named named;
   std::vector<std::string> components;  ///< none: a scalar
@@ -58,12 +58,14 @@ struct ResultsLayout {
   std::string version;    ///< of the program: `0.1.0`
   std::string libraries;  ///< names and versions in one line
   UnitSystem units;
+  /// Ids of all nodes, then those of nodes that are points once more because several sections of cells meet there.
   std::vector<int> node_ids;
-  std::vector<Vec3> points;  ///< reference positions, one per node
+  std::vector<Vec3> points;  ///< reference positions of all of these
   std::vector<Cell> cells;
   std::vector<Named> node_fields;  ///< three global components each
   std::vector<CellField> cell_fields;
   std::vector<PointField> point_fields;
+  std::vector<CellField> averages;  ///< at `points`, averaged over the cells there
   std::vector<HistoryTable> history;
   std::size_t expected_samples = 1024;  ///< about how many there will be: tables are laid out for so many rows at a time
 

@@ -62,12 +62,15 @@ std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, 
                      "<DataItem Dimensions=\"{1} 3\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">"
                      "{2}:/fields/{0}/{3:06}</DataItem></Attribute>\n",
                      field.name, points, file, i);
-    for (const CellField& field : layout.cell_fields)
+    const auto add = [&](const CellField& field, const char* center, std::size_t rows, const char* folder) {
       fmt::format_to(std::back_inserter(out),
-                     "<Attribute Name=\"{0}\" AttributeType=\"{4}\" Center=\"Cell\">"
+                     "<Attribute Name=\"{0}\" AttributeType=\"{4}\" Center=\"{6}\">"
                      "<DataItem Dimensions=\"{1} {5}\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">"
-                     "{2}:/fields/{0}/{3:06}</DataItem></Attribute>\n",
-                     field.named.name, topology.cells.size(), file, i, attribute_type(field.width()), field.width());
+                     "{2}:/{7}/{0}/{3:06}</DataItem></Attribute>\n",
+                     field.named.name, rows, file, i, attribute_type(field.width()), field.width(), center, folder);
+    };
+    for (const CellField& field : layout.averages) add(field, "Node", points, "nodes");
+    for (const CellField& field : layout.cell_fields) add(field, "Cell", topology.cells.size(), "fields");
     out += "</Grid>\n";
   }
   return out + "</Grid>\n</Domain>\n</Xdmf>\n";

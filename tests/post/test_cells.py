@@ -111,6 +111,59 @@ def test_numbers_beyond_packing() -> None:
     assert sum(len(t) for t, _ in found) == 6
 
 
+def two_sections(path: Path) -> Path:
+    """Two bricks of different sections, with points of their own where they meet, and stresses at these."""
+    points, cells, _ = meshes.brick(2, 1, 1)
+    shared = sorted(set(cells[0]) & set(cells[1]))
+    copies = {n: len(points) + i for i, n in enumerate(shared)}
+    second = [copies.get(n, n) for n in cells[1].tolist()]
+    every = np.concatenate([points, points[shared]])
+    times = np.array([0.0, 1.0])
+    models.write(
+        path,
+        {i + 1: tuple(x) for i, x in enumerate(every)},
+        [],
+        times=times,
+        displacement=np.zeros((2, len(every), 3)),
+        cells=[(CODES["hexahedron"], cells[0].tolist(), 1), (CODES["hexahedron"], second, 2)],
+    )
+    with h5py.File(path, "a") as file:
+        ids = file["mesh/node_ids"]
+        ids[len(points) :] = np.array(shared) + 1
+        for name, values, center, folder in (
+            ("VON_MISES", np.array([3.0, 5.0]), "Cell", "fields"),
+            ("VON_MISES", np.where(np.isin(np.arange(len(every)), second), 7.0, 2.0), "Node", "nodes"),
+        ):
+            group = file.create_group(f"{folder}/{name}")
+            group.attrs.update(unit="Pa", center=center)
+            for i in range(2):
+                group[f"{i:06d}"] = values[:, None] * i
+    return path
+
+
+def test_fields_at_nodes(command, tmp_path: Path) -> None:
+    """Each section has its own value where two meet, faces between are not seen, colours are those of the
+    nodes; files for other programs have both."""
+    import pyvista as pv
+    from engrane_post.scene import Scene, colours
+
+    path = two_sections(tmp_path / "two.h5")
+    with Results(path) as result:
+        scene = Scene(result)
+        (item,) = [i for i in scene.items if i.cells is not None]
+        assert len(item.cells) == 10  # of 12 faces
+        values, seen = colours(result, "VON_MISES", result.frame(1), item)
+        assert len(values) == len(result.points) == 16 and sorted(set(seen)) == [2, 7]
+        assert (colours(result, "VON_MISES", result.reference(), item)[1] == 0).all()
+        assert result.average("STRESS:XX", 1) is None
+    assert command("picture", path, "--field", "VON_MISES", "-o", tmp_path / "two.png")[0] == 0
+    assert command("export", path, "--mesh", tmp_path / "two.vtu")[0] == 0
+    grid = pv.read(tmp_path / "two.vtu")
+    for number, (at_nodes, mean) in enumerate([(2, 3), (7, 5)]):
+        assert set(grid.point_data["VON_MISES"][grid.get_cell(number).point_ids]) == {at_nodes}
+        assert grid.cell_data["VON_MISES"][number] == mean
+
+
 def test_picture_of_solids(command, tmp_path: Path) -> None:
     """Fields colour the outside: what is seen of each cell has its value."""
     from engrane_post.scene import Scene

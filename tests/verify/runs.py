@@ -35,9 +35,10 @@ def run(
     ranks: int = 1,
     options: tuple[str, ...] = (),
     status: int = 0,
+    output: Path | None = None,
 ) -> Run:
     """Writes a deck into the folder and runs it there; another status, as of failed checks, fails the
-    test."""
+    test. What the program prints goes to `output`."""
     program = os.environ.get("ENGRANE", "")
     if not Path(program).is_file():
         pytest.skip("the variable ENGRANE names no program")
@@ -45,4 +46,6 @@ def run(
     command = on_ranks(ranks, [program, f"{name}.dat", "-o", name, *options])
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=timeout)
     assert done.returncode == status, done.stdout + done.stderr
+    if output:
+        output.write_text(done.stdout)
     return Run(folder / f"{name}.h5")

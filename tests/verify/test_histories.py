@@ -152,3 +152,32 @@ def test_reading_while_the_run_writes(tmp_path):
         finally:
             process.send_signal(signal.SIGTERM)
     assert len(set(lengths)) == 3, "the file grew while it was read"
+
+
+def test_records_of_sai_add_up(tmp_path: Path) -> None:
+    """Nodes of one, an element of another, channels and steps of a third."""
+    deck = """.NOE
+ I 1
+ I 2 X 1
+ I 3 X 2
+.MCE
+ I 1 SPRING N 1 2 K 10
+ I 2 SPRING N 2 3 K 10
+.CLM
+ NOEUD 1 3 FIX C 1 2 3
+ NOEUD 2 FIX C 2 3
+ NOEUD 2 CHA C 1 V 1.
+.SAM TYPE STATIC
+.SUB TF 1 H 0.25
+.SAI ARCHIVE STRUCTURE STYP 1411
+.SAI NOEUD 1
+.SAI NOEUD 2 FIELDS DT 0.5
+.SAI ELEMENT 2
+.SAI STYP -221 FIELDS DT 0.5
+"""
+    done = run(deck, tmp_path)
+    assert done.returncode == 0, done.stderr
+    with Results(tmp_path / "deck.h5") as results:
+        owners = {name.rpartition("/")[0] for name in results.channels}
+        assert {o for o in owners if o != "run"} == {"node/1", "node/2", "element/2"}
+        assert list(results.frame_times) == [0, 0.5, 1]

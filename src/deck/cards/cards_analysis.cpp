@@ -198,7 +198,7 @@ void check_archive(ArchiveCard& archive, Record& record, Diagnostics& diagnostic
 
 Schema archive_card() {
   Card<ArchiveCard> card(".SAI", {".ARCHIVE", ".SAVE"}, "What is archived, and how often");
-  card.chapter(result_chapter).once();
+  card.chapter(result_chapter);
   card.add("FIELDS", &ArchiveCard::field_step, "time between archived fields; a 200th of the time span when not given")
       .synonyms({"CHAMPS"})
       .filler({"DT"})
@@ -261,7 +261,7 @@ Schema archive_card() {
       "the "
       "run, those that .CHK compares, and those that ELEMENT, TYPE, NOEUD and GROUP select. Where these select, nothing else is "
       "kept, in "
-      "small models too; CHANNEL alone selects from all elements and nodes.");
+      "small models too; CHANNEL alone selects from all elements and nodes. Several records add up.");
   card.finish(check_archive);
   card.example(".SAI FIELDS DT 0.001 HISTORY DT 0.0001 NEWTON");
   card.example(".SAI TYPE GEAR NOEUD 4 10 A 20 CHANNEL \"NORMAL_FORCE\" \"UX\" RESTART DT 0.1");

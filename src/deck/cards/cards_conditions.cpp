@@ -11,6 +11,7 @@
 #include "deck/cards/card_chapters.hpp"
 #include "deck/cards/cards.hpp"
 #include "deck/cards/initial_motion.hpp"
+#include "deck/cards/mesh_cards.hpp"
 
 namespace engrane::deck {
 
@@ -141,6 +142,35 @@ Schema gravity_card() {
   return card.schema();
 }
 
+Schema rotation_card() {
+  Card<RotationCard> card(".CLM ROT", {".BOUNDARY", "ROTATION"}, "Centrifugal load of cells that turn about an axis");
+  card.chapter(chapter).redefines();
+  card.describe(
+      "Statics in axes that turn with the body: a force of density times the square of the speed times the distance from the "
+      "axis, "
+      "outwards. With large displacements the distance is that of the moved point. Of several records on a cell the last "
+      "holds.");
+  card.add("GROUP", &RotationCard::groups, "groups of cells: names or numbers")
+      .refers(Reference::group)
+      .values(1, detail::any_number)
+      .required()
+      .leads();
+  card.add("VAL", &RotationCard::speed, "speed, radians per unit of time")
+      .synonyms({"V"})
+      .unit(dimension::angular_velocity)
+      .required();
+  card.add("AXE", &RotationCard::axis, "direction of the axis").synonyms({"AXIS"}).required();
+  card.add("AT", &RotationCard::point, "a point on the axis; by itself the origin").unit(dimension::length);
+  card.add("NF", &RotationCard::function, "number of the function of time that multiplies the speed; 0: constant")
+      .refers(Reference::function);
+  card.finish([](RotationCard& data, Record& record, Diagnostics& diagnostics) {
+    if (data.axis == std::array<double, 3>{})
+      diagnostics.error(record.where("AXE"), "the axis of ROT has no direction", "AXE 0 0 1 is the z axis");
+  });
+  card.example(".CLM\n GROUP \"disc\" ROT VAL 100. AXE 0 0 1");
+  return card.schema();
+}
+
 Schema function_card() {
   Card<FunctionCard> card(".FCT", {".FUNCTION", ".FONCTION"}, "Functions of time");
   card.chapter(chapter).numbered();
@@ -255,8 +285,8 @@ std::vector<Schema> condition_cards() {
   position.examples = {".INI\n DEP NOEUD 3 C 4 V 5.", ".INI\n DEP ELEMENT 2 V 30.\n DEP ELEMENT 4 COORDINATE SLIDE V 0.1"};
   velocity.examples = {".INI\n VIT GROUP \"rotor\" C 6 V (12000*PI/30)",
                        ".INI\n VIT ELEMENT 2 V 40.\n VIT GROUP \"carriage\" AXIS 0 0 1  AT 0.5 0 0  V 10."};
-  return {fix_card(),     displacement_card(), load_card(),         temperature_card(),
-          gravity_card(), function_card(),     std::move(position), std::move(velocity)};
+  return {fix_card(),      displacement_card(), load_card(),         temperature_card(), gravity_card(),
+          rotation_card(), function_card(),     std::move(position), std::move(velocity)};
 }
 
 }  // namespace engrane::deck

@@ -2,6 +2,7 @@
 // What a deck says of the cells of a mesh beside `.MAI` itself.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,14 @@ struct AssignmentCard {
   std::optional<int> material;
   std::optional<double> theta;  ///< degrees, from the x axis of the frame to the first axis of the material
   std::optional<int> frame;     ///< `.FRAME` of the axes; none: the global one
+};
+
+/// `.CLM GROUP "disc" ROT VAL omega AXE x y z [AT px py pz] [NF f]`: centrifugal load.
+struct RotationCard {
+  std::vector<std::string> groups;        ///< of cells
+  double speed = 0;                       ///< radians per unit of time
+  std::array<double, 3> axis{}, point{};  ///< of any length; a point on it
+  int function = 0;                       ///< of time, a factor of the speed; 0: none
 };
 
 }  // namespace engrane::deck

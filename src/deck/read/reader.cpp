@@ -29,6 +29,8 @@ struct Command {
   bool elements = false;
 
   const Schema& only() const { return *schemas.front(); }
+  /// Whether `--card` may stand in its place: a deck has it once, or its records are as one because they add up.
+  bool replaceable() const { return only().once || name == ".SAI"; }
   bool keyed() const { return !keys.keyed.empty(); }
   bool numbered() const { return !keys.number_key.empty(); }
   bool redefines() const {
@@ -60,11 +62,11 @@ class CommandTable {
   const std::vector<std::string>& words() const { return words_; }
 
   /// The cards that a deck has once.
-  std::vector<std::string> once() const {
+  std::vector<std::string> replaceable() const {
     std::vector<std::string> names;
     for (const Command& command : commands_)
       for (const Schema* schema : command.schemas)
-        if (schema->once) names.push_back(schema->name);
+        if (schema->once || command.replaceable()) names.push_back(schema->name);
     return names;
   }
 
@@ -168,9 +170,9 @@ class Reader {
     const bool one_line = card.find_first_of("\r\n") == std::string::npos;
     const std::string_view name = std::string_view(card).substr(0, card.find_first_of(" \t"));
     const Command* command = commands_.find(name);
-    if (!one_line || !command || command->schemas.size() != 1 || !command->only().once) {
+    if (!one_line || !command || command->schemas.size() != 1 || !command->replaceable()) {
       diagnostics_.error({}, "--card takes one card that a deck has once, on one line, not `" + card + "`",
-                         "--card \".SUB TF 0.1 H 1E-4\", or another of " + join(commands_.once()));
+                         "--card \".SUB TF 0.1 H 1E-4\", or another of " + join(commands_.replaceable()));
       return;
     }
     forget(command);

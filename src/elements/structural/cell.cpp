@@ -82,6 +82,29 @@ std::shared_ptr<const std::vector<Warmth>> warmth_of(const std::vector<int>& nod
   return any ? std::make_shared<const std::vector<Warmth>>(std::move(found)) : nullptr;
 }
 
+/// Whether the centrifugal load of a cell leaves it in its plane; faults are reported once for all of its cells.
+bool fits_rotation(const CellPlan& plan, BuildContext& context) {
+  const CellRotation& turn = *plan.rotation;
+  if (plan.section->law.density == 0)
+    context.diagnostics.warning_once("turn", turn.record->location, "cells without density: ROT has no effect on them",
+                                     "M of .MAT is the density");
+  if (is_solid(plan.shape)) return true;
+  const bool axi = plan.section->hypothesis == materials::Hypothesis::axisymmetric;
+  double size = 0, off = 0;
+  for (const Vec3& x : plan.places) {
+    const Vec3 arm = x - turn.point;
+    size = std::max(size, arm.norm());
+    off = std::max(off, std::abs((turn.projection() * arm)[2]));
+  }
+  if (axi) off = std::hypot(turn.axis[0], turn.axis[2]) * size + std::hypot(turn.point[0], turn.point[2]);
+  if (off <= 1e-9 * size) return true;
+  context.diagnostics.error(
+      turn.record->where("AXE"),
+      axi ? "axisymmetric cells turn about another axis than their own" : "ROT pushes plane cells out of their plane",
+      axi ? "AXE 0 1 0, and AT on the y axis or left out" : "AXE 0 0 1, or an axis in the plane of the cells");
+  return false;
+}
+
 std::unique_ptr<Element> build(const CellData& data, BuildContext& context) {
   auto cell = nodes_of(data, context);
   const std::shared_ptr<const CellSection> section = CellBook::of(context)->section(context.record.id);
@@ -93,6 +116,8 @@ std::unique_ptr<Element> build(const CellData& data, BuildContext& context) {
     context.diagnostics.warning_once("warm", context.record.location,
                                      fmt::format("the material of cell {} does not expand: TEMP has no effect on it", plan.id),
                                      "A of its .MAT is the coefficient of thermal expansion");
+  plan.rotation = CellBook::of(context)->rotation(plan.id);
+  if (plan.rotation && !fits_rotation(plan, context)) return nullptr;
   if (!is_solid(plan.shape)) return fits_plane(plan, context) ? make_plane_cell(plan, context.blocks) : nullptr;
   if (is_regular_solid(plan.shape, plan.places)) return make_solid_cell(plan, context.blocks);
   context.error(

@@ -45,16 +45,17 @@ std::string names_of(const std::vector<std::string>& groups) {
 
 }  // namespace
 
-CellBook::CellBook(const std::vector<deck::Record>& records, const NodePositions& nodes, Diagnostics& diagnostics)
-    : diagnostics_(diagnostics) {
+CellBook::CellBook(const BuildContext& context) : diagnostics_(context.diagnostics) {
+  const std::vector<deck::Record>& records = *context.records;
   read_cells(records);
   read_groups(records);
   read_properties(records);
-  make_sections(deck::has_small_displacements(records), nodes);
+  read_rotations(context);
+  make_sections(deck::has_small_displacements(records), context.nodes);
 }
 
 std::shared_ptr<const CellBook> CellBook::of(const BuildContext& context) {
-  const auto make = [&context] { return std::make_shared<const CellBook>(*context.records, context.nodes, context.diagnostics); };
+  const auto make = [&context] { return std::make_shared<const CellBook>(context); };
   return context.notes ? context.notes->get<std::shared_ptr<const CellBook>>(make) : make();
 }
 
@@ -84,6 +85,11 @@ const deck::Record* CellBook::record(int cell) const {
 std::shared_ptr<const CellSection> CellBook::section(int cell) const {
   const Cell* found = find(cell);
   return found ? found->section : nullptr;
+}
+
+std::shared_ptr<const CellRotation> CellBook::rotation(int cell) const {
+  const Cell* found = find(cell);
+  return found ? found->rotation : nullptr;
 }
 
 const std::vector<int>* CellBook::faces(const std::string& group) const {
@@ -160,6 +166,28 @@ void CellBook::read_properties(const std::vector<deck::Record>& records) {
   }
 }
 
+void CellBook::read_rotations(const BuildContext& context) {
+  const deck::AnalysisCard* analysis = nullptr;
+  for (const deck::Record& record : *context.records)
+    if (const auto* card = record.get<deck::AnalysisCard>()) analysis = card;
+  for (const deck::Record& record : *context.records) {
+    const auto* card = record.get<deck::RotationCard>();
+    if (!card) continue;
+    if (analysis && !analysis->type.is("STATIC"))
+      diagnostics_.error(record.location, "ROT is a load of statics: what moves in axes that turn has Coriolis forces too",
+                         "TYPE STATIC in .SAM, or let the body itself turn");
+    auto rotation = std::make_shared<CellRotation>();
+    rotation->record = &record;
+    rotation->speed = card->speed;
+    rotation->axis = Vec3(card->axis.data()).stableNormalized();
+    rotation->point = Vec3(card->point.data());
+    if (card->function != 0)
+      if (const auto found = context.functions.find(card->function); found != context.functions.end())
+        rotation->function = found->second.get();
+    for (const std::size_t i : members(record, card->groups)) cells_[i].rotation = rotation;
+  }
+}
+
 void CellBook::assign(const deck::Record& record, const deck::AssignmentCard& assignment) {
   Group group = members(record, assignment.groups);
   for (const int id : assignment.cells)
@@ -219,8 +247,8 @@ std::optional<Mat3> CellBook::axes_of(const Cell& cell, const NodePositions& nod
   return Mat3(axes * Eigen::AngleAxisd(cell.theta.value_or(0) * degree, Vec3::UnitZ()).toRotationMatrix());
 }
 
-std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypothesis hypothesis, const Mat3& axes,
-                                                          bool linear) {
+std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypothesis hypothesis, const Mat3& axes, bool linear,
+                                                          int number) {
   const auto [entry, fresh] = elastic_.try_emplace({cell.material->id, hypothesis});
   if (fresh) entry->second = elastic_of(*cell.material, hypothesis, diagnostics_);
   if (!entry->second) return nullptr;
@@ -234,7 +262,7 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
   }
   const bool has_thickness = hypothesis == Hypothesis::plane_stress || hypothesis == Hypothesis::plane_strain;
   return std::make_shared<CellSection>(CellSection{hypothesis, materials::law_of(hypothesis, material),
-                                                   has_thickness && cell.thickness > 0 ? cell.thickness : 1.0, linear});
+                                                   has_thickness && cell.thickness > 0 ? cell.thickness : 1.0, linear, number});
 }
 
 void CellBook::make_sections(bool linear, const NodePositions& nodes) {
@@ -260,18 +288,25 @@ void CellBook::make_sections(bool linear, const NodePositions& nodes) {
               "plane stress needs .PHP GROUP \"name\" THICK VAL t");
   using Key = std::tuple<Hypothesis, int, double, double, int>;
   std::map<Key, std::shared_ptr<const CellSection>> sections;
+  std::map<Key, int> numbers;
   for (Cell& cell : cells_) {
     const auto formulation = hypothesis(cell);
     const bool has_material = cell.material && cell.material->get<deck::MaterialCard>();
     if (!formulation || !fits(cell) || !has_material || (is_stress(cell) && cell.thickness == 0)) continue;
     const bool alone = frames_.is_curved(cell.frame);  // with axes of its own
     const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame};
+    Key group = key;
+    if (cell.material->get<deck::MaterialCard>()->young.size() == 1) {  // decks give axes to isotropic cells too, each its own
+      std::get<3>(group) = 0;
+      std::get<4>(group) = 0;
+    }
+    const int number = numbers.try_emplace(group, static_cast<int>(numbers.size())).first->second;
     if (!alone)
       if (const auto known = sections.find(key); known != sections.end()) {
         cell.section = known->second;
         continue;
       }
-    if (const auto axes = axes_of(cell, nodes)) cell.section = make_section(cell, *formulation, *axes, linear);
+    if (const auto axes = axes_of(cell, nodes)) cell.section = make_section(cell, *formulation, *axes, linear, number);
     if (!alone) sections.emplace(key, cell.section);
   }
 }

@@ -23,13 +23,28 @@ struct CellSection {
   materials::Elasticity law;
   double thickness = 1;
   bool linear = true;  ///< small displacements
+  /// Which of the sections of the deck: cells of one have the same material, hypothesis and thickness, and axes that are given in
+  /// the same way where they matter. Where these turn from cell to cell, as in a cylindrical frame, each has a struct of its own.
+  int number = 0;
+};
+
+/// A body that turns about an axis, in axes that turn with it.
+struct CellRotation {
+  const deck::Record* record = nullptr;
+  double speed = 0;  ///< radians per unit of time
+  Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();
+  const Function* function = nullptr;  ///< of time, a factor of the speed
+
+  double speed_at(double time) const { return speed * (function ? function->at(time).f : 1); }
+  /// Across the axis.
+  Mat3 projection() const { return Mat3::Identity() - axis * axis.transpose(); }
 };
 
 /// What a deck says of its cells in `.HYP`, `.MAT`, `.PHP`, `.AEL` and `.SEL`, looked up by the number of a cell. Faults are
 /// reported while it is made, each once, however many cells have it.
 class CellBook {
  public:
-  CellBook(const std::vector<deck::Record>& records, const NodePositions& nodes, Diagnostics& diagnostics);
+  explicit CellBook(const BuildContext& context);
 
   /// The book of a model; made when the first cell asks for it, and each time where nothing is shared.
   static std::shared_ptr<const CellBook> of(const BuildContext& context);
@@ -40,6 +55,8 @@ class CellBook {
   const std::vector<int>* faces(const std::string& group) const;
   /// nullptr: something is missing, and was reported.
   std::shared_ptr<const CellSection> section(int cell) const;
+  /// nullptr: the cell does not turn.
+  std::shared_ptr<const CellRotation> rotation(int cell) const;
 
  private:
   struct Cell {
@@ -51,16 +68,18 @@ class CellBook {
     int frame = 0;                       ///< 0: the global one
     const deck::Record* axes = nullptr;  ///< where they were given
     std::shared_ptr<const CellSection> section = nullptr;
+    std::shared_ptr<const CellRotation> rotation = nullptr;
   };
   using Group = std::vector<std::size_t>;  ///< indices of cells
 
   void read_cells(const std::vector<deck::Record>& records);
   void read_groups(const std::vector<deck::Record>& records);
   void read_properties(const std::vector<deck::Record>& records);
+  void read_rotations(const BuildContext& context);
   void assign(const deck::Record& record, const deck::AssignmentCard& assignment);
   void make_sections(bool linear, const NodePositions& nodes);
   std::shared_ptr<const CellSection> make_section(const Cell& cell, materials::Hypothesis hypothesis, const Mat3& axes,
-                                                  bool linear);
+                                                  bool linear, int number);
   /// Axes of the material of a cell; nothing where its frame does not exist, which is reported.
   std::optional<Mat3> axes_of(const Cell& cell, const NodePositions& nodes);
 

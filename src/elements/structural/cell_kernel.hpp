@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "elements/materials/elasticity.hpp"
 #include "elements/structural/cell_shapes.hpp"
@@ -71,7 +72,7 @@ class CellKernel {
   }
 
   /// `at` other than the points of the stiffness: only of cells without modes, whose mean is that over the cell.
-  CellKernel(const Places& places, double thickness, const Samples& at = samples()) {
+  CellKernel(const Places& places, double thickness, std::span<const typename Traits::Sample> at = samples()) {
     for (const auto& s : at) {
       const Square jacobian = s.slope * places.transpose();  // rows: along ξ, η, ζ
       const Square inverse = jacobian.inverse();

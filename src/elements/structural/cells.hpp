@@ -2,7 +2,7 @@
 // Blocks of cells of one shape, in the plane, round an axis or in space.
 #pragma once
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -10,7 +10,9 @@
 #include <optional>
 
 #include "elements/structural/cell_kernel.hpp"
+#include "elements/structural/cell_recovery.hpp"
 #include "elements/structural/make_cell.hpp"
+#include "math/stress.hpp"
 
 namespace engrane::elements::structural {
 
@@ -26,6 +28,7 @@ class Cells final : public Block {
   using Vector = Eigen::Matrix<double, D * N, 1>;
   using Square = Eigen::Matrix<double, D * N, D * N>;
   using Stress = materials::Voigt;
+  static constexpr int width = D == 2 ? 4 : 6;  ///< components of stress among the results
 
  public:
   Cells() {
@@ -39,6 +42,7 @@ class Cells final : public Block {
     for (Eigen::Index i = 0; i < N; ++i) cell.places.col(i) = plan.places[static_cast<std::size_t>(i)].template head<D>();
     cell.section = plan.section;
     cell.warmth = plan.warmth;
+    cell.rotation = plan.rotation;
     return cells_.size() - 1;
   }
 
@@ -64,7 +68,11 @@ class Cells final : public Block {
       // symmetric, so that rows and columns need no care
       Eigen::Map<Square> tangent(k.data() + i * D * D * N * N);
       tangent = weights.q * sum.tangent;
-      if (weights.a != 0) add_mass(cell, weights.a, tangent);
+      if (weights.a != 0) add_mass(cell, weights.a, Mat3::Identity(), tangent);
+      if (cell.rotation && !cell.section->linear) {
+        const double speed = cell.rotation->speed_at(states[i].time);
+        add_mass(cell, -weights.q * speed * speed, cell.rotation->projection(), tangent);
+      }
     }
   }
 
@@ -94,6 +102,7 @@ class Cells final : public Block {
     Vector weight;
     energies.potential = energies.strain;
     if (weigh(cell, state, weight)) energies.potential -= weight.dot(moved.reshaped());
+    if (Vector outward = Vector::Zero(); add_centrifugal(cell, state, outward)) energies.external += outward.dot(rates(state));
     if (section.law.density != 0) {
       Places v;
       for (Eigen::Index i = 0; i < N; ++i) v.col(i) = state.nodes[static_cast<std::size_t>(i)].v.template head<D>();
@@ -106,10 +115,10 @@ class Cells final : public Block {
   }
 
   bool applied(std::size_t e, const State& state, std::span<double> forces) const override {
-    Vector weight;
-    if (!weigh(cells_[e], state, weight)) return false;
-    std::copy_n(weight.data(), D * N, forces.begin());
-    return true;
+    Vector sum = Vector::Zero();
+    const bool heavy = weigh(cells_[e], state, sum), turns = add_centrifugal(cells_[e], state, sum);
+    if (heavy || turns) std::copy_n(sum.data(), D * N, forces.begin());
+    return heavy || turns;
   }
 
   const std::vector<Field>& fields() const override {
@@ -119,14 +128,14 @@ class Cells final : public Block {
       const std::vector<std::string> principal =
           D == 2 ? std::vector<std::string>{"1", "2", "ZZ"} : std::vector<std::string>{"1", "2", "3"};
       const int points = static_cast<int>(Kernel::result_samples().size());
-      const auto at_points = [points](Named named, std::vector<std::string> of) {
-        return Field{std::move(named), Field::Place::point, std::move(of), points};
+      const auto at_points = [points](Named named, std::vector<std::string> of, bool averaged = false) {
+        return Field{std::move(named), Field::Place::point, std::move(of), points, averaged};
       };
       return std::vector<Field>{
           at_points(
               {"STRESS", dimension::pressure, D == 2 ? "true stress; ZZ: normal to the plane, or round the axis" : "true stress"},
-              components),
-          at_points({"STRAIN", dimension::none, "strain of Green and Lagrange, shear half the angle"}, components),
+              components, true),
+          at_points({"STRAIN", dimension::none, "strain of Green and Lagrange, shear half the angle"}, components, true),
           at_points({"VON_MISES", dimension::pressure, "equivalent stress of von Mises"}, {}),
           at_points({"PRINCIPAL", dimension::pressure,
                      D == 2 ? "principal stresses in the plane, and ZZ" : "principal stresses, the largest first"},
@@ -138,7 +147,6 @@ class Cells final : public Block {
 
   void evaluate_fields(std::size_t e, const State& state, std::span<double> values) const override {
     const Cell& cell = cells_[e];
-    constexpr std::size_t width = D == 2 ? 4 : 6;
     const std::vector<AtPoint> points = at_points(cell, state);
     double* out = values.data();
     const auto put = [&out, &points](std::size_t row, const auto& value) {
@@ -151,9 +159,48 @@ class Cells final : public Block {
     put(width, [](const AtPoint& p) -> Stress {
       return (Stress() << p.strain.template head<3>(), p.strain.template tail<3>() / 2).finished();
     });
-    put(1, [](const AtPoint& p) { return std::array{von_mises(p.stress)}; });
-    put(3, [](const AtPoint& p) { return principal(p.stress); });
+    put(1, [](const AtPoint& p) { return std::array{von_mises(shown(p.stress))}; });
+    put(3, [](const AtPoint& p) { return principal_stresses(shown(p.stress)); });
     put(1, [](const AtPoint& p) { return std::array{p.energy}; });
+  }
+
+  int section(std::size_t e) const override { return cells_[e].section->number; }
+
+  const Eigen::MatrixXd* extrapolation() const override {
+    static const Eigen::MatrixXd all =
+        structural::extrapolation<S>(Traits::result_points() ? *Traits::result_points() : Kernel::points());
+    return &all;
+  }
+
+  /// Where displacements are large, the true stress given is taken back by the deformation of each point.
+  StressEnergies stress_energies(std::size_t e, const State& state, std::span<const double> at_nodes) const override {
+    const Cell& cell = cells_[e];
+    const CellSection& section = *cell.section;
+    const Eigen::Map<const Eigen::Matrix<double, width, N>> given(at_nodes.data());
+    const Kernel kernel(cell.places, section.thickness);
+    const typename Kernel::Moves moves = moves_of(cell, state, kernel);
+    const Eigen::LLT<typename Kernel::Stiffness> moduli(Kernel::reduced(section.law.stiffness));
+    const auto energy = [&moduli](const Stress& stress) {
+      return moduli.matrixL().solve(Kernel::reduced(stress)).squaredNorm() / 2;
+    };
+    // exact for the square of the difference in straight cells
+    const auto& samples = Kernel::modes > 0 ? Kernel::samples() : masses();
+    StressEnergies sum;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      std::optional<Kernel> other;
+      if constexpr (Kernel::modes == 0) other.emplace(cell.places, section.thickness, std::span(samples).subspan(i, 1));
+      const typename Kernel::Point& point = other ? other->point(0) : kernel.point(static_cast<int>(i));
+      const AtPoint p = at_point(section, kernel.deformation(point, moves), rise(cell, state, samples[i]));
+      Stress wanted = Stress::Zero();
+      wanted.template head<width>() = given * samples[i].value;
+      if (!section.linear) {
+        const Mat3 back = p.F.inverse();
+        wanted = components_of(p.F.determinant() * back * symmetric_tensor(shown(wanted)) * back.transpose());
+      }
+      sum.stress += point.volume * energy(p.second);
+      sum.difference += point.volume * energy(wanted - p.second);
+    }
+    return sum;
   }
 
  private:
@@ -162,12 +209,15 @@ class Cells final : public Block {
     Places places;
     std::shared_ptr<const CellSection> section;
     std::shared_ptr<const std::vector<Warmth>> warmth;  ///< of each node; none: no change of temperature
+    std::shared_ptr<const CellRotation> rotation;       ///< none: it does not turn
   };
 
-  /// Stresses and strains where results are given, in all six components.
+  /// Stresses and strains at a point, in all six components.
   struct AtPoint {
     Stress stress, strain;
-    double energy;
+    Stress second;  ///< Piola–Kirchhoff; with small displacements the stress
+    double energy = 0;
+    Mat3 F;  ///< with the third direction; not set with small displacements
   };
 
   static const std::vector<Sample>& masses() {
@@ -205,29 +255,45 @@ class Cells final : public Block {
     return sum;
   }
 
-  std::vector<AtPoint> at_points(const Cell& cell, const State& state) const {
-    const CellSection& section = *cell.section;
-    const materials::Elasticity& material = section.law;
-    const Kernel kernel(cell.places, section.thickness);
+  /// Displacements of the nodes with the amplitudes of the modes.
+  static typename Kernel::Moves moves_of(const Cell& cell, const State& state, const Kernel& kernel) {
+    if constexpr (Kernel::modes == 0) return displacements(cell, state);
     typename Kernel::Condensed sum;
     kernel.condense(law_of(cell, state), displacements(cell, state), false, sum);
+    return sum.moves;
+  }
+
+  static AtPoint at_point(const CellSection& section, const typename Kernel::Deformation& now, double warmer) {
+    const materials::Elasticity& material = section.law;
+    AtPoint p;
+    p.strain.setZero();
+    p.strain(Kernel::components) = Kernel::strain(now, section.linear);
+    const Stress elastic = p.strain - warmer * material.expansion;
+    p.second = material.stiffness * elastic;
+    if (section.hypothesis == materials::Hypothesis::plane_stress)
+      p.strain[2] = material.transverse.dot(elastic) + warmer * material.expansion[2];
+    p.energy = p.second.dot(elastic) / 2;
+    p.stress = p.second;
+    if (section.linear) return p;
+    p.F.setZero();
+    p.F.template topLeftCorner<D, D>() = now.F;
+    // in the plane with the stretch along z that the strain there is
+    if constexpr (D == 2) p.F(2, 2) = Axi ? now.hoop : std::sqrt(std::max(1 + 2 * p.strain[2], 0.0));
+    p.stress = components_of(p.F * symmetric_tensor(shown(p.second)) * p.F.transpose() / p.F.determinant());
+    return p;
+  }
+
+  static std::vector<AtPoint> at_points(const Cell& cell, const State& state) {
+    const CellSection& section = *cell.section;
+    const Kernel kernel(cell.places, section.thickness);
+    const typename Kernel::Moves moves = moves_of(cell, state, kernel);
     std::vector<AtPoint> points;
     std::optional<Kernel> others;
     if (Traits::result_points()) others.emplace(cell.places, section.thickness, Kernel::result_samples());
     const Kernel& at = others ? *others : kernel;
-    for (int i = 0; i < at.count(); ++i) {
-      const auto now = at.deformation(at.point(i), sum.moves);
-      AtPoint& p = points.emplace_back();
-      p.strain.setZero();
-      p.strain(Kernel::components) = Kernel::strain(now, section.linear);
-      const double warmer = rise(cell, state, Kernel::result_samples()[static_cast<std::size_t>(i)]);
-      Stress elastic = p.strain - warmer * material.expansion;
-      const Stress second = material.stiffness * elastic;
-      if (section.hypothesis == materials::Hypothesis::plane_stress)
-        p.strain[2] = material.transverse.dot(elastic) + warmer * material.expansion[2];
-      p.energy = second.dot(elastic) / 2;
-      p.stress = section.linear ? second : true_stress(now, second, p.strain[2]);
-    }
+    for (int i = 0; i < at.count(); ++i)
+      points.push_back(at_point(section, at.deformation(at.point(i), moves),
+                                rise(cell, state, Kernel::result_samples()[static_cast<std::size_t>(i)])));
     return points;
   }
 
@@ -269,10 +335,38 @@ class Cells final : public Block {
     return true;
   }
 
+  static Vector rates(const State& state) {
+    Vector v;
+    for (Eigen::Index i = 0; i < N; ++i)
+      v.template segment<D>(D * i) = state.nodes[static_cast<std::size_t>(i)].v.template head<D>();
+    return v;
+  }
+
+  /// Adds ∫ N_i ρ ω² P (x − o) dV, with P across the axis and a point o on it; false when the cell does not turn.
+  static bool add_centrifugal(const Cell& cell, const State& state, Vector& forces) {
+    const double density = cell.section->law.density;
+    if (!cell.rotation || density == 0) return false;
+    const CellRotation& turn = *cell.rotation;
+    const double speed = turn.speed_at(state.time);
+    const Mat3 across = turn.projection();
+    Places arms, outward = Places::Zero();
+    for (Eigen::Index i = 0; i < N; ++i) {
+      Vec3 x = state.nodes[static_cast<std::size_t>(i)].x;
+      if (cell.section->linear) x.head<D>() = cell.places.col(i);
+      arms.col(i) = (across * (x - turn.point)).template head<D>();
+    }
+    for_each_point(cell, masses(), [&](const Sample& s, double volume) {
+      outward += density * speed * speed * volume * (arms * s.value) * s.value.transpose();
+    });
+    forces += outward.reshaped();
+    return true;
+  }
+
   static void add_inertia_and_weight(const Cell& cell, const State& state, Eigen::Map<Vector>& r) {
     const double density = cell.section->law.density;
     if (density == 0) return;
     if (Vector weight; weigh(cell, state, weight)) r -= weight;
+    if (Vector outward = Vector::Zero(); add_centrifugal(cell, state, outward)) r -= outward;
     Places a;
     for (Eigen::Index i = 0; i < N; ++i) a.col(i) = state.nodes[static_cast<std::size_t>(i)].a.template head<D>();
     if (a.isZero(0)) return;
@@ -282,41 +376,20 @@ class Cells final : public Block {
     r += inertia.reshaped();
   }
 
-  static void add_mass(const Cell& cell, double factor, Eigen::Map<Square>& k) {
+  /// Adds the mass matrix times `factor`, with the directions along which it acts.
+  static void add_mass(const Cell& cell, double factor, const Mat3& directions, Eigen::Map<Square>& k) {
     const double density = cell.section->law.density;
     if (density == 0) return;
     Eigen::Matrix<double, N, N> mass = Eigen::Matrix<double, N, N>::Zero();
     for_each_point(cell, masses(),
                    [&](const Sample& s, double volume) { mass += factor * density * volume * s.value * s.value.transpose(); });
     for (Eigen::Index i = 0; i < N; ++i)
-      for (Eigen::Index j = 0; j < N; ++j)
-        for (Eigen::Index c = 0; c < D; ++c) k(D * i + c, D * j + c) += mass(i, j);
+      for (Eigen::Index j = 0; j < N; ++j) k.template block<D, D>(D * i, D * j) += mass(i, j) * directions.topLeftCorner<D, D>();
   }
 
-  static Mat3 tensor(const Stress& s) { return (Mat3() << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]).finished(); }
-
-  /// σ = F S Fᵀ / det F; in the plane with the stretch along z that the strain there is.
-  static Stress true_stress(const typename Kernel::Deformation& d, const Stress& second, double strain_z) {
-    Mat3 F = Mat3::Zero();
-    F.topLeftCorner<D, D>() = d.F;
-    if constexpr (D == 2) F(2, 2) = Axi ? d.hoop : std::sqrt(std::max(1 + 2 * strain_z, 0.0));
-    const Mat3 sigma = F * tensor(second) * F.transpose() / F.determinant();
-    return (Stress() << sigma.diagonal(), sigma(0, 1), sigma(1, 2), sigma(2, 0)).finished();
-  }
-
-  static double von_mises(const Stress& s) {
-    const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
-    return std::sqrt((xy * xy + yz * yz + zx * zx) / 2 + 3 * s.tail<3>().squaredNorm());
-  }
-
-  static std::array<double, 3> principal(const Stress& s) {
-    if constexpr (D == 2) {
-      const double middle = (s[0] + s[1]) / 2, radius = std::hypot((s[0] - s[1]) / 2, s[3]);
-      return {middle + radius, middle - radius, s[2]};
-    }
-    const Vec3 values = Eigen::SelfAdjointEigenSolver<Mat3>(tensor(s), Eigen::EigenvaluesOnly).eigenvalues();
-    return {values[2], values[1], values[0]};
-  }
+  static Stress components_of(const Mat3& s) { return (Stress() << s.diagonal(), s(0, 1), s(1, 2), s(2, 0)).finished(); }
+  /// The components among the results.
+  static std::span<const double> shown(const Stress& s) { return {s.data(), static_cast<std::size_t>(width)}; }
 
   Layout layout_;
   std::vector<Cell> cells_;

@@ -17,6 +17,7 @@ struct CellPlan {
   std::vector<Vec3> places;
   std::shared_ptr<const CellSection> section;
   std::shared_ptr<const std::vector<Warmth>> warmth = nullptr;  ///< of each node; none: no change of temperature
+  std::shared_ptr<const CellRotation> rotation = nullptr;       ///< none: it does not turn
 };
 
 /// Adds a cell to the block of its kind; alone in one where `blocks` is nullptr.

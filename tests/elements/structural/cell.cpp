@@ -52,12 +52,17 @@ NodeMap node_map(const std::vector<Eigen::Vector2d>& places) {
   return nodes;
 }
 
-std::unique_ptr<Element> cell(const std::vector<Eigen::Vector2d>& places, const std::shared_ptr<const CellSection>& of,
-                              double rise = 0) {
+CellPlan plan_of(const std::vector<Eigen::Vector2d>& places, const std::shared_ptr<const CellSection>& of) {
   const std::map<std::size_t, CellShape> shapes{
       {3, CellShape::triangle}, {6, CellShape::triangle6}, {4, CellShape::quadrilateral}, {8, CellShape::quadrilateral8}};
   CellPlan plan{1, shapes.at(places.size()), numbers(places.size()), {}, of};
   for (const Eigen::Vector2d& x : places) plan.places.emplace_back(x[0], x[1], 0);
+  return plan;
+}
+
+std::unique_ptr<Element> cell(const std::vector<Eigen::Vector2d>& places, const std::shared_ptr<const CellSection>& of,
+                              double rise = 0) {
+  CellPlan plan = plan_of(places, of);
   if (rise != 0) plan.warmth = std::make_shared<const std::vector<Warmth>>(places.size(), Warmth{rise});
   return make_plane_cell(plan, nullptr);
 }
@@ -110,6 +115,47 @@ TEST(Cell, Suite) {
   for (const std::size_t count : {3U, 6U, 4U, 8U})
     for (const Hypothesis hypothesis : hypotheses)
       for (const bool linear : {true, false}) run_suite(subject(count, hypothesis, linear));
+}
+
+/// With large displacements the centrifugal load grows with the distance from the axis; its derivative is −ω² times the mass
+/// matrix across the axis.
+TEST(Cell, CentrifugalTangentIsTheDerivative) {
+  for (const std::size_t count : {3U, 6U, 4U, 8U})
+    for (const Hypothesis hypothesis : hypotheses) {
+      const auto places = distorted(count);
+      const bool axi = hypothesis == Hypothesis::axisymmetric;
+      CellPlan plan = plan_of(places, section(hypothesis, false));
+      const auto still = make_plane_cell(plan, nullptr);
+      auto turn = std::make_shared<CellRotation>();
+      turn->speed = 3;
+      if (axi) turn->axis = Vec3::UnitY();
+      if (!axi) turn->point = Vec3(0.4, -0.7, 5);
+      plan.rotation = turn;
+      const auto turning = make_plane_cell(plan, nullptr);
+      const NodeMap nodes = node_map(places);
+      StateBuffer state(*turning, nodes);
+      const std::size_t width = 6 * count;  // of residual_of()
+      const auto load = [&] {               // the residual of the load alone
+        std::vector<double> with = residual_of(*turning, state);
+        const std::vector<double> without = residual_of(*still, state);
+        for (std::size_t i = 0; i < width; ++i) with[i] -= without[i];
+        return with;
+      };
+      const auto stiff = tangent_of(*turning, state, {1, 0, 0}), plain = tangent_of(*still, state, {1, 0, 0});
+      const auto at_rest = load();
+      for (std::size_t node = 0; node < count; ++node)
+        for (const std::size_t along : {0U, 1U}) {
+          const std::size_t j = 6 * node + along;
+          double& x = state.nodes[node].x[static_cast<Eigen::Index>(along)];
+          const double before = x;
+          x += 0.5;  // the load is linear
+          const auto now = load();
+          x = before;
+          for (std::size_t i = 0; i < width; ++i)
+            EXPECT_NEAR(stiff[i * width + j] - plain[i * width + j], (now[i] - at_rest[i]) / 0.5, 1e-11 * young)
+                << count << " nodes, " << i << ", " << j;
+        }
+    }
 }
 
 TEST(Cell, LinearIsTheDerivativeAtRest) {

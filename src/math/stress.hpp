@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "math/vector.hpp"
+
+namespace engrane {
+
+/// The symmetric tensor with the components xx, yy, zz, xy and, unless they are zero, yz, zx.
+inline Mat3 symmetric_tensor(std::span<const double> s) {
+  const double yz = s.size() > 4 ? s[4] : 0, zx = s.size() > 4 ? s[5] : 0;
+  return (Mat3() << s[0], s[3], zx, s[3], s[1], yz, zx, yz, s[2]).finished();
+}
+
+/// Equivalent stress of von Mises, of the components of symmetric_tensor().
+inline double von_mises(std::span<const double> s) {
+  const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
+  double shear = 0;
+  for (const double one : s.subspan(3)) shear += one * one;
+  return std::sqrt((xy * xy + yz * yz + zx * zx) / 2 + 3 * shear);
+}
+
+/// Principal stresses. Of four components: the two in the plane, the larger first, and zz; of six: the largest first.
+inline std::array<double, 3> principal_stresses(std::span<const double> s) {
+  if (s.size() == 4) {
+    const double middle = (s[0] + s[1]) / 2, radius = std::hypot((s[0] - s[1]) / 2, s[3]);
+    return {middle + radius, middle - radius, s[2]};
+  }
+  const Vec3 values = Eigen::SelfAdjointEigenSolver<Mat3>(symmetric_tensor(s), Eigen::EigenvaluesOnly).eigenvalues();
+  return {values[2], values[1], values[0]};
+}
+
+}  // namespace engrane
