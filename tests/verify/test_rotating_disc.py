@@ -71,7 +71,7 @@ def test_thin_disc_of_solids(corners: int, second: bool, most: float, tmp_path: 
     shift, thin = np.array([3.0, -2.0, 1.0]), 0.02
 
     def place(u):
-        x, y = ring(u[0], u[1])
+        x, y = ring(u)
         return np.array([x, y, thin * u[2]]) + shift
 
     block = Block((6, 6, 1), corners, second, place, curved=True)
