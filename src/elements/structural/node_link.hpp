@@ -30,13 +30,15 @@ struct NodeLink {
   Vec3 place;       ///< d_i: of the node in the reference configuration, from the master
   Weights weights;  ///< A_i: a row for each constraint
   bool shares = false;
+  bool in_plane = false;  ///< the node does not move along z, which is no unknown of it
 
   /// The residual is −Aᵀλ at the node, and its reaction on the master. A penalty acts on constraints that are whole: of a share
   /// it would be a stiffness between nodes that may move.
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     const auto& master = motion.node[0];
-    const Vec3T<T> arm = rotate_back(master.R, Vec3T<T>(motion.node[1].x - master.x));
+    Vec3T<T> arm = rotate_back(master.R, Vec3T<T>(motion.node[1].x - master.x));
+    if (in_plane) arm[2] = T(place[2]);
     Vec3T<T> f(T(0), T(0), T(0));
     for (Eigen::Index row = 0; row < weights.rows(); ++row) {
       T phi(0);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "elements/structural/deck_model.hpp"
+#include "math/rotation.hpp"
 
 namespace engrane::elements::structural {
 namespace {
@@ -37,6 +38,12 @@ TEST(RigidLink, SuiteInThePlane) {
   s.build = [](const Mat3&) { return std::move(DeckModel(plate).model.parts.back().element); };
   s.own_axes = true;
   s.skip[Check::rotated_copy] = "the deck is given";
+  s.adjust = [](StateBuffer& state, Random& random) {  // N stays in the plane, too
+    NodeState& master = state.nodes[0];
+    master.W = uniform(random) * Vec3::UnitZ();
+    master.A = uniform(random) * Vec3::UnitZ();
+    state.turn(0, rotation_exp(Vec3(2 * uniform(random) * Vec3::UnitZ())), 0.4 * uniform(random) * Vec3::UnitZ());
+  };
   run_suite(s);
 }
 
