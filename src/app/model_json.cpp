@@ -14,10 +14,15 @@ namespace engrane::app {
 std::string model_json(const Model& model) {
   std::string json = fmt::format("{{\"title\": {},\n \"elements\": [", json_string(model.title));
   bool first = true;
+  const Model::Part* before = nullptr;
   for (const Model::Part& part : model.parts) {
     const auto nodes = part.element->node_ids();
-    json += fmt::format("{}\n  {{\"id\": {}, \"type\": {}, \"nodes\": [{}], \"parameters\": {}, \"drawing\": [", first ? "" : ",",
-                        part.element->id(), json_string(part.type), fmt::join(nodes, ", "), parameters_json(part));
+    // what a card says of many parts, such as the weights of a link, is said with the first
+    const bool goes_on = before && before->record == part.record && before->element->id() == part.element->id();
+    before = &part;
+    json +=
+        fmt::format("{}\n  {{\"id\": {}, \"type\": {}, \"nodes\": [{}], \"parameters\": {}, \"drawing\": [", first ? "" : ",",
+                    part.element->id(), json_string(part.type), fmt::join(nodes, ", "), goes_on ? "{}" : parameters_json(part));
     first = false;
     const Drawing shapes = part.element->drawing();
     for (std::size_t i = 0; i < shapes.size(); ++i) json += fmt::format("{}{{{}}}", i ? ", " : "", shapes[i]);

@@ -21,11 +21,12 @@ bool is_in_deck(const deck::Deck& deck, int id) {
   return false;
 }
 
-/// Index of the element with this id, or -1. Nodal loads stand among the parts without a number of their own.
+/// Index of the element with this id, of several parts the first. Nodal loads stand among the parts without a number of their
+/// own.
 std::map<int, int> parts_by_id(const Model& model) {
   std::map<int, int> parts;
   for (std::size_t p = 0; p < model.parts.size(); ++p)
-    if (model.parts[p].type != "CHA") parts[model.parts[p].element->id()] = static_cast<int>(p);
+    if (model.parts[p].type != "CHA") parts.try_emplace(model.parts[p].element->id(), static_cast<int>(p));
   return parts;
 }
 

@@ -42,7 +42,7 @@ BuiltSummary summarize(const Model& model, const Numbering& numbering) {
     auto& count = counts[model.parts[p].type];
     ++count.count;
     count.scalars += layout.scalars.size();
-    const int first = numbering.multiplier_begin(static_cast<int>(p)), own = static_cast<int>(layout.multipliers.size());
+    const int first = numbering.multiplier_begin(static_cast<int>(p)), own = static_cast<int>(layout.own_multipliers());
     for (int m = first; m < first + own; ++m) {
       if (plane.leaves_out_multiplier(m)) continue;
       ++count.constraints;

@@ -2,6 +2,7 @@
 #include "assembly/assembler.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "model/grip.hpp"
@@ -242,7 +243,8 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
         if (slot < motion && numbering_.equation(slots[j]) >= 0 && b > 1e-6 * steepest)
           size = std::max(size, std::abs(diagonal[slot]) / b);
       }
-      k[static_cast<std::size_t>(slots[i]) - motion] = size;
+      double& largest = k[static_cast<std::size_t>(slots[i]) - motion];
+      largest = std::max(largest, size);
     }
   });
   MPI_Allreduce(MPI_IN_PLACE, k.data(), static_cast<int>(k.size()), MPI_DOUBLE, MPI_MAX, comm_);
@@ -267,10 +269,13 @@ void Assembler::residual(const Configuration& configuration, Vec r) {
       double& size = carried_[static_cast<std::size_t>(slots[i])];
       size = std::max(size, std::abs(local[i]));
     }
+    const bool shares = element(part).layout().shares_multipliers;
     for (; i < slots.size(); ++i) {
       const int row = numbering_.equation(slots[i]);
       if (row < 0) continue;
       const auto m = static_cast<std::size_t>(slots[i] - motion);
+      // what stands for the whole constraint is written once
+      if (shares && (released_[m] || stated.has(m))) continue;
       const double open = stated.has(m) ? -stated.value[m] : local[i];
       const double value = released_[m] ? released_values_[m] - configuration.multipliers[m] : open * scale_[m];
       sum.add(row, value);
@@ -371,11 +376,22 @@ void Assembler::constraint_rates(const Configuration& configuration, std::span<c
   phi.assign(scale_.size(), 0);
   rate = second = phi;
   // every rank does all, which saves a reduction
+  std::array<std::vector<double>, 3> share;
   for (const int part : parts) {
     const std::size_t count = element(part).layout().multipliers.size();
     const auto begin = static_cast<std::size_t>(numbering_.multiplier_begin(part));
-    element(part).constraint_rates(view(part, configuration), std::span(phi).subspan(begin, count),
-                                   std::span(rate).subspan(begin, count), std::span(second).subspan(begin, count));
+    if (!element(part).layout().shares_multipliers) {
+      element(part).constraint_rates(view(part, configuration), std::span(phi).subspan(begin, count),
+                                     std::span(rate).subspan(begin, count), std::span(second).subspan(begin, count));
+      continue;
+    }
+    for (std::vector<double>& values : share) values.assign(count, 0);
+    element(part).constraint_rates(view(part, configuration), share[0], share[1], share[2]);
+    for (std::size_t m = 0; m < count; ++m) {
+      phi[begin + m] += share[0][m];
+      rate[begin + m] += share[1][m];
+      second[begin + m] += share[2][m];
+    }
   }
   for (std::size_t m = 0; idle_count_ > 0 && m < idle_.size(); ++m)
     if (idle_[m]) phi[m] = rate[m] = second[m] = 0;

@@ -31,7 +31,7 @@ Numbering::Numbering(const Model& model) : model_(model), rotates_(model.nodes.s
       if (layout.needs_any(i, NodeNeed::rotation)) rotates_[node] = true;
     }
     scalars_ += static_cast<int>(layout.scalars.size());
-    multipliers_ += static_cast<int>(layout.multipliers.size());
+    multipliers_ += static_cast<int>(layout.own_multipliers());
   }
   for (const Support& s : model.supports) used[static_cast<std::size_t>(6 * s.node + s.component)] = false;
 
@@ -53,7 +53,9 @@ Numbering::Numbering(const Model& model) : model_(model), rotates_(model.nodes.s
   int scalar = 0, multiplier = 0;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Layout& layout = model.parts[p].element->layout();
-    parts_.push_back({part_slots_.size(), scalar, multiplier, history_});
+    // those that are shared are of the last element that brought its own
+    const int shared = static_cast<int>(layout.multipliers.size() - layout.own_multipliers());
+    parts_.push_back({part_slots_.size(), scalar, multiplier - shared, history_});
     for (std::size_t i = 0; i < layout.needs.size(); ++i)
       for (int c = 0; c < 6; ++c)
         if (layout.has(i, c)) part_slots_.push_back(6 * model.parts[p].nodes[i] + c);
@@ -63,7 +65,8 @@ Numbering::Numbering(const Model& model) : model_(model), rotates_(model.nodes.s
       add({slot, static_cast<int>(p), -1, static_cast<int>(i), false, layout.scalars[i].first_order,
            measure_of(layout.scalars[i], false)});
     }
-    for (std::size_t i = 0; i < layout.multipliers.size(); ++i) {
+    for (int m = multiplier - shared; m < multiplier; ++m) part_slots_.push_back(motion_slots_ + m);
+    for (std::size_t i = 0; i < layout.own_multipliers(); ++i) {
       const int slot = motion_slots_ + multiplier;
       part_slots_.push_back(slot);
       const Unknown unknown{

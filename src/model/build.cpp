@@ -424,6 +424,7 @@ class Builder {
     context.number = number;
     std::vector<std::unique_ptr<Element>> more;
     context.more = &more;
+    context.nodes_of = [this, &record](const deck::NodeTarget& target) { return groups_.resolve(record, target); };
     auto built = element.type->build(context);
     if (BuildContext::Found* one = element.type->stage == 0 && others_are_asked_for_ ? find_in_mechanism(record.id) : nullptr) {
       one->element = built.get();

@@ -108,7 +108,10 @@ struct Layout {
   std::vector<NodeNeed> needs;          ///< one per node
   std::vector<Scalar> scalars;          ///< own unknowns with rates, such as ψ_A, ψ_B, u_m
   std::vector<Multiplier> multipliers;  ///< one per holonomic constraint, in the order of the residual's constraint rows
-  int history = 0;                      ///< committed numbers kept from step to step (turn counts, contact states)
+  /// The multipliers are those of the nearest element before it that has its own: their constraints are sums over such elements,
+  /// each of which writes its share. A constraint on many nodes so costs in proportion to their number.
+  bool shares_multipliers = false;
+  int history = 0;  ///< committed numbers kept from step to step (turn counts, contact states)
   /// Dry frictions that can rest. The last multipliers are theirs, with Role::grip, one for each coordinate along which the
   /// surfaces slide: Φ is the coordinate less the place where they rest, and the force on it is the friction at rest. The last
   /// numbers of the history are their GripStates (model/grip.hpp).
@@ -137,6 +140,8 @@ struct Layout {
     for (std::size_t i = 0; i < needs.size(); ++i) count += width(i);
     return count;
   }
+  /// How many multipliers it brings into the system.
+  std::size_t own_multipliers() const { return shares_multipliers ? 0 : multipliers.size(); }
   int slots() const { return node_slots() + static_cast<int>(scalars.size() + multipliers.size()); }
   /// The first multiplier of a grip, or where those of all other constraints end.
   int grip_row(std::size_t grip = 0) const {

@@ -171,8 +171,12 @@ class Examination {
 
   void look_at(const Model::Part& part) {
     const Layout& layout = part.element->layout();
-    const std::size_t count = layout.multipliers.size(), begin = plane_.out_of_plane.size();
-    plane_.out_of_plane.resize(begin + count, false);
+    const std::size_t count = layout.multipliers.size();
+    if (!layout.shares_multipliers) {
+      plane_.out_of_plane.resize(plane_.out_of_plane.size() + count, false);
+      gradients_.assign(count, {});
+    }
+    const std::size_t begin = plane_.out_of_plane.size() - count;
     prepare(part);
     if (count > 0 && !look_at_constraints(part, begin)) return;
     look_at_forces(part, begin);
@@ -183,7 +187,7 @@ class Examination {
   bool look_at_constraints(const Model::Part& part, std::size_t begin) {
     const Layout& layout = part.element->layout();
     const std::size_t n = components_.size(), count = layout.multipliers.size(), first = n - count;
-    std::vector<Parts> gradients(count), open(count);
+    std::vector<Parts> open(count);
     std::vector<double> k(n * n), phi(count), rate(count), second(count);
     const double extent = model_.extent(), span = model_.commands.stepping.end - model_.commands.stepping.start;
     for (const Probe& probe : probes_) {
@@ -194,11 +198,11 @@ class Examination {
           const int c = components_[j];
           const double value = k[(first + m) * n + j];
           if (c >= 0) {
-            gradients[m].add(leaves(c), c < 3 ? value * extent : value);
+            gradients_[m].add(leaves(c), c < 3 ? value * extent : value);
             if (&probe == probes_.data() && leaves(c) && value != 0)
               gradient_.emplace_back(6 * nodes_[j] + c, static_cast<int>(begin + m), c < 3 ? value * extent : value);
           } else if (j >= static_cast<std::size_t>(layout.node_slots()))
-            gradients[m].add(
+            gradients_[m].add(
                 false,
                 value * (layout.scalars[j - static_cast<std::size_t>(layout.node_slots())].dimension.length == 0 ? 1 : extent));
         }
@@ -209,7 +213,7 @@ class Examination {
     }
     for (std::size_t m = 0; m < count; ++m) {
       const Multiplier& multiplier = layout.multipliers[m];
-      const bool out = gradients[m].out > 0 && !gradients[m].acts_in();
+      const bool out = gradients_[m].out > 0 && !gradients_[m].acts_in();
       plane_.out_of_plane[begin + m] = out;
       if (!out || multiplier.role == Role::grip || !open[m].acts_out()) continue;
       fault(part.location,
@@ -345,7 +349,8 @@ class Examination {
   std::vector<PlaneFault> faults_;
   std::vector<PlaneFault> pushed_, rubbed_;  ///< faults unless joints carry, and if they must
   std::vector<Eigen::Triplet<double>>
-      gradient_;  ///< of the constraints, by slot and multiplier: entries that lead out of the plane
+      gradient_;                  ///< of the constraints, by slot and multiplier: entries that lead out of the plane
+  std::vector<Parts> gradients_;  ///< of the multipliers brought last, over all elements that share them
   // of the element that is looked at
   std::vector<double> scalars_, rates_, accelerations_, multipliers_, history_, r_;
   std::vector<int> components_, nodes_;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "deck/cards/cards.hpp"
 #include "deck/schema/schema.hpp"
 #include "model/block.hpp"
 #include "model/element.hpp"
@@ -60,8 +61,12 @@ struct BuildContext {
   int number = 0;
   std::set<const Function*>* of_time = nullptr;  ///< functions of time that elements use; nullptr: nobody asks
   const Temperatures* temperatures = nullptr;    ///< of nodes (`.CLM TEMP`); nullptr: there are none
-  /// What a record without a number of its own makes beyond the element that it gives back, numbered on from `number`.
+  /// What a record makes beyond the element that it gives back: of one without a number numbered on from `number`, else the parts
+  /// of the one element, which have its number.
   std::vector<std::unique_ptr<Element>>* more = nullptr;
+  /// Node ids of a target of this record, ascending, each once; what does not exist is reported. No function: there are no
+  /// groups.
+  std::function<std::vector<int>(const deck::NodeTarget&)> nodes_of = nullptr;
 
   /// The function a keyword names, or nullptr with an error when it does not exist.
   const Function* function(int id, std::string_view keyword) const;

@@ -128,11 +128,14 @@ class Sweep {
   Sweep() = default;
   explicit Sweep(Layout layout) : layout_(std::move(layout)) {
     for (std::size_t i = 0; i < layout_.nodes.size(); ++i) {
-      translation_[i] = layout_.node_slot(i, NodeNeed::translation);
+      const bool in_plane = layout_.needs[i] == NodeNeed::in_plane;
+      directions_[i] = in_plane ? 2 : 3;
+      translation_[i] = layout_.node_slot(i, in_plane ? NodeNeed::in_plane : NodeNeed::translation);
       rotation_[i] = layout_.node_slot(i, NodeNeed::rotation);
-      for (const int first : {translation_[i], rotation_[i]})
-        for (int c = 0; c < 3 && first >= 0 && layout_.nodes[i] != 0; ++c)
-          lane_slots_.push_back(static_cast<std::size_t>(first + c));
+      if (layout_.nodes[i] == 0) continue;
+      for (int c = 0; c < directions_[i] && translation_[i] >= 0; ++c)
+        lane_slots_.push_back(static_cast<std::size_t>(translation_[i] + c));
+      for (int c = 0; c < 3 && rotation_[i] >= 0; ++c) lane_slots_.push_back(static_cast<std::size_t>(rotation_[i] + c));
     }
     first_scalar_ = static_cast<std::size_t>(layout_.node_slots());
     first_multiplier_ = first_scalar_ + layout_.scalars.size();
@@ -165,7 +168,8 @@ class Sweep {
     std::size_t lane = 0;
     for (std::size_t i = 0; i < layout_.nodes.size(); ++i) {
       if (layout_.nodes[i] == 0) continue;
-      if (translation_[i] >= 0) seed_translation(m.node[i], w, std::exchange(lane, lane + 3));
+      const auto directions = static_cast<std::size_t>(directions_[i]);
+      if (translation_[i] >= 0) seed_translation(m.node[i], w, std::exchange(lane, lane + directions), directions_[i]);
       if (rotation_[i] >= 0) seed_rotation(m.node[i], state.nodes[i], w, std::exchange(lane, lane + 3));
     }
     for (std::size_t i = 0; i < layout_.scalars.size(); ++i, ++lane) {
@@ -214,8 +218,8 @@ class Sweep {
 
   /// Lanes `lane` to `lane` + 2 move the node along the global axes, or turn it about its own.
   template <class Node>
-  static void seed_translation(Node& node, Weights w, std::size_t lane) {
-    for (int c = 0; c < 3; ++c, ++lane) {
+  static void seed_translation(Node& node, Weights w, std::size_t lane, int directions = 3) {
+    for (int c = 0; c < directions; ++c, ++lane) {
       node.x[c].d[lane] = w.q;
       node.v[c].d[lane] = w.v;
       node.a[c].d[lane] = w.a;
@@ -237,7 +241,8 @@ class Sweep {
   void each_row(const Balance<T, Nodes>& balance, Write&& write) const {
     for (std::size_t i = 0; i < layout_.nodes.size(); ++i)
       for (int c = 0; c < 3; ++c) {
-        if (translation_[i] >= 0) write(static_cast<std::size_t>(translation_[i] + c), balance.force_at(static_cast<int>(i))[c]);
+        if (translation_[i] >= 0 && c < directions_[i])
+          write(static_cast<std::size_t>(translation_[i] + c), balance.force_at(static_cast<int>(i))[c]);
         if (rotation_[i] >= 0) write(static_cast<std::size_t>(rotation_[i] + c), balance.moment_at(static_cast<int>(i))[c]);
       }
     for (std::size_t i = 0; i < layout_.scalars.size(); ++i) write(first_scalar_ + i, balance.scalar_at(static_cast<int>(i)));
@@ -257,7 +262,7 @@ class Sweep {
   }
 
   Layout layout_;
-  std::array<int, static_cast<std::size_t>(Nodes)> translation_{}, rotation_{};
+  std::array<int, static_cast<std::size_t>(Nodes)> translation_{}, rotation_{}, directions_{};
   std::size_t first_scalar_ = 0, first_multiplier_ = 0, slots_ = 0;
   std::vector<std::size_t> lane_slots_;  ///< slot of every lane
 };

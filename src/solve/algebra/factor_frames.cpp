@@ -52,6 +52,7 @@ FactorFrames::FactorFrames(const Assembler& assembler) {
   for (int node = 0; node < static_cast<int>(assembler.model().nodes.size()); ++node) add(node, from(6 * node + 3));
   for (int p = 0; p < numbering.parts(); ++p) {
     const Model::Part& part = assembler.model().parts[static_cast<std::size_t>(p)];
+    if (part.element->layout().shares_multipliers) continue;
     const auto& multipliers = part.element->layout().multipliers;
     const int slot = numbering.motion_slots() + numbering.multiplier_begin(p);
     for (std::size_t m = 0; m < multipliers.size(); m += is_vector(multipliers, m) ? 3 : 1)

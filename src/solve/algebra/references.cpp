@@ -62,7 +62,7 @@ void References::find_sources() {
   lengths_.assign(sources_.size(), 1.0);
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Layout& layout = model.parts[p].element->layout();
-    if (layout.multipliers.empty() && layout.scalars.empty()) continue;
+    if (layout.own_multipliers() == 0 && layout.scalars.empty()) continue;
     for (const Multiplier& m : layout.multipliers) turns_.push_back(m.dimension.length == 0);
     owners_.push_back({p, turns_.size()});
   }

@@ -28,6 +28,8 @@ OutOfPlane::OutOfPlane(Assembler& assembler) : assembler_(assembler) {
     multipliers_.push_back(static_cast<int>(m));
     holds_[static_cast<std::size_t>(assembler.numbering().multiplier(static_cast<int>(m)).part)] = true;
   }
+  for (std::size_t p = 1; p < holds_.size(); ++p)
+    if (model.parts[p].element->layout().shares_multipliers) holds_[p] = holds_[p - 1];
 }
 
 void OutOfPlane::find(Configuration& c) {

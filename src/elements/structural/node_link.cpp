@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/structural/node_link.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "elements/structural/cell.hpp"
+#include "elements/structural/cell_topology.hpp"
+
+namespace engrane::elements::structural {
+
+namespace {
+
+/// Nodes of plane cells, which do not move along z.
+struct PlaneNodes {
+  std::unordered_set<int> ids;
+
+  explicit PlaneNodes(const BuildContext& context) {
+    if (!context.records) return;
+    std::unordered_set<int> of_solids;
+    for (const deck::Record& record : *context.records)
+      if (const auto* data = record.get<CellData>())
+        if (const auto cell = connectivity(data->nodes))
+          (is_solid(cell->shape) ? of_solids : ids).insert(cell->nodes.begin(), cell->nodes.end());
+    for (const int id : of_solids) ids.erase(id);
+  }
+};
+
+}  // namespace
+
+std::optional<LinkedGroup> linked_group(const LinkData& data, BuildContext& context) {
+  if (data.nodes.empty() && data.groups.empty()) {
+    context.error("N", fmt::format("node {} is linked to nothing", data.master), "name a GROUP of nodes, or MEMBERS");
+    return {};
+  }
+  LinkedGroup group;
+  if (context.nodes_of)
+    group.nodes = context.nodes_of(data);
+  else
+    group.nodes = data.nodes;
+  if (group.nodes.empty()) return {};  // as the group itself was told
+  if (std::find(group.nodes.begin(), group.nodes.end(), data.master) != group.nodes.end()) {
+    context.error("N", fmt::format("node {} belongs to the group that is linked to it", data.master),
+                  "link the group to a node of its own, which may be in the same place");
+    return {};
+  }
+  const Vec3 master = context.nodes.at(data.master);
+  for (const int id : group.nodes) group.places.push_back(context.nodes.at(id) - master);
+  BuildNotes alone;
+  const auto& plane = (context.notes ? *context.notes : alone).get<PlaneNodes>([&] { return PlaneNodes(context); });
+  const auto other = std::find_if(group.nodes.begin(), group.nodes.end(), [&](int id) { return !plane.ids.contains(id); });
+  group.in_plane = other == group.nodes.end();
+  const auto flat = std::find_if(group.nodes.begin(), group.nodes.end(), [&](int id) { return plane.ids.contains(id); });
+  if (!group.in_plane && flat != group.nodes.end()) {
+    context.error("N", fmt::format("node {} of the group is one of plane cells, node {} is not", *flat, *other),
+                  "link them by two links");
+    return {};
+  }
+  return group;
+}
+
+Layout link_layout(bool in_plane, std::vector<Multiplier> multipliers) {
+  Layout layout;
+  layout.nodes = {-1, -1};
+  layout.needs = {NodeNeed::both, in_plane ? NodeNeed::in_plane : NodeNeed::translation};
+  layout.multipliers = std::move(multipliers);
+  return layout;
+}
+
+}  // namespace engrane::elements::structural
