@@ -41,6 +41,7 @@ MPI_Comm comm_of(Mat matrix) {
 void Mumps::become(Form form) {
   PackageFactors::forget();
   form_ = form;
+  room_ = form == Form::definite ? some_room : usual_room;
 }
 
 void Mumps::forget() { become(Form::unknown); }
@@ -48,12 +49,11 @@ void Mumps::forget() { become(Form::unknown); }
 bool Mumps::analyse() {
   if (factors_) return !failed();
   if (form_ == Form::unknown)
-    form_ = !symmetry_.symmetric() ? Form::general : symmetry_.positive_diagonal() ? Form::definite : Form::symmetric;
+    become(!symmetry_.symmetric() ? Form::general : symmetry_.positive_diagonal() ? Form::definite : Form::symmetric);
   if (form_ != Form::definite) note_analysed();  // without pivots to choose the pattern alone decides
   const bool symmetric = form_ != Form::general;
   if (symmetric) check_petsc(MatSetOption(matrix_, MAT_SPD, form_ == Form::definite ? PETSC_TRUE : PETSC_FALSE));
   check_petsc(MatGetFactor(matrix_, MATSOLVERMUMPS, symmetric ? MAT_FACTOR_CHOLESKY : MAT_FACTOR_LU, factors_.out()));
-  room_ = form_ == Form::definite ? some_room : usual_room;
   check_petsc(MatMumpsSetIcntl(factors_, 14, room_));
   MatFactorInfo info;
   check_petsc(MatFactorInfoInitialize(&info));
@@ -67,23 +67,20 @@ bool Mumps::analyse() {
 bool Mumps::factor_as_analysed() {
   MatFactorInfo info;
   check_petsc(MatFactorInfoInitialize(&info));
-  do {
-    check_petsc(MatFactorClearError(factors_));
-    check_petsc(form_ == Form::general ? MatLUFactorNumeric(factors_, matrix_, &info)
-                                       : MatCholeskyFactorNumeric(factors_, matrix_, &info));
-    if (!failed()) return true;
-  } while (enlarge());
-  return false;
+  check_petsc(form_ == Form::general ? MatLUFactorNumeric(factors_, matrix_, &info)
+                                     : MatCholeskyFactorNumeric(factors_, matrix_, &info));
+  return !failed();
 }
 
 bool Mumps::factor() {
   if (factors_ && form_ != Form::general && !symmetry_.symmetric()) become(Form::general);
-  if (analyse() && factor_as_analysed()) return true;
-  if (form_ == Form::definite) {  // a pivot on the diagonal may be zero where others are not
-    become(Form::symmetric);
-    return factor();
+  while (true) {
+    if (analyse() && factor_as_analysed()) return true;
+    if (enlarge()) continue;
+    if (form_ != Form::definite) break;
+    become(Form::symmetric);  // a pivot on the diagonal may be zero where others are not
   }
-  forget();  // MUMPS does not factor again after a failure
+  forget();
   return false;
 }
 
@@ -96,8 +93,8 @@ bool Mumps::enlarge() {
   const auto info = static_cast<int>(infog(factors_, 1));
   const bool short_of_room = info == -9 || info == -8 || info == -14 || info == -15;
   if (!short_of_room || room_ > most_room) return false;
+  PackageFactors::forget();  // after a failure PETSc's interface factors no more, and does not say so
   room_ *= 4;
-  check_petsc(MatMumpsSetIcntl(factors_, 14, room_));
   return true;
 }
 
@@ -108,7 +105,7 @@ void Mumps::save(Snapshot& snapshot) const {
 
 void Mumps::load(const Snapshot& snapshot) {
   forget();
-  if (snapshot.has("solver/MUMPS form")) form_ = static_cast<Form>(static_cast<int>(snapshot.number("solver/MUMPS form")));
+  if (snapshot.has("solver/MUMPS form")) become(static_cast<Form>(static_cast<int>(snapshot.number("solver/MUMPS form"))));
   PackageFactors::load(snapshot);
 }
 

@@ -32,14 +32,14 @@ class Mumps final : public PackageFactors {
   bool factor_as_analysed();
   /// Goes on with another form; the analysis belongs to the one before.
   void become(Form form);
-  /// Whether the last factorisation lacked nothing but room: it has more now.
+  /// Whether the last factorisation lacked nothing but room: the next one, with an analysis of its own, has more.
   bool enlarge();
   ForeseenFactors foreseen() const;
   void refuse_without_memory() const;
 
   SymmetryTest symmetry_;
   Form form_ = Form::unknown;
-  int room_ = 0;  ///< MUMPS' ICNTL(14): per cent over the estimate
+  int room_ = 50;  ///< MUMPS' ICNTL(14): per cent over the estimate
 };
 
 }  // namespace engrane::solve
