@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Links of groups with more than a thousand nodes: the rim of a disc in torsion, against its closed form."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from engrane_post import Results
+from plane_meshes import Sheet
+from runs import run
+
+INNER, OUTER, YOUNG, POISSON, TORQUE = 9.0, 10.0, 2e5, 0.3, 100.0
+
+
+def ring(u: np.ndarray) -> np.ndarray:
+    radius, angle = INNER + (OUTER - INNER) * u[0], 2 * np.pi * u[1]
+    # both ends of the sheet are one line of nodes
+    return np.round(radius * np.array([np.cos(angle), np.sin(angle)]), 12)
+
+
+class Ring(Sheet):
+    """The sheet bent until its ends meet; their nodes become one."""
+
+    def __init__(self, around: int):
+        super().__init__((1, around), 8, ring, curved=True)
+        seam = {tuple(self.points[i]): i for i in self.nodes(lambda u: u[1] == 0)}
+        same = {i: seam[tuple(self.points[i])] for i in self.nodes(lambda u: u[1] == 1)}
+        self.cells = [[same.get(i, i) for i in cell] for cell in self.cells]
+        self.kept = [i for i in range(len(self.points)) if i not in same]
+
+
+@pytest.mark.parametrize("link", ["RIGID_LINK", "MEAN_LINK"])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_rim_of_many_nodes(link: str, ranks: int, tmp_path: Path) -> None:
+    """MUMPS needs more room than it foresees for the rigid link, and gets it."""
+    mesh = Ring(800)
+    rows = mesh.text("MEMB BIDIM", f"YT {YOUNG} NT {POISSON}").split("\n")
+    lost = {i + 1 for i in set(range(len(mesh.points))) - set(mesh.kept)}
+    end = rows.index(".MAI")
+    rows = [row for row in rows[:end] if row == ".NOE" or int(row.split()[1]) not in lost] + rows[end:]
+    names = {name: [i for i in mesh.kept if mesh.unit[i][0] == u] for name, u in (("hub", 0.0), ("rim", 1.0))}
+    assert len(names["rim"]) == 1600
+    rows.insert(1, " I 90001 X 0 Y 0")
+    deck = [
+        *rows,
+        '.PHP GROUP "all" THICK VAL 1.',
+        ".SEL",
+        *(mesh.group(k, name, nodes) for k, (name, nodes) in enumerate(names.items(), 2)),
+        f'.MCE\n I 90001 {link} N 90001 GROUP "rim"',
+        '.CLM\n GROUP "hub" FIX C 1 2\n NOEUD 90001 FIX C 3 4 5',
+        f" NOEUD 90001 CHA C 6 V {TORQUE}",
+        ".SAM TYPE STATIC DISPLACEMENTS LARGE SOLVER MUMPS",
+        ".SUB TF 1 H 1",
+        ".SAI NOEUD 90001",
+        ".FIN 1",
+    ]
+    results = Results(run("\n".join(deck), tmp_path, ranks=ranks).file)
+    shear = YOUNG / 2 / (1 + POISSON)
+    expected = TORQUE / (4 * np.pi * shear) * (1 / INNER**2 - 1 / OUTER**2)
+    found = results.history("node/90001/RZ")[-1][-1]
+    # equal weights are not those of a uniform shear on edges of three nodes
+    assert found == pytest.approx(expected, rel=1e-9 if link == "RIGID_LINK" else 5e-5)
