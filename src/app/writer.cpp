@@ -102,9 +102,10 @@ void Writer::resumed(const Resumption& from) {
 }
 
 void Writer::remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
-  // linear statics in one step, which no card asks for, cannot go on; a restart point would hold its matrix
-  if (has_cells(reading_.model) && !deck::says_analysis(reading_.deck.records)) return;
   if (!kept && !last && !results_.due()) return;
+  // linear statics in one step, which no card asks for, is over once it is solved; a restart point would hold its matrix
+  const bool one_step = has_cells(reading_.model) && !deck::says_analysis(reading_.deck.records);
+  if (one_step && (!last || c.time >= reading_.model.commands.stepping.end)) return;
   Snapshot memory;
   runner.save(memory);
   observer_.save(memory);

@@ -57,7 +57,7 @@ void PackageFactors::save(Snapshot& snapshot) const {
 void PackageFactors::load(const Snapshot& snapshot) {
   // another package or another number of ranks: there is nothing to take over
   if (!sequential_ || !snapshot.has("solver/" + package_)) return;
-  forget();
+  PackageFactors::forget();
   const std::vector<double>& values = snapshot.array("solver/" + package_);
   if (!values.empty() && set_values(matrix_, values)) factor();
 }
