@@ -62,3 +62,18 @@ def test_rim_of_many_nodes(link: str, ranks: int, tmp_path: Path) -> None:
     found = results.history("node/90001/RZ")[-1][-1]
     # equal weights are not those of a uniform shear on edges of three nodes
     assert found == pytest.approx(expected, rel=1e-9 if link == "RIGID_LINK" else 5e-5)
+
+
+def test_short_steps(tmp_path: Path) -> None:
+    """The constraints of a mean link are closed by the change of all its shares: force and angle converge with
+    the square of steps that are short beside every period."""
+    text = (Path(__file__).parents[2] / "decks" / "mechanisms" / "meshed_pendulum.dat").read_text("utf-8")
+    text = text[: text.index(".CHK")].replace("SCHEME RADAU", "RHO 0.8")
+    found = []
+    for step in ("2E-6", "1E-6", "5E-7"):
+        deck = text.replace("TF 0.3 H 0.01", f"TF 2E-5 H {step}")
+        assert deck != text
+        results = Results(run(deck + ".FIN 1\n", tmp_path).file)
+        found.append([results.history(f"element/{name}")[-1][-1] for name in ("103/FORCE_Y", "101/ANGLE")])
+    coarse, middle, fine = np.array(found)
+    assert (coarse - middle) / (middle - fine) == pytest.approx([4, 4], rel=0.05)

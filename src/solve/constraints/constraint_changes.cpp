@@ -41,7 +41,13 @@ void ConstraintChanges::begin(const Configuration& from, std::span<const double>
       continue;
     }
     const int part = multiplier_unknown(assembler_.numbering(), i).part;
-    if (parts_.empty() || parts_.back() != part) parts_.push_back(part);
+    if (!parts_.empty() && part <= parts_.back()) continue;
+    parts_.push_back(part);
+    // those whose shares make up its constraints
+    const auto& parts = assembler_.model().parts;
+    for (auto next = static_cast<std::size_t>(part) + 1; next < parts.size() && parts[next].element->layout().shares_multipliers;
+         ++next)
+      parts_.push_back(static_cast<int>(next));
   }
   if (!any()) return;
   assembler_.constraint_rates(from, parts_, phi_, rate_[0], second_[0]);
