@@ -65,8 +65,8 @@ def test_rim_of_many_nodes(link: str, ranks: int, tmp_path: Path) -> None:
 
 
 def test_short_steps(tmp_path: Path) -> None:
-    """The constraints of a mean link are closed by the change of all its shares: force and angle converge with
-    the square of steps that are short beside every period."""
+    """The constraints of a mean link are closed by the change of all its shares: force and angle converge
+    with the square of steps that are short beside every period."""
     text = (Path(__file__).parents[2] / "decks" / "mechanisms" / "meshed_pendulum.dat").read_text("utf-8")
     text = text[: text.index(".CHK")].replace("SCHEME RADAU", "RHO 0.8")
     found = []
