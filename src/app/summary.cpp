@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -79,6 +80,14 @@ BuiltSummary summarize(const Model& model, const Numbering& numbering) {
     ++summary.prescribed;
   }
   if (const std::string solved = describe_plane(model); !solved.empty()) summary.choices.emplace_back("solved in", solved);
+  if (const Partition& partition = numbering.partition(); partition.ranks() > 1) {
+    std::vector<int> shares(static_cast<std::size_t>(partition.ranks()), 0);
+    for (std::size_t p = 0; p < model.parts.size(); ++p) ++shares[static_cast<std::size_t>(partition.owner(static_cast<int>(p)))];
+    const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
+    summary.choices.emplace_back("elements of a process",
+                                 *least == *most ? std::to_string(*least) : fmt::format("{} to {}", *least, *most));
+    summary.choices.emplace_back("elements evaluated by several", std::to_string(numbering.shared_parts()));
+  }
   const auto motions = summary.translations + summary.rotations + summary.scalars - summary.prescribed;
   const auto constraints = summary.multipliers - held_by_friction;
   summary.choices.emplace_back("motions less constraints",

@@ -9,34 +9,15 @@
 
 namespace engrane {
 
-namespace {
-
-/// Contiguous shares of elements: neighbours in the deck are usually neighbours in the machine.
-int share_begin(const Model& model, MPI_Comm comm, int after) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  return static_cast<int>(static_cast<long>(model.parts.size()) * (rank + after) / size);
-}
-
-}  // namespace
-
 Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm comm)
-    : model_(model),
-      numbering_(numbering),
-      comm_(comm),
-      first_part_(share_begin(model, comm, 0)),
-      end_part_(share_begin(model, comm, 1)),
-      scatter_(numbering, first_part_, end_part_, comm),
-      first_row_(scatter_.first_row()),
-      end_row_(scatter_.end_row()) {
+    : model_(model), numbering_(numbering), comm_(comm), scatter_(numbering, comm) {
   MPI_Comm_rank(comm, &rank_);
   MPI_Comm_size(comm, &size_);
   find_batches();
 
   const auto multipliers = static_cast<std::size_t>(numbering.slots() - numbering.motion_slots());
   scale_.assign(multipliers, 1.0);
-  carried_.assign(static_cast<std::size_t>(numbering.motion_slots()), 0.0);
+  carried_.assign(static_cast<std::size_t>(numbering.equations()), 0.0);
   released_.assign(multipliers, false);
   released_values_.assign(multipliers, 0.0);
   idle_.assign(multipliers, false);
@@ -62,11 +43,12 @@ Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm co
 void Assembler::find_batches() {
   constexpr std::size_t most = 64, most_numbers = 4096;  // what stays in the cache
   std::size_t widest_r = 0, widest_k = 0, longest = 0;
-  for (int p = first_part_; p < end_part_; ++p) {
+  for (std::size_t i = 0; i < numbering_.evaluated().size(); ++i) {
+    const int p = evaluated(i);
     const std::size_t n = numbering_.part_slots(p).size();
     const bool room =
         !batches_.empty() && batches_.back().range.count() < most && (batches_.back().range.count() + 1) * n * n <= most_numbers;
-    if (!room || !batches_.back().range.extend(element(p))) batches_.push_back({p, ElementRange(element(p)), n});
+    if (!room || !batches_.back().range.extend(element(p))) batches_.push_back({i, ElementRange(element(p)), n});
     const std::size_t count = batches_.back().range.count();
     longest = std::max(longest, count);
     widest_r = std::max(widest_r, count * n);
@@ -78,7 +60,7 @@ void Assembler::find_batches() {
 }
 
 std::span<const State> Assembler::views(const Batch& batch, const Configuration& configuration) {
-  for (std::size_t i = 0; i < batch.range.count(); ++i) states_[i] = view(batch.first + static_cast<int>(i), configuration);
+  for (std::size_t i = 0; i < batch.range.count(); ++i) states_[i] = view(evaluated(batch.first + i), configuration);
   return std::span(states_).first(batch.range.count());
 }
 
@@ -87,7 +69,7 @@ void Assembler::for_each_residual(const Configuration& configuration, Use&& use)
   for (const Batch& batch : batches_) {
     batch.range.residual(views(batch, configuration), std::span(local_r_).first(batch.range.count() * batch.slots));
     for (std::size_t i = 0; i < batch.range.count(); ++i)
-      use(batch.first + static_cast<int>(i), std::span<const double>(local_r_).subspan(i * batch.slots, batch.slots));
+      use(evaluated(batch.first + i), std::span<const double>(local_r_).subspan(i * batch.slots, batch.slots));
   }
 }
 
@@ -97,7 +79,7 @@ void Assembler::for_each_tangent(const Configuration& configuration, Weights wei
     const std::size_t n = batch.slots, count = batch.range.count();
     batch.range.tangent(views(batch, configuration), weights, std::span(local_r_).first(count * n),
                         std::span(local_k_).first(count * n * n));
-    for (std::size_t i = 0; i < count; ++i) use(batch.first + static_cast<int>(i), std::span(local_k_).subspan(i * n * n, n * n));
+    for (std::size_t i = 0; i < count; ++i) use(batch.first + i, std::span(local_k_).subspan(i * n * n, n * n));
   }
 }
 
@@ -136,6 +118,7 @@ void Assembler::commit(Configuration& configuration) { write_history(configurati
 
 void Assembler::write_history(Configuration& configuration,
                               void (Element::*write)(const State&, std::span<double>, std::span<double>) const) {
+  if (configuration.history.empty()) return;
   std::vector<double> history = configuration.history;
   for (int p = 0; p < numbering_.parts(); ++p) {
     const Layout& layout = element(p).layout();
@@ -221,15 +204,17 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
   }
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
   std::vector<double> diagonal(motion, 0.0);
-  for_each_tangent(configuration, weights, [&](int part, std::span<const double> local) {
-    const auto slots = numbering_.part_slots(part);
+  for_each_tangent(configuration, weights, [&](std::size_t at, std::span<const double> local) {
+    if (is_ghost(at)) return;
+    const auto slots = numbering_.part_slots(evaluated(at));
     for (std::size_t i = 0; i < slots.size(); ++i)
       if (const auto slot = static_cast<std::size_t>(slots[i]); slot < motion) diagonal[slot] += local[i * slots.size() + i];
   });
   MPI_Allreduce(MPI_IN_PLACE, diagonal.data(), static_cast<int>(motion), MPI_DOUBLE, MPI_SUM, comm_);
 
   std::vector<double> k(scale_.size(), 0.0);
-  for_each_tangent(configuration, weights, [&](int part, std::span<const double> local) {
+  for_each_tangent(configuration, weights, [&](std::size_t at, std::span<const double> local) {
+    const int part = evaluated(at);
     const auto slots = numbering_.part_slots(part);
     const std::size_t n = slots.size();
     for (std::size_t i = n - element(part).layout().multipliers.size(); i < n; ++i) {
@@ -266,7 +251,7 @@ void Assembler::residual(const Configuration& configuration, Vec r) {
       const int row = numbering_.equation(slots[i]);
       if (row < 0) continue;
       sum.add(row, local[i]);
-      double& size = carried_[static_cast<std::size_t>(slots[i])];
+      double& size = carried_[static_cast<std::size_t>(row)];
       size = std::max(size, std::abs(local[i]));
     }
     const bool shares = element(part).layout().shares_multipliers;
@@ -281,7 +266,6 @@ void Assembler::residual(const Configuration& configuration, Vec r) {
       sum.add(row, value);
     }
   });
-  sum.finish();
   if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, carried_.data(), static_cast<int>(carried_.size()), MPI_DOUBLE, MPI_MAX, comm_);
 }
 
@@ -304,14 +288,13 @@ void Assembler::tangent(const Configuration& configuration, Weights weights, Mat
   const LoggedTime time(event);
   if (into == matrix()) ++changes_;
   Scatter::MatrixSum sum(scatter_, into);
-  for_each_tangent(configuration, weights, [&](int part, std::span<double> k) {
-    scale_multipliers(part, k);
-    sum.add(part, k);
+  for_each_tangent(configuration, weights, [&](std::size_t at, std::span<double> k) {
+    scale_multipliers(evaluated(at), k);
+    sum.add(at, k);
   });
-  for (PetscInt row = first_row_; any_released_ && row < end_row_; ++row)
-    if (released_equation(static_cast<int>(row)))
-      sum.add_diagonal(
-          row, -scale_[static_cast<std::size_t>(numbering_.unknown(static_cast<int>(row)).slot - numbering_.motion_slots())]);
+  for (int row = numbering_.first_row(); any_released_ && row < numbering_.end_row(); ++row)
+    if (released_equation(row))
+      sum.add_diagonal(row, -scale_[static_cast<std::size_t>(numbering_.unknown(row).slot - numbering_.motion_slots())]);
   sum.finish();
 }
 
@@ -322,7 +305,8 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
   std::vector<double> inertia(motion, 0.0);
   Scatter::MatrixSum sum(scatter_, into);
   std::vector<double> of_mass, unused;
-  for_each_tangent(configuration, {1, 0, 0}, [&](int part, std::span<double> k) {
+  for_each_tangent(configuration, {1, 0, 0}, [&](std::size_t at, std::span<double> k) {
+    const int part = evaluated(at);
     const auto slots = numbering_.part_slots(part);
     const std::size_t n = slots.size(), m0 = n - element(part).layout().multipliers.size();
     if (mass) {
@@ -332,14 +316,14 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
     }
     for (std::size_t i = 0; i < m0; ++i) {
       for (std::size_t j = 0; j < m0; ++j) k[i * n + j] = mass ? of_mass[i * n + j] : 0.0;
-      inertia[static_cast<std::size_t>(slots[i])] += k[i * n + i];
+      if (!is_ghost(at)) inertia[static_cast<std::size_t>(slots[i])] += k[i * n + i];
       // a multiplier's column may hold more than −Bᵀ (the separating force of gears): a projection wants −Bᵀ alone
       if (metric == Metric::dynamic) continue;
       for (std::size_t j = m0; j < n; ++j) k[i * n + j] = k[j * n + i];
     }
     for (std::size_t i = m0; i < n; ++i)
       if (released(slots[i] - numbering_.motion_slots())) std::fill_n(k.begin() + static_cast<std::ptrdiff_t>(i * n), n, 0.0);
-    sum.add(part, k);
+    sum.add(at, k);
   });
   MPI_Allreduce(MPI_IN_PLACE, inertia.data(), static_cast<int>(motion), MPI_DOUBLE, MPI_SUM, comm_);
   // masses and moments of inertia are of different units, and neither may be compared with a number of ours
@@ -355,9 +339,9 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
   const double extent = model_.extent();
   std::vector<bool> fixed(static_cast<std::size_t>(numbering_.equations()), false);
   for (const int equation : held) fixed[static_cast<std::size_t>(equation)] = true;
-  for (PetscInt row = first_row_; row < end_row_; ++row) {
-    const Unknown& u = numbering_.unknown(static_cast<int>(row));
-    double d = any_released_ && released_equation(static_cast<int>(row)) ? 1.0 : 0.0;
+  for (int row = numbering_.first_row(); row < numbering_.end_row(); ++row) {
+    const Unknown& u = numbering_.unknown(row);
+    double d = any_released_ && released_equation(row) ? 1.0 : 0.0;
     if (!u.multiplier && !mass) d = u.part >= 0 ? 1e-12 : u.measure == Measure::force ? 1 / (extent * extent) : 1.0;
     if (!u.multiplier && mass && inertia[static_cast<std::size_t>(u.slot)] == 0) d = 1e-13 * (largest > 0 ? largest : 1.0);
     if (fixed[static_cast<std::size_t>(row)]) d = 1e10 * (mass && heaviest[u.measure] > 0 ? heaviest[u.measure] : d);
@@ -400,12 +384,13 @@ void Assembler::constraint_rates(const Configuration& configuration, std::span<c
 std::vector<double> Assembler::slot_residual(const Configuration& configuration) {
   std::vector<double> all(static_cast<std::size_t>(numbering_.slots()), 0.0);
   std::vector<double> r;
-  for (std::size_t p = 0; p < model_.parts.size(); ++p) {
-    const auto& slots = numbering_.part_slots(static_cast<int>(p));
+  for (const int p : own_parts()) {
+    const auto& slots = numbering_.part_slots(p);
     r.resize(slots.size());
-    model_.parts[p].element->residual(view(static_cast<int>(p), configuration), r);
+    element(p).residual(view(p, configuration), r);
     for (std::size_t i = 0; i < slots.size(); ++i) all[static_cast<std::size_t>(slots[i])] += r[i];
   }
+  if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, comm_);
   return all;
 }
 
@@ -427,7 +412,7 @@ std::span<const double> Assembler::gather(Vec x) {
 void Assembler::spread(std::span<const double> all, Vec x) const {
   PetscScalar* values = nullptr;
   check_petsc(VecGetArrayWrite(x, &values));
-  for (PetscInt row = first_row_; row < end_row_; ++row) values[row - first_row_] = all[static_cast<std::size_t>(row)];
+  std::copy(all.begin() + numbering_.first_row(), all.begin() + numbering_.end_row(), values);
   check_petsc(VecRestoreArrayWrite(x, &values));
 }
 

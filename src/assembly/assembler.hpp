@@ -21,8 +21,8 @@ struct Magnitudes {
   double operator[](Measure m) const { return of[static_cast<int>(m)]; }
 };
 
-/// Sums the elements of a model into PETSc. Each rank evaluates its own share of the elements; every rank holds the
-/// whole Configuration.
+/// Sums the elements of a model into PETSc. Each rank evaluates its own elements and their neighbours (Numbering::evaluated), and
+/// has its equations whole without a message; every rank holds the whole Configuration.
 ///
 /// The assembled system is scaled: rows and columns of multiplier i carry k_i (paper, eq. 2), so that the unknown is λ
 /// and the row is −kΦ, of the size of the forces.
@@ -34,9 +34,9 @@ class Assembler {
   const Model& model() const { return model_; }
   const Numbering& numbering() const { return numbering_; }
   int rank() const { return rank_; }
-  /// This rank's share of Model::parts: from first_part() to before end_part().
-  int first_part() const { return first_part_; }
-  int end_part() const { return end_part_; }
+  /// This rank's elements, by index into Model::parts, ascending.
+  const std::vector<int>& own_parts() const { return numbering_.partition().own(); }
+  bool owns(int part) const { return numbering_.partition().owner(part) == rank_; }
   Mat matrix() const { return scatter_.matrix(); }
   Vec new_vector() const { return scatter_.new_vector(); }
   /// A matrix like matrix(), of the caller's.
@@ -76,7 +76,7 @@ class Assembler {
 
   /// The scaled residual.
   void residual(const Configuration& configuration, Vec r);
-  /// The largest that an element contributed to each slot of the motion in the last residual; on every rank.
+  /// The largest that an element contributed to each equation in the last residual, of multipliers 0; on every rank.
   const std::vector<double>& carried() const { return carried_; }
   /// Counts what makes factors of matrix() useless: every writing into it, other scales, other constraints released or idle.
   long changes() const { return changes_; }
@@ -126,17 +126,19 @@ class Assembler {
   const Vec3& gravity_at(double time) const;
   void write_history(Configuration& configuration,
                      void (Element::*write)(const State&, std::span<double>, std::span<double>) const);
-  /// Elements that are evaluated together: part `first` and those after it.
+  /// Elements that are evaluated together: number `first` of Numbering::evaluated() and those after it.
   struct Batch {
-    int first;
+    std::size_t first;
     ElementRange range;
     std::size_t slots;  ///< of each
   };
   void find_batches();
-  /// Evaluates residuals, and calls `use(part, r)` for each element of this rank.
+  int evaluated(std::size_t at) const { return numbering_.evaluated()[at]; }
+  bool is_ghost(std::size_t at) const { return at >= own_parts().size(); }
+  /// Evaluates residuals, and calls `use(part, r)` for each element that this rank evaluates.
   template <class Use>
   void for_each_residual(const Configuration& configuration, Use&& use);
-  /// The same with tangents: `use(part, k)`; k may be changed.
+  /// The same with tangents: `use(at, k)` for element evaluated(at); k may be changed.
   template <class Use>
   void for_each_tangent(const Configuration& configuration, Weights weights, Use&& use);
   /// States of a batch's elements, in states_.
@@ -152,9 +154,7 @@ class Assembler {
   const Numbering& numbering_;
   MPI_Comm comm_;
   int rank_ = 0, size_ = 1;
-  int first_part_ = 0, end_part_ = 0;  ///< this rank's share
   Scatter scatter_;
-  PetscInt first_row_ = 0, end_row_ = 0;
   Owned<Vec> everywhere_;
   Owned<VecScatter> to_all_;
   std::vector<double> scale_;
@@ -167,7 +167,7 @@ class Assembler {
   mutable double gravity_time_ = std::numeric_limits<double>::quiet_NaN();
   mutable Vec3 gravity_ = Vec3::Zero();  ///< at that time
   std::vector<int> constrained_parts_;   ///< elements with multipliers, of all ranks
-  std::vector<Batch> batches_;           ///< of this rank's share, in the order of the parts
+  std::vector<Batch> batches_;           ///< of Numbering::evaluated(), in its order
   // one batch's buffers
   std::vector<State> states_;
   std::vector<double> local_r_, local_k_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace engrane {
 
@@ -18,7 +19,8 @@ Measure measure_of(const Named& named, bool multiplier) {
 
 }  // namespace
 
-Numbering::Numbering(const Model& model) : model_(model), rotates_(model.nodes.size(), false) {
+Numbering::Numbering(const Model& model, Partition partition)
+    : model_(model), partition_(std::move(partition)), rotates_(model.nodes.size(), false) {
   const auto node_slots = 6 * model.nodes.size();
   std::vector<bool> used(node_slots, false);
   for (const Model::Part& part : model.parts) {
@@ -79,6 +81,48 @@ Numbering::Numbering(const Model& model) : model_(model), rotates_(model.nodes.s
     history_ += layout.history;
   }
   parts_.push_back({part_slots_.size(), scalar, multiplier, history_});
+  evaluated_ = partition_.own();
+  end_row_ = equations();
+  if (partition_.ranks() == 1) return;
+  order_by_ranks();
+}
+
+void Numbering::order_by_ranks() {
+  std::vector<int> of_nodes(model_.nodes.size(), -1);
+  for (std::size_t p = 0; p < model_.parts.size(); ++p)
+    for (const int node : model_.parts[p].nodes)
+      if (node >= 0 && of_nodes[static_cast<std::size_t>(node)] < 0)
+        of_nodes[static_cast<std::size_t>(node)] = partition_.owner(static_cast<int>(p));
+  const auto owner = [&](const Unknown& u) {
+    return u.part < 0 ? of_nodes[static_cast<std::size_t>(u.node)] : partition_.owner(u.part);
+  };
+  std::stable_sort(unknowns_.begin(), unknowns_.end(),
+                   [&](const Unknown& one, const Unknown& other) { return owner(one) < owner(other); });
+  for (std::size_t e = 0; e < unknowns_.size(); ++e) equation_[static_cast<std::size_t>(unknowns_[e].slot)] = static_cast<int>(e);
+  std::vector<int> row_end(static_cast<std::size_t>(partition_.ranks()), 0);
+  for (std::size_t e = 0; e < unknowns_.size(); ++e)
+    row_end[static_cast<std::size_t>(owner(unknowns_[e]))] = static_cast<int>(e) + 1;
+  for (std::size_t r = 1; r < row_end.size(); ++r) row_end[r] = std::max(row_end[r], row_end[r - 1]);
+  const auto rank = static_cast<std::size_t>(partition_.rank());
+  first_row_ = rank > 0 ? row_end[rank - 1] : 0;
+  end_row_ = row_end[rank];
+  find_ghosts(row_end);
+}
+
+void Numbering::find_ghosts(const std::vector<int>& row_end) {
+  for (int p = 0; p < parts(); ++p) {
+    const auto rank = static_cast<std::size_t>(partition_.owner(p));
+    const int first = rank > 0 ? row_end[rank - 1] : 0, end = row_end[rank];
+    bool shared = false, ours = false;
+    for (const int slot : part_slots(p)) {
+      const int e = equation(slot);
+      if (e < 0 || (e >= first && e < end)) continue;
+      shared = true;
+      ours = ours || is_own(e);
+    }
+    if (shared) ++shared_parts_;
+    if (ours) evaluated_.push_back(p);
+  }
 }
 
 const Unknown& Numbering::multiplier(int index) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assembly/configuration.hpp"
+#include "assembly/partition.hpp"
 #include "model/model.hpp"
 
 namespace engrane {
@@ -29,7 +30,21 @@ struct Unknown {
 /// plane (Model::plane) components of nodes that lead out of it are fixed, and constraints that act only out of it have none.
 class Numbering {
  public:
-  explicit Numbering(const Model& model);
+  /// Of a model that one rank has.
+  explicit Numbering(const Model& model) : Numbering(model, Partition(model)) {}
+  /// With equations rank after rank: those of an element with its rank, those of a node with the rank of its first element.
+  Numbering(const Model& model, Partition partition);
+
+  const Partition& partition() const { return partition_; }
+  /// This rank's equations: from first_row() to before end_row().
+  int first_row() const { return first_row_; }
+  int end_row() const { return end_row_; }
+  bool is_own(int equation) const { return equation >= first_row_ && equation < end_row_; }
+  /// What this rank evaluates to have its equations whole, by index into Model::parts: its own elements, then ghosts, which are
+  /// elements of other ranks that have to do with this rank's equations.
+  const std::vector<int>& evaluated() const { return evaluated_; }
+  /// Elements that several ranks evaluate.
+  int shared_parts() const { return shared_parts_; }
 
   int equations() const { return static_cast<int>(unknowns_.size()); }
   int motion_slots() const { return motion_slots_; }
@@ -68,7 +83,13 @@ class Numbering {
     std::size_t slot = 0;  ///< first in part_slots_
     int scalar = 0, multiplier = 0, history = 0;
   };
+  void order_by_ranks();
+  void find_ghosts(const std::vector<int>& row_end);
+
   const Model& model_;
+  Partition partition_;
+  std::vector<int> evaluated_;
+  int first_row_ = 0, end_row_ = 0, shared_parts_ = 0;
   std::vector<int> equation_;
   std::vector<Unknown> unknowns_;
   std::vector<Unknown> left_out_;  ///< multipliers without equation, by slot

@@ -9,13 +9,19 @@
 
 namespace engrane {
 
-/// Where the entries of each element's tangent and residual go. On one rank they are added straight into the arrays of matrix
-/// and vector: the columns of an element are runs of consecutive equations, so that a position for each row and run is all
-/// that is kept (48 bytes for a spring). On several ranks PETSc finds the places and carries them to their owners.
+/// Where the entries of each element's tangent and residual go: straight into the arrays of matrix and vector. The columns of an
+/// element are runs of consecutive equations, so that a position for each row and run is all that is kept (56 bytes for a
+/// spring). Rows of other ranks are left out: these evaluate the element too (Numbering::evaluated), so that nothing is sent.
 class Scatter {
  public:
-  /// For the elements `first_part` to `end_part`; collective.
-  Scatter(const Numbering& numbering, int first_part, int end_part, MPI_Comm comm);
+  /// For the elements of Numbering::evaluated(); collective.
+  Scatter(const Numbering& numbering, MPI_Comm comm);
+
+  /// Columns of this rank's equations, and of all others; with one rank all are its own. `global` numbers the others' columns.
+  struct Pieces {
+    Mat own = nullptr, others = nullptr;
+    const PetscInt* global = nullptr;
+  };
 
   /// A matrix with a place for every pair of equations that share an element, and for every diagonal entry: factorisations
   /// expect those, projections write them.
@@ -32,20 +38,22 @@ class Scatter {
     MatrixSum(const MatrixSum&) = delete;
     MatrixSum& operator=(const MatrixSum&) = delete;
 
-    /// Adds an element's tangent: row-major, as wide as its slots.
-    void add(int part, std::span<const double> k);
+    /// Adds the tangent of an element, number `at` of Numbering::evaluated(): row-major, as wide as its slots.
+    void add(std::size_t at, std::span<const double> k);
     /// Adds to a diagonal entry of this rank; after the elements.
     void add_diagonal(PetscInt row, double value);
     void finish();
 
    private:
-    void leave_array();
+    void leave_arrays();
     const Scatter& scatter_;
     Mat matrix_;
-    PetscScalar* values_ = nullptr;  ///< of the matrix, while elements are added on one rank
+    Pieces pieces_;
+    PetscScalar *own_ = nullptr, *others_ = nullptr;  ///< values of the pieces, while elements are added
+    bool left_ = false;
   };
 
-  /// The same for a vector of new_vector().
+  /// The same for a vector of new_vector(), without finish().
   class VectorSum {
    public:
     VectorSum(const Scatter& scatter, Vec vector);
@@ -53,42 +61,38 @@ class Scatter {
     VectorSum(const VectorSum&) = delete;
     VectorSum& operator=(const VectorSum&) = delete;
 
-    void add(PetscInt row, double value) {
-      if (values_)
-        values_[row] += value;
-      else
-        check_petsc(VecSetValue(vector_, row, value, ADD_VALUES));
+    void add(int row, double value) {
+      if (numbering_.is_own(row)) values_[row - numbering_.first_row()] += value;
     }
-    void finish();
 
    private:
+    const Numbering& numbering_;
     Vec vector_;
     PetscScalar* values_ = nullptr;
   };
 
-  PetscInt first_row() const { return first_row_; }
-  PetscInt end_row() const { return end_row_; }
   /// Bytes that this keeps for the elements.
   std::size_t bytes() const;
 
  private:
   struct Run {
-    int first, length;  ///< local slots with consecutive equations
+    int first, length;  ///< local slots with consecutive equations, all of this rank or none
   };
   struct Begin {
     std::size_t run, place;
+    bool whole;  ///< no row is of another rank
   };
   void find_pattern();
+  void find_runs(int part);
   void find_places();
 
   const Numbering& numbering_;
   MPI_Comm comm_;
-  int size_ = 1, first_part_, end_part_;
-  PetscInt first_row_ = 0, end_row_ = 0;
+  int size_ = 1;
   Owned<Mat> matrix_;
   std::vector<Begin> begin_;
   std::vector<Run> runs_;
-  std::vector<PetscInt> places_;
+  std::vector<PetscInt> places_;  ///< in the values of the own columns, or −1 less than that in those of the others
 };
 
 }  // namespace engrane

@@ -19,7 +19,7 @@ constexpr std::size_t points_of_powers = 4;
 /// Sum of `energies` of this rank's elements.
 Energies own_energies(Assembler& assembler, const Configuration& c) {
   Energies sum;
-  for (int p = assembler.first_part(); p < assembler.end_part(); ++p) {
+  for (const int p : assembler.own_parts()) {
     const Energies e = assembler.model().parts[static_cast<std::size_t>(p)].element->energies(assembler.view(p, c));
     sum.kinetic += e.kinetic;
     sum.potential += e.potential;

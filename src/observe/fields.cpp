@@ -107,7 +107,7 @@ void ElementFields::evaluate_own(const Configuration& c) {
   std::vector<double> values;
   int evaluated = -1;
   for (const Use& use : uses_) {
-    if (use.part < assembler_.first_part() || use.part >= assembler_.end_part()) continue;
+    if (!assembler_.owns(use.part)) continue;
     const Model::Part& part = model.parts[static_cast<std::size_t>(use.part)];
     if (use.part != evaluated) {
       std::size_t size = 0;
@@ -129,7 +129,7 @@ void ElementFields::evaluate_own(const Configuration& c) {
 
 void ElementFields::estimate_errors(const Configuration& c) {
   energies_.assign(2, 0.0);
-  for (int p = assembler_.first_part(); p < assembler_.end_part(); ++p) {
+  for (const int p : assembler_.own_parts()) {
     const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(p)];
     const std::span<const double> recovered = averages_.at_nodes(stress, part);
     if (recovered.empty()) continue;

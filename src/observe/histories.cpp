@@ -119,19 +119,16 @@ void Histories::add_nodes(const Selection& selection) {
 void Histories::plan_gathering() {
   int ranks = 1;
   MPI_Comm_size(assembler_.comm(), &ranks);
-  // each rank sends its owners' columns table by table; rank 0 knows from where the parts are cut which these are
-  std::vector<int> ends(static_cast<std::size_t>(ranks));
-  const int end = assembler_.end_part();
-  MPI_Allgather(&end, 1, MPI_INT, ends.data(), 1, MPI_INT, assembler_.comm());
   if (assembler_.rank() != 0) return;
-  for (std::size_t r = 0; r < ends.size(); ++r) {
-    const int first = r == 0 ? 0 : ends[r - 1];
+  // each rank sends its owners' columns table by table
+  const Partition& partition = assembler_.numbering().partition();
+  for (int r = 0; r < ranks; ++r) {
     displacements_.push_back(static_cast<int>(destination_.size()));
     std::size_t column = 0;
     for (std::size_t t = 0; t < part_tables_; ++t)
       for (const int owner : tables_[t].owners)
         for (std::size_t k = 0; k < tables_[t].channels.size(); ++k, ++column)
-          if (owner >= first && owner < ends[r]) destination_.push_back(column);
+          if (partition.owner(owner) == r) destination_.push_back(column);
     counts_.push_back(static_cast<int>(destination_.size()) - displacements_.back());
   }
   gathered_.resize(destination_.size());
@@ -142,7 +139,7 @@ const std::vector<double>& Histories::evaluate(const Configuration& c, const std
   own_.clear();
   for (std::size_t t = 0; t < part_tables_; ++t)
     for (const int part : tables_[t].owners) {
-      if (part < assembler_.first_part() || part >= assembler_.end_part()) continue;
+      if (!assembler_.owns(part)) continue;
       const Element& element = *model.parts[static_cast<std::size_t>(part)].element;
       element_.resize(element.channels().size());
       element.observe(assembler_.view(part, c), element_);

@@ -17,7 +17,7 @@ LoadSum sum_loads(const Assembler& assembler, const Configuration& c) {
   const Model& model = assembler.model();
   std::vector<double> forces;
   LoadSum sum;
-  for (int p = assembler.first_part(); p < assembler.end_part(); ++p) {
+  for (const int p : assembler.own_parts()) {
     const Model::Part& part = model.parts[static_cast<std::size_t>(p)];
     const Layout& layout = part.element->layout();
     forces.resize(static_cast<std::size_t>(layout.slots()));

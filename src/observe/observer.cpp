@@ -62,7 +62,7 @@ Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
       cells_(has_cells(assembler.model())),
       ends_(most_ends, std::numeric_limits<double>::infinity()) {
   if (!cells_) return;
-  for (int p = assembler.first_part(); p < assembler.end_part(); ++p)
+  for (const int p : assembler.own_parts())
     mass_ += mass_properties(assembler.model(), assembler.model().parts[static_cast<std::size_t>(p)]).mass;
   MPI_Allreduce(MPI_IN_PLACE, &mass_, 1, MPI_DOUBLE, MPI_SUM, assembler.comm());
 }

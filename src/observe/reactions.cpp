@@ -17,7 +17,7 @@ Reactions::Reactions(Assembler& assembler) : assembler_(assembler) {
   nodes_.assign(supported.begin(), supported.end());
   place_.assign(model.nodes.size(), -1);
   for (std::size_t i = 0; i < nodes_.size(); ++i) place_[static_cast<std::size_t>(nodes_[i])] = static_cast<int>(i);
-  for (int p = assembler.first_part(); p < assembler.end_part(); ++p) {
+  for (const int p : assembler.own_parts()) {
     const std::vector<int>& ends = model.parts[static_cast<std::size_t>(p)].nodes;
     if (std::find(ends.begin(), ends.end(), 0) != ends.end()) grounded_.push_back(p);
     for (const int node : model.parts[static_cast<std::size_t>(p)].nodes)

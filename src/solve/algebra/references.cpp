@@ -127,10 +127,13 @@ void References::take(const Configuration& c, const std::vector<double>& carried
     Pair own;
     for (std::size_t k = 0; k < 6; ++k) {
       const std::size_t slot = 6 * i + k;
+      const int equation = assembler_.numbering().equation(static_cast<int>(slot));
+      if (equation < 0) continue;
+      const double now = carried[static_cast<std::size_t>(equation)];
       double& largest = largest_of_slot_[slot];
-      largest = std::max(largest, carried[slot]);
+      largest = std::max(largest, now);
       double& load = k < 3 ? own.force : own.moment;
-      load = std::max({load, carried[slot], remembered * largest});
+      load = std::max({load, now, remembered * largest});
       if (k < 3) largest_force_ = std::max(largest_force_, largest);
     }
     // forces have levers; moments make forces by rounding alone

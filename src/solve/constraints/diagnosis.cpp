@@ -209,7 +209,7 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
   double worst_noise = 0;
   int worst_equation = -1, culprit = -1;
   std::vector<double> r, k;
-  for (int p = assembler.first_part(); p < assembler.end_part(); ++p) {
+  for (const int p : assembler.own_parts()) {
     const Element& element = *parts[static_cast<std::size_t>(p)].element;
     const auto& slots = numbering.part_slots(p);
     const std::size_t n = slots.size(), of_nodes = static_cast<std::size_t>(element.layout().node_slots());

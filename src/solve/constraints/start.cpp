@@ -468,7 +468,7 @@ void Start::verify_balance(const Configuration& c, std::span<const double> unbal
   Magnitudes largest;
   for (int e = 0; e < numbering.equations(); ++e)
     if (const Unknown& u = numbering.unknown(e); !u.multiplier)
-      largest[u.measure] = std::max(largest[u.measure], assembler_.carried()[static_cast<std::size_t>(u.slot)]);
+      largest[u.measure] = std::max(largest[u.measure], assembler_.carried()[static_cast<std::size_t>(e)]);
   // forces that cancel inside a body are no loads, but what is left of them is their rounding: gyroscopic moments are of the size
   // of the kinetic energy
   double kinetic = 0;

@@ -11,7 +11,7 @@ namespace engrane::solve {
 SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm)
     : model(m),
       options(std::move(chosen)),
-      numbering(m),
+      numbering(m, Partition(m, comm)),
       assembler(m, numbering, comm),
       solver(assembler.matrix(), options.package, kinds_of_rows(numbering)),
       newton(assembler, solver, options.precision, options.iterations),

@@ -43,7 +43,7 @@ TEST(Block, AnElementCostsLittleBeyondItsData) {
     model.parts.push_back(std::move(part));
   }
   const Numbering numbering(model);
-  const Scatter scatter(numbering, 0, numbering.parts(), PETSC_COMM_SELF);
+  const Scatter scatter(numbering, PETSC_COMM_SELF);
   const double kept = static_cast<double>(numbering.part_bytes() + scatter.bytes()) / n;
   const double physical = sizeof(SpringData) + 2 * sizeof(int);
   EXPECT_LE(of_elements + kept - physical, 200);
