@@ -23,10 +23,7 @@ struct RestartPoint {
 struct Batch {
   struct Frame {
     double time = 0;
-    std::vector<double> values;               ///< in the order of ResultsLayout::node_fields, each n × 3
-    std::vector<std::vector<double>> cells;   ///< in the order of ResultsLayout::cell_fields
-    std::vector<std::vector<double>> points;  ///< in the order of ResultsLayout::point_fields
-    std::vector<std::vector<double>> averages;
+    FrameValues values;
   };
   std::vector<double> times;
   std::vector<double> values;  ///< a row of channel_count() per sample

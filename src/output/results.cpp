@@ -60,8 +60,9 @@ void Results::create(const RestartFile* earlier, const RestartPoint* from) {
     unlink(spare_path().c_str());
     throw;
   }
-  // known to the file from now on, and large
-  layout_.deck_text = layout_.model_json = {};
+  // known to the file from now on, and large: assigning an empty text would keep the memory
+  std::string().swap(layout_.deck_text);
+  std::string().swap(layout_.model_json);
   set_pace(pace_);
 }
 
@@ -87,21 +88,12 @@ void Results::sample(double time, std::span<const double> values) {
   ++samples_;
 }
 
-void Results::frame(double time, const FrameValues& values) {
-  Batch::Frame frame;
-  frame.time = time;
+void Results::frame(double time, FrameValues values) {
   assert(values.nodes.size() == layout_.node_fields.size());
-  for (const std::vector<double>& field : values.nodes) {
-    assert(field.size() == 3 * layout_.points.size());
-    frame.values.insert(frame.values.end(), field.begin(), field.end());
-  }
   assert(values.cells.size() == layout_.cell_fields.size());
-  frame.cells = values.cells;
   assert(values.points.size() == layout_.point_fields.size());
-  frame.points = values.points;
   assert(values.averages.size() == layout_.averages.size());
-  frame.averages = values.averages;
-  gathered_->frames.push_back(std::move(frame));
+  gathered_->frames.push_back({time, std::move(values)});
   ++frames_;
 }
 
