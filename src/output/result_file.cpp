@@ -224,9 +224,16 @@ void ResultFile::grow(Growing& target, const double* values, std::size_t rows) c
   target.rows += rows;
 }
 
-void ResultFile::append(const Batch& batch) {
+void ResultFile::append(const Batch& batch, hid_t other) {
   if (!batch.times.empty()) append_samples(batch);
-  for (const Batch::Frame& frame : batch.frames) append_frame(frame);
+  for (const Batch::Frame& frame : batch.frames) {
+    Growing time = open_growing("fields/time");
+    if (frame.written)
+      copy_frame(other, frame_name(time.rows));
+    else
+      append_frame(frame, frame_name(time.rows));
+    grow(time, &frame.time, 1);
+  }
   for (const RestartPoint& point : batch.restarts) write_restart(frame_name(kept_restarts(file_.id()).size()), point, true);
 }
 
@@ -248,9 +255,18 @@ void ResultFile::append_samples(const Batch& batch) {
   grow(time, batch.times.data(), samples);
 }
 
-void ResultFile::append_frame(const Batch::Frame& frame) {
-  Growing time = open_growing("fields/time");
-  const std::string name = frame_name(time.rows);
+void ResultFile::copy_frame(hid_t other, const std::string& name) {
+  const auto copy = [&](const char* group, const Named& field) {
+    const std::string place = fmt::format("{}/{}/{}", group, field.name, name);
+    check(H5Ocopy(other, place.c_str(), file_.id(), place.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_);
+  };
+  for (const Named& field : layout_->node_fields) copy("fields", field);
+  for (const CellField& field : layout_->cell_fields) copy("fields", field.named);
+  for (const PointField& one : layout_->point_fields) copy("points", one.field.named);
+  for (const CellField& field : layout_->averages) copy("nodes", field.named);
+}
+
+void ResultFile::append_frame(const Batch::Frame& frame, const std::string& name) {
   const hsize_t shape[2] = {layout_->points.size(), 3};
   for (std::size_t f = 0; f < layout_->node_fields.size(); ++f) {
     assert(frame.values.nodes[f].size() == 3 * layout_->points.size());
@@ -259,7 +275,6 @@ void ResultFile::append_frame(const Batch::Frame& frame) {
   append_cell_fields(frame, name);
   append_point_fields(frame, name);
   append_averages(frame, name);
-  grow(time, &frame.time, 1);
 }
 
 void ResultFile::append_cell_fields(const Batch::Frame& frame, const std::string& name) {

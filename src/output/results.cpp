@@ -105,9 +105,9 @@ void Results::restart_point(double time, Snapshot memory, bool keep) {
     latest_ = std::make_unique<RestartPoint>(std::move(point));
 }
 
-bool Results::due() const {
-  return gathered_->times.size() >= pace_.samples || gathered_->bytes() >= pace_.bytes || Clock::now() >= due_;
-}
+bool Results::full() const { return gathered_->bytes() >= pace_.bytes; }
+
+bool Results::due() const { return gathered_->times.size() >= pace_.samples || full() || Clock::now() >= due_; }
 
 void Results::flush() {
   if (over_) return;
@@ -141,7 +141,11 @@ void Results::write_spare(const char* status) {
     marked_spare_ = marked_shown_;
   }
   ResultFile file(spare_path(), layout_, path_, ResultFile::Mode::append);
-  file.append(*last_);
+  // frames are kept by the file that bears the name, not in memory
+  const bool shown_has_frames = !last_->frames.empty();
+  const hdf5::Handle shown = shown_has_frames ? hdf5::open_for_reading(path_) : hdf5::Handle();
+  if (shown_has_frames && shown.id() < 0) hdf5::fail(path_);
+  file.append(*last_, shown.id());
   file.append(*gathered_);
   if (latest_) file.write_latest(*latest_, status != nullptr);
   if (not_unique_.size() != marked_spare_) file.mark_not_unique(not_unique_);
@@ -162,6 +166,10 @@ void Results::write_batch() {
   std::swap(shown_lock_, spare_lock_);
   std::swap(marked_shown_, marked_spare_);
   std::swap(last_, gathered_);
+  for (Batch::Frame& frame : last_->frames) {
+    frame.values = {};
+    frame.written = true;
+  }
   *gathered_ = {};
 }
 

@@ -52,6 +52,8 @@ class Results {
   void checks(std::vector<CheckResult> results) { checks_ = std::move(results); }
   /// Whether enough was gathered for a batch. Ask at the end of a step, give a restart point, then flush().
   bool due() const;
+  /// Whether so many bytes are gathered that they should be written for the sake of memory.
+  bool full() const;
   /// What the run could be restarted from, after all samples and frames of the step. A kept one stays in the file; of the others
   /// there is only the last, `/restart/latest`, which is written with the next batch or by finish().
   void restart_point(double time, Snapshot memory, bool keep = false);
