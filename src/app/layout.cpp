@@ -68,7 +68,9 @@ output::FrameValues frame_values(const Model& model, const observe::Observer& ob
   output::FrameValues values;
   const std::vector<int>& copies = observer.points().copies();
   for (const observe::NodalField& field : observer.fields()) {
-    std::vector<double>& rows = values.nodes.emplace_back(field.rows);
+    std::vector<double>& rows = values.nodes.emplace_back();
+    rows.reserve(field.rows.size() + 3 * copies.size());
+    rows = field.rows;
     for (const int node : copies) {
       const auto row = field.rows.begin() + 3 * (node - 1);
       rows.insert(rows.end(), row, row + 3);
@@ -77,6 +79,7 @@ output::FrameValues frame_values(const Model& model, const observe::Observer& ob
   for (const observe::AveragedField& field : observer.averages()) values.averages.push_back(field.rows);
   for (const observe::ElementField& field : observer.element_fields()) {
     std::vector<double>& rows = values.cells.emplace_back();
+    rows.reserve(model.parts.size() * field.width());
     for (std::size_t p = 0; p < model.parts.size(); ++p)
       if (has_cell(model.parts[p]))
         for (std::size_t k = 0; k < field.width(); ++k) rows.push_back(field.rows[p * field.width() + k]);

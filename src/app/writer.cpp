@@ -105,7 +105,10 @@ void Writer::remember(const Configuration& c, const Runner& runner, bool kept, b
   if (!kept && !last && !results_.due()) return;
   // linear statics in one step, which no card asks for, is over once it is solved; a restart point would hold its matrix
   const bool one_step = has_cells(reading_.model) && !deck::says_analysis(reading_.deck.records);
-  if (one_step && (!last || c.time >= reading_.model.commands.stepping.end)) return;
+  if (one_step && (!last || c.time >= reading_.model.commands.stepping.end)) {
+    if (!last && results_.full()) results_.flush();
+    return;
+  }
   Snapshot memory;
   runner.save(memory);
   observer_.save(memory);

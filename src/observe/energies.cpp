@@ -39,25 +39,44 @@ Energies total_energies(Assembler& assembler, const Configuration& c) {
   return {sums[0], sums[1], sums[2], sums[3], sums[4]};
 }
 
-double static_work(Assembler& assembler, Reactions& supports, const Configuration& from, const Configuration& to) {
+double static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to) {
   const double time = to.time - from.time;
   if (!(time > 0)) return 0;
-  double work = 0;
-  for (const Configuration* end : {&from, &to}) {
-    Configuration c = *end;
-    // a function of time may have a corner where the step ends: its slope is that of the step
-    c.time += (end == &from ? 1e-8 : -1e-8) * time;
-    for (std::size_t i = 0; i < c.nodes.size(); ++i) {
-      c.nodes[i].v = (to.nodes[i].x - from.nodes[i].x) / time;
-      // the rotation vector between the two is the same in the axes of either
-      c.nodes[i].W = rotation_log(from.nodes[i].R.transpose() * to.nodes[i].R) / time;
-    }
-    for (std::size_t i = 0; i < c.scalars.size(); ++i) c.scalar_rates[i] = (to.scalars[i] - from.scalars[i]) / time;
+  // configurations of large meshes are large: the one between stands where the first was
+  Configuration& c = from;
+  const auto half_the_work = [&](const std::vector<Reaction>& reactions) {
     double power = total_energies(assembler, c).external;
-    // reactions are those of the equilibrium, which has no dampers
-    for (const Reaction& reaction : supports.at(*end)) power += reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]);
-    work += 0.5 * time * power;
+    for (const Reaction& reaction : reactions) power += reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]);
+    return 0.5 * time * power;
+  };
+  // reactions are those of the equilibrium, which has no dampers
+  const std::vector<Reaction> first = supports.at(from), last = supports.at(to);
+  for (std::size_t i = 0; i < c.nodes.size(); ++i) {
+    const Vec3 v = (to.nodes[i].x - from.nodes[i].x) / time;
+    // the rotation vector between the two is the same in the axes of either
+    const Vec3 W = rotation_log(from.nodes[i].R.transpose() * to.nodes[i].R) / time;
+    c.nodes[i].v = v;
+    c.nodes[i].W = W;
   }
+  for (std::size_t i = 0; i < c.scalars.size(); ++i) c.scalar_rates[i] = (to.scalars[i] - from.scalars[i]) / time;
+  // a function of time may have a corner where the step ends: its slope is that of the step
+  c.time = from.time + 1e-8 * time;
+  double work = half_the_work(first);
+
+  for (std::size_t i = 0; i < c.nodes.size(); ++i) {
+    NodeState end = to.nodes[i];
+    end.v = c.nodes[i].v;
+    end.W = c.nodes[i].W;
+    c.nodes[i] = end;
+  }
+  c.time = to.time - 1e-8 * time;
+  c.h = to.h;
+  c.scalars = to.scalars;
+  c.scalar_accelerations = to.scalar_accelerations;
+  c.remainders = to.remainders;
+  c.multipliers = to.multipliers;
+  c.history = to.history;
+  work += half_the_work(last);
   return work;
 }
 
@@ -78,7 +97,7 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
     initial_potential_ = sum.potential;
     if (smooth_) powers_.add(c.time, std::array{sum.external, sum.dissipated});
   } else if (!moves_) {
-    balance_.external_work += static_work(assembler_, supports_, before_, c);
+    balance_.external_work += static_work(assembler_, supports_, before_.unpacked(), c);
   } else {
     const double half = 0.5 * (c.time - last_time_);
     // nothing leads over an event: a force that jumps has no slope there
@@ -104,7 +123,7 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
   external_power_ = sum.external;
   dissipated_power_ = sum.dissipated;
   last_time_ = c.time;
-  if (!moves_) before_ = c;
+  if (!moves_) before_ = PackedConfiguration(c);
 }
 
 void EnergyLedger::begin_anew() {
@@ -137,8 +156,9 @@ void EnergyLedger::load(const Snapshot& snapshot) {
   started_ = true;
   if (smooth_ && snapshot.has("observe/powers")) powers_.load(snapshot, "observe/powers");
   if (moves_) return;
-  before_ = assembler_.numbering().reference_configuration(last_time_);
-  load_configuration(snapshot, before_);
+  Configuration before = assembler_.numbering().reference_configuration(last_time_);
+  load_configuration(snapshot, before);
+  before_ = PackedConfiguration(before);
 }
 
 }  // namespace engrane::observe

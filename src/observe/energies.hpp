@@ -7,6 +7,7 @@
 #include "assembly/assembler.hpp"
 #include "base/snapshot.hpp"
 #include "math/extrapolation.hpp"
+#include "observe/packed_configuration.hpp"
 #include "observe/reactions.hpp"
 
 namespace engrane::observe {
@@ -31,7 +32,7 @@ struct EnergyBalance {
 Energies total_energies(Assembler& assembler, const Configuration& c);
 
 /// Work of loads and supports between two equilibria, by the trapezoidal rule along the straight way between them.
-double static_work(Assembler& assembler, Reactions& supports, const Configuration& from, const Configuration& to);
+double static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to);
 
 /// Keeps the balance from step to step. Work in motion is the integral of power by the trapezoidal rule, or of the polynomial
 /// through the last few powers where steps are controlled, and so may be long.
@@ -62,8 +63,8 @@ class EnergyLedger {
   double initial_potential_ = 0;
   double external_power_ = 0, dissipated_power_ = 0, last_time_ = 0;
   bool smooth_ = false;
-  Extrapolation powers_;  ///< external and dissipated
-  Configuration before_;  ///< of statics: the last equilibrium
+  Extrapolation powers_;        ///< external and dissipated
+  PackedConfiguration before_;  ///< of statics: the last equilibrium
 };
 
 }  // namespace engrane::observe

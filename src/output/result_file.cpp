@@ -41,12 +41,9 @@ std::string frame_name(std::size_t index) { return fmt::format("{:06}", index); 
 
 std::size_t Batch::bytes() const {
   std::size_t numbers = times.size() + values.size();
-  for (const Frame& frame : frames) {
-    numbers += frame.values.size();
-    for (const std::vector<double>& field : frame.cells) numbers += field.size();
-    for (const std::vector<double>& field : frame.points) numbers += field.size();
-    for (const std::vector<double>& field : frame.averages) numbers += field.size();
-  }
+  for (const Frame& frame : frames)
+    for (const auto* fields : {&frame.values.nodes, &frame.values.cells, &frame.values.points, &frame.values.averages})
+      for (const std::vector<double>& field : *fields) numbers += field.size();
   for (const RestartPoint& point : restarts)
     for (const auto& [name, array] : point.memory.arrays()) numbers += array.size();
   return numbers * sizeof(double);
@@ -227,9 +224,16 @@ void ResultFile::grow(Growing& target, const double* values, std::size_t rows) c
   target.rows += rows;
 }
 
-void ResultFile::append(const Batch& batch) {
+void ResultFile::append(const Batch& batch, hid_t other) {
   if (!batch.times.empty()) append_samples(batch);
-  for (const Batch::Frame& frame : batch.frames) append_frame(frame);
+  for (const Batch::Frame& frame : batch.frames) {
+    Growing time = open_growing("fields/time");
+    if (frame.written)
+      copy_frame(other, frame_name(time.rows));
+    else
+      append_frame(frame, frame_name(time.rows));
+    grow(time, &frame.time, 1);
+  }
   for (const RestartPoint& point : batch.restarts) write_restart(frame_name(kept_restarts(file_.id()).size()), point, true);
 }
 
@@ -251,20 +255,26 @@ void ResultFile::append_samples(const Batch& batch) {
   grow(time, batch.times.data(), samples);
 }
 
-void ResultFile::append_frame(const Batch::Frame& frame) {
-  const std::size_t numbers = 3 * layout_->points.size();
-  const std::vector<Named>& fields = layout_->node_fields;
-  assert(frame.values.size() == numbers * fields.size());
-  Growing time = open_growing("fields/time");
-  const std::string name = frame_name(time.rows);
+void ResultFile::copy_frame(hid_t other, const std::string& name) {
+  const auto copy = [&](const char* group, const Named& field) {
+    const std::string place = fmt::format("{}/{}/{}", group, field.name, name);
+    check(H5Ocopy(other, place.c_str(), file_.id(), place.c_str(), H5P_DEFAULT, H5P_DEFAULT), path_);
+  };
+  for (const Named& field : layout_->node_fields) copy("fields", field);
+  for (const CellField& field : layout_->cell_fields) copy("fields", field.named);
+  for (const PointField& one : layout_->point_fields) copy("points", one.field.named);
+  for (const CellField& field : layout_->averages) copy("nodes", field.named);
+}
+
+void ResultFile::append_frame(const Batch::Frame& frame, const std::string& name) {
   const hsize_t shape[2] = {layout_->points.size(), 3};
-  for (std::size_t f = 0; f < fields.size(); ++f)
-    at(file_).numbers(fmt::format("fields/{}/{}", fields[f].name, name), std::span(frame.values).subspan(f * numbers, numbers),
-                      shape);
+  for (std::size_t f = 0; f < layout_->node_fields.size(); ++f) {
+    assert(frame.values.nodes[f].size() == 3 * layout_->points.size());
+    at(file_).numbers(fmt::format("fields/{}/{}", layout_->node_fields[f].name, name), frame.values.nodes[f], shape);
+  }
   append_cell_fields(frame, name);
   append_point_fields(frame, name);
   append_averages(frame, name);
-  grow(time, &frame.time, 1);
 }
 
 void ResultFile::append_cell_fields(const Batch::Frame& frame, const std::string& name) {
@@ -272,10 +282,11 @@ void ResultFile::append_cell_fields(const Batch::Frame& frame, const std::string
   const std::vector<std::size_t> cells = mixed_topology(*layout_).cells;
   for (std::size_t f = 0; f < layout_->cell_fields.size(); ++f) {
     const CellField& field = layout_->cell_fields[f];
-    assert(frame.cells[f].size() == layout_->cells.size() * field.width());
+    assert(frame.values.cells[f].size() == layout_->cells.size() * field.width());
     std::vector<double> rows;
+    rows.reserve(cells.size() * field.width());
     for (const std::size_t cell : cells)
-      for (std::size_t k = 0; k < field.width(); ++k) rows.push_back(frame.cells[f][cell * field.width() + k]);
+      for (std::size_t k = 0; k < field.width(); ++k) rows.push_back(frame.values.cells[f][cell * field.width() + k]);
     const hsize_t shape[2] = {cells.size(), field.width()};
     at(file_).numbers(fmt::format("fields/{}/{}", field.named.name, name), rows, shape);
   }
@@ -284,18 +295,18 @@ void ResultFile::append_cell_fields(const Batch::Frame& frame, const std::string
 void ResultFile::append_point_fields(const Batch::Frame& frame, const std::string& name) {
   for (std::size_t f = 0; f < layout_->point_fields.size(); ++f) {
     const PointField& one = layout_->point_fields[f];
-    assert(frame.points[f].size() == one.elements.size() * one.field.width());
+    assert(frame.values.points[f].size() == one.elements.size() * one.field.width());
     const hsize_t shape[2] = {one.elements.size(), one.field.width()};
-    at(file_).numbers(fmt::format("points/{}/{}", one.field.named.name, name), frame.points[f], shape);
+    at(file_).numbers(fmt::format("points/{}/{}", one.field.named.name, name), frame.values.points[f], shape);
   }
 }
 
 void ResultFile::append_averages(const Batch::Frame& frame, const std::string& name) {
   for (std::size_t f = 0; f < layout_->averages.size(); ++f) {
     const CellField& field = layout_->averages[f];
-    assert(frame.averages[f].size() == layout_->points.size() * field.width());
+    assert(frame.values.averages[f].size() == layout_->points.size() * field.width());
     const hsize_t shape[2] = {layout_->points.size(), field.width()};
-    at(file_).numbers(fmt::format("nodes/{}/{}", field.named.name, name), frame.averages[f], shape);
+    at(file_).numbers(fmt::format("nodes/{}/{}", field.named.name, name), frame.values.averages[f], shape);
   }
 }
 

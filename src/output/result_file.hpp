@@ -23,10 +23,8 @@ struct RestartPoint {
 struct Batch {
   struct Frame {
     double time = 0;
-    std::vector<double> values;               ///< in the order of ResultsLayout::node_fields, each n × 3
-    std::vector<std::vector<double>> cells;   ///< in the order of ResultsLayout::cell_fields
-    std::vector<std::vector<double>> points;  ///< in the order of ResultsLayout::point_fields
-    std::vector<std::vector<double>> averages;
+    FrameValues values;
+    bool written = false;  ///< another file holds the values, which are gone
   };
   std::vector<double> times;
   std::vector<double> values;  ///< a row of channel_count() per sample
@@ -60,8 +58,8 @@ class ResultFile {
   ResultFile(const ResultFile&) = delete;
   ResultFile& operator=(const ResultFile&) = delete;
 
-  /// Adds samples, frames and kept restart points.
-  void append(const Batch& batch);
+  /// Adds samples, frames and kept restart points. Frames that are `written` are copied from `other`, as they stand there.
+  void append(const Batch& batch, hid_t other = H5I_INVALID_HID);
   /// Brings over what an earlier run's file holds up to a restart point: its histories as far as this layout has them (other
   /// columns are not a number), its frames (fields that it lacks are zero) and its kept restart points. Returns the frames'
   /// times.
@@ -90,7 +88,9 @@ class ResultFile {
   void create_histories();
   void create_fields();
   void append_samples(const Batch& batch);
-  void append_frame(const Batch::Frame& frame);
+  void append_frame(const Batch::Frame& frame, const std::string& name);
+  /// Copies the fields of a frame of a file with the same layout: compressed blocks as they are.
+  void copy_frame(hid_t other, const std::string& name);
   void append_cell_fields(const Batch::Frame& frame, const std::string& name);
   void append_point_fields(const Batch::Frame& frame, const std::string& name);
   void append_averages(const Batch::Frame& frame, const std::string& name);

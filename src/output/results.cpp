@@ -60,8 +60,9 @@ void Results::create(const RestartFile* earlier, const RestartPoint* from) {
     unlink(spare_path().c_str());
     throw;
   }
-  // known to the file from now on, and large
-  layout_.deck_text = layout_.model_json = {};
+  // known to the file from now on, and large: assigning an empty text would keep the memory
+  std::string().swap(layout_.deck_text);
+  std::string().swap(layout_.model_json);
   set_pace(pace_);
 }
 
@@ -87,21 +88,12 @@ void Results::sample(double time, std::span<const double> values) {
   ++samples_;
 }
 
-void Results::frame(double time, const FrameValues& values) {
-  Batch::Frame frame;
-  frame.time = time;
+void Results::frame(double time, FrameValues values) {
   assert(values.nodes.size() == layout_.node_fields.size());
-  for (const std::vector<double>& field : values.nodes) {
-    assert(field.size() == 3 * layout_.points.size());
-    frame.values.insert(frame.values.end(), field.begin(), field.end());
-  }
   assert(values.cells.size() == layout_.cell_fields.size());
-  frame.cells = values.cells;
   assert(values.points.size() == layout_.point_fields.size());
-  frame.points = values.points;
   assert(values.averages.size() == layout_.averages.size());
-  frame.averages = values.averages;
-  gathered_->frames.push_back(std::move(frame));
+  gathered_->frames.push_back({time, std::move(values)});
   ++frames_;
 }
 
@@ -113,9 +105,9 @@ void Results::restart_point(double time, Snapshot memory, bool keep) {
     latest_ = std::make_unique<RestartPoint>(std::move(point));
 }
 
-bool Results::due() const {
-  return gathered_->times.size() >= pace_.samples || gathered_->bytes() >= pace_.bytes || Clock::now() >= due_;
-}
+bool Results::full() const { return gathered_->bytes() >= pace_.bytes; }
+
+bool Results::due() const { return gathered_->times.size() >= pace_.samples || full() || Clock::now() >= due_; }
 
 void Results::flush() {
   if (over_) return;
@@ -149,7 +141,11 @@ void Results::write_spare(const char* status) {
     marked_spare_ = marked_shown_;
   }
   ResultFile file(spare_path(), layout_, path_, ResultFile::Mode::append);
-  file.append(*last_);
+  // frames are kept by the file that bears the name, not in memory
+  const bool shown_has_frames = !last_->frames.empty();
+  const hdf5::Handle shown = shown_has_frames ? hdf5::open_for_reading(path_) : hdf5::Handle();
+  if (shown_has_frames && shown.id() < 0) hdf5::fail(path_);
+  file.append(*last_, shown.id());
   file.append(*gathered_);
   if (latest_) file.write_latest(*latest_, status != nullptr);
   if (not_unique_.size() != marked_spare_) file.mark_not_unique(not_unique_);
@@ -170,6 +166,10 @@ void Results::write_batch() {
   std::swap(shown_lock_, spare_lock_);
   std::swap(marked_shown_, marked_spare_);
   std::swap(last_, gathered_);
+  for (Batch::Frame& frame : last_->frames) {
+    frame.values = {};
+    frame.written = true;
+  }
   *gathered_ = {};
 }
 

@@ -20,18 +20,6 @@ struct RestartPoint;
 
 enum class RunStatus : unsigned char { complete, failed };
 
-/// The fields of a frame.
-struct FrameValues {
-  /// Those of ResultsLayout::node_fields: a row of three global components for each of ResultsLayout::points.
-  std::vector<std::vector<double>> nodes;
-  /// Those of ResultsLayout::cell_fields: a row of CellField::width() for each of ResultsLayout::cells.
-  std::vector<std::vector<double>> cells = {};
-  /// Those of ResultsLayout::point_fields: a row of CellField::width() for each of PointField::elements.
-  std::vector<std::vector<double>> points = {};
-  /// Those of ResultsLayout::averages: a row of CellField::width() for each of ResultsLayout::points.
-  std::vector<std::vector<double>> averages = {};
-};
-
 /// Writes a run's numbers (docs/format.md) and their XDMF index.
 ///
 /// Samples and frames are gathered and written in batches, about once a second and so that writing takes a small part of the
@@ -56,7 +44,7 @@ class Results {
   /// Histories at one time: a value for each channel, in the layout's order.
   void sample(double time, std::span<const double> values);
   /// Fields at one time.
-  void frame(double time, const FrameValues& values);
+  void frame(double time, FrameValues values);
   /// All channels so far whose values are one choice of many, places in the layout's order: they get `unique` = 0 with the
   /// next batch.
   void mark_not_unique(std::vector<int> channels) { not_unique_ = std::move(channels); }
@@ -64,6 +52,8 @@ class Results {
   void checks(std::vector<CheckResult> results) { checks_ = std::move(results); }
   /// Whether enough was gathered for a batch. Ask at the end of a step, give a restart point, then flush().
   bool due() const;
+  /// Whether so many bytes are gathered that they should be written for the sake of memory.
+  bool full() const;
   /// What the run could be restarted from, after all samples and frames of the step. A kept one stays in the file; of the others
   /// there is only the last, `/restart/latest`, which is written with the next batch or by finish().
   void restart_point(double time, Snapshot memory, bool keep = false);

@@ -77,6 +77,18 @@ struct ResultsLayout {
   }
 };
 
+/// The fields of a frame.
+struct FrameValues {
+  /// Those of ResultsLayout::node_fields: a row of three global components for each of ResultsLayout::points.
+  std::vector<std::vector<double>> nodes;
+  /// Those of ResultsLayout::cell_fields: a row of CellField::width() for each of ResultsLayout::cells.
+  std::vector<std::vector<double>> cells = {};
+  /// Those of ResultsLayout::point_fields: a row of CellField::width() for each of PointField::elements.
+  std::vector<std::vector<double>> points = {};
+  /// Those of ResultsLayout::averages: a row of CellField::width() for each of ResultsLayout::points.
+  std::vector<std::vector<double>> averages = {};
+};
+
 /// A line of `/checks` and of the listing: a `.CHK` and what came of it.
 struct CheckResult {
   std::string text;  ///< what was checked: `ELEMENT 1 NORMAL_FORCE at 1`
