@@ -316,6 +316,7 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
   if (rank == 0) {
     try {
       if (!unresolved.empty()) writer->warn(unresolved);
+      if (const std::string remark = context.solver.remark(); !remark.empty()) writer->warn(remark);
       if (runner.started()) writer->remember(runner.now(), runner, false, true);
       status = writer->finish(complete ? RunStatus::complete : RunStatus::failed, failure, times.split(context.solver));
     } catch (const OutputError& e) {

@@ -68,13 +68,17 @@ Schema analysis_card() {
       .at_least(0)
       .at_most(1);
   card.add("ALPHA", &AnalysisCard::alpha, "HHT and BOSSAK: numerical damping; 0 damps nothing").at_least(0).at_most(1.0 / 3.0);
-  card.add("SOLVER", &AnalysisCard::solver, "direct solver of the linear systems")
+  card.add("SOLVER", &AnalysisCard::solver, "solver of the linear systems")
       .synonyms({"SOLVEUR"})
-      .option({"MUMPS", {}, "multifrontal; the only one that runs in parallel"})
+      .option({"MUMPS", {}, "multifrontal; direct, on any number of processes"})
       .option({"AUTO", {}, "on one process the cheaper one of KLU and MUMPS, as their operations foretell; else MUMPS"})
       .option({"KLU", {}, "fastest for mechanisms"})
       .option({"UMFPACK", {}, "multifrontal, serial"})
-      .option({"SUPERLU", {}, "supernodal, serial"});
+      .option({"SUPERLU", {}, "supernodal, serial"})
+      .option({"CG",
+               {},
+               "conjugate gradients with algebraic multigrid, on any number of processes: for meshes of solids whose factors do "
+               "not fit into memory"});
   card.add("START", &AnalysisCard::start, "state from which a DYNAMIC analysis starts")
       .synonyms({"DEPART"})
       .option({"AS_GIVEN", {}, "the given positions, brought to satisfy the joints"})

@@ -58,12 +58,14 @@ class Factors {
   /// Factors the matrix as it stands as the run did that load() has taken over from; false where it is singular.
   virtual bool restore() { return factor(); }
 
+  /// What a user should know of how the matrix was solved, after it was; empty where there is nothing to say.
+  virtual std::string remark() const { return {}; }
   virtual SolverWork work() const = 0;
   /// Memory of the factors as the package reports it; 0 when it does not.
   virtual double bytes() const = 0;
 };
 
-/// `package` as in the deck: MUMPS, KLU, UMFPACK, SUPERLU; of a matrix on several ranks, MUMPS.
+/// `package` as in the deck: MUMPS, KLU, UMFPACK, SUPERLU, CG; of a matrix on several ranks, MUMPS or CG.
 std::unique_ptr<Factors> make_factors(Mat matrix, const std::string& package);
 
 }  // namespace engrane::solve

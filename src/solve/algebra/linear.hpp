@@ -14,15 +14,15 @@
 
 namespace engrane::solve {
 
-/// A direct solver on one matrix whose pattern never changes: the symbolic analysis is done once. To PETSc it is a preconditioner
+/// A solver on one matrix whose pattern never changes: the symbolic analysis is done once. To PETSc it is a preconditioner
 /// (PCSHELL).
 ///
 /// The first solution with each factorisation is judged by its backward error (BackwardError), refined where that helps and found
 /// with better factors where it does not; the others too, unless the first was as good as it can be.
 class LinearSolver {
  public:
-  /// `package` as in the deck: AUTO, MUMPS, KLU, UMFPACK, SUPERLU. On several ranks only MUMPS works and is taken. `kinds`: what
-  /// each row is (BackwardError).
+  /// `package` as in the deck: AUTO, MUMPS, KLU, UMFPACK, SUPERLU, CG. On several ranks MUMPS is taken unless CG is wanted.
+  /// `kinds`: what each row is (BackwardError).
   LinearSolver(Mat matrix, const std::string& package, const std::vector<unsigned char>& kinds = {});
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
@@ -60,6 +60,8 @@ class LinearSolver {
   /// Factors the matrix as it stands as the run did that load() has taken over from.
   void restore_factors();
 
+  /// Factors::remark().
+  std::string remark() const { return factors_->remark(); }
   /// What a factorisation and a solution cost.
   SolverWork work() const { return factors_->work(); }
   /// What KLU and MUMPS cost for this matrix; on one rank.

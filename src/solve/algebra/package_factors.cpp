@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "solve/algebra/conjugate_gradients.hpp"
 #include "solve/algebra/klu.hpp"
 #include "solve/algebra/mumps.hpp"
 #include "solve/algebra/rows.hpp"
@@ -11,6 +12,7 @@ namespace engrane::solve {
 
 std::unique_ptr<Factors> make_factors(Mat matrix, const std::string& package) {
   if (package == "KLU") return std::make_unique<Klu>(matrix);
+  if (package == "CG") return std::make_unique<ConjugateGradients>(matrix);
   if (package == "MUMPS") return std::make_unique<Mumps>(matrix);
   return std::make_unique<PackageFactors>(matrix, package);
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "solve/algebra/rigid_motions.hpp"
+
 namespace engrane::solve {
 
 SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm)
@@ -21,6 +23,7 @@ SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm
       grips(assembler, redundancy, start, options.step),
       out_of_plane(assembler) {
   assembler.penalty = options.penalty;
+  if (options.package == "CG") note_rigid_motions(assembler, assembler.matrix());
 }
 
 SolverContext::SolverContext(const Model& m, MPI_Comm comm)
