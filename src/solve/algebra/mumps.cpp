@@ -4,13 +4,15 @@
 #include <fmt/format.h>
 
 #include "base/memory.hpp"
+#include "solve/algebra/rows.hpp"
 #include "solve/algebra/solver_cost.hpp"
 
 namespace engrane::solve {
 
 namespace {
 
-/// Pivots that are not where the analysis expects them take room; without pivoting the estimate is nearly exact.
+/// Pivots that are not where the analysis expects them take room, and so does work that ranks give one another while they factor.
+/// Without either the estimate is nearly exact. After too little the whole factorisation is made again.
 constexpr int some_room = 10, usual_room = 50, most_room = 3000;
 
 constexpr double gigabyte = 1e9, megabyte = 1e6;
@@ -41,7 +43,7 @@ MPI_Comm comm_of(Mat matrix) {
 void Mumps::become(Form form) {
   PackageFactors::forget();
   form_ = form;
-  room_ = form == Form::definite ? some_room : usual_room;
+  room_ = form == Form::definite && is_sequential(matrix_) ? some_room : usual_room;
 }
 
 void Mumps::forget() { become(Form::unknown); }
