@@ -33,7 +33,7 @@ def test_gear_wheel_of_solids(tmp_path: Path) -> None:
     with Results(run(gear_meshes.deck(), tmp_path).file) as results:
         place = {int(n): i for i, n in enumerate(results.node_ids)}
         moved = np.asarray(results.field("displacement", 1))[[place[i + 1] for i in range(len(mesh.points))]]
-        xx, yy, xy = (results.cell_field(f"STRESS:{c}", 1) for c in ("XX", "YY", "XY"))
+        xx, yy, xy = (results.cell_field(f"STRESS:{c}", 1)[: len(mesh.cells)] for c in ("XX", "YY", "XY"))
     radius, angle = polar(mesh.points)
     along = moved[:, 1] * np.cos(angle) - moved[:, 0] * np.sin(angle)
 
