@@ -64,6 +64,7 @@ class Scene:
         self.row = {n: i for i, n in enumerate(self.ids)}
         self.points = {n: result.points[i] for n, i in self.row.items()}
         self.wheels = collect(result.elements)
+        self.meshed = {e.nodes[0] for e in result.elements if e.type.upper() in ("MEAN_LINK", "RIGID_LINK")}
         self.items: list[Item] = []
         self.carried: dict[int, tuple[int, np.ndarray]] = {}
         joints = [j for j in (linkage.joint(self, e) for e in result.elements) if j]
@@ -440,7 +441,11 @@ class Stage:
         self.limits = limits
         self.actors = []
         smooth = bool(field) and scene.result.average(field, 0) is not None
+        # a drawn wheel would hide the stresses of its own mesh
+        meshed = scene.meshed if field else set()
         for item in scene.items:
+            if item.kind == "wheel" and item.node in meshed:
+                continue
             mesh = item.mesh.copy()
             look = dict(
                 color=item.color,

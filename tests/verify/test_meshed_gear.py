@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A gear wheel of solids under the force at one tooth: twist and shear stress of its web against closed forms."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import gear_meshes
+import numpy as np
+import pytest
+from engrane_post import Results
+from runs import run
+
+SHEAR = gear_meshes.YOUNG / 2 / (1 + gear_meshes.POISSON)
+
+
+def polar(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    return np.hypot(points[:, 0], points[:, 1]), np.arctan2(points[:, 1], points[:, 0])
+
+
+def round_mean(angle: np.ndarray, values: np.ndarray) -> float:
+    """Mean over a circle of values at angles, by the trapezoidal rule; those at one angle are averaged."""
+    marks, which = np.unique(np.round(angle % (2 * np.pi), 6), return_inverse=True)
+    each = np.bincount(which, values) / np.bincount(which)
+    step = np.diff(np.append(marks, marks[0] + 2 * np.pi))
+    return float(np.sum(each * (step + np.roll(step, 1))) / (4 * np.pi))
+
+
+def test_gear_wheel_of_solids(tmp_path: Path) -> None:
+    """The mean of the shear stress over a circle of the web follows from equilibrium wherever the force enters,
+    and so does the twist, whose mean over a circle sees no displacement of the wheel."""
+    mesh = gear_meshes.Gear()
+    with Results(run(gear_meshes.deck(), tmp_path).file) as results:
+        place = {int(n): i for i, n in enumerate(results.node_ids)}
+        moved = np.asarray(results.field("displacement", 1))[[place[i + 1] for i in range(len(mesh.points))]]
+        xx, yy, xy = (results.cell_field(f"STRESS:{c}", 1)[: len(mesh.cells)] for c in ("XX", "YY", "XY"))
+    radius, angle = polar(mesh.points)
+    along = moved[:, 1] * np.cos(angle) - moved[:, 0] * np.sin(angle)
+
+    def turned(r: float) -> float:
+        on = np.abs(radius - r) < 1e-6
+        return round_mean(angle[on], along[on] / r)
+
+    def twist(inner: float, outer: float) -> float:
+        return -gear_meshes.TORQUE / (4 * np.pi * SHEAR * gear_meshes.WEB) * (1 / inner**2 - 1 / outer**2)
+
+    print(turned(28.8) - turned(19.2), twist(19.2, 28.8))
+    assert turned(28.8) - turned(19.2) == pytest.approx(twist(19.2, 28.8), rel=0.02)
+
+    middles = np.array([mesh.points[cell].mean(axis=0) for cell in mesh.cells])
+    radius, angle = polar(middles)
+    c, s = np.cos(angle), np.sin(angle)
+    shear = (yy - xx) * s * c + xy * (c * c - s * s)
+    for low in (19.2, 22.4, 25.6):
+        ring = (radius > low) & (radius < low + 3.2)
+        r = low + 1.6
+        expected = -gear_meshes.TORQUE / (2 * np.pi * r**2 * gear_meshes.WEB)
+        print(low, round_mean(angle[ring], shear[ring]), expected)
+        assert round_mean(angle[ring], shear[ring]) == pytest.approx(expected, rel=0.02)
