@@ -8,6 +8,7 @@ The wheel stands at the origin with its axle along z, and its pinion on the x ax
 load passes through the pitch point. Lengths in mm, forces in N."""
 
 import sys
+from itertools import pairwise
 
 import numpy as np
 from solid_meshes import SolidMesh
@@ -27,13 +28,13 @@ def involute(angle: float) -> float:
 
 
 def half_angle(radius: float) -> float:
-    """Half of the angle that a tooth without profile shift fills; its flanks are radial below the base circle."""
+    """Half of the angle that a tooth without profile shift fills; below the base circle flanks are radial."""
     at = max(radius, BASE)
     return np.pi / (2 * TEETH) + involute(ALPHA) - involute(np.arccos(BASE / at))
 
 
 def subdivide(values, fine: int) -> np.ndarray:
-    parts = [np.linspace(a, b, fine, endpoint=False) for a, b in zip(values, values[1:], strict=False)]
+    parts = [np.linspace(a, b, fine, endpoint=False) for a, b in pairwise(values)]
     return np.append(np.concatenate(parts), values[-1])
 
 
@@ -57,16 +58,16 @@ class Gear(SolidMesh):
             """Cells between four points of the plane, over the heights."""
             a, b = inner
             d, c = outer
-            for low, high in zip(heights, heights[1:], strict=False):
+            for low, high in pairwise(heights):
                 if inside(0.5 * (low + high)):
                     cells.append([(*p, z) for z in (low, high) for p in (a, d, c, b)])
 
         def at(r, angle):
             return r * np.cos(angle), r * np.sin(angle)
 
-        for r, s in zip(radii, radii[1:], strict=False):
-            web = HUB - 1e-9 < r and s < RIM + 1e-9
-            for p, q in zip(angles, angles[1:], strict=False):
+        for r, s in pairwise(radii):
+            web = r > HUB - 1e-9 and s < RIM + 1e-9
+            for p, q in pairwise(angles):
                 layers(
                     (at(r, p), at(r, q)),
                     (at(s, p), at(s, q)),
@@ -75,8 +76,8 @@ class Gear(SolidMesh):
         flank = subdivide([ROOT, 38.75, PITCH, 41.25, TIP], fine)
         across = np.linspace(-1, 1, 2 * fine + 1)
         for tooth in teeth:
-            for r, s in zip(flank, flank[1:], strict=False):
-                for p, q in zip(across, across[1:], strict=False):
+            for r, s in pairwise(flank):
+                for p, q in pairwise(across):
                     below = [at(r, tooth + half_angle(r) * u) for u in (p, q)]
                     above = [at(s, tooth + half_angle(s) * u) for u in (p, q)]
                     layers(below, above, lambda z: True)
@@ -104,14 +105,16 @@ def deck(fine: int = 1) -> str:
     wheel, centre, pinion, cell = (f"{k}00001" for k in (1, 2, 3, 9))
     rows = mesh.deck()
     places = [f" I {n} X {x} Y 0 Z 0" for n, x in ((wheel, 0), (centre, 0), (pinion, 60))]
-    weights = [" ".join(f"{w:.6g}" for w in mesh.weights[k : k + 15]) for k in range(0, len(mesh.weights), 15)]
+    weights = [
+        " ".join(f"{w:.6g}" for w in mesh.weights[k : k + 15]) for k in range(0, len(mesh.weights), 15)
+    ]
     return "\n".join(
         [
-            "! A gear wheel of solids: the bore follows a node on a hinge (RIGID_LINK); the node of the GEAR follows a",
-            "! flank (MEAN_LINK), weighted as an even pressure over its middle, so the tooth force enters at its tooth.",
-            "! The teeth next to it are there too. The other member is a rigid pinion with a torque.",
-            f"! Written by tests/gear_meshes.py; {len(mesh.points)} nodes. tests/verify/test_meshed_gear.py compares twist",
-            "! and stresses of the web with closed forms.",
+            "! A gear wheel of solids: the bore follows a node on a hinge (RIGID_LINK); the node of the",
+            "! GEAR follows a flank (MEAN_LINK), weighted as an even pressure over its middle, so that the",
+            "! tooth force enters at its tooth. The teeth next to it are there too. The other member is a",
+            f"! rigid pinion with a torque. Written by tests/gear_meshes.py; {len(mesh.points)} nodes.",
+            "! tests/verify/test_meshed_gear.py compares twist and stresses of the web with closed forms.",
             '.TITRE "gear wheel of solids"',
             ".UNIT LENGTH 0.001 MASS 1000. TIME 1.",
             f"ABRE '/torque' '{TORQUE:g}'",
@@ -129,14 +132,15 @@ def deck(fine: int = 1) -> str:
             f' I {int(cell) + 1} RIGID_LINK N {wheel} GROUP "bore"',
             f' I {int(cell) + 2} MEAN_LINK N {centre} GROUP "flank"\n  W ' + "\n    ".join(weights),
             f" I {int(cell) + 3} HINGE N 0 {pinion} AXIS 0 0 1",
-            f" I {int(cell) + 4} GEAR N {centre} {pinion} KIND SPUR Z {TEETH} {PINION} DISTANCE 60 AXIS 0 0 1",
+            f" I {int(cell) + 4} GEAR N {centre} {pinion} KIND SPUR Z {TEETH} {PINION} DISTANCE 60"
+            " AXIS 0 0 1",
             f" I {int(cell) + 5} TORQUE N {pinion} AXIS 0 0 1 V (/torque/2)",
             ".FCT\n I 1 TABLE 0 0  1 0",
             ".SAM TYPE STATIC DISPLACEMENTS LARGE",
             ".SUB TF 1 H 1",
             ".CHK",
             f' ELEMENT {int(cell) + 4} NORMAL_FORCE V (/torque/(/base)) RTOL 1E-9 REF "F = T/r_b"',
-            "! the centre that follows the flank leaves the hinge by 2 um, which changes the arm of the tooth force and turns it by 9E-5",
+            "! the centre of the teeth follows the flank, 5 um from the hinge, and the force has another arm",
             f' ELEMENT {cell} DRIVE_TORQUE V (/torque) RTOL 6E-5 REF "ratio of teeth"',
             f' ELEMENT {int(cell) + 2} FORCE_Y V (-/torque/40) RTOL 5E-5 REF "tangential force"',
             f' ELEMENT {int(cell) + 2} FORCE_X V (-/torque/40*tan(PI/9)) RTOL 3E-4 REF "radial force"',
