@@ -20,8 +20,8 @@ EXAMPLES = """  engrane gallery                        all pictures, into docs/f
 
 @dataclass(frozen=True)
 class Shot:
-    """One picture: its deck below decks/trains or another folder, from where to look, and when (default: the
-    end)."""
+    """One picture: its deck below decks/trains or another folder, from where to look, when (default: the
+    end), and the field of cells that colours them."""
 
     deck: str
     view: str
@@ -29,6 +29,8 @@ class Shot:
     folder: str = "trains"
     up: str | None = None
     time: float | None = None
+    field: str = ""
+    deformed: float = 1.0  # displacements so many times as large
 
 
 SHOTS = (
@@ -52,6 +54,7 @@ SHOTS = (
     Shot("stewart_platform", "1,-0.6,0.45", 1.0, "mechanisms", "z", 0.35),
     Shot("double_wishbone", "1,0.35,0.25", 1.0, "mechanisms", "z", 0.25),
     Shot("universal_differential", "0.4,1,0.6", 1.05, "mechanisms", "z", 0.6),
+    Shot("meshed_gear", "0.2,0.3,1", 1.1, "mechanisms", "y", None, "VON_MISES", 300),
 )
 
 
@@ -112,12 +115,15 @@ def draw(shot: Shot, result: Path, path: Path) -> None:
     """Draws one result with few colours, which makes a small file."""
     from PIL import Image
 
-    from .picture import picture
+    from .picture import enlarged, picture
     from .results import Results
 
     with Results(result) as r:
         frame = r.frame(-1) if shot.time is None else r.frame_at(shot.time)
-        picture(r, [frame], str(path), SIZE, shot.view, shot.zoom, "", bare=True, upward=shot.up)
+        frames = [enlarged(frame, shot.deformed)]
+        picture(
+            r, frames, str(path), SIZE, shot.view, shot.zoom, "", bare=True, upward=shot.up, field=shot.field
+        )
     with Image.open(path) as image:
         few = image.convert("RGB").quantize(
             256, method=Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE
