@@ -131,7 +131,8 @@ Schema material_card() {
   Card<MaterialCard> card(".MAT", {".MATERIAL"}, "Materials");
   card.chapter(model_chapter).numbered();
   card.add("NOM", &MaterialCard::name, "name").synonyms({"NAME"});
-  card.add("BEHA", &MaterialCard::behaviour, "behaviour").synonyms({"BEHAVIOUR", "BEHAVIOR", "COMPORTEMENT"});
+  card.add("BEHA", &MaterialCard::behaviour, "behaviour of cells: \"ELASTIC\", or \"NEO-HOOKEAN\" for large strains")
+      .synonyms({"BEHAVIOUR", "BEHAVIOR", "COMPORTEMENT"});
   card.add("YT", &MaterialCard::young, "Young's modulus: one, or those along three axes")
       .synonyms({"YOUNG"})
       .unit(dimension::pressure)
@@ -162,6 +163,7 @@ Schema material_card() {
   });
   card.example(".MAT\n I 1 NOM \"steel\" BEHA \"ELASTIC\" YT 2.1E+11 NT 0.3 M 7850.");
   card.example(".MAT\n I 2 NOM \"ply\" BEHA \"ELASTIC\" YT 140000. 10000. 10000. NT 0.3 0.45 0.3 G 5000. 3400. 5000.");
+  card.example(".MAT\n I 3 NOM \"rubber\" BEHA \"NEO-HOOKEAN\" YT 1.5E+6 NT 0.49 M 1100.");
   return card.schema();
 }
 

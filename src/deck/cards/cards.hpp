@@ -134,6 +134,7 @@ struct AnalysisCard {
   int iterations = 20;              ///< most Newton iterations before the step is cut
   int cuts = 10;                    ///< most halvings of one step
   Tagged displacements{"", {}};     ///< DISPLACEMENTS SMALL, LARGE: of cells; by itself SMALL unless the deck has TYPE or .SUB
+  Tagged mass{"CONSISTENT", {}};    ///< MASS CONSISTENT, LUMPED: of cells
   Tagged plane{"NO", {}};           ///< PLANE NO, AUTO, XY, YZ, ZX: three unknowns a node where all motion stays in a plane
   Tagged events{"YES", {}};         ///< EVENTS YES [tolerance] or NO: steps end where contact begins and ends
   double energy = 1;                ///< ENERGY: largest error of the energy balance, over the energy there was; 0: any
@@ -189,5 +190,7 @@ bool says_analysis(const std::vector<Record>& records);
 /// Whether the displacements of a deck with a mesh count as small: DISPLACEMENTS of the last `.SAM`, or what says_analysis()
 /// tells.
 bool has_small_displacements(const std::vector<Record>& records);
+/// Whether the last `.SAM` puts the masses of cells at their nodes.
+bool has_lumped_masses(const std::vector<Record>& records);
 
 }  // namespace engrane::deck

@@ -106,6 +106,10 @@ Schema analysis_card() {
       .synonyms({"DEPLACEMENTS"})
       .option({"SMALL", {"PETITS", "LINEAR"}, "strains and forces of the undeformed configuration"})
       .option({"LARGE", {"GRANDS", "NONLINEAR"}, "the strains of Green and Lagrange"});
+  card.add("MASS", &AnalysisCard::mass, "of the cells of a mesh, for inertia, weight and centrifugal loads alike")
+      .synonyms({"MASSE"})
+      .option({"CONSISTENT", {"COHERENTE"}, "by the shape functions of the displacements"})
+      .option({"LUMPED", {"CONCENTREE", "DIAGONAL"}, "at the nodes, so that the mass matrix is diagonal"});
   card.add("PLANE", &AnalysisCard::plane,
            "whether the mechanism is solved in a plane: three unknowns a node, and no constraints out of it")
       .synonyms({"PLAN"})
@@ -338,6 +342,13 @@ Schema check_card() {
   return card.schema();
 }
 
+const AnalysisCard* last_analysis(const std::vector<Record>& records) {
+  const AnalysisCard* last = nullptr;
+  for (const Record& record : records)
+    if (const auto* card = record.get<AnalysisCard>()) last = card;
+  return last;
+}
+
 }  // namespace
 
 bool says_analysis(const std::vector<Record>& records) {
@@ -347,10 +358,13 @@ bool says_analysis(const std::vector<Record>& records) {
 }
 
 bool has_small_displacements(const std::vector<Record>& records) {
-  const AnalysisCard* last = nullptr;
-  for (const Record& record : records)
-    if (const auto* card = record.get<AnalysisCard>()) last = card;
+  const AnalysisCard* last = last_analysis(records);
   return last && last->displacements.given() ? last->displacements.is("SMALL") : !says_analysis(records);
+}
+
+bool has_lumped_masses(const std::vector<Record>& records) {
+  const AnalysisCard* last = last_analysis(records);
+  return last && last->mass.is("LUMPED");
 }
 
 std::vector<Schema> analysis_cards() { return {analysis_card(), stepping_card(), archive_card(), check_card()}; }

@@ -27,6 +27,10 @@ Elastic orthotropic(const Orthotropic& c) {
   return material;
 }
 
+NeoHookean neo_hookean(double young, double poisson) {
+  return {young / (2 * (1 + poisson)), young * poisson / ((1 + poisson) * (1 - 2 * poisson))};
+}
+
 bool is_stable(const Elastic& material) { return Eigen::LLT<Moduli>(material.compliance).info() == Eigen::Success; }
 
 bool is_plane(const Elastic& material) {
@@ -44,13 +48,14 @@ Elastic turned(const Elastic& material, const Mat3& axes) {
     const Mat3 seen = axes * unit * axes.transpose();
     for (Eigen::Index i = 0; i < 6; ++i) strain(i, j) = (i < 3 ? 1 : 2) * seen(first[i], second[i]);
   }
-  return {strain * material.compliance * strain.transpose(), strain * material.expansion, material.density};
+  return {strain * material.compliance * strain.transpose(), strain * material.expansion, material.density, material.neo_hookean};
 }
 
 Elasticity law_of(Hypothesis hypothesis, const Elastic& material) {
   Elasticity law;
   law.expansion = law.growth = material.expansion;
   law.density = material.density;
+  law.neo_hookean = material.neo_hookean;
   constexpr std::array<Eigen::Index, 3> in_plane{0, 1, 3};
   constexpr Eigen::Index zz = 2;
   if (hypothesis == Hypothesis::plane_stress) {

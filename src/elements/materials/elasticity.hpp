@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "math/vector.hpp"
 
@@ -19,12 +20,20 @@ enum class Hypothesis : unsigned char {
 using Voigt = Eigen::Matrix<double, 6, 1>;
 using Moduli = Eigen::Matrix<double, 6, 6>;
 
+/// An isotropic material for strains of any size (neo_hookean.hpp), by the constants of Lamé that it has at rest.
+struct NeoHookean {
+  double shear = 0;   ///< μ
+  double lambda = 0;  ///< λ
+};
+NeoHookean neo_hookean(double young, double poisson);
+
 /// A linear elastic material: E = C S + α ΔT, with S the stresses (second Piola–Kirchhoff where displacements are large) and E
 /// the strains of Green and Lagrange.
 struct Elastic {
   Moduli compliance = Moduli::Zero();
   Voigt expansion = Voigt::Zero();  ///< α: strain of a free body for one degree
   double density = 0;
+  std::optional<NeoHookean> neo_hookean = {};  ///< where strains are not small; the others are its derivatives at rest
 };
 
 /// Young's modulus, Poisson's ratio.
@@ -46,7 +55,7 @@ bool is_plane(const Elastic& material);
 /// The material whose axes are the columns of `axes`.
 Elastic turned(const Elastic& material, const Mat3& axes);
 
-/// The law of a cell: S = D (E − α ΔT).
+/// The law of a cell: S = D (E − α ΔT), or that of a neo-Hookean material with D at rest.
 struct Elasticity {
   Moduli stiffness = Moduli::Zero();
   Voigt expansion = Voigt::Zero();
@@ -58,6 +67,7 @@ struct Elasticity {
   /// E_zz = α_zz ΔT + transverse · (E − α ΔT): what plane stress makes of the strain along z; zero otherwise.
   Voigt transverse = Voigt::Zero();
   double density = 0;
+  std::optional<NeoHookean> neo_hookean = {};
 };
 /// Of plane stress the law is reduced by S_zz = S_yz = S_zx = 0.
 Elasticity law_of(Hypothesis hypothesis, const Elastic& material);

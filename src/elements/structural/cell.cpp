@@ -112,7 +112,7 @@ std::unique_ptr<Element> build(const CellData& data, BuildContext& context) {
   CellPlan plan{context.record.id, cell->shape, std::move(cell->nodes), {}, section};
   for (const int id : plan.nodes) plan.places.push_back(context.nodes.at(id));
   plan.warmth = warmth_of(plan.nodes, context);
-  if (plan.warmth && section->law.expansion.isZero(0))
+  if (plan.warmth && section->law.expansion.isZero(0) && !section->law.neo_hookean)
     context.diagnostics.warning_once("warm", context.record.location,
                                      fmt::format("the material of cell {} does not expand: TEMP has no effect on it", plan.id),
                                      "A of its .MAT is the coefficient of thermal expansion");

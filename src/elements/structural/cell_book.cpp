@@ -45,13 +45,17 @@ std::string names_of(const std::vector<std::string>& groups) {
 
 }  // namespace
 
-CellBook::CellBook(const BuildContext& context) : diagnostics_(context.diagnostics) {
+CellBook::CellBook(const BuildContext& context)
+    : diagnostics_(context.diagnostics),
+      linear_(deck::has_small_displacements(*context.records)),
+      lumped_(deck::has_lumped_masses(*context.records)) {
   const std::vector<deck::Record>& records = *context.records;
   read_cells(records);
   read_groups(records);
   read_properties(records);
   read_rotations(context);
-  make_sections(deck::has_small_displacements(records), context.nodes);
+  make_sections(context.nodes);
+  if (context.temperatures) refuse_warm_rubber(*context.temperatures);
 }
 
 std::shared_ptr<const CellBook> CellBook::of(const BuildContext& context) {
@@ -226,6 +230,17 @@ void CellBook::report_lack(const Lacks& lacks, const std::string& what, const st
   if (count > 0) diagnostics_.error(first->record->location, fmt::format("cell {} {}{}", first->record->id, what, others), cure);
 }
 
+void CellBook::refuse_warm_rubber(const Temperatures& temperatures) {
+  const auto is_warm = [&](int node) { return temperatures.contains(std::abs(node)); };
+  const auto refused = [&](const Cell& cell) {
+    if (!cell.section || !cell.section->law.neo_hookean) return false;
+    const std::vector<int>& nodes = cell.record->get<CellData>()->nodes;
+    return std::any_of(nodes.begin(), nodes.end(), is_warm);
+  };
+  report_lack(refused, "is neo-Hookean and has warm nodes: thermal expansion of this material is not in this version",
+              "leave these nodes out of TEMP, or take BEHA \"ELASTIC\"");
+}
+
 std::optional<Mat3> CellBook::axes_of(const Cell& cell, const NodePositions& nodes) {
   Mat3 axes = Mat3::Identity();
   if (cell.frame != 0) {
@@ -247,8 +262,7 @@ std::optional<Mat3> CellBook::axes_of(const Cell& cell, const NodePositions& nod
   return Mat3(axes * Eigen::AngleAxisd(cell.theta.value_or(0) * degree, Vec3::UnitZ()).toRotationMatrix());
 }
 
-std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypothesis hypothesis, const Mat3& axes, bool linear,
-                                                          int number) {
+std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypothesis hypothesis, const Mat3& axes, int number) {
   const auto [entry, fresh] = elastic_.try_emplace({cell.material->id, hypothesis});
   if (fresh) entry->second = elastic_of(*cell.material, hypothesis, diagnostics_);
   if (!entry->second) return nullptr;
@@ -260,12 +274,14 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
                          "of a plane cell one axis of the material is z");
     return nullptr;
   }
+  materials::Elasticity law = materials::law_of(hypothesis, material);
+  if (linear_) law.neo_hookean.reset();  // its derivative at rest is all there is
   const bool has_thickness = hypothesis == Hypothesis::plane_stress || hypothesis == Hypothesis::plane_strain;
-  return std::make_shared<CellSection>(CellSection{hypothesis, materials::law_of(hypothesis, material),
-                                                   has_thickness && cell.thickness > 0 ? cell.thickness : 1.0, linear, number});
+  return std::make_shared<CellSection>(
+      CellSection{hypothesis, law, has_thickness && cell.thickness > 0 ? cell.thickness : 1.0, linear_, number, lumped_});
 }
 
-void CellBook::make_sections(bool linear, const NodePositions& nodes) {
+void CellBook::make_sections(const NodePositions& nodes) {
   const auto is_solid_cell = [](const Cell& cell) {
     const std::vector<int>& written = cell.record->get<CellData>()->nodes;
     return std::find(written.begin(), written.end(), 0) != written.end();
@@ -306,7 +322,7 @@ void CellBook::make_sections(bool linear, const NodePositions& nodes) {
         cell.section = known->second;
         continue;
       }
-    if (const auto axes = axes_of(cell, nodes)) cell.section = make_section(cell, *formulation, *axes, linear, number);
+    if (const auto axes = axes_of(cell, nodes)) cell.section = make_section(cell, *formulation, *axes, number);
     if (!alone) sections.emplace(key, cell.section);
   }
 }

@@ -26,6 +26,7 @@ struct CellSection {
   /// Which of the sections of the deck: cells of one have the same material, hypothesis and thickness, and axes that are given in
   /// the same way where they matter. Where these turn from cell to cell, as in a cylindrical frame, each has a struct of its own.
   int number = 0;
+  bool lumped = false;  ///< masses at the nodes
 };
 
 /// A body that turns about an axis, in axes that turn with it.
@@ -77,9 +78,10 @@ class CellBook {
   void read_properties(const std::vector<deck::Record>& records);
   void read_rotations(const BuildContext& context);
   void assign(const deck::Record& record, const deck::AssignmentCard& assignment);
-  void make_sections(bool linear, const NodePositions& nodes);
+  void make_sections(const NodePositions& nodes);
+  void refuse_warm_rubber(const Temperatures& temperatures);
   std::shared_ptr<const CellSection> make_section(const Cell& cell, materials::Hypothesis hypothesis, const Mat3& axes,
-                                                  bool linear, int number);
+                                                  int number);
   /// Axes of the material of a cell; nothing where its frame does not exist, which is reported.
   std::optional<Mat3> axes_of(const Cell& cell, const NodePositions& nodes);
 
@@ -92,6 +94,7 @@ class CellBook {
   void report_lack(const Lacks& lacks, const std::string& what, const std::string& cure);
 
   Diagnostics& diagnostics_;
+  bool linear_, lumped_;     ///< what all cells of the model have
   std::vector<Cell> cells_;  ///< by number
   std::map<std::string, Group> groups_;
   std::map<std::string, std::vector<int>> faces_;

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <span>
 
-#include "elements/materials/elasticity.hpp"
+#include "elements/materials/neo_hookean.hpp"
 #include "elements/structural/cell_shapes.hpp"
 
 namespace engrane::elements::structural {
@@ -133,16 +133,34 @@ class CellKernel {
     Stiffness stiffness;
     std::array<Strain, static_cast<std::size_t>(most_points)> free{};
     bool is_warm = false;
-    bool linear = true;  ///< small displacements
+    bool linear = true;                                  ///< small displacements
+    const materials::NeoHookean* neo_hookean = nullptr;  ///< instead
+    materials::Hypothesis hypothesis = materials::Hypothesis::solid;
   };
   static Stiffness reduced(const materials::Moduli& full) { return full(components, components); }
   static Strain reduced(const materials::Voigt& full) { return full(components); }
 
-  /// Strain less that of warmth, at a point.
-  static Strain elastic(const Law& law, int point, Strain strain) {
-    if (law.is_warm) strain -= law.free[static_cast<std::size_t>(point)];
-    return strain;
+  /// The stress at a point, its derivative by the strain, and the energy per volume.
+  struct Response {
+    Strain stress;
+    Stiffness moduli;
+    double energy;
+  };
+  static Response respond(const Law& law, int point, const Deformation& now) {
+    Strain e = strain(now, law.linear);
+    if (law.neo_hookean) {
+      materials::Voigt all = materials::Voigt::Zero();
+      all(components) = e;
+      // C does not tell a body from one turned inside out
+      if (!is_right_way_round(now)) all.setConstant(std::numeric_limits<double>::quiet_NaN());
+      const materials::Response found = materials::respond(*law.neo_hookean, law.hypothesis, all);
+      return {reduced(found.stress), reduced(found.moduli), found.energy};
+    }
+    if (law.is_warm) e -= law.free[static_cast<std::size_t>(point)];
+    const Strain stress = law.stiffness * e;
+    return {stress, law.stiffness, e.dot(stress) / 2};
   }
+  static bool is_right_way_round(const Deformation& now) { return now.F.determinant() > 0 && now.hoop > 0; }
 
   /// Resisting forces and, where wanted, their derivative, of nodes and modes for any amplitudes of the modes.
   void sum(const Law& law, const Moves& moves, Forces& r, Tangent* k) const {
@@ -152,7 +170,8 @@ class CellKernel {
     for (int i = 0; i < count_; ++i) {
       const Point& p = points_[i];
       const Deformation now = deformation(p, moves);
-      const Strain stress = p.volume * (law.stiffness * elastic(law, i, strain(now, law.linear)));
+      const Response response = respond(law, i, now);
+      const Strain stress = p.volume * response.stress;
       const Deformation at = law.linear ? Deformation{} : now;
       for (int j = 0; j < columns; ++j)
         for (int a = 0; a < D; ++a) {
@@ -166,7 +185,7 @@ class CellKernel {
         }
       r.noalias() += b.transpose() * stress;
       if (!k) continue;
-      const Eigen::Matrix<double, strains, size> c = p.volume * law.stiffness * b;
+      const Eigen::Matrix<double, strains, size> c = p.volume * response.moduli * b;
       k->noalias() += b.transpose() * c;
       if (!law.linear) add_geometric(p, stress, *k);
     }

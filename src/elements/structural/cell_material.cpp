@@ -33,6 +33,30 @@ std::optional<Elastic> isotropic_of(const deck::Record& record, const deck::Mate
   return {};
 }
 
+bool is_neo_hookean(const deck::MaterialCard& card) {
+  for (const char* language : {"NEO-HOOKEAN", "NEO_HOOKEAN", "NEO HOOKEAN", "NEOHOOKEAN"})
+    if (begins(language, card.behaviour)) return true;
+  return false;
+}
+
+std::optional<Elastic> neo_hookean_of(const deck::Record& record, const deck::MaterialCard& card, Diagnostics& diagnostics) {
+  if (card.young.size() != 1 || card.poisson.size() != 1 || !card.shear.empty())
+    diagnostics.error(record.location, fmt::format("the neo-Hookean material {} is isotropic", record.id),
+                      "one value of YT, one of NT, no G: those of small strains");
+  else if (!(card.poisson.front() >= 0 && card.poisson.front() < 0.5))
+    diagnostics.error(record.where("NT"), fmt::format("NT = {} is out of range for a neo-Hookean material", card.poisson.front()),
+                      "NT is at least 0 and below 0.5, such as 0.49 for rubber");
+  else if (!card.expansion.empty())
+    diagnostics.error(record.where("A"), "thermal expansion of a neo-Hookean material is not in this version",
+                      "leave A out, or take BEHA \"ELASTIC\"");
+  else {
+    Elastic material = materials::isotropic(card.young.front(), card.poisson.front());
+    material.neo_hookean = materials::neo_hookean(card.young.front(), card.poisson.front());
+    return material;
+  }
+  return {};
+}
+
 std::optional<Elastic> orthotropic_of(const deck::Record& record, const deck::MaterialCard& card, Diagnostics& diagnostics) {
   Elastic material = materials::orthotropic({along_axes(card.young), along_axes(card.poisson), along_axes(card.shear)});
   if (materials::is_stable(material)) return material;
@@ -47,13 +71,16 @@ std::optional<Elastic> orthotropic_of(const deck::Record& record, const deck::Ma
 std::optional<Elastic> elastic_of(const deck::Record& record, Hypothesis hypothesis, Diagnostics& diagnostics) {
   const auto& card = *record.get<deck::MaterialCard>();
   const std::size_t count = card.young.size();
+  const bool rubber = is_neo_hookean(card);
   std::optional<Elastic> material;
-  if (!begins("ELASTIC", card.behaviour) && !begins("ELASTIQUE", card.behaviour))
+  if (!rubber && !begins("ELASTIC", card.behaviour) && !begins("ELASTIQUE", card.behaviour))
     diagnostics.error(record.where("BEHA"), fmt::format("the behaviour \"{}\" is not in this version", card.behaviour),
-                      "there is \"ELASTIC\"");
+                      "there are \"ELASTIC\" and \"NEO-HOOKEAN\"");
   else if (count == 0 || card.poisson.empty())
     diagnostics.error(record.location, fmt::format("material {} of cells needs YT and NT", record.id),
                       "Young's modulus YT and Poisson's ratio NT");
+  else if (rubber)
+    material = neo_hookean_of(record, card, diagnostics);
   else if (count == 1 && card.poisson.size() == 1 && card.expansion.size() <= 1)
     material = isotropic_of(record, card, hypothesis, diagnostics);
   else if (count == 3 && card.poisson.size() == 3 && card.shear.size() == 3 && card.expansion.size() != 2)

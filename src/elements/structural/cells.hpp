@@ -27,6 +27,7 @@ class Cells final : public Block {
   static constexpr int N = Traits::nodes, D = Traits::dimension;
   using Vector = Eigen::Matrix<double, D * N, 1>;
   using Square = Eigen::Matrix<double, D * N, D * N>;
+  using Shape = Eigen::Matrix<double, N, 1>;
   using Stress = materials::Voigt;
   static constexpr int width = D == 2 ? 4 : 6;  ///< components of stress among the results
 
@@ -89,27 +90,24 @@ class Cells final : public Block {
     Energies energies;
     for (int i = 0; i < kernel.count(); ++i) {
       const double volume = kernel.point(i).volume;
-      const auto strain = Kernel::elastic(law, i, Kernel::strain(kernel.deformation(kernel.point(i), sum.moves), law.linear));
-      const typename Kernel::Strain stress = law.stiffness * strain;
-      energies.strain += volume / 2 * strain.dot(stress);
+      const auto response = Kernel::respond(law, i, kernel.deformation(kernel.point(i), sum.moves));
+      energies.strain += volume * response.energy;
       if (!law.is_warm) continue;
       // V also depends on the warmth ΔT: its change does the work ∂V/∂ΔT dΔT
       const Sample& s = Kernel::samples()[static_cast<std::size_t>(i)];
       const double held = section.law.held * section.law.expansion[2] * section.law.expansion[2], warmer = rise(cell, state, s);
       energies.strain += volume / 2 * held * warmer * warmer;
-      energies.external += volume * (held * warmer - Kernel::reduced(section.law.growth).dot(stress)) * rise_rate(cell, state, s);
+      energies.external +=
+          volume * (held * warmer - Kernel::reduced(section.law.growth).dot(response.stress)) * rise_rate(cell, state, s);
     }
     Vector weight;
     energies.potential = energies.strain;
     if (weigh(cell, state, weight)) energies.potential -= weight.dot(moved.reshaped());
     if (Vector outward = Vector::Zero(); add_centrifugal(cell, state, outward)) energies.external += outward.dot(rates(state));
     if (section.law.density != 0) {
-      Places v;
-      for (Eigen::Index i = 0; i < N; ++i) v.col(i) = state.nodes[static_cast<std::size_t>(i)].v.template head<D>();
+      const Places v = rates(state).reshaped(D, N);
       if (!v.isZero(0))
-        for_each_point(cell, masses(), [&](const Sample& s, double volume) {
-          energies.kinetic += section.law.density * volume / 2 * (v * s.value).squaredNorm();
-        });
+        for_each_mass(cell, [&](const auto& shape, double mass) { energies.kinetic += mass / 2 * (v * shape).squaredNorm(); });
     }
     return energies;
   }
@@ -234,7 +232,12 @@ class Cells final : public Block {
 
   static Law law_of(const Cell& cell, const State& state) {
     const materials::Elasticity& material = cell.section->law;
-    Law law{Kernel::reduced(material.stiffness), {}, cell.warmth != nullptr, cell.section->linear};
+    Law law{Kernel::reduced(material.stiffness),
+            {},
+            cell.warmth != nullptr,
+            cell.section->linear,
+            material.neo_hookean ? &*material.neo_hookean : nullptr,
+            cell.section->hypothesis};
     for (std::size_t i = 0; law.is_warm && i < Kernel::samples().size(); ++i)
       law.free[i] = rise(cell, state, Kernel::samples()[i]) * Kernel::reduced(material.growth);
     return law;
@@ -268,11 +271,18 @@ class Cells final : public Block {
     AtPoint p;
     p.strain.setZero();
     p.strain(Kernel::components) = Kernel::strain(now, section.linear);
-    const Stress elastic = p.strain - warmer * material.expansion;
-    p.second = material.stiffness * elastic;
-    if (section.hypothesis == materials::Hypothesis::plane_stress)
-      p.strain[2] = material.transverse.dot(elastic) + warmer * material.expansion[2];
-    p.energy = p.second.dot(elastic) / 2;
+    if (material.neo_hookean) {
+      const materials::Response response = materials::respond(*material.neo_hookean, section.hypothesis, p.strain);
+      p.second = response.stress;
+      p.strain[2] = response.transverse;
+      p.energy = response.energy;
+    } else {
+      const Stress elastic = p.strain - warmer * material.expansion;
+      p.second = material.stiffness * elastic;
+      if (section.hypothesis == materials::Hypothesis::plane_stress)
+        p.strain[2] = material.transverse.dot(elastic) + warmer * material.expansion[2];
+      p.energy = p.second.dot(elastic) / 2;
+    }
     p.stress = p.second;
     if (section.linear) return p;
     p.F.setZero();
@@ -329,10 +339,37 @@ class Cells final : public Block {
     if (density == 0 || gravity.isZero(0)) return false;
     // round an axis the radius makes one degree more
     static const auto samples = tabulate<S>(Axi ? Traits::mass_points() : Traits::load_points());
-    Eigen::Matrix<double, N, 1> share = Eigen::Matrix<double, N, 1>::Zero();
-    for_each_point(cell, samples, [&share](const Sample& s, double volume) { share += volume * s.value; });
-    for (Eigen::Index i = 0; i < N; ++i) weight.template segment<D>(D * i) = density * share[i] * gravity;
+    Shape share = Shape::Zero();
+    if (cell.section->lumped)
+      share = lumped(cell);
+    else
+      for_each_point(cell, samples, [&](const Sample& s, double volume) { share += density * volume * s.value; });
+    for (Eigen::Index i = 0; i < N; ++i) weight.template segment<D>(D * i) = share[i] * gravity;
     return true;
+  }
+
+  /// Masses at the nodes: the diagonal of the consistent matrix, scaled to the mass of the cell (Hinton, Rock and Zienkiewicz
+  /// 1976, Earthquake Eng. Struct. Dyn. 4).
+  static Shape lumped(const Cell& cell) {
+    Shape diagonal = Shape::Zero();
+    double volume = 0;
+    for_each_point(cell, masses(), [&](const Sample& s, double part) {
+      diagonal += part * s.value.cwiseAbs2();
+      volume += part;
+    });
+    return cell.section->law.density * volume / diagonal.sum() * diagonal;
+  }
+
+  /// `use(shape functions, mass)` at points that carry the mass: those of a rule, or the nodes where masses are lumped.
+  template <class Use>
+  static void for_each_mass(const Cell& cell, const Use& use) {
+    if (cell.section->lumped) {
+      const Shape mass = lumped(cell);
+      for (Eigen::Index i = 0; i < N; ++i) use(Shape::Unit(i), mass[i]);
+      return;
+    }
+    const double density = cell.section->law.density;
+    for_each_point(cell, masses(), [&](const Sample& s, double volume) { use(s.value, density * volume); });
   }
 
   static Vector rates(const State& state) {
@@ -344,8 +381,7 @@ class Cells final : public Block {
 
   /// Adds ∫ N_i ρ ω² P (x − o) dV, with P across the axis and a point o on it; false when the cell does not turn.
   static bool add_centrifugal(const Cell& cell, const State& state, Vector& forces) {
-    const double density = cell.section->law.density;
-    if (!cell.rotation || density == 0) return false;
+    if (!cell.rotation || cell.section->law.density == 0) return false;
     const CellRotation& turn = *cell.rotation;
     const double speed = turn.speed_at(state.time);
     const Mat3 across = turn.projection();
@@ -355,36 +391,32 @@ class Cells final : public Block {
       if (cell.section->linear) x.head<D>() = cell.places.col(i);
       arms.col(i) = (across * (x - turn.point)).template head<D>();
     }
-    for_each_point(cell, masses(), [&](const Sample& s, double volume) {
-      outward += density * speed * speed * volume * (arms * s.value) * s.value.transpose();
-    });
+    for_each_mass(cell,
+                  [&](const auto& shape, double mass) { outward += speed * speed * mass * (arms * shape) * shape.transpose(); });
     forces += outward.reshaped();
     return true;
   }
 
   static void add_inertia_and_weight(const Cell& cell, const State& state, Eigen::Map<Vector>& r) {
-    const double density = cell.section->law.density;
-    if (density == 0) return;
+    if (cell.section->law.density == 0) return;
     if (Vector weight; weigh(cell, state, weight)) r -= weight;
     if (Vector outward = Vector::Zero(); add_centrifugal(cell, state, outward)) r -= outward;
     Places a;
     for (Eigen::Index i = 0; i < N; ++i) a.col(i) = state.nodes[static_cast<std::size_t>(i)].a.template head<D>();
     if (a.isZero(0)) return;
     Places inertia = Places::Zero();
-    for_each_point(cell, masses(),
-                   [&](const Sample& s, double volume) { inertia += density * volume * (a * s.value) * s.value.transpose(); });
+    for_each_mass(cell, [&](const auto& shape, double mass) { inertia += mass * (a * shape) * shape.transpose(); });
     r += inertia.reshaped();
   }
 
   /// Adds the mass matrix times `factor`, with the directions along which it acts.
   static void add_mass(const Cell& cell, double factor, const Mat3& directions, Eigen::Map<Square>& k) {
-    const double density = cell.section->law.density;
-    if (density == 0) return;
-    Eigen::Matrix<double, N, N> mass = Eigen::Matrix<double, N, N>::Zero();
-    for_each_point(cell, masses(),
-                   [&](const Sample& s, double volume) { mass += factor * density * volume * s.value * s.value.transpose(); });
+    if (cell.section->law.density == 0) return;
+    Eigen::Matrix<double, N, N> matrix = Eigen::Matrix<double, N, N>::Zero();
+    for_each_mass(cell, [&](const auto& shape, double mass) { matrix += factor * mass * shape * shape.transpose(); });
     for (Eigen::Index i = 0; i < N; ++i)
-      for (Eigen::Index j = 0; j < N; ++j) k.template block<D, D>(D * i, D * j) += mass(i, j) * directions.topLeftCorner<D, D>();
+      for (Eigen::Index j = 0; j < N; ++j)
+        k.template block<D, D>(D * i, D * j) += matrix(i, j) * directions.topLeftCorner<D, D>();
   }
 
   static Stress components_of(const Mat3& s) { return (Stress() << s.diagonal(), s(0, 1), s(1, 2), s(2, 0)).finished(); }

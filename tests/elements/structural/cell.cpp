@@ -21,12 +21,20 @@ using materials::Hypothesis;
 
 constexpr double young = 70, poisson = 0.3, density = 2.7, thickness = 0.4;
 
-std::shared_ptr<const CellSection> section(Hypothesis hypothesis, bool linear, double nu = poisson) {
-  materials::Elastic material = materials::isotropic(young, nu);
+/// What a section has beside its hypothesis.
+struct Kind {
+  bool linear = false, rubber = false, lumped = false;
+};
+
+std::shared_ptr<const CellSection> section(Hypothesis hypothesis, Kind kind) {
+  materials::Elastic material = materials::isotropic(young, poisson);
   material.density = density;
+  if (kind.rubber) material.neo_hookean = materials::neo_hookean(young, poisson);
   return std::make_shared<CellSection>(CellSection{hypothesis, materials::law_of(hypothesis, material),
-                                                   hypothesis == Hypothesis::axisymmetric ? 1 : thickness, linear});
+                                                   hypothesis == Hypothesis::axisymmetric ? 1 : thickness, kind.linear, 0,
+                                                   kind.lumped});
 }
+std::shared_ptr<const CellSection> section(Hypothesis hypothesis, bool linear) { return section(hypothesis, Kind{linear}); }
 
 /// A distorted cell of each kind, sides of 6 and 8 nodes curved, away from the axis.
 std::vector<Eigen::Vector2d> distorted(std::size_t count) {
@@ -85,11 +93,11 @@ double area_of(const std::vector<Eigen::Vector2d>& x, bool axi) {
   return sum;
 }
 
-Subject subject(std::size_t count, Hypothesis hypothesis, bool linear) {
+Subject subject(std::size_t count, Hypothesis hypothesis, Kind kind) {
   const bool axi = hypothesis == Hypothesis::axisymmetric;
   Subject s;
   s.name = std::to_string(count) + " nodes, hypothesis " + std::to_string(static_cast<int>(hypothesis)) +
-           (linear ? ", small" : ", large");
+           (kind.linear ? ", small" : ", large") + (kind.rubber ? ", neo-Hookean" : "") + (kind.lumped ? ", lumped" : "");
   s.nodes = node_map(distorted(count));
   s.in_plane = true;
   s.length = 0.06;  // a cell of four nodes finds its modes for strains of this size
@@ -97,12 +105,12 @@ Subject subject(std::size_t count, Hypothesis hypothesis, bool linear) {
   s.build = [=](const Mat3& Q) {
     auto places = distorted(count);
     for (Eigen::Vector2d& x : places) x = (Q * Vec3(x[0], x[1], 0)).head<2>();
-    return cell(places, section(hypothesis, linear));
+    return cell(places, section(hypothesis, kind));
   };
   s.mass = density * (axi ? 1 : thickness) * area_of(distorted(count), axi);
   s.skip[Check::equilibrium] = "inertia and weight are outer forces";
   for (const Check check : {Check::rigid, Check::objectivity}) {
-    if (linear) s.skip[check] = "small displacements do not turn far";
+    if (kind.linear) s.skip[check] = "small displacements do not turn far";
     if (axi) s.skip[check] = "the axis stands still";
   }
   if (axi) s.skip[Check::rotated_copy] = "the axis is global";
@@ -114,7 +122,46 @@ constexpr Hypothesis hypotheses[] = {Hypothesis::plane_stress, Hypothesis::plane
 TEST(Cell, Suite) {
   for (const std::size_t count : {3U, 6U, 4U, 8U})
     for (const Hypothesis hypothesis : hypotheses)
-      for (const bool linear : {true, false}) run_suite(subject(count, hypothesis, linear));
+      for (const Kind kind : {Kind{true}, Kind{false}, Kind{false, true}, Kind{true, false, true}, Kind{false, false, true}})
+        run_suite(subject(count, hypothesis, kind));
+}
+
+/// One mass matrix for inertia and weight: a body that falls freely has no stress.
+TEST(Cell, FreeFallMakesNoForce) {
+  for (const std::size_t count : {3U, 6U, 4U, 8U})
+    for (const Hypothesis hypothesis : hypotheses)
+      for (const bool lumped : {false, true}) {
+        // the weight of 6 nodes is that of 3 points, which is not exact where sides are curved
+        if (count == 6 && !lumped && hypothesis != Hypothesis::axisymmetric) continue;
+        const auto places = distorted(count);
+        const auto element = cell(places, section(hypothesis, Kind{false, false, lumped}));
+        StateBuffer state(*element, node_map(places));
+        state.gravity = {3, -9, 0};
+        double weight = 0;
+        for (const double r : residual_of(*element, state)) weight = std::max(weight, std::abs(r));
+        EXPECT_GT(weight, 0.1);
+        for (NodeState& node : state.nodes) node.a = state.gravity;
+        for (const double r : residual_of(*element, state)) EXPECT_NEAR(r, 0, 1e-13 * weight) << count << " nodes";
+      }
+}
+
+/// Masses at the nodes are above zero, sum up to the mass of the cell, and stand alone in the matrix.
+TEST(Cell, LumpedMassesAreADiagonal) {
+  for (const std::size_t count : {3U, 6U, 4U, 8U})
+    for (const Hypothesis hypothesis : hypotheses) {
+      const auto places = distorted(count);
+      const auto element = cell(places, section(hypothesis, Kind{true, false, true}));
+      const auto mass = tangent_of(*element, StateBuffer(*element, node_map(places)), {0, 0, 1});
+      const bool axi = hypothesis == Hypothesis::axisymmetric;
+      double sum = 0;
+      for (std::size_t i = 0; i < 6 * count; ++i)
+        for (std::size_t j = 0; j < 6 * count; ++j) {
+          const double m = mass[i * 6 * count + j];
+          EXPECT_TRUE(i == j ? i % 6 >= 2 || m > 0 : m == 0) << i << ", " << j << ": " << m;
+          if (i == j && i % 6 == 0) sum += m;
+        }
+      EXPECT_NEAR(sum, density * (axi ? 1 : thickness) * area_of(places, axi), 1e-13 * sum);
+    }
 }
 
 /// With large displacements the centrifugal load grows with the distance from the axis; its derivative is −ω² times the mass
@@ -207,13 +254,15 @@ TEST(Cell, RigidTurnsHaveNoStressWhateverTheirSize) {
     for (const Hypothesis hypothesis : {Hypothesis::plane_stress, Hypothesis::plane_strain})
       for (const double angle : {0.3, 2.0, 3.1}) {
         const auto places = distorted(count);
-        const auto element = cell(places, section(hypothesis, false));
         const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
-        const StateBuffer state = moved(*element, node_map(places), [&](const Eigen::Vector2d& x) {
-          return Eigen::Vector2d(turn * x - x + Eigen::Vector2d(3, -2));
-        });
-        EXPECT_LT(field_of(*element, state, "STRESS").cwiseAbs().maxCoeff(), 1e-12 * young);
-        for (const double r : residual_of(*element, state)) EXPECT_NEAR(r, 0, 1e-12 * young);
+        for (const bool rubber : {false, true}) {
+          const auto element = cell(places, section(hypothesis, Kind{false, rubber}));
+          const StateBuffer state = moved(*element, node_map(places), [&](const Eigen::Vector2d& x) {
+            return Eigen::Vector2d(turn * x - x + Eigen::Vector2d(3, -2));
+          });
+          EXPECT_LT(field_of(*element, state, "STRESS").cwiseAbs().maxCoeff(), 1e-12 * young);
+          for (const double r : residual_of(*element, state)) EXPECT_NEAR(r, 0, 1e-12 * young);
+        }
       }
 }
 

@@ -146,18 +146,23 @@ TEST(Solid, RulesOfTetrahedraAreExactToTheirDegree) {
 }
 
 TEST(Solid, Suite) {
+  enum class Kind { small, large, neo_hookean, lumped };
   for (const CellShape shape : solids)
-    for (const bool linear : {true, false}) {
+    for (const auto& [kind, name] : {std::pair(Kind::small, "small"), std::pair(Kind::large, "large"),
+                                     std::pair(Kind::neo_hookean, "neo-Hookean"), std::pair(Kind::lumped, "lumped")}) {
+      const bool linear = kind == Kind::small;
       Subject s;
-      s.name =
-          std::to_string(with_middles(shape, reference_corners(shape)).size()) + (linear ? " nodes, small" : " nodes, large");
+      s.name = std::to_string(with_middles(shape, reference_corners(shape)).size()) + " nodes, " + name;
       s.nodes = node_map(distorted(shape));
       s.length = 0.05;  // a cell of eight nodes finds its modes for strains of this size
       s.step = 1e-2;
-      s.build = [=](const Mat3& Q) {
+      s.build = [shape, kind, linear](const Mat3& Q) {
         auto places = distorted(shape);
         for (Vec3& x : places) x = Q * x;
-        return cell(shape, places, section(linear));
+        CellSection of = *section(linear);
+        if (kind == Kind::neo_hookean) of.law.neo_hookean = materials::neo_hookean(young, poisson);
+        of.lumped = kind == Kind::lumped;
+        return cell(shape, places, std::make_shared<CellSection>(of));
       };
       s.skip[Check::equilibrium] = "inertia and weight are outer forces";
       if (linear)

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/materials/neo_hookean.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace engrane::elements::materials {
+
+namespace {
+
+/// Strain along z without stress there: C_zz = e^y with μ (e^y − 1) + λ/2 (y + ln d) = 0, d the determinant of C in the plane.
+/// The left side rises and is convex in y, so that Newton's iteration finds its only root from anywhere.
+double free_strain(const NeoHookean& material, const Voigt& strain) {
+  const double d = 2 * (strain[0] + strain[1]) + 4 * strain[0] * strain[1] - strain[3] * strain[3];  // less 1
+  if (!(d > -1)) return std::numeric_limits<double>::quiet_NaN();
+  const double log_d = std::log1p(d), half = material.lambda / 2;
+  constexpr int most = 100;
+  constexpr double rounding = 1e-15;
+  double y = 0;
+  for (int i = 0; i < most; ++i) {
+    const double change = -(material.shear * std::expm1(y) + half * (y + log_d)) / (material.shear * std::exp(y) + half);
+    y += change;
+    if (std::abs(change) <= rounding * std::abs(y)) break;
+  }
+  return std::expm1(y) / 2;
+}
+
+}  // namespace
+
+/// Bonet and Wood (2008), Nonlinear Continuum Mechanics for Finite Element Analysis, (6.27) to (6.32):
+/// W = μ/2 (tr C − 3) − μ ln J + λ/2 (ln J)², S = μ (I − C⁻¹) + λ ln J C⁻¹. Written so that small strains lose no digits.
+Response respond(const NeoHookean& material, Hypothesis hypothesis, Voigt strain) {
+  const bool plane_stress = hypothesis == Hypothesis::plane_stress;
+  if (plane_stress) strain[2] = free_strain(material, strain);
+  Mat3 twice;  // C − I
+  twice << 2 * strain[0], strain[3], strain[5], strain[3], 2 * strain[1], strain[4], strain[5], strain[4], 2 * strain[2];
+  Response response;
+  response.transverse = strain[2];
+  const Mat3 C = Mat3::Identity() + twice;
+  if (Eigen::LLT<Mat3>(C).info() != Eigen::Success || !strain.allFinite()) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    response.stress.setConstant(none);
+    response.moduli.setConstant(none);
+    response.energy = none;
+    return response;
+  }
+  const double trace = twice.trace(), minors = (trace * trace - twice.squaredNorm()) / 2;
+  const double log_J = std::log1p(trace + minors + twice.determinant()) / 2;
+  const Mat3 G = C.inverse();
+  const Mat3 S = material.shear * G * twice + material.lambda * log_J * G;
+  response.stress << S.diagonal(), S(0, 1), S(1, 2), S(2, 0);
+  response.energy = material.shear / 2 * (trace - 2 * log_J) + material.lambda / 2 * log_J * log_J;
+  constexpr std::array<Eigen::Index, 6> first{0, 1, 2, 0, 1, 2}, second{0, 1, 2, 1, 2, 0};
+  const double shear = material.shear - material.lambda * log_J;
+  for (std::size_t a = 0; a < 6; ++a)
+    for (std::size_t b = 0; b < 6; ++b) {
+      const Eigen::Index i = first[a], j = second[a], k = first[b], l = second[b];
+      response.moduli(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
+          material.lambda * G(i, j) * G(k, l) + shear * (G(i, k) * G(j, l) + G(i, l) * G(j, k));
+    }
+  if (plane_stress) {  // the strain along z follows those in the plane
+    const Voigt column = response.moduli.col(2);
+    response.moduli -= column * column.transpose() / column[2];
+    response.stress[2] = 0;
+  }
+  return response;
+}
+
+}  // namespace engrane::elements::materials

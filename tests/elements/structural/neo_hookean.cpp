@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/materials/neo_hookean.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace engrane::elements::materials {
+namespace {
+
+constexpr double young = 70, poisson = 0.4;
+const NeoHookean rubber = neo_hookean(young, poisson);
+
+Voigt random_strain(std::mt19937& random, Hypothesis hypothesis) {
+  std::uniform_real_distribution<double> slope(-0.4, 0.4);
+  Mat3 H = Mat3::Zero();
+  const Eigen::Index size = hypothesis == Hypothesis::solid ? 3 : 2;
+  for (Eigen::Index i = 0; i < size; ++i)
+    for (Eigen::Index j = 0; j < size; ++j) H(i, j) = slope(random);
+  if (hypothesis == Hypothesis::axisymmetric) H(2, 2) = slope(random);
+  const Mat3 E = (H + H.transpose() + H.transpose() * H) / 2;
+  return (Voigt() << E.diagonal(), 2 * E(0, 1), 2 * E(1, 2), 2 * E(2, 0)).finished();
+}
+
+/// Stress is the derivative of the energy, and the moduli that of the stress.
+TEST(NeoHookean, DerivativesAreExact) {
+  std::mt19937 random(5);
+  constexpr double h = 1e-4;
+  for (const Hypothesis hypothesis :
+       {Hypothesis::plane_stress, Hypothesis::plane_strain, Hypothesis::axisymmetric, Hypothesis::solid})
+    for (int sample = 0; sample < 10; ++sample) {
+      const Voigt at = random_strain(random, hypothesis);
+      const Response here = respond(rubber, hypothesis, at);
+      for (Eigen::Index k = 0; k < 6; ++k) {
+        if (hypothesis == Hypothesis::plane_stress && (k == 2 || k > 3)) continue;
+        const auto shifted = [&](double by) { return respond(rubber, hypothesis, at + by * Voigt::Unit(k)); };
+        const Response a = shifted(-2 * h), b = shifted(-h), c = shifted(h), d = shifted(2 * h);
+        EXPECT_NEAR(here.stress[k], (a.energy - 8 * b.energy + 8 * c.energy - d.energy) / (12 * h), 1e-9 * young);
+        const Voigt slope = (a.stress - 8 * b.stress + 8 * c.stress - d.stress) / (12 * h);
+        EXPECT_LT((here.moduli.col(k) - slope).norm(), 1e-8 * young);
+      }
+    }
+}
+
+/// At rest it is the linear material, and small strains lose no digits.
+TEST(NeoHookean, SmallStrainsAreLinear) {
+  for (const Hypothesis hypothesis :
+       {Hypothesis::plane_stress, Hypothesis::plane_strain, Hypothesis::axisymmetric, Hypothesis::solid}) {
+    const Elasticity law = law_of(hypothesis, isotropic(young, poisson));
+    const Moduli off = respond(rubber, hypothesis, Voigt::Zero()).moduli - law.stiffness;
+    const double largest = off.topLeftCorner<4, 4>().norm();
+    EXPECT_LT(largest, 1e-13 * young);
+    Voigt strain;
+    strain << 3, -1, hypothesis == Hypothesis::solid ? 2 : 0, 0.7, 0, 0;
+    strain *= 1e-11;
+    const Response found = respond(rubber, hypothesis, strain);
+    const Voigt stress = law.stiffness * strain;
+    EXPECT_LT((found.stress - stress).norm(), 1e-9 * stress.norm());
+    EXPECT_NEAR(found.transverse, strain[2] + law.transverse.dot(strain), 1e-9 * strain.norm());
+  }
+}
+
+/// A rod pulled to a times its length gets b times as thick, μ (b² − 1) + λ ln(a b²) = 0, under the force μ (a − b²/a) over its
+/// first section: both from the stress across, by hand.
+TEST(NeoHookean, RodUnderTension) {
+  for (const double a : {0.2, 0.7, 1.0, 1.5, 5.0}) {
+    double low = 1e-3, high = 10;  // b², by bisection
+    for (int i = 0; i < 200; ++i) {
+      const double middle = (low + high) / 2;
+      (rubber.shear * (middle - 1) + rubber.lambda * std::log(a * middle) > 0 ? high : low) = middle;
+    }
+    const double b2 = low;
+    Voigt strain = Voigt::Zero();
+    strain.head<3>() << (a * a - 1) / 2, (b2 - 1) / 2, (b2 - 1) / 2;
+    const Response solid = respond(rubber, Hypothesis::solid, strain);
+    EXPECT_NEAR(a * solid.stress[0], rubber.shear * (a - b2 / a), 1e-13 * young);
+    EXPECT_NEAR(solid.stress[1], 0, 1e-12 * young / b2);
+    strain[2] = 0;
+    const Response plane = respond(rubber, Hypothesis::plane_stress, strain);
+    EXPECT_NEAR(plane.transverse, (b2 - 1) / 2, 1e-13);
+    EXPECT_NEAR(plane.stress[0], solid.stress[0], 1e-12 * young / (a * a));
+    EXPECT_NEAR(plane.energy, solid.energy, 1e-13 * young);
+    EXPECT_EQ(plane.stress[2], 0);
+  }
+}
+
+TEST(NeoHookean, NoBodyIsLessThanNothing) {
+  Voigt strain = Voigt::Zero();
+  strain[0] = -0.6;
+  EXPECT_TRUE(std::isnan(respond(rubber, Hypothesis::solid, strain).energy));
+  EXPECT_TRUE(std::isnan(respond(rubber, Hypothesis::plane_stress, strain).stress[0]));
+}
+
+}  // namespace
+}  // namespace engrane::elements::materials
