@@ -17,7 +17,7 @@ INNER, OUTER = 1.0, 2.0
 
 
 def exact_radius():
-    """r(R): the nominal stresses P_r = mu (r' - 1/r') + lambda ln J/r' along the radius and P_t = mu (t - 1/t)
+    """r(R): nominal stresses P_r = mu (r' - 1/r') + lambda ln J/r' along the radius and P_t = mu (t - 1/t)
     + lambda ln J/t round the axis, with t = r/R and J = r' t, are in balance, P_r' = (P_t - P_r)/R. The
     pressure acts on the bore as it is, P_r = -p t."""
     shear = YOUNG / (2 * (1 + POISSON))
