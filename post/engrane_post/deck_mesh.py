@@ -14,10 +14,21 @@ from .cell_mesh import Block, CellMesh, Group, count
 ROWS = 50_000  # that are put into words at a time
 
 
-def write(out: TextIO, mesh: CellMesh, title: str, source: str) -> None:
-    """All of the deck. `source` says where the mesh is from."""
+def write(out: TextIO, mesh: CellMesh, title: str, source: str, file: str | None = None) -> None:
+    """All of the deck. `source` says where the mesh is from, `file` which one has it for the deck to name."""
     out.write(f"! {source}\n")
-    out.write(f'.TITRE "{title}"\n.NOE\n')
+    out.write(f'.TITRE "{title}"\n')
+    if file is None:
+        _write_mesh(out, mesh)
+    else:
+        out.write(f'.MAI FILE "{file}"\n')
+        out.writelines(f"! {line}\n" for line in summary(mesh))
+    out.write(template(mesh))
+    out.write(".FIN 1\n")
+
+
+def _write_mesh(out: TextIO, mesh: CellMesh) -> None:
+    out.write(".NOE\n")
     out.writelines(_nodes(mesh))
     out.write(".MAI\n")
     for block in mesh.blocks:
@@ -27,8 +38,6 @@ def write(out: TextIO, mesh: CellMesh, title: str, source: str) -> None:
     for number, group in enumerate(mesh.groups, 1):
         out.write(f' GROUP {number} {group.what} NOM "{group.name}"\n')
         out.writelines(_members(group))
-    out.write(template(mesh))
-    out.write(".FIN 1\n")
 
 
 def _nodes(mesh: CellMesh) -> Iterator[str]:
@@ -118,7 +127,8 @@ def template(mesh: CellMesh) -> str:
     if faces:
         lines += [f' GROUP "{faces[-1].name}" PRE V 1000.   ! positive presses on the cells']
     lines += [
-        f"! Elements of .MCE take numbers from {last + 1} on, further nodes from {len(mesh.points) + 1} on.",
+        f"! Elements of .MCE take numbers from {last + 1} on, further nodes from {len(mesh.points) + 1} on"
+        + (f", groups from {len(mesh.groups) + 1} on." if mesh.groups else "."),
         ".SAI FIELDS DT 0.01",
     ]
     return "".join(

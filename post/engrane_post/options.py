@@ -138,8 +138,7 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 def check_output(path: str, suffixes: tuple[str, ...]) -> str:
     """Refuses a file type that cannot be written."""
-    suffix = Path(path).suffix.lower()
-    if suffix not in suffixes:
+    if not path.lower().endswith(suffixes):
         raise UserError(f"Cannot write {path}: give a name that ends in {' or '.join(suffixes)}.")
     if not Path(path).resolve().parent.is_dir():
         raise UserError(f"Cannot write {path}: there is no folder {Path(path).parent}.")

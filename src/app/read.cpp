@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "app/mesh_records.hpp"
 #include "app/plausibility.hpp"
 #include "app/selection.hpp"
 
@@ -63,7 +64,9 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
   std::filesystem::path file = path;
   // `engrane gear` finds gear.dat, as INPUT does
   if (!std::filesystem::exists(file) && !file.has_extension()) file += ".dat";
-  reading.deck = deck::read_file(file, catalogue(element_types()), reading.sources, reading.diagnostics, wishes.overrides);
+  deck::Catalogue cards = catalogue(element_types());
+  cards.read_mesh = mesh_records;
+  reading.deck = deck::read_file(file, cards, reading.sources, reading.diagnostics, wishes.overrides);
   const bool syntax_good = reading.good();
   Diagnostics building;
   reading.model = build_model(reading.deck, element_types(), building);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 
@@ -335,6 +336,14 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
   return {status, {}};
 }
 
+/// The mesh of the deck that bears the name of the results; empty when none does.
+std::string mesh_in_the_way(const Reading& reading, const std::string& prefix) {
+  std::error_code error;
+  for (const std::filesystem::path& mesh : reading.deck.meshes)
+    if (std::filesystem::equivalent(mesh, prefix + ".h5", error)) return mesh.string();
+  return {};
+}
+
 }  // namespace
 
 bool was_interrupted() { return interrupted != 0; }
@@ -347,6 +356,11 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
   std::signal(SIGTERM, interrupt);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end of the program
 
+  if (const std::string mesh = mesh_in_the_way(reading, prefix); !mesh.empty()) {
+    summary.failure = fmt::format("the results would take the place of the mesh {}: -o gives them another name", mesh);
+    if (rank == 0) std::cerr << "engrane: " << terminal_text(summary.failure) << '\n';
+    return exit_status::wrong_deck;
+  }
   starting = 1;
   std::unique_ptr<Resumption> resumption;
   try {

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "output/error.hpp"
@@ -195,13 +196,33 @@ std::vector<hsize_t> read_shape(hid_t place, const std::string& name) {
   return shape;
 }
 
-std::vector<double> read_numbers(hid_t place, const std::string& name) {
+namespace {
+
+template <class Number>
+std::vector<Number> read_array(hid_t place, const std::string& name, hid_t type) {
   const Handle set(H5Dopen2(place, name.c_str(), H5P_DEFAULT));
   const Handle space(set.id() < 0 ? -1 : H5Dget_space(set.id()));
   if (space.id() < 0) return {};
-  std::vector<double> values(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id()))));
-  if (!values.empty() && H5Dread(set.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) return {};
+  std::vector<Number> values(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id()))));
+  if (!values.empty() && H5Dread(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) return {};
   return values;
+}
+
+}  // namespace
+
+std::vector<double> read_numbers(hid_t place, const std::string& name) {
+  return read_array<double>(place, name, H5T_NATIVE_DOUBLE);
+}
+
+std::vector<std::int32_t> read_integers(hid_t place, const std::string& name) {
+  const Handle set(H5Dopen2(place, name.c_str(), H5P_DEFAULT));
+  const Handle type(set.id() < 0 ? -1 : H5Dget_type(set.id()));
+  if (type.id() < 0 || H5Tget_class(type.id()) != H5T_INTEGER) return {};
+  if (H5Tget_size(type.id()) <= sizeof(std::int32_t)) return read_array<std::int32_t>(place, name, H5T_NATIVE_INT32);
+  const std::vector<std::int64_t> wide = read_array<std::int64_t>(place, name, H5T_NATIVE_INT64);
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  if (std::any_of(wide.begin(), wide.end(), [](std::int64_t n) { return n > most || n < -most; })) return {};
+  return {wide.begin(), wide.end()};
 }
 
 std::vector<std::string> read_texts(hid_t place, const std::string& name) {

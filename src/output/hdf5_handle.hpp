@@ -84,6 +84,8 @@ struct Place {
 
 /// What a place holds; reading never throws. All numbers of a dataset, nothing when there is none or it cannot be read.
 std::vector<double> read_numbers(hid_t place, const std::string& name);
+/// The same of whole numbers, nothing when they are of another type or do not fit.
+std::vector<std::int32_t> read_integers(hid_t place, const std::string& name);
 std::vector<std::string> read_texts(hid_t place, const std::string& name);
 /// A text attribute, empty when there is none; a number, `missing` when there is none.
 std::string read_text_attribute(hid_t object, const char* name);

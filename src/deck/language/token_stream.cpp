@@ -76,6 +76,10 @@ fs::path resolve_input(const std::string& including, const std::string& name) {
 
 }  // namespace
 
+fs::path TokenStream::beside(const Location& where, const std::string& name) const {
+  return (fs::path(sources_.path(where.file)).parent_path() / name).lexically_normal();
+}
+
 bool TokenStream::open_file(const fs::path& path) {
   std::string text;
   std::string fault;

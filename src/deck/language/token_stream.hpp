@@ -27,6 +27,8 @@ class TokenStream {
   /// Opens the main file; false (and an error) when it cannot be read.
   bool open_file(const std::filesystem::path& path);
   void open_text(std::string name, std::string text);
+  /// A file that is named at a place of the deck: relative to the folder of the file with that place.
+  std::filesystem::path beside(const Location& where, const std::string& name) const;
 
   /// The words of all commands, with their dots, for mend_command().
   void know_commands(std::vector<std::string> words) { commands_ = std::move(words); }

@@ -131,7 +131,7 @@ class NumbersGiven {
 class Reader {
  public:
   Reader(const Catalogue& catalogue, TokenStream& tokens, Diagnostics& diagnostics)
-      : commands_(catalogue), tokens_(tokens), diagnostics_(diagnostics), records_(tokens, diagnostics) {
+      : catalogue_(catalogue), commands_(catalogue), tokens_(tokens), diagnostics_(diagnostics), records_(tokens, diagnostics) {
     std::vector<std::string> words = commands_.words();
     std::erase_if(words, [](const std::string& word) { return word == ".FIN" || word == ".DEL"; });
     tokens_.know_commands(std::move(words));
@@ -270,6 +270,9 @@ class Reader {
       expect_key(command);
     else
       headings = records_.read_headings(command.only(), command.keys);
+    for (const Heading& heading : headings)
+      if (heading.field->mesh_file) read_mesh(heading);
+    std::erase_if(headings, [](const Heading& heading) { return heading.field->mesh_file; });
     while (at_number_key(tokens_, command.keys)) {
       Record record;
       std::vector<int> copies;
@@ -285,7 +288,7 @@ class Reader {
         continue;
       }
       record.data = record.schema->make();
-      check_new_id(command, record, copies);
+      check_new_id(record, copies);
       records_.read(record, command.keys, headings);
       for (int id : copies) {
         deck_.records.push_back(record);
@@ -296,6 +299,24 @@ class Reader {
         std::rotate(deck_.records.rbegin(), deck_.records.rbegin() + 1,
                     deck_.records.rbegin() + static_cast<std::ptrdiff_t>(copies.size()) + 1);
     }
+  }
+
+  /// The records of a mesh come in the place where the deck names it. Of numbers given twice only the first of a file is told.
+  void read_mesh(const Heading& heading) {
+    const std::filesystem::path path = tokens_.beside(heading.where, heading.values.texts.front());
+    const int errors = diagnostics_.errors();
+    std::vector<Record> records;
+    if (catalogue_.read_mesh) {
+      records = catalogue_.read_mesh(path, catalogue_, {heading.field, heading.where}, diagnostics_);
+      deck_.meshes.push_back(path);
+    } else {
+      diagnostics_.error(heading.where, "a mesh cannot be named here");
+    }
+    for (Record& record : records) {
+      if (diagnostics_.errors() == errors) check_new_id(record, {});
+      deck_.records.push_back(std::move(record));
+    }
+    if (diagnostics_.errors() > errors) deck_.incomplete.insert({".NOE", ".MAI", ".SEL"});
   }
 
   void expect_key(const Command& command) {
@@ -383,12 +404,13 @@ class Reader {
     return nullptr;
   }
 
-  void check_new_id(const Command& command, Record& record, std::vector<int>& copies) {
-    auto& known = ids_[command.name];
+  void check_new_id(Record& record, const std::vector<int>& copies) {
+    const std::string command(record.schema->command());
+    auto& known = ids_[command];
     const auto check = [&](int id) {
       const std::optional<int> first = known.add(id, record.location.line);
       if (!first) return true;
-      diagnostics_.error(record.location, command.name + " " + std::to_string(id) + " is given twice",
+      diagnostics_.error(record.location, command + " " + std::to_string(id) + " is given twice",
                          "first in line " + std::to_string(*first));
       return false;
     };
@@ -494,6 +516,7 @@ class Reader {
     deck_.records.push_back(std::move(record));
   }
 
+  const Catalogue& catalogue_;
   CommandTable commands_;
   TokenStream& tokens_;
   Diagnostics& diagnostics_;

@@ -13,10 +13,18 @@
 
 namespace engrane::deck {
 
+struct Catalogue;
+
+/// What reads a file of a mesh: the records that stand for it, located at `where`, without those that the deck may refuse. Faults
+/// go to the diagnostics, also at `where`.
+using MeshReader = std::function<std::vector<Record>(const std::filesystem::path& file, const Catalogue& catalogue,
+                                                     const FieldLocation& where, Diagnostics& diagnostics)>;
+
 /// All cards that a deck may hold: the general commands and the mechanism elements of `.MCE`.
 struct Catalogue {
   std::vector<const Schema*> commands;  ///< names like `.NOE`, `.CLM FIX`
   std::vector<const Schema*> elements;  ///< names like `GEAR`
+  MeshReader read_mesh = nullptr;       ///< nullptr: a deck that names a mesh is refused
 
   const Schema* find(std::string_view name) const;  ///< by name, synonym or unambiguous prefix; nullptr otherwise
 };
@@ -30,7 +38,8 @@ struct Deck {
   /// Commands of which something could not be read (`.NOE`), `.*` for one that is none: what is missing of them was perhaps
   /// given.
   std::set<std::string, std::less<>> incomplete;
-  std::vector<std::string> folders;  ///< in which each file of the SourceMap stands; empty: the working directory
+  std::vector<std::filesystem::path> meshes;  ///< files that stand for records
+  std::vector<std::string> folders;           ///< in which each file of the SourceMap stands; empty: the working directory
 };
 
 /// What somebody else than the deck says.

@@ -65,6 +65,7 @@ struct Field {
   bool leads = false;       ///< given again it starts the next record (NOEUD, GROUP); in a numbered one the lists go on
   bool heading = false;     ///< may stand before the first record of the command and then holds for all of them
   bool repeats = false;     ///< given again in a record, its list goes on
+  bool mesh_file = false;   ///< names a file that stands for records; before the first record only
   std::string whole;        ///< the keyword whose array this field is one entry of (Y and Z of X); empty otherwise
   int part = 0;             ///< which entry, from 0
   double lower = -std::numeric_limits<double>::infinity();
@@ -231,6 +232,9 @@ class Card {
   /// A keyword for one entry of an array that another keyword sets as a whole: `Y` for entry 1 of `X`.
   template <class Member>
   FieldBuilder add_part(std::string keyword, std::string whole, int part, Member Data::*member, std::string help);
+
+  /// A keyword before the first record that names a file of a mesh (Catalogue::read_mesh).
+  FieldBuilder add_mesh_file(std::string keyword, std::string help);
 
   Card& chapter(std::string title) {
     schema_.chapter = std::move(title);

@@ -146,6 +146,20 @@ FieldBuilder Card<Data>::add_part(std::string keyword, std::string whole, int pa
 }
 
 template <class Data>
+FieldBuilder Card<Data>::add_mesh_file(std::string keyword, std::string help) {
+  Field field;
+  field.keyword = std::move(keyword);
+  field.spellings = collect_spellings(field);
+  field.help = std::move(help);
+  field.type = FieldType::text;
+  field.heading = field.mesh_file = true;
+  field.store = [](std::any&, const Field::Values&) {};
+  field.load = [](const std::any&) { return Field::Values{}; };  // the records are written out, not the name
+  schema_.fields.push_back(std::move(field));
+  return FieldBuilder(schema_, schema_.fields.size() - 1);
+}
+
+template <class Data>
 template <class Check>
 Card<Data>& Card<Data>::finish(Check check) {
   schema_.finish = [check](Record& record, Diagnostics& diagnostics) {

@@ -143,11 +143,21 @@ ElementType cell_type() {
           "`.MAT`). The nodes of plane cells move along x and y. Without `.SAM TYPE` and `.SUB` the analysis is linear statics "
           "in one step.")
       .example(".MAI\n I 1 AT 1 0 N 1 8 9 2\n I 2 AT 1 0 N 9 -24 11 -25 13 -26")
+      .example(".MAI FILE \"wheel.mesh.h5\"")
       .example(".MAI\n I 1 N 1 2 3 0 4\n I 2 N 1 -5 2 -6 3 -7 0 -8 -9 -10 0 4");
+  card.add_mesh_file("FILE",
+                     "a mesh by `engrane import … -o name.mesh.h5`, whose nodes, cells and groups stand for it; relative to "
+                     "the folder of the deck")
+      .synonyms({"FICHIER"});
   card.add("AT", &CellData::attribute, "attribute by which `.SEL` may choose cells; a 0 behind it separates it from N")
       .synonyms({"ATTRIBUTE", "ATTRIBUT"})
       .values(1, 3);
   card.add("N", &CellData::nodes, "nodes").synonyms({"NODES", "NOEUDS"}).values(3, 27).required();
+  card.finish([](CellData&, deck::Record& record, Diagnostics& diagnostics) {
+    if (record.given("FILE"))
+      diagnostics.error(record.where("FILE"), "FILE stands before the first cell",
+                        ".MAI FILE \"wheel.mesh.h5\", then cells of the deck's own");
+  });
   return element_type(card, build);
 }
 
