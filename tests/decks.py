@@ -145,6 +145,8 @@ def interrupted(arguments, deck: Path, whole: Path) -> list[str]:
     """What a run that was interrupted and continued has otherwise than the whole one."""
     with Results(whole) as results:
         times = results.times()
+    if len(times) == 1:  # one equilibrium
+        return []
     prefix = arguments.work / f"{deck.stem}_interrupted"
     for old in arguments.work.glob(f"{prefix.name}.*"):
         old.unlink()

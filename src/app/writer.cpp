@@ -103,7 +103,7 @@ void Writer::resumed(const Resumption& from) {
 
 void Writer::remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
   if (!kept && !last && !results_.due()) return;
-  // linear statics in one step, which no card asks for, is over once it is solved; a restart point would hold its matrix
+  // linear statics, which no card asks for, is over once it is solved; a restart point would hold its matrix
   const bool one_step = has_cells(reading_.model) && !deck::says_analysis(reading_.deck.records);
   if (one_step && (!last || c.time >= reading_.model.commands.stepping.end)) {
     if (!last && results_.full()) results_.flush();
@@ -267,8 +267,11 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
     listing_.write(summary_.conditioning->describe());
   }
   listing_.write(listing_section("Effort"));
-  listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1, iterations_,
-                             steps_ > 1 ? static_cast<double>(iterations_) / static_cast<double>(steps_ - 1) : 0.0, cuts_));
+  if (steps_ > 1)
+    listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1, iterations_,
+                               static_cast<double>(iterations_) / static_cast<double>(steps_ - 1), cuts_));
+  else
+    listing_.write("  no steps\n");
   listing_.write(listing_times(times));
   results_.finish(status);
   listing_.finish(status == RunStatus::complete);

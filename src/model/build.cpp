@@ -36,8 +36,11 @@ class Builder {
       if (const ElementType* type = type_of(record)) elements_.push_back({&record, type});
       has_mesh_ = has_mesh_ || record.schema->name == cell_card;
     }
-    // linear statics in one step
-    if (has_mesh_ && !deck::says_analysis(deck_.records)) model_.commands.stepping.step = model_.commands.stepping.end;
+    // linear statics: the equilibrium at the end, without a way there
+    if (has_mesh_ && !deck::says_analysis(deck_.records)) {
+      deck::SteppingCard& stepping = model_.commands.stepping;
+      stepping.start = stepping.step = stepping.end;
+    }
     add_nodes();
     for (const deck::Record& record : deck_.records)
       if (record.get<deck::FunctionCard>()) add_function(record);

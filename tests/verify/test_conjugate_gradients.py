@@ -14,7 +14,7 @@ def displacements(deck: list[str], solver: str, folder, ranks: int = 1) -> tuple
     text = "\n".join([*deck[:-1], f".SAM SOLVER {solver}", deck[-1], ""])
     file = run(text, folder, ranks=ranks).file
     with h5py.File(file) as h:
-        return h["fields/displacement/000001"][:], file.with_suffix(".lst").read_text()
+        return h["fields/displacement/000000"][:], file.with_suffix(".lst").read_text()
 
 
 @pytest.mark.parametrize(("corners", "second"), [(8, False), (8, True), (4, True)])

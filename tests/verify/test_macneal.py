@@ -142,7 +142,8 @@ def check_patch(mesh: Mesh, deck: list[str], gradient: np.ndarray, stress: list[
         stresses = file[f"{where}/STRESS/{frame}"][:]
     expected = mesh.points @ gradient.T
     assert np.abs(found - expected).max() < 1e-12 * np.abs(expected).max()
-    assert np.abs(stresses - stress).max() < 1e-12 * max(stress)
+    # strains of 1e-3 are differences of positions, which have 16 digits
+    assert np.abs(stresses - stress).max() < 3e-12 * max(stress)
 
 
 @pytest.mark.parametrize("nodes", KINDS)

@@ -140,8 +140,8 @@ ElementType cell_type() {
           "`1 2 3 4 0 5 6 7 8` a hexahedron. With mid-side nodes those of the sides from base to top stand between two zeros. "
           "What "
           "a cell is comes from `.HYP` (plane stress, plane strain, axisymmetric, volume), `.PHP` (thickness) and `.AEL` (its "
-          "`.MAT`). The nodes of plane cells move along x and y. Without `.SAM TYPE` and `.SUB` the analysis is linear statics "
-          "in one step.")
+          "`.MAT`). The nodes of plane cells move along x and y. Without `.SAM TYPE` and `.SUB` the analysis is linear "
+          "statics: the equilibrium with all loads, at t = 1.")
       .example(".MAI\n I 1 AT 1 0 N 1 8 9 2\n I 2 AT 1 0 N 9 -24 11 -25 13 -26")
       .example(".MAI FILE \"wheel.mesh.h5\"")
       .example(".MAI\n I 1 N 1 2 3 0 4\n I 2 N 1 -5 2 -6 3 -7 0 -8 -9 -10 0 4");

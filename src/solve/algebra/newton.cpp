@@ -73,7 +73,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   failure_.clear();
   solving_ = true;
   const PetscErrorCode code = SNESSolve(snes_, nullptr, x);
-  solving_ = false;
+  solving_ = refined_ = false;
   if (!failure_.empty()) throw PetscFailure(failure_);
   solver_.rethrow();
   check_petsc(code);
@@ -283,6 +283,7 @@ bool Newton::judge(int iteration) {
     forces = both[1];
   }
   rows_.push_back(row_);
+  if (refined_ && iteration == 1 && row_.force + row_.moment > 0 && solver_.package() != "CG") return false;
   if (imbalance_.within(precision_)) return true;
   if (one_tangent_ && iteration > 0 && left_to_rounding()) return true;
   const double changed = std::max(row_.correction, forces);

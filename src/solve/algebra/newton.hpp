@@ -47,6 +47,9 @@ class Newton {
   /// From now on one tangent and its factors serve all solutions: that of a linear model never changes.
   void keep_one_tangent() { one_tangent_ = true; }
   bool keeps_one_tangent() const { return one_tangent_; }
+  /// The next solution is corrected at least twice: the second correction costs little beside the factors that both share, and
+  /// gains the digits that rounding in them took. With an iterative solver it would cost as much as the first: it is left out.
+  void refine_next() { refined_ = true; }
 
   /// The largest force that an element has contributed so far.
   double largest_force() const { return references_.largest_force(); }
@@ -97,6 +100,7 @@ class Newton {
   Weights weights_, weights_of_factors_;
   bool keep_ = false;
   bool one_tangent_ = false;
+  bool refined_ = false;
   FactorPolicy policy_;
   FactorFrames frames_;
   bool solving_ = false;         ///< for others the solver takes its factors as they are
