@@ -107,9 +107,13 @@ std::string describe_analysis(const solve::SolverContext& context) {
     if (options.keep_factors && options.family != SolverOptions::Family::radau) text += " with tangents kept";
     if (a.alpha && !a.scheme.is("CHUNG")) text += fmt::format(" alpha {:g}", *a.alpha);
   }
-  text += fmt::format(", t = {:g} to {:g}, ", s.start, s.end);
-  text += options.tolerance > 0 ? fmt::format("steps of local error {:g}", options.tolerance)
-                                : fmt::format("{:.0f} steps of {:g}", std::ceil((s.end - s.start) / s.step * (1 - 1e-9)), s.step);
+  if (s.end == s.start)
+    text += fmt::format(", t = {:g}", s.end);
+  else
+    text += fmt::format(", t = {:g} to {:g}, {}", s.start, s.end,
+                        options.tolerance > 0
+                            ? fmt::format("steps of local error {:g}", options.tolerance)
+                            : fmt::format("{:.0f} steps of {:g}", std::ceil((s.end - s.start) / s.step * (1 - 1e-9)), s.step));
   return text + ", " + (a.solver.is("AUTO") ? context.solver.package() : a.solver.tag);
 }
 

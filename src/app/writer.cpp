@@ -268,8 +268,8 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
   }
   listing_.write(listing_section("Effort"));
   if (steps_ > 1)
-    listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1, iterations_,
-                               static_cast<double>(iterations_) / static_cast<double>(steps_ - 1), cuts_));
+    listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1,
+                               iterations_, static_cast<double>(iterations_) / static_cast<double>(steps_ - 1), cuts_));
   else
     listing_.write("  no steps\n");
   listing_.write(listing_times(times));
