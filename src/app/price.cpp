@@ -131,19 +131,22 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   text += fmt::format("  matrix: {} equations, {:.0f} nonzeros", numbering.equations(), info.nz_used);
   if (regular && bytes > 0) text += fmt::format("; the factors take {}{}", factored ? "" : "about ", size_text(bytes));
   const double steps = std::ceil((stepping.end - stepping.start) / h * (1 - 1e-9)), step = 1.2 * 2 * iteration;
-  if (regular)
+  const std::string source = factored ? "as measured on this machine"
+                                      : fmt::format("if it makes {:.0f} operations in a nanosecond", operations_per_second / 1e9);
+  if (regular && steps == 0)
+    text += fmt::format("\n  about {} for the one equilibrium, processor time {}\n", time_text(step), source);
+  else if (regular)
     text += fmt::format("\n  about {} a step and {} for {:.0f} steps, at two iterations a step, processor time {}\n",
-                        time_text(step), time_text(step * steps), steps,
-                        factored ? "as measured on this machine"
-                                 : fmt::format("if it makes {:.0f} operations in a nanosecond", operations_per_second / 1e9));
+                        time_text(step), time_text(step * steps), steps, source);
   else
     text += "\n  the matrix is singular in the first position: no time is foreseen\n";
   const observe::Observer observer(context.assembler, moves(model), select_histories(model));
   std::size_t channels = observer.run_channels().size();
   for (const observe::Table& one : observer.tables()) channels += one.ids.size() * one.channels.size();
-  const std::size_t samples = Schedule(stepping, model.commands.archive).expected_samples();
+  const std::size_t samples = steps == 0 ? 1 : Schedule(stepping, model.commands.archive).expected_samples();
   const double frame_step = model.commands.archive.field_step.value_or((stepping.end - stepping.start) / 200);
-  const auto frames = static_cast<std::size_t>(std::min(steps, (stepping.end - stepping.start) / frame_step)) + 1;
+  const auto frames =
+      steps == 0 ? 1 : static_cast<std::size_t>(std::min(steps, (stepping.end - stepping.start) / frame_step)) + 1;
   return text + fmt::format("  results: {} channels, {} samples, {} frames: a file of about {}\n", channels, samples, frames,
                             size_text(expected_result_bytes(channels, samples, model.nodes.size() - 1, frames)));
 }

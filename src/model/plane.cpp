@@ -16,6 +16,11 @@ namespace engrane {
 
 namespace {
 
+/// The time in which a machine moves; that of one step where it stands in one equilibrium.
+double span_of(const deck::SteppingCard& stepping) {
+  return stepping.end > stepping.start ? stepping.end - stepping.start : stepping.step;
+}
+
 /// What is left of terms that cancel is rounding below this part of them.
 constexpr double rounding = 1e-12;
 
@@ -36,7 +41,7 @@ std::vector<Probe> probes(const Model& model, int normal) {
   std::mt19937 generator(5);  // the same in every run
   std::uniform_real_distribution<double> any(-1, 1);
   const deck::SteppingCard& stepping = model.commands.stepping;
-  const double span = stepping.end - stepping.start, extent = model.extent(), rate = 10 / span;
+  const double span = span_of(stepping), extent = model.extent(), rate = 10 / span;
   const int first = (normal + 1) % 3, second = (normal + 2) % 3;
   std::vector<Probe> all;
   for (const Shape& shape : shapes) {
@@ -189,7 +194,7 @@ class Examination {
     const std::size_t n = components_.size(), count = layout.multipliers.size(), first = n - count;
     std::vector<Parts> open(count);
     std::vector<double> k(n * n), phi(count), rate(count), second(count);
-    const double extent = model_.extent(), span = model_.commands.stepping.end - model_.commands.stepping.start;
+    const double extent = model_.extent(), span = span_of(model_.commands.stepping);
     for (const Probe& probe : probes_) {
       part.element->tangent(view(part, probe), {1, 0, 0, 0}, r_, k);
       part.element->constraint_rates(view(part, probe), phi, rate, second);

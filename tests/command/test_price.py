@@ -65,3 +65,9 @@ def test_steps_are_those_of_the_deck(tmp_path: Path) -> None:
             text.replace(".SUB TF 2 H 0.1", f".SUB TF 2 H {h}"), encoding="utf-8"
         )
         assert f"for {steps} steps" in price(tmp_path / "deck.dat", tmp_path)
+
+
+def test_linear_statics_is_one_equilibrium(tmp_path: Path) -> None:
+    said = price(DECKS / "elements/structural/cell_ring.dat", tmp_path)
+    assert "for the one equilibrium" in said and "steps" not in said
+    assert re.search(r"results: \d+ channels, 1 samples, 1 frames", said)
