@@ -16,13 +16,19 @@ namespace {
 
 /// Cards that may differ: what is done with a model.
 bool free_to_change(const deck::Schema& card) {
-  static constexpr std::array names{".SAM", ".SUB",     ".SAI",      ".CHK",     ".TITRE", ".UNIT",
-                                    ".FCT", ".CLM CHA", ".CLM STRU", ".CLM ROT", ".INI"};
+  static constexpr std::array names{".SAM", ".SUB",     ".SAI",      ".CHK",     ".TITRE",    ".UNIT",
+                                    ".FCT", ".CLM CHA", ".CLM STRU", ".CLM ROT", ".CLM TEMP", ".INI"};
   return std::any_of(names.begin(), names.end(), [&](std::string_view name) { return card.name.starts_with(name); });
 }
 
 /// Elements that are loads: their numbers may differ, not their being there.
 bool is_load(const deck::Schema& card) { return card.name == "FORCE" || card.name == "TORQUE"; }
+
+/// How large a pressure is may differ, not where it acts.
+bool is_size_of_pressure(const deck::Schema& card, const deck::Field& field) {
+  return (card.name == ".CLM ARETE" || card.name == ".CLM PRE") &&
+         (field.keyword == "PRE" || field.keyword == "V" || field.keyword == "NF");
+}
 
 std::string name_of(const deck::Record& record) {
   return record.id > 0 ? fmt::format("{} {}", record.schema->name, record.id) : record.schema->name;
@@ -39,6 +45,7 @@ std::multimap<std::pair<std::string_view, int>, const deck::Record*> model_recor
 /// "KM was 1e8 and is 2e8 now", of the first keyword that differs; empty when none does.
 std::string keyword_difference(const deck::Record& before, const deck::Record& now) {
   for (const deck::Field& field : now.schema->fields) {
+    if (is_size_of_pressure(*now.schema, field)) continue;
     const deck::Field::Values was = field.load(before.data), is = field.load(now.data);
     const std::string old_text = was.present ? deck::json_value(field, was) : "not given";
     const std::string new_text = is.present ? deck::json_value(field, is) : "not given";

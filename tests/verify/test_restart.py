@@ -135,6 +135,54 @@ def test_another_model_is_refused(tmp_path, old, new, words):
     assert not (tmp_path / "other.h5").exists()
 
 
+CELL = """.NOE
+ I 1 X 0 Y 0
+ I 2 X 1 Y 0
+ I 3 X 1 Y 1
+ I 4 X 0 Y 1
+.MAI
+ I 1 N 1 2 3 4
+.SEL
+ GROUP 1 NOM "top" FACES
+  I 1 3
+.MAT
+ I 1 YT 100. NT 0.3 A 1E-3
+.HYP DEFO PLAN
+.AEL
+ I 1 MAT 1
+.CLM
+ NOEUD 1 FIX C 1 2
+ NOEUD 4 FIX C 1
+ ARETE I {face} PRE V {edge}
+ GROUP "top" PRE V {top}
+ TEMP NOEUD 1 2 3 4 V {warmth}
+.SAM TYPE STATIC {sam}
+.SUB TF {end} H 0.5
+.FIN 1
+"""
+
+
+def test_pressures_and_temperatures_may_change(tmp_path):
+    """The equilibrium at the end is that of a run that had them from the start; where they act is not theirs
+    to change."""
+    before = {"face": "1 2", "edge": 2, "top": 1, "warmth": 30, "sam": "", "end": 1}
+    after = before | {"edge": 2.5, "top": 0.5, "warmth": 80, "end": 2}
+    again = after | {"sam": 'RESTART "first"'}
+    for name, values in (("first", before), ("fresh", after), ("rest", again)):
+        (tmp_path / f"{name}.dat").write_text(CELL.format(**values), encoding="utf-8")
+        run(tmp_path, f"{name}.dat")
+    with Results(tmp_path / "fresh.h5") as fresh, Results(tmp_path / "rest.h5") as rest:
+        for channel in ("node/3/UX", "node/3/UY"):
+            expected = fresh.history(channel)[1][-1]
+            assert abs(expected) > 1e-3
+            assert rest.history(channel)[1][-1] == pytest.approx(expected, rel=1e-10)
+    wild = after | {"sam": 'RESTART "first"', "edge": 5, "top": -3}
+    (tmp_path / "wild.dat").write_text(CELL.format(**wild), encoding="utf-8")
+    assert "cell 1 is turned inside out" in run(tmp_path, "wild.dat", status=2)
+    (tmp_path / "rest.dat").write_text(CELL.format(**again | {"face": "1 4"}), encoding="utf-8")
+    assert ".CLM ARETE: I was" in run(tmp_path, "rest.dat", status=1)
+
+
 def test_a_file_of_another_version_is_refused(tmp_path):
     run(tmp_path, str(deck(tmp_path, "begin", end=0.1)))
     with h5py.File(tmp_path / "begin.h5", "r+") as file:

@@ -148,11 +148,11 @@ class CellKernel {
   };
   static Response respond(const Law& law, int point, const Deformation& now) {
     Strain e = strain(now, law.linear);
+    // strains do not tell a body from one turned inside out
+    if (!law.linear && !is_right_way_round(now)) e.setConstant(std::numeric_limits<double>::quiet_NaN());
     if (law.neo_hookean) {
       materials::Voigt all = materials::Voigt::Zero();
       all(components) = e;
-      // C does not tell a body from one turned inside out
-      if (!is_right_way_round(now)) all.setConstant(std::numeric_limits<double>::quiet_NaN());
       const materials::Response found = materials::respond(*law.neo_hookean, law.hypothesis, all);
       return {reduced(found.stress), reduced(found.moduli), found.energy};
     }
