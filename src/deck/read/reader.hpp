@@ -15,8 +15,8 @@ namespace engrane::deck {
 
 struct Catalogue;
 
-/// What reads a file of a mesh: the records that stand for it, located at `where`, without those that the deck may refuse. Faults
-/// go to the diagnostics, also at `where`.
+/// What reads a file of a mesh: the records that stand for it, located at `where`. Whether their numbers are new is for the deck
+/// to ask. Faults go to the diagnostics, also at `where`.
 using MeshReader = std::function<std::vector<Record>(const std::filesystem::path& file, const Catalogue& catalogue,
                                                      const FieldLocation& where, Diagnostics& diagnostics)>;
 
