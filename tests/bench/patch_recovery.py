@@ -93,9 +93,7 @@ def estimate(mesh: Sheet, kind: int, nodal: np.ndarray, moved: np.ndarray, at_po
 
 
 def main() -> None:
-    print(
-        "nodes, cells along the radius, true error; of averages, then patches: estimate over truth, worst node"
-    )
+    print("nodes, cells along the radius, true error; averages, then patches: estimate over truth, worst")
     for kind in (4, 8, 6):
         for boxes in (4, 8, 16, 32):
             with tempfile.TemporaryDirectory() as name:
