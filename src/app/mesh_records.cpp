@@ -57,25 +57,25 @@ std::vector<deck::Record> records_of(const output::MeshFile& mesh, const deck::C
 
 }  // namespace
 
-std::vector<deck::Record> mesh_records(const std::filesystem::path& file, const deck::Catalogue& catalogue,
-                                       const deck::FieldLocation& where, Diagnostics& diagnostics) {
+std::vector<deck::Record> mesh_records(const std::filesystem::path& file, const deck::Catalogue& catalogue, const Location& where,
+                                       Diagnostics& diagnostics) {
   const std::string name = file.string();
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    diagnostics.error(where.where, fmt::format("there is no file `{}`", name), "names are relative to the folder of the deck");
+    diagnostics.error(where, fmt::format("there is no file `{}`", name), "names are relative to the folder of the deck");
     return {};
   }
   if (!name.ends_with(ending)) {
     const std::string made = file.stem().string() + ending;
     diagnostics.error(
-        where.where, fmt::format("`{}` is no mesh that decks read, whose names end with {}", name, ending),
+        where, fmt::format("`{}` is no mesh that decks read, whose names end with {}", name, ending),
         fmt::format("engrane import {} -o {}  makes one; then name {} here", name, (file.parent_path() / made).string(), made));
     return {};
   }
   try {
-    return records_of(output::read_mesh_file(name), catalogue, where.where, diagnostics);
+    return records_of(output::read_mesh_file(name), catalogue, where, diagnostics);
   } catch (const output::MeshFileError& failure) {
-    diagnostics.error(where.where, fmt::format("the mesh `{}` cannot be used: {}", name, failure.what()),
+    diagnostics.error(where, fmt::format("the mesh `{}` cannot be used: {}", name, failure.what()),
                       "`engrane import` writes such files; docs/format.md says what is in them");
     return {};
   }

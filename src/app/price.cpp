@@ -143,7 +143,7 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   const observe::Observer observer(context.assembler, moves(model), select_histories(model));
   std::size_t channels = observer.run_channels().size();
   for (const observe::Table& one : observer.tables()) channels += one.ids.size() * one.channels.size();
-  const std::size_t samples = steps == 0 ? 1 : Schedule(stepping, model.commands.archive).expected_samples();
+  const std::size_t samples = Schedule(stepping, model.commands.archive).expected_samples();
   const double frame_step = model.commands.archive.field_step.value_or((stepping.end - stepping.start) / 200);
   const auto frames =
       steps == 0 ? 1 : static_cast<std::size_t>(std::min(steps, (stepping.end - stepping.start) / frame_step)) + 1;

@@ -61,6 +61,7 @@ std::vector<double> Schedule::between(double from, double to) const {
 }
 
 std::size_t Schedule::expected_samples() const {
+  if (end_ == start_) return 1;  // one equilibrium
   return static_cast<std::size_t>(std::min(1e9, (end_ - start_) / std::max(controlled_ ? even_ : step_, sample_.length))) + 2;
 }
 

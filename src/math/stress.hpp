@@ -16,6 +16,12 @@ inline Mat3 symmetric_tensor(std::span<const double> s) {
   return (Mat3() << s[0], s[3], zx, s[3], s[1], yz, zx, yz, s[2]).finished();
 }
 
+/// Rows and columns of the components xx, yy, zz, xy, yz, zx.
+inline constexpr Eigen::Index component_rows[6] = {0, 1, 2, 0, 1, 2}, component_columns[6] = {0, 1, 2, 1, 2, 0};
+
+/// These components of a symmetric tensor.
+inline Eigen::Matrix<double, 6, 1> components_of(const Mat3& s) { return {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(2, 0)}; }
+
 /// Equivalent stress of von Mises, of the components of symmetric_tensor().
 inline double von_mises(std::span<const double> s) {
   const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];

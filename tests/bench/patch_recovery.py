@@ -16,22 +16,15 @@ import numpy as np
 from plane_meshes import SIDES, Sheet
 from test_cells import Shape
 from test_nodal_averages import (
-    POISSON,
+    POINTS,
     PRESSURE,
-    YOUNG,
+    energy_of_difference,
     energy_of_lame,
     lame,
     solved,
-    square_points,
     true_error,
     tube,
 )
-
-ROOT = 1 / np.sqrt(3)
-SQUARE = [(-ROOT, -ROOT), (ROOT, -ROOT), (-ROOT, ROOT), (ROOT, ROOT)]
-POINTS = {3: [(1 / 3, 1 / 3)], 6: [(1 / 6, 1 / 6), (2 / 3, 1 / 6), (1 / 6, 2 / 3)], 4: SQUARE, 8: SQUARE}
-NU = POISSON
-COMPLIANCE = (1 + NU) / YOUNG * np.array([[1 - NU, -NU, 0], [-NU, 1 - NU, 0], [0, 0, 2]])
 
 
 def monomials(place: np.ndarray, second: bool) -> np.ndarray:
@@ -74,24 +67,6 @@ def patches(mesh: Sheet, kind: int, stress: np.ndarray, averages: np.ndarray) ->
     return np.array([np.mean(given[i] or [averages[i]], axis=0) for i in range(len(mesh.points))])
 
 
-def estimate(mesh: Sheet, kind: int, nodal: np.ndarray, moved: np.ndarray, at_points: np.ndarray) -> float:
-    """Half the square of the energy norm between nodal stresses and those in the cells; the latter as
-    test_nodal_averages has them."""
-    shape, total = Shape(kind), 0.0
-    for e, cell in enumerate(mesh.cells):
-        for xi, eta, weight in square_points(kind):
-            jacobian = shape.slope(xi, eta) @ mesh.points[cell]
-            if kind == 4:
-                corners = [shape.value(xi / ROOT, eta / ROOT)[k] for k in (0, 1, 3, 2)]
-                stress = np.array(corners) @ at_points[e]
-            else:
-                h = np.linalg.solve(jacobian, shape.slope(xi, eta)) @ moved[cell, :2]
-                stress = np.linalg.solve(COMPLIANCE, [h[0, 0], h[1, 1], h[0, 1] + h[1, 0]])
-            off = shape.value(xi, eta) @ nodal[cell] - stress
-            total += weight * abs(np.linalg.det(jacobian)) * off @ COMPLIANCE @ off / 2
-    return total
-
-
 def main() -> None:
     print("nodes, cells along the radius, true error; averages, then patches: estimate over truth, worst")
     for kind in (4, 8, 6):
@@ -105,13 +80,12 @@ def row(kind: int, boxes: int, folder: Path) -> str:
     _, results = solved("MODE LECT 4096\n" + deck, folder)
     with results:
         truth = true_error(mesh, kind, results)
-        moved = results.field("displacement", 0)
         at_points = results.dataset("points/STRESS/000000")[:, [0, 1, 3]].reshape(len(mesh.cells), -1, 3)
         averages = results.dataset("nodes/STRESS/000000")[:, [0, 1, 3]]
-    text = f"{np.sqrt(truth / energy_of_lame()):.1e}"
-    for nodal in (averages, patches(mesh, kind, at_points, averages)):
-        ratio = np.sqrt(estimate(mesh, kind, nodal, moved, at_points) / truth)
-        text += f"  {ratio:.2f} {np.abs(nodal - lame(mesh.points)).max() / PRESSURE:.4f}"
+        text = f"{np.sqrt(truth / energy_of_lame()):.1e}"
+        for nodal in (averages, patches(mesh, kind, at_points, averages)):
+            found = energy_of_difference(mesh, kind, results, lambda shape, cell, at=nodal: shape @ at[cell])
+            text += f"  {np.sqrt(found / truth):.2f} {np.abs(nodal - lame(mesh.points)).max() / PRESSURE:.4f}"
     return text
 
 

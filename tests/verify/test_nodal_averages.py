@@ -5,6 +5,7 @@ material, and the same averages made here from the points that the results hold.
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -66,9 +67,18 @@ def square_points(kind: int) -> list[tuple[float, float, float]]:
     return [((1 + x) / 2, (1 + y) * (1 - x) / 4, w * (1 - x) / 8) for x, y, w in points]
 
 
-def true_error(mesh: Sheet, kind: int, results: Results) -> float:
-    """Half the square of the energy norm of the error, by cells' own shape functions from displacements; of
-    four nodes, which have internal modes, by bilinear functions through the points of the results."""
+ROOT = 1 / np.sqrt(3)
+SQUARE = [(-ROOT, -ROOT), (ROOT, -ROOT), (-ROOT, ROOT), (ROOT, ROOT)]
+# where cells hold stresses, in reference cells
+POINTS = {3: [(1 / 3, 1 / 3)], 6: [(1 / 6, 1 / 6), (2 / 3, 1 / 6), (1 / 6, 2 / 3)], 4: SQUARE, 8: SQUARE}
+
+
+def energy_of_difference(
+    mesh: Sheet, kind: int, results: Results, wanted: Callable[[np.ndarray, np.ndarray], np.ndarray]
+) -> float:
+    """Half the square of the energy norm of `wanted` less the stresses of the cells, by their own shape
+    functions from displacements; of four nodes, which have internal modes, by bilinear functions through the
+    points of the results. `wanted` has values of shape functions and the numbers of the nodes of a cell."""
     shape = Shape(kind)
     moved = results.field("displacement", 0)
     at_points = results.dataset("points/STRESS/000000")
@@ -76,22 +86,27 @@ def true_error(mesh: Sheet, kind: int, results: Results) -> float:
         (1 + POISSON) / YOUNG * np.array([[1 - POISSON, -POISSON, 0], [-POISSON, 1 - POISSON, 0], [0, 0, 2]])
     )
     total = 0.0
-    root = 1 / np.sqrt(3)
     for e, cell in enumerate(mesh.cells):
         x, u = mesh.points[cell], moved[cell, :2]
         for xi, eta, weight in square_points(kind):
             jacobian = shape.slope(xi, eta) @ x
             gradient = np.linalg.solve(jacobian, shape.slope(xi, eta))
             if kind == 4:
-                corners = [shape.value(xi / root, eta / root)[k] for k in (0, 1, 3, 2)]
+                corners = [shape.value(xi / ROOT, eta / ROOT)[k] for k in (0, 1, 3, 2)]
                 stress = np.array(corners) @ at_points[4 * e : 4 * e + 4][:, [0, 1, 3]]
             else:
                 h = gradient @ u  # h[i, j] = du_j/dx_i
                 stress = np.linalg.solve(compliance, [h[0, 0], h[1, 1], h[0, 1] + h[1, 0]])
-            place = shape.value(xi, eta) @ x
-            off = stress - lame(place[None, :])[0]
+            off = wanted(shape.value(xi, eta), cell) - stress
             total += weight * abs(np.linalg.det(jacobian)) * off @ compliance @ off / 2
     return total
+
+
+def true_error(mesh: Sheet, kind: int, results: Results) -> float:
+    """Half the square of the energy norm of the error."""
+    return energy_of_difference(
+        mesh, kind, results, lambda shape, cell: lame((shape @ mesh.points[cell])[None])[0]
+    )
 
 
 # Estimate over true error on 4 and 8 boxes along each side, as measured. Of quadratic cells the averages are
@@ -130,12 +145,7 @@ def test_effectivity(kind: int, tmp_path: Path) -> None:
 def averaged(mesh: Sheet, kind: int, results: Results) -> np.ndarray:
     """From the points of each cell to its nodes by least squares, then the mean over the cells at each."""
     powers = [(0, 0), (1, 0), (0, 1)] + ([(1, 1)] if mesh.corners == 4 else [])
-    sixth, two = 1 / 6, 2 / 3
-    r = 1 / np.sqrt(3)
-    if mesh.corners == 4:
-        points = [(-r, -r), (r, -r), (-r, r), (r, r)]
-    else:
-        points = [(1 / 3, 1 / 3)] if kind == 3 else [(sixth, sixth), (two, sixth), (sixth, two)]
+    points = POINTS[kind]
     corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)] if mesh.corners == 4 else [(0, 0), (1, 0), (0, 1)]
     nodes = corners + [
         ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)

@@ -185,6 +185,8 @@ struct CheckCard {
 /// The schemas of all general commands, in the order of the manual.
 const std::vector<Schema>& general_commands();
 
+/// The `.SAM` that counts; nullptr without one.
+const AnalysisCard* last_analysis(const std::vector<Record>& records);
 /// Whether a deck says what is analysed, by `.SUB` or TYPE of `.SAM`; a mesh without is one of linear statics.
 bool says_analysis(const std::vector<Record>& records);
 /// Whether the displacements of a deck with a mesh count as small: DISPLACEMENTS of the last `.SAM`, or what says_analysis()

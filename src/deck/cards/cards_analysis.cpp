@@ -342,14 +342,14 @@ Schema check_card() {
   return card.schema();
 }
 
+}  // namespace
+
 const AnalysisCard* last_analysis(const std::vector<Record>& records) {
   const AnalysisCard* last = nullptr;
   for (const Record& record : records)
     if (const auto* card = record.get<AnalysisCard>()) last = card;
   return last;
 }
-
-}  // namespace
 
 bool says_analysis(const std::vector<Record>& records) {
   return std::any_of(records.begin(), records.end(), [](const Record& record) {

@@ -307,7 +307,7 @@ class Reader {
     const int errors = diagnostics_.errors();
     std::vector<Record> records;
     if (catalogue_.read_mesh) {
-      records = catalogue_.read_mesh(path, catalogue_, {heading.field, heading.where}, diagnostics_);
+      records = catalogue_.read_mesh(path, catalogue_, heading.where, diagnostics_);
       deck_.meshes.push_back(path);
     } else {
       diagnostics_.error(heading.where, "a mesh cannot be named here");

@@ -18,7 +18,7 @@ struct Catalogue;
 /// What reads a file of a mesh: the records that stand for it, located at `where`. Whether their numbers are new is for the deck
 /// to ask. Faults go to the diagnostics, also at `where`.
 using MeshReader = std::function<std::vector<Record>(const std::filesystem::path& file, const Catalogue& catalogue,
-                                                     const FieldLocation& where, Diagnostics& diagnostics)>;
+                                                     const Location& where, Diagnostics& diagnostics)>;
 
 /// All cards that a deck may hold: the general commands and the mechanism elements of `.MCE`.
 struct Catalogue {

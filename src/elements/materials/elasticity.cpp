@@ -3,15 +3,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <array>
+
+#include "math/stress.hpp"
 
 namespace engrane::elements::materials {
-
-namespace {
-
-constexpr Eigen::Index first[6] = {0, 1, 2, 0, 1, 2}, second[6] = {0, 1, 2, 1, 2, 0};
-
-}  // namespace
 
 Elastic isotropic(double young, double poisson) {
   return orthotropic({Vec3::Constant(young), Vec3::Constant(poisson), Vec3::Constant(young / (2 * (1 + poisson)))});
@@ -44,9 +39,9 @@ Elastic turned(const Elastic& material, const Mat3& axes) {
   Moduli strain;
   for (Eigen::Index j = 0; j < 6; ++j) {
     Mat3 unit = Mat3::Zero();
-    unit(first[j], second[j]) = unit(second[j], first[j]) = j < 3 ? 1 : 0.5;
-    const Mat3 seen = axes * unit * axes.transpose();
-    for (Eigen::Index i = 0; i < 6; ++i) strain(i, j) = (i < 3 ? 1 : 2) * seen(first[i], second[i]);
+    unit(component_rows[j], component_columns[j]) = unit(component_columns[j], component_rows[j]) = j < 3 ? 1 : 0.5;
+    strain.col(j) = components_of(axes * unit * axes.transpose());
+    strain.col(j).tail<3>() *= 2;
   }
   return {strain * material.compliance * strain.transpose(), strain * material.expansion, material.density, material.neo_hookean};
 }

@@ -3,9 +3,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <array>
 #include <cmath>
 #include <limits>
+
+#include "math/stress.hpp"
 
 namespace engrane::elements::materials {
 
@@ -51,15 +52,13 @@ Response respond(const NeoHookean& material, Hypothesis hypothesis, Voigt strain
   const double log_J = std::log1p(trace + minors + twice.determinant()) / 2;
   const Mat3 G = C.inverse();
   const Mat3 S = material.shear * G * twice + material.lambda * log_J * G;
-  response.stress << S.diagonal(), S(0, 1), S(1, 2), S(2, 0);
+  response.stress = components_of(S);
   response.energy = material.shear / 2 * (trace - 2 * log_J) + material.lambda / 2 * log_J * log_J;
-  constexpr std::array<Eigen::Index, 6> first{0, 1, 2, 0, 1, 2}, second{0, 1, 2, 1, 2, 0};
   const double shear = material.shear - material.lambda * log_J;
-  for (std::size_t a = 0; a < 6; ++a)
-    for (std::size_t b = 0; b < 6; ++b) {
-      const Eigen::Index i = first[a], j = second[a], k = first[b], l = second[b];
-      response.moduli(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
-          material.lambda * G(i, j) * G(k, l) + shear * (G(i, k) * G(j, l) + G(i, l) * G(j, k));
+  for (Eigen::Index a = 0; a < 6; ++a)
+    for (Eigen::Index b = 0; b < 6; ++b) {
+      const Eigen::Index i = component_rows[a], j = component_columns[a], k = component_rows[b], l = component_columns[b];
+      response.moduli(a, b) = material.lambda * G(i, j) * G(k, l) + shear * (G(i, k) * G(j, l) + G(i, l) * G(j, k));
     }
   if (plane_stress) {  // the strain along z follows those in the plane
     const Voigt column = response.moduli.col(2);

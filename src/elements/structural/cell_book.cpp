@@ -171,9 +171,7 @@ void CellBook::read_properties(const std::vector<deck::Record>& records) {
 }
 
 void CellBook::read_rotations(const BuildContext& context) {
-  const deck::AnalysisCard* analysis = nullptr;
-  for (const deck::Record& record : *context.records)
-    if (const auto* card = record.get<deck::AnalysisCard>()) analysis = card;
+  const deck::AnalysisCard* analysis = deck::last_analysis(*context.records);
   for (const deck::Record& record : *context.records) {
     const auto* card = record.get<deck::RotationCard>();
     if (!card) continue;

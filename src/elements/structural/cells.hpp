@@ -419,7 +419,6 @@ class Cells final : public Block {
         k.template block<D, D>(D * i, D * j) += matrix(i, j) * directions.topLeftCorner<D, D>();
   }
 
-  static Stress components_of(const Mat3& s) { return (Stress() << s.diagonal(), s(0, 1), s(1, 2), s(2, 0)).finished(); }
   /// The components among the results.
   static std::span<const double> shown(const Stress& s) { return {s.data(), static_cast<std::size_t>(width)}; }
 

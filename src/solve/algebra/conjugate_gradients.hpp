@@ -19,6 +19,7 @@ class ConjugateGradients final : public Factors {
   std::optional<ForeseenFactors> foresee() override;
   void solve(Vec right, Vec solution) override;
   void solve_transposed(Vec right, Vec solution) override;
+  bool direct() const override { return direct_ != nullptr; }
   bool improvable() const override { return !direct_ || direct_->improvable(); }
   bool improve() override;
   void forget() override;

@@ -43,6 +43,9 @@ class Factors {
   virtual void solve(Vec right, Vec solution) = 0;
   virtual void solve_transposed(Vec right, Vec solution) = 0;
 
+  /// Whether solutions are those of factors, so that their errors are of rounding; not iterations to a tolerance.
+  virtual bool direct() const { return true; }
+
   /// Whether the package can factor the matrix more carefully than it has.
   virtual bool improvable() const { return false; }
   /// Does so, and goes on so as long as that is wise; false where the matrix is singular.

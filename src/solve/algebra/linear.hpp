@@ -29,6 +29,8 @@ class LinearSolver {
 
   KSP ksp() const { return ksp_; }
   const std::string& package() const { return package_; }
+  /// Factors::direct()
+  bool direct() const { return factors_->direct(); }
 
   /// Called once, before the first factorisation, with what the package foresees of it; set on every rank or on none.
   std::function<void(const ForeseenFactors&)> announce;

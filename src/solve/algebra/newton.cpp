@@ -283,7 +283,7 @@ bool Newton::judge(int iteration) {
     forces = both[1];
   }
   rows_.push_back(row_);
-  if (refined_ && iteration == 1 && row_.force + row_.moment > 0 && solver_.package() != "CG") return false;
+  if (refined_ && iteration == 1 && row_.force + row_.moment > 0 && solver_.direct()) return false;
   if (imbalance_.within(precision_)) return true;
   if (one_tangent_ && iteration > 0 && left_to_rounding()) return true;
   const double changed = std::max(row_.correction, forces);
