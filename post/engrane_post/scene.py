@@ -31,6 +31,7 @@ KIND_OF = {
     "body": "body",
     "axis": "joint",
     "line": "link",
+    "beam": "beam",
     "coil": "spring",
     "mass": "mass",
     "arrow": "load",
@@ -198,6 +199,8 @@ class Scene:
             make = shapes.coil if kind == "coil" else shapes.tube
             radius = size * (0.016 if kind == "coil" else 0.0055)
             self._flexible(lambda p: make(ends(p), radius), SPRING if kind == "coil" else BODY)
+        elif kind == "beam" and all(n in self.row for n in nodes):
+            self._beam(nodes, d)
         elif kind == "body" and nodes:
             known = [n for n in nodes if n in self.row]
             if len(known) > 1:
@@ -349,6 +352,23 @@ class Scene:
         self._flexible(lambda p: shapes.tube(np.stack([p[e] for e in ends]), 0.006 * self.size), STEEL)
         for node, place in j.ends():
             self.items.append(Item(shapes.ball(place, 0.011 * self.size), STEEL, node))
+
+    def _beam(self, nodes: list[int], d: dict[str, Any]) -> None:
+        """A piece of a beam: its section as nodes carry it, or a round bar where the deck tells no shape."""
+        outline = np.asarray(d.get("outline", []), float).reshape(-1, 2)
+        if not len(outline):
+            line = [list(range(len(nodes)))]
+            self._flexible(
+                lambda p: shapes.tubes(np.array([p[n] for n in nodes]), line, 0.006 * self.size), BODY
+            )
+            return
+        axes = np.asarray(d["axes"], float).reshape(len(nodes), 2, 3)
+        rings = [
+            [self._carried(n, self.points[n] + corner) for corner in outline @ across]
+            for n, across in zip(nodes, axes, strict=True)
+        ]
+        self._flexible(lambda p: shapes.loft(np.array([[p[c] for c in ring] for ring in rings])), BODY)
+        self.items[-1].smooth = False
 
     def _carried(self, node: int, place: np.ndarray) -> int:
         """A name, among those of nodes, for a point that a body or the ground carries."""

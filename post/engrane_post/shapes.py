@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from . import gear_mesh
@@ -231,6 +233,17 @@ def tubes(points: np.ndarray, lines: list[list[int]], radius: float) -> pv.PolyD
     """Round bars along polylines."""
     table = np.concatenate([[len(line), *line] for line in lines])
     return pv.PolyData(points, lines=table).tube(radius=radius, n_sides=14)
+
+
+def loft(rings: np.ndarray) -> pv.PolyData:
+    """Surface through closed rings of points, (rings, points, 3), with both ends."""
+    count, size = rings.shape[:2]
+    k = np.arange(size)
+    sides = [np.stack([r * size + k, r * size + (k + 1) % size], 1) for r in range(count)]
+    quads = np.concatenate([np.hstack([a, b[:, ::-1]]) for a, b in pairwise(sides)])
+    caps = [size, *k[::-1], size, *(k + (count - 1) * size)]
+    table = np.insert(quads, 0, 4, axis=1).ravel()
+    return pv.PolyData(rings.reshape(-1, 3), faces=np.concatenate([table, caps]))
 
 
 def surface(points: np.ndarray, faces: list[np.ndarray]) -> pv.PolyData:

@@ -45,6 +45,7 @@ class Block {
   virtual bool in_mesh() const { return true; }
   virtual bool is_body() const { return false; }
   virtual bool is_linear(std::size_t) const { return false; }
+  virtual const char* why_not_finite() const { return ""; }
   virtual Mat3 inertia_at(std::size_t e, int node) const;
   virtual const std::vector<Named>& channels() const;
   virtual void observe(std::size_t e, const State& state, std::span<double> values) const;
@@ -91,6 +92,7 @@ class BlockMember final : public Element {
   bool in_mesh() const override { return block_->in_mesh(); }
   bool is_body() const override { return block_->is_body(); }
   bool is_linear() const override { return block_->is_linear(index_); }
+  const char* why_not_finite() const override { return block_->why_not_finite(); }
   Mat3 inertia_at(int node) const override { return block_->inertia_at(index_, node); }
   const std::vector<Named>& channels() const override { return block_->channels(); }
   void observe(const State& state, std::span<double> values) const override { block_->observe(index_, state, values); }

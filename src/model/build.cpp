@@ -35,6 +35,7 @@ class Builder {
       if (const auto* card = record.get<deck::SteppingCard>()) stepping_ = card;
       if (const ElementType* type = type_of(record)) elements_.push_back({&record, type});
       has_mesh_ = has_mesh_ || record.schema->name == cell_card;
+      names_material_ = names_material_ || (record.schema->command() == ".MCE" && record.given("MAT"));
     }
     // linear statics: the equilibrium at the end, without a way there
     if (has_mesh_ && !deck::says_analysis(deck_.records)) {
@@ -133,12 +134,12 @@ class Builder {
                                   "STYP selects nothing in this version: all fields and histories are archived");
     }
     if (!has_mesh_)
-      if (const char* what = record.get<deck::MaterialCard>()     ? "material"
-                             : record.get<deck::HypothesisCard>() ? "formulation"
-                             : record.get<deck::PropertyCard>()   ? "property"
-                             : record.get<deck::AssignmentCard>() ? "assignment"
-                             : record.get<deck::RotationCard>()   ? "rotation"
-                                                                  : nullptr)
+      if (const char* what = record.get<deck::MaterialCard>() && !names_material_ ? "material"
+                             : record.get<deck::HypothesisCard>()                 ? "formulation"
+                             : record.get<deck::PropertyCard>()                   ? "property"
+                             : record.get<deck::AssignmentCard>()                 ? "assignment"
+                             : record.get<deck::RotationCard>()                   ? "rotation"
+                                                                                  : nullptr)
         diagnostics_.warning_once(what, record.location,
                                   fmt::format("the deck has no cells (.MAI): this {} has no effect", what));
     if (const auto* check = record.get<deck::CheckCard>()) {
@@ -553,6 +554,7 @@ class Builder {
   std::unordered_map<int, BuildContext::Found> mechanism_;  ///< of .MCE by number, once asked for
   bool knows_mechanism_ = false;
   bool has_mesh_ = false;                                       ///< some record is a cell
+  bool names_material_ = false;                                 ///< some element of .MCE is made of a .MAT
   bool others_are_asked_for_ = false;                           ///< some element is of stage 1
   std::unordered_map<int, const deck::Record*> placed_by_;      ///< which element placed a node
   std::unordered_map<int, std::vector<int>> placed_from_;       ///< nodes placed from a node, in the order of the deck

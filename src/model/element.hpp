@@ -331,6 +331,9 @@ class Element {
   /// Its forces at rest are linear in the displacements: one tangent serves any equilibrium.
   virtual bool is_linear() const { return false; }
 
+  /// Where its forces are not finite: why, and what to change, after the element's name. Empty: nothing more is known.
+  virtual const char* why_not_finite() const { return ""; }
+
   /// Warnings for the user at the end of a run: sentences without the element's name, from the history as committed last.
   virtual std::vector<std::string> remarks(std::span<const double> /*history*/) const { return {}; }
 

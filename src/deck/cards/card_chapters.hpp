@@ -10,6 +10,7 @@ namespace engrane::deck {
 
 std::vector<Schema> model_cards();      ///< `.UNIT` `.TITRE` `.NOE` `.FRAME` `.SEL` `.MAT`
 std::vector<Schema> mesh_cards();       ///< `.HYP` `.PHP` `.AEL`
+Schema profile_card();                  ///< `.BPR`
 std::vector<Schema> condition_cards();  ///< `.CLM` `.FCT` `.INI`
 std::vector<Schema> analysis_cards();   ///< `.SAM` `.SUB` `.SAI` `.CHK`
 

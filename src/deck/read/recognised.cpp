@@ -15,7 +15,6 @@ const std::vector<Recognised>& recognised_commands() {
       {".COL", "joining nodes that lie closer than a tolerance",
        "use the same node in both parts, or .MCE RIGID, and remove .COL"},
       {".AXL", "local axes of nodes", "give directions by AXIS in .MCE, nodes in a .FRAME, and remove .AXL"},
-      {".BPR", "the library of beam profiles", "give the section in the .MCE record and remove .BPR"},
       {".ASE", "assembly of super-elements", "remove .ASE"},
       {".STO", "storage of super-elements", "remove .STO"},
       {".CLT", "thermal conditions", "remove .CLT"},

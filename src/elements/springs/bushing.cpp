@@ -3,18 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "elements/common/building.hpp"
 #include "elements/common/rotation_vector.hpp"
+#include "math/matrix6.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::springs {
 
 namespace {
-
-using Mat6 = Eigen::Matrix<double, 6, 6>;
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 /// Linear in the displacement u of B's point from A's, in axes that A holds, and in the rotation vector θ of B from A in them.
 class Bushing final : public TemplatedElement<Bushing, 2, 12> {
@@ -150,30 +146,18 @@ class Bushing final : public TemplatedElement<Bushing, 2, 12> {
 
 /// The matrix of 6 or 21 values, with an error when it has another number of them or would give energy.
 std::optional<Mat6> matrix(const BuildContext& context, const char* keyword, const std::vector<double>& values) {
-  Mat6 m = Mat6::Zero();
-  if (values.empty()) return m;
-  if (values.size() == 6) {
-    for (Eigen::Index i = 0; i < 6; ++i) m(i, i) = values[static_cast<std::size_t>(i)];
-  } else if (values.size() == 21) {
-    std::size_t next = 0;
-    for (Eigen::Index i = 0; i < 6; ++i)
-      for (Eigen::Index j = i; j < 6; ++j) m(i, j) = m(j, i) = values[next++];
-  } else {
+  if (values.empty()) return Mat6(Mat6::Zero());
+  const auto m = symmetric_6(values);
+  if (!m) {
     context.error(keyword, fmt::format("{} has {} values", keyword, values.size()),
                   "give 6 (the diagonal: three of displacement, three of rotation) or 21 (the upper triangle, row by row)");
     return {};
   }
-  // scaled to a diagonal of ones, since its rows have different units
-  Vec6 scale = m.diagonal();
-  for (Eigen::Index i = 0; i < 6; ++i) scale[i] = scale[i] > 0 ? 1 / std::sqrt(scale[i]) : 1;
-  const Mat6 scaled = scale.asDiagonal() * m * scale.asDiagonal();
-  const Vec6 eigenvalues = Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
-  if (eigenvalues[0] < -1e-9 * std::abs(eigenvalues[5])) {
-    context.error(keyword, fmt::format("the matrix of {} is not positive: some motion would gain energy from it", keyword),
-                  "every row's diagonal must outweigh what couples it to the others");
-    return {};
-  }
-  return m;
+  constexpr double rounding = 1e-9;
+  if (definiteness(*m) >= -rounding || m->isZero(0)) return m;
+  context.error(keyword, fmt::format("the matrix of {} is not positive: some motion would gain energy from it", keyword),
+                "every row's diagonal must outweigh what couples it to the others");
+  return {};
 }
 
 /// The bush's axes as columns, right-handed.

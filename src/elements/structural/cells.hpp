@@ -51,6 +51,10 @@ class Cells final : public Block {
   const Layout& layout() const override { return layout_; }
   std::span<const int> node_ids(std::size_t e) const override { return cells_[e].nodes; }
   CellShape cell_shape() const override { return S; }
+  const char* why_not_finite() const override {
+    return "is turned inside out, or distorted so far that its forces are no numbers: smaller steps H, loads that grow from "
+           "zero (NF), or a finer mesh";
+  }
   bool is_linear(std::size_t e) const override { return cells_[e].section->linear; }
 
   void residual(std::size_t first, std::span<const State> states, std::span<double> r) const override {

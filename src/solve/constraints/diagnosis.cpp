@@ -291,12 +291,10 @@ std::string explain_not_finite(Assembler& assembler, const Configuration& config
     element.tangent(assembler.view(static_cast<int>(p), configuration), {1, 1, 1}, r, k);
     const auto finite = [](double x) { return std::isfinite(x); };
     if (std::all_of(r.begin(), r.end(), finite) && std::all_of(k.begin(), k.end(), finite)) continue;
-    if (element.cell_shape() != CellShape::none)
-      return fmt::format(
-          "cell {} is turned inside out, or distorted so far that its forces are no numbers: smaller steps H, loads "
-          "that grow from zero (NF), or a finer mesh",
-          element.id());
-    return fmt::format("{} {} gives a force or a slope of it that is not a finite number", parts[p].type, element.id());
+    const std::string kind = element.cell_shape() == CellShape::none ? parts[p].type : "cell";
+    const std::string why = element.why_not_finite();
+    return fmt::format("{} {} {}", kind, element.id(),
+                       why.empty() ? "gives a force or a slope of it that is not a finite number" : why);
   }
   return {};
 }

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/beams/beam.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "elements/beams/beam_piece.hpp"
+#include "elements/common/building.hpp"
+
+namespace engrane::elements::beams {
+
+namespace {
+
+struct GaussPoint {
+  double place, weight;
+};
+const std::array<GaussPoint, 1> one_point = {{{0, 2}}};
+const std::array<GaussPoint, 2> two_points = {{{-std::sqrt(1.0 / 3), 1}, {std::sqrt(1.0 / 3), 1}}};
+const std::array<GaussPoint, 3> three_points = {{{-std::sqrt(0.6), 5.0 / 9}, {0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}}};
+
+/// Shape functions of Lagrange and their slopes at ξ from −1 to 1.
+template <int Nodes>
+struct Shape {
+  std::array<double, Nodes> value, slope;
+
+  explicit Shape(double xi) {
+    if constexpr (Nodes == 2) {
+      value = {(1 - xi) / 2, (1 + xi) / 2};
+      slope = {-0.5, 0.5};
+    } else {
+      value = {xi * (xi - 1) / 2, 1 - xi * xi, xi * (xi + 1) / 2};
+      slope = {xi - 0.5, -2 * xi, xi + 0.5};
+    }
+  }
+
+  Vec3 along(const std::array<Vec3, Nodes>& places) const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < Nodes; ++i) sum += slope[i] * places[i];
+    return sum;
+  }
+};
+
+/// What all pieces of a beam share.
+struct Plan {
+  const BeamData& data;
+  std::shared_ptr<const BeamSection> section;
+  BuildContext& context;
+};
+
+/// The axes of a section whose first is along `tangent`, as columns; nothing, with an error, where axis 2 is not told.
+std::optional<Mat3> section_axes(const Plan& plan, const Vec3& tangent) {
+  const Vec3 first = tangent.normalized();
+  Vec3 second = perpendicular(first);
+  if (plan.data.axis_2) {
+    const Vec3 side = to_vector(*plan.data.axis_2).stableNormalized();
+    second = side - first.dot(side) * first;
+    constexpr double least = 1e-3;
+    if (second.norm() < least) {
+      plan.context.error("AXIS2", fmt::format("AXIS2 is along beam {}", plan.context.record.id),
+                         "a direction across the beam, on the side of axis 2 of its sections");
+      return {};
+    }
+    second.normalize();
+  }
+  Mat3 axes;
+  axes << first, second, cross(first, second);
+  return axes;
+}
+
+template <int Nodes>
+std::optional<BeamPiece<Nodes>> make_piece(const Plan& plan, const std::array<int, Nodes>& nodes) {
+  std::array<Vec3, Nodes> places;
+  for (std::size_t i = 0; i < Nodes; ++i) places[i] = plan.context.nodes.at(nodes[i]);
+  const Vec3 chord = places.back() - places.front();
+  for (const double xi : {-1.0, 0.0, 1.0})
+    if (!(Shape<Nodes>(xi).along(places).dot(chord) > 1e-3 * chord.squaredNorm())) {
+      plan.context.error("N", fmt::format("the beam is folded, or has no length, at node {}", nodes[Nodes / 2]),
+                         "nodes stand along the beam in turn; of three the second is near the middle of the others");
+      return {};
+    }
+
+  BeamPiece<Nodes> piece;
+  piece.section = plan.section;
+  const auto& rule = []() -> const auto& {
+    if constexpr (Nodes == 2)
+      return one_point;
+    else
+      return two_points;
+  }
+  ();
+  for (std::size_t p = 0; p < rule.size(); ++p) {
+    const Shape<Nodes> shape(rule[p].place);
+    const Vec3 along = shape.along(places);
+    const double length = along.norm();
+    const auto axes = section_axes(plan, along);
+    if (!axes) return {};
+    auto& point = piece.at[p];
+    point.length = rule[p].weight * length;
+    point.shape = shape.value;
+    for (std::size_t i = 0; i < Nodes; ++i) point.slope[i] = shape.slope[i] / length;
+    point.axes = *axes;
+  }
+
+  std::array<double, Nodes> share{};  // of the length
+  piece.mass.setZero();
+  for (const GaussPoint& one : three_points) {
+    const Shape<Nodes> shape(one.place);
+    const double length = one.weight * shape.along(places).norm();
+    for (std::size_t i = 0; i < Nodes; ++i) {
+      share[i] += length * shape.value[i];
+      for (std::size_t j = 0; j < Nodes; ++j)
+        piece.mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) +=
+            plan.section->mass * length * shape.value[i] * shape.value[j];
+    }
+  }
+  for (std::size_t i = 0; i < Nodes; ++i) {
+    const auto axes = section_axes(plan, Shape<Nodes>(-1 + 2.0 * static_cast<double>(i) / (Nodes - 1)).along(places));
+    if (!axes) return {};
+    piece.centers[i] = *axes * plan.section->center;
+    piece.inertia[i] = share[i] * (*axes * plan.section->inertia * axes->transpose());
+    if (i == 0) piece.end_axes[0] = *axes;
+    if (i == Nodes - 1) piece.end_axes[1] = *axes;
+  }
+  return piece;
+}
+
+/// Pieces of so many nodes along the list: the first, and the others into BuildContext::more.
+template <int Nodes>
+std::unique_ptr<Element> make_pieces(const Plan& plan) {
+  BlockStore alone;
+  const auto block = (plan.context.blocks ? *plan.context.blocks : alone).block<Beams<Nodes>>("");
+  std::unique_ptr<Element> first;
+  for (std::size_t begin = 0; begin + Nodes <= plan.data.nodes.size(); begin += Nodes - 1) {
+    std::array<int, Nodes> nodes;
+    std::copy_n(plan.data.nodes.begin() + static_cast<std::ptrdiff_t>(begin), Nodes, nodes.begin());
+    auto piece = make_piece<Nodes>(plan, nodes);
+    if (!piece) return nullptr;
+    const int id = plan.context.record.id + static_cast<int>(begin) / (Nodes - 1);
+    auto element = Beams<Nodes>::add(block, id, nodes, std::move(*piece));
+    if (!first)
+      first = std::move(element);
+    else if (plan.context.more)
+      plan.context.more->push_back(std::move(element));
+  }
+  return first;
+}
+
+/// Whether the numbers of the pieces are free.
+bool numbers_are_free(std::size_t pieces, const BuildContext& context) {
+  const int id = context.record.id;
+  for (int other = id + 1; other < id + static_cast<int>(pieces); ++other)
+    if (const auto found = context.find_element ? context.find_element(other) : BuildContext::Found{}; found.record) {
+      context.error("N",
+                    fmt::format("the {} pieces of beam {} have the numbers {} to {}, but {} is a {}", pieces, id, id,
+                                id + static_cast<int>(pieces) - 1, other, found.record->schema->name),
+                    fmt::format("give the {} another number", found.record->schema->name));
+      return false;
+    }
+  return true;
+}
+
+std::unique_ptr<Element> build(const BeamData& data, BuildContext& context) {
+  const std::size_t count = data.nodes.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0 && data.nodes[i] == data.nodes[i - 1]) {
+      context.error("N", fmt::format("node {} stands twice in turn", data.nodes[i]), "name each node of the beam once");
+      return nullptr;
+    }
+  }
+  const bool linear = data.linear || count == 2;
+  if (!linear && count % 2 == 0) {
+    context.error("N", fmt::format("{} nodes: pieces of a beam have three, and share their ends", count),
+                  fmt::format("name {} or {} nodes, or say LINEAR, for pieces of two", count - 1, count + 1));
+    return nullptr;
+  }
+  const std::size_t pieces = linear ? count - 1 : (count - 1) / 2;
+  const Plan plan{data, section_of(data.profile, data.material, data.damping, context), context};
+  if (!plan.section || !numbers_are_free(pieces, context)) return nullptr;
+  if (!data.axis_2 && !plan.section->is_round) {
+    context.error("AXIS2", fmt::format("beam {} has a section that is not round, and no AXIS2", context.record.id),
+                  "AXIS2 x y z, a direction across the beam on the side of axis 2 of its sections");
+    return nullptr;
+  }
+  return linear ? make_pieces<2>(plan) : make_pieces<3>(plan);
+}
+
+}  // namespace
+
+ElementType beam_type() {
+  deck::Card<BeamData> card("BEAM", {"POUTRE"}, "Beam: a flexible line of nodes");
+  card.numbered()
+      .chapter("Beams")
+      .describe(
+          "Geometrically exact: displacements and rotations of any size, with stretch, shear, twist and bending. Pieces have "
+          "three nodes, which stand along the beam and share their ends, so that N 1 2 3 4 5 is two pieces; their numbers count "
+          "on from that of the record. The error of the nodes falls with the fourth power of the length of the pieces; with "
+          "LINEAR, or two nodes, pieces have two and it falls with the second. Nodes on a curve make a curved beam, which is "
+          "relaxed where it stands. The section is one of `.BPR`.")
+      .example("I 1 BEAM N 1 2 3 4 5  BPR 1  MAT 1")
+      .example("I 9 BEAM N 1 2  BPR 2  AXIS2 0 0 1  DAMPING 1E-4");
+  card.add("N", &BeamData::nodes, "the nodes along the beam: 2, 3, 5, 7 …, or with LINEAR any number")
+      .synonyms({"NODES", "NOEUDS"})
+      .refers(deck::Reference::node)
+      .at_least(1)
+      .values(2, deck::detail::any_number)
+      .required();
+  card.add("BPR", &BeamData::profile, "number of the section in `.BPR`").synonyms({"SECTION"}).at_least(1).required();
+  card.add("MAT", &BeamData::material, "number of the material in `.MAT`, of a section given by its shape")
+      .synonyms({"MATERIAL", "MATERIAU"})
+      .at_least(1);
+  card.add("AXIS2", &BeamData::axis_2, "across the beam, on the side of axis 2 of its sections, in the reference configuration")
+      .synonyms({"AXE2"});
+  card.add("DAMPING", &BeamData::damping,
+           "material damping (Kelvin and Voigt): the time by which stiffness is multiplied to resist rates of strain")
+      .synonyms({"AMORTISSEMENT"})
+      .unit(dimension::time)
+      .at_least(0);
+  card.add("LINEAR", &BeamData::linear, "pieces of two nodes");
+  return element_type(card, build);
+}
+
+}  // namespace engrane::elements::beams

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "model/registry.hpp"
+
+namespace engrane::elements::beams {
+
+/// Card of a beam. `BEAM N n1 n2 … BPR p [MAT m] [AXIS2 x y z] [DAMPING t] [LINEAR]`
+struct BeamData {
+  std::vector<int> nodes;  ///< along it
+  int profile = 0;
+  int material = 0;                             ///< 0: the profile has stiffness and mass of its own
+  std::optional<std::array<double, 3>> axis_2;  ///< across it, on the side of axis 2 of its sections
+  double damping = 0;                           ///< a time
+  bool linear = false;                          ///< pieces of two nodes
+};
+
+/// BEAM (POUTRE): a flexible line of nodes.
+ElementType beam_type();
+
+}  // namespace engrane::elements::beams

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/beams/beam_piece.hpp"
+
+#include <fmt/format.h>
+
+#include "elements/common/building.hpp"
+
+namespace engrane::elements::beams {
+
+namespace {
+
+template <int Nodes>
+Layout piece_layout() {
+  Layout layout;
+  layout.nodes.assign(Nodes, -1);
+  layout.needs.assign(Nodes, NodeNeed::both);
+  return layout;
+}
+
+constexpr std::array<const char*, 2> ends = {"A", "B"};
+
+}  // namespace
+
+template <int Nodes>
+Beams<Nodes>::Beams() : TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes>(piece_layout<Nodes>()) {}
+
+template <int Nodes>
+Energies Beams<Nodes>::energies(std::size_t e, const State& state) const {
+  const BeamPiece<Nodes>& piece = this->data(e);
+  const Motion<double, Nodes> motion(state);
+  Energies sum;
+  for (std::size_t p = 0; p < piece.at.size(); ++p) {
+    const auto strain = piece.strain(motion, p);
+    sum.potential += piece.at[p].length / 2 * piece.stress(strain).dot(Eigen::Map<const Vec6>(strain.data()));
+    if (piece.section->damping > 0) {
+      const Vec6 rate = piece.strain_rate(motion, p);
+      sum.dissipated += piece.at[p].length * piece.section->damping * rate.dot(piece.section->stiffness * rate);
+    }
+  }
+  if (!piece.section->has_mass()) return sum;
+  std::array<Vec3, Nodes> velocity;
+  for (std::size_t i = 0; i < Nodes; ++i) {
+    const NodeState& node = state.nodes[i];
+    velocity[i] = node.v + node.R * cross(node.W, piece.centers[i]);
+    sum.kinetic += 0.5 * node.W.dot(piece.inertia[i] * node.W);
+  }
+  for (std::size_t i = 0; i < Nodes; ++i)
+    for (std::size_t j = 0; j < Nodes; ++j) {
+      const double mass = piece.mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      sum.kinetic += 0.5 * mass * velocity[i].dot(velocity[j]);
+      sum.potential -= mass * state.gravity.dot(state.nodes[i].x + state.nodes[i].R * piece.centers[i]);
+    }
+  return sum;
+}
+
+template <int Nodes>
+Mat3 Beams<Nodes>::inertia_at(std::size_t e, int node) const {
+  const BeamPiece<Nodes>& piece = this->data(e);
+  Mat3 sum = Mat3::Zero();
+  for (std::size_t i = 0; i < Nodes; ++i) {
+    if (this->node_ids(e)[i] != node) continue;
+    const Vec3& arm = piece.centers[i];
+    sum += piece.inertia[i] +
+           piece.mass.row(static_cast<Eigen::Index>(i)).sum() * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+  }
+  return sum;
+}
+
+template <int Nodes>
+const std::vector<Named>& Beams<Nodes>::channels() const {
+  static const std::vector<Named> all = [] {
+    std::vector<Named> list;
+    for (const char* end : ends) {
+      const auto add = [&](const char* name, Dimension dimension, const char* help) {
+        list.push_back({fmt::format("{}_{}", name, end), dimension,
+                        fmt::format("{} at the {} node, in the axes of the section", help, *end == 'A' ? "first" : "last")});
+      };
+      add("NORMAL_FORCE", dimension::force, "pull");
+      add("SHEAR_FORCE_2", dimension::force, "shear along axis 2");
+      add("SHEAR_FORCE_3", dimension::force, "shear along axis 3");
+      add("TORQUE", dimension::moment, "torsion");
+      add("BENDING_MOMENT_2", dimension::moment, "bending about axis 2");
+      add("BENDING_MOMENT_3", dimension::moment, "bending about axis 3");
+    }
+    list.push_back({"STRAIN_ENERGY", dimension::energy, "energy stored by deformation"});
+    return list;
+  }();
+  return all;
+}
+
+template <int Nodes>
+void Beams<Nodes>::observe(std::size_t e, const State& state, std::span<double> values) const {
+  const BeamPiece<Nodes>& piece = this->data(e);
+  std::array<double, 6 * Nodes> r{};
+  this->residual(e, {&state, 1}, r);
+  std::size_t next = 0;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const std::size_t node = end == 0 ? 0 : Nodes - 1;
+    const double sign = end == 0 ? -1 : 1;  // a section's forces are those on the side that looks along the beam
+    const double* at = r.data() + 6 * node;
+    const Vec3 force = piece.end_axes[end].transpose() * (state.nodes[node].R.transpose() * Vec3(at[0], at[1], at[2]));
+    const Vec3 moment = piece.end_axes[end].transpose() * Vec3(at[3], at[4], at[5]);
+    for (Eigen::Index c = 0; c < 3; ++c) values[next++] = sign * force[c];
+    for (Eigen::Index c = 0; c < 3; ++c) values[next++] = sign * moment[c];
+  }
+  const Motion<double, Nodes> motion(state);
+  values[next] = 0;
+  for (std::size_t p = 0; p < piece.at.size(); ++p) {
+    const auto strain = piece.strain(motion, p);
+    values[next] += piece.at[p].length / 2 * piece.stress(strain).dot(Eigen::Map<const Vec6>(strain.data()));
+  }
+}
+
+template <int Nodes>
+const std::vector<Field>& Beams<Nodes>::fields() const {
+  static const std::vector<Field> all = [] {
+    const auto at_points = [](const char* name, Dimension dimension, const char* help, std::vector<std::string> components) {
+      return Field{{name, dimension, help}, Field::Place::point, std::move(components), BeamPiece<Nodes>::points};
+    };
+    return std::vector<Field>{
+        at_points("SECTION_FORCE", dimension::force, "pull and shear forces of a beam, axes of the section", {"N", "V2", "V3"}),
+        at_points("SECTION_MOMENT", dimension::moment, "torsion and bending moments of a beam, axes of the section",
+                  {"T", "M2", "M3"})};
+  }();
+  return all;
+}
+
+template <int Nodes>
+void Beams<Nodes>::evaluate_fields(std::size_t e, const State& state, std::span<double> values) const {
+  const BeamPiece<Nodes>& piece = this->data(e);
+  const Motion<double, Nodes> motion(state);
+  for (std::size_t p = 0; p < piece.at.size(); ++p) {
+    Vec6 stress = piece.stress(piece.strain(motion, p));
+    if (piece.section->damping > 0) stress += piece.section->damping * (piece.section->stiffness * piece.strain_rate(motion, p));
+    for (std::size_t c = 0; c < 3; ++c) {
+      values[3 * p + c] = stress[static_cast<Eigen::Index>(c)];
+      values[3 * (piece.at.size() + p) + c] = stress[static_cast<Eigen::Index>(3 + c)];
+    }
+  }
+}
+
+template <int Nodes>
+std::vector<Derived> Beams<Nodes>::derived(std::size_t e) const {
+  const BeamPiece<Nodes>& piece = this->data(e);
+  double length = 0;
+  for (const auto& point : piece.at) length += point.length;
+  std::vector<Derived> all = {{"length", length, dimension::length}};
+  if (piece.section->mass > 0) all.push_back({"mass", piece.mass.sum(), dimension::mass});
+  return all;
+}
+
+template <int Nodes>
+Drawing Beams<Nodes>::drawing(std::size_t e) const {
+  const auto ids = this->node_ids(e);
+  return {fmt::format(R"("shape": "beam", "points": {})", json(std::vector<int>(ids.begin(), ids.end())))};
+}
+
+template class Beams<2>;
+template class Beams<3>;
+
+}  // namespace engrane::elements::beams

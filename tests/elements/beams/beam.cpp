@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/beams/beam.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "deck/cards/profile_card.hpp"
+#include "elements/suite.hpp"
+#include "math/chain.hpp"
+#include "math/matrix6.hpp"
+#include "math/rotation.hpp"
+#include "math/rotation_series.hpp"
+
+namespace engrane::elements::beams {
+namespace {
+
+using namespace suite;
+
+const NodeMap bow = {{1, {0, 0, 0}}, {2, {0.9, 0.3, -0.2}}, {3, {1.6, 0.9, 0.1}}};
+
+/// The sections of a deck.
+std::vector<deck::Record> sections(const deck::ProfileCard& profile) {
+  deck::Record record;
+  record.id = 1;
+  record.data = profile;
+  return {record};
+}
+
+deck::ProfileCard round_section() {
+  deck::ProfileCard p;
+  p.stretching = 50;
+  p.shearing = {{20, 20}};
+  p.twisting = 8;
+  p.bending = {{10, 10}};
+  p.mass = 3;
+  p.inertia = {0.4, 0.2, 0.2};
+  return p;
+}
+
+/// Every strain makes every force, and the mass is beside the line of the nodes.
+deck::ProfileCard coupled_section() {
+  Mat6 L = Mat6::Zero();
+  for (Eigen::Index i = 0; i < 6; ++i)
+    for (Eigen::Index j = 0; j <= i; ++j)
+      L(i, j) = i == j ? 3 + 0.2 * static_cast<double>(i) : std::sin(1.0 + static_cast<double>(3 * i + j));
+  const Mat6 m = L * L.transpose();
+  deck::ProfileCard p;
+  for (Eigen::Index i = 0; i < 6; ++i)
+    for (Eigen::Index j = i; j < 6; ++j) p.stiffness.push_back(m(i, j));
+  p.mass = 2;
+  p.inertia = {0.4, 0.3, 0.1};
+  p.center = {{0.1, -0.2}};
+  return p;
+}
+
+std::array<double, 3> list(const Vec3& v) { return {v[0], v[1], v[2]}; }
+
+Subject subject(std::vector<int> nodes, const deck::ProfileCard& profile, double damping = 0) {
+  Subject s;
+  s.name = std::to_string(nodes.size()) + " nodes, " + (profile.stiffness.empty() ? "round" : "coupled") +
+           (damping > 0 ? ", damped" : "");
+  for (const int id : nodes) s.nodes[id] = bow.at(id);
+  const auto data = [=](const Mat3& Q) {
+    BeamData beam;
+    beam.nodes = nodes;
+    beam.profile = 1;
+    beam.axis_2 = list(Q * Vec3(-0.2, 0.3, 1));
+    beam.damping = damping;
+    return beam;
+  };
+  const auto made = [=](const BeamData& beam, const Mat3& Q) {
+    const std::vector<deck::Record> records = sections(profile);
+    return build(beam_type(), beam, turned(bow, Q), {.records = &records});
+  };
+  s.build = [=](const Mat3& Q) { return made(data(Q), Q); };
+  if (profile.stiffness.empty())
+    s.build_swapped = [=] {
+      BeamData beam = data(Mat3::Identity());
+      std::reverse(beam.nodes.begin(), beam.nodes.end());
+      return made(beam, Mat3::Identity());
+    };
+  s.turn = 0.6;  // of each node, so that the relative rotation stays below 2
+  s.step = 1e-4;
+  s.tolerance = 1e-7;
+  if (damping > 0) s.skip[Check::lagrange] = "a damper has no potential";
+  if (profile.mass) {
+    s.skip[Check::rigid] = "inertia resists a rigid motion";
+    s.skip[Check::equilibrium] = "inertia pushes against space";
+  }
+  return s;
+}
+
+deck::ProfileCard massless(deck::ProfileCard profile) {
+  profile.mass.reset();
+  profile.inertia.clear();
+  profile.center.reset();
+  return profile;
+}
+
+TEST(Beam, Suite) {
+  for (const std::vector<int>& nodes : {std::vector{1, 2, 3}, std::vector{1, 3}})
+    for (const deck::ProfileCard& profile : {round_section(), coupled_section()})
+      for (const double damping : {0.0, 0.3})
+        for (const bool heavy : {true, false}) {
+          Subject s = subject(nodes, heavy ? profile : massless(profile), damping);
+          // an arc through three points, by three points of Gauss
+          if (heavy && nodes.size() == 2) s.mass = *profile.mass * (bow.at(3) - bow.at(1)).norm();
+          run_suite(s);
+        }
+}
+
+TEST(Beam, SoftAndStiff) {
+  for (const double size : {1e-6, 1e12}) {
+    deck::ProfileCard profile = massless(coupled_section());
+    for (double& value : profile.stiffness) value *= size;
+    run_suite(subject({1, 2, 3}, profile));
+  }
+}
+
+/// exp(ψ), T(ψ) and its slope, from the functions φ_n and from other formulas.
+TEST(Beam, RotationSeries) {
+  for (const double a : {0.0, 1e-9, 1e-4, 0.1, 0.9, 1.7, 2.5, 3.1}) {
+    const RotationSeries<double> f(a * a);
+    const long double x = a;
+    if (a > 0.05) {
+      EXPECT_NEAR(f.f1, static_cast<double>(std::sin(x) / x), 1e-15);
+      EXPECT_NEAR(f.f2, static_cast<double>((1 - std::cos(x)) / (x * x)), 1e-15);
+      EXPECT_NEAR(f.f3, static_cast<double>((x - std::sin(x)) / (x * x * x)), 1e-15);
+    }
+    const Vec3 psi = a * Vec3(2, -3, 6) / 7;
+    Mat3 hat;
+    hat << 0, -psi[2], psi[1], psi[2], 0, -psi[0], -psi[1], psi[0], 0;
+    EXPECT_LE((Mat3::Identity() + f.f1 * hat + f.f2 * hat * hat - rotation_exp(psi)).norm(), 2e-15) << a;
+    EXPECT_LE((Mat3::Identity() - f.f2 * hat + f.f3 * hat * hat - rotation_tangent(psi)).norm(), 2e-15) << a;
+    const double u = a * a + 0.3, h = 1e-3;
+    const auto slope = [&](double RotationSeries<double>::*of) {
+      const auto at = [&](int k) { return RotationSeries<double>(u + k * h).*of; };
+      return (45 * (at(1) - at(-1)) - 9 * (at(2) - at(-2)) + at(3) - at(-3)) / (60 * h);
+    };
+    const RotationSeries<double> here(u);
+    EXPECT_NEAR(here.f2_slope, slope(&RotationSeries<double>::f2), 1e-13);
+    EXPECT_NEAR(here.f3_slope, slope(&RotationSeries<double>::f3), 1e-13);
+    const RotationSeries<Dual<1>> dual([u] {
+      Dual<1> d(u);
+      d.d[0] = 1;
+      return d;
+    }());
+    EXPECT_NEAR(dual.f2.d[0], here.f2_slope, 1e-16);
+    EXPECT_NEAR(dual.f2_slope.d[0], slope(&RotationSeries<double>::f2_slope), 1e-13);
+    EXPECT_NEAR(dual.f3_slope.d[0], slope(&RotationSeries<double>::f3_slope), 1e-13);
+  }
+}
+
+/// A beam that is bent, twisted, sheared and pulled evenly is a helix: section moments are exact; forces are those of a parabola
+/// through its nodes, which at the points of Gauss has the slope of the helix up to the third power of the length.
+TEST(Beam, EvenStrain) {
+  const std::vector<deck::Record> records = sections(round_section());
+  BeamData data;
+  data.nodes = {1, 2, 3};
+  data.profile = 1;
+  data.axis_2 = {{0, 1, 0}};
+  const Vec3 k(0.3, -0.4, 0.5), gamma(1.02, 0.01, -0.03);
+  const Vec3 force(50 * (gamma[0] - 1), 20 * gamma[1], 20 * gamma[2]), moment(8 * k[0], 10 * k[1], 10 * k[2]);
+  std::vector<double> errors;
+  for (const double length : {1.0, 0.5}) {
+    const NodeMap straight = {{1, {0, 0, 0}}, {2, {length / 2, 0, 0}}, {3, {length, 0, 0}}};
+    const auto beam = build(beam_type(), data, straight, {.records = &records});
+    StateBuffer state(*beam, straight);
+    std::size_t i = 0;
+    for (const auto& [id, place] : straight) {
+      const double s = place[0];
+      state.turn(i, rotation_exp(k * s), Vec3::Zero());
+      state.nodes[i++].x = s * rotation_tangent(-k * s) * gamma;  // ∫ exp(k s) ds γ
+    }
+    std::vector<double> fields(12);
+    beam->evaluate_fields(state.view(), fields);
+    errors.push_back(0);
+    for (std::size_t p = 0; p < 2; ++p) {
+      errors.back() = std::max(errors.back(), (Vec3(&fields[3 * p]) - force).norm());
+      EXPECT_LE((Vec3(&fields[6 + 3 * p]) - moment).norm(), 1e-14 * moment.norm());
+    }
+  }
+  EXPECT_GT(errors[0], 1e-6);
+  EXPECT_GT(errors[0] / errors[1], 7.5);
+}
+
+/// A bent and twisted piece that is turned 10^4 times in 6·10^4 parts about an axis across space keeps its forces.
+TEST(Beam, TenThousandTurns) {
+  const std::vector<deck::Record> records = sections(coupled_section());
+  BeamData data;
+  data.nodes = {1, 2, 3};
+  data.profile = 1;
+  data.axis_2 = {{0, 0, 1}};
+  const auto beam = build(beam_type(), data, bow, {.records = &records});
+  StateBuffer state(*beam, bow);
+  const std::array<Vec3, 3> bend = {Vec3(0.2, -0.5, 0.1), Vec3(0.3, 0.2, 0.6), Vec3(-0.4, 0.9, 0.2)};
+  std::array<Mat3, 3> turns;
+  for (std::size_t i = 0; i < 3; ++i) turns[i] = rotation_exp(bend[i]);
+  const auto fields = [&] {
+    for (std::size_t i = 0; i < 3; ++i) state.turn(i, turns[i], Vec3::Zero());
+    std::vector<double> values(12);
+    beam->evaluate_fields(state.view(), values);
+    return values;
+  };
+  const std::vector<double> first = fields();
+  constexpr int parts = 60000;
+  const Mat3 part = rotation_exp(2 * std::acos(-1.0) * 1e4 / parts * Vec3(1, 2, -2) / 3);
+  for (int k = 0; k < parts; ++k)
+    for (std::size_t i = 0; i < 3; ++i) {
+      turns[i] = part * turns[i];
+      state.nodes[i].x = part * state.nodes[i].x;
+    }
+  const std::vector<double> last = fields();
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_NEAR(last[i], first[i], 1e-10 * std::abs(first[i])) << i;
+}
+
+TEST(Beam, FaultsOfTheCard) {
+  const std::vector<deck::Record> records = sections(coupled_section());
+  const auto message = [&](const BeamData& data) {
+    Diagnostics diagnostics;
+    EXPECT_EQ(build(beam_type(), data, {{1, {0, 0, 0}}, {2, {0.5, 0, 0}}, {3, {1, 0, 0}}, {4, {2, 0, 0}}},
+                    {.diagnostics = &diagnostics, .records = &records}),
+              nullptr);
+    return diagnostics.all().empty() ? std::string() : diagnostics.all().front().message;
+  };
+  BeamData data;
+  data.nodes = {1, 2, 3, 4};
+  data.profile = 1;
+  EXPECT_EQ(message(data), "4 nodes: pieces of a beam have three, and share their ends");
+  data.nodes = {1, 2, 2};
+  EXPECT_EQ(message(data), "node 2 stands twice in turn");
+  data.nodes = {1, 2, 3};
+  EXPECT_EQ(message(data), "beam 1 has a section that is not round, and no AXIS2");
+  data.axis_2 = {{3, 0, 0}};
+  EXPECT_EQ(message(data), "AXIS2 is along beam 1");
+  data.axis_2 = {{0, 1, 0}};
+  data.nodes = {1, 4, 2};
+  EXPECT_EQ(message(data), "the beam is folded, or has no length, at node 4");
+  data.nodes = {1, 2, 3};
+  data.material = 3;
+  EXPECT_EQ(message(data), "section 1 has a stiffness of its own: MAT means nothing");
+  data.profile = 7;
+  EXPECT_EQ(message(data), "section 7 does not exist");
+}
+
+}  // namespace
+}  // namespace engrane::elements::beams
