@@ -84,7 +84,7 @@ TEST(RowSpace, IsThatOfTheDensePseudoInverseOfRandomMatrices) {
     for (int row = 0; row < a.rows(); row += 1 + random.below(6)) groups.push_back(row);
     Vector x(a.cols());
     for (double& entry : x) entry = random.value();
-    Eigen::BDCSVD<Dense> svd(Dense(a), Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<Dense> svd(Dense(a), Eigen::ComputeThinV);
     const auto rank = (svd.singularValues().array() > 1e-9).count();
     const Dense v = svd.matrixV().leftCols(rank);
     const RowSpace space(a, 1e-9, groups);
