@@ -107,7 +107,7 @@ def differences(one: dict, other: dict, tolerance: float) -> list[str]:
             faults.append(f"{name}: shape {a.shape} and {b.shape}")
             continue
         apart = np.abs(a.astype(float) - b.astype(float))
-        if name.startswith(("fields/", "nodes/")):
+        if name.startswith(("fields/", "nodes/", "points/")):
             apart = np.where(np.isnan(a.astype(float)) & np.isnan(b.astype(float)), 0, apart)
         gap = float(np.max(apart, initial=0))
         allowed = tolerance * scale[unit]

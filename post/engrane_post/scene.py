@@ -367,7 +367,8 @@ class Scene:
             [self._carried(n, self.points[n] + corner) for corner in outline @ across]
             for n, across in zip(nodes, axes, strict=True)
         ]
-        self._flexible(lambda p: shapes.loft(np.array([[p[c] for c in ring] for ring in rings])), BODY)
+        lid = shapes.triangles(np.array([self.points[c] for c in rings[0]]))
+        self._flexible(lambda p: shapes.loft(np.array([[p[c] for c in ring] for ring in rings]), lid), BODY)
         self.items[-1].smooth = False
 
     def _carried(self, node: int, place: np.ndarray) -> int:

@@ -235,15 +235,19 @@ def tubes(points: np.ndarray, lines: list[list[int]], radius: float) -> pv.PolyD
     return pv.PolyData(points, lines=table).tube(radius=radius, n_sides=14)
 
 
-def loft(rings: np.ndarray) -> pv.PolyData:
-    """Surface through closed rings of points, (rings, points, 3), with both ends."""
+def loft(rings: np.ndarray, lid: np.ndarray) -> pv.PolyData:
+    """Surface through closed rings of points, (rings, points, 3), and at both ends these triangles."""
     count, size = rings.shape[:2]
     k = np.arange(size)
     sides = [np.stack([r * size + k, r * size + (k + 1) % size], 1) for r in range(count)]
     quads = np.concatenate([np.hstack([a, b[:, ::-1]]) for a, b in pairwise(sides)])
-    caps = [size, *k[::-1], size, *(k + (count - 1) * size)]
-    table = np.insert(quads, 0, 4, axis=1).ravel()
-    return pv.PolyData(rings.reshape(-1, 3), faces=np.concatenate([table, caps]))
+    return surface(rings.reshape(-1, 3), [quads, lid[:, ::-1], lid + (count - 1) * size])
+
+
+def triangles(ring: np.ndarray) -> np.ndarray:
+    """Triangles that fill a flat closed line of points, as indices."""
+    filled = pv.PolyData(ring, faces=[len(ring), *range(len(ring))]).triangulate()
+    return filled.faces.reshape(-1, 4)[:, 1:]
 
 
 def surface(points: np.ndarray, faces: list[np.ndarray]) -> pv.PolyData:

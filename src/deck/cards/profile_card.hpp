@@ -11,7 +11,9 @@ namespace engrane::deck {
 
 /// `.BPR I 1 CIRCLE 0.05`, `.BPR I 2 EA 1D7 GA 4D6 4D6 GJ 8D5 EI 8D5 8D5 M 1`: the section of a beam.
 struct ProfileCard {
-  Tagged shape;                                            ///< CIRCLE d, TUBE d inner, RECTANGLE height width
+  Tagged shape;                                            ///< CIRCLE d, TUBE d inner, RECTANGLE h b, H h b tw tf, …
+  std::vector<double> hole;                                ///< of a POLYGON: its corners
+  std::optional<std::array<double, 2>> offset;             ///< of the centroid of a shape, on axes 2 and 3
   std::optional<double> area;                              ///< with `moments`: a shape by its constants
   std::optional<std::array<double, 2>> moments;            ///< second moments of area I2, I3, about axes 2 and 3
   std::optional<double> torsion;                           ///< torsion constant

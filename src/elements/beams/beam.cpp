@@ -46,30 +46,28 @@ struct Plan {
   const BeamData& data;
   std::shared_ptr<const BeamSection> section;
   BuildContext& context;
+  Vec3 side;  ///< of axis 2; of a round section without AXIS2, which turns with the beam, for the next piece
 };
 
-/// The axes of a section whose first is along `tangent`, as columns; nothing, with an error, where axis 2 is not told.
+/// The axes of a section whose first is along `tangent`, as columns; nothing, with an error, where axis 2 would be along it too.
 std::optional<Mat3> section_axes(const Plan& plan, const Vec3& tangent) {
   const Vec3 first = tangent.normalized();
-  Vec3 second = perpendicular(first);
-  if (plan.data.axis_2) {
-    const Vec3 side = to_vector(*plan.data.axis_2).stableNormalized();
-    second = side - first.dot(side) * first;
-    constexpr double least = 1e-3;
-    if (second.norm() < least) {
-      plan.context.error("AXIS2", fmt::format("AXIS2 is along beam {}", plan.context.record.id),
-                         "a direction across the beam, on the side of axis 2 of its sections");
-      return {};
-    }
-    second.normalize();
+  const Vec3 across = plan.side - first.dot(plan.side) * first;
+  constexpr double least = 1e-3;
+  if (across.norm() < least) {
+    plan.context.error("AXIS2",
+                       plan.data.axis_2 ? fmt::format("AXIS2 is along beam {}", plan.context.record.id)
+                                        : fmt::format("beam {} turns by a right angle within a piece", plan.context.record.id),
+                       plan.data.axis_2 ? "a direction across the beam, on the side of axis 2 of its sections" : "more pieces");
+    return {};
   }
   Mat3 axes;
-  axes << first, second, cross(first, second);
+  axes << first, across.normalized(), cross(first, across.normalized());
   return axes;
 }
 
 template <int Nodes>
-std::optional<BeamPiece<Nodes>> make_piece(const Plan& plan, const std::array<int, Nodes>& nodes) {
+std::optional<BeamPiece<Nodes>> make_piece(Plan& plan, const std::array<int, Nodes>& nodes) {
   std::array<Vec3, Nodes> places;
   for (std::size_t i = 0; i < Nodes; ++i) places[i] = plan.context.nodes.at(nodes[i]);
   const Vec3 chord = places.back() - places.front();
@@ -119,15 +117,15 @@ std::optional<BeamPiece<Nodes>> make_piece(const Plan& plan, const std::array<in
     if (!axes) return {};
     piece.centers[i] = *axes * plan.section->center;
     piece.inertia[i] = share[i] * (*axes * plan.section->inertia * axes->transpose());
-    if (i == 0) piece.end_axes[0] = *axes;
-    if (i == Nodes - 1) piece.end_axes[1] = *axes;
+    piece.axes[i] = *axes;
   }
+  if (!plan.data.axis_2) plan.side = piece.axes.back().col(1);
   return piece;
 }
 
 /// Pieces of so many nodes along the list: the first, and the others into BuildContext::more.
 template <int Nodes>
-std::unique_ptr<Element> make_pieces(const Plan& plan) {
+std::unique_ptr<Element> make_pieces(Plan& plan) {
   BlockStore alone;
   const auto block = (plan.context.blocks ? *plan.context.blocks : alone).block<Beams<Nodes>>("");
   std::unique_ptr<Element> first;
@@ -175,13 +173,15 @@ std::unique_ptr<Element> build(const BeamData& data, BuildContext& context) {
     return nullptr;
   }
   const std::size_t pieces = linear ? count - 1 : (count - 1) / 2;
-  const Plan plan{data, section_of(data.profile, data.material, data.damping, context), context};
+  Plan plan{data, section_of(data.profile, data.material, data.damping, context), context, Vec3::Zero()};
   if (!plan.section || !numbers_are_free(pieces, context)) return nullptr;
   if (!data.axis_2 && !plan.section->is_round) {
     context.error("AXIS2", fmt::format("beam {} has a section that is not round, and no AXIS2", context.record.id),
                   "AXIS2 x y z, a direction across the beam on the side of axis 2 of its sections");
     return nullptr;
   }
+  plan.side = data.axis_2 ? Vec3(to_vector(*data.axis_2).stableNormalized())
+                          : perpendicular((context.nodes.at(data.nodes[1]) - context.nodes.at(data.nodes[0])).stableNormalized());
   return linear ? make_pieces<2>(plan) : make_pieces<3>(plan);
 }
 

@@ -19,6 +19,20 @@ Layout piece_layout() {
 
 constexpr std::array<const char*, 2> ends = {"A", "B"};
 
+/// Largest and least normal stress E (ε + κ_2 z − κ_3 y) of a section; not a number where its shape is not known.
+std::pair<double, double> normal_stress(const BeamSection& section, const std::array<double, 6>& strain) {
+  if (!(section.young > 0) || section.outline.empty()) return {std::nan(""), std::nan("")};
+  const auto at = [&](const Eigen::Vector2d& r) { return section.young * (strain[0] + strain[4] * r[1] - strain[5] * r[0]); };
+  if (section.radius > 0) {
+    const double middle = at(section.middle), bend = section.young * section.radius * std::hypot(strain[4], strain[5]);
+    return {middle + bend, middle - bend};
+  }
+  std::pair<double, double> extremes = {at(section.outline.front()), at(section.outline.front())};
+  for (const Eigen::Vector2d& corner : section.outline)
+    extremes = {std::max(extremes.first, at(corner)), std::min(extremes.second, at(corner))};
+  return extremes;
+}
+
 }  // namespace
 
 template <int Nodes>
@@ -98,8 +112,9 @@ void Beams<Nodes>::observe(std::size_t e, const State& state, std::span<double> 
     const std::size_t node = end == 0 ? 0 : Nodes - 1;
     const double sign = end == 0 ? -1 : 1;  // a section's forces are those on the side that looks along the beam
     const double* at = r.data() + 6 * node;
-    const Vec3 force = piece.end_axes[end].transpose() * (state.nodes[node].R.transpose() * Vec3(at[0], at[1], at[2]));
-    const Vec3 moment = piece.end_axes[end].transpose() * Vec3(at[3], at[4], at[5]);
+    const Vec3 force =
+        piece.axes[end == 0 ? 0 : Nodes - 1].transpose() * (state.nodes[node].R.transpose() * Vec3(at[0], at[1], at[2]));
+    const Vec3 moment = piece.axes[end == 0 ? 0 : Nodes - 1].transpose() * Vec3(at[3], at[4], at[5]);
     for (Eigen::Index c = 0; c < 3; ++c) values[next++] = sign * force[c];
     for (Eigen::Index c = 0; c < 3; ++c) values[next++] = sign * moment[c];
   }
@@ -120,7 +135,9 @@ const std::vector<Field>& Beams<Nodes>::fields() const {
     return std::vector<Field>{
         at_points("SECTION_FORCE", dimension::force, "pull and shear forces of a beam, axes of the section", {"N", "V2", "V3"}),
         at_points("SECTION_MOMENT", dimension::moment, "torsion and bending moments of a beam, axes of the section",
-                  {"T", "M2", "M3"})};
+                  {"T", "M2", "M3"}),
+        at_points("BEAM_STRESS", dimension::pressure, "largest and least normal stress of a section of one material",
+                  {"MAX", "MIN"})};
   }();
   return all;
 }
@@ -130,12 +147,16 @@ void Beams<Nodes>::evaluate_fields(std::size_t e, const State& state, std::span<
   const BeamPiece<Nodes>& piece = this->data(e);
   const Motion<double, Nodes> motion(state);
   for (std::size_t p = 0; p < piece.at.size(); ++p) {
-    Vec6 stress = piece.stress(piece.strain(motion, p));
+    const auto strain = piece.strain(motion, p);
+    Vec6 stress = piece.stress(strain);
     if (piece.section->damping > 0) stress += piece.section->damping * (piece.section->stiffness * piece.strain_rate(motion, p));
     for (std::size_t c = 0; c < 3; ++c) {
       values[3 * p + c] = stress[static_cast<Eigen::Index>(c)];
       values[3 * (piece.at.size() + p) + c] = stress[static_cast<Eigen::Index>(3 + c)];
     }
+    const auto [most, least] = normal_stress(*piece.section, strain);
+    values[6 * piece.at.size() + 2 * p] = most;
+    values[6 * piece.at.size() + 2 * p + 1] = least;
   }
 }
 
@@ -146,13 +167,26 @@ std::vector<Derived> Beams<Nodes>::derived(std::size_t e) const {
   for (const auto& point : piece.at) length += point.length;
   std::vector<Derived> all = {{"length", length, dimension::length}};
   if (piece.section->mass > 0) all.push_back({"mass", piece.mass.sum(), dimension::mass});
+  const Vec6& stiffness = piece.section->own_stiffness;
+  constexpr Dimension bending{3, 1, -2, 0};
+  all.push_back({"EA", stiffness[0], dimension::force});
+  for (const auto& [name, row] : {std::pair{"GJ", 3}, {"EI 2", 4}, {"EI 3", 5}}) all.push_back({name, stiffness[row], bending});
   return all;
 }
 
 template <int Nodes>
 Drawing Beams<Nodes>::drawing(std::size_t e) const {
   const auto ids = this->node_ids(e);
-  return {fmt::format(R"("shape": "beam", "points": {})", json(std::vector<int>(ids.begin(), ids.end())))};
+  const BeamPiece<Nodes>& piece = this->data(e);
+  std::string shape = fmt::format(R"("shape": "beam", "points": {})", json(std::vector<int>(ids.begin(), ids.end())));
+  if (!piece.section->outline.empty()) {
+    std::vector<double> corners, axes;
+    for (const Eigen::Vector2d& corner : piece.section->outline) corners.insert(corners.end(), {corner[0], corner[1]});
+    for (const Mat3& at : piece.axes)
+      for (const Eigen::Index axis : {1, 2}) axes.insert(axes.end(), {at(0, axis), at(1, axis), at(2, axis)});
+    shape += fmt::format(R"(, "outline": [{}], "axes": [{}])", fmt::join(corners, ", "), fmt::join(axes, ", "));
+  }
+  return {shape};
 }
 
 template class Beams<2>;

@@ -35,7 +35,7 @@ struct BeamPiece {
   };
   std::array<Point, static_cast<std::size_t>(points)> at{};
   std::shared_ptr<const BeamSection> section;
-  std::array<Mat3, 2> end_axes;  ///< of the sections at its ends at rest
+  std::array<Mat3, Nodes> axes;  ///< of the sections at the nodes at rest
   Eigen::Matrix<double, Nodes, Nodes> mass;
   std::array<Vec3, Nodes> centers;  ///< where each node carries the mass, from the node at rest
   std::array<Mat3, Nodes> inertia;  ///< about these centres, in axes that are the global ones at rest

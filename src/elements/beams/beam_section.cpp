@@ -6,53 +6,15 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <tuple>
 
-#include "deck/cards/profile_card.hpp"
+#include "elements/beams/section_shape.hpp"
 #include "math/matrix6.hpp"
 
 namespace engrane::elements::beams {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
-
-/// Constants of a shape.
-struct Shape {
-  double area = 0;
-  double moment_2 = 0, moment_3 = 0;  ///< second moments of area about axes 2 and 3
-  double torsion = 0;
-  double shear_2 = 1, shear_3 = 1;  ///< shear factors
-};
-
-/// A circle with a hole of `ratio` times its diameter; shear factors of Cowper (1966, J. Appl. Mech. 33, table 1).
-Shape tube(double diameter, double ratio, double poisson) {
-  Shape s;
-  const double square = diameter * diameter, m = ratio * ratio;
-  s.area = pi / 4 * square * (1 - m);
-  s.moment_2 = s.moment_3 = pi / 64 * square * square * (1 - m * m);
-  s.torsion = 2 * s.moment_2;
-  const double whole = (1 + m) * (1 + m);
-  s.shear_2 = s.shear_3 = 6 * (1 + poisson) * whole / ((7 + 6 * poisson) * whole + (20 + 12 * poisson) * m);
-  return s;
-}
-
-/// Torsion: Timoshenko and Goodier (1970), Theory of Elasticity, art. 109; shear factor of Cowper.
-Shape rectangle(double height, double width, double poisson) {
-  Shape s;
-  s.area = height * width;
-  s.moment_2 = s.area * width * width / 12;
-  s.moment_3 = s.area * height * height / 12;
-  const double small = std::min(height, width), large = std::max(height, width);
-  double sum = 0;
-  constexpr int terms = 41;  // the last below rounding
-  for (int n = terms; n > 0; n -= 2) sum += std::tanh(n * pi * large / (2 * small)) / std::pow(n, 5);
-  s.torsion = large * small * small * small / 3 * (1 - 192 / std::pow(pi, 5) * small / large * sum);
-  s.shear_2 = s.shear_3 = 10 * (1 + poisson) / (12 + 11 * poisson);
-  return s;
-}
 
 /// Stays as it is when turned about axis 1.
 bool is_round(const BeamSection& section) {
@@ -111,26 +73,26 @@ const deck::MaterialCard* SectionBook::material_of(int material, const BuildCont
   return nullptr;
 }
 
-Shape shape_of(const deck::ProfileCard& card, double poisson) {
-  Shape shape;
-  const auto size = [&card](std::size_t i) { return card.shape.values[i]; };
-  if (card.shape.is("CIRCLE"))
-    shape = tube(size(0), 0, poisson);
-  else if (card.shape.is("TUBE"))
-    shape = tube(size(0), size(1) / size(0), poisson);
-  else if (card.shape.is("RECTANGLE"))
-    shape = rectangle(size(0), size(1), poisson);
-  else {
-    shape.area = *card.area;
-    shape.moment_2 = (*card.moments)[0];
-    shape.moment_3 = (*card.moments)[1];
-    shape.torsion = *card.torsion;
-  }
-  if (card.factors) {
-    shape.shear_2 = (*card.factors)[0];
-    shape.shear_3 = (*card.factors)[1];
-  }
-  return shape;
+/// σ = C ε of stretch and bending about the centroid, shear and twist about the shear centre.
+Mat6 stiffness_of(const SectionShape& shape, double young, double shear) {
+  Mat6 own = Mat6::Zero();
+  own(0, 0) = young * shape.area;
+  own.block<2, 2>(1, 1) = shear * shape.area * shape.shear_factors;
+  own(3, 3) = shear * shape.torsion;
+  own(4, 4) = young * shape.moments(1, 1);
+  own(5, 5) = young * shape.moments(0, 0);
+  own(4, 5) = own(5, 4) = -young * shape.moments(0, 1);
+  return own;
+}
+
+/// Strains there by those at the line of the nodes.
+Mat6 strains_at(const Eigen::Vector2d& centroid, const Eigen::Vector2d& shear_center) {
+  Mat6 moved = Mat6::Identity();
+  moved(0, 4) = centroid[1];
+  moved(0, 5) = -centroid[0];
+  moved(1, 3) = -shear_center[1];
+  moved(2, 3) = shear_center[0];
+  return moved;
 }
 
 std::optional<BeamSection> SectionBook::make(int profile, int material, double damping, const BuildContext& context) const {
@@ -156,17 +118,28 @@ std::optional<BeamSection> SectionBook::make(int profile, int material, double d
     if (!made_of) return {};
     const double young = made_of->young.front(), poisson = made_of->poisson.front(), shear = young / (2 * (1 + poisson));
     const double density = made_of->density.value_or(0);
-    const Shape s = shape_of(card, poisson);
-    section.stiffness.diagonal() << young * s.area, shear * s.area * s.shear_2, shear * s.area * s.shear_3, shear * s.torsion,
-        young * s.moment_2, young * s.moment_3;
-    section.mass = density * s.area;
-    section.inertia.diagonal() << density * (s.moment_2 + s.moment_3), density * s.moment_2, density * s.moment_3;
+    const SectionShape shape = shape_of(card, poisson);
+    const Eigen::Vector2d centroid = card.offset ? Eigen::Vector2d(card.offset->data()) : Eigen::Vector2d::Zero();
+    const Mat6 own = stiffness_of(shape, young, shear), moved = strains_at(centroid, centroid + shape.shear_center);
+    section.stiffness = moved.transpose() * own * moved;
+    section.own_stiffness = own.diagonal();
+    section.mass = density * shape.area;
+    section.center << 0, centroid;
+    section.inertia(0, 0) = density * shape.moments.trace();
+    section.inertia(1, 1) = density * shape.moments(1, 1);
+    section.inertia(2, 2) = density * shape.moments(0, 0);
+    section.inertia(1, 2) = section.inertia(2, 1) = -density * shape.moments(0, 1);
+    section.young = young;
+    section.radius = shape.radius;
+    section.middle = centroid;
+    for (const Eigen::Vector2d& corner : shape.outline) section.outline.push_back(centroid + corner);
   } else {
     if (card.stiffness.empty())
       section.stiffness.diagonal() << *card.stretching, (*card.shearing)[0], (*card.shearing)[1], *card.twisting,
           (*card.bending)[0], (*card.bending)[1];
     else
       section.stiffness = *symmetric_6(card.stiffness);
+    section.own_stiffness = section.stiffness.diagonal();
     section.mass = card.mass.value_or(0);
     const std::vector<double>& j = card.inertia;
     if (!j.empty()) section.inertia.diagonal() << j[0], j.size() == 1 ? j[0] / 2 : j[1], j.size() == 1 ? j[0] / 2 : j[2];

@@ -20,6 +20,12 @@ struct BeamSection {
   double damping = 0;           ///< a time: forces are those of the strain, and this times those of its rate
   bool is_round = false;        ///< axes 2 and 3 may be any
 
+  Vec6 own_stiffness = Vec6::Zero();     ///< of a shape about its centroid and shear centre, else the diagonal of `stiffness`
+  double young = 0;                      ///< Young's modulus; 0: the section is not a shape of one material
+  std::vector<Eigen::Vector2d> outline;  ///< corners of the shape on axes 2 and 3; empty: not known
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double radius = 0;  ///< of a round shape about `middle`: what the outline goes round
+
   bool has_mass() const { return mass > 0 || !inertia.isZero(0); }
 };
 

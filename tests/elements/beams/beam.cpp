@@ -173,7 +173,7 @@ TEST(Beam, EvenStrain) {
       state.turn(i, rotation_exp(k * s), Vec3::Zero());
       state.nodes[i++].x = s * rotation_tangent(-k * s) * gamma;  // ∫ exp(k s) ds γ
     }
-    std::vector<double> fields(12);
+    std::vector<double> fields(16);
     beam->evaluate_fields(state.view(), fields);
     errors.push_back(0);
     for (std::size_t p = 0; p < 2; ++p) {
@@ -199,7 +199,7 @@ TEST(Beam, TenThousandTurns) {
   for (std::size_t i = 0; i < 3; ++i) turns[i] = rotation_exp(bend[i]);
   const auto fields = [&] {
     for (std::size_t i = 0; i < 3; ++i) state.turn(i, turns[i], Vec3::Zero());
-    std::vector<double> values(12);
+    std::vector<double> values(16);
     beam->evaluate_fields(state.view(), values);
     return values;
   };
@@ -212,7 +212,7 @@ TEST(Beam, TenThousandTurns) {
       state.nodes[i].x = part * state.nodes[i].x;
     }
   const std::vector<double> last = fields();
-  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_NEAR(last[i], first[i], 1e-10 * std::abs(first[i])) << i;
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(last[i], first[i], 1e-10 * std::abs(first[i])) << i;
 }
 
 TEST(Beam, FaultsOfTheCard) {
