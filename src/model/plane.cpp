@@ -335,7 +335,9 @@ class Examination {
     plane_.carries = true;
   }
 
-  static bool is_load(const Model::Part& part) { return part.type == "CHA" || part.type == "FORCE" || part.type == "TORQUE"; }
+  static bool is_load(const Model::Part& part) {
+    return part.type == "CHA" || part.type == "FORCE" || part.type == "TORQUE" || part.type == "LINE_LOAD";
+  }
 
   std::string hint_for(const Model::Part& part) const {
     if (is_load(part)) return fmt::format("give it forces in the plane and moments about {} only", axis());

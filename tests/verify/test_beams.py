@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from beam_problems import Line, clamp, deck, orders, statics, straight, tip
 from runs import run
+from scipy.integrate import solve_bvp
 from scipy.special import ellipeinc, ellipk, ellipkinc
 
 # Bathe and Bolourchi 1979, Int. J. Numer. Methods Eng. 14, 961: an eighth of a circle, pulled out of its
@@ -105,3 +106,40 @@ def test_turns(tmp_path: Path) -> None:
     ]
     rounding = 1e7 / 12 / 100 * 1e-12  # of EI by the length
     assert max(moments) < 100 * rounding
+
+
+def under_follower(load: float) -> np.ndarray:
+    """Tip of a cantilever of length 1 and EI 1, without stretch and shear, under a load per length that stays
+    across it: Kirchhoff's equations of equilibrium in its own axes, solved by collocation."""
+
+    def slopes(_s: np.ndarray, y: np.ndarray) -> np.ndarray:
+        _, _, turn, pull, shear, moment = y
+        return np.array(
+            [np.cos(turn), np.sin(turn), moment, moment * shear, -moment * pull - load, -shear + 0 * turn]
+        )
+
+    def ends(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        return np.concatenate([a[:3], b[3:]])
+
+    s = np.linspace(0, 1, 41)
+    found = solve_bvp(
+        slopes, ends, s, np.stack([s, 0 * s, 0 * s, 0 * s, 0 * s, 0 * s]), tol=1e-10, max_nodes=10**5
+    )
+    assert found.success
+    return found.y[:2, -1]
+
+
+def test_follower_load(tmp_path: Path) -> None:
+    """A load along a cantilever that stays across it, until the tip has turned by more than a right angle."""
+    load = 12.0
+    section = "EA 1D8 GA 1D8 1D8 GJ 1 EI 1 1"
+    closed = under_follower(load)
+    errors = []
+    for pieces in (4, 8):
+        line = Line(straight(1), pieces)
+        names = " ".join(map(str, line.ids))
+        joints = f" I 90 LINE_LOAD N {names} V 0 {load} 0 FOLLOW NF 1"
+        found = run(deck([line], section, statics(f" {clamp(1)}", 20), joints=joints), tmp_path)
+        errors.append(np.hypot(*(tip(found, line)[:2] - closed)))
+    assert found[f"node/{line.last}/RZ"][-1] > np.pi / 2
+    assert errors == pytest.approx([4.29e-4, 2.39e-5], rel=0.02)

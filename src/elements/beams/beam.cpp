@@ -6,40 +6,12 @@
 #include <cmath>
 
 #include "elements/beams/beam_piece.hpp"
+#include "elements/beams/line_shape.hpp"
 #include "elements/common/building.hpp"
 
 namespace engrane::elements::beams {
 
 namespace {
-
-struct GaussPoint {
-  double place, weight;
-};
-const std::array<GaussPoint, 1> one_point = {{{0, 2}}};
-const std::array<GaussPoint, 2> two_points = {{{-std::sqrt(1.0 / 3), 1}, {std::sqrt(1.0 / 3), 1}}};
-const std::array<GaussPoint, 3> three_points = {{{-std::sqrt(0.6), 5.0 / 9}, {0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}}};
-
-/// Shape functions of Lagrange and their slopes at ξ from −1 to 1.
-template <int Nodes>
-struct Shape {
-  std::array<double, Nodes> value, slope;
-
-  explicit Shape(double xi) {
-    if constexpr (Nodes == 2) {
-      value = {(1 - xi) / 2, (1 + xi) / 2};
-      slope = {-0.5, 0.5};
-    } else {
-      value = {xi * (xi - 1) / 2, 1 - xi * xi, xi * (xi + 1) / 2};
-      slope = {xi - 0.5, -2 * xi, xi + 0.5};
-    }
-  }
-
-  Vec3 along(const std::array<Vec3, Nodes>& places) const {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < Nodes; ++i) sum += slope[i] * places[i];
-    return sum;
-  }
-};
 
 /// What all pieces of a beam share.
 struct Plan {
@@ -68,15 +40,9 @@ std::optional<Mat3> section_axes(const Plan& plan, const Vec3& tangent) {
 
 template <int Nodes>
 std::optional<BeamPiece<Nodes>> make_piece(Plan& plan, const std::array<int, Nodes>& nodes) {
-  std::array<Vec3, Nodes> places;
-  for (std::size_t i = 0; i < Nodes; ++i) places[i] = plan.context.nodes.at(nodes[i]);
-  const Vec3 chord = places.back() - places.front();
-  for (const double xi : {-1.0, 0.0, 1.0})
-    if (!(Shape<Nodes>(xi).along(places).dot(chord) > 1e-3 * chord.squaredNorm())) {
-      plan.context.error("N", fmt::format("the beam is folded, or has no length, at node {}", nodes[Nodes / 2]),
-                         "nodes stand along the beam in turn; of three the second is near the middle of the others");
-      return {};
-    }
+  const auto found = line_places<Nodes>(nodes, plan.context);
+  if (!found) return {};
+  const std::array<Vec3, Nodes>& places = *found;
 
   BeamPiece<Nodes> piece;
   piece.section = plan.section;
@@ -88,7 +54,7 @@ std::optional<BeamPiece<Nodes>> make_piece(Plan& plan, const std::array<int, Nod
   }
   ();
   for (std::size_t p = 0; p < rule.size(); ++p) {
-    const Shape<Nodes> shape(rule[p].place);
+    const LineShape<Nodes> shape(rule[p].place);
     const Vec3 along = shape.along(places);
     const double length = along.norm();
     const auto axes = section_axes(plan, along);
@@ -100,42 +66,30 @@ std::optional<BeamPiece<Nodes>> make_piece(Plan& plan, const std::array<int, Nod
     point.axes = *axes;
   }
 
-  std::array<double, Nodes> share{};  // of the length
-  piece.mass.setZero();
-  for (const GaussPoint& one : three_points) {
-    const Shape<Nodes> shape(one.place);
-    const double length = one.weight * shape.along(places).norm();
-    for (std::size_t i = 0; i < Nodes; ++i) {
-      share[i] += length * shape.value[i];
-      for (std::size_t j = 0; j < Nodes; ++j)
-        piece.mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) +=
-            plan.section->mass * length * shape.value[i] * shape.value[j];
-    }
-  }
+  const auto lengths = line_masses<Nodes>(places);
+  piece.mass = plan.section->mass * lengths;
   for (std::size_t i = 0; i < Nodes; ++i) {
-    const auto axes = section_axes(plan, Shape<Nodes>(-1 + 2.0 * static_cast<double>(i) / (Nodes - 1)).along(places));
+    const auto axes = section_axes(plan, LineShape<Nodes>(-1 + 2.0 * static_cast<double>(i) / (Nodes - 1)).along(places));
     if (!axes) return {};
     piece.centers[i] = *axes * plan.section->center;
-    piece.inertia[i] = share[i] * (*axes * plan.section->inertia * axes->transpose());
+    piece.inertia[i] = lengths.row(static_cast<Eigen::Index>(i)).sum() * (*axes * plan.section->inertia * axes->transpose());
     piece.axes[i] = *axes;
   }
   if (!plan.data.axis_2) plan.side = piece.axes.back().col(1);
   return piece;
 }
 
-/// Pieces of so many nodes along the list: the first, and the others into BuildContext::more.
+/// Pieces of so many nodes: the first, and the others into BuildContext::more.
 template <int Nodes>
-std::unique_ptr<Element> make_pieces(Plan& plan) {
+std::unique_ptr<Element> make_pieces(Plan& plan, const LineNodes& line) {
   BlockStore alone;
   const auto block = (plan.context.blocks ? *plan.context.blocks : alone).block<Beams<Nodes>>("");
   std::unique_ptr<Element> first;
-  for (std::size_t begin = 0; begin + Nodes <= plan.data.nodes.size(); begin += Nodes - 1) {
-    std::array<int, Nodes> nodes;
-    std::copy_n(plan.data.nodes.begin() + static_cast<std::ptrdiff_t>(begin), Nodes, nodes.begin());
+  for (std::size_t p = 0; p < line.pieces(); ++p) {
+    const auto nodes = line.piece<Nodes>(p);
     auto piece = make_piece<Nodes>(plan, nodes);
     if (!piece) return nullptr;
-    const int id = plan.context.record.id + static_cast<int>(begin) / (Nodes - 1);
-    auto element = Beams<Nodes>::add(block, id, nodes, std::move(*piece));
+    auto element = Beams<Nodes>::add(block, plan.context.record.id + static_cast<int>(p), nodes, std::move(*piece));
     if (!first)
       first = std::move(element);
     else if (plan.context.more)
@@ -144,37 +98,11 @@ std::unique_ptr<Element> make_pieces(Plan& plan) {
   return first;
 }
 
-/// Whether the numbers of the pieces are free.
-bool numbers_are_free(std::size_t pieces, const BuildContext& context) {
-  const int id = context.record.id;
-  for (int other = id + 1; other < id + static_cast<int>(pieces); ++other)
-    if (const auto found = context.find_element ? context.find_element(other) : BuildContext::Found{}; found.record) {
-      context.error("N",
-                    fmt::format("the {} pieces of beam {} have the numbers {} to {}, but {} is a {}", pieces, id, id,
-                                id + static_cast<int>(pieces) - 1, other, found.record->schema->name),
-                    fmt::format("give the {} another number", found.record->schema->name));
-      return false;
-    }
-  return true;
-}
-
 std::unique_ptr<Element> build(const BeamData& data, BuildContext& context) {
-  const std::size_t count = data.nodes.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0 && data.nodes[i] == data.nodes[i - 1]) {
-      context.error("N", fmt::format("node {} stands twice in turn", data.nodes[i]), "name each node of the beam once");
-      return nullptr;
-    }
-  }
-  const bool linear = data.linear || count == 2;
-  if (!linear && count % 2 == 0) {
-    context.error("N", fmt::format("{} nodes: pieces of a beam have three, and share their ends", count),
-                  fmt::format("name {} or {} nodes, or say LINEAR, for pieces of two", count - 1, count + 1));
-    return nullptr;
-  }
-  const std::size_t pieces = linear ? count - 1 : (count - 1) / 2;
+  const LineNodes line{data.nodes, data.linear};
+  if (!line.check(context)) return nullptr;
   Plan plan{data, section_of(data.profile, data.material, data.damping, context), context, Vec3::Zero()};
-  if (!plan.section || !numbers_are_free(pieces, context)) return nullptr;
+  if (!plan.section) return nullptr;
   if (!data.axis_2 && !plan.section->is_round) {
     context.error("AXIS2", fmt::format("beam {} has a section that is not round, and no AXIS2", context.record.id),
                   "AXIS2 x y z, a direction across the beam on the side of axis 2 of its sections");
@@ -182,7 +110,7 @@ std::unique_ptr<Element> build(const BeamData& data, BuildContext& context) {
   }
   plan.side = data.axis_2 ? Vec3(to_vector(*data.axis_2).stableNormalized())
                           : perpendicular((context.nodes.at(data.nodes[1]) - context.nodes.at(data.nodes[0])).stableNormalized());
-  return linear ? make_pieces<2>(plan) : make_pieces<3>(plan);
+  return line.of_two() ? make_pieces<2>(plan, line) : make_pieces<3>(plan, line);
 }
 
 }  // namespace

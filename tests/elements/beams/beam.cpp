@@ -227,7 +227,7 @@ TEST(Beam, FaultsOfTheCard) {
   BeamData data;
   data.nodes = {1, 2, 3, 4};
   data.profile = 1;
-  EXPECT_EQ(message(data), "4 nodes: pieces of a beam have three, and share their ends");
+  EXPECT_EQ(message(data), "4 nodes: pieces have three, and share their ends");
   data.nodes = {1, 2, 2};
   EXPECT_EQ(message(data), "node 2 stands twice in turn");
   data.nodes = {1, 2, 3};
@@ -236,7 +236,7 @@ TEST(Beam, FaultsOfTheCard) {
   EXPECT_EQ(message(data), "AXIS2 is along beam 1");
   data.axis_2 = {{0, 1, 0}};
   data.nodes = {1, 4, 2};
-  EXPECT_EQ(message(data), "the beam is folded, or has no length, at node 4");
+  EXPECT_EQ(message(data), "the line is folded, or has no length, at node 4");
   data.nodes = {1, 2, 3};
   data.material = 3;
   EXPECT_EQ(message(data), "section 1 has a stiffness of its own: MAT means nothing");

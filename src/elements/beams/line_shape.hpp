@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lines of nodes in pieces of two or three: shape functions, and rules of Gauss along them.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "model/registry.hpp"
+
+namespace engrane::elements::beams {
+
+struct GaussPoint {
+  double place, weight;
+};
+inline const std::array<GaussPoint, 1> one_point = {{{0, 2}}};
+inline const std::array<GaussPoint, 2> two_points = {{{-std::sqrt(1.0 / 3), 1}, {std::sqrt(1.0 / 3), 1}}};
+inline const std::array<GaussPoint, 3> three_points = {{{-std::sqrt(0.6), 5.0 / 9}, {0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}}};
+
+/// Shape functions of Lagrange and their slopes at ξ from −1 to 1.
+template <int Nodes>
+struct LineShape {
+  std::array<double, Nodes> value, slope;
+
+  explicit LineShape(double xi) {
+    if constexpr (Nodes == 2) {
+      value = {(1 - xi) / 2, (1 + xi) / 2};
+      slope = {-0.5, 0.5};
+    } else {
+      value = {xi * (xi - 1) / 2, 1 - xi * xi, xi * (xi + 1) / 2};
+      slope = {xi - 0.5, -2 * xi, xi + 0.5};
+    }
+  }
+
+  Vec3 along(const std::array<Vec3, Nodes>& places) const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < Nodes; ++i) sum += slope[i] * places[i];
+    return sum;
+  }
+};
+
+/// ∫ N_i N_j ds by three points.
+template <int Nodes>
+Eigen::Matrix<double, Nodes, Nodes> line_masses(const std::array<Vec3, Nodes>& places) {
+  Eigen::Matrix<double, Nodes, Nodes> masses;
+  masses.setZero();
+  for (const GaussPoint& point : three_points) {
+    const LineShape<Nodes> shape(point.place);
+    const Eigen::Map<const Eigen::Matrix<double, Nodes, 1>> value(shape.value.data());
+    masses += point.weight * shape.along(places).norm() * value * value.transpose();
+  }
+  return masses;
+}
+
+/// Nodes of a line, of a card with the keyword N, in pieces.
+struct LineNodes {
+  const std::vector<int>& nodes;
+  bool linear;  ///< pieces of two
+
+  bool of_two() const { return linear || nodes.size() == 2; }
+  std::size_t pieces() const { return of_two() ? nodes.size() - 1 : (nodes.size() - 1) / 2; }
+  /// Whether pieces can be made of the nodes, and have free numbers from that of the record on; else with an error.
+  bool check(const BuildContext& context) const;
+  /// Nodes of a piece.
+  template <int Nodes>
+  std::array<int, Nodes> piece(std::size_t p) const {
+    std::array<int, Nodes> some;
+    for (std::size_t i = 0; i < Nodes; ++i) some[i] = nodes[p * (Nodes - 1) + i];
+    return some;
+  }
+};
+
+/// Where the nodes of a piece are; nothing, with an error, where they do not stand along it in turn.
+template <int Nodes>
+std::optional<std::array<Vec3, Nodes>> line_places(const std::array<int, Nodes>& nodes, const BuildContext& context) {
+  std::array<Vec3, Nodes> places;
+  for (std::size_t i = 0; i < Nodes; ++i) places[i] = context.nodes.at(nodes[i]);
+  const Vec3 chord = places.back() - places.front();
+  constexpr double least = 1e-3;
+  for (const double xi : {-1.0, 0.0, 1.0})
+    if (!(LineShape<Nodes>(xi).along(places).dot(chord) > least * chord.squaredNorm())) {
+      context.error("N", fmt::format("the line is folded, or has no length, at node {}", nodes[Nodes / 2]),
+                    "nodes stand along the line in turn; of three the second is near the middle of the others");
+      return {};
+    }
+  return places;
+}
+
+}  // namespace engrane::elements::beams
