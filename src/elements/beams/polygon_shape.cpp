@@ -46,7 +46,7 @@ struct Panel {
 std::vector<Panel> panels_of(const std::vector<Loop>& loops) {
   std::size_t sides = 0;
   for (const Loop& loop : loops) sides += loop.size();
-  constexpr std::size_t most_unknowns = 900;  // 0.1 s
+  constexpr std::size_t most_unknowns = 900;  // 40 ms
   constexpr double ratio = 0.25;
   const auto levels = std::clamp<std::size_t>(most_unknowns / order / sides / 2, 1, 5) - 1;
   std::vector<double> cuts = {0};  // of half a side
