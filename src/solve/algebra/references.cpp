@@ -31,6 +31,7 @@ References::References(const Assembler& assembler, double precision)
       pairs_(spans_.size() + assembler.model().parts.size() + 1),
       largest_of_slot_(static_cast<std::size_t>(assembler.numbering().motion_slots()), 0.0) {
   find_spans();
+  find_inner();
   find_sources();
   find_lengths();
 }
@@ -46,6 +47,19 @@ void References::find_spans() {
         double& span = spans_[static_cast<std::size_t>(a)];
         span = std::max(span, (place(a) - place(b)).norm());
       }
+}
+
+void References::find_inner() {
+  const Model& model = assembler_.model();
+  constexpr int none = -1, several = -2;
+  std::vector<int> only(model.nodes.size(), none);
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    for (const int node : model.parts[p].nodes) {
+      int& found = only[static_cast<std::size_t>(node)];
+      found = found == none || found == static_cast<int>(p) ? static_cast<int>(p) : several;
+    }
+  for (std::size_t i = 1; i < only.size(); ++i)
+    if (only[i] >= 0) inner_.push_back({i, static_cast<std::size_t>(only[i])});
 }
 
 void References::find_sources() {
@@ -144,6 +158,14 @@ void References::take(const Configuration& c, const std::vector<double>& carried
   }
   all.force = all.moment = std::max(all.force, all.moment);
   everywhere() = all;
+  // what passes through a node inside an element leaves nothing there: the element's other nodes tell its size
+  for (const Inner& inner : inner_) {
+    Pair& own = at_node(static_cast<int>(inner.node));
+    for (const int node : model.parts[inner.part].nodes) {
+      const Pair& other = at_node(node);
+      own = {std::max(own.force, other.force), std::max(own.moment, other.moment)};
+    }
+  }
   // loads of an element's own unknowns cancel inside it: those of its nodes and multipliers tell their size
   std::size_t m = 0;
   for (const Owner& owner : owners_) {

@@ -61,7 +61,12 @@ class References {
   struct Owner {
     std::size_t part, end;
   };
+  /// A node that a single element acts on, such as the middle node of a beam's piece.
+  struct Inner {
+    std::size_t node, part;
+  };
   void find_spans();
+  void find_inner();
   void find_sources();
   void find_lengths();
   Pair& at_node(int node) { return pairs_[static_cast<std::size_t>(node)]; }
@@ -72,6 +77,7 @@ class References {
   double rounding_share_;
   std::vector<double> spans_;    ///< of each node: to the farthest node that an element joins it with
   std::vector<double> reach_;    ///< of each node: that, or its distance from the origin
+  std::vector<Inner> inner_;     ///< all such nodes
   std::vector<Pair> pairs_;      ///< loads at each node, of each element, and the largest of all
   std::vector<Source> sources_;  ///< of each equation
   std::vector<Owner> owners_;
