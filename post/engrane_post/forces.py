@@ -101,7 +101,7 @@ class Forces:
         elif kind == "CHA":
             load = (self._vector(element, f"{what}_{{}}") for what in ("FORCE", "MOMENT"))
             self._add("load", element, element.nodes[0], None, *load)
-        elif kind == "BUSHING":
+        elif kind in ("BUSHING", "BEARING"):
             self._bushing(element)
         elif kind == "STOP":
             self._stop(element)

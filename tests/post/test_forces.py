@@ -128,9 +128,14 @@ def test_free_bodies(tmp_path: Path) -> None:
 
 
 def test_bush_with_a_second_axis(tmp_path: Path) -> None:
-    """Between the ground and a body, either way round: drawn on the body only."""
-    for name, nodes, node in (("ground_a", "0 1", 1), ("ground_b", "2 0", 2)):
-        bush = f" I 1 BUSHING N {nodes} K 300 200 100 3 2 1 AXIS 1 1 0 AXIS2 0 1 1 AT 0.1 0.2 0.3"
+    """A bush or a bearing between the ground and a body, either way round: drawn on the body only."""
+    for name, card, nodes, node in (
+        ("ground_a", "BUSHING", "0 1 K 300 200 100 3 2 1", 1),
+        ("ground_b", "BUSHING", "2 0 K 300 200 100 3 2 1", 2),
+        ("shaft", "BEARING", "0 1 K 300 200 100 0 2 1 C 0 0 0 0.1 0 0", 1),
+        ("housing", "BEARING", "2 0 K 300 200 100 0 2 1", 2),
+    ):
+        bush = f" I 1 {card} N {nodes} AXIS 1 1 0 AXIS2 0 1 1 AT 0.1 0.2 0.3"
         folder = tmp_path / name
         folder.mkdir()
         drawn = Drawn(deck(bush, LOADS, SPIN), folder)

@@ -121,7 +121,7 @@ def test_geared_shafts(tmp_path: Path) -> None:
     2523.572 Hz. Teeth that follow the running centre distance couple along the line of action."""
     deck = (Path(__file__).parents[2] / "decks/mechanisms/geared_shafts.dat").read_text()
     deck = deck[: deck.index(".CLM")].replace("WIDTH 0.03", "WIDTH 0.03 RUNNING JEU 1D-4")
-    held, almost_free = "N 0 19 K 1D9 1D9 0 0 0 1D9", "N 0 19 K 1D9 1D9 0 0 0 1D-2"
+    held, almost_free = "TSPRING N 0 19 AXIS 0 0 1 K 1D9", "TSPRING N 0 19 AXIS 0 0 1 K 1D-2"
     assert held in deck
     deck = deck.replace(held, almost_free)
     step = 2e-5

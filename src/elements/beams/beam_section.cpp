@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "elements/beams/section_shape.hpp"
+#include "elements/common/material.hpp"
 #include "math/matrix6.hpp"
 
 namespace engrane::elements::beams {
@@ -30,15 +31,13 @@ bool is_round(const BeamSection& section) {
   return section.center.isZero(0) && other.norm() <= rounding * section.inertia.norm();
 }
 
-/// Records of `.BPR` and `.MAT` by number, and the sections made of them so far.
+/// Records of `.BPR` by number, and the sections made of them so far.
 class SectionBook {
  public:
   explicit SectionBook(const std::vector<deck::Record>* records) {
     if (!records) return;
-    for (const deck::Record& record : *records) {
+    for (const deck::Record& record : *records)
       if (record.get<deck::ProfileCard>()) profiles_[record.id] = &record;
-      if (record.get<deck::MaterialCard>()) materials_[record.id] = &record;
-    }
   }
 
   std::shared_ptr<const BeamSection> section(int profile, int material, double damping, const BuildContext& context) const {
@@ -50,28 +49,12 @@ class SectionBook {
 
  private:
   std::optional<BeamSection> make(int profile, int material, double damping, const BuildContext& context) const;
-  /// The material's card; nullptr, with an error, where it is none that beams can be made of.
-  const deck::MaterialCard* material_of(int material, const BuildContext& context) const;
 
   using Key = std::tuple<int, int, double>;
-  std::map<int, const deck::Record*> profiles_, materials_;
+  std::map<int, const deck::Record*> profiles_;
   std::shared_ptr<std::map<Key, std::shared_ptr<const BeamSection>>> sections_ =
       std::make_shared<std::map<Key, std::shared_ptr<const BeamSection>>>();
 };
-
-const deck::MaterialCard* SectionBook::material_of(int material, const BuildContext& context) const {
-  const auto found = materials_.find(material);
-  if (found == materials_.end()) {
-    context.diagnostics.missing(".MAT", context.record.where("MAT"), fmt::format("material {} does not exist", material),
-                                fmt::format(".MAT I {} YT … NT … M …", material));
-    return nullptr;
-  }
-  const auto* card = found->second->get<deck::MaterialCard>();
-  if (card->young.size() == 1 && card->poisson.size() == 1 && card->shear.empty()) return card;
-  context.error("MAT", fmt::format("material {} has no YT and NT of one value, which beams need", material),
-                "YT 2.1D11 NT 0.3 M 7850.");
-  return nullptr;
-}
 
 /// σ = C ε of stretch and bending about the centroid, shear and twist about the shear centre.
 Mat6 stiffness_of(const SectionShape& shape, double young, double shear) {
@@ -114,7 +97,7 @@ std::optional<BeamSection> SectionBook::make(int profile, int material, double d
   BeamSection section;
   section.damping = damping;
   if (has_shape) {
-    const deck::MaterialCard* made_of = material_of(material, context);
+    const deck::MaterialCard* made_of = isotropic_material(context, material, "beams");
     if (!made_of) return {};
     const double young = made_of->young.front(), poisson = made_of->poisson.front(), shear = young / (2 * (1 + poisson));
     const double density = made_of->density.value_or(0);

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "elements/common/building.hpp"
+#include "elements/common/held_point.hpp"
 #include "elements/common/rotation_vector.hpp"
 #include "math/matrix6.hpp"
 #include "model/templated_element.hpp"
@@ -15,13 +15,7 @@ namespace {
 /// Linear in the displacement u of B's point from A's, in axes that A holds, and in the rotation vector θ of B from A in them.
 class Bushing final : public TemplatedElement<Bushing, 2, 12> {
  public:
-  struct Place {
-    std::array<int, 2> nodes;
-    Vec3 point, offset_a, offset_b;  ///< offsets from the nodes to the point, held in each node's axes
-    Mat3 axes;                       ///< columns, in the reference configuration
-  };
-
-  Bushing(int id, const Place& place, const Mat6& stiffness, const Mat6& damping)
+  Bushing(int id, const HeldPoint& place, const Mat6& stiffness, const Mat6& damping)
       : TemplatedElement(id), place_(place), stiffness_(stiffness), damping_(damping) {
     Layout layout;
     layout.nodes.assign(place.nodes.begin(), place.nodes.end());
@@ -35,21 +29,14 @@ class Bushing final : public TemplatedElement<Bushing, 2, 12> {
     const auto load = [&](int row) {
       T sum(0);
       for (int c = 0; c < 6; ++c) {
-        const T &q = c < 3 ? strain.shift[c] : strain.turn.theta[c - 3],
-                &rate = c < 3 ? strain.shift_rate[c] : strain.turn_rate[c - 3];
+        const T &q = c < 3 ? strain.shift.value[c] : strain.turn.theta[c - 3],
+                &rate = c < 3 ? strain.shift.rate[c] : strain.turn_rate[c - 3];
         sum += stiffness_(row, c) * q + damping_(row, c) * rate;
       }
       return sum;
     };
-    const Vec3T<T> force = rotate(strain.axes, Vec3T<T>(load(0), load(1), load(2)));
-    const Vec3T<T> moment = rotate(strain.axes, strain.turn.moment(Vec3T<T>(load(3), load(4), load(5))));
-    balance.force(0, Vec3T<T>(-force));
-    balance.force(1, force);
-    // u turns with A, so that the force on A acts at B's point
-    const auto& a = motion.node[0];
-    const auto& b = motion.node[1];
-    balance.moment(0, rotate_back(a.R, Vec3T<T>(-moment - cross(Vec3T<T>(strain.arm_a + strain.gap), force))));
-    balance.moment(1, rotate_back(b.R, Vec3T<T>(moment + cross(strain.arm_b, force))));
+    HeldPoint::resist(strain.shift, Vec3T<T>(load(0), load(1), load(2)), strain.turn.moment(Vec3T<T>(load(3), load(4), load(5))),
+                      motion, balance);
   }
 
   Energies energies(const State& state) const override {
@@ -91,9 +78,7 @@ class Bushing final : public TemplatedElement<Bushing, 2, 12> {
   }
 
   Drawing drawing() const override {
-    Drawing shapes = {fmt::format(R"("shape": "axis", "node": {}, "center": {}, "axis": {})",
-                                  place_.nodes[0] != 0 ? place_.nodes[0] : place_.nodes[1], json(place_.point),
-                                  json(Vec3(place_.axes.col(0))))};
+    Drawing shapes = place_.drawing();
     if (place_.nodes[0] != 0 && place_.nodes[1] != 0)
       shapes.push_back(fmt::format(R"("shape": "coil", "points": {})", json(layout().nodes)));
     return shapes;
@@ -102,45 +87,31 @@ class Bushing final : public TemplatedElement<Bushing, 2, 12> {
  private:
   template <class T>
   struct Strain {
-    Mat3T<T> axes;               ///< the bush's axes, global
-    Vec3T<T> arm_a, arm_b, gap;  ///< from the nodes to their points, and from A's point to B's, global
-    Vec3T<T> shift, shift_rate;  ///< u and its rate, in the bush's axes
-    RotationVector<T> turn;
+    HeldPoint::Shift<T> shift;
+    RotationVector<T> turn;  ///< of B from A, in the bush's axes
     Vec3T<T> turn_rate;
   };
 
   template <class T>
   Strain<T> strain(const Motion<T, 2>& motion) const {
-    const auto& a = motion.node[0];
-    const auto& b = motion.node[1];
-    Strain<T> s;
-    Mat3T<T> carried, relative;  // the axes held by B; and B's in A's
-    for (int c = 0; c < 3; ++c) {
-      s.axes.col(c) = rotate(a.R, Vec3(place_.axes.col(c)));
-      carried.col(c) = rotate(b.R, Vec3(place_.axes.col(c)));
-    }
-    for (int c = 0; c < 3; ++c) relative.col(c) = rotate_back(s.axes, Vec3T<T>(carried.col(c)));
-    s.arm_a = rotate(a.R, place_.offset_a);
-    s.arm_b = rotate(b.R, place_.offset_b);
-    s.gap = b.x + s.arm_b - a.x - s.arm_a;
-    s.shift = rotate_back(s.axes, s.gap);
-    const Vec3T<T> spin_a = rotate(a.R, a.W), spin_b = rotate(b.R, b.W);
-    const Vec3T<T> rate = b.v + cross(spin_b, s.arm_b) - a.v - cross(spin_a, Vec3T<T>(s.arm_a + s.gap));
-    s.shift_rate = rotate_back(s.axes, rate);
+    Strain<T> s{place_.shift(motion), {}, {}};
+    Mat3T<T> relative;  // the axes held by B in those held by A
+    for (int c = 0; c < 3; ++c)
+      relative.col(c) = rotate_back(s.shift.axes, Vec3T<T>(rotate(motion.node[1].R, Vec3(place_.axes.col(c)))));
     s.turn = RotationVector<T>::of(relative);
-    s.turn_rate = s.turn.change(rotate_back(s.axes, Vec3T<T>(spin_b - spin_a)));
+    s.turn_rate = s.turn.change(rotate_back(s.shift.axes, s.shift.spin));
     return s;
   }
 
   std::pair<Vec6, Vec6> coordinates(const State& state) const {
     const Strain<double> s = strain(motion<double>(state));
     Vec6 q, rate;
-    q << s.shift, s.turn.theta;
-    rate << s.shift_rate, s.turn_rate;
+    q << s.shift.value, s.turn.theta;
+    rate << s.shift.rate, s.turn_rate;
     return {q, rate};
   }
 
-  Place place_;
+  HeldPoint place_;
   Mat6 stiffness_, damping_;
 };
 
@@ -167,22 +138,7 @@ std::optional<Mat3> find_axes(const BushingData& data, const BuildContext& conte
     context.error("AXIS2", "AXIS2 without AXIS", "give the first axis: AXIS x y z");
     return {};
   }
-  const auto first = unit_vector(context, "AXIS", *data.axis);
-  if (!first) return {};
-  Vec3 second = perpendicular(*first);
-  if (data.axis_2) {
-    const auto side = unit_vector(context, "AXIS2", *data.axis_2);
-    if (!side) return {};
-    second = *side - first->dot(*side) * *first;
-    if (second.norm() < 1e-6) {
-      context.error("AXIS2", "AXIS2 is along AXIS", "give a direction across the first axis");
-      return {};
-    }
-    second.normalize();
-  }
-  Mat3 axes;
-  axes << *first, second, cross(*first, second);
-  return axes;
+  return axes_of(context, *data.axis, data.axis_2);
 }
 
 std::unique_ptr<Element> build(const BushingData& data, BuildContext& context) {
@@ -193,9 +149,7 @@ std::unique_ptr<Element> build(const BushingData& data, BuildContext& context) {
     context.error("K", "a bush with neither stiffness nor damping does nothing", "K k1 .. k6 and C c1 .. c6");
     return nullptr;
   }
-  const Vec3 &at_a = context.nodes.at(data.nodes[0]), &at_b = context.nodes.at(data.nodes[1]);
-  const Vec3 point = data.at ? to_vector(*data.at) : data.nodes[1] != 0 ? at_b : at_a;
-  const Bushing::Place place{data.nodes, point, point - at_a, point - at_b, *axes};
+  const HeldPoint place = HeldPoint::of(context, data.nodes, data.at, *axes);
   return std::make_unique<Bushing>(context.record.id, place, *stiffness, *damping);
 }
 
