@@ -112,8 +112,12 @@ class Forces:
                 self._effort(element, channel, *words)
         elif len(element.nodes) == 2 and (force := self._vector(element, "FORCE_{}")) is not None:
             self._on_second(element, force)
-        elif kind in ("SPRING", "FORCE"):
+        elif kind in ("SPRING", "FORCE", "BAR"):
             self._line(element)
+        elif kind == "CABLE":
+            for node, side in zip(element.nodes, "AB", strict=True):
+                if node:
+                    self._add("spring", element, node, None, self._vector(element, f"FORCE_{side}{{}}"))
 
     def _teeth(self, element: Element) -> None:
         """Tooth forces at the contact point, their moments about the centre of each wheel there."""
@@ -268,7 +272,7 @@ class Forces:
         places = [self._on(n, given.get("AT") if n == 0 else None) for n in element.nodes]
         line = np.array([places[1](f, k) - places[0](f, k) for k, f in enumerate(self.frames)])
         pull = size[:, None] * line / np.maximum(np.linalg.norm(line, axis=1), 1e-300)[:, None]
-        kind = {"SPRING": "spring", "STOP": "stop"}.get(element.type.upper(), "load")
+        kind = {"SPRING": "spring", "BAR": "spring", "STOP": "stop"}.get(element.type.upper(), "load")
         for node, place, sign in zip(
             element.nodes, places, (1, -1) if kind == "spring" else (-1, 1), strict=True
         ):

@@ -52,6 +52,7 @@ SHOTS = (
     Shot("slider_crank", "0.5,-0.7,1", 1.0, "mechanisms", "z", 0.1),
     Shot("andrews_squeezer", "0.25,0.15,1", 1.0, "mechanisms", "y", 0.01),
     Shot("stewart_platform", "1,-0.6,0.45", 1.0, "mechanisms", "z", 0.35),
+    Shot("cable_robot", "0.6,-1,0.35", 1.0, "mechanisms", "z", 0.8),
     Shot("double_wishbone", "1,0.35,0.25", 1.0, "mechanisms", "z", 0.25),
     Shot("universal_differential", "0.4,1,0.6", 1.05, "mechanisms", "z", 0.6),
     Shot("meshed_gear", "0.2,0.3,1", 1.1, "mechanisms", "y", None, "VON_MISES", 300),

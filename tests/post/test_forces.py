@@ -127,6 +127,17 @@ def test_free_bodies(tmp_path: Path) -> None:
         assert loads[node].moment == pytest.approx(moment, abs=1e-12)
 
 
+def test_bars_and_cables(tmp_path: Path) -> None:
+    """Between bodies and on the ground."""
+    elements = """ I 1 BAR N 1 2 EA 3000 TENSION 20 DAMPING 0.01
+ I 2 CABLE N 2 3 EA 3000 TENSION 30
+ I 3 CABLE N 0 3 EA 500 TENSION 10"""
+    drawn = Drawn(deck(elements, LOADS, SPIN), tmp_path)
+    drawn.balance()
+    for element, nodes in ((1, (1, 2)), (2, (2, 3)), (3, (3,))):
+        assert all(drawn.largest("spring", element, n) > 1 for n in nodes)
+
+
 def test_bush_with_a_second_axis(tmp_path: Path) -> None:
     """A bush or a bearing between the ground and a body, either way round: drawn on the body only."""
     for name, card, nodes, node in (

@@ -81,7 +81,7 @@ def test_path_independence(tmp_path: Path) -> None:
  CHA NOEUD {line.last} C 4 V 8000 NF 3
 .FCT
 {functions}
-.SAM TYPE STATIC
+.SAM TYPE STATIC PREC 1E-12
 .SUB TF 3 H 0.1"""
         return tip(run(deck([line], BEND, loads), tmp_path), line)
 

@@ -263,7 +263,7 @@ def test_warmth_does_work(tmp_path: Path) -> None:
 
 
 def tip_of_one_cell(load: float, folder: Path) -> float:
-    """Over the load; the run must need one correction."""
+    """Over the load; the run must need no more than one correction behind the start."""
     deck = f"""
 .NOE
  I 1 X 0 Y 0
@@ -288,7 +288,8 @@ def tip_of_one_cell(load: float, folder: Path) -> float:
 .FIN 1
 """
     solved = run(deck, folder)
-    assert "1 Newton iterations" in solved.file.with_suffix(".lst").read_text(encoding="utf-8")
+    listing = solved.file.with_suffix(".lst").read_text(encoding="utf-8")
+    assert re.search(r"1 steps, [01] Newton iterations", listing)
     with h5py.File(solved.file) as results:
         frames = results["fields/displacement"]
         return frames[sorted(frames)[-1]][1, 1] / load
