@@ -57,6 +57,7 @@ SHOTS = (
     Shot("universal_differential", "0.4,1,0.6", 1.05, "mechanisms", "z", 0.6),
     Shot("meshed_gear", "0.2,0.3,1", 1.1, "mechanisms", "y", None, "VON_MISES", 300),
     Shot("geared_shafts", "1,0.6,0.7", 1.0, "mechanisms", "y", None, "", 1000),
+    Shot("overhung_pinion", "-0.9,0.5,-0.3", 1.0, "mechanisms", "y", None, "", 200),
     Shot("lee_frame", "0.25,0.15,1", 1.0, "mechanisms", "y"),
 )
 
