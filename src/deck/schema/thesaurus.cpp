@@ -24,6 +24,8 @@ const std::vector<Concept>& concepts() {
        {},
        {"hinge", "revolute"},
        {}},
+      {{"SAIL", "CLOTH", "FABRIC", "TELA", "VELA", "VOILE", "TOILE", "AIRBAG", "BALLOON"}, {"MEMBRANE"}, {}, {"membrane"}, {}},
+      {{"ROPE", "WIRE", "CUERDA", "WINCH", "CABRESTANTE", "TREUIL"}, {"CABLE", "BAR"}, {}, {"cable"}, {}},
       {{"COJINETE", "RODAMIENTO", "BALL_BEARING", "ROLLER_BEARING", "JOURNAL", "CHUMACERA"},
        {"BEARING", "HINGE"},
        {},

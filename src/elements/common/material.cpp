@@ -29,14 +29,18 @@ class MaterialBook {
 
 }  // namespace
 
-const deck::MaterialCard* isotropic_material(const BuildContext& context, int number, std::string_view who) {
+const deck::Record* material_record(const BuildContext& context, int number) {
   const auto make = [&context] { return MaterialBook(context.records); };
   const deck::Record* found = context.notes ? context.notes->get<MaterialBook>(make).find(number) : make().find(number);
-  if (!found) {
+  if (!found)
     context.diagnostics.missing(".MAT", context.record.where("MAT"), fmt::format("material {} does not exist", number),
                                 fmt::format(".MAT I {} YT … NT … M …", number));
-    return nullptr;
-  }
+  return found;
+}
+
+const deck::MaterialCard* isotropic_material(const BuildContext& context, int number, std::string_view who) {
+  const deck::Record* found = material_record(context, number);
+  if (!found) return nullptr;
   const auto* card = found->get<deck::MaterialCard>();
   if (card->young.size() == 1 && card->poisson.size() == 1 && card->shear.empty()) return card;
   context.error("MAT", fmt::format("material {} has no YT and NT of one value, which {} need", number, who),

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "model/registry.hpp"
+
+namespace engrane::elements::membranes {
+
+/// Card of a membrane. `MEMBRANE N n1 … MAT m THICK t [TENSION s] [PRESSURE p [NF f]]`
+struct MembraneData {
+  std::vector<int> nodes;  ///< corners, then middles of sides
+  int material = 0;
+  double thickness = 0;
+  double tension = 0;  ///< stress in every direction, in the reference configuration
+  double pressure = 0;
+  int function = 0;
+};
+
+/// MEMBRANE: a thin skin in space that resists strain in its surface only, at any strain, with pressure that follows it.
+ElementType membrane_type();
+
+}  // namespace engrane::elements::membranes

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/membranes/membrane_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "elements/materials/neo_hookean.hpp"
+#include "elements/structural/cell_shapes.hpp"
+
+namespace engrane::elements::membranes {
+
+namespace {
+
+using materials::Hypothesis;
+using materials::Voigt;
+using structural::CellTraits;
+using structural::tabulate;
+
+/// Components xx, yy, xy among those of Voigt.
+constexpr std::array<Eigen::Index, 3> in_plane = {0, 1, 3};
+
+/// Membranes of one shape: total Lagrangian, in an orthonormal frame of the reference surface at each point (Bonet, Wood, Mahaney
+/// and Heywood 2000, Comput. Methods Appl. Mech. Eng. 190, 579).
+template <CellShape S>
+class Membranes final : public Block {
+  using Traits = CellTraits<S>;
+  static constexpr int N = Traits::nodes;
+  using Places = Eigen::Matrix<double, 3, N>;
+  using Vector = Eigen::Matrix<double, 3 * N, 1>;
+  using Square = Eigen::Matrix<double, 3 * N, 3 * N>;
+  using Shape = Eigen::Matrix<double, N, 1>;
+  using Plane = Eigen::Vector3d;  ///< components xx, yy, xy
+
+  /// A point of the reference surface.
+  struct Point {
+    Shape value;
+    Eigen::Matrix<double, 2, N> gradient;  ///< of the shape functions along the frame
+    double area;
+  };
+
+  struct Cell {
+    std::array<int, static_cast<std::size_t>(N)> nodes;
+    Places places;
+    std::shared_ptr<const MembraneSection> section;
+  };
+
+  /// What holds at a point now.
+  struct Local {
+    Eigen::Matrix<double, 3, 2> F;  ///< of the frame's vectors
+    Plane stress;                   ///< second Piola–Kirchhoff
+    Eigen::Matrix3d moduli;
+    double energy = 0;    ///< per area of the reference surface
+    double thinning = 1;  ///< thickness over that of the reference
+  };
+
+ public:
+  Membranes() {
+    layout_.nodes.assign(N, -1);
+    layout_.needs.assign(N, NodeNeed::translation);
+  }
+
+  std::optional<std::size_t> add(const std::vector<int>& nodes, const std::vector<Vec3>& places,
+                                 const std::shared_ptr<const MembraneSection>& section) {
+    Cell cell;
+    std::copy_n(nodes.begin(), N, cell.nodes.begin());
+    for (Eigen::Index i = 0; i < N; ++i) cell.places.col(i) = places[static_cast<std::size_t>(i)];
+    cell.section = section;
+    if (!is_regular(cell.places)) return {};
+    cells_.push_back(std::move(cell));
+    return cells_.size() - 1;
+  }
+
+  std::size_t size() const override { return cells_.size(); }
+  const Layout& layout() const override { return layout_; }
+  std::span<const int> node_ids(std::size_t e) const override { return cells_[e].nodes; }
+  CellShape cell_shape() const override { return S; }
+  const char* why_not_finite() const override {
+    return "has stretched so far that its stress is no number: take smaller steps H";
+  }
+
+  void residual(std::size_t first, std::span<const State> states, std::span<double> r) const override {
+    for (std::size_t i = 0; i < states.size(); ++i) resist(cells_[first + i], states[i], {}, r.data() + i * 3 * N, nullptr);
+  }
+
+  void tangent(std::size_t first, std::span<const State> states, Weights weights, std::span<double> r,
+               std::span<double> k) const override {
+    for (std::size_t i = 0; i < states.size(); ++i)
+      resist(cells_[first + i], states[i], weights, r.data() + i * 3 * N, k.data() + i * 9 * N * N);
+  }
+
+  void constraint_rates(std::size_t, const State&, std::span<double>, std::span<double>, std::span<double>) const override {}
+
+  Energies energies(std::size_t e, const State& state) const override {
+    const Cell& cell = cells_[e];
+    const MembraneSection& section = *cell.section;
+    const Places x = places_of(state), v = rates_of(state);
+    const double pressure = section.pressure_at(state.time), mass = section.law.density * section.thickness;
+    Energies sum;
+    for (const Point& p : points(cell.places)) {
+      const Local local = this->local(section, x, p);
+      sum.strain += p.area * local.energy;
+      sum.potential -= p.area * mass * state.gravity.dot(x * p.value);
+      sum.kinetic += p.area * mass / 2 * (v * p.value).squaredNorm();
+      sum.external += p.area * pressure * normal(local).dot(v * p.value);
+    }
+    sum.potential += sum.strain;
+    return sum;
+  }
+
+  const std::vector<Field>& fields() const override {
+    static const std::vector<Field> all = {
+        Field{{"MEMBRANE_STRESS", dimension::pressure, "principal true stresses in the surface, the larger first"},
+              Field::Place::point,
+              {"1", "2"},
+              static_cast<int>(samples().size())},
+        Field{{"THINNING", dimension::none, "thickness over that of the reference configuration"},
+              Field::Place::point,
+              {},
+              static_cast<int>(samples().size())}};
+    return all;
+  }
+
+  void evaluate_fields(std::size_t e, const State& state, std::span<double> values) const override {
+    const Cell& cell = cells_[e];
+    const Places x = places_of(state);
+    const std::vector<Point> all = points(cell.places);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Local local = this->local(*cell.section, x, all[i]);
+      // σ = F S Fᵀ/J has the principal values of S FᵀF/J, J the ratio of volumes
+      const Eigen::Matrix2d C = local.F.transpose() * local.F;
+      Eigen::Matrix2d stress;
+      stress << local.stress[0], local.stress[2], local.stress[2], local.stress[1];
+      const double volume = std::sqrt(C.determinant()) * local.thinning;
+      const Eigen::Matrix2d mixed = stress * C / volume;
+      const double middle = mixed.trace() / 2, radius = std::sqrt(std::max(middle * middle - mixed.determinant(), 0.0));
+      values[2 * i] = middle + radius;
+      values[2 * i + 1] = middle - radius;
+      values[2 * all.size() + i] = local.thinning;
+    }
+  }
+
+ private:
+  static const std::vector<typename Traits::Sample>& samples() {
+    static const auto all = tabulate<S>(Traits::load_points());
+    return all;
+  }
+
+  static Places places_of(const State& state) {
+    Places x;
+    for (Eigen::Index i = 0; i < N; ++i) x.col(i) = state.nodes[static_cast<std::size_t>(i)].x;
+    return x;
+  }
+  static Places rates_of(const State& state) {
+    Places v;
+    for (Eigen::Index i = 0; i < N; ++i) v.col(i) = state.nodes[static_cast<std::size_t>(i)].v;
+    return v;
+  }
+
+  static std::vector<Point> points(const Places& places) {
+    std::vector<Point> all;
+    for (const auto& s : samples()) {
+      const Eigen::Matrix<double, 3, 2> G = places * s.slope.transpose();
+      // e₁ along the first tangent, e₂ across it in the surface
+      const double length = G.col(0).norm(), across = G.col(1).dot(G.col(0)) / length;
+      const double area = cross(Vec3(G.col(0)), Vec3(G.col(1))).norm(), height = area / length;
+      Eigen::Matrix2d jacobian;
+      jacobian << length, 0, across, height;  // rows: along ξ, η
+      all.push_back({s.value, jacobian.inverse() * s.slope, s.weight * area});
+    }
+    return all;
+  }
+
+  /// Whether its surface has an area, and one side.
+  static bool is_regular(const Places& places) {
+    constexpr double rounding = 1e-9;
+    const double size = (places.colwise() - places.col(0)).squaredNorm();
+    Vec3 first = Vec3::Zero();
+    for (const auto& s : samples()) {
+      const Eigen::Matrix<double, 3, 2> G = places * s.slope.transpose();
+      const Vec3 n = cross(Vec3(G.col(0)), Vec3(G.col(1)));
+      if (first.isZero(0)) first = n;
+      if (!(n.norm() > rounding * size) || !(n.dot(first) > 0)) return false;
+    }
+    return true;
+  }
+
+  static Vec3 normal(const Local& local) { return cross(Vec3(local.F.col(0)), Vec3(local.F.col(1))); }
+
+  static Local local(const MembraneSection& section, const Places& x, const Point& p) {
+    Local l;
+    l.F = x * p.gradient.transpose();
+    Voigt strain = Voigt::Zero();
+    strain[0] = (l.F.col(0).squaredNorm() - 1) / 2;
+    strain[1] = (l.F.col(1).squaredNorm() - 1) / 2;
+    strain[3] = l.F.col(0).dot(l.F.col(1));
+    double transverse;
+    if (section.law.neo_hookean) {
+      const materials::Response response = materials::respond(*section.law.neo_hookean, Hypothesis::plane_stress, strain);
+      l.stress = response.stress(in_plane);
+      l.moduli = response.moduli(in_plane, in_plane);
+      l.energy = response.energy;
+      transverse = response.transverse;
+    } else {
+      const Voigt stress = section.law.stiffness * strain;
+      l.stress = stress(in_plane);
+      l.moduli = section.law.stiffness(in_plane, in_plane);
+      l.energy = stress.dot(strain) / 2;
+      transverse = section.law.transverse.dot(strain);
+    }
+    l.thinning = std::sqrt(std::max(1 + 2 * transverse, 0.0));
+    l.stress[0] += section.tension;
+    l.stress[1] += section.tension;
+    l.energy = section.thickness * (l.energy + section.tension * (strain[0] + strain[1]));
+    return l;
+  }
+
+  /// Residual, and where `k` is given the tangent.
+  static void resist(const Cell& cell, const State& state, Weights weights, double* r, double* k) {
+    const MembraneSection& section = *cell.section;
+    const double pressure = section.pressure_at(state.time), mass = section.law.density * section.thickness;
+    const Places x = places_of(state);
+    Places a;
+    for (Eigen::Index i = 0; i < N; ++i) a.col(i) = state.nodes[static_cast<std::size_t>(i)].a - state.gravity;
+    Eigen::Map<Places> out(r);
+    out.setZero();
+    using Rows = Eigen::Matrix<double, 3 * N, 3 * N, Eigen::RowMajor>;
+    if (k) Eigen::Map<Rows>(k).setZero();
+    for (const Point& p : points(cell.places)) {
+      const Local local = Membranes::local(section, x, p);
+      const double volume = p.area * section.thickness;
+      Eigen::Matrix2d stress;
+      stress << local.stress[0], local.stress[2], local.stress[2], local.stress[1];
+      const Eigen::Matrix<double, 2, N> pulled = stress * p.gradient;
+      out += volume * local.F * pulled;
+      out -= p.area * pressure * normal(local) * p.value.transpose();
+      if (mass != 0) out += p.area * mass * (a * p.value) * p.value.transpose();
+      if (k) add_tangent(p, local, pulled, {weights.q * volume, weights.q * p.area * pressure, weights.a * p.area * mass}, k);
+    }
+  }
+
+  /// Factors of a point's parts of the tangent.
+  struct Factors {
+    double strain, pressure, mass;
+  };
+
+  static void add_tangent(const Point& p, const Local& local, const Eigen::Matrix<double, 2, N>& pulled, const Factors& factors,
+                          double* k) {
+    Eigen::Map<Eigen::Matrix<double, 3 * N, 3 * N, Eigen::RowMajor>> out(k);
+    // strains by the nodes' displacements
+    Eigen::Matrix<double, 3, 3 * N> B;
+    for (Eigen::Index i = 0; i < N; ++i) {
+      const double d1 = p.gradient(0, i), d2 = p.gradient(1, i);
+      B.template block<1, 3>(0, 3 * i) = d1 * local.F.col(0).transpose();
+      B.template block<1, 3>(1, 3 * i) = d2 * local.F.col(1).transpose();
+      B.template block<1, 3>(2, 3 * i) = d1 * local.F.col(1).transpose() + d2 * local.F.col(0).transpose();
+    }
+    out.noalias() += B.transpose() * (factors.strain * local.moduli * B);
+    const Eigen::Matrix<double, N, N> stretched =
+        factors.strain * p.gradient.transpose() * pulled + factors.mass * p.value * p.value.transpose();
+    const Mat3 first = skew(Vec3(local.F.col(0))), second = skew(Vec3(local.F.col(1)));
+    for (Eigen::Index j = 0; j < N; ++j) {
+      // of the normal f₁ × f₂
+      const Mat3 turned = factors.pressure * (p.gradient(1, j) * first - p.gradient(0, j) * second);
+      for (Eigen::Index i = 0; i < N; ++i) {
+        auto block = out.template block<3, 3>(3 * i, 3 * j);
+        block.diagonal().array() += stretched(i, j);
+        if (factors.pressure != 0) block -= p.value[i] * turned;
+      }
+    }
+  }
+
+  Layout layout_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace
+
+std::unique_ptr<Element> make_membrane(int id, CellShape shape, const std::vector<int>& nodes, const std::vector<Vec3>& places,
+                                       const std::shared_ptr<const MembraneSection>& section, BlockStore* blocks) {
+  const auto add = [&]<CellShape S>() -> std::unique_ptr<Element> {
+    BlockStore alone;
+    const auto block = (blocks ? *blocks : alone).block<Membranes<S>>("");
+    const auto index = block->add(nodes, places, section);
+    return index ? std::make_unique<BlockMember>(id, block, *index) : nullptr;
+  };
+  switch (shape) {
+    case CellShape::triangle:
+      return add.operator()<CellShape::triangle>();
+    case CellShape::triangle6:
+      return add.operator()<CellShape::triangle6>();
+    case CellShape::quadrilateral:
+      return add.operator()<CellShape::quadrilateral>();
+    default:
+      return add.operator()<CellShape::quadrilateral8>();
+  }
+}
+
+}  // namespace engrane::elements::membranes
