@@ -9,6 +9,7 @@
 
 #include "elements/materials/neo_hookean.hpp"
 #include "elements/structural/cell_shapes.hpp"
+#include "elements/structural/plane_shape.hpp"
 
 namespace engrane::elements::membranes {
 
@@ -280,22 +281,12 @@ class Membranes final : public Block {
 
 std::unique_ptr<Element> make_membrane(int id, CellShape shape, const std::vector<int>& nodes, const std::vector<Vec3>& places,
                                        const std::shared_ptr<const MembraneSection>& section, BlockStore* blocks) {
-  const auto add = [&]<CellShape S>() -> std::unique_ptr<Element> {
+  return structural::with_plane_shape(shape, [&]<CellShape S>() -> std::unique_ptr<Element> {
     BlockStore alone;
     const auto block = (blocks ? *blocks : alone).block<Membranes<S>>("");
     const auto index = block->add(nodes, places, section);
     return index ? std::make_unique<BlockMember>(id, block, *index) : nullptr;
-  };
-  switch (shape) {
-    case CellShape::triangle:
-      return add.operator()<CellShape::triangle>();
-    case CellShape::triangle6:
-      return add.operator()<CellShape::triangle6>();
-    case CellShape::quadrilateral:
-      return add.operator()<CellShape::quadrilateral>();
-    default:
-      return add.operator()<CellShape::quadrilateral8>();
-  }
+  });
 }
 
 }  // namespace engrane::elements::membranes

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "model/element.hpp"
+
+namespace engrane::elements::structural {
+
+/// What a template makes of the shape of a cell with an area: `make.template operator()<S>()`.
+template <class Make>
+auto with_plane_shape(CellShape shape, const Make& make) {
+  switch (shape) {
+    case CellShape::triangle:
+      return make.template operator()<CellShape::triangle>();
+    case CellShape::triangle6:
+      return make.template operator()<CellShape::triangle6>();
+    case CellShape::quadrilateral:
+      return make.template operator()<CellShape::quadrilateral>();
+    default:
+      return make.template operator()<CellShape::quadrilateral8>();
+  }
+}
+
+}  // namespace engrane::elements::structural
