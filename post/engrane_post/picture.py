@@ -19,6 +19,7 @@ EXAMPLES = """  engrane picture run                          the last frame
   engrane picture run --reference --view top   the model as the deck gives it, from above
   engrane picture run --field VON_MISES        stresses of a mesh
   engrane picture run --deformed 50            its displacements 50 times as large
+  engrane picture run --mode 1                 the first buckling mode
   engrane picture run --view 1,0.5,2 --zoom 1.2"""
 
 
@@ -39,6 +40,7 @@ def add(commands: argparse._SubParsersAction) -> None:
     )
     which.add_argument("--time", type=float, metavar="t", help="the frame nearest to this time")
     which.add_argument("--reference", action="store_true", help="the undeformed model")
+    which.add_argument("--mode", type=int, metavar="n", help="a mode of linearised buckling, from 1")
     p.add_argument(
         "--both", action="store_true", help="reference and frame side by side, seen from the same place"
     )
@@ -85,6 +87,8 @@ def selected(result: Results, args: argparse.Namespace) -> Frame:
     """The frame asked for; a file without frames shows its reference when nothing else was asked."""
     if args.reference:
         return result.reference()
+    if getattr(args, "mode", None) is not None:
+        return result.mode(args.mode)
     if args.time is not None:
         return result.frame_at(args.time)
     return result.frame(-1 if args.frame is None else args.frame)

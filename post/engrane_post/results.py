@@ -387,6 +387,20 @@ class Results:
         # Nodes without a rotation may carry no number.
         return Frame(float(self.frame_times[index]), u, np.nan_to_num(r, nan=0.0), index)
 
+    def mode(self, number: int) -> Frame:
+        """A mode of linearised buckling, from 1: its largest displacement is a tenth of the model's size."""
+        times = self.dataset("modes/load_time")
+        count = 0 if times is None else len(times)
+        if not 1 <= number <= count:
+            raise UserError(
+                f"{self.path} has modes 1 to {count}; there is no mode {number}."
+                if count
+                else f"{self.path} holds no modes; the deck asks for them with .BUCKLING."
+            )
+        u, r = self.dataset(f"modes/mode_{number}"), self.dataset(f"modes/rotation_{number}")
+        size = float(np.linalg.norm(np.ptp(self.points, axis=0))) or 1.0
+        return Frame(float(times[number - 1]), 0.1 * size * u, 0.1 * size * r)
+
     def frame_at(self, time: float) -> Frame:
         """The frame nearest to a time."""
         if len(self.frame_times) == 0:

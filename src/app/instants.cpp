@@ -46,14 +46,14 @@ Schedule::Due Instants::show(const std::function<void(double, const Schedule::Du
       c_ = end_;
       c_.time = time;
     }
-    const Schedule::Due due = schedule_.at(time, even, true);
+    const Schedule::Due due = schedule_.at(time, even, true, false);
     restart = restart || due.restart;
     observer_.between(in_space_(c_));
     if (due.frame) find_fields(c_);
     take(time, due);
   }
   if (!times_.empty()) observer_.back_to_end();
-  Schedule::Due due = schedule_.at(end_.time, even, schedule_.even(end_.time));
+  Schedule::Due due = schedule_.at(end_.time, even, schedule_.even(end_.time), step_.last);
   due.restart = due.restart || restart;
   if (due.frame) observer_.find_fields(in_space_(end_));
   return due;

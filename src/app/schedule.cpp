@@ -31,8 +31,7 @@ bool Schedule::Interval::due(double time, double start) {
   return true;
 }
 
-Schedule::Due Schedule::at(double time, double step, bool regular) {
-  const bool last = time >= end_;
+Schedule::Due Schedule::at(double time, double step, bool regular, bool last) {
   Due due{last, last, false};
   if (!regular) return due;
   // half a step early is on time: sums of steps do not meet sums of intervals to the last digit

@@ -19,7 +19,7 @@ class Schedule {
   };
   /// What is due at an accepted step, the start included. `regular` false: an instant between the steps, close to others; spectra
   /// want samples at equal intervals, so what lies between multiples of H for an event is for energies and checks only.
-  Due at(double time, double step, bool regular);
+  Due at(double time, double step, bool regular, bool last);
 
   /// The instants between two ends of controlled steps at which something may be due: the even ones. None where histories are of
   /// every step.

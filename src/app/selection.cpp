@@ -63,7 +63,7 @@ bool is_supported(const Model& model, int node) {
 void check_check(const deck::Record& record, const deck::CheckCard& check, const deck::Deck& deck, const Model& model,
                  const std::map<int, int>& parts, Diagnostics& diagnostics) {
   std::string owner = "the run";
-  std::vector<std::string> names = names_of(observe::run_channels(moves(model), has_cells(model)));
+  std::vector<std::string> names = names_of(observe::run_channels(model, moves(model)));
   if (check.element) {
     const auto found = parts.find(*check.element);
     if (found == parts.end()) {
@@ -130,6 +130,21 @@ void check_archive(const deck::Record& record, const deck::ArchiveCard& archive,
       report_channel(record.where("CHANNEL"), "what is selected", channel, names, diagnostics);
 }
 
+/// `.PATH` and `.BUCKLING` belong to statics, and steps of a path have another measure than TOL.
+void check_stability(const deck::Record& record, const Model& model, Diagnostics& diagnostics) {
+  const auto* path = record.get<deck::PathCard>();
+  if (!path && !record.get<deck::BucklingCard>()) return;
+  const std::string& type = model.commands.analysis.type.tag;
+  if (type != "STATIC")
+    diagnostics.error(record.location, fmt::format("{} is for a STATIC analysis, not a {} one", record.schema->name, type),
+                      "give .SAM TYPE STATIC");
+  if (!path) return;
+  if (model.commands.stepping.tolerance)
+    diagnostics.error(record.location, ".PATH chooses its steps itself, and .SUB has TOL", "leave TOL out");
+  if (path->node && model.node_index(*path->node) <= 0)
+    diagnostics.missing(".NOE", record.where("NODE"), fmt::format("there is no node {}", *path->node));
+}
+
 }  // namespace
 
 bool moves(const Model& model) { return !model.commands.analysis.type.is("STATIC"); }
@@ -180,6 +195,7 @@ void check_targets(const deck::Deck& deck, const Model& model, Diagnostics& diag
   for (const deck::Record& record : deck.records) {
     if (const auto* check = record.get<deck::CheckCard>()) check_check(record, *check, deck, model, parts, diagnostics);
     if (const auto* archive = record.get<deck::ArchiveCard>()) check_archive(record, *archive, model, diagnostics);
+    check_stability(record, model, diagnostics);
   }
 }
 

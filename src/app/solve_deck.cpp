@@ -21,6 +21,7 @@
 #include "deck/cards/cards.hpp"
 #include "model/function_failure.hpp"
 #include "solve/constraints/diagnosis.hpp"
+#include "solve/run/buckling.hpp"
 #include "user/routine.hpp"
 
 namespace engrane::app {
@@ -60,7 +61,7 @@ std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Option
                     "functions of time",
                     earlier.path(), difference));
   RestartPoint point = earlier.load(time);
-  if (point.time >= reading.model.commands.stepping.end)
+  if (!reading.model.commands.path && point.time >= reading.model.commands.stepping.end)
     throw RestartError(fmt::format(
         "{} would be continued from t = {:.10g}, but .SUB ends at TF = {:.10g}: give a later TF, or RESTART with an earlier T",
         earlier.path(), point.time, reading.model.commands.stepping.end));
@@ -122,10 +123,13 @@ void observe_step(SolverContext& context, observe::Observer& observer, const Con
                   const Schedule::Due& due) {
   const Model& model = context.model;
   const int iterations = step.newton ? step.newton->iterations : 0;
-  observer.observe(c, {step.step, iterations, step.events.size(), step.corner}, due.sample || !model.commands.checks.empty(),
-                   due.frame);
-  const bool last = c.time >= model.commands.stepping.end;
-  if (context.redundancy.active() && (last || (step.number & (step.number - 1)) == 0))
+  observe::Step seen{step.step, iterations, step.events.size(), step.corner};
+  if (step.course) {
+    seen.unstable = step.course->unstable;
+    seen.critical_time = step.course->critical_time;
+  }
+  observer.observe(c, seen, due.sample || !model.commands.checks.empty(), due.frame);
+  if (context.redundancy.active() && (step.last || (step.number & (step.number - 1)) == 0))
     observer.find_not_unique(c, context.redundancy.undetermined(c));
 }
 
@@ -213,6 +217,14 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
       context.out_of_plane.find(whole);
       return whole;
     };
+    if (const auto& wanted_modes = reading.model.commands.buckling;
+        wanted_modes && (wanted_modes->base.is("END") ? step.last : step.number == 0)) {
+      const std::vector<BucklingMode> modes = find_buckling(context, solved, wanted_modes->modes);
+      std::vector<double> found;
+      for (const BucklingMode& mode : modes) found.push_back(mode.load_time);
+      observer.set_buckling_times(std::move(found));
+      if (rank == 0) writer->buckling(modes, solved);
+    }
     const bool checked = !reading.model.commands.checks.empty();
     const auto seen = [&](const Configuration& found) -> const Configuration& { return in_space(found, true); };
     std::optional<Instants> instants;
@@ -233,7 +245,7 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
           }
       });
     } else {
-      due = schedule.at(solved.time, step.number == 0 ? 0.0 : step.step, step.regular);
+      due = schedule.at(solved.time, step.number == 0 ? 0.0 : step.step, step.regular, step.last);
       observe_step(context, observer, in_space(solved, due.sample || due.frame || checked), step, due);
     }
     last_time = solved.time;
@@ -251,7 +263,7 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
       failure = wrong;
       stop = 1;
     }
-    const bool far_enough = options.until && solved.time >= *options.until && solved.time < reading.model.commands.stepping.end;
+    const bool far_enough = options.until && solved.time >= *options.until && !step.last;
     if (asked_to_stop(comm, ranks) || far_enough) {
       failure = fmt::format("interrupted at t = {:.6g}", solved.time);
       stop = 1;
@@ -370,7 +382,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     if (rank == 0) std::cerr << "engrane: " << terminal_text(e.what()) << '\n';
     return exit_status::wrong_deck;
   }
-  SolverOptions wanted = solver_options(reading.model.commands.analysis, reading.model.commands.stepping);
+  SolverOptions wanted = solver_options(reading.model);
   for (int repeats = 0;; ++repeats) {
     Verdict verdict = solve_once(reading, options, wanted, repeats < most_repeats, resumption.get(), prefix, comm, summary);
     if (!verdict.again) return verdict.status;

@@ -107,7 +107,9 @@ std::string describe_analysis(const solve::SolverContext& context) {
     if (options.keep_factors && options.family != SolverOptions::Family::radau) text += " with tangents kept";
     if (a.alpha && !a.scheme.is("CHUNG")) text += fmt::format(" alpha {:g}", *a.alpha);
   }
-  if (s.end == s.start)
+  if (options.path.follow)
+    text += fmt::format(", along the path of equilibria from t = {:g} to {:g}, first step {:g}", s.start, s.end, s.step);
+  else if (s.end == s.start)
     text += fmt::format(", t = {:g}", s.end);
   else
     text += fmt::format(", t = {:g} to {:g}, {}", s.start, s.end,

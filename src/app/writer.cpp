@@ -95,6 +95,11 @@ void Writer::resumed(const Resumption& from) {
     energies_.push_back({energies[i], energies[i + 1], energies[i + 2], energies[i + 3], energies[i + 4], energies[i + 5]});
   for (std::size_t i = 0; i + 7 <= ground.size(); i += 7)
     ground_.push_back({"", ground[i], Vec3(&ground[i + 1]), Vec3(&ground[i + 4])});
+  while (memory.has(fmt::format("writer/mode {}", modes_.size()))) {
+    const std::size_t i = modes_.size();
+    const auto array = [&](const char* what) { return memory.array(fmt::format("writer/mode {}{}", i, what)); };
+    modes_.push_back({array(" time").at(0), array(""), array(" rotation")});
+  }
   marked_ = observer_.not_unique().size();
   results_.mark_not_unique(observer_.not_unique());
   listing_.write(fmt::format("  restarted from {} at t = {:.10g}\n", from.earlier.path(), from.point.time));
@@ -125,6 +130,11 @@ void Writer::remember(const Configuration& c, const Runner& runner, bool kept, b
                   {row.time, row.force[0], row.force[1], row.force[2], row.moment[0], row.moment[1], row.moment[2]});
   memory.put("writer/energies", std::move(energies));
   memory.put("writer/ground", std::move(ground));
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
+    memory.put(fmt::format("writer/mode {}", i), modes_[i].displacement);
+    memory.put(fmt::format("writer/mode {} rotation", i), modes_[i].rotation);
+    memory.put(fmt::format("writer/mode {} time", i), modes_[i].load_time);
+  }
   results_.restart_point(c.time, std::move(memory), kept);
   if (results_.due()) results_.flush();
 }
@@ -141,7 +151,6 @@ void Writer::started(const StartReport& start) {
 }
 
 void Writer::step(const Configuration& c, const StepReport& step, const Schedule::Due& due, const Numbering& numbering) {
-  const bool last = c.time >= reading_.model.commands.stepping.end;
   show(c.time, schedule_.controlled() ? schedule_.even(c.time) : step.regular, due);
   if (observer_.not_unique().size() != marked_) {
     marked_ = observer_.not_unique().size();
@@ -160,8 +169,9 @@ void Writer::step(const Configuration& c, const StepReport& step, const Schedule
     iterations_ += step.newton->iterations;
     if (reading_.model.commands.archive.newton) write_newton(c, step, numbering);
   }
-  progress_.update(c.time, step.step, step.number);
-  if (!last) return;
+  if (step.course && step.course->critical) note_critical(*step.course->critical);
+  progress_.update(step.course ? c.load_time() : c.time, step.step, step.number);
+  if (!step.last) return;
   progress_.finish();
   collect_remarks(c, numbering);
 }
@@ -213,6 +223,14 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
   if (marked_ > 0) {
     listing_.write(listing_section("Not unique"));
     listing_.write(listing_not_unique(results_.layout().history, observer_.not_unique()));
+  }
+  if (!buckling_.empty()) {
+    listing_.write(listing_section("Linearised buckling"));
+    listing_.write(buckling_);
+  }
+  if (!critical_.empty()) {
+    listing_.write(listing_section("Critical points"));
+    listing_.write(critical_);
   }
   if (event_count_ > 0) {
     listing_.write(listing_section("Events"));
@@ -273,6 +291,7 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
   else
     listing_.write("  no steps\n");
   listing_.write(listing_times(times));
+  results_.modes(std::move(modes_));
   results_.finish(status);
   listing_.finish(status == RunStatus::complete);
   summary_.steps = std::max(0L, steps_ - 1);
@@ -348,6 +367,43 @@ void Writer::note_events(const Configuration& c, const StepReport& step) {
       fmt::format("t = {:.6g}: events come too thick to be met one by one; some steps pass over them", c.time);
   events_ += "  warning: " + text + "\n";
   progress_.note("engrane: " + text);
+}
+
+void Writer::note_critical(const CriticalPoint& point) {
+  const bool limit = point.kind == CriticalPoint::Kind::limit;
+  std::string text = fmt::format("{} at load time {:.9g}, ", limit ? "limit point" : "bifurcation point", point.load_time);
+  text += point.after > point.before ? "stability is lost" : "stability is regained";
+  if (std::abs(point.after - point.before) > 1)
+    text += fmt::format(" in {} directions at once", std::abs(point.after - point.before));
+  progress_.note("engrane: " + text);
+  critical_ += fmt::format("  {}\n    unstable in {} directions before it and {} behind it\n    mode: {}\n", text, point.before,
+                           point.after, point.mode);
+  if (point.switched != 0)
+    critical_ +=
+        fmt::format("    the path goes on along the mode, with a displacement of {:g} in its first step\n", point.switched);
+}
+
+void Writer::buckling(const std::vector<BucklingMode>& modes, const Configuration& equilibrium) {
+  buckling_ =
+      fmt::format("  the tangent at load time {:.9g} continued as it changes there is singular at\n\n", equilibrium.load_time());
+  buckling_ += fmt::format("  {:>6}{:>20}   {}\n", "mode", "load time", "largest displacements");
+  if (modes.empty()) buckling_ += "  no load time: the loads do not make the tangent singular\n";
+  const std::vector<int>& copies = observer_.points().copies();
+  for (const BucklingMode& mode : modes) {
+    buckling_ += fmt::format("  {:>6}{:>20.10g}   {}\n", modes_.size() + 1, mode.load_time, mode.largest);
+    const auto rows = [&](const std::vector<Vec3>& parts) {
+      std::vector<double> all;
+      for (std::size_t node = 1; node < parts.size(); ++node) all.insert(all.end(), parts[node].begin(), parts[node].end());
+      for (const int node : copies) {
+        const Vec3& part = parts[static_cast<std::size_t>(node)];
+        all.insert(all.end(), part.begin(), part.end());
+      }
+      return all;
+    };
+    modes_.push_back({mode.load_time, rows(mode.displacement), rows(mode.rotation)});
+  }
+  progress_.note(modes.empty() ? "engrane: no buckling loads"
+                               : fmt::format("engrane: buckling at load time {:.6g} (linearised)", modes.front().load_time));
 }
 
 void Writer::collect_remarks(const Configuration& c, const Numbering& numbering) {

@@ -19,6 +19,7 @@
 #include "output/restart_file.hpp"
 #include "output/results.hpp"
 #include "solve/constraints/start_report.hpp"
+#include "solve/run/buckling.hpp"
 #include "solve/run/runner.hpp"
 
 namespace engrane::app {
@@ -57,6 +58,8 @@ class Writer {
   /// What was written, and the commands that show it.
   std::string closing_lines() const;
   void note(const std::string& text) { progress_.note(text); }
+  /// Modes of linearised buckling at an equilibrium.
+  void buckling(const std::vector<solve::BucklingMode>& modes, const Configuration& equilibrium);
   /// A warning for the terminal and the listing's remarks.
   void warn(const std::string& text);
 
@@ -69,6 +72,7 @@ class Writer {
   output::GroundRow ground(double time) const;
   void show(double time, bool regular, const Schedule::Due& due);
   void note_events(const Configuration& c, const solve::StepReport& step);
+  void note_critical(const solve::CriticalPoint& point);
   void collect_remarks(const Configuration& c, const Numbering& numbering);
   void write_newton(const Configuration& c, const solve::StepReport& step, const Numbering& numbering);
   std::vector<output::EnergyRow> thinned_energies() const;
@@ -85,7 +89,8 @@ class Writer {
   output::Peaks peaks_;
   std::vector<output::GroundRow> ground_;  ///< the last, the one with the largest force, that with the largest moment
   std::vector<output::EnergyRow> energies_;
-  std::string events_, remarks_, accuracy_;
+  std::vector<output::ModeShape> modes_;
+  std::string events_, critical_, buckling_, remarks_, accuracy_;
   bool frame_between_ = false;  ///< a frame was due within the step
   std::size_t marked_ = 0;      ///< channels marked as not unique so far
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;

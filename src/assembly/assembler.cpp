@@ -96,9 +96,9 @@ State Assembler::view(int part, const Configuration& c) const {
   s.scalar_accelerations = piece(c.scalar_accelerations, numbering_.scalar_begin(part), layout.scalars.size());
   s.multipliers = piece(c.multipliers, numbering_.multiplier_begin(part), layout.multipliers.size());
   s.history = piece(c.history, numbering_.history_begin(part), static_cast<std::size_t>(layout.history));
-  s.time = c.time;
+  s.time = c.load_time();
   s.h = c.h;
-  s.gravity = gravity_at(c.time);
+  s.gravity = gravity_at(s.time);
   s.penalty = penalty;
   s.contact_homotopy = contact_homotopy;
   return s;

@@ -37,6 +37,7 @@ void save_configuration(const Configuration& configuration, Snapshot& snapshot) 
   for (const NodeState& node : configuration.nodes)
     for_each_member(node, [&](const double* data, Eigen::Index count) { nodes.insert(nodes.end(), data, data + count); });
   snapshot.put("configuration/time", configuration.time);
+  snapshot.put("configuration/lead", configuration.lead);
   snapshot.put("configuration/h", configuration.h);
   snapshot.put("configuration/nodes", std::move(nodes));
   for_each_array(configuration, [&](const char* name, const std::vector<double>& values) {
@@ -60,6 +61,7 @@ void load_configuration(const Snapshot& snapshot, Configuration& configuration) 
     });
   for_each_array(configuration, [&](const char* name, std::vector<double>& values) { values = fitting(name, values.size()); });
   configuration.time = snapshot.number("configuration/time");
+  configuration.lead = snapshot.has("configuration/lead") ? snapshot.number("configuration/lead") : 0;
   configuration.h = snapshot.number("configuration/h");
 }
 

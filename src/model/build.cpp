@@ -127,6 +127,8 @@ class Builder {
     if (const auto* group = record.get<deck::GroupCard>()) groups_.add(record, *group);
     if (const auto* analysis = record.get<deck::AnalysisCard>()) model_.commands.analysis = *analysis;
     if (const auto* stepping = record.get<deck::SteppingCard>()) set_stepping(record, *stepping);
+    if (const auto* path = record.get<deck::PathCard>()) model_.commands.path = *path;
+    if (const auto* buckling = record.get<deck::BucklingCard>()) model_.commands.buckling = *buckling;
     if (const auto* archive = record.get<deck::ArchiveCard>()) {
       add_archive(record, *archive);
       if (!archive->codes.empty())

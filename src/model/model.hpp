@@ -63,6 +63,8 @@ struct Gravity {
 struct Commands {
   deck::AnalysisCard analysis;
   deck::SteppingCard stepping;
+  std::optional<deck::PathCard> path;
+  std::optional<deck::BucklingCard> buckling;
   deck::ArchiveCard archive;
   std::vector<deck::CheckCard> checks;
   std::vector<Location> check_locations;

@@ -26,7 +26,9 @@ std::optional<double> tolerance_of(const deck::AnalysisCard& analysis) {
   return rung->tolerance;
 }
 
-SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::SteppingCard& stepping) {
+SolverOptions solver_options(const Model& model) {
+  const deck::AnalysisCard& analysis = model.commands.analysis;
+  const deck::SteppingCard& stepping = model.commands.stepping;
   using Analysis = SolverOptions::Analysis;
   using Family = SolverOptions::Family;
   SolverOptions o;
@@ -63,6 +65,15 @@ SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::Ste
   o.events = !analysis.events.is("NO");
   // where a force jumps the error of an event's instant is one of velocities, as large a part of what a step changes
   o.event_tolerance = analysis.events.values.empty() ? std::max(1e-6, share_of_newton * o.tolerance) : analysis.events.values[0];
+  if (const auto& path = model.commands.path) {
+    o.path.follow = true;
+    o.path.steps = path->steps.value_or(0);
+    o.path.node = path->node ? std::max(0, model.node_index(*path->node)) : 0;
+    o.path.component = path->component.value_or(1) - 1;
+    o.path.displacement = path->displacement.value_or(0);
+    o.path.branch = path->branch.value_or(0);
+    o.path.amplitude = path->amplitude.value_or(0);
+  }
   return o;
 }
 

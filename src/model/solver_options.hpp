@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "deck/cards/cards.hpp"
+#include "model/model.hpp"
 
 namespace engrane {
 
@@ -18,6 +18,16 @@ struct SolverOptions {
   Family family = Family::chung;  ///< of the scheme, in dynamics
   double damping = 0.8;           ///< ρ∞ of CHUNG; α of HHT and BOSSAK
   bool static_start = false;      ///< dynamics begins in static equilibrium
+
+  /// `.PATH`: equilibria are followed by the length of their path. It ends where the loads' time is `end`, or before.
+  struct Path {
+    bool follow = false;
+    int steps = 0;  ///< after so many; 0: however many
+    int node = 0, component = 0;
+    double displacement = 0;  ///< where this node has moved so far from its reference; node 0: none
+    int branch = 0;           ///< at this bifurcation the path goes on along the mode; 0: at none
+    double amplitude = 0;     ///< largest displacement of the step that does so, with its sign
+  } path;
 
   double begin = 0, end = 1;  ///< time
   double step = 0.1;          ///< H
@@ -52,6 +62,6 @@ inline constexpr std::array<AccuracyRung, 4> accuracy_rungs{
 /// The TOL that ACCURACY stands for in a deck that gives none; empty where it says nothing.
 std::optional<double> tolerance_of(const deck::AnalysisCard& analysis);
 
-SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::SteppingCard& stepping);
+SolverOptions solver_options(const Model& model);
 
 }  // namespace engrane

@@ -15,6 +15,8 @@ namespace engrane::observe {
 namespace {
 
 constexpr std::size_t points_of_powers = 4;
+/// Part of a step's length along a path for which the loads' time is taken to pass where it stands still.
+constexpr double stand_still = 1e-9;
 
 /// Sum of `energies` of this rank's elements.
 Energies own_energies(Assembler& assembler, const Configuration& c) {
@@ -40,8 +42,10 @@ Energies total_energies(Assembler& assembler, const Configuration& c) {
 }
 
 double static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to) {
-  const double time = to.time - from.time;
-  if (!(time > 0)) return 0;
+  if (!(to.time > from.time)) return 0;
+  // along a path of equilibria the loads' own time may go back or stand still, the drives with it
+  const double loads = to.load_time() - from.load_time(), least = stand_still * (to.time - from.time);
+  const double time = std::abs(loads) > least ? loads : least;
   // configurations of large meshes are large: the one between stands where the first was
   Configuration& c = from;
   const auto half_the_work = [&](const std::vector<Reaction>& reactions) {
@@ -60,7 +64,7 @@ double static_work(Assembler& assembler, Reactions& supports, Configuration from
   }
   for (std::size_t i = 0; i < c.scalars.size(); ++i) c.scalar_rates[i] = (to.scalars[i] - from.scalars[i]) / time;
   // a function of time may have a corner where the step ends: its slope is that of the step
-  c.time = from.time + 1e-8 * time;
+  c.lead += 1e-8 * time;
   double work = half_the_work(first);
 
   for (std::size_t i = 0; i < c.nodes.size(); ++i) {
@@ -69,7 +73,8 @@ double static_work(Assembler& assembler, Reactions& supports, Configuration from
     end.W = c.nodes[i].W;
     c.nodes[i] = end;
   }
-  c.time = to.time - 1e-8 * time;
+  c.time = to.time;
+  c.lead = to.lead - 1e-8 * time;
   c.h = to.h;
   c.scalars = to.scalars;
   c.scalar_accelerations = to.scalar_accelerations;

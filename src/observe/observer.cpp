@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "observe/observer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,7 +27,8 @@ bool of_motion(const Dimension& d) {
 
 }  // namespace
 
-std::vector<Named> run_channels(bool moves, bool cells) {
+std::vector<Named> run_channels(const Model& model, bool moves) {
+  const bool cells = has_cells(model);
   std::vector<Named> channels{{"STEP", dimension::time, "time step"},
                               {"ITERATIONS", dimension::none, "Newton iterations of the step"},
                               {"EVENTS", dimension::none, "events met since the start: teeth that begin or cease to touch"},
@@ -38,6 +41,17 @@ std::vector<Named> run_channels(bool moves, bool cells) {
     channels.push_back({name, dimension::force, "sum of what supports and the elements on node 0 exert on the model, global"});
   for (const char* name : {"GROUND_MOMENT_X", "GROUND_MOMENT_Y", "GROUND_MOMENT_Z"})
     channels.push_back({name, dimension::moment, "its moment about the origin, global"});
+  if (model.commands.path) {
+    channels.push_back({"LOAD_TIME", dimension::time, "the time of functions, which grows and falls along the path"});
+    channels.push_back(
+        {"UNSTABLE", dimension::none,
+         "directions in which the equilibrium is unstable; with an unsymmetric tangent whether their number is odd"});
+    channels.push_back(
+        {"CRITICAL_TIME", dimension::time, "load time of the last limit or bifurcation point; 0 before the first"});
+  }
+  for (int mode = 1; model.commands.buckling && mode <= model.commands.buckling->modes; ++mode)
+    channels.push_back({fmt::format("BUCKLING_TIME_{}", mode), dimension::time,
+                        "time of functions at which the model buckles, by linearisation; 0 where it is not known"});
   if (!cells) return channels;
   channels.push_back({"STRAIN_ENERGY", dimension::energy, "energy that the cells hold as strain"});
   channels.push_back({"LOAD_WORK", dimension::energy, "work u·F of these loads on the displacements from the reference"});
@@ -56,9 +70,11 @@ Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
       supports_(assembler),
       histories_(assembler, supports_, moves, selection),
       ledger_(assembler, supports_, moves),
-      run_channels_(observe::run_channels(moves, has_cells(assembler.model()))),
+      run_channels_(observe::run_channels(assembler.model(), moves)),
       values_(histories_.columns() + run_channels_.size(), 0.0),
       element_fields_(assembler),
+      buckling_times_(
+          assembler.model().commands.buckling ? static_cast<std::size_t>(assembler.model().commands.buckling->modes) : 0, 0.0),
       cells_(has_cells(assembler.model())),
       ends_(most_ends, std::numeric_limits<double>::infinity()) {
   if (!cells_) return;
@@ -152,6 +168,12 @@ void Observer::evaluate_histories(const Configuration& c, const Step& step) {
              : std::vector{step.length, static_cast<double>(step.iterations), events_, e.potential, e.external_work, e.error()};
   out = std::copy(run.begin(), run.end(), out);
   for (const Vec3* part : {&ground.force, &ground.moment}) out = std::copy(part->data(), part->data() + 3, out);
+  if (assembler_.model().commands.path) {
+    *out++ = c.load_time();
+    *out++ = step.unstable;
+    *out++ = step.critical_time;
+  }
+  out = std::copy(buckling_times_.begin(), buckling_times_.end(), out);
   if (!cells_) return;
   *out++ = e.strain;
   *out++ = loads.work;
@@ -253,6 +275,7 @@ void Observer::save(Snapshot& snapshot) const {
   snapshot.put("observe/events", events_);
   std::vector<double> columns(not_unique_.begin(), not_unique_.end());
   snapshot.put("observe/not_unique", std::move(columns));
+  snapshot.put("observe/buckling_times", buckling_times_);
   snapshot.put("observe/columns", static_cast<double>(values_.size()));
   if (!keeps_ends_) return;
   snapshot.put("observe/end", end_);
@@ -263,6 +286,8 @@ void Observer::save(Snapshot& snapshot) const {
 void Observer::load(const Snapshot& snapshot) {
   ledger_.load(snapshot);
   events_ = snapshot.number("observe/events");
+  if (snapshot.has("observe/buckling_times") && snapshot.array("observe/buckling_times").size() == buckling_times_.size())
+    buckling_times_ = snapshot.array("observe/buckling_times");
   not_unique_.clear();
   // with other histories than before the columns mean others: they are found again
   if (snapshot.number("observe/columns") != static_cast<double>(values_.size())) return;

@@ -20,6 +20,9 @@ struct Step {
   int iterations = 0;      ///< of Newton's method
   std::size_t events = 0;  ///< met in it
   bool corner = false;     ///< it ends where a function of time has a corner
+  // along a path of equilibria
+  int unstable = 0;          ///< directions in which this one is unstable
+  double critical_time = 0;  ///< load time of the last critical point
 };
 
 /// Everything that is computed from accepted configurations: the energy balance, histories, fields, reactions, and which
@@ -74,6 +77,12 @@ class Observer {
   /// Columns of values() that were found not to be unique so far, ascending.
   const std::vector<int>& not_unique() const { return not_unique_; }
 
+  /// Buckling times for their channels; as many as the deck asks for, 0 where there is none.
+  void set_buckling_times(std::vector<double> times) {
+    times.resize(buckling_times_.size(), 0.0);
+    buckling_times_ = std::move(times);
+  }
+
   /// What must be remembered for a restart, beside the configuration last observed, which load() takes from the snapshot too.
   /// save() on rank 0, load() on all.
   void save(Snapshot& snapshot) const;
@@ -92,6 +101,7 @@ class Observer {
   std::vector<Reaction> last_reactions_;
   std::vector<int> not_unique_;
   double events_ = 0;
+  std::vector<double> buckling_times_;
   bool cells_;       ///< the model has a mesh
   double mass_ = 0;  ///< of all, where it has
 
@@ -113,6 +123,6 @@ class Observer {
 };
 
 /// Channels of the whole model.
-std::vector<Named> run_channels(bool moves, bool cells);
+std::vector<Named> run_channels(const Model& model, bool moves);
 
 }  // namespace engrane::observe

@@ -15,6 +15,7 @@ bool has_position_only(const NodeState& node) {
 
 PackedConfiguration::PackedConfiguration(const Configuration& c) {
   rest_.time = c.time;
+  rest_.lead = c.lead;
   rest_.h = c.h;
   rest_.scalars = c.scalars;
   rest_.scalar_rates = c.scalar_rates;

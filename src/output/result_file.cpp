@@ -367,6 +367,23 @@ void ResultFile::mark_not_unique(std::span<const int> columns) {
   }
 }
 
+void ResultFile::write_modes(std::span<const ModeShape> modes) {
+  const Handle group = at(file_).group("modes");
+  std::vector<double> times;
+  const hsize_t shape[2] = {layout_->points.size(), 3};
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    times.push_back(modes[i].load_time);
+    const Handle set = at(group).numbers(fmt::format("mode_{}", i + 1), modes[i].displacement, shape);
+    at(set).attribute("label", "displacements, the largest component 1");
+    const Handle turns = at(group).numbers(fmt::format("rotation_{}", i + 1), modes[i].rotation, shape);
+    at(turns).attribute("label", "rotations in the same scale");
+  }
+  const hsize_t count[1] = {times.size()};
+  const Handle set = at(group).numbers("load_time", times, count);
+  at(set).attribute("unit", layout_->units.label(dimension::time));
+  at(set).attribute("label", "time of functions at which the model buckles, by linearisation");
+}
+
 void ResultFile::write_checks(std::span<const CheckResult> checks) {
   struct Row {
     const char* text;

@@ -68,6 +68,7 @@ class ResultFile {
   void write_latest(const RestartPoint& point, bool last);
   /// Sets `unique` to 0 for these columns, counted over all tables.
   void mark_not_unique(std::span<const int> columns);
+  void write_modes(std::span<const ModeShape> modes);
   void write_checks(std::span<const CheckResult> checks);
   void set_status(const std::string& status);
   /// Hands everything to the operating system and closes: the file opens with all that was appended.

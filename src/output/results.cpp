@@ -151,6 +151,8 @@ void Results::write_spare(const char* status) {
   if (not_unique_.size() != marked_spare_) file.mark_not_unique(not_unique_);
   if (status) {
     file.write_checks(checks_);
+    if (!modes_.empty()) file.write_modes(modes_);
+    indexed_modes_ = modes_.size();
     file.set_status(status);
   }
   file.close();
@@ -176,7 +178,7 @@ void Results::write_batch() {
 void Results::write_index(const std::string& h5_path, const std::string& xdmf_path) {
   if (frame_times_.empty() || layout_.points.empty()) return;
   const std::string h5_name = std::filesystem::path(h5_path).filename().string();
-  replace_text(xdmf_path, xdmf_index(layout_, h5_name, frame_times_));
+  replace_text(xdmf_path, xdmf_index(layout_, h5_name, frame_times_, indexed_modes_));
   indexed_frames_ = frame_times_.size();
 }
 

@@ -48,6 +48,8 @@ class Results {
   /// All channels so far whose values are one choice of many, places in the layout's order: they get `unique` = 0 with the
   /// next batch.
   void mark_not_unique(std::vector<int> channels) { not_unique_ = std::move(channels); }
+  /// What finish() stores as `/modes`.
+  void modes(std::vector<ModeShape> shapes) { modes_ = std::move(shapes); }
   /// What finish() stores as `/checks`.
   void checks(std::vector<CheckResult> results) { checks_ = std::move(results); }
   /// Whether enough was gathered for a batch. Ask at the end of a step, give a restart point, then flush().
@@ -96,8 +98,9 @@ class Results {
   std::unique_ptr<RestartPoint> latest_;
   std::size_t samples_ = 0, frames_ = 0;  ///< given so far
   std::vector<double> frame_times_;       ///< of all frames in the shown file
-  std::size_t indexed_frames_ = 0;
+  std::size_t indexed_frames_ = 0, indexed_modes_ = 0;
   std::vector<CheckResult> checks_;
+  std::vector<ModeShape> modes_;
   std::vector<int> not_unique_;
   std::size_t marked_shown_ = 0, marked_spare_ = 0;  ///< how many channels are marked in the two files
   Clock::time_point due_;

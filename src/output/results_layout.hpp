@@ -89,6 +89,13 @@ struct FrameValues {
   std::vector<std::vector<double>> averages = {};
 };
 
+/// A mode of linearised buckling.
+struct ModeShape {
+  double load_time = 0;
+  /// A row of three global components for each of ResultsLayout::points.
+  std::vector<double> displacement, rotation;
+};
+
 /// A line of `/checks` and of the listing: a `.CHK` and what came of it.
 struct CheckResult {
   std::string text;  ///< what was checked: `ELEMENT 1 NORMAL_FORCE at 1`

@@ -34,7 +34,8 @@ const char* attribute_type(std::size_t width) {
 
 }  // namespace
 
-std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, std::span<const double> frame_times) {
+std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, std::span<const double> frame_times,
+                       std::size_t modes) {
   const MixedTopology topology = mixed_topology(layout);
   const std::string file = escaped(h5_name);
   const std::size_t points = layout.points.size();
@@ -71,6 +72,12 @@ std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, 
     };
     for (const CellField& field : layout.averages) add(field, "Node", points, "nodes");
     for (const CellField& field : layout.cell_fields) add(field, "Cell", topology.cells.size(), "fields");
+    for (std::size_t mode = 1; mode <= modes; ++mode)
+      fmt::format_to(std::back_inserter(out),
+                     "<Attribute Name=\"mode_{0}\" AttributeType=\"Vector\" Center=\"Node\">"
+                     "<DataItem Dimensions=\"{1} 3\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">"
+                     "{2}:/modes/mode_{0}</DataItem></Attribute>\n",
+                     mode, points, file);
     out += "</Grid>\n";
   }
   return out + "</Grid>\n</Domain>\n</Xdmf>\n";

@@ -13,5 +13,6 @@ std::vector<Schema> mesh_cards();       ///< `.HYP` `.PHP` `.AEL`
 Schema profile_card();                  ///< `.BPR`
 std::vector<Schema> condition_cards();  ///< `.CLM` `.FCT` `.INI`
 std::vector<Schema> analysis_cards();   ///< `.SAM` `.SUB` `.SAI` `.CHK`
+std::vector<Schema> stability_cards();  ///< `.PATH` `.BUCKLING`
 
 }  // namespace engrane::deck

@@ -176,7 +176,7 @@ std::vector<Schema> model_cards() {
 const std::vector<Schema>& general_commands() {
   static const std::vector<Schema> all = [] {
     std::vector<Schema> cards = model_cards();
-    for (std::vector<Schema> more : {mesh_cards(), {profile_card()}, condition_cards(), analysis_cards()})
+    for (std::vector<Schema> more : {mesh_cards(), {profile_card()}, condition_cards(), analysis_cards(), stability_cards()})
       cards.insert(cards.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     return cards;
   }();

@@ -153,6 +153,21 @@ struct SteppingCard {
   std::optional<double> longest;    ///< HMAX: longest step with TOL
 };
 
+/// `.PATH`: equilibria by the length of their path.
+struct PathCard {
+  std::optional<int> steps;
+  std::optional<int> node, component;  ///< ends where this displacement is:
+  std::optional<double> displacement;
+  std::optional<int> branch;        ///< the bifurcation point, from 1, where another path is taken
+  std::optional<double> amplitude;  ///< of the step to it
+};
+
+/// `.BUCKLING`: linearised buckling loads.
+struct BucklingCard {
+  int modes = 3;
+  Tagged base{"START", {}};  ///< START, END: the equilibrium it is linearised at
+};
+
 /// `.SAI` what is archived: rate of the fields, rate of the histories, whose histories and which, and restart points.
 struct ArchiveCard : NodeTarget {
   std::optional<double> field_step;             ///< CHAMPS/FIELDS DT: time between archived fields

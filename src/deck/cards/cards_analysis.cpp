@@ -353,7 +353,8 @@ const AnalysisCard* last_analysis(const std::vector<Record>& records) {
 
 bool says_analysis(const std::vector<Record>& records) {
   return std::any_of(records.begin(), records.end(), [](const Record& record) {
-    return record.get<SteppingCard>() || (record.get<AnalysisCard>() && record.given("TYPE"));
+    return record.get<SteppingCard>() || record.get<PathCard>() || record.get<BucklingCard>() ||
+           (record.get<AnalysisCard>() && record.given("TYPE"));
   });
 }
 

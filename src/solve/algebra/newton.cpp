@@ -43,10 +43,8 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
   const auto& parts = assembler.model().parts;
   for (std::size_t p = 0; p < parts.size(); ++p)
     if (parts[p].element->layout().slides > 0) sliding_parts_.push_back(static_cast<int>(p));
-  if (!sliding_parts_.empty()) {
-    *trial_.out() = assembler.new_vector();
-    check_petsc(SNESLineSearchSetPreCheck(search, keep_sliding, this));
-  }
+  check_petsc(SNESLineSearchSetPreCheck(search, change_step, this));
+  if (!sliding_parts_.empty()) *trial_.out() = assembler.new_vector();
   for (const Model::Part& part : parts) {
     const Layout& layout = part.element->layout();
     evaluation_ += residual_of_slot * static_cast<double>(layout.slots());
@@ -60,7 +58,8 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
   check_petsc(KSPSetPostSolve(solver.ksp(), after_solution, this));
 }
 
-NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply, Configuration& work) {
+NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply, Configuration& work, Border* border) {
+  border_ = border;
   apply_ = &apply;
   work_ = &work;
   weights_ = weights;
@@ -206,31 +205,35 @@ std::vector<Vec3> Newton::sliding() const {
   return speeds;
 }
 
-/// The curve of a regularised friction is flat on both sides and steep between: from one side its tangent leads far over to the
-/// other, and back. A step that would reverse a sliding ends where it stops; from there tangents lead towards the solution.
-PetscErrorCode Newton::keep_sliding(SNESLineSearch, Vec x, Vec step, PetscBool* changed, void* context) {
+PetscErrorCode Newton::change_step(SNESLineSearch, Vec x, Vec step, PetscBool* changed, void* context) {
   auto& self = *static_cast<Newton*>(context);
-  *changed = PETSC_FALSE;
   try {
-    const std::vector<Vec3> before = self.sliding();
-    check_petsc(VecWAXPY(self.trial_, -1, step, x));
-    (*self.apply_)(self.assembler_.gather(self.trial_), *self.work_);
-    const std::vector<Vec3> after = self.sliding();
-    double part = 1;
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      const double first = before[i].norm(), towards = before[i].dot(after[i]);
-      if (!(towards < 0) || std::max(first, after[i].norm()) < 1 || first < resting) continue;
-      part = std::min(part, first * first / (first * first - towards));
-    }
-    if (part < 1) {
-      check_petsc(VecScale(step, part));
-      *changed = PETSC_TRUE;
-    }
+    if (self.border_) self.border_->complete(x, step);
+    const bool shortened = !self.sliding_parts_.empty() && self.keep_sliding(x, step);
+    *changed = self.border_ || shortened ? PETSC_TRUE : PETSC_FALSE;
   } catch (const std::exception& e) {
     self.failure_ = e.what();
     return PETSC_ERR_LIB;
   }
   return 0;
+}
+
+/// The curve of a regularised friction is flat on both sides and steep between: from one side its tangent leads far over to the
+/// other, and back. A step that would reverse a sliding ends where it stops; from there tangents lead towards the solution. True
+/// where the step has been changed.
+bool Newton::keep_sliding(Vec x, Vec step) {
+  const std::vector<Vec3> before = sliding();
+  check_petsc(VecWAXPY(trial_, -1, step, x));
+  (*apply_)(assembler_.gather(trial_), *work_);
+  const std::vector<Vec3> after = sliding();
+  double part = 1;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const double first = before[i].norm(), towards = before[i].dot(after[i]);
+    if (!(towards < 0) || std::max(first, after[i].norm()) < 1 || first < resting) continue;
+    part = std::min(part, first * first / (first * first - towards));
+  }
+  if (part < 1) check_petsc(VecScale(step, part));
+  return part < 1;
 }
 
 bool Newton::left_to_rounding() const {

@@ -32,6 +32,15 @@ struct NewtonReport {
   std::vector<NewtonRow> rows;
 };
 
+/// One more unknown and one more equation beside those of the matrix: Newton's corrections, which are made with the matrix alone,
+/// are completed for them (block elimination of the bordered system; Keller 1977, in Applications of Bifurcation Theory).
+class Border {
+ public:
+  virtual ~Border() = default;
+  /// `step` is the correction with the other unknown as it is; the next point is x − step.
+  virtual void complete(Vec x, Vec step) = 0;
+};
+
 /// PETSc's SNES on the assembled system, with a convergence test that knows forces from lengths.
 class Newton {
  public:
@@ -42,7 +51,7 @@ class Newton {
 
   /// Solves r = 0 from the guess `x`, which it overwrites; `work` ends as the last configuration tried. `keep`: tangent and
   /// factors of earlier solutions serve as long as that pays; else each iteration makes its own.
-  NewtonReport solve(Vec x, Weights weights, bool keep, const Apply& apply, Configuration& work);
+  NewtonReport solve(Vec x, Weights weights, bool keep, const Apply& apply, Configuration& work, Border* border = nullptr);
 
   /// From now on one tangent and its factors serve all solutions: that of a linear model never changes.
   void keep_one_tangent() { one_tangent_ = true; }
@@ -76,7 +85,8 @@ class Newton {
   static PetscErrorCode after_solution(KSP, Vec right, Vec solution, void* self);
   static PetscErrorCode test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal, SNESConvergedReason* reason,
                                          void* self);
-  static PetscErrorCode keep_sliding(SNESLineSearch, Vec x, Vec step, PetscBool* changed, void* self);
+  static PetscErrorCode change_step(SNESLineSearch, Vec x, Vec step, PetscBool* changed, void* self);
+  bool keep_sliding(Vec x, Vec step);
   /// Sliding velocities of all regularised frictions (Element::sliding) in work_.
   std::vector<Vec3> sliding() const;
   int equation(int multiplier) const {
@@ -97,6 +107,7 @@ class Newton {
   std::vector<int> sliding_parts_;  ///< elements with regularised friction
   const Apply* apply_ = nullptr;
   Configuration* work_ = nullptr;
+  Border* border_ = nullptr;
   Weights weights_, weights_of_factors_;
   bool keep_ = false;
   bool one_tangent_ = false;

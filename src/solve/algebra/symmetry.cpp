@@ -3,12 +3,11 @@
 
 #include <cmath>
 
+#include "solve/algebra/probe.hpp"
+
 namespace engrane::solve {
 
 namespace {
-
-/// Parts of the largest entry of a row: rounding of a sum of some hundred terms.
-constexpr double rounding = 1e-12;
 
 PetscInt local_size(Vec vector) {
   PetscInt size = 0;
@@ -32,20 +31,10 @@ void SymmetryTest::prepare() {
   check_petsc(MatCreateVecs(matrix_, probe_.out(), product_.out()));
   check_petsc(VecDuplicate(product_, transposed_.out()));
   check_petsc(VecDuplicate(product_, largest_.out()));
-  // parts of multiples of the golden ratio: no two entries, sums or differences are alike, and none depends on the ranks
-  constexpr double golden = 0.61803398874989485;
-  PetscInt first = 0, end = 0;
-  PetscScalar* x = nullptr;
-  check_petsc(VecGetOwnershipRange(probe_, &first, &end));
-  check_petsc(VecGetArray(probe_, &x));
-  for (PetscInt i = first; i < end; ++i) {
-    const double turns = golden * static_cast<double>(i + 1);
-    x[i - first] = 0.5 + turns - std::floor(turns);
-  }
-  check_petsc(VecRestoreArray(probe_, &x));
+  fill_probe(probe_);
 }
 
-bool SymmetryTest::symmetric() {
+bool SymmetryTest::symmetric(double part) {
   prepare();
   check_petsc(MatMult(matrix_, probe_, product_));
   check_petsc(MatMultTranspose(matrix_, probe_, transposed_));
@@ -56,7 +45,7 @@ bool SymmetryTest::symmetric() {
   check_petsc(VecGetArrayRead(largest_, &largest));
   bool same = true;
   for (PetscInt i = 0, n = local_size(product_); same && i < n; ++i)
-    same = std::abs(ax[i] - atx[i]) <= rounding * std::abs(largest[i]);
+    same = std::abs(ax[i] - atx[i]) <= part * std::abs(largest[i]);
   check_petsc(VecRestoreArrayRead(product_, &ax));
   check_petsc(VecRestoreArrayRead(transposed_, &atx));
   check_petsc(VecRestoreArrayRead(largest_, &largest));

@@ -11,8 +11,10 @@ namespace engrane::solve {
 class SymmetryTest {
  public:
   explicit SymmetryTest(Mat matrix) : matrix_(matrix) {}
-  /// Of the matrix as it stands. Collective.
-  bool symmetric();
+  /// Parts of the largest entry of a row: rounding of a sum of some hundred terms.
+  static constexpr double rounding = 1e-12;
+  /// Of the matrix as it stands; rows may differ by this `part` of their largest entry. Collective.
+  bool symmetric(double part = rounding);
   /// Whether no entry on the diagonal is zero or negative: a positive definite matrix has none. Collective.
   bool positive_diagonal();
 

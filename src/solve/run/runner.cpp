@@ -61,6 +61,8 @@ bool Runner::run(const Observer& observer, const std::function<void(const StartR
   if (locator_.active()) locator_.switches().take(now_);
   next_ = now_;
   started_ = true;
+  step_.course = scheme_.course();
+  step_.last = over();
   return observer(now_, step_) && march();
 }
 
@@ -95,7 +97,34 @@ void Runner::save(Snapshot& snapshot) const {
   snapshot.put("runner/corner", step_.corner ? 1 : 0);
 }
 
+bool Runner::over() const { return scheme_.course() ? scheme_.course()->arrived : now_.time >= options_.end; }
+
+bool Runner::renew(const NewtonReport& report) {
+  if ((!report.singular && !report.conflict) || renewed_ || !context_.redundancy.analyse(now_)) return false;
+  renewed_ = true;
+  return true;
+}
+
+bool Runner::follow() {
+  h_ = scheme_.course()->next;
+  while (!over()) {
+    const Outcome outcome = scheme_.attempt(now_, h_, next_);
+    if (!outcome.converged()) {
+      if (!renew(outcome.newton)) cut(h_, h_ / 2, outcome.newton);
+      continue;
+    }
+    scheme_.accept();
+    std::swap(now_, next_);
+    renewed_ = false;
+    step_.newton = &outcome.newton;
+    if (!accepted(now_.h, true, true)) return false;
+    h_ = scheme_.course()->next;
+  }
+  return true;
+}
+
 bool Runner::march() {
+  if (scheme_.course()) return follow();
   const double begin = options_.begin, end = options_.end, step = options_.step;
   if (control_.active()) {
     for (const double corner : context_.model.corners(now_.time, end)) {
@@ -144,10 +173,7 @@ bool Runner::reach(double target) {
     const NewtonReport& report = outcome.newton;
     if (!report.converged && found.kind != Kind::drift) {
       // other constraints may depend on the rest here than did at the start
-      if ((report.singular || report.conflict) && !renewed_ && context_.redundancy.analyse(now_)) {
-        renewed_ = true;
-        continue;
-      }
+      if (renew(report)) continue;
       control_.refused();
       cut(size, size / 2, report);
       continue;
@@ -214,6 +240,8 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   step_.step = size;
   step_.regular = regular;
   step_.corner = now_.time == corner_;
+  step_.course = scheme_.course();
+  step_.last = over();
   step_.within = nullptr;
   if (control_.active() && solved) step_.within = [this] { return scheme_.within(next_, now_, ended_); };
   step_.chatter = locator_.chatters();

@@ -23,6 +23,8 @@ struct StepReport {
   bool chatter = false;       ///< the first time that events come too thick to be located
   std::vector<Event> events;  ///< that happened in this step
   const NewtonReport* newton = nullptr;
+  bool last = false;               ///< the run is over
+  const Course* course = nullptr;  ///< along a path of equilibria
 };
 
 /// Called with the start and every accepted step; false ends the run early.
@@ -49,6 +51,11 @@ class Runner {
  private:
   bool march();
   bool reach(double target);
+  /// Along the scheme's own course.
+  bool follow();
+  bool over() const;
+  /// Looks at the constraints again after an attempt that failed; true where that changes them.
+  bool renew(const NewtonReport& report);
   bool drift(double time, double target);
   /// now_ is accepted: by a step that was `solved`, which next_ began, or by a drift.
   bool accepted(double size, bool regular, bool solved);

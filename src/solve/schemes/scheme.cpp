@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "math/angle.hpp"
+#include "solve/schemes/arc_length.hpp"
 #include "solve/schemes/kinematics.hpp"
 #include "solve/schemes/radau.hpp"
 #include "solve/schemes/statics.hpp"
@@ -98,12 +99,13 @@ void Scheme::unknowns_to_multipliers(std::span<const double> unknowns, Configura
       c.multipliers[m] = context_.assembler.scale()[m] * unknowns[static_cast<std::size_t>(equation)];
 }
 
-NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to, bool keep) {
+NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to, bool keep,
+                           Border* border) {
   NewtonReport report;
   int iterations = 0;
   // where forces depend linearly on the multipliers once is enough
   for (int pass = 0; pass < 10; ++pass) {
-    report = context_.newton.solve(unknowns, weights, keep, apply, to);
+    report = context_.newton.solve(unknowns, weights, keep, apply, to, border);
     iterations += report.iterations;
     if (!report.converged || !context_.redundancy.active()) break;
     if (refuse_conflict(to, report)) break;
@@ -127,6 +129,7 @@ std::unique_ptr<Scheme> make_scheme(SolverContext& context) {
     case SolverOptions::Analysis::statics:
       break;
   }
+  if (context.options.path.follow) return std::make_unique<ArcLength>(context);
   return std::make_unique<Statics>(context);
 }
 

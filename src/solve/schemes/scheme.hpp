@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/snapshot.hpp"
+#include "solve/schemes/path_point.hpp"
 #include "solve/schemes/solver_context.hpp"
 
 namespace engrane::solve {
@@ -52,6 +53,9 @@ class Scheme {
   virtual Outcome attempt(const Configuration& from, double h, Configuration& to) = 0;
   /// The last attempt stands.
   virtual void accept() {}
+  /// Of a scheme that follows a path and knows itself how far; of the last step that stands. nullptr: time leads from begin to
+  /// end.
+  virtual const Course* course() const { return nullptr; }
   /// The power of the step that Outcome::error grows with.
   virtual int order_of_error() const { return 1; }
   /// The motion within the step that was accepted last; nullptr where there is none. Valid until the next attempt. `scalars`:
@@ -94,7 +98,8 @@ class Scheme {
 
   /// Newton's method from the unknowns given, with redundant constraints: these are seen to be closed, and their
   /// multipliers made the least.
-  NewtonReport solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to, bool keep = false);
+  NewtonReport solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to, bool keep = false,
+                     Border* border = nullptr);
 
   SolverContext& context_;
 };

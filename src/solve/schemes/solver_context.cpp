@@ -27,7 +27,7 @@ SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm
 }
 
 SolverContext::SolverContext(const Model& m, MPI_Comm comm)
-    : SolverContext(m, solver_options(m.commands.analysis, m.commands.stepping), comm) {}
+    : SolverContext(m, solver_options(m), comm) {}
 
 void SolverContext::save(Snapshot& snapshot) const {
   assembler.save(snapshot);

@@ -68,7 +68,7 @@ StartReport Statics::start(Configuration& c) {
   context_.assembler.choose_scale(c, {1, 0, 0}, context_.options.scale);
   Configuration balanced = c;
   if (context_.newton.keeps_one_tangent()) context_.newton.refine_next();
-  const NewtonReport newton = attempt(c, 0, balanced).newton;
+  const NewtonReport newton = Statics::attempt(c, 0, balanced).newton;
   if (!newton.converged) {
     std::string why = fmt::format("no equilibrium at the start, t = {:.6g}: {}", c.time, newton.reason);
     if (newton.conflict) throw SolutionFailure(why);

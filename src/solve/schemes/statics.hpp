@@ -12,7 +12,7 @@ namespace engrane::solve {
 /// With a tolerance, steps begin on the polynomial through the equilibria before. How far it was from the new one tells what lies
 /// between the two: equilibria themselves are exact, whatever the steps. Displacements of the nodes are added up for it, their
 /// rotation vectors too, each in the node's own axes.
-class Statics final : public Scheme {
+class Statics : public Scheme {
  public:
   explicit Statics(SolverContext& context);
 
@@ -24,6 +24,9 @@ class Statics final : public Scheme {
   std::unique_ptr<Within> within(const Configuration& from, const Configuration& to, std::span<const double> scalars) override;
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
+
+ protected:
+  Vec unknowns() { return unknowns_; }
 
  private:
   class Inside;

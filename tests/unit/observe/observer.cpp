@@ -162,7 +162,7 @@ TEST(Histories, AreThoseThatAreSelected) {
   EXPECT_GT(observer.values()[static_cast<std::size_t>(single)], 1);
   EXPECT_EQ(observer.channel("element/1", "FORCE"), -1);
   EXPECT_EQ(observer.channel("node/10", "UZ"), -1);
-  EXPECT_EQ(observer.values().size(), 4 + run_channels(true, false).size());
+  EXPECT_EQ(observer.values().size(), 4 + run_channels(lamp.assembler.model(), true).size());
 }
 
 TEST(Fields, AreGlobalComponents) {

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/algebra/tangent_factors.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+/// Parts of the largest entry of a row that are left of an equilibrium's forces at most.
+constexpr double unbalanced = 1e-6;
+/// MUMPS' room for pivots that are not where the analysis expects them, per cent.
+constexpr PetscInt first_room = 50, most_room = 5000;
+
+}  // namespace
+
+bool TangentFactors::factor() {
+  is_symmetric_ = symmetry_.symmetric(unbalanced);
+  if (is_symmetric_) check_petsc(MatSetOption(matrix_, MAT_SPD, PETSC_FALSE));
+  for (PetscInt room = first_room;; room *= 4) {
+    factors_ = {};
+    check_petsc(MatGetFactor(matrix_, MATSOLVERMUMPS, is_symmetric_ ? MAT_FACTOR_CHOLESKY : MAT_FACTOR_LU, factors_.out()));
+    check_petsc(MatMumpsSetIcntl(factors_, 14, room));
+    check_petsc(MatMumpsSetIcntl(factors_, 13, 1));  // the last block too is counted
+    if (!is_symmetric_) check_petsc(MatMumpsSetIcntl(factors_, 33, 1));
+    MatFactorInfo info;
+    check_petsc(MatFactorInfoInitialize(&info));
+    if (is_symmetric_) {
+      check_petsc(MatCholeskyFactorSymbolic(factors_, matrix_, nullptr, &info));
+      check_petsc(MatCholeskyFactorNumeric(factors_, matrix_, &info));
+    } else {
+      check_petsc(MatLUFactorSymbolic(factors_, matrix_, nullptr, nullptr, &info));
+      check_petsc(MatLUFactorNumeric(factors_, matrix_, &info));
+    }
+    MatFactorError error = MAT_FACTOR_NOERROR;
+    check_petsc(MatFactorGetError(factors_, &error));
+    if (error == MAT_FACTOR_NOERROR) break;
+    PetscInt code = 0;
+    check_petsc(MatMumpsGetInfog(factors_, 1, &code));
+    const bool short_of_room = code == -8 || code == -9 || code == -14 || code == -15;
+    if (!short_of_room || room > most_room) return false;
+  }
+  if (is_symmetric_) {
+    PetscInt count = 0;
+    check_petsc(MatMumpsGetInfog(factors_, 12, &count));
+    negative_ = static_cast<int>(count);
+  } else {
+    PetscReal determinant = 0;  // but for a power of two
+    check_petsc(MatMumpsGetRinfog(factors_, 12, &determinant));
+    negative_ = determinant < 0 ? 1 : 0;
+  }
+  return true;
+}
+
+}  // namespace engrane::solve

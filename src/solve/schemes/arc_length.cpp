@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/schemes/arc_length.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "solve/algebra/probe.hpp"
+#include "solve/schemes/mode_text.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+/// Difference by which changes of forces with the loads' time are found, over H.
+constexpr double load_step = 1e-4;
+/// Where Newton's method takes more iterations the next step is half as long. Below that they do not count: they change by one
+/// with the last digit, and steps with them.
+constexpr int most_iterations = 12;
+/// Angle that a step of the path is to turn by, and may.
+constexpr double wished_turn = 6 * std::numbers::pi / 180, most_turn = 45 * std::numbers::pi / 180;
+constexpr double longest_step = 0.1;
+/// A corner of the path turns however short the step is.
+constexpr double corner = 1.0 / 128;
+/// Bifurcations are sought to this part of the least eigenvalue, nothing to less than that part of a step. Nearer to a
+/// bifurcation what Newton's method leaves of forces is a visible displacement along the mode.
+constexpr double sharp = 1e-4, narrow = 1e-9;
+/// Where it does, the next trial is nearer to the beginning by a part of the way.
+constexpr double aside = 1e-3;
+constexpr int most_nearer = 4;
+/// A value that small counts where the point lies between ends so near to each other.
+constexpr double near = 0.1;
+constexpr int most_trials = 60;
+/// Inverse iterations for the least eigenvalue, and where they end: vectors are off by the root of that.
+constexpr int most_turns = 30;
+constexpr double settled = 1e-15;
+
+double product(std::span<const double> a, std::span<const double> b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+std::vector<double> copy(std::span<const double> values) { return {values.begin(), values.end()}; }
+
+bool across(double a, double b) { return (a < 0) != (b < 0); }
+
+}  // namespace
+
+ArcLength::ArcLength(SolverContext& context)
+    : Statics(context), factors_(context.assembler.new_matrix()), load_derivative_(context, load_step * context.options.step) {
+  for (Owned<Vec>* vector : {&load_, &toward_, &right_, &plane_}) *vector->out() = context.assembler.new_vector();
+  const double extent = context.model.extent();
+  for (const Unknown& u : context.numbering.unknowns())
+    weights_.push_back(u.multiplier ? 0 : u.measure == Measure::force ? 1 / (extent * extent) : 1);
+}
+
+StartReport ArcLength::start(Configuration& c) {
+  StartReport report = Statics::start(c);
+  for (const Unknown& u : context_.numbering.unknowns())
+    if (u.multiplier && !context_.assembler.released(u.slot - context_.numbering.motion_slots())) ++constraints_;
+  unit_ = 0;
+  if (!examine(c, nullptr, here_))
+    throw SolutionFailure("the path cannot be followed: the tangent matrix is singular at its start");
+  if (unit_ == 0)
+    throw SolutionFailure(
+        "the path cannot be followed: nothing moves when time grows; give the loads, or a prescribed displacement, a function of "
+        "time "
+        "with NF");
+  course_.next = context_.options.step;
+  course_.unstable = unstable(here_);
+  return report;
+}
+
+double ArcLength::length(std::span<const double> way) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < way.size(); ++i) sum += weights_[i] * way[i] * way[i];
+  return std::sqrt(sum);
+}
+
+int ArcLength::unstable(const Point& point) const { return point.symmetric ? point.negative - constraints_ : point.negative; }
+
+bool ArcLength::examine(const Configuration& c, const Point* before, Point& point) {
+  Configuration rested;
+  move_and_rest(context_, c, std::vector<double>(context_.motion.size(), 0.0), rested);
+  context_.assembler.tangent(rested, {1, 0, 0}, factors_.matrix());
+  if (!factors_.factor()) return false;
+  load_derivative_.turn(!before || before->load >= 0);
+  load_derivative_.find(rested, load_);
+  factors_.solve(load_, toward_);
+  point.way = copy(context_.assembler.gather(toward_));
+  point.negative = factors_.negative();
+  point.symmetric = factors_.symmetric();
+  const double size = length(point.way);
+  if (!std::isfinite(size)) return false;
+  if (unit_ == 0) unit_ = size;
+  if (size == 0) return true;
+  point.load = unit_ / size;
+  for (double& value : point.way) value *= -point.load;
+  if (!before) return true;
+  double along = 0;
+  for (std::size_t i = 0; i < point.way.size(); ++i) along += weights_[i] * before->way[i] * point.way[i];
+  if (along < 0) {
+    point.load = -point.load;
+    for (double& value : point.way) value = -value;
+  }
+  return true;
+}
+
+double ArcLength::cosine(const Point& a, const Point& b) const {
+  double along = 0;
+  for (std::size_t i = 0; i < a.way.size(); ++i) along += weights_[i] * a.way[i] * b.way[i];
+  along /= unit_ * unit_;
+  return (along + a.load * b.load) / std::sqrt((1 + a.load * a.load) * (1 + b.load * b.load));
+}
+
+NewtonReport ArcLength::follow(const Configuration& from, const Point& here, double h, Configuration& to) {
+  to = from;
+  to.time = from.time + h;
+  to.h = h;
+  now_ = from.load_time() + here.load * h;
+  load_derivative_.turn(here.load >= 0);
+  const auto before = context_.motion.prescribed(from.load_time());
+  std::vector<double> y(context_.motion.size(), 0.0), guess(here.way.size(), 0.0), normal(here.way.size());
+  const auto prescribe = [&] {
+    if (before.empty()) return;
+    const auto after = context_.motion.prescribed(now_);
+    for (std::size_t i = 0; i < after.size(); ++i) y[after[i].slot] = after[i].u - before[i].u;
+  };
+  multipliers_to_unknowns(from, guess);
+  for (std::size_t i = 0; i < guess.size(); ++i) {
+    guess[i] += h * here.way[i];
+    normal[i] = weights_[i] * here.way[i];
+  }
+  aim_ = h * product(normal, here.way);
+  context_.assembler.spread(normal, plane_);
+  const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
+    context_.motion.scatter(unknowns, y);
+    prescribe();
+    context_.motion.move(from, y, c);
+    c.lead = now_ - c.time;
+    unknowns_to_multipliers(unknowns, c);
+  };
+  context_.assembler.spread(guess, unknowns());
+  work_ = &to;
+  NewtonReport report = solve(unknowns(), {1, 0, 0}, apply, to, false, this);
+  refuse_half_turns(y, report);
+  return report;
+}
+
+void ArcLength::complete(Vec x, Vec step) {
+  load_derivative_.find(*work_, load_);
+  if (!context_.solver.solve(load_, toward_)) return;
+  PetscReal at = 0, by = 0, with = 0;
+  check_petsc(VecDot(plane_, x, &at));
+  check_petsc(VecDot(plane_, step, &by));
+  check_petsc(VecDot(plane_, toward_, &with));
+  // with Δ of the loads' time x changes by −step − Δ toward
+  const double change = (at - by - aim_) / with;
+  if (!std::isfinite(change)) return;
+  now_ += change;
+  check_petsc(VecAXPY(step, change, toward_));
+}
+
+Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& to) {
+  next_course_ = {};
+  next_bifurcations_ = bifurcations_;
+  NewtonReport report = follow(from, here_, h, to);
+  if (!report.converged) return {std::move(report), {}};
+  if (!examine(to, &here_, there_)) {
+    report.converged = false;
+    report.singular = true;
+    report.reason = "the tangent matrix is singular at the end of the step";
+    return {std::move(report), {}};
+  }
+  const double turn = std::acos(std::clamp(cosine(here_, there_), -1.0, 1.0));
+  if (!branching_ && turn > most_turn && h > corner * context_.options.step) {
+    report.converged = false;
+    report.reason = fmt::format("the path turns by {:.0f} degrees in the step", turn * 180 / std::numbers::pi);
+    return {std::move(report), {}};
+  }
+  const double growth = report.iterations > most_iterations ? 0.5 : std::clamp(wished_turn / turn, 0.5, 2.0);
+  // the loads' time changes by a part of the run's at most
+  const double longest = longest_step * (context_.options.end - context_.options.begin) / std::abs(there_.load);
+  next_course_.next = std::min(growth * h, longest);
+  find_goal(from, h, to, there_);
+  if (!branching_) find_critical(from, h, to, there_);
+  return {std::move(report), {}};
+}
+
+void ArcLength::find_goal(const Configuration& from, double& h, Configuration& to, Point& there) {
+  const SolverOptions::Path& path = context_.options.path;
+  const auto seek = [&](const std::function<double(const Configuration&)>& value) {
+    const double first = value(from);
+    if (first == 0 || !across(first, value(to))) return;
+    locate(from, h, to, there, first, narrow, [&](const Configuration& c, const Point&) { return value(c); });
+    next_course_.arrived = true;
+  };
+  const double end = context_.options.end;
+  seek([end](const Configuration& c) { return c.load_time() - end; });
+  if (path.node > 0)
+    seek([&](const Configuration& c) {
+      const auto node = static_cast<std::size_t>(path.node);
+      return (c.nodes[node].x - context_.model.nodes[node].x)[path.component] - path.displacement;
+    });
+}
+
+ArcLength::Bracket ArcLength::locate(const Configuration& from, double& h, Configuration& to, Point& there, double first,
+                                     double precision, const std::function<double(const Configuration&, const Point&)>& value) {
+  Bracket found{{here_, from.load_time(), first}, {there, to.load_time(), value(to, there)}};
+  const double whole = h, small = precision * std::max(std::abs(first), std::abs(found.behind.value));
+  double low = 0, high = h, at_low = first, at_high = found.behind.value;
+  int side = 0;
+  for (int trial = 0; trial < most_trials && high - low > narrow * whole; ++trial) {
+    // the false position; an end that stays twice counts half (Illinois). The least eigenvalue at an end may be another one than
+    // that which changes its sign: every third time the middle
+    double h_try = high - at_high * (high - low) / (at_high - at_low);
+    if (!(h_try > low && h_try < high) || trial % 3 == 2) h_try = 0.5 * (low + high);
+    Configuration tried;
+    Point point;
+    bool solved = false;
+    // next to a bifurcation the tangent may be too near to singular
+    for (int nearer = 0; !solved && nearer < most_nearer; ++nearer, h_try -= aside * (h_try - low))
+      if (follow(from, here_, h_try, tried).converged && examine(tried, &here_, point)) {
+        solved = true;
+        break;
+      }
+    if (!solved) break;
+    const double at = value(tried, point);
+    if (across(at, at_high)) {
+      if (side < 0) at_high /= 2;
+      low = h_try, at_low = at, side = -1;
+      found.before = {point, tried.load_time(), at};
+    } else {
+      if (side > 0) at_low /= 2;
+      high = h_try, at_high = at, side = 1;
+      found.behind = {point, tried.load_time(), at};
+    }
+    h = h_try;
+    to = std::move(tried);
+    there = std::move(point);
+    if (std::abs(at) <= small && high - low < near * whole) break;
+  }
+  return found;
+}
+
+void ArcLength::find_critical(const Configuration& from, double& h, Configuration& to, Point& there) {
+  if (there.negative == here_.negative || there.symmetric != here_.symmetric) return;
+  const bool limit = across(here_.load, there.load) && std::abs(there.negative - here_.negative) == 1;
+  const int before = here_.negative;
+  const auto value = [&](const Configuration&, const Point& point) {
+    if (limit) return point.load;
+    // the least eigenvalue, with a sign that tells the side
+    const double size = std::abs(least_mode().eigenvalue);
+    return point.negative == before ? size : -size;
+  };
+  double first = here_.load;
+  if (!limit) {
+    Point start;
+    if (!examine(from, &here_, start)) return;
+    first = std::abs(least_mode().eigenvalue);
+    if (!examine(to, &here_, there)) return;  // the factors are of the end again
+  }
+  const Bracket bracket = locate(from, h, to, there, first, limit ? narrow : sharp, value);
+  // where the search has ended its last factors may be of an attempt that failed
+  if (!examine(to, &here_, there)) return;
+  const Mode mode = least_mode();
+  CriticalPoint point;
+  point.kind = limit ? CriticalPoint::Kind::limit : CriticalPoint::Kind::bifurcation;
+  point.load_time = to.load_time();
+  if (limit)
+    there.load = bracket.behind.point.load;
+  else
+    point.load_time = std::lerp(bracket.before.load_time, bracket.behind.load_time,
+                                bracket.before.value / (bracket.before.value - bracket.behind.value));
+  point.before = unstable(bracket.before.point);
+  point.after = unstable(bracket.behind.point);
+  point.mode = largest_components(context_.numbering, mode.vector);
+  there.negative = bracket.behind.point.negative;
+  if (!limit && ++next_bifurcations_ == context_.options.path.branch) point.switched = take_branch(mode, there);
+  next_course_.critical = std::move(point);
+  next_course_.arrived = false;  // that was behind it
+}
+
+ArcLength::Mode ArcLength::least_mode() {
+  const auto equations = weights_.size();
+  Mode mode;
+  mode.vector.resize(equations);
+  // no motion is without a part in it
+  for (std::size_t i = 0; i < equations; ++i) mode.vector[i] = weights_[i] > 0 ? probe_value(i) : 0;
+  std::vector<double> right(equations);
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const double size = length(mode.vector);
+    for (std::size_t i = 0; i < equations; ++i) right[i] = weights_[i] * mode.vector[i] / size;
+    context_.assembler.spread(right, right_);
+    factors_.solve(right_, toward_);
+    std::vector<double> next = copy(context_.assembler.gather(toward_));
+    const double inverse = product(right, next);
+    const double before = mode.eigenvalue;
+    mode.eigenvalue = 1 / inverse;
+    mode.vector = std::move(next);
+    if (turn > 0 && std::abs(mode.eigenvalue - before) <= settled * std::abs(mode.eigenvalue)) break;
+  }
+  return mode;
+}
+
+double ArcLength::take_branch(const Mode& mode, Point& there) {
+  const SolverOptions::Path& path = context_.options.path;
+  const double size = length(mode.vector) / unit_;
+  double farthest = 0;
+  for (std::size_t i = 0; i < weights_.size(); ++i)
+    if (is_translation(context_.numbering, i) && std::abs(mode.vector[i]) > std::abs(farthest)) farthest = mode.vector[i];
+  if (farthest == 0) return 0;
+  there.way = mode.vector;
+  there.load = 0;
+  // the sign of the amplitude is that of the largest displacement
+  const double sign = across(farthest, path.amplitude) ? -1 : 1;
+  for (double& value : there.way) value *= sign / size;
+  branch_step_ = std::abs(path.amplitude / farthest) * size;
+  return path.amplitude;
+}
+
+void ArcLength::accept() {
+  here_ = std::move(there_);
+  const double before = course_.critical_time;
+  course_ = std::move(next_course_);
+  course_.critical_time = course_.critical ? course_.critical->load_time : before;
+  course_.unstable = unstable(here_);
+  bifurcations_ = next_bifurcations_;
+  branching_ = course_.critical && course_.critical->switched != 0;
+  if (branching_) course_.next = branch_step_;
+  if (context_.options.path.steps > 0 && ++steps_ >= context_.options.path.steps) course_.arrived = true;
+}
+
+void ArcLength::save(Snapshot& snapshot) const {
+  Statics::save(snapshot);
+  snapshot.put("path/way", here_.way);
+  snapshot.put("path/state",
+               {here_.load, static_cast<double>(here_.negative), here_.symmetric ? 1.0 : 0.0, unit_,
+                static_cast<double>(constraints_), static_cast<double>(bifurcations_), static_cast<double>(steps_),
+                branching_ ? 1.0 : 0.0, course_.next, static_cast<double>(course_.unstable), course_.critical_time});
+}
+
+void ArcLength::load(const Snapshot& snapshot) {
+  Statics::load(snapshot);
+  here_.way = snapshot.array("path/way");
+  const std::vector<double>& state = snapshot.array("path/state");
+  if (here_.way.size() != weights_.size()) throw std::out_of_range("the path has other equations");
+  here_.load = state.at(0);
+  here_.negative = static_cast<int>(state.at(1));
+  here_.symmetric = state.at(2) != 0;
+  unit_ = state.at(3);
+  constraints_ = static_cast<int>(state.at(4));
+  bifurcations_ = static_cast<int>(state.at(5));
+  steps_ = static_cast<int>(state.at(6));
+  branching_ = state.at(7) != 0;
+  course_.next = state.at(8);
+  course_.unstable = static_cast<int>(state.at(9));
+  course_.critical_time = state.at(10);
+}
+
+}  // namespace engrane::solve

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/schemes/load_derivative.hpp"
+
+#include <vector>
+
+namespace engrane::solve {
+
+LoadDerivative::LoadDerivative(SolverContext& context, double step) : context_(context), step_(step) {
+  *next_.out() = context.assembler.new_vector();
+}
+
+void LoadDerivative::find(const Configuration& c, Vec f) {
+  const double now = c.load_time();
+  const auto before = context_.motion.prescribed(now);
+  std::vector<double> y(before.empty() ? 0 : context_.motion.size(), 0.0);
+  const auto residual = [&](double later, Vec into) {
+    moved_ = c;
+    if (!y.empty()) {
+      const auto after = context_.motion.prescribed(now + later);
+      for (std::size_t i = 0; i < after.size(); ++i) y[after[i].slot] = after[i].u - before[i].u;
+      context_.motion.move(c, y, moved_);
+    }
+    moved_.lead += later;
+    context_.assembler.residual(moved_, into);
+  };
+  residual(0, f);
+  check_petsc(VecScale(f, -3));
+  residual(step_, next_);
+  check_petsc(VecAXPY(f, 4, next_));
+  residual(2 * step_, next_);
+  check_petsc(VecAXPY(f, -1, next_));
+  check_petsc(VecScale(f, 0.5 / step_));
+}
+
+void move_and_rest(const SolverContext& context, const Configuration& from, std::span<const double> y, Configuration& to) {
+  to = from;
+  context.motion.move(from, y, to);
+  for (NodeState& node : to.nodes) node.T.setIdentity();
+}
+
+}  // namespace engrane::solve

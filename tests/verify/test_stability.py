@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Paths of equilibria past their critical points, and linearised buckling, against closed forms."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from beam_problems import Line, clamp, deck, orders, straight
+from runs import Run, run
+from scipy.special import ellipk
+
+LENGTH = 10.0
+EULER = np.pi**2 * 1e3 / (4 * LENGTH**2)  # of a column with EI 1e3, clamped and free
+
+
+def path(loads: str, rest: str, end: float = 1.5, step: float = 0.1) -> str:
+    return f'.CLM\n{loads}\n.FCT\n I 1 EXPR "T"\n.SAM TYPE STATIC\n.SUB TF {end!r} H {step!r}\n{rest}'
+
+
+def critical_points(found: Run) -> list[tuple[str, float]]:
+    """Kind and load time, from the listing."""
+    text = found.file.with_suffix(".lst").read_text()
+    return [(k, float(v)) for k, v in re.findall(r"(limit|bifurcation) point at load time (\S+),", text)]
+
+
+def column(section: str, pieces: int, folder: Path, rest: str, end: float = 1.5) -> Run:
+    """Pressed by the Euler load times the load time."""
+    line = Line(straight(LENGTH, (0, 1, 0)), pieces)
+    loads = f" {clamp(1)}\n CHA NOEUD {line.last} C 2 V {-EULER!r} NF 1"
+    return run(deck([line], section, path(loads, rest, end), "BPR 1 AXIS2 1 0 0"), folder)
+
+
+@pytest.mark.parametrize("solver", ["MUMPS", "KLU"])
+def test_truss(solver: str, tmp_path: Path) -> None:
+    """Two shallow bars snap through: P = (EA/L^3) (2 h w - w^2) (h - w) with Green's strain. Both limits, and
+    the path between them."""
+    loads = " FIX NOEUD 1 3 C 1 2 3\n FIX NOEUD 2 C 1 3\n CHA NOEUD 2 C 2 V -1000 NF 1"
+    text = f""".NOE
+ I 1 X -4 0 0
+ I 2 X 0 1 0
+ I 3 X 4 0 0
+.MCE
+ I 1 BAR N 1 2 EA 1D5
+ I 2 BAR N 3 2 EA 1D5
+{path(loads, ".PATH")}
+.FIN 1
+""".replace("TYPE STATIC", f"TYPE STATIC SOLVER {solver}")
+    found = run(text, tmp_path)
+    w = -found["node/2/UY"]
+    load = 1e5 / 17**1.5 * (2 * w - w**2) * (1 - w)
+    assert 1000 * found["run/LOAD_TIME"] == pytest.approx(load, abs=1e-6)
+    limit = 1e5 / 17**1.5 * 2 / (3 * np.sqrt(3)) / 1000
+    points = critical_points(found)
+    assert [kind for kind, _ in points] == ["limit", "limit"]
+    assert [value for _, value in points] == pytest.approx([limit, -limit], rel=1e-8)
+    assert found["run/UNSTABLE"].max() == 1
+    assert found["run/LOAD_TIME"][-1] == pytest.approx(1.5, rel=1e-8)
+
+
+def test_compressible_column(tmp_path: Path) -> None:
+    """Reissner's column shortens and shears: P (1 + P/GA - P/EA) = pi^2 EI/(4 L^2). Order 4 of its load."""
+    ea, ga = 1000.0, 400.0
+    c = 1 / ga - 1 / ea
+    exact = (np.sqrt(1 + 4 * c * EULER) - 1) / (2 * c) / EULER
+    section = f"EA {ea!r} GA {ga!r} {ga!r} GJ 1D3 EI 1D3 1.5D3"
+    errors = []
+    for pieces in (2, 4, 8):
+        points = critical_points(column(section, pieces, tmp_path, ".PATH", 1.3))
+        assert [kind for kind, _ in points] == ["bifurcation", "bifurcation"][: len(points)]
+        errors.append(abs(points[0][1] - exact))
+    assert errors[-1] < 2e-5
+    assert orders(errors)[-1] == pytest.approx(4, abs=0.3)
+
+
+def test_branch(tmp_path: Path) -> None:
+    """The bent column is Euler's elastica: with the end turned by 60 degrees, P = (2 K/pi)^2 of the critical
+    load and the end 2 k L/K to the side. It is stable, and lies on the side that AMPLITUDE says."""
+    k = np.sin(np.pi / 6)
+    side = float(2 * k * LENGTH / ellipk(k * k))
+    for sign in (1, -1):
+        rest = f".PATH BRANCH 1 AMPLITUDE {0.05 * sign!r} NODE 33 C 3 V {sign * side!r}"
+        found = column("EA 1D7 GA 4D6 4D6 GJ 1D3 EI 1D3 1.5D3", 16, tmp_path, rest)
+        assert found["run/LOAD_TIME"][-1] == pytest.approx((2 * ellipk(k * k) / np.pi) ** 2, rel=2e-5)
+        assert found["node/33/UZ"][-1] == pytest.approx(sign * side, rel=1e-7)
+        assert found["run/UNSTABLE"][-1] == 0
+        assert critical_points(found)[0][1] == pytest.approx(1, rel=2e-5)
+
+
+def test_follower_force(tmp_path: Path) -> None:
+    """Beck's column under a force that turns with its end has no second equilibrium: it flutters, and no
+    static critical point is found up to four times the Euler load. The tangent is not symmetric."""
+    line = Line(straight(LENGTH, (0, 1, 0)), 8)
+    push = f" I 900 FORCE N {line.last} DIR 0 -1 0 V {EULER!r} NF 1 FOLLOW"
+    section = "EA 1D7 GA 4D6 4D6 GJ 1D3 EI 1D3 1.5D3"
+    text = deck([line], section, path(f" {clamp(1)}", ".PATH", 4.0), "BPR 1 AXIS2 1 0 0", push)
+    found = run(text, tmp_path)
+    assert critical_points(found) == []
+    assert found["run/UNSTABLE"].max() == 0
+
+
+def test_right_angle_frame(tmp_path: Path) -> None:
+    """Two legs at a right angle, bent in their plane by moments at their ends, tip over (Argyris 1979;
+    622.2080872 without what they bend before)."""
+    length, depth, width, young, nu = 240.0, 30.0, 0.6, 71240.0, 0.31
+    shear, s, pieces = young / 2 / (1 + nu), 0.5**0.5, 8
+    area = depth * width
+    left = Line(lambda u: np.array([(u - 1) * length * s, u * length * s, 0]), pieces)
+    right = Line(lambda u: np.array([u * length * s, (1 - u) * length * s, 0]), pieces, first=100, element=51)
+    apex = left.last
+    right.ids[0] = apex
+    loads = f""" FIX NOEUD 1 {right.last} C 2 3 4 5
+ FIX NOEUD {apex} C 1
+ CHA NOEUD 1 C 6 V 622.2080872 NF 1
+ CHA NOEUD {right.last} C 6 V -622.2080872 NF 1"""
+    nodes = "\n".join([left.text(), *right.text().splitlines()[1:]])
+    text = f""".NOE
+{nodes}
+.BPR
+ I 1 EA {young * area!r} GA {shear * area * 5 / 6!r} {shear * area * 5 / 6!r}
+     GJ {shear * depth * width**3 / 3!r} EI {young * area * width**2 / 12!r} {young * area * depth**2 / 12!r}
+.MCE
+{left.beam(f"BPR 1 AXIS2 {-s!r} {s!r} 0")}
+{right.beam(f"BPR 1 AXIS2 {s!r} {s!r} 0")}
+{path(loads, ".PATH", 1.2)}
+.BUCKLING MODES 2
+.FIN 1
+"""
+    found = run(text, tmp_path)
+    assert critical_points(found)[0] == ("bifurcation", pytest.approx(1, rel=6e-5))
+    # the tangent changes linearly but for a thousandth
+    assert found["run/BUCKLING_TIME_1"][-1] == pytest.approx(1, rel=1.2e-3)
+
+
+def test_linearised(tmp_path: Path) -> None:
+    """Euler loads of both planes, and the modes of a cantilever, 1 - cos(k x). Near a load the linearisation
+    is the exact one."""
+    section = "EA 1D5 GA 4D4 4D4 GJ 1D3 EI 1D3 1.5D3"
+    found = column(section, 8, tmp_path, ".BUCKLING MODES 4", 0.5)
+    times = [found[f"run/BUCKLING_TIME_{i}"][-1] for i in (1, 2, 3, 4)]
+    assert times == pytest.approx([1, 1.5, 9, 13.5], rel=1e-2)
+    with h5py.File(found.file) as file:
+        assert file["modes/load_time"][()] == pytest.approx(times)
+        shape = file["modes/mode_1"][()]
+        turn = file["modes/rotation_1"][()]
+    y = np.linspace(0, LENGTH, 17)
+    k = np.pi / (2 * LENGTH)
+    assert np.abs(shape[:, 2]) == pytest.approx(1 - np.cos(k * y), abs=1e-3)
+    assert np.abs(turn[:, 0]) == pytest.approx(k * np.sin(k * y), abs=1e-3)
+    assert np.abs(shape[:, :2]).max() < 1e-8
+    exact = critical_points(column(section, 8, tmp_path, ".PATH", 1.2))[0][1]
+    off = []
+    for end in (0.5, 0.9):
+        found = column(section, 8, tmp_path, ".BUCKLING MODES 1 BASE END", end)
+        off.append(abs(found["run/BUCKLING_TIME_1"][-1] - exact))
+    assert off[1] < 0.05 * off[0] + 1e-9
+
+
+def test_lost_loads(tmp_path: Path) -> None:
+    """Nothing that grows: an error that says so, not a path of nothing."""
+    line = Line(straight(LENGTH, (0, 1, 0)), 2)
+    loads = f" {clamp(1)}\n CHA NOEUD {line.last} C 2 V -1"
+    for card in (".PATH", ".BUCKLING"):
+        text = deck([line], "EA 1D5 GA 4D4 4D4 GJ 1D3 EI 1D3 1D3", path(loads, card), "BPR 1 AXIS2 1 0 0")
+        found = run(text, tmp_path, status=2)
+        partial = found.file.with_suffix(".lst").read_text()
+        assert "nothing moves when time grows" in partial
+
+
+def test_ranks(tmp_path: Path) -> None:
+    """Critical points on 1 and 2 ranks."""
+    text = (Path(__file__).parents[2] / "decks" / "mechanisms" / "portal_frame.dat").read_text()
+    one = critical_points(run(text, tmp_path, "one"))
+    two = critical_points(run(text, tmp_path, "two", ranks=2))
+    assert [kind for kind, _ in one] == ["bifurcation", "limit"] == [kind for kind, _ in two]
+    assert [v for _, v in two] == pytest.approx([v for _, v in one], rel=1e-7)
