@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Beams that do not stretch or shear, against the elastica and the limit of stiff ones; sections that change."""
+"""Beams that do not stretch or shear, against the elastica and the limit of stiff ones."""
 
 from __future__ import annotations
 
@@ -42,9 +42,7 @@ def test_elastica(alpha: float, nodes: int, expected: list[float], tmp_path: Pat
 def test_limit(tmp_path: Path) -> None:
     """What stiff beams differ by falls with 1/EA."""
     held = cantilever(10, 4, 3, tmp_path, HELD, 1)
-    away = [
-        np.hypot(*(cantilever(10, 4, 3, tmp_path, "BPR 1", stiff) - held)) for stiff in (1e4, 1e5, 1e6)
-    ]
+    away = [np.hypot(*(cantilever(10, 4, 3, tmp_path, "BPR 1", stiff) - held)) for stiff in (1e4, 1e5, 1e6)]
     assert np.array(away[:-1]) / away[1:] == pytest.approx(10, rel=0.02)
 
 
@@ -65,5 +63,7 @@ def condition(beam: str, stiff: float, folder: Path) -> float:
 
 def test_condition(tmp_path: Path) -> None:
     """Multipliers take the place of stiffness that drives up the condition of the matrix."""
-    assert [condition(HELD, stiff, tmp_path) for stiff in (1e2, 1e12)] == pytest.approx([1.96e5, 1.96e5], rel=0.01)
+    assert [condition(HELD, stiff, tmp_path) for stiff in (1e2, 1e12)] == pytest.approx(
+        [1.96e5, 1.96e5], rel=0.01
+    )
     assert condition("BPR 1", 1e12, tmp_path) > 1e13
