@@ -22,6 +22,8 @@ namespace {
 constexpr double near = 1e-6;
 /// Pieces are at most so many diameters long, unless PIECES says how many there are.
 constexpr double slender = 3;
+/// More pieces between two places are a slip of a unit.
+constexpr int most_pieces = 1000;
 
 class ShaftWriter {
  public:
@@ -69,6 +71,7 @@ class ShaftWriter {
   double bore(std::size_t step, bool end) const {
     return each(end && !data_.bore_end.empty() ? data_.bore_end : data_.bore, step);
   }
+  double mean_diameter(std::size_t step) const { return (diameter(step, false) + diameter(step, true)) / 2; }
   bool is_cone(std::size_t step) const {
     return diameter(step, true) != diameter(step, false) || bore(step, true) != bore(step, false);
   }
@@ -132,6 +135,12 @@ class ShaftWriter {
                       "the bore is below the diameter");
           return false;
         }
+    for (std::size_t step = 0; step < steps() && !data_.pieces; ++step)
+      if (const double length = step_end(step) - step_start(step); !(length < most_pieces * slender * mean_diameter(step))) {
+        form_.error("D", fmt::format("step {} is {} long and {} thick", step + 1, number(length), number(mean_diameter(step))),
+                    "a shaft so slender needs PIECES, the number of pieces");
+        return false;
+      }
     return true;
   }
 
@@ -264,8 +273,7 @@ class ShaftWriter {
     beam.nodes = {stops.front().node};
     for (std::size_t i = 1; i < stops.size(); ++i) {
       const double start = stops[i - 1].place, span = stops[i].place - start;
-      const double mean = (diameter(step, false) + diameter(step, true)) / 2;
-      const int pieces = data_.pieces.value_or(static_cast<int>(std::ceil(span / (slender * mean) * (1 - near))));
+      const int pieces = data_.pieces.value_or(static_cast<int>(std::ceil(span / (slender * mean_diameter(step)) * (1 - near))));
       for (int k = 1; k < 2 * pieces; ++k) beam.nodes.push_back(make_node(start + span * k / (2 * pieces)));
       beam.nodes.push_back(stops[i].node == 0 ? make_node(to) : stops[i].node);
     }
@@ -361,7 +369,8 @@ ElementType shaft_type() {
   card.add("PIECES", &ShaftData::pieces,
            "pieces of three nodes between two stations or ends of steps; by itself so many that none is longer than three "
            "diameters")
-      .at_least(1);
+      .at_least(1)
+      .at_most(most_pieces);
   card.add("SHEAR", &ShaftData::shear, "shear factor of all sections; otherwise that of Cowper").positive();
   card.add("DAMPING", &ShaftData::damping, "material damping, as of BEAM")
       .synonyms({"AMORTISSEMENT"})
