@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "model/groups.hpp"
 #include "model/model.hpp"
 #include "model/node_load.hpp"
+#include "model/short_form.hpp"
 #include "model/solver_options.hpp"
 #include "model/user_function.hpp"
 
@@ -26,8 +28,8 @@ namespace {
 /// Carries what the passes over the records share.
 class Builder {
  public:
-  Builder(const deck::Deck& deck, const std::vector<ElementType>& types, Diagnostics& diagnostics)
-      : deck_(deck), types_(types), diagnostics_(diagnostics), groups_(nodes_, diagnostics) {}
+  Builder(const deck::Deck& deck, const std::vector<ElementType>& types, std::set<int> fixed, Diagnostics& diagnostics)
+      : deck_(deck), types_(types), diagnostics_(diagnostics), fixed_(std::move(fixed)), groups_(nodes_, diagnostics) {}
 
   Model build() {
     for (const deck::Record& record : deck_.records) {
@@ -488,6 +490,11 @@ class Builder {
     if (!check_references(record, unheard)) return;
     const auto placed = element.type->place(context_of(record, unheard));
     if (!placed) return;
+    if (fixed_.count(placed->node) > 0) {
+      diagnostics_.error(record.where("PLACE"), fmt::format("node {} is one of a SHAFT: it cannot be placed", placed->node),
+                         "leave PLACE out, and say where the node is in .NOE");
+      return;
+    }
     const auto [old, fresh] = placed_by_.try_emplace(placed->node, &record);
     const Vec3& x = nodes_.at(placed->node);
     const double size = (placed->x - nodes_.at(placed->from)).norm();
@@ -550,6 +557,7 @@ class Builder {
   const deck::Deck& deck_;
   const std::vector<ElementType>& types_;
   Diagnostics& diagnostics_;
+  std::set<int> fixed_;  ///< nodes from which others were placed already
   NodePositions nodes_;
   std::unordered_map<const deck::Schema*, const ElementType*> types_by_schema_;
   std::vector<ElementRecord> elements_;                     ///< in the order of the deck
@@ -578,7 +586,11 @@ class Builder {
 }  // namespace
 
 Model build_model(const deck::Deck& deck, const std::vector<ElementType>& types, Diagnostics& diagnostics) {
-  return Builder(deck, types, diagnostics).build();
+  std::set<int> fixed;
+  const std::shared_ptr<const deck::Deck> written_out = write_out(deck, types, fixed, diagnostics);
+  Model model = Builder(written_out ? *written_out : deck, types, std::move(fixed), diagnostics).build();
+  model.written_out = written_out;
+  return model;
 }
 
 }  // namespace engrane

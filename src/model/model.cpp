@@ -91,7 +91,7 @@ double mass_at_first_node(const Model& model, const Model::Part& part) {
 
 bool has_cells(const Model& model) {
   return std::any_of(model.parts.begin(), model.parts.end(),
-                     [](const Model::Part& part) { return part.element->cell_shape() != CellShape::none; });
+                     [](const Model::Part& part) { return part.element->cell_shape() != CellShape::none || part.type == "MAI"; });
 }
 
 std::string parameters_json(const Model::Part& part) {

@@ -75,13 +75,15 @@ struct Model {
   using Node = NodePositions::Node;
   struct Part {
     std::unique_ptr<Element> element;
-    std::string type;                      ///< card name, such as `GEAR`; `CHA` for a nodal load
-    const deck::Record* record = nullptr;  ///< of the deck that the model was built from, which lives as long
+    std::string type;  ///< card name, such as `GEAR`; `CHA` for a nodal load
+    const deck::Record* record =
+        nullptr;  ///< of the deck that the model was built from, which lives as long, or of `written_out`
     Location location;
     std::vector<int> nodes;  ///< indices of the element's nodes
   };
 
   std::string title;
+  std::shared_ptr<const deck::Deck> written_out;  ///< the deck with what its short forms stand for; nullptr: it has none
   UnitSystem units;
   std::vector<Node> nodes;  ///< the ground first (id 0), then by id
   std::map<int, std::unique_ptr<Function>> functions;

@@ -84,6 +84,8 @@ struct NodePlacement {
   Vec3 x = Vec3::Zero();
 };
 
+class ShortForm;
+
 /// An element of the deck language: its card and how to build it.
 struct ElementType {
   deck::Schema schema;
@@ -91,6 +93,8 @@ struct ElementType {
   int stage = 0;  ///< elements of stage 1 are built last and may ask what the others give (`wheel_inertia`)
   /// May place a node. Faults that hinder it are left to `build`: diagnostics of this call are thrown away.
   std::function<std::optional<NodePlacement>(const BuildContext&)> place = nullptr;
+  /// Of a short form: puts the records that stand for the card's; such a card is never built.
+  std::function<void(ShortForm&)> expand = nullptr;
 };
 
 /// All elements, in the order of the manual; written by CMake's add_element().

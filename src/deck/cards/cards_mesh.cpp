@@ -14,16 +14,18 @@ Schema hypothesis_card() {
   card.chapter(chapter);
   card.describe(
       "`MEMB BIDIM` (or `CONT PLAN`) is plane stress, `DEFO PLAN` plane strain, `AXIS` axisymmetric about the global y axis with "
-      "radius x; solids have VOLUME, also without a record. Other formulations of BACON are refused by their name. Of several "
+      "radius x; solids have VOLUME, also without a record; cells of two nodes, or three, have BEAM. Other formulations of BACON "
+      "are refused by their name. Of several "
       "records on a cell the last holds.");
   card.add("FORMULATION", &HypothesisCard::formulation,
-           "MEMBRANE, CONTRAINTE, DEFORMATION, AXISYMETRIQUE or VOLUME, or their beginning")
+           "MEMBRANE, CONTRAINTE, DEFORMATION, AXISYMETRIQUE, VOLUME, or BEAM (POUTRE), or their beginning")
       .positional()
       .required();
   card.add("VARIANT", &HypothesisCard::variant, "BIDIM behind MEMBRANE, PLANE behind the others").positional();
   card.add("GROUP", &HypothesisCard::groups, "groups of cells: names or numbers; none: all cells")
       .refers(Reference::group)
       .values(1, detail::any_number);
+  card.example(".HYP BEAM GROUP \"frame\"");
   card.example(".HYP MEMB BIDIM GROUP \"web\"").example(".HYP DEFO PLAN GROUP \"dam\"").example(".HYP AXIS GROUP \"ring\"");
   return card.schema();
 }
@@ -62,13 +64,16 @@ Schema assignment_card() {
            "the third axis at the middle of each cell")
       .synonyms({"REPERE"})
       .at_least(1);
+  card.add("BPR", &AssignmentCard::profile, "of beams: number of the section in `.BPR`").synonyms({"SECTION"}).at_least(1);
+  card.add("AXIS2", &AssignmentCard::axis_2, "of beams: across them, on the side of axis 2 of their sections").synonyms({"AXE2"});
   card.finish([](AssignmentCard& data, Record& record, Diagnostics& diagnostics) {
     if (data.cells.empty() && data.groups.empty())
       diagnostics.error(record.location, ".AEL names no cells", "I 1 J 72 K 1 MAT 1, or GROUP \"plate\" MAT 1");
-    if (!data.material && !data.theta && !data.frame)
+    if (!data.material && !data.theta && !data.frame && !data.profile && !data.axis_2)
       diagnostics.error(record.location, ".AEL gives the cells nothing",
-                        "MAT the number of a material, THETA an angle, FRAME axes");
+                        "MAT the number of a material, THETA an angle, FRAME axes, BPR a section, AXIS2 its direction");
   });
+  card.example(".AEL\n GROUP \"frame\" MAT 1 BPR 2 AXIS2 0 0 1");
   card.example(".AEL\n I 1 J 72 K 1 MAT 1\n I 3 THETA 30.");
   return card.schema();
 }

@@ -21,13 +21,15 @@ struct PropertyCard {
   std::optional<double> thickness;
 };
 
-/// `.AEL I a J b K s MAT m`, `.AEL I n THETA angle`: what cells are made of.
+/// `.AEL I a J b K s MAT m`, `.AEL I n THETA angle`, `.AEL GROUP "frame" MAT 1 BPR 2 AXIS2 0 0 1`: what cells are made of.
 struct AssignmentCard {
   std::vector<int> cells;
   std::vector<std::string> groups;
   std::optional<int> material;
-  std::optional<double> theta;  ///< degrees, from the x axis of the frame to the first axis of the material
-  std::optional<int> frame;     ///< `.FRAME` of the axes; none: the global one
+  std::optional<double> theta;                  ///< degrees, from the x axis of the frame to the first axis of the material
+  std::optional<int> frame;                     ///< `.FRAME` of the axes; none: the global one
+  std::optional<int> profile;                   ///< `.BPR` of beams
+  std::optional<std::array<double, 3>> axis_2;  ///< across beams, on the side of axis 2 of their sections
 };
 
 /// `.CLM GROUP "disc" ROT VAL omega AXE x y z [AT px py pz] [NF f]`: centrifugal load.

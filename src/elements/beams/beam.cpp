@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "elements/beams/beam_piece.hpp"
 #include "elements/beams/line_shape.hpp"
+#include "elements/beams/make_beam.hpp"
 #include "elements/common/building.hpp"
 
 namespace engrane::elements::beams {
@@ -15,22 +17,25 @@ namespace {
 
 /// What all pieces of a beam share.
 struct Plan {
-  const BeamData& data;
-  std::shared_ptr<const BeamSection> section;
+  BeamOptions options;
+  SectionLine sections;
   BuildContext& context;
-  Vec3 side;  ///< of axis 2; of a round section without AXIS2, which turns with the beam, for the next piece
+  Vec3 side;                      ///< of axis 2; of a round section without AXIS2, which turns with the beam, for the next piece
+  double twist = 0;               ///< angle by which axis 2 turns about the beam, from end to end
+  double length = 0, passed = 0;  ///< of the beam, and of its pieces before this one
 };
 
 /// The axes of a section whose first is along `tangent`, as columns; nothing, with an error, where axis 2 would be along it too.
-std::optional<Mat3> section_axes(const Plan& plan, const Vec3& tangent) {
+std::optional<Mat3> section_axes(const BuildContext& context, const Vec3& side, bool given, const Vec3& tangent,
+                                 const char* keyword = "AXIS2") {
   const Vec3 first = tangent.normalized();
-  const Vec3 across = plan.side - first.dot(plan.side) * first;
+  const Vec3 across = side - first.dot(side) * first;
   constexpr double least = 1e-3;
   if (across.norm() < least) {
-    plan.context.error("AXIS2",
-                       plan.data.axis_2 ? fmt::format("AXIS2 is along beam {}", plan.context.record.id)
-                                        : fmt::format("beam {} turns by a right angle within a piece", plan.context.record.id),
-                       plan.data.axis_2 ? "a direction across the beam, on the side of axis 2 of its sections" : "more pieces");
+    context.error(keyword,
+                  given ? fmt::format("{} is along beam {}", keyword, context.record.id)
+                        : fmt::format("beam {} turns by a right angle within a piece", context.record.id),
+                  given ? "a direction across the beam, on the side of axis 2 of its sections" : "more pieces");
     return {};
   }
   Mat3 axes;
@@ -39,13 +44,28 @@ std::optional<Mat3> section_axes(const Plan& plan, const Vec3& tangent) {
 }
 
 template <int Nodes>
-std::optional<BeamPiece<Nodes>> make_piece(Plan& plan, const std::array<int, Nodes>& nodes) {
-  const auto found = line_places<Nodes>(nodes, plan.context);
-  if (!found) return {};
-  const std::array<Vec3, Nodes>& places = *found;
+std::optional<BeamPiece<Nodes>> make_piece(Plan& plan, const std::array<Vec3, Nodes>& places) {
+  const Vec3 chord = places.back() - places.front();
+  const double length = line_length<Nodes>(places);
+  // which part of the beam is passed at ξ
+  const auto part = [&](double xi) {
+    const LineShape<Nodes> shape(xi);
+    Vec3 x = Vec3::Zero();
+    for (std::size_t i = 0; i < Nodes; ++i) x += shape.value[i] * (places[i] - places.front());
+    return (plan.passed + length * x.dot(chord) / chord.squaredNorm()) / plan.length;
+  };
+  const auto axes_at = [&](double xi) -> std::optional<Mat3> {
+    auto axes = section_axes(plan.context, plan.side, plan.options.axis_2.has_value(), LineShape<Nodes>(xi).along(places));
+    if (axes && plan.twist != 0) {
+      Mat3 turn = Mat3::Identity();
+      turn.bottomRightCorner<2, 2>() = Eigen::Rotation2Dd(plan.twist * part(xi)).toRotationMatrix();
+      *axes *= turn;
+    }
+    return axes;
+  };
 
   BeamPiece<Nodes> piece;
-  piece.section = plan.section;
+  piece.section = plan.sections.at(part(0));
   const auto& rule = []() -> const auto& {
     if constexpr (Nodes == 2)
       return one_point;
@@ -55,41 +75,63 @@ std::optional<BeamPiece<Nodes>> make_piece(Plan& plan, const std::array<int, Nod
   ();
   for (std::size_t p = 0; p < rule.size(); ++p) {
     const LineShape<Nodes> shape(rule[p].place);
-    const Vec3 along = shape.along(places);
-    const double length = along.norm();
-    const auto axes = section_axes(plan, along);
+    const double stretch = shape.along(places).norm();
+    const auto axes = axes_at(rule[p].place);
     if (!axes) return {};
     auto& point = piece.at[p];
-    point.length = rule[p].weight * length;
+    point.length = rule[p].weight * stretch;
     point.shape = shape.value;
-    for (std::size_t i = 0; i < Nodes; ++i) point.slope[i] = shape.slope[i] / length;
+    for (std::size_t i = 0; i < Nodes; ++i) point.slope[i] = shape.slope[i] / stretch;
     point.axes = *axes;
+    point.section = plan.sections.at(part(rule[p].place));
   }
 
   const auto lengths = line_masses<Nodes>(places);
-  piece.mass = plan.section->mass * lengths;
+  piece.mass = line_masses<Nodes>(places, [&](double xi) { return plan.sections.at(part(xi))->mass; });
+  if (plan.options.lumped) piece.mass = Eigen::Matrix<double, Nodes, 1>(piece.mass.rowwise().sum()).asDiagonal();
   for (std::size_t i = 0; i < Nodes; ++i) {
-    const auto axes = section_axes(plan, LineShape<Nodes>(-1 + 2.0 * static_cast<double>(i) / (Nodes - 1)).along(places));
+    const double xi = -1 + 2.0 * static_cast<double>(i) / (Nodes - 1);
+    const auto axes = axes_at(xi);
     if (!axes) return {};
-    piece.centers[i] = *axes * plan.section->center;
-    piece.inertia[i] = lengths.row(static_cast<Eigen::Index>(i)).sum() * (*axes * plan.section->inertia * axes->transpose());
+    const auto section = plan.sections.at(part(xi));
+    piece.centers[i] = *axes * section->center;
+    piece.inertia[i] = lengths.row(static_cast<Eigen::Index>(i)).sum() * (*axes * section->inertia * axes->transpose());
     piece.axes[i] = *axes;
   }
-  if (!plan.data.axis_2) plan.side = piece.axes.back().col(1);
+  if (plan.options.small) piece.small = std::make_shared<const std::array<Vec3, Nodes>>(places);
+  if (!plan.options.axis_2) plan.side = piece.axes.back().col(1);
+  plan.passed += length;
   return piece;
 }
 
 /// Pieces of so many nodes: the first, and the others into BuildContext::more.
-template <int Nodes>
+template <int Nodes, bool Held>
 std::unique_ptr<Element> make_pieces(Plan& plan, const LineNodes& line) {
   BlockStore alone;
-  const auto block = (plan.context.blocks ? *plan.context.blocks : alone).block<Beams<Nodes>>("");
+  const SectionChoice& choice = plan.options.sections;
+  const auto block = (plan.context.blocks ? *plan.context.blocks : alone)
+                         .block<Beams<Nodes, Held>>(fmt::format("{} {}", choice.inextensible, choice.unshearable),
+                                                    choice.inextensible, choice.unshearable);
+  std::vector<std::array<Vec3, Nodes>> places;
+  for (std::size_t p = 0; p < line.pieces(); ++p) {
+    const auto found = line_places<Nodes>(line.piece<Nodes>(p), plan.context);
+    if (!found) return nullptr;
+    places.push_back(*found);
+    plan.length += line_length<Nodes>(*found);
+  }
+  if (plan.options.axis_2_end) {
+    const Vec3 start = LineShape<Nodes>(1).along(places.back());
+    const auto from = section_axes(plan.context, plan.side, true, start),
+               to = section_axes(plan.context, plan.options.axis_2_end->stableNormalized(), true, start, "AXIS2_END");
+    if (!from || !to) return nullptr;
+    plan.twist = std::atan2(from->col(2).dot(to->col(1)), from->col(1).dot(to->col(1)));
+  }
   std::unique_ptr<Element> first;
   for (std::size_t p = 0; p < line.pieces(); ++p) {
-    const auto nodes = line.piece<Nodes>(p);
-    auto piece = make_piece<Nodes>(plan, nodes);
+    auto piece = make_piece<Nodes>(plan, places[p]);
     if (!piece) return nullptr;
-    auto element = Beams<Nodes>::add(block, plan.context.record.id + static_cast<int>(p), nodes, std::move(*piece));
+    auto element =
+        Beams<Nodes, Held>::add(block, plan.context.record.id + static_cast<int>(p), line.piece<Nodes>(p), std::move(*piece));
     if (!first)
       first = std::move(element);
     else if (plan.context.more)
@@ -101,19 +143,36 @@ std::unique_ptr<Element> make_pieces(Plan& plan, const LineNodes& line) {
 std::unique_ptr<Element> build(const BeamData& data, BuildContext& context) {
   const LineNodes line{data.nodes, data.linear};
   if (!line.check(context)) return nullptr;
-  Plan plan{data, section_of(data.profile, data.material, data.damping, context), context, Vec3::Zero()};
-  if (!plan.section) return nullptr;
-  if (!data.axis_2 && !plan.section->is_round) {
+  BeamOptions options;
+  options.sections = {data.profile, data.profile_end, data.material, data.damping, data.inextensible, data.unshearable};
+  if (data.axis_2) options.axis_2 = to_vector(*data.axis_2);
+  if (data.axis_2_end) options.axis_2_end = to_vector(*data.axis_2_end);
+  return make_beam(line, options, context);
+}
+
+}  // namespace
+
+std::unique_ptr<Element> make_beam(const LineNodes& line, const BeamOptions& options, BuildContext& context) {
+  const auto sections = sections_of(options.sections, context);
+  if (!sections) return nullptr;
+  Plan plan{options, *sections, context, Vec3::Zero()};
+  if (!options.axis_2 && !(sections->first().is_round && sections->at(1)->is_round)) {
     context.error("AXIS2", fmt::format("beam {} has a section that is not round, and no AXIS2", context.record.id),
                   "AXIS2 x y z, a direction across the beam on the side of axis 2 of its sections");
     return nullptr;
   }
-  plan.side = data.axis_2 ? Vec3(to_vector(*data.axis_2).stableNormalized())
-                          : perpendicular((context.nodes.at(data.nodes[1]) - context.nodes.at(data.nodes[0])).stableNormalized());
-  return line.of_two() ? make_pieces<2>(plan, line) : make_pieces<3>(plan, line);
+  if (options.axis_2_end && !options.axis_2) {
+    context.error("AXIS2_END", fmt::format("beam {} has an AXIS2_END and no AXIS2", context.record.id),
+                  "AXIS2 is the direction at the first node, AXIS2_END that at the last");
+    return nullptr;
+  }
+  plan.side = options.axis_2
+                  ? options.axis_2->stableNormalized()
+                  : perpendicular((context.nodes.at(line.nodes[1]) - context.nodes.at(line.nodes[0])).stableNormalized());
+  const bool held = options.sections.inextensible || options.sections.unshearable;
+  if (line.of_two()) return held ? make_pieces<2, true>(plan, line) : make_pieces<2, false>(plan, line);
+  return held ? make_pieces<3, true>(plan, line) : make_pieces<3, false>(plan, line);
 }
-
-}  // namespace
 
 ElementType beam_type() {
   deck::Card<BeamData> card("BEAM", {"POUTRE"}, "Beam: a flexible line of nodes");
@@ -134,17 +193,28 @@ ElementType beam_type() {
       .values(2, deck::detail::any_number)
       .required();
   card.add("BPR", &BeamData::profile, "number of the section in `.BPR`").synonyms({"SECTION"}).at_least(1).required();
+  card.add("BPR_END", &BeamData::profile_end,
+           "section at the last node, of the same kind: between the ends sizes change evenly along the beam")
+      .synonyms({"SECTION_END"})
+      .at_least(1);
   card.add("MAT", &BeamData::material, "number of the material in `.MAT`, of a section given by its shape")
       .synonyms({"MATERIAL", "MATERIAU"})
       .at_least(1);
   card.add("AXIS2", &BeamData::axis_2, "across the beam, on the side of axis 2 of its sections, in the reference configuration")
       .synonyms({"AXE2"});
+  card.add("AXIS2_END", &BeamData::axis_2_end,
+           "the same at the last node, of a beam twisted by less than half a turn: axis 2 turns evenly along it")
+      .synonyms({"AXE2_FIN"});
   card.add("DAMPING", &BeamData::damping,
            "material damping (Kelvin and Voigt): the time by which stiffness is multiplied to resist rates of strain")
       .synonyms({"AMORTISSEMENT"})
       .unit(dimension::time)
       .at_least(0);
   card.add("LINEAR", &BeamData::linear, "pieces of two nodes");
+  card.add("INEXTENSIBLE", &BeamData::inextensible,
+           "does not stretch, whatever its EA: a multiplier at each point of Gauss holds it");
+  card.add("UNSHEARABLE", &BeamData::unshearable, "does not shear, whatever its GA: sections stay across the line")
+      .synonyms({"INCISAILLABLE"});
   return element_type(card, build);
 }
 

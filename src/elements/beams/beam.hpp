@@ -9,14 +9,18 @@
 
 namespace engrane::elements::beams {
 
-/// Card of a beam. `BEAM N n1 n2 … BPR p [MAT m] [AXIS2 x y z] [DAMPING t] [LINEAR]`
+/// Card of a beam. `BEAM N n1 n2 … BPR p [BPR_END q] [MAT m] [AXIS2 x y z] [AXIS2_END x y z] [DAMPING t] [LINEAR]
+/// [INEXTENSIBLE] [UNSHEARABLE]`
 struct BeamData {
   std::vector<int> nodes;  ///< along it
   int profile = 0;
-  int material = 0;                             ///< 0: the profile has stiffness and mass of its own
-  std::optional<std::array<double, 3>> axis_2;  ///< across it, on the side of axis 2 of its sections
-  double damping = 0;                           ///< a time
-  bool linear = false;                          ///< pieces of two nodes
+  int profile_end = 0;                              ///< at the last node; 0: the same
+  int material = 0;                                 ///< 0: the profile has stiffness and mass of its own
+  std::optional<std::array<double, 3>> axis_2;      ///< across it, on the side of axis 2 of its sections
+  std::optional<std::array<double, 3>> axis_2_end;  ///< at the last node, of a twisted beam
+  double damping = 0;                               ///< a time
+  bool linear = false;                              ///< pieces of two nodes
+  bool inextensible = false, unshearable = false;
 };
 
 /// BEAM (POUTRE): a flexible line of nodes.

@@ -10,8 +10,16 @@ namespace engrane::elements::beams {
 namespace {
 
 template <int Nodes>
-Layout piece_layout() {
+Layout piece_layout(bool inextensible, bool unshearable) {
   Layout layout;
+  for (int point = 1; point < Nodes; ++point) {
+    const auto hold = [&](const char* name, const char* help) {
+      layout.multipliers.push_back({{fmt::format("{}_{}", name, point), dimension::length, help}, Role::other});
+    };
+    if (inextensible) hold("STRETCH", "pull of a beam that does not stretch");
+    if (unshearable) hold("SHEAR_2", "shear force along axis 2 of a beam that does not shear");
+    if (unshearable) hold("SHEAR_3", "shear force along axis 3 of a beam that does not shear");
+  }
   layout.nodes.assign(Nodes, -1);
   layout.needs.assign(Nodes, NodeNeed::both);
   return layout;
@@ -20,7 +28,7 @@ Layout piece_layout() {
 constexpr std::array<const char*, 2> ends = {"A", "B"};
 
 /// Largest and least normal stress E (ε + κ_2 z − κ_3 y) of a section; not a number where its shape is not known.
-std::pair<double, double> normal_stress(const BeamSection& section, const std::array<double, 6>& strain) {
+std::pair<double, double> normal_stress(const BeamSection& section, const Vec6& strain) {
   if (!(section.young > 0) || section.outline.empty()) return {std::nan(""), std::nan("")};
   const auto at = [&](const Eigen::Vector2d& r) { return section.young * (strain[0] + strain[4] * r[1] - strain[5] * r[0]); };
   if (section.radius > 0) {
@@ -35,20 +43,22 @@ std::pair<double, double> normal_stress(const BeamSection& section, const std::a
 
 }  // namespace
 
-template <int Nodes>
-Beams<Nodes>::Beams() : TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes>(piece_layout<Nodes>()) {}
+template <int Nodes, bool Held>
+Beams<Nodes, Held>::Beams(bool inextensible, bool unshearable)
+    : TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes + (Held ? 3 * (Nodes - 1) : 0)>(
+          piece_layout<Nodes>(inextensible, unshearable)) {}
 
-template <int Nodes>
-Energies Beams<Nodes>::energies(std::size_t e, const State& state) const {
+template <int Nodes, bool Held>
+Energies Beams<Nodes, Held>::energies(std::size_t e, const State& state) const {
   const BeamPiece<Nodes>& piece = this->data(e);
   const Motion<double, Nodes> motion(state);
   Energies sum;
   for (std::size_t p = 0; p < piece.at.size(); ++p) {
     const auto strain = piece.strain(motion, p);
-    sum.potential += piece.at[p].length / 2 * piece.stress(strain).dot(Eigen::Map<const Vec6>(strain.data()));
+    sum.potential += piece.at[p].length / 2 * piece.stress(p, strain).dot(strain);
     if (piece.section->damping > 0) {
       const Vec6 rate = piece.strain_rate(motion, p);
-      sum.dissipated += piece.at[p].length * piece.section->damping * rate.dot(piece.section->stiffness * rate);
+      sum.dissipated += piece.at[p].length * piece.section->damping * rate.dot(piece.stress(p, rate));
     }
   }
   if (!piece.section->has_mass()) return sum;
@@ -67,8 +77,8 @@ Energies Beams<Nodes>::energies(std::size_t e, const State& state) const {
   return sum;
 }
 
-template <int Nodes>
-Mat3 Beams<Nodes>::inertia_at(std::size_t e, int node) const {
+template <int Nodes, bool Held>
+Mat3 Beams<Nodes, Held>::inertia_at(std::size_t e, int node) const {
   const BeamPiece<Nodes>& piece = this->data(e);
   Mat3 sum = Mat3::Zero();
   for (std::size_t i = 0; i < Nodes; ++i) {
@@ -80,8 +90,8 @@ Mat3 Beams<Nodes>::inertia_at(std::size_t e, int node) const {
   return sum;
 }
 
-template <int Nodes>
-const std::vector<Named>& Beams<Nodes>::channels() const {
+template <int Nodes, bool Held>
+const std::vector<Named>& Beams<Nodes, Held>::channels() const {
   static const std::vector<Named> all = [] {
     std::vector<Named> list;
     for (const char* end : ends) {
@@ -102,11 +112,11 @@ const std::vector<Named>& Beams<Nodes>::channels() const {
   return all;
 }
 
-template <int Nodes>
-void Beams<Nodes>::observe(std::size_t e, const State& state, std::span<double> values) const {
+template <int Nodes, bool Held>
+void Beams<Nodes, Held>::observe(std::size_t e, const State& state, std::span<double> values) const {
   const BeamPiece<Nodes>& piece = this->data(e);
-  std::array<double, 6 * Nodes> r{};
-  this->residual(e, {&state, 1}, r);
+  std::array<double, 6 * Nodes + 3 * (Nodes - 1)> r{};
+  this->residual(e, {&state, 1}, std::span(r).first(static_cast<std::size_t>(this->layout().slots())));
   std::size_t next = 0;
   for (std::size_t end = 0; end < 2; ++end) {
     const std::size_t node = end == 0 ? 0 : Nodes - 1;
@@ -122,12 +132,12 @@ void Beams<Nodes>::observe(std::size_t e, const State& state, std::span<double> 
   values[next] = 0;
   for (std::size_t p = 0; p < piece.at.size(); ++p) {
     const auto strain = piece.strain(motion, p);
-    values[next] += piece.at[p].length / 2 * piece.stress(strain).dot(Eigen::Map<const Vec6>(strain.data()));
+    values[next] += piece.at[p].length / 2 * piece.stress(p, strain).dot(strain);
   }
 }
 
-template <int Nodes>
-const std::vector<Field>& Beams<Nodes>::fields() const {
+template <int Nodes, bool Held>
+const std::vector<Field>& Beams<Nodes, Held>::fields() const {
   static const std::vector<Field> all = [] {
     const auto at_points = [](const char* name, Dimension dimension, const char* help, std::vector<std::string> components) {
       return Field{{name, dimension, help}, Field::Place::point, std::move(components), BeamPiece<Nodes>::points};
@@ -142,26 +152,28 @@ const std::vector<Field>& Beams<Nodes>::fields() const {
   return all;
 }
 
-template <int Nodes>
-void Beams<Nodes>::evaluate_fields(std::size_t e, const State& state, std::span<double> values) const {
+template <int Nodes, bool Held>
+void Beams<Nodes, Held>::evaluate_fields(std::size_t e, const State& state, std::span<double> values) const {
   const BeamPiece<Nodes>& piece = this->data(e);
   const Motion<double, Nodes> motion(state);
   for (std::size_t p = 0; p < piece.at.size(); ++p) {
-    const auto strain = piece.strain(motion, p);
-    Vec6 stress = piece.stress(strain);
-    if (piece.section->damping > 0) stress += piece.section->damping * (piece.section->stiffness * piece.strain_rate(motion, p));
+    const BeamSection& section = *piece.at[p].section;
+    Vec6 strain = piece.strain(motion, p), stress = piece.stress(p, strain);
+    if (section.damping > 0) stress += section.damping * piece.stress(p, piece.strain_rate(motion, p));
+    if (Held) stress += piece.holding(state, p);
     for (std::size_t c = 0; c < 3; ++c) {
       values[3 * p + c] = stress[static_cast<Eigen::Index>(c)];
       values[3 * (piece.at.size() + p) + c] = stress[static_cast<Eigen::Index>(3 + c)];
     }
-    const auto [most, least] = normal_stress(*piece.section, strain);
+    if (Held && section.stiffness(0, 0) == 0) strain[0] += stress[0] / section.own_stiffness[0];  // as if it could stretch
+    const auto [most, least] = normal_stress(section, strain);
     values[6 * piece.at.size() + 2 * p] = most;
     values[6 * piece.at.size() + 2 * p + 1] = least;
   }
 }
 
-template <int Nodes>
-std::vector<Derived> Beams<Nodes>::derived(std::size_t e) const {
+template <int Nodes, bool Held>
+std::vector<Derived> Beams<Nodes, Held>::derived(std::size_t e) const {
   const BeamPiece<Nodes>& piece = this->data(e);
   double length = 0;
   for (const auto& point : piece.at) length += point.length;
@@ -174,8 +186,8 @@ std::vector<Derived> Beams<Nodes>::derived(std::size_t e) const {
   return all;
 }
 
-template <int Nodes>
-Drawing Beams<Nodes>::drawing(std::size_t e) const {
+template <int Nodes, bool Held>
+Drawing Beams<Nodes, Held>::drawing(std::size_t e) const {
   const auto ids = this->node_ids(e);
   const BeamPiece<Nodes>& piece = this->data(e);
   std::string shape = fmt::format(R"("shape": "beam", "points": {})", json(std::vector<int>(ids.begin(), ids.end())));
@@ -189,7 +201,9 @@ Drawing Beams<Nodes>::drawing(std::size_t e) const {
   return {shape};
 }
 
-template class Beams<2>;
-template class Beams<3>;
+template class Beams<2, false>;
+template class Beams<3, false>;
+template class Beams<2, true>;
+template class Beams<3, true>;
 
 }  // namespace engrane::elements::beams

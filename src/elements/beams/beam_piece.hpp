@@ -2,6 +2,7 @@
 // A piece of a beam: two or three nodes.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -21,6 +22,9 @@ namespace engrane::elements::beams {
 /// strains (BeamStrain) do not change when the piece moves as a body, nor depend on how it came where it is. Stiffness: one point
 /// of Gauss less than nodes, which is free of locking. Inertia: masses consistent with N_i on the line of centres of mass, whose
 /// points the nodes carry; tensors of the sections at the nodes. Momentum, and any motion as a body, are exact.
+///
+/// Strains that the section holds at zero (BeamSection::held) have a multiplier at each point, in the order of points: the force
+/// that holds, of Φ = −strain · length.
 template <int Nodes>
 struct BeamPiece {
   static constexpr int points = Nodes - 1;
@@ -32,9 +36,12 @@ struct BeamPiece {
     double length = 0;                           ///< of the piece that it stands for, at rest
     std::array<double, Nodes> shape{}, slope{};  ///< N_i, and their slopes by the length at rest
     Mat3 axes;                                   ///< of the section at rest, columns
+    std::shared_ptr<const BeamSection> section;
   };
   std::array<Point, static_cast<std::size_t>(points)> at{};
-  std::shared_ptr<const BeamSection> section;
+  std::shared_ptr<const BeamSection> section;  ///< in the middle of the piece
+  /// Where the nodes are at rest, for small displacements; nullptr: they may have any size.
+  std::shared_ptr<const std::array<Vec3, Nodes>> small;
   std::array<Mat3, Nodes> axes;  ///< of the sections at the nodes at rest
   Eigen::Matrix<double, Nodes, Nodes> mass;
   std::array<Vec3, Nodes> centers;  ///< where each node carries the mass, from the node at rest
@@ -42,7 +49,9 @@ struct BeamPiece {
 
   template <class T>
   void evaluate(const Motion<T, Nodes>& motion, const State& state, Balance<T, Nodes>& balance) const {
-    if (section->damping > 0)
+    if (small)
+      resist_small(motion, balance);
+    else if (section->damping > 0)
       resist<true>(motion, balance);
     else
       resist<false>(motion, balance);
@@ -50,19 +59,29 @@ struct BeamPiece {
   }
 
   /// Strains ε at a point.
-  std::array<double, 6> strain(const Motion<double, Nodes>& motion, std::size_t point) const {
-    return BeamStrain<double>(Relative<double>(motion).at(at[point]), at[point].axes).strain();
+  Vec6 strain(const Motion<double, Nodes>& motion, std::size_t point) const {
+    if (small) return map(small_strain(at[point], small_shift(motion), small_turn(motion)));
+    return map(BeamStrain<double>(Relative<double>(motion).at(at[point]), at[point].axes).strain());
   }
-  /// Forces and moments of the section at a point, without damping; half their product with the strains is the energy there.
-  Vec6 stress(const std::array<double, 6>& strain) const { return section->stiffness * Eigen::Map<const Vec6>(strain.data()); }
+  /// Forces and moments of the section at a point, without damping and those that hold; half their product with the strains is
+  /// the energy there.
+  Vec6 stress(std::size_t point, const Vec6& strain) const { return at[point].section->stiffness * strain; }
+  /// The forces that hold strains at a point.
+  Vec6 holding(const State& state, std::size_t point) const {
+    Vec6 sum = Vec6::Zero();
+    const std::vector<Vec6>& held = at[point].section->held;
+    for (std::size_t i = 0; i < held.size(); ++i) sum += state.multipliers[point * held.size() + i] * held[i];
+    return sum;
+  }
   Vec6 strain_rate(const Motion<double, Nodes>& motion, std::size_t point) const {
+    if (small) return map(small_strain(at[point], velocities(motion), spins(motion)));
     const Relative<double> relative(motion);
-    const auto rate =
-        BeamStrain<double>(relative.at(at[point]), at[point].axes).strain_rate(relative.rates(motion).at(at[point]));
-    return Eigen::Map<const Vec6>(rate.data());
+    return map(BeamStrain<double>(relative.at(at[point]), at[point].axes).strain_rate(relative.rates(motion).at(at[point])));
   }
 
  private:
+  static Vec6 map(const std::array<double, 6>& values) { return Eigen::Map<const Vec6>(values.data()); }
+
   /// y_i and ψ_i, or their rates; those of the reference node are zero.
   template <class T>
   struct Arms {
@@ -110,30 +129,83 @@ struct BeamPiece {
     std::array<RotationVector<T>, Nodes> vector;
   };
 
-  /// Forces on h, ψ, ψ′ of a point; of a damped section by their rates too, which follow them in `x`.
-  template <bool Damped, class S, std::size_t Size>
+  /// C ε.
+  template <class S>
+  static std::array<S, 6> elastic(const BeamSection& section, const std::array<S, 6>& strain) {
+    std::array<S, 6> stress;
+    for (std::size_t row = 0; row < 6; ++row) {
+      stress[row] = S(0);
+      for (std::size_t c = 0; c < 6; ++c) {
+        const double stiffness = section.stiffness(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(c));
+        if (stiffness != 0) stress[row] += strain[c] * stiffness;
+      }
+    }
+    return stress;
+  }
+
+  template <class S>
+  static std::array<S, 6> strains(const Point& point, const std::array<S, BeamPlace<S>::size>& x) {
+    return BeamStrain<S>(BeamPlace<S>::of(x.data()), point.axes).strain();
+  }
+
+  /// States Φ of the strains held at a point, and returns the forces that hold them.
+  template <class T>
+  std::array<T, 3> hold(std::size_t point, const std::array<T, 6>& strain, Balance<T, Nodes>& balance) const {
+    const std::vector<Vec6>& held = at[point].section->held;
+    std::array<T, 3> force = {T(0), T(0), T(0)};
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      T value(0);
+      for (std::size_t c = 0; c < 6; ++c)
+        if (const double part = held[i][static_cast<Eigen::Index>(c)]; part != 0) value += strain[c] * part;
+      force[i] = balance.constraint(static_cast<int>(point * held.size() + i), value * (-at[point].length));
+    }
+    return force;
+  }
+
+  /// Adds the forces that hold strains.
+  template <class S>
+  static void add_held(const BeamSection& section, const S* force, std::array<S, 6>& stress) {
+    for (std::size_t i = 0; i < section.held.size(); ++i)
+      for (std::size_t c = 0; c < 6; ++c)
+        if (const double part = section.held[i][static_cast<Eigen::Index>(c)]; part != 0) stress[c] += force[i] * part;
+  }
+
+  /// Forces on h, ψ, ψ′ of a point; of a damped section by their rates too, which follow them in `x`, and last, of one that holds
+  /// strains, by the forces that hold them.
+  template <bool Damped, bool Held, class S, std::size_t Size>
   std::array<S, BeamPlace<S>::size> forces(const Point& point, const std::array<S, Size>& x) const {
     const BeamStrain<S> strain(BeamPlace<S>::of(x.data()), point.axes);
-    std::array<S, 6> total = strain.strain(), stress;
+    std::array<S, 6> total = strain.strain();
     if constexpr (Damped) {
       const auto rate = strain.strain_rate(BeamPlace<S>::of(x.data() + BeamPlace<S>::size));
       for (std::size_t c = 0; c < 6; ++c) total[c] += rate[c] * section->damping;
     }
-    for (std::size_t row = 0; row < 6; ++row) {
-      stress[row] = S(0);
-      for (std::size_t c = 0; c < 6; ++c) {
-        const double stiffness = section->stiffness(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(c));
-        if (stiffness != 0) stress[row] += total[c] * stiffness;
-      }
-    }
+    std::array<S, 6> stress = elastic(*point.section, total);
+    if constexpr (Held) add_held(*point.section, x.data() + (Size - 3), stress);
     std::array<S, BeamPlace<S>::size> out;
     strain.forces(stress).copy_to(out.data());
     return out;
   }
 
+  template <bool Damped, bool Held, class T>
+  BeamPlace<T> point_forces(std::size_t p, const Relative<T>& relative, const Arms<T>& rates, Balance<T, Nodes>& balance) const {
+    constexpr std::size_t size = BeamPlace<T>::size;
+    std::array<T, (Damped ? 2 * size : size) + (Held ? 3 : 0)> x;
+    const BeamPlace<T> place = relative.at(at[p]);
+    place.copy_to(x.data());
+    if constexpr (Damped) rates.at(at[p]).copy_to(x.data() + size);
+    if constexpr (Held) {
+      std::array<T, size> own;
+      place.copy_to(own.data());
+      const auto force = hold(p, through_few<6>(own, [&](const auto& numbers) { return strains(at[p], numbers); }), balance);
+      std::copy(force.begin(), force.end(), x.end() - 3);
+    }
+    const auto f = through_few<size>(x, [&](const auto& own) { return forces<Damped, Held>(at[p], own); });
+    return BeamPlace<T>::of(f.data());
+  }
+
   template <bool Damped, class T>
   void resist(const Motion<T, Nodes>& motion, Balance<T, Nodes>& balance) const {
-    constexpr std::size_t size = BeamPlace<T>::size;
     const Relative<T> relative(motion);
     Arms<T> rates;
     if constexpr (Damped) rates = relative.rates(motion);
@@ -141,12 +213,10 @@ struct BeamPiece {
     std::array<Vec3T<T>, Nodes> force, moment;  // on y_i and ψ_i
     force.fill(none);
     moment.fill(none);
-    for (const Point& point : at) {
-      std::array<T, Damped ? 2 * size : size> x;
-      relative.at(point).copy_to(x.data());
-      if constexpr (Damped) rates.at(point).copy_to(x.data() + size);
-      const auto f = through_few<size>(x, [&](const auto& own) { return forces<Damped>(point, own); });
-      const auto of = BeamPlace<T>::of(f.data());
+    for (std::size_t p = 0; p < at.size(); ++p) {
+      const Point& point = at[p];
+      const auto of = section->held.empty() ? point_forces<Damped, false>(p, relative, rates, balance)
+                                            : point_forces<Damped, true>(p, relative, rates, balance);
       for (std::size_t i = 0; i < Nodes; ++i) {
         if (i == reference) continue;
         force[i] += of.h * (point.length * point.slope[i]);
@@ -167,9 +237,77 @@ struct BeamPiece {
   }
 
   template <class T>
+  using Vectors = std::array<Vec3T<T>, Nodes>;
+
+  template <class T>
+  Vectors<T> small_shift(const Motion<T, Nodes>& motion) const {
+    Vectors<T> u;
+    for (std::size_t i = 0; i < Nodes; ++i) u[i] = motion.node[i].x - (*small)[i].template cast<T>();
+    return u;
+  }
+  template <class T>
+  static Vectors<T> small_turn(const Motion<T, Nodes>& motion) {
+    Vectors<T> theta;
+    for (std::size_t i = 0; i < Nodes; ++i) theta[i] = RotationVector<T>::of(motion.node[i].R).theta;
+    return theta;
+  }
+  template <class T>
+  static Vectors<T> velocities(const Motion<T, Nodes>& motion) {
+    Vectors<T> v;
+    for (std::size_t i = 0; i < Nodes; ++i) v[i] = motion.node[i].v;
+    return v;
+  }
+  template <class T>
+  static Vectors<T> spins(const Motion<T, Nodes>& motion) {
+    Vectors<T> w;
+    for (std::size_t i = 0; i < Nodes; ++i) w[i] = rotate(motion.node[i].R, motion.node[i].W);
+    return w;
+  }
+
+  /// The derivative of the strains at rest: γ = u′ + x′ × θ, k = θ′.
+  template <class T>
+  static std::array<T, 6> small_strain(const Point& point, const Vectors<T>& u, const Vectors<T>& theta) {
+    Vec3T<T> slope(T(0), T(0), T(0)), turn = slope, twist = slope;
+    for (std::size_t i = 0; i < Nodes; ++i) {
+      slope += u[i] * point.slope[i];
+      turn += theta[i] * point.shape[i];
+      twist += theta[i] * point.slope[i];
+    }
+    const Vec3T<T> first = point.axes.col(0).template cast<T>();
+    const Vec3T<T> gamma = rotate_back(point.axes, Vec3T<T>(slope + cross(first, turn))), k = rotate_back(point.axes, twist);
+    return {gamma[0], gamma[1], gamma[2], k[0], k[1], k[2]};
+  }
+
+  /// Forces linear in the displacements, and moments linear in the rotation vectors: both stand in space, so that equilibrium
+  /// with given forces and moments is a linear system.
+  template <class T>
+  void resist_small(const Motion<T, Nodes>& motion, Balance<T, Nodes>& balance) const {
+    const auto u = small_shift(motion), theta = small_turn(motion);
+    for (std::size_t p = 0; p < at.size(); ++p) {
+      const Point& point = at[p];
+      std::array<T, 6> total = small_strain(point, u, theta);
+      const auto held = hold(p, total, balance);
+      if (section->damping > 0) {
+        const auto rate = small_strain(point, velocities(motion), spins(motion));
+        for (std::size_t c = 0; c < 6; ++c) total[c] += rate[c] * section->damping;
+      }
+      std::array<T, 6> stress = elastic(*point.section, total);
+      add_held(*point.section, held.data(), stress);
+      const Vec3T<T> n = rotate(point.axes, Vec3T<T>(stress[0], stress[1], stress[2]));
+      const Vec3T<T> m = rotate(point.axes, Vec3T<T>(stress[3], stress[4], stress[5]));
+      const Vec3T<T> turning = cross(n, Vec3T<T>(point.axes.col(0).template cast<T>()));
+      for (std::size_t i = 0; i < Nodes; ++i) {
+        balance.force(static_cast<int>(i), n * (point.length * point.slope[i]));
+        const Vec3T<T> moment = turning * (point.length * point.shape[i]) + m * (point.length * point.slope[i]);
+        balance.moment(static_cast<int>(i), rotate_back(motion.node[i].R, moment));
+      }
+    }
+  }
+
+  template <class T>
   void add_inertia(const Motion<T, Nodes>& motion, const State& state, Balance<T, Nodes>& balance) const {
     std::array<Vec3T<T>, Nodes> acceleration;
-    const bool aside = !section->center.isZero(0);
+    const bool aside = std::any_of(centers.begin(), centers.end(), [](const Vec3& arm) { return !arm.isZero(0); });
     for (std::size_t i = 0; i < Nodes; ++i) {
       const auto& node = motion.node[i];
       acceleration[i] = node.a - state.gravity.template cast<T>();
@@ -192,14 +330,15 @@ struct BeamPiece {
   }
 };
 
-/// All pieces of so many nodes of a model.
-template <int Nodes>
-class Beams final : public TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes> {
+/// All pieces of a model with so many nodes that hold the same strains. `Held`: whether they hold any.
+template <int Nodes, bool Held>
+class Beams final : public TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes + (Held ? 3 * (Nodes - 1) : 0)> {
  public:
-  Beams();
+  Beams(bool inextensible, bool unshearable);
 
   Energies energies(std::size_t e, const State& state) const override;
   bool is_body() const override { return true; }
+  bool is_linear(std::size_t e) const override { return this->data(e).small != nullptr; }
   const char* why_not_finite() const override {
     return "is bent or twisted by more than 2 radians between two of its nodes: more pieces, smaller steps H, "
            "or loads that grow from zero (NF)";
@@ -213,7 +352,9 @@ class Beams final : public TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes> {
   Drawing drawing(std::size_t e) const override;
 };
 
-extern template class Beams<2>;
-extern template class Beams<3>;
+extern template class Beams<2, false>;
+extern template class Beams<3, false>;
+extern template class Beams<2, true>;
+extern template class Beams<3, true>;
 
 }  // namespace engrane::elements::beams

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <tuple>
 
 #include "elements/beams/section_shape.hpp"
 #include "elements/common/material.hpp"
@@ -40,20 +39,20 @@ class SectionBook {
       if (record.get<deck::ProfileCard>()) profiles_[record.id] = &record;
   }
 
-  std::shared_ptr<const BeamSection> section(int profile, int material, double damping, const BuildContext& context) const {
-    std::shared_ptr<const BeamSection>& section = (*sections_)[{profile, material, damping}];
-    if (!section)
-      if (auto made = make(profile, material, damping, context)) section = std::make_shared<const BeamSection>(std::move(*made));
-    return section;
+  std::optional<SectionLine> line(const SectionChoice& choice, const BuildContext& context) const {
+    const auto found = lines_->find(choice);
+    if (found != lines_->end()) return found->second;
+    auto line = make_line(choice, context);
+    if (line) lines_->emplace(choice, *line);
+    return line;
   }
 
  private:
-  std::optional<BeamSection> make(int profile, int material, double damping, const BuildContext& context) const;
+  std::optional<SectionLine> make_line(const SectionChoice& choice, const BuildContext& context) const;
+  const deck::ProfileCard* profile(int number, const char* keyword, const BuildContext& context) const;
 
-  using Key = std::tuple<int, int, double>;
   std::map<int, const deck::Record*> profiles_;
-  std::shared_ptr<std::map<Key, std::shared_ptr<const BeamSection>>> sections_ =
-      std::make_shared<std::map<Key, std::shared_ptr<const BeamSection>>>();
+  std::shared_ptr<std::map<SectionChoice, SectionLine>> lines_ = std::make_shared<std::map<SectionChoice, SectionLine>>();
 };
 
 /// σ = C ε of stretch and bending about the centroid, shear and twist about the shear centre.
@@ -78,66 +77,131 @@ Mat6 strains_at(const Eigen::Vector2d& centroid, const Eigen::Vector2d& shear_ce
   return moved;
 }
 
-std::optional<BeamSection> SectionBook::make(int profile, int material, double damping, const BuildContext& context) const {
-  const auto found = profiles_.find(profile);
-  if (found == profiles_.end()) {
-    context.diagnostics.missing(".BPR", context.record.where("BPR"), fmt::format("section {} does not exist", profile),
-                                fmt::format(".BPR I {} CIRCLE d, or another shape", profile));
-    return {};
-  }
-  const auto& card = *found->second->get<deck::ProfileCard>();
-  const bool has_shape = card.shape.given() || card.area;
-  if (has_shape != (material != 0)) {
-    context.error(has_shape ? "BPR" : "MAT",
-                  has_shape ? fmt::format("section {} is a shape, and the beam has no MAT", profile)
-                            : fmt::format("section {} has a stiffness of its own: MAT means nothing", profile),
-                  has_shape ? "MAT the number of a .MAT" : "leave MAT out");
-    return {};
-  }
+/// What a shape is made of; nothing of it for a section with a stiffness of its own.
+struct Stuff {
+  double young = 0, poisson = 0, density = 0;
+};
+
+BeamSection make_section(const deck::ProfileCard& card, const Stuff& stuff, const SectionChoice& choice) {
   BeamSection section;
-  section.damping = damping;
-  if (has_shape) {
-    const deck::MaterialCard* made_of = isotropic_material(context, material, "beams");
-    if (!made_of) return {};
-    const double young = made_of->young.front(), poisson = made_of->poisson.front(), shear = young / (2 * (1 + poisson));
-    const double density = made_of->density.value_or(0);
-    const SectionShape shape = shape_of(card, poisson);
+  section.damping = choice.damping;
+  Mat6 own = Mat6::Zero(), moved = Mat6::Identity();
+  if (card.shape.given() || card.area) {
+    const SectionShape shape = shape_of(card, stuff.poisson);
     const Eigen::Vector2d centroid = card.offset ? Eigen::Vector2d(card.offset->data()) : Eigen::Vector2d::Zero();
-    const Mat6 own = stiffness_of(shape, young, shear), moved = strains_at(centroid, centroid + shape.shear_center);
-    section.stiffness = moved.transpose() * own * moved;
-    section.own_stiffness = own.diagonal();
-    section.mass = density * shape.area;
+    own = stiffness_of(shape, stuff.young, stuff.young / (2 * (1 + stuff.poisson)));
+    moved = strains_at(centroid, centroid + shape.shear_center);
+    section.mass = stuff.density * shape.area;
     section.center << 0, centroid;
-    section.inertia(0, 0) = density * shape.moments.trace();
-    section.inertia(1, 1) = density * shape.moments(1, 1);
-    section.inertia(2, 2) = density * shape.moments(0, 0);
-    section.inertia(1, 2) = section.inertia(2, 1) = -density * shape.moments(0, 1);
-    section.young = young;
+    section.inertia(0, 0) = stuff.density * shape.moments.trace();
+    section.inertia(1, 1) = stuff.density * shape.moments(1, 1);
+    section.inertia(2, 2) = stuff.density * shape.moments(0, 0);
+    section.inertia(1, 2) = section.inertia(2, 1) = -stuff.density * shape.moments(0, 1);
+    section.young = stuff.young;
     section.radius = shape.radius;
     section.middle = centroid;
     for (const Eigen::Vector2d& corner : shape.outline) section.outline.push_back(centroid + corner);
   } else {
     if (card.stiffness.empty())
-      section.stiffness.diagonal() << *card.stretching, (*card.shearing)[0], (*card.shearing)[1], *card.twisting,
-          (*card.bending)[0], (*card.bending)[1];
+      own.diagonal() << *card.stretching, (*card.shearing)[0], (*card.shearing)[1], *card.twisting, (*card.bending)[0],
+          (*card.bending)[1];
     else
-      section.stiffness = *symmetric_6(card.stiffness);
-    section.own_stiffness = section.stiffness.diagonal();
+      own = *symmetric_6(card.stiffness);
     section.mass = card.mass.value_or(0);
     const std::vector<double>& j = card.inertia;
     if (!j.empty()) section.inertia.diagonal() << j[0], j.size() == 1 ? j[0] / 2 : j[1], j.size() == 1 ? j[0] / 2 : j[2];
   }
   if (card.center) section.center = Vec3(0, (*card.center)[0], (*card.center)[1]);
+  section.own_stiffness = own.diagonal();
+  section.stiffness = moved.transpose() * own * moved;
   section.is_round = is_round(section);
+  for (const Eigen::Index strain : {0, 1, 2})
+    if (strain == 0 ? choice.inextensible : choice.unshearable) {
+      own.row(strain).setZero();
+      own.col(strain).setZero();
+      section.held.emplace_back(moved.row(strain));
+    }
+  if (!section.held.empty()) section.stiffness = moved.transpose() * own * moved;
   return section;
+}
+
+/// Numbers between those of two cards of one kind; false where only one of them has some, or they have not as many.
+bool mix(double& to, double other, double part) {
+  to += part * (other - to);
+  return true;
+}
+template <std::size_t N>
+bool mix(std::array<double, N>& to, const std::array<double, N>& other, double part) {
+  for (std::size_t i = 0; i < N; ++i) mix(to[i], other[i], part);
+  return true;
+}
+bool mix(std::vector<double>& to, const std::vector<double>& other, double part) {
+  if (to.size() != other.size()) return false;
+  for (std::size_t i = 0; i < to.size(); ++i) mix(to[i], other[i], part);
+  return true;
+}
+template <class V>
+bool mix(std::optional<V>& to, const std::optional<V>& other, double part) {
+  return to.has_value() == other.has_value() && (!to || mix(*to, *other, part));
+}
+
+/// The section at a part of the way from one to the other; nothing where they are not of one kind.
+std::optional<deck::ProfileCard> between(deck::ProfileCard card, const deck::ProfileCard& other, double part) {
+  const bool mixed = card.shape.tag == other.shape.tag && mix(card.shape.values, other.shape.values, part) &&
+                     mix(card.hole, other.hole, part) && mix(card.offset, other.offset, part) &&
+                     mix(card.area, other.area, part) && mix(card.moments, other.moments, part) &&
+                     mix(card.torsion, other.torsion, part) && mix(card.factors, other.factors, part) &&
+                     mix(card.stretching, other.stretching, part) && mix(card.twisting, other.twisting, part) &&
+                     mix(card.shearing, other.shearing, part) && mix(card.bending, other.bending, part) &&
+                     mix(card.stiffness, other.stiffness, part) && mix(card.mass, other.mass, part) &&
+                     mix(card.inertia, other.inertia, part) && mix(card.center, other.center, part);
+  if (!mixed) return {};
+  return card;
+}
+
+const deck::ProfileCard* SectionBook::profile(int number, const char* keyword, const BuildContext& context) const {
+  const auto found = profiles_.find(number);
+  if (found != profiles_.end()) return found->second->get<deck::ProfileCard>();
+  context.diagnostics.missing(".BPR", context.record.where(keyword), fmt::format("section {} does not exist", number),
+                              fmt::format(".BPR I {} CIRCLE d, or another shape", number));
+  return nullptr;
+}
+
+std::optional<SectionLine> SectionBook::make_line(const SectionChoice& choice, const BuildContext& context) const {
+  const deck::ProfileCard* card = profile(choice.profile, "BPR", context);
+  const deck::ProfileCard* end = choice.profile_end == 0 ? card : profile(choice.profile_end, "BPR_END", context);
+  if (!card || !end) return {};
+  const bool has_shape = card->shape.given() || card->area;
+  if (has_shape != (choice.material != 0)) {
+    context.error(has_shape ? "BPR" : "MAT",
+                  has_shape ? fmt::format("section {} is a shape, and the beam has no MAT", choice.profile)
+                            : fmt::format("section {} has a stiffness of its own: MAT means nothing", choice.profile),
+                  has_shape ? "MAT the number of a .MAT" : "leave MAT out");
+    return {};
+  }
+  if (!between(*card, *end, 0.5)) {
+    context.error("BPR_END", fmt::format("sections {} and {} are not of one kind", choice.profile, choice.profile_end),
+                  "both are the same shape, or given by the same keywords, with as many numbers");
+    return {};
+  }
+  Stuff stuff;
+  if (has_shape) {
+    const deck::MaterialCard* made_of = isotropic_material(context, choice.material, "beams");
+    if (!made_of) return {};
+    stuff = {made_of->young.front(), made_of->poisson.front(), made_of->density.value_or(0)};
+  }
+  const auto first = std::make_shared<const BeamSection>(make_section(*card, stuff, choice));
+  if (card == end) return SectionLine(first, nullptr);
+  return SectionLine(first, [card = *card, end = *end, stuff, choice](double part) {
+    return std::make_shared<const BeamSection>(make_section(*between(card, end, part), stuff, choice));
+  });
 }
 
 }  // namespace
 
-std::shared_ptr<const BeamSection> section_of(int profile, int material, double damping, const BuildContext& context) {
+std::optional<SectionLine> sections_of(const SectionChoice& choice, const BuildContext& context) {
   const auto make = [&context] { return SectionBook(context.records); };
-  return context.notes ? context.notes->get<SectionBook>(make).section(profile, material, damping, context)
-                       : make().section(profile, material, damping, context);
+  return context.notes ? context.notes->get<SectionBook>(make).line(choice, context) : make().line(choice, context);
 }
 
 }  // namespace engrane::elements::beams

@@ -42,17 +42,28 @@ struct LineShape {
   }
 };
 
-/// ∫ N_i N_j ds by three points.
-template <int Nodes>
-Eigen::Matrix<double, Nodes, Nodes> line_masses(const std::array<Vec3, Nodes>& places) {
+/// ∫ ρ N_i N_j ds by three points, with ρ at ξ by `density`.
+template <int Nodes, class Density>
+Eigen::Matrix<double, Nodes, Nodes> line_masses(const std::array<Vec3, Nodes>& places, const Density& density) {
   Eigen::Matrix<double, Nodes, Nodes> masses;
   masses.setZero();
   for (const GaussPoint& point : three_points) {
     const LineShape<Nodes> shape(point.place);
     const Eigen::Map<const Eigen::Matrix<double, Nodes, 1>> value(shape.value.data());
-    masses += point.weight * shape.along(places).norm() * value * value.transpose();
+    masses += density(point.place) * point.weight * shape.along(places).norm() * value * value.transpose();
   }
   return masses;
+}
+/// ∫ N_i N_j ds.
+template <int Nodes>
+Eigen::Matrix<double, Nodes, Nodes> line_masses(const std::array<Vec3, Nodes>& places) {
+  return line_masses<Nodes>(places, [](double) { return 1.0; });
+}
+
+/// ∫ ds by three points.
+template <int Nodes>
+double line_length(const std::array<Vec3, Nodes>& places) {
+  return line_masses<Nodes>(places).sum();
 }
 
 /// Nodes of a line, of a card with the keyword N, in pieces.

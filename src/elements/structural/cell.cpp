@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "elements/beams/make_beam.hpp"
 #include "elements/structural/cell_book.hpp"
 #include "elements/structural/cell_topology.hpp"
 #include "elements/structural/make_cell.hpp"
@@ -17,6 +18,24 @@ constexpr const char* how_plane =
     "N n1 n2 n3 [n4], or N n1 -m12 n2 -m23 n3 -m31, mid-side nodes below zero between their corners";
 constexpr const char* how_solid =
     "N base 0 top, as 1 2 3 0 4, 1 2 3 0 4 5 6 or 1 2 3 4 0 5 6 7 8; with mid-side nodes N base 0 uprights 0 top";
+
+/// Whether the nodes of a cell exist, and each is named once; else with errors.
+bool has_nodes(const std::vector<int>& nodes, BuildContext& context) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const int id = nodes[i];
+    if (!context.nodes.contains(id)) {
+      context.diagnostics.missing(".NOE", context.record.where("N"),
+                                  fmt::format("node {} of cell {} does not exist", id, context.record.id));
+      return false;
+    }
+    const auto end = nodes.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(nodes.begin(), end, id) != end) {
+      context.error("N", fmt::format("node {} is named twice", id), "each corner and each middle of a side is a node of its own");
+      return false;
+    }
+  }
+  return true;
+}
 
 /// Reports what is wrong with the list of nodes; they are then nothing.
 std::optional<Connectivity> nodes_of(const CellData& data, BuildContext& context) {
@@ -33,19 +52,7 @@ std::optional<Connectivity> nodes_of(const CellData& data, BuildContext& context
     context.error("N", what, solid ? how_solid : how_plane);
     return {};
   }
-  for (std::size_t i = 0; i < cell->nodes.size(); ++i) {
-    const int id = cell->nodes[i];
-    if (!context.nodes.contains(id)) {
-      context.diagnostics.missing(".NOE", context.record.where("N"),
-                                  fmt::format("node {} of cell {} does not exist", id, context.record.id));
-      return {};
-    }
-    const auto end = cell->nodes.begin() + static_cast<std::ptrdiff_t>(i);
-    if (std::find(cell->nodes.begin(), end, id) != end) {
-      context.error("N", fmt::format("node {} is named twice", id), "each corner and each middle of a side is a node of its own");
-      return {};
-    }
-  }
+  if (!has_nodes(cell->nodes, context)) return {};
   return cell;
 }
 
@@ -105,7 +112,20 @@ bool fits_rotation(const CellPlan& plan, BuildContext& context) {
   return false;
 }
 
+std::unique_ptr<Element> build_beam(const std::vector<int>& nodes, BuildContext& context) {
+  const std::optional<BeamCell> cell = CellBook::of(context)->beam(context.record.id);
+  if (!has_nodes(nodes, context) || !cell) return nullptr;
+  beams::BeamOptions options;
+  options.sections.profile = cell->profile;
+  options.sections.material = cell->material;
+  options.axis_2 = cell->axis_2;
+  options.small = cell->linear;
+  options.lumped = cell->lumped;
+  return beams::make_beam({nodes, false}, options, context);
+}
+
 std::unique_ptr<Element> build(const CellData& data, BuildContext& context) {
+  if (const auto line = line_of(data.nodes)) return build_beam(*line, context);
   auto cell = nodes_of(data, context);
   const std::shared_ptr<const CellSection> section = CellBook::of(context)->section(context.record.id);
   if (!cell || !section) return nullptr;
@@ -130,17 +150,18 @@ std::unique_ptr<Element> build(const CellData& data, BuildContext& context) {
 }  // namespace
 
 ElementType cell_type() {
-  deck::Card<CellData> card(".MAI", {".MAILLES", ".CELLS"},
-                            "Cells of a mesh: plane cells of 3, 6, 4 or 8 nodes, solids of 4, 10, 6, 15, 8 or 20");
+  deck::Card<CellData> card(
+      ".MAI", {".MAILLES", ".CELLS"},
+      "Cells of a mesh: beams of 2 or 3 nodes, plane cells of 3, 6, 4 or 8, solids of 4, 10, 6, 15, 8 or 20");
   card.numbered()
       .chapter("Meshes")
       .describe(
           "Corners stand in turn, either way round; a mid-side node is below zero and stands between its corners. Of a solid the "
           "corners of the base are followed by a 0 and those of the top: `1 2 3 0 4` is a tetrahedron, `1 2 3 0 4 5 6` a wedge, "
           "`1 2 3 4 0 5 6 7 8` a hexahedron. With mid-side nodes those of the sides from base to top stand between two zeros. "
-          "What "
-          "a cell is comes from `.HYP` (plane stress, plane strain, axisymmetric, volume), `.PHP` (thickness) and `.AEL` (its "
-          "`.MAT`). The nodes of plane cells move along x and y. Without `.SAM TYPE` and `.SUB` the analysis is linear "
+          "`1 2` and `1 -3 2` are beams, as those of BEAM. What a cell is comes from `.HYP` (plane stress, plane strain, "
+          "axisymmetric, volume, beam), `.PHP` (thickness) and `.AEL` (its `.MAT`; of beams its `.BPR` and AXIS2). The nodes of "
+          "plane cells move along x and y. Without `.SAM TYPE` and `.SUB` the analysis is linear "
           "statics: the equilibrium with all loads, at t = 1.")
       .example(".MAI\n I 1 AT 1 0 N 1 8 9 2\n I 2 AT 1 0 N 9 -24 11 -25 13 -26")
       .example(".MAI FILE \"wheel.mesh.h5\"")
@@ -152,7 +173,7 @@ ElementType cell_type() {
   card.add("AT", &CellData::attribute, "attribute by which `.SEL` may choose cells; a 0 behind it separates it from N")
       .synonyms({"ATTRIBUTE", "ATTRIBUT"})
       .values(1, 3);
-  card.add("N", &CellData::nodes, "nodes").synonyms({"NODES", "NOEUDS"}).values(3, 27).required();
+  card.add("N", &CellData::nodes, "nodes").synonyms({"NODES", "NOEUDS"}).values(2, 27).required();
   card.finish([](CellData&, deck::Record& record, Diagnostics& diagnostics) {
     if (record.given("FILE"))
       diagnostics.error(record.where("FILE"), "FILE stands before the first cell",

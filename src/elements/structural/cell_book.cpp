@@ -36,6 +36,10 @@ std::optional<Hypothesis> hypothesis_of(const deck::HypothesisCard& card) {
   return {};
 }
 
+bool is_beam_card(const deck::HypothesisCard& card) {
+  return (begins("BEAM", card.formulation) || begins("POUTRE", card.formulation)) && card.variant.empty();
+}
+
 /// `"a"`, `"b"`, or all cells.
 std::string names_of(const std::vector<std::string>& groups) {
   std::string names;
@@ -55,6 +59,7 @@ CellBook::CellBook(const BuildContext& context)
   read_properties(records);
   read_rotations(context);
   make_sections(context.nodes);
+  check_beams(context.temperatures);
   if (context.temperatures) refuse_warm_rubber(*context.temperatures);
 }
 
@@ -90,6 +95,15 @@ std::shared_ptr<const CellSection> CellBook::section(int cell) const {
   const Cell* found = find(cell);
   return found ? found->section : nullptr;
 }
+
+std::optional<BeamCell> CellBook::beam(int cell) const {
+  const Cell* found = find(cell);
+  if (!found || found->profile == 0 || !found->hypothesis || !is_beam_card(*found->hypothesis->get<deck::HypothesisCard>()))
+    return {};
+  return BeamCell{found->profile, found->material ? found->material->id : 0, found->axis_2, linear_, lumped_};
+}
+
+bool CellBook::is_beam(const Cell& cell) { return line_of(cell.record->get<CellData>()->nodes).has_value(); }
 
 std::shared_ptr<const CellRotation> CellBook::rotation(int cell) const {
   const Cell* found = find(cell);
@@ -156,10 +170,10 @@ void CellBook::read_properties(const std::vector<deck::Record>& records) {
   for (const deck::Record& record : records) {
     if (const auto* hypothesis = record.get<deck::HypothesisCard>()) {
       const std::string words = hypothesis->formulation + (hypothesis->variant.empty() ? "" : " " + hypothesis->variant);
-      if (!hypothesis_of(*hypothesis) && refused.insert(upper(words)).second)
+      if (!hypothesis_of(*hypothesis) && !is_beam_card(*hypothesis) && refused.insert(upper(words)).second)
         diagnostics_.error(record.where("FORMULATION"),
                            fmt::format("the formulation {} ({}) is not in this version", words, names_of(hypothesis->groups)),
-                           "there are MEMB BIDIM and CONT PLAN (plane stress), DEFO PLAN (plane strain), AXIS and VOLUME");
+                           "there are MEMB BIDIM and CONT PLAN (plane stress), DEFO PLAN (plane strain), AXIS, VOLUME and BEAM");
       if (hypothesis->groups.empty())
         for (Cell& cell : cells_) cell.hypothesis = &record;
       for (const std::size_t i : members(record, hypothesis->groups)) cells_[i].hypothesis = &record;
@@ -208,6 +222,8 @@ void CellBook::assign(const deck::Record& record, const deck::AssignmentCard& as
   for (const std::size_t i : group) {
     Cell& cell = cells_[i];
     if (material) cell.material = material;
+    if (assignment.profile) cell.profile = *assignment.profile;
+    if (assignment.axis_2) cell.axis_2 = Vec3(assignment.axis_2->data());
     if (!assignment.theta && !assignment.frame) continue;
     if (assignment.theta) cell.theta = *assignment.theta;
     if (assignment.frame) cell.frame = *assignment.frame;
@@ -290,14 +306,17 @@ void CellBook::make_sections(const NodePositions& nodes) {
   };
   const auto fits = [&](const Cell& cell) {
     const auto found = hypothesis(cell);
-    return !found || (*found == Hypothesis::solid) == is_solid_cell(cell);
+    if (!found) return !cell.hypothesis || !is_beam_card(*cell.hypothesis->get<deck::HypothesisCard>());
+    return (*found == Hypothesis::solid) == is_solid_cell(cell);
   };
-  const auto is_stress = [&](const Cell& cell) { return hypothesis(cell) == Hypothesis::plane_stress && fits(cell); };
-  report_lack([&](const Cell& cell) { return !cell.hypothesis && !is_solid_cell(cell); }, "has no formulation",
+  const auto is_stress = [&](const Cell& cell) {
+    return hypothesis(cell) == Hypothesis::plane_stress && fits(cell) && !is_beam(cell);
+  };
+  report_lack([&](const Cell& cell) { return !cell.hypothesis && !is_solid_cell(cell) && !is_beam(cell); }, "has no formulation",
               ".HYP MEMB BIDIM GROUP \"name\" (plane stress), DEFO PLAN (plane strain) or AXIS");
-  report_lack([&](const Cell& cell) { return !fits(cell); }, "does not fit its formulation",
-              "VOLUME is for solids, whose nodes hold a 0 (N 1 2 3 0 4); the other formulations are for plane cells");
-  report_lack([](const Cell& cell) { return !cell.material; }, "has no material", ".AEL I 1 J 9 K 1 MAT 1");
+  report_lack([&](const Cell& cell) { return !is_beam(cell) && !fits(cell); }, "does not fit its formulation",
+              "VOLUME is for solids, whose nodes hold a 0 (N 1 2 3 0 4); BEAM for two nodes, or three; others for plane cells");
+  report_lack([](const Cell& cell) { return !is_beam(cell) && !cell.material; }, "has no material", ".AEL I 1 J 9 K 1 MAT 1");
   report_lack([&](const Cell& cell) { return is_stress(cell) && cell.thickness == 0; }, "has no thickness",
               "plane stress needs .PHP GROUP \"name\" THICK VAL t");
   using Key = std::tuple<Hypothesis, int, double, double, int>;
@@ -306,7 +325,7 @@ void CellBook::make_sections(const NodePositions& nodes) {
   for (Cell& cell : cells_) {
     const auto formulation = hypothesis(cell);
     const bool has_material = cell.material && cell.material->get<deck::MaterialCard>();
-    if (!formulation || !fits(cell) || !has_material || (is_stress(cell) && cell.thickness == 0)) continue;
+    if (is_beam(cell) || !formulation || !fits(cell) || !has_material || (is_stress(cell) && cell.thickness == 0)) continue;
     const bool alone = frames_.is_curved(cell.frame);  // with axes of its own
     const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame};
     Key group = key;
@@ -323,6 +342,33 @@ void CellBook::make_sections(const NodePositions& nodes) {
     if (const auto axes = axes_of(cell, nodes)) cell.section = make_section(cell, *formulation, *axes, number);
     if (!alone) sections.emplace(key, cell.section);
   }
+}
+
+/// What is missing of beams, or given to a cell for which it has no meaning.
+void CellBook::check_beams(const Temperatures* temperatures) {
+  const auto formulated = [](const Cell& cell) {
+    return cell.hypothesis && is_beam_card(*cell.hypothesis->get<deck::HypothesisCard>());
+  };
+  report_lack([&](const Cell& cell) { return is_beam(cell) && !formulated(cell); }, "of two corners is no BEAM",
+              ".HYP BEAM GROUP \"name\"");
+  report_lack([&](const Cell& cell) { return is_beam(cell) && formulated(cell) && cell.profile == 0; }, "has no section",
+              ".AEL GROUP \"name\" MAT 1 BPR 2 AXIS2 0 0 1");
+  report_lack([](const Cell& cell) { return is_beam(cell) && (cell.theta || cell.frame != 0); },
+              "is a beam, and has THETA or FRAME", "AXIS2 x y z is where axis 2 of its section points");
+  report_lack([](const Cell& cell) { return is_beam(cell) && cell.thickness > 0; }, "is a beam, and has a THICK",
+              "BPR is the number of its section");
+  report_lack([](const Cell& cell) { return is_beam(cell) && cell.rotation; }, "is a beam, and has ROT",
+              "a beam of .MCE on nodes that turn");
+  report_lack([](const Cell& cell) { return !is_beam(cell) && (cell.profile != 0 || cell.axis_2); },
+              "is no beam, and has BPR or AXIS2", "these are for cells of two nodes, or three, with .HYP BEAM");
+  if (!temperatures) return;
+  const auto is_warm = [&](int node) { return temperatures->contains(std::abs(node)); };
+  const auto warm_beam = [&](const Cell& cell) {
+    const std::vector<int>& nodes = cell.record->get<CellData>()->nodes;
+    return is_beam(cell) && std::any_of(nodes.begin(), nodes.end(), is_warm);
+  };
+  report_lack(warm_beam, "is a beam with warm nodes: thermal expansion of beams is not in this version",
+              "leave these nodes out of TEMP");
 }
 
 }  // namespace engrane::elements::structural

@@ -29,6 +29,13 @@ struct CellSection {
   bool lumped = false;  ///< masses at the nodes
 };
 
+/// What a cell that is a beam is made of.
+struct BeamCell {
+  int profile = 0, material = 0;  ///< of `.BPR` and `.MAT`; 0: not given
+  std::optional<Vec3> axis_2;
+  bool linear = true, lumped = false;  ///< small displacements; masses at the nodes
+};
+
 /// A body that turns about an axis, in axes that turn with it.
 struct CellRotation {
   const deck::Record* record = nullptr;
@@ -56,6 +63,8 @@ class CellBook {
   const std::vector<int>* faces(const std::string& group) const;
   /// nullptr: something is missing, and was reported.
   std::shared_ptr<const CellSection> section(int cell) const;
+  /// Of a cell of two nodes, or three; nothing: something is missing, and was reported.
+  std::optional<BeamCell> beam(int cell) const;
   /// nullptr: the cell does not turn.
   std::shared_ptr<const CellRotation> rotation(int cell) const;
 
@@ -68,6 +77,8 @@ class CellBook {
     std::optional<double> theta = {};    ///< degrees
     int frame = 0;                       ///< 0: the global one
     const deck::Record* axes = nullptr;  ///< where they were given
+    int profile = 0;                     ///< of a beam; 0: not given
+    std::optional<Vec3> axis_2 = {};
     std::shared_ptr<const CellSection> section = nullptr;
     std::shared_ptr<const CellRotation> rotation = nullptr;
   };
@@ -79,6 +90,7 @@ class CellBook {
   void read_rotations(const BuildContext& context);
   void assign(const deck::Record& record, const deck::AssignmentCard& assignment);
   void make_sections(const NodePositions& nodes);
+  void check_beams(const Temperatures* temperatures);
   void refuse_warm_rubber(const Temperatures& temperatures);
   std::shared_ptr<const CellSection> make_section(const Cell& cell, materials::Hypothesis hypothesis, const Mat3& axes,
                                                   int number);
@@ -92,6 +104,8 @@ class CellBook {
   /// One error for all cells that lack something.
   template <class Lacks>
   void report_lack(const Lacks& lacks, const std::string& what, const std::string& cure);
+
+  static bool is_beam(const Cell& cell);
 
   Diagnostics& diagnostics_;
   bool linear_, lumped_;     ///< what all cells of the model have

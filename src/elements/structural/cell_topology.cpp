@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 namespace engrane::elements::structural {
 
@@ -59,6 +60,15 @@ std::optional<CellShape> solid_shape(const Polygon& base, const Polygon& top, st
 }
 
 }  // namespace
+
+std::optional<std::vector<int>> line_of(std::span<const int> written) {
+  const bool is_line =
+      (written.size() == 2 || (written.size() == 3 && written[1] < 0)) && written.front() > 0 && written.back() > 0;
+  if (!is_line) return {};
+  std::vector<int> nodes;
+  for (const int node : written) nodes.push_back(std::abs(node));
+  return nodes;
+}
 
 std::optional<Connectivity> connectivity(std::span<const int> written) {
   std::vector<std::span<const int>> pieces;

@@ -22,6 +22,9 @@ struct Connectivity {
 /// between two zeros. Nothing when it is no cell.
 std::optional<Connectivity> connectivity(std::span<const int> written);
 
+/// Nodes of a line along it, from `n1 n2` or `n1 -m12 n2`; nothing when it is none.
+std::optional<std::vector<int>> line_of(std::span<const int> written);
+
 bool is_solid(CellShape shape);
 bool has_middles(CellShape shape);
 /// Corners, as indices of nodes, at the ends of each side; the mid-side nodes stand in this order.

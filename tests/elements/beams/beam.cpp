@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elements/beams/beam.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "deck/cards/profile_card.hpp"
+#include "elements/common/building.hpp"
+#include "elements/structural/deck_model.hpp"
 #include "elements/suite.hpp"
 #include "math/chain.hpp"
 #include "math/matrix6.hpp"
@@ -19,12 +22,22 @@ using namespace suite;
 
 const NodeMap bow = {{1, {0, 0, 0}}, {2, {0.9, 0.3, -0.2}}, {3, {1.6, 0.9, 0.1}}};
 
-/// The sections of a deck.
+/// The sections of a deck: 1, and 20, which is 1.5 times that.
 std::vector<deck::Record> sections(const deck::ProfileCard& profile) {
-  deck::Record record;
-  record.id = 1;
-  record.data = profile;
-  return {record};
+  std::vector<deck::Record> records(2);
+  deck::ProfileCard other = profile;
+  for (auto* value : {&other.stretching, &other.twisting, &other.mass})
+    if (*value) **value *= 1.5;
+  for (auto* pair : {&other.shearing, &other.bending})
+    if (*pair)
+      for (double& value : **pair) value *= 1.5;
+  for (auto* list : {&other.stiffness, &other.inertia})
+    for (double& value : *list) value *= 1.5;
+  records[0].id = 1;
+  records[0].data = profile;
+  records[1].id = 20;
+  records[1].data = other;
+  return records;
 }
 
 deck::ProfileCard round_section() {
@@ -56,7 +69,9 @@ deck::ProfileCard coupled_section() {
 
 std::array<double, 3> list(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
-Subject subject(std::vector<int> nodes, const deck::ProfileCard& profile, double damping = 0) {
+Subject subject(
+    std::vector<int> nodes, const deck::ProfileCard& profile, double damping = 0,
+    const std::function<void(BeamData&)>& more = [](BeamData&) {}) {
   Subject s;
   s.name = std::to_string(nodes.size()) + " nodes, " + (profile.stiffness.empty() ? "round" : "coupled") +
            (damping > 0 ? ", damped" : "");
@@ -67,6 +82,8 @@ Subject subject(std::vector<int> nodes, const deck::ProfileCard& profile, double
     beam.profile = 1;
     beam.axis_2 = list(Q * Vec3(-0.2, 0.3, 1));
     beam.damping = damping;
+    more(beam);
+    if (beam.axis_2_end) beam.axis_2_end = list(Q * to_vector(*beam.axis_2_end));
     return beam;
   };
   const auto made = [=](const BeamData& beam, const Mat3& Q) {
@@ -108,6 +125,99 @@ TEST(Beam, Suite) {
           if (heavy && nodes.size() == 2) s.mass = *profile.mass * (bow.at(3) - bow.at(1)).norm();
           run_suite(s);
         }
+}
+
+/// Strains that are held, each alone and together, also of a section that couples them.
+TEST(Beam, Held) {
+  for (const std::vector<int>& nodes : {std::vector{1, 2, 3}, std::vector{1, 3}})
+    for (const deck::ProfileCard& profile : {massless(round_section()), massless(coupled_section())})
+      for (const double damping : {0.0, 0.3})
+        for (const int which : {1, 2, 3}) {
+          Subject s = subject(nodes, profile, damping, [which](BeamData& beam) {
+            beam.inextensible = (which & 1) != 0;
+            beam.unshearable = (which & 2) != 0;
+          });
+          s.name += ", held " + std::to_string(which);
+          s.skip[Check::swap] = "multipliers stand in the order of the points, and in their axes";
+          run_suite(s);
+        }
+}
+
+/// Beams among cells, with small displacements: as a frame that turns far shows, forces and moments in space are linear.
+TEST(Beam, Small) {
+  for (const std::string line : {"1 -2 3", "1 3"}) {
+    Subject s;
+    s.name = "small, " + line;
+    const bool three = line.size() > 3;
+    for (const auto& [id, place] : bow)
+      if (three || id != 2) s.nodes[id] = place;
+    s.build = [=, nodes = s.nodes](const Mat3& Q) {
+      std::string text = ".NOE\n";
+      for (const auto& [id, place] : turned(nodes, Q))
+        text += fmt::format(" I {} X {} {} {}\n", id, place[0], place[1], place[2]);
+      const Vec3 side = Q * Vec3(-0.2, 0.3, 1);
+      text +=
+          fmt::format(".BPR\n I 1 EA 50 GA 20 30 GJ 8 EI 10 12\n.MAI\n I 1 N {}\n.HYP BEAM\n.AEL\n I 1 BPR 1 AXIS2 {} {} {}\n",
+                      line, side[0], side[1], side[2]);
+      DeckModel deck(text + ".SAM TYPE STATIC DISPLACEMENTS SMALL\n.FIN 1\n");
+      return std::move(deck.model.parts.at(0).element);
+    };
+    s.turn = 0.6;
+    for (const Check check : {Check::lagrange, Check::power, Check::rigid, Check::objectivity, Check::equilibrium})
+      s.skip[check] = "rotations and displacements are small";
+    run_suite(s);
+    const auto element = s.build(Mat3::Identity());
+    EXPECT_TRUE(element->is_linear());
+    StateBuffer state(*element, s.nodes);
+    const std::size_t last = s.nodes.size() - 1;
+    const Vec3 shift(0.1, -0.2, 0.15), turn(0.3, 0.4, -0.2);
+    std::vector<std::vector<double>> forces;
+    for (const double size : {1.0, 2.0}) {
+      state.nodes[last].x = bow.at(3) + size * shift;
+      state.turn(last, rotation_exp(size * turn), Vec3::Zero());
+      forces.push_back(residual_of(*element, state));
+      Vec3 moment(&forces.back()[6 * last + 3]);
+      moment = state.nodes[last].R * moment;
+      std::copy(moment.data(), moment.data() + 3, &forces.back()[6 * last + 3]);
+    }
+    for (std::size_t i = 0; i < forces[0].size(); ++i) EXPECT_NEAR(2 * forces[0][i], forces[1][i], 1e-12) << i;
+  }
+}
+
+TEST(Beam, SectionsThatChange) {
+  for (const std::vector<int>& nodes : {std::vector{1, 2, 3}, std::vector{1, 3}})
+    for (const bool heavy : {true, false}) {
+      const deck::ProfileCard profile = heavy ? coupled_section() : massless(coupled_section());
+      Subject s = subject(nodes, profile, 0, [](BeamData& beam) {
+        beam.profile_end = 20;
+        beam.axis_2_end = list(Vec3(1, 0.4, 0.3));
+      });
+      if (heavy) s.skip[Check::mass] = "told by tests of shafts";
+      run_suite(s);
+    }
+}
+
+/// Half a beam of two pieces with sections and axes that change is that of a beam of one.
+TEST(Beam, ChangeAlongTheLine) {
+  const NodeMap straight = {{1, {0, 0, 0}}, {2, {0.5, 0, 0}}, {3, {1, 0, 0}}, {4, {1.5, 0, 0}}, {5, {2, 0, 0}}};
+  const std::vector<deck::Record> records = sections(massless(coupled_section()));
+  BeamData data;
+  data.nodes = {1, 2, 3, 4, 5};
+  data.profile = 1;
+  data.profile_end = 20;
+  data.axis_2 = {{0, 1, 0}};
+  data.axis_2_end = {{0, 0, 2}};
+  const auto first = build(beam_type(), data, straight, {.records = &records});
+  std::vector<deck::Record> half = records;
+  deck::ProfileCard middle = *records[1].get<deck::ProfileCard>();
+  for (double& value : middle.stiffness) value *= 1.25 / 1.5;
+  half[1].data = middle;
+  data.nodes = {1, 2, 3};
+  data.axis_2_end = {{0, 3, 3}};
+  const auto alone = build(beam_type(), data, straight, {.records = &half});
+  StateBuffer state(*first, {{1, {0, 0, 0}}, {2, {0.5, 0.1, 0}}, {3, {1, 0, 0.1}}});
+  const std::vector<double> a = residual_of(*first, state), b = residual_of(*alone, state);
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-13);
 }
 
 TEST(Beam, SoftAndStiff) {
@@ -242,6 +352,13 @@ TEST(Beam, FaultsOfTheCard) {
   EXPECT_EQ(message(data), "section 1 has a stiffness of its own: MAT means nothing");
   data.profile = 7;
   EXPECT_EQ(message(data), "section 7 does not exist");
+  data.profile = 1;
+  data.material = 0;
+  data.profile_end = 7;
+  EXPECT_EQ(message(data), "section 7 does not exist");
+  data.profile_end = 20;
+  data.axis_2_end = {{1, 0, 0}};
+  EXPECT_EQ(message(data), "AXIS2_END is along beam 1");
 }
 
 }  // namespace
