@@ -54,11 +54,9 @@ std::unique_ptr<Element> build(const MembraneData& data, BuildContext& context) 
     context.error("TENSION", "a skin that wrinkles cannot be pressed in its reference configuration", "TENSION of 0 or more");
     return nullptr;
   }
-  MembraneSection section{{materials::law_of(materials::Hypothesis::plane_stress, *material), data.tension, {}},
-                          material->density,
-                          data.thickness,
-                          data.pressure,
-                          function};
+  MembraneSection section{membrane_law(materials::law_of(materials::Hypothesis::plane_stress, *material)), material->density,
+                          data.thickness, data.pressure, function};
+  section.law.tension = data.tension;
   if (data.wrinkling) section.law.wrinkling = data.slack;
   std::vector<Vec3> places;
   for (const int node : data.nodes) places.push_back(context.nodes.at(node));

@@ -20,21 +20,21 @@ constexpr std::array<Eigen::Index, 3> in_plane = {0, 1, 3};
 /// Of a strain that the skin follows without wrinkles.
 SkinResponse taut(const MembraneLaw& law, const Plane& strain) {
   SkinResponse r;
-  const materials::Elasticity& m = law.material;
   double transverse;
-  if (m.neo_hookean) {
+  if (law.neo_hookean) {
     Voigt all = Voigt::Zero();
     all(in_plane) = strain;
-    const materials::Response found = materials::respond(*m.neo_hookean, Hypothesis::plane_stress, all);
+    const materials::Response found = materials::respond(*law.neo_hookean, Hypothesis::plane_stress, all);
     r.stress = found.stress(in_plane);
     r.moduli = found.moduli(in_plane, in_plane);
     r.energy = found.energy;
     transverse = found.transverse;
   } else {
-    r.moduli = m.stiffness(in_plane, in_plane);
-    r.stress.noalias() = r.moduli * strain;
+    const double nu = law.poisson, D = law.young / (1 - nu * nu);
+    r.moduli << D, nu * D, 0, nu * D, D, 0, 0, 0, (1 - nu) / 2 * D;
+    r.stress << D * (strain[0] + nu * strain[1]), D * (strain[1] + nu * strain[0]), (1 - nu) / 2 * D * strain[2];
     r.energy = r.stress.dot(strain) / 2;
-    transverse = m.transverse[0] * strain[0] + m.transverse[1] * strain[1] + m.transverse[3] * strain[2];
+    transverse = -nu / (1 - nu) * (strain[0] + strain[1]);
   }
   r.stress[0] += law.tension;
   r.stress[1] += law.tension;
@@ -55,10 +55,10 @@ struct Strip {
 
 /// ½ D (E₁² + E₂² + 2ν E₁E₂) + s (E₁ + E₂) is ½ D (E₂ + ν E₁ + s/D)² + ½ Y (E₁ − E_n)² + W_n, with D = Y/(1 − ν²): the first
 /// square is gone where E₂ is free. The skin left to itself has E₁ = E₂ = E_n = −(1 − ν) s/Y and the energy W_n.
-Strip linear_strip(const materials::Elasticity& m, double tension, double strain) {
-  const double D = m.stiffness(0, 0), nu = m.stiffness(0, 1) / D, Y = D * (1 - nu * nu);
-  const double natural = -(1 - nu) * tension / Y, along = std::max(strain, natural);
-  const double across = -nu * along - tension / D, transverse = m.transverse[0] * (along + across);
+Strip linear_strip(const MembraneLaw& law, double strain) {
+  const double Y = law.young, nu = law.poisson, tension = law.tension, natural = -(1 - nu) * tension / Y;
+  const double along = std::max(strain, natural), across = -nu * along - (1 - nu * nu) * tension / Y;
+  const double transverse = -nu / (1 - nu) * (along + across);
   Strip s;
   s.stress = Y * (strain - natural);
   s.modulus = Y;
@@ -103,6 +103,11 @@ Strip neo_hookean_strip(const materials::NeoHookean& m, double tension, double s
 
 }  // namespace
 
+MembraneLaw membrane_law(const materials::Elasticity& material) {
+  const double D = material.stiffness(0, 0), nu = material.stiffness(0, 1) / D;
+  return {D * (1 - nu * nu), nu, material.neo_hookean, 0, {}};
+}
+
 /// Pipkin (1986), IMA J. Appl. Math. 36, 85; Steigmann (1990), Proc. R. Soc. Lond. A 429, 141: the energy is the least that the
 /// skin can have with wrinkles as fine as it likes. With E₁ ≥ E₂ it is that of the strain where both principal stresses pull,
 /// that of a strip with the strain E₁ where a strip would be pulled, and else that of a skin left to itself.
@@ -113,9 +118,7 @@ SkinResponse respond(const MembraneLaw& law, const Plane& strain) {
   if (!(least < 0)) return r;
   const double half = (strain[0] - strain[1]) / 2, shear = strain[2] / 2, radius = std::hypot(half, shear);
   const double largest = (strain[0] + strain[1]) / 2 + radius;
-  const materials::Elasticity& m = law.material;
-  const Strip strip =
-      m.neo_hookean ? neo_hookean_strip(*m.neo_hookean, law.tension, largest) : linear_strip(m, law.tension, largest);
+  const Strip strip = law.neo_hookean ? neo_hookean_strip(*law.neo_hookean, law.tension, largest) : linear_strip(law, largest);
   const double left = *law.wrinkling, relaxed = 1 - left;
   r.stress *= left;
   r.moduli *= left;

@@ -18,10 +18,14 @@ inline constexpr double slack_stiffness = 1e-4;
 
 /// The law of an isotropic skin.
 struct MembraneLaw {
-  materials::Elasticity material;   ///< of plane stress
+  double young = 0, poisson = 0;
+  std::optional<materials::NeoHookean> neo_hookean;  ///< instead
   double tension = 0;               ///< s: second Piola–Kirchhoff stress in the reference configuration, in all directions
   std::optional<double> wrinkling;  ///< ε: part of the stiffness that is left where it is not taut; none: it cannot wrinkle
 };
+
+/// Of an isotropic material in plane stress.
+MembraneLaw membrane_law(const materials::Elasticity& material);
 
 enum class SkinState : unsigned char { slack, wrinkled, taut };
 

@@ -14,7 +14,10 @@ constexpr double young = 50, poisson = 0.3;
 MembraneLaw law(bool rubber, double tension, double slack) {
   materials::Elastic material = materials::isotropic(young, poisson);
   if (rubber) material.neo_hookean = materials::neo_hookean(young, poisson);
-  return {materials::law_of(materials::Hypothesis::plane_stress, material), tension, slack};
+  MembraneLaw skin = membrane_law(materials::law_of(materials::Hypothesis::plane_stress, material));
+  skin.tension = tension;
+  skin.wrinkling = slack;
+  return skin;
 }
 
 /// Principal strains, the larger one turned from the first axis by an angle.
@@ -27,7 +30,7 @@ struct Case {
   SkinState state;
   double larger, smaller;
 };
-constexpr Case cases[] = {{SkinState::taut, 0.4, 0.1},       {SkinState::taut, 0.2, 0.19},   {SkinState::wrinkled, 0.3, -0.2},
+constexpr Case cases[] = {{SkinState::taut, 0.4, 0.1},        {SkinState::taut, 0.2, 0.19},   {SkinState::wrinkled, 0.3, -0.2},
                           {SkinState::wrinkled, 1.3, -0.485}, {SkinState::slack, -0.1, -0.2}, {SkinState::slack, -0.2, -0.45}};
 
 /// Stress is the derivative of the energy, moduli those of the stress, whatever the state.
