@@ -39,7 +39,9 @@ class Gas final : public Element {
 
   const Layout& layout() const override { return layout_; }
   bool in_mesh() const override { return false; }
-  const char* why_not_finite() const override { return "encloses no volume any more: take smaller steps H"; }
+  const char* why_not_finite() const override {
+    return "encloses no volume, or has a mass below 0: take smaller steps H, and a function NF that is never below 0";
+  }
   void start(std::span<double> scalars, std::span<double> /*history*/) const override { scalars[0] = volume_ / area_; }
 
   void residual(const State& state, std::span<double> r) const override {

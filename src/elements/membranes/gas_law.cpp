@@ -7,8 +7,9 @@
 namespace engrane::elements::membranes {
 
 GasLaw::Pressure GasLaw::pressure(double volume, double time) const {
-  if (!(volume > 0)) return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
-  const double p = amount_at(time) / (gamma == 1 ? volume : std::pow(volume, gamma));
+  const double c = amount_at(time);
+  if (!(volume > 0 && c >= 0)) return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
+  const double p = c / (gamma == 1 ? volume : std::pow(volume, gamma));
   return {p, -gamma * p / volume};
 }
 
@@ -17,13 +18,13 @@ GasLaw::Pressure GasLaw::pressure(double volume, double time) const {
 double GasLaw::energy(double volume, double time) const {
   const double p = pressure(volume, time).value;
   if (gamma != 1) return p * volume / (gamma - 1) + ambient * volume;
-  return ambient * volume + (p > 0 ? p * volume * (std::log(p / rest) - 1) : 0.0);
+  return ambient * volume + (p == 0 ? 0.0 : p * volume * (std::log(p / rest) - 1));
 }
 
 double GasLaw::filling(double volume, double time) const {
   if (!function) return 0;
   const double p = pressure(volume, time).value;
-  return p > 0 ? amount * function->at(time).d1 * std::log(p / rest) : 0.0;
+  return p == 0 ? 0.0 : amount * function->at(time).d1 * std::log(p / rest);
 }
 
 }  // namespace engrane::elements::membranes

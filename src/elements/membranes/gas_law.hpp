@@ -14,7 +14,8 @@ struct GasLaw {
   const Function* function = nullptr;  ///< f; none: 1
 
   struct Pressure {
-    double value = 0, by_volume = 0;  ///< absolute, and its derivative; not a number of a volume that is not above zero
+    double value = 0,
+           by_volume = 0;  ///< absolute, and its derivative; not a number where the volume is not above zero or c f below it
   };
   Pressure pressure(double volume, double time) const;
   /// What the gas and the atmosphere can give back.
