@@ -24,8 +24,7 @@ class Membranes final : public Block {
   using Traits = CellTraits<S>;
   static constexpr int N = Traits::nodes;
   using Places = Eigen::Matrix<double, 3, N>;
-  using Vector = Eigen::Matrix<double, 3 * N, 1>;
-  using Square = Eigen::Matrix<double, 3 * N, 3 * N>;
+  using Square = Eigen::Matrix<double, 3 * N, 3 * N, Eigen::RowMajor>;
   using Shape = Eigen::Matrix<double, N, 1>;
 
   /// A point of the reference surface.
@@ -196,47 +195,69 @@ class Membranes final : public Block {
     for (Eigen::Index i = 0; i < N; ++i) a.col(i) = state.nodes[static_cast<std::size_t>(i)].a - state.gravity;
     Eigen::Map<Places> out(r);
     out.setZero();
-    using Rows = Eigen::Matrix<double, 3 * N, 3 * N, Eigen::RowMajor>;
-    if (k) Eigen::Map<Rows>(k).setZero();
+    if (k) Eigen::Map<Square>(k).setZero();
+    Symmetric sum;
+    if (k) sum.fill(Mat3::Zero());
     for (const Sample& s : samples()) {
       const Point p = point(cell.places, s);
       const Local local = Membranes::local(section, x, p);
       const double volume = p.area * section.thickness;
       const Eigen::Matrix<double, 2, N> pulled = local.stress() * p.gradient;
-      out += volume * local.F * pulled;
-      out -= p.area * pressure * normal(local) * p.value.transpose();
-      if (mass != 0) out += p.area * mass * (a * p.value) * p.value.transpose();
-      if (k) add_tangent(p, local, pulled, {weights.q * volume, weights.q * p.area * pressure, weights.a * p.area * mass}, k);
+      out.noalias() += (volume * local.F).lazyProduct(pulled);
+      if (pressure != 0) out.noalias() -= (p.area * pressure * normal(local)).lazyProduct(p.value.transpose());
+      if (mass != 0) out.noalias() += (p.area * mass * (a * p.value)).lazyProduct(p.value.transpose());
+      if (!k) continue;
+      add_symmetric(p, local, pulled, weights.q * volume, weights.a * p.area * mass, sum);
+      if (pressure != 0) add_pressure(p, local, weights.q * p.area * pressure, k);
+    }
+    if (!k) return;
+    Eigen::Map<Square> tangent(k);
+    for (Eigen::Index j = 0, at = 0; j < N; ++j)
+      for (Eigen::Index i = 0; i <= j; ++i, ++at) {
+        const Mat3& block = sum[static_cast<std::size_t>(at)];
+        tangent.template block<3, 3>(3 * i, 3 * j) += block;
+        if (i != j) tangent.template block<3, 3>(3 * j, 3 * i) += block.transpose();
+      }
+  }
+
+  /// Blocks of two nodes i ≤ j, those of the same j one after the other.
+  using Symmetric = std::array<Mat3, static_cast<std::size_t>(N*(N + 1) / 2)>;
+
+  /// A point's part of the tangent, of stresses and masses; `volume` and `mass` with their weights.
+  static void add_symmetric(const Point& p, const Local& local, const Eigen::Matrix<double, 2, N>& pulled, double volume,
+                            double mass, Symmetric& sum) {
+    const Mat3 moduli = volume * local.response.moduli;
+    std::array<Mat3, static_cast<std::size_t>(N)> strains;  // by the displacement of a node, as columns 11, 22, 12
+    for (Eigen::Index j = 0, at = 0; j < N; ++j) {
+      const double d1 = p.gradient(0, j), d2 = p.gradient(1, j);
+      Mat3& b = strains[static_cast<std::size_t>(j)];
+      b.col(0) = d1 * local.F.col(0);
+      b.col(1) = d2 * local.F.col(1);
+      b.col(2) = d1 * local.F.col(1) + d2 * local.F.col(0);
+      const Mat3 stresses = moduli * b.transpose();
+      const double s1 = volume * pulled(0, j), s2 = volume * pulled(1, j), m = mass * p.value[j];
+      for (Eigen::Index i = 0; i <= j; ++i, ++at) {
+        Mat3& block = sum[static_cast<std::size_t>(at)];
+        block.noalias() += strains[static_cast<std::size_t>(i)] * stresses;
+        block.diagonal().array() += s1 * p.gradient(0, i) + s2 * p.gradient(1, i) + m * p.value[i];
+      }
     }
   }
 
-  /// Factors of a point's parts of the tangent.
-  struct Factors {
-    double strain, pressure, mass;
-  };
-
-  static void add_tangent(const Point& p, const Local& local, const Eigen::Matrix<double, 2, N>& pulled, const Factors& factors,
-                          double* k) {
-    Eigen::Map<Eigen::Matrix<double, 3 * N, 3 * N, Eigen::RowMajor>> out(k);
-    // strains by the nodes' displacements
-    Eigen::Matrix<double, 3, 3 * N> B;
-    for (Eigen::Index i = 0; i < N; ++i) {
-      const double d1 = p.gradient(0, i), d2 = p.gradient(1, i);
-      B.template block<1, 3>(0, 3 * i) = d1 * local.F.col(0).transpose();
-      B.template block<1, 3>(1, 3 * i) = d2 * local.F.col(1).transpose();
-      B.template block<1, 3>(2, 3 * i) = d1 * local.F.col(1).transpose() + d2 * local.F.col(0).transpose();
-    }
-    out.noalias() += B.transpose() * (factors.strain * local.response.moduli * B);
-    const Eigen::Matrix<double, N, N> stretched =
-        factors.strain * p.gradient.transpose() * pulled + factors.mass * p.value * p.value.transpose();
-    const Mat3 first = skew(Vec3(local.F.col(0))), second = skew(Vec3(local.F.col(1)));
+  /// That of the pressure: the derivative of the normal f₁ × f₂.
+  static void add_pressure(const Point& p, const Local& local, double pressure, double* k) {
+    Eigen::Map<Square> out(k);
+    const Vec3 f1 = local.F.col(0), f2 = local.F.col(1);
     for (Eigen::Index j = 0; j < N; ++j) {
-      // of the normal f₁ × f₂
-      const Mat3 turned = factors.pressure * (p.gradient(1, j) * first - p.gradient(0, j) * second);
-      for (Eigen::Index i = 0; i < N; ++i) {
-        auto block = out.template block<3, 3>(3 * i, 3 * j);
-        block.diagonal().array() += stretched(i, j);
-        if (factors.pressure != 0) block -= p.value[i] * turned;
+      const Vec3 u = pressure * (p.gradient(1, j) * f1 - p.gradient(0, j) * f2);
+      for (Eigen::Index i = 0; i < N; ++i) {  // −N_i u × ·
+        const Vec3 w = p.value[i] * u;
+        out(3 * i, 3 * j + 1) += w[2];
+        out(3 * i, 3 * j + 2) -= w[1];
+        out(3 * i + 1, 3 * j) -= w[2];
+        out(3 * i + 1, 3 * j + 2) += w[0];
+        out(3 * i + 2, 3 * j) += w[1];
+        out(3 * i + 2, 3 * j + 1) -= w[0];
       }
     }
   }
