@@ -290,8 +290,7 @@ std::unique_ptr<Element> build(const GasData& data, BuildContext& context) {
 
   constexpr double rounding = 1e-9;
   if (volume < -rounding * area * size) {
-    context.error("GROUP", "the membranes go round clockwise, seen from outside of what they enclose",
-                  "turn their corners, or name the side of the gas by AT");
+    context.error("GROUP", "the membranes go round clockwise, seen from outside of what they enclose", "turn their corners");
     return nullptr;
   }
   if (volume < rounding * area * size) volume = 0;
