@@ -39,6 +39,12 @@ std::optional<Hypothesis> hypothesis_of(const deck::HypothesisCard& card) {
 /// Membranes in space, not in the plane of x and y.
 bool is_skin(const deck::HypothesisCard& card) { return begins("MEMBRANE", card.formulation) && card.variant.empty(); }
 
+/// The card of a formulation that makes membranes in space; nullptr: of another, or of none.
+const deck::HypothesisCard* skin_card(const deck::Record* hypothesis) {
+  const auto* card = hypothesis ? hypothesis->get<deck::HypothesisCard>() : nullptr;
+  return card && is_skin(*card) ? card : nullptr;
+}
+
 /// `"a"`, `"b"`, or all cells.
 std::string names_of(const std::vector<std::string>& groups) {
   std::string names;
@@ -220,7 +226,7 @@ void CellBook::read_rotations(const BuildContext& context) {
         rotation->function = found->second.get();
     for (const std::size_t i : members(record, card->groups)) {
       cells_[i].rotation = rotation;
-      if (cells_[i].hypothesis && is_skin(*cells_[i].hypothesis->get<deck::HypothesisCard>())) has_skins = true;
+      if (skin_card(cells_[i].hypothesis)) has_skins = true;
     }
     if (has_skins) diagnostics_.error(record.location, "ROT on membranes is not in this version", "leave them out of its groups");
   }
@@ -305,8 +311,7 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
   const auto [entry, fresh] = elastic_.try_emplace({cell.material->id, hypothesis});
   if (fresh) entry->second = elastic_of(*cell.material, hypothesis, diagnostics_);
   if (!entry->second) return nullptr;
-  const auto& card = *cell.hypothesis->get<deck::HypothesisCard>();
-  const bool skin = is_skin(card);
+  const deck::HypothesisCard* skin = skin_card(cell.hypothesis);
   if (skin && cell.material->get<deck::MaterialCard>()->young.size() != 1) {
     if (crooked_.insert(cell.material->id).second)
       diagnostics_.error(cell.material->where("YT"),
@@ -327,7 +332,7 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
   const bool has_thickness = hypothesis == Hypothesis::plane_stress || hypothesis == Hypothesis::plane_strain;
   auto section = std::make_shared<CellSection>(
       CellSection{hypothesis, law, has_thickness && cell.thickness > 0 ? cell.thickness : 1.0, linear_, number, lumped_});
-  if (skin) section->skin = SkinOptions{card.tension, card.wrinkling, card.slack};
+  if (skin) section->skin = SkinOptions{skin->tension, skin->wrinkling, skin->slack};
   return section;
 }
 
@@ -359,8 +364,7 @@ void CellBook::make_sections(const NodePositions& nodes) {
     const auto formulation = hypothesis(cell);
     const bool has_material = cell.material && cell.material->get<deck::MaterialCard>();
     if (!formulation || !fits(cell) || !has_material || (is_stress(cell) && cell.thickness == 0)) continue;
-    const deck::Record* skin =
-        cell.hypothesis && is_skin(*cell.hypothesis->get<deck::HypothesisCard>()) ? cell.hypothesis : nullptr;
+    const deck::Record* skin = skin_card(cell.hypothesis) ? cell.hypothesis : nullptr;
     const bool alone = !skin && frames_.is_curved(cell.frame);  // with axes of its own
     const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame, skin};
     Key group = key;
