@@ -18,7 +18,7 @@ using materials::Voigt;
 constexpr std::array<Eigen::Index, 3> in_plane = {0, 1, 3};
 
 /// Of a strain that the skin follows without wrinkles.
-SkinResponse taut(const MembraneLaw& law, const Plane& strain) {
+SkinResponse taut(const MembraneLaw& law, double tension, const Plane& strain) {
   SkinResponse r;
   double transverse;
   if (law.neo_hookean) {
@@ -36,9 +36,9 @@ SkinResponse taut(const MembraneLaw& law, const Plane& strain) {
     r.energy = r.stress.dot(strain) / 2;
     transverse = -nu / (1 - nu) * (strain[0] + strain[1]);
   }
-  r.stress[0] += law.tension;
-  r.stress[1] += law.tension;
-  r.energy += law.tension * (strain[0] + strain[1]);
+  r.stress[0] += tension;
+  r.stress[1] += tension;
+  r.energy += tension * (strain[0] + strain[1]);
   r.thinning = std::sqrt(std::max(1 + 2 * transverse, 0.0));
   r.area = std::sqrt(std::max((1 + 2 * strain[0]) * (1 + 2 * strain[1]) - strain[2] * strain[2], 0.0));
   return r;
@@ -55,8 +55,8 @@ struct Strip {
 
 /// ½ D (E₁² + E₂² + 2ν E₁E₂) + s (E₁ + E₂) is ½ D (E₂ + ν E₁ + s/D)² + ½ Y (E₁ − E_n)² + W_n, with D = Y/(1 − ν²): the first
 /// square is gone where E₂ is free. The skin left to itself has E₁ = E₂ = E_n = −(1 − ν) s/Y and the energy W_n.
-Strip linear_strip(const MembraneLaw& law, double strain) {
-  const double Y = law.young, nu = law.poisson, tension = law.tension, natural = -(1 - nu) * tension / Y;
+Strip linear_strip(const MembraneLaw& law, double tension, double strain) {
+  const double Y = law.young, nu = law.poisson, natural = -(1 - nu) * tension / Y;
   const double along = std::max(strain, natural), across = -nu * along - (1 - nu * nu) * tension / Y;
   const double transverse = -nu / (1 - nu) * (along + across);
   Strip s;
@@ -101,6 +101,30 @@ Strip neo_hookean_strip(const materials::NeoHookean& m, double tension, double s
   return s;
 }
 
+/// Makes of the answer of a skin that cannot wrinkle, under a tension, that of one that can.
+void relax(const MembraneLaw& law, double tension, const Plane& strain, SkinResponse& r) {
+  const double least = (r.stress[0] + r.stress[1]) / 2 - std::hypot((r.stress[0] - r.stress[1]) / 2, r.stress[2]);
+  if (!(least < 0)) return;
+  const double half = (strain[0] - strain[1]) / 2, shear = strain[2] / 2, radius = std::hypot(half, shear);
+  const double largest = (strain[0] + strain[1]) / 2 + radius;
+  const Strip strip =
+      law.neo_hookean ? neo_hookean_strip(*law.neo_hookean, tension, largest) : linear_strip(law, tension, largest);
+  const double left = *law.wrinkling, relaxed = 1 - left;
+  r.stress *= left;
+  r.moduli *= left;
+  r.energy = left * r.energy + relaxed * strip.energy;
+  r.thinning = strip.thinning;
+  r.area = strip.area;
+  r.state = SkinState::slack;
+  if (!(strip.stress > 0)) return;
+  r.state = SkinState::wrinkled;
+  // E₁ by the strain, and how its direction turns: the second derivative of E₁ is b bᵀ/radius
+  const double c = half / radius, s = shear / radius;
+  const Plane a((1 + c) / 2, (1 - c) / 2, s / 2), b(-s / 2, s / 2, c / 2);
+  r.stress += relaxed * strip.stress * a;
+  r.moduli += relaxed * (strip.modulus * a * a.transpose() + strip.stress / radius * b * b.transpose());
+}
+
 }  // namespace
 
 MembraneLaw membrane_law(const materials::Elasticity& material) {
@@ -111,28 +135,18 @@ MembraneLaw membrane_law(const materials::Elasticity& material) {
 /// Pipkin (1986), IMA J. Appl. Math. 36, 85; Steigmann (1990), Proc. R. Soc. Lond. A 429, 141: the energy is the least that the
 /// skin can have with wrinkles as fine as it likes. With E₁ ≥ E₂ it is that of the strain where both principal stresses pull,
 /// that of a strip with the strain E₁ where a strip would be pulled, and else that of a skin left to itself.
+///
+/// It wrinkles under a pressure c: the same law with the tension s + c, less the energy c (E₁ + E₂). A skin without stress
+/// across, as beside free edges, is taut then, and the change of its moduli is not where Newton's iteration ends.
 SkinResponse respond(const MembraneLaw& law, const Plane& strain) {
-  SkinResponse r = taut(law, strain);
-  if (!law.wrinkling) return r;
-  const double least = (r.stress[0] + r.stress[1]) / 2 - std::hypot((r.stress[0] - r.stress[1]) / 2, r.stress[2]);
-  if (!(least < 0)) return r;
-  const double half = (strain[0] - strain[1]) / 2, shear = strain[2] / 2, radius = std::hypot(half, shear);
-  const double largest = (strain[0] + strain[1]) / 2 + radius;
-  const Strip strip = law.neo_hookean ? neo_hookean_strip(*law.neo_hookean, law.tension, largest) : linear_strip(law, largest);
-  const double left = *law.wrinkling, relaxed = 1 - left;
-  r.stress *= left;
-  r.moduli *= left;
-  r.energy = left * r.energy + relaxed * strip.energy;
-  r.thinning = strip.thinning;
-  r.area = strip.area;
-  r.state = SkinState::slack;
-  if (!(strip.stress > 0)) return r;
-  r.state = SkinState::wrinkled;
-  // E₁ by the strain, and how its direction turns: the second derivative of E₁ is b bᵀ/radius
-  const double c = half / radius, s = shear / radius;
-  const Plane a((1 + c) / 2, (1 - c) / 2, s / 2), b(-s / 2, s / 2, c / 2);
-  r.stress += relaxed * strip.stress * a;
-  r.moduli += relaxed * (strip.modulus * a * a.transpose() + strip.stress / radius * b * b.transpose());
+  if (!law.wrinkling) return taut(law, law.tension, strain);
+  constexpr double before = 0.1;  // strain across at which what is left of the stiffness has the same stress
+  const double pressure = before * *law.wrinkling * law.young, tension = law.tension + pressure;
+  SkinResponse r = taut(law, tension, strain);
+  relax(law, tension, strain, r);
+  r.stress[0] -= pressure;
+  r.stress[1] -= pressure;
+  r.energy -= pressure * (strain[0] + strain[1]);
   return r;
 }
 
