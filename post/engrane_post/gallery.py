@@ -58,6 +58,9 @@ SHOTS = (
     Shot("meshed_gear", "0.2,0.3,1", 1.1, "mechanisms", "y", None, "VON_MISES", 300),
     Shot("geared_shafts", "1,0.6,0.7", 1.0, "mechanisms", "y", None, "", 1000),
     Shot("overhung_pinion", "-0.9,0.5,-0.3", 1.0, "mechanisms", "y", None, "", 200),
+    Shot("mylar_balloon", "1,0.7,0.8", 1.0, "mechanisms", "z"),
+    Shot("square_sail", "-0.8,1,0.25", 1.0, "mechanisms", "z"),
+    Shot("falling_cloth", "-1,1.4,0.5", 1.0, "mechanisms", "z", 0.35, "TAUTNESS"),
     Shot("lee_frame", "0.25,0.15,1", 1.0, "mechanisms", "y"),
 )
 

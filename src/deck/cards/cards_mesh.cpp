@@ -14,19 +14,26 @@ Schema hypothesis_card() {
   card.chapter(chapter);
   card.describe(
       "`MEMB BIDIM` (or `CONT PLAN`) is plane stress, `DEFO PLAN` plane strain, `AXIS` axisymmetric about the global y axis with "
-      "radius x; solids have VOLUME, also without a record; cells of two nodes, or three, have BEAM. Other formulations of BACON "
-      "are refused by their name. Of several "
-      "records on a cell the last holds.");
+      "radius x; `MEMBRANE` alone makes cells in space membranes, as the element MEMBRANE; solids have VOLUME, also without a "
+      "record; cells of two nodes, or three, have BEAM. Other formulations of BACON are refused by their name. Of several records "
+      "on a cell the last holds.");
   card.add("FORMULATION", &HypothesisCard::formulation,
            "MEMBRANE, CONTRAINTE, DEFORMATION, AXISYMETRIQUE, VOLUME, or BEAM (POUTRE), or their beginning")
       .positional()
       .required();
-  card.add("VARIANT", &HypothesisCard::variant, "BIDIM behind MEMBRANE, PLANE behind the others").positional();
+  card.add("VARIANT", &HypothesisCard::variant, "BIDIM behind MEMBRANE of the plane, PLANE behind the others").positional();
   card.add("GROUP", &HypothesisCard::groups, "groups of cells: names or numbers; none: all cells")
       .refers(Reference::group)
       .values(1, detail::any_number);
   card.example(".HYP BEAM GROUP \"frame\"");
+  card.add("TENSION", &HypothesisCard::tension, "of membranes: stress in all directions in the reference configuration")
+      .unit(dimension::pressure);
+  card.add("WRINKLING", &HypothesisCard::wrinkling, "of membranes: they wrinkle instead of being pressed").synonyms({"PLIS"});
+  card.add("SLACK", &HypothesisCard::slack, "part of their stiffness that is left where they wrinkle; without it 1E-4")
+      .at_least(0)
+      .at_most(1);
   card.example(".HYP MEMB BIDIM GROUP \"web\"").example(".HYP DEFO PLAN GROUP \"dam\"").example(".HYP AXIS GROUP \"ring\"");
+  card.example(".HYP MEMBRANE GROUP \"sail\" TENSION 1D4 WRINKLING");
   return card.schema();
 }
 

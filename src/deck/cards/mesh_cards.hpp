@@ -13,6 +13,9 @@ namespace engrane::deck {
 struct HypothesisCard {
   std::string formulation, variant;  ///< `MEMB`, `BIDIM`, as written
   std::vector<std::string> groups;   ///< of cells, by name or number; none: all cells
+  double tension = 0;                ///< the rest is of membranes in space
+  bool wrinkling = false;
+  std::optional<double> slack;  ///< part of the stiffness that is left where they wrinkle; none: the usual
 };
 
 /// `.PHP GROUP "plate" THICK VAL t`: physical properties of cells.

@@ -46,8 +46,18 @@ std::unique_ptr<Element> build(const MembraneData& data, BuildContext& context) 
   const auto material =
       structural::elastic_of(*material_record(context, data.material), materials::Hypothesis::plane_stress, context.diagnostics);
   if (!material) return nullptr;
-  MembraneSection section{materials::law_of(materials::Hypothesis::plane_stress, *material), data.thickness, data.tension,
-                          data.pressure, function};
+  if (!data.wrinkling && context.record.given("SLACK")) {
+    context.error("SLACK", "SLACK without WRINKLING", "WRINKLING, which leaves this part of the stiffness");
+    return nullptr;
+  }
+  if (data.wrinkling && data.tension < 0) {
+    context.error("TENSION", "a skin that wrinkles cannot be pressed in its reference configuration", "TENSION of 0 or more");
+    return nullptr;
+  }
+  MembraneSection section{membrane_law(materials::law_of(materials::Hypothesis::plane_stress, *material)), material->density,
+                          data.thickness, data.pressure, function};
+  section.law.tension = data.tension;
+  if (data.wrinkling) section.law.wrinkling = data.slack;
   std::vector<Vec3> places;
   for (const int node : data.nodes) places.push_back(context.nodes.at(node));
   auto membrane = make_membrane(context.record.id, *shape, data.nodes, places,
@@ -72,7 +82,7 @@ ElementType membrane_type() {
           "for strains of any size. The pressure stays normal to the surface and grows with it; above 0 it pushes to the side "
           "from which the corners go round counterclockwise.")
       .example("I 1 MEMBRANE N 1 2 5 4  MAT 1 THICK 2D-3  PRESSURE 500. NF 1")
-      .example("I 2 MEMBRANE N 1 3 5 2 4 6  MAT 1 THICK 2D-3  TENSION 1D4");
+      .example("I 2 MEMBRANE N 1 3 5 2 4 6  MAT 1 THICK 2D-3  TENSION 1D4  WRINKLING");
   card.add("N", &MembraneData::nodes, "corners in turn, then the middles of the sides: 3, 4, 6 or 8 nodes")
       .synonyms({"NODES", "NOEUDS"})
       .refers(deck::Reference::node)
@@ -83,6 +93,8 @@ ElementType membrane_type() {
   card.add("THICK", &MembraneData::thickness, "thickness").synonyms({"EPAISSEUR"}).unit(dimension::length).positive().required();
   card.add("TENSION", &MembraneData::tension, "stress in all directions of the surface, in the reference configuration")
       .unit(dimension::pressure);
+  card.add("WRINKLING", &MembraneData::wrinkling, "it wrinkles instead of being pressed").synonyms({"PLIS"});
+  card.add("SLACK", &MembraneData::slack, "part of its stiffness that is left where it wrinkles").at_least(0).at_most(1);
   card.add("PRESSURE", &MembraneData::pressure, "pressure that follows the surface").synonyms({"PRE"}).unit(dimension::pressure);
   card.add("NF", &MembraneData::function, "function of time that PRESSURE is multiplied by; default: none")
       .refers(deck::Reference::function);

@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 
-#include "elements/materials/neo_hookean.hpp"
 #include "elements/structural/cell_shapes.hpp"
 #include "elements/structural/plane_shape.hpp"
 
@@ -15,25 +14,18 @@ namespace engrane::elements::membranes {
 
 namespace {
 
-using materials::Hypothesis;
-using materials::Voigt;
 using structural::CellTraits;
 using structural::tabulate;
 
-/// Components xx, yy, xy among those of Voigt.
-constexpr std::array<Eigen::Index, 3> in_plane = {0, 1, 3};
-
-/// Membranes of one shape: total Lagrangian, in an orthonormal frame of the reference surface at each point (Bonet, Wood, Mahaney
-/// and Heywood 2000, Comput. Methods Appl. Mech. Eng. 190, 579).
+/// Membranes of one shape, all of which can wrinkle or none: total Lagrangian, in an orthonormal frame of the reference surface
+/// at each point (Bonet, Wood, Mahaney and Heywood 2000, Comput. Methods Appl. Mech. Eng. 190, 579).
 template <CellShape S>
 class Membranes final : public Block {
   using Traits = CellTraits<S>;
   static constexpr int N = Traits::nodes;
   using Places = Eigen::Matrix<double, 3, N>;
-  using Vector = Eigen::Matrix<double, 3 * N, 1>;
-  using Square = Eigen::Matrix<double, 3 * N, 3 * N>;
+  using Square = Eigen::Matrix<double, 3 * N, 3 * N, Eigen::RowMajor>;
   using Shape = Eigen::Matrix<double, N, 1>;
-  using Plane = Eigen::Vector3d;  ///< components xx, yy, xy
 
   /// A point of the reference surface.
   struct Point {
@@ -51,14 +43,15 @@ class Membranes final : public Block {
   /// What holds at a point now.
   struct Local {
     Eigen::Matrix<double, 3, 2> F;  ///< of the frame's vectors
-    Plane stress;                   ///< second Piola–Kirchhoff
-    Eigen::Matrix3d moduli;
-    double energy = 0;    ///< per area of the reference surface
-    double thinning = 1;  ///< thickness over that of the reference
+    SkinResponse response;
+    Eigen::Matrix2d stress() const {
+      const Plane& s = response.stress;
+      return (Eigen::Matrix2d() << s[0], s[2], s[2], s[1]).finished();
+    }
   };
 
  public:
-  Membranes() {
+  explicit Membranes(bool wrinkles) : wrinkles_(wrinkles) {
     layout_.nodes.assign(N, -1);
     layout_.needs.assign(N, NodeNeed::translation);
   }
@@ -98,11 +91,12 @@ class Membranes final : public Block {
     const Cell& cell = cells_[e];
     const MembraneSection& section = *cell.section;
     const Places x = places_of(state), v = rates_of(state);
-    const double pressure = section.pressure_at(state.time), mass = section.law.density * section.thickness;
+    const double pressure = section.pressure_at(state.time), mass = section.density * section.thickness;
     Energies sum;
-    for (const Point& p : points(cell.places)) {
+    for (const Sample& s : samples()) {
+      const Point p = point(cell.places, s);
       const Local local = this->local(section, x, p);
-      sum.strain += p.area * local.energy;
+      sum.strain += p.area * section.thickness * local.response.energy;
       sum.potential -= p.area * mass * state.gravity.dot(x * p.value);
       sum.kinetic += p.area * mass / 2 * (v * p.value).squaredNorm();
       sum.external += p.area * pressure * normal(local).dot(v * p.value);
@@ -112,39 +106,37 @@ class Membranes final : public Block {
   }
 
   const std::vector<Field>& fields() const override {
+    const auto at_points = [](const char* name, Dimension dimension, const char* help, std::vector<std::string> components = {}) {
+      return Field{{name, dimension, help}, Field::Place::point, std::move(components), static_cast<int>(samples().size())};
+    };
     static const std::vector<Field> all = {
-        Field{{"MEMBRANE_STRESS", dimension::pressure, "principal true stresses in the surface, the larger first"},
-              Field::Place::point,
-              {"1", "2"},
-              static_cast<int>(samples().size())},
-        Field{{"THINNING", dimension::none, "thickness over that of the reference configuration"},
-              Field::Place::point,
-              {},
-              static_cast<int>(samples().size())}};
-    return all;
+        at_points("MEMBRANE_STRESS", dimension::pressure, "principal true stresses in the surface, the larger first", {"1", "2"}),
+        at_points("THINNING", dimension::none, "thickness over that of the reference configuration"),
+        at_points("TAUTNESS", dimension::none, "2 taut, 1 wrinkled, 0 slack")};
+    static const std::vector<Field> without_wrinkles(all.begin(), all.end() - 1);
+    return wrinkles_ ? all : without_wrinkles;
   }
 
   void evaluate_fields(std::size_t e, const State& state, std::span<double> values) const override {
     const Cell& cell = cells_[e];
     const Places x = places_of(state);
-    const std::vector<Point> all = points(cell.places);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const Local local = this->local(*cell.section, x, all[i]);
+    const std::size_t count = samples().size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Local local = this->local(*cell.section, x, point(cell.places, samples()[i]));
       // σ = F S Fᵀ/J has the principal values of S FᵀF/J, J the ratio of volumes
       const Eigen::Matrix2d C = local.F.transpose() * local.F;
-      Eigen::Matrix2d stress;
-      stress << local.stress[0], local.stress[2], local.stress[2], local.stress[1];
-      const double volume = std::sqrt(C.determinant()) * local.thinning;
-      const Eigen::Matrix2d mixed = stress * C / volume;
+      const Eigen::Matrix2d mixed = local.stress() * C / (local.response.area * local.response.thinning);
       const double middle = mixed.trace() / 2, radius = std::sqrt(std::max(middle * middle - mixed.determinant(), 0.0));
       values[2 * i] = middle + radius;
       values[2 * i + 1] = middle - radius;
-      values[2 * all.size() + i] = local.thinning;
+      values[2 * count + i] = local.response.thinning;
+      if (wrinkles_) values[3 * count + i] = static_cast<double>(local.response.state);
     }
   }
 
  private:
-  static const std::vector<typename Traits::Sample>& samples() {
+  using Sample = typename Traits::Sample;
+  static const std::vector<Sample>& samples() {
     static const auto all = tabulate<S>(Traits::load_points());
     return all;
   }
@@ -160,18 +152,14 @@ class Membranes final : public Block {
     return v;
   }
 
-  static std::vector<Point> points(const Places& places) {
-    std::vector<Point> all;
-    for (const auto& s : samples()) {
-      const Eigen::Matrix<double, 3, 2> G = places * s.slope.transpose();
-      // e₁ along the first tangent, e₂ across it in the surface
-      const double length = G.col(0).norm(), across = G.col(1).dot(G.col(0)) / length;
-      const double area = cross(Vec3(G.col(0)), Vec3(G.col(1))).norm(), height = area / length;
-      Eigen::Matrix2d jacobian;
-      jacobian << length, 0, across, height;  // rows: along ξ, η
-      all.push_back({s.value, jacobian.inverse() * s.slope, s.weight * area});
-    }
-    return all;
+  static Point point(const Places& places, const Sample& s) {
+    const Vec3 g1 = places * s.slope.row(0).transpose(), g2 = places * s.slope.row(1).transpose();
+    // e₁ along the first tangent, e₂ across it in the surface
+    const double length = g1.norm(), across = g2.dot(g1) / length, height = std::sqrt(g2.squaredNorm() - across * across);
+    Point p{s.value, {}, s.weight * length * height};
+    p.gradient.row(0) = s.slope.row(0) / length;
+    p.gradient.row(1) = (s.slope.row(1) - across * p.gradient.row(0)) / height;
+    return p;
   }
 
   /// Whether its surface has an area, and one side.
@@ -192,87 +180,89 @@ class Membranes final : public Block {
 
   static Local local(const MembraneSection& section, const Places& x, const Point& p) {
     Local l;
-    l.F = x * p.gradient.transpose();
-    Voigt strain = Voigt::Zero();
-    strain[0] = (l.F.col(0).squaredNorm() - 1) / 2;
-    strain[1] = (l.F.col(1).squaredNorm() - 1) / 2;
-    strain[3] = l.F.col(0).dot(l.F.col(1));
-    double transverse;
-    if (section.law.neo_hookean) {
-      const materials::Response response = materials::respond(*section.law.neo_hookean, Hypothesis::plane_stress, strain);
-      l.stress = response.stress(in_plane);
-      l.moduli = response.moduli(in_plane, in_plane);
-      l.energy = response.energy;
-      transverse = response.transverse;
-    } else {
-      const Voigt stress = section.law.stiffness * strain;
-      l.stress = stress(in_plane);
-      l.moduli = section.law.stiffness(in_plane, in_plane);
-      l.energy = stress.dot(strain) / 2;
-      transverse = section.law.transverse.dot(strain);
-    }
-    l.thinning = std::sqrt(std::max(1 + 2 * transverse, 0.0));
-    l.stress[0] += section.tension;
-    l.stress[1] += section.tension;
-    l.energy = section.thickness * (l.energy + section.tension * (strain[0] + strain[1]));
+    l.F.noalias() = x * p.gradient.transpose();
+    const Plane strain((l.F.col(0).squaredNorm() - 1) / 2, (l.F.col(1).squaredNorm() - 1) / 2, l.F.col(0).dot(l.F.col(1)));
+    l.response = respond(section.law, strain);
     return l;
   }
 
   /// Residual, and where `k` is given the tangent.
   static void resist(const Cell& cell, const State& state, Weights weights, double* r, double* k) {
     const MembraneSection& section = *cell.section;
-    const double pressure = section.pressure_at(state.time), mass = section.law.density * section.thickness;
+    const double pressure = section.pressure_at(state.time), mass = section.density * section.thickness;
     const Places x = places_of(state);
     Places a;
     for (Eigen::Index i = 0; i < N; ++i) a.col(i) = state.nodes[static_cast<std::size_t>(i)].a - state.gravity;
     Eigen::Map<Places> out(r);
     out.setZero();
-    using Rows = Eigen::Matrix<double, 3 * N, 3 * N, Eigen::RowMajor>;
-    if (k) Eigen::Map<Rows>(k).setZero();
-    for (const Point& p : points(cell.places)) {
+    if (k) Eigen::Map<Square>(k).setZero();
+    Symmetric sum;
+    if (k) sum.fill(Mat3::Zero());
+    for (const Sample& s : samples()) {
+      const Point p = point(cell.places, s);
       const Local local = Membranes::local(section, x, p);
       const double volume = p.area * section.thickness;
-      Eigen::Matrix2d stress;
-      stress << local.stress[0], local.stress[2], local.stress[2], local.stress[1];
-      const Eigen::Matrix<double, 2, N> pulled = stress * p.gradient;
-      out += volume * local.F * pulled;
-      out -= p.area * pressure * normal(local) * p.value.transpose();
-      if (mass != 0) out += p.area * mass * (a * p.value) * p.value.transpose();
-      if (k) add_tangent(p, local, pulled, {weights.q * volume, weights.q * p.area * pressure, weights.a * p.area * mass}, k);
+      const Eigen::Matrix<double, 2, N> pulled = local.stress() * p.gradient;
+      out.noalias() += (volume * local.F).lazyProduct(pulled);
+      if (pressure != 0) out.noalias() -= (p.area * pressure * normal(local)).lazyProduct(p.value.transpose());
+      if (mass != 0) out.noalias() += (p.area * mass * (a * p.value)).lazyProduct(p.value.transpose());
+      if (!k) continue;
+      add_symmetric(p, local, pulled, weights.q * volume, weights.a * p.area * mass, sum);
+      if (pressure != 0) add_pressure(p, local, weights.q * p.area * pressure, k);
     }
+    if (!k) return;
+    Eigen::Map<Square> tangent(k);
+    for (Eigen::Index j = 0, at = 0; j < N; ++j)
+      for (Eigen::Index i = 0; i <= j; ++i, ++at) {
+        const Mat3& block = sum[static_cast<std::size_t>(at)];
+        tangent.template block<3, 3>(3 * i, 3 * j) += block;
+        if (i != j) tangent.template block<3, 3>(3 * j, 3 * i) += block.transpose();
+      }
   }
 
-  /// Factors of a point's parts of the tangent.
-  struct Factors {
-    double strain, pressure, mass;
-  };
+  /// Blocks of two nodes i ≤ j, those of the same j one after the other.
+  using Symmetric = std::array<Mat3, static_cast<std::size_t>(N*(N + 1) / 2)>;
 
-  static void add_tangent(const Point& p, const Local& local, const Eigen::Matrix<double, 2, N>& pulled, const Factors& factors,
-                          double* k) {
-    Eigen::Map<Eigen::Matrix<double, 3 * N, 3 * N, Eigen::RowMajor>> out(k);
-    // strains by the nodes' displacements
-    Eigen::Matrix<double, 3, 3 * N> B;
-    for (Eigen::Index i = 0; i < N; ++i) {
-      const double d1 = p.gradient(0, i), d2 = p.gradient(1, i);
-      B.template block<1, 3>(0, 3 * i) = d1 * local.F.col(0).transpose();
-      B.template block<1, 3>(1, 3 * i) = d2 * local.F.col(1).transpose();
-      B.template block<1, 3>(2, 3 * i) = d1 * local.F.col(1).transpose() + d2 * local.F.col(0).transpose();
-    }
-    out.noalias() += B.transpose() * (factors.strain * local.moduli * B);
-    const Eigen::Matrix<double, N, N> stretched =
-        factors.strain * p.gradient.transpose() * pulled + factors.mass * p.value * p.value.transpose();
-    const Mat3 first = skew(Vec3(local.F.col(0))), second = skew(Vec3(local.F.col(1)));
-    for (Eigen::Index j = 0; j < N; ++j) {
-      // of the normal f₁ × f₂
-      const Mat3 turned = factors.pressure * (p.gradient(1, j) * first - p.gradient(0, j) * second);
-      for (Eigen::Index i = 0; i < N; ++i) {
-        auto block = out.template block<3, 3>(3 * i, 3 * j);
-        block.diagonal().array() += stretched(i, j);
-        if (factors.pressure != 0) block -= p.value[i] * turned;
+  /// A point's part of the tangent, of stresses and masses; `volume` and `mass` with their weights.
+  static void add_symmetric(const Point& p, const Local& local, const Eigen::Matrix<double, 2, N>& pulled, double volume,
+                            double mass, Symmetric& sum) {
+    const Mat3 moduli = volume * local.response.moduli;
+    std::array<Mat3, static_cast<std::size_t>(N)> strains;  // by the displacement of a node, as columns 11, 22, 12
+    for (Eigen::Index j = 0, at = 0; j < N; ++j) {
+      const double d1 = p.gradient(0, j), d2 = p.gradient(1, j);
+      Mat3& b = strains[static_cast<std::size_t>(j)];
+      b.col(0) = d1 * local.F.col(0);
+      b.col(1) = d2 * local.F.col(1);
+      b.col(2) = d1 * local.F.col(1) + d2 * local.F.col(0);
+      const Mat3 stresses = moduli * b.transpose();
+      const double s1 = volume * pulled(0, j), s2 = volume * pulled(1, j), m = mass * p.value[j];
+      for (Eigen::Index i = 0; i <= j; ++i, ++at) {
+        Mat3& block = sum[static_cast<std::size_t>(at)];
+        block.noalias() += strains[static_cast<std::size_t>(i)] * stresses;
+        block.diagonal().array() += s1 * p.gradient(0, i) + s2 * p.gradient(1, i) + m * p.value[i];
       }
     }
   }
 
+  /// That of the pressure: the derivative of the normal f₁ × f₂.
+  static void add_pressure(const Point& p, const Local& local, double pressure, double* k) {
+    Eigen::Map<Square> out(k);
+    const Vec3 f1 = local.F.col(0), f2 = local.F.col(1);
+    for (Eigen::Index j = 0; j < N; ++j) {
+      const Vec3 u = pressure * (p.gradient(1, j) * f1 - p.gradient(0, j) * f2);
+      for (Eigen::Index i = 0; i < N; ++i) {  // −N_i u × ·
+        const Vec3 w = p.value[i] * u;
+        out(3 * i, 3 * j + 1) += w[2];
+        out(3 * i, 3 * j + 2) -= w[1];
+        out(3 * i + 1, 3 * j) -= w[2];
+        out(3 * i + 1, 3 * j + 2) += w[0];
+        out(3 * i + 2, 3 * j) += w[1];
+        out(3 * i + 2, 3 * j + 1) -= w[0];
+      }
+    }
+  }
+
+  bool wrinkles_;
   Layout layout_;
   std::vector<Cell> cells_;
 };
@@ -283,7 +273,8 @@ std::unique_ptr<Element> make_membrane(int id, CellShape shape, const std::vecto
                                        const std::shared_ptr<const MembraneSection>& section, BlockStore* blocks) {
   return structural::with_plane_shape(shape, [&]<CellShape S>() -> std::unique_ptr<Element> {
     BlockStore alone;
-    const auto block = (blocks ? *blocks : alone).block<Membranes<S>>("");
+    const bool wrinkles = section->law.wrinkling.has_value();
+    const auto block = (blocks ? *blocks : alone).block<Membranes<S>>(wrinkles ? "wrinkles" : "", wrinkles);
     const auto index = block->add(nodes, places, section);
     return index ? std::make_unique<BlockMember>(id, block, *index) : nullptr;
   });

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "elements/materials/elasticity.hpp"
+#include "elements/membranes/membrane_law.hpp"
 #include "model/block.hpp"
 #include "model/function.hpp"
 
@@ -13,9 +13,9 @@ namespace engrane::elements::membranes {
 
 /// What a membrane is made of, and what presses on it.
 struct MembraneSection {
-  materials::Elasticity law;  ///< of plane stress
+  MembraneLaw law;
+  double density = 0;
   double thickness = 0;
-  double tension = 0;                  ///< stress in the reference configuration
   double pressure = 0;                 ///< on the side that its corners go round clockwise
   const Function* function = nullptr;  ///< factor of the pressure; nullptr: 1
 

@@ -36,6 +36,7 @@ bool has_nodes(const std::vector<int>& nodes, BuildContext& context) {
   }
   return true;
 }
+constexpr const char* how_skin = "its corners must go round it in turn, and a middle of a side must be near the middle";
 
 /// Reports what is wrong with the list of nodes; they are then nothing.
 std::optional<Connectivity> nodes_of(const CellData& data, BuildContext& context) {
@@ -131,6 +132,11 @@ std::unique_ptr<Element> build(const CellData& data, BuildContext& context) {
   if (!cell || !section) return nullptr;
   CellPlan plan{context.record.id, cell->shape, std::move(cell->nodes), {}, section};
   for (const int id : plan.nodes) plan.places.push_back(context.nodes.at(id));
+  if (section->skin) {
+    auto skin = make_skin(plan, context.blocks);
+    if (!skin) context.error("N", fmt::format("membrane {} is folded over, or has no area", plan.id), how_skin);
+    return skin;
+  }
   plan.warmth = warmth_of(plan.nodes, context);
   if (plan.warmth && section->law.expansion.isZero(0) && !section->law.neo_hookean)
     context.diagnostics.warning_once("warm", context.record.location,

@@ -27,7 +27,7 @@ bool begins(std::string_view language, const std::string& word) { return word.si
 /// The formulations that are here; nothing for another.
 std::optional<Hypothesis> hypothesis_of(const deck::HypothesisCard& card) {
   const auto variant = [&card](std::string_view wanted) { return card.variant.empty() || begins(wanted, card.variant); };
-  if (begins("MEMBRANE", card.formulation) && begins("BIDIM", card.variant)) return Hypothesis::plane_stress;
+  if (begins("MEMBRANE", card.formulation) && variant("BIDIM")) return Hypothesis::plane_stress;
   if (begins("CONTRAINTE", card.formulation) && variant("PLANE")) return Hypothesis::plane_stress;
   if (begins("DEFORMATION", card.formulation) && variant("PLANE")) return Hypothesis::plane_strain;
   if (begins("VOLUME", card.formulation) && card.variant.empty()) return Hypothesis::solid;
@@ -38,6 +38,15 @@ std::optional<Hypothesis> hypothesis_of(const deck::HypothesisCard& card) {
 
 bool is_beam_card(const deck::HypothesisCard& card) {
   return (begins("BEAM", card.formulation) || begins("POUTRE", card.formulation)) && card.variant.empty();
+}
+
+/// Membranes in space, not in the plane of x and y.
+bool is_skin(const deck::HypothesisCard& card) { return begins("MEMBRANE", card.formulation) && card.variant.empty(); }
+
+/// The card of a formulation that makes membranes in space; nullptr: of another, or of none.
+const deck::HypothesisCard* skin_card(const deck::Record* hypothesis) {
+  const auto* card = hypothesis ? hypothesis->get<deck::HypothesisCard>() : nullptr;
+  return card && is_skin(*card) ? card : nullptr;
 }
 
 /// `"a"`, `"b"`, or all cells.
@@ -60,7 +69,7 @@ CellBook::CellBook(const BuildContext& context)
   read_rotations(context);
   make_sections(context.nodes);
   check_beams(context.temperatures);
-  if (context.temperatures) refuse_warm_rubber(*context.temperatures);
+  if (context.temperatures) refuse_warm(*context.temperatures);
 }
 
 std::shared_ptr<const CellBook> CellBook::of(const BuildContext& context) {
@@ -89,6 +98,13 @@ const CellBook::Cell* CellBook::find(int cell) const {
 const deck::Record* CellBook::record(int cell) const {
   const Cell* found = find(cell);
   return found ? found->record : nullptr;
+}
+
+std::vector<int> CellBook::cells(const std::string& group) const {
+  std::vector<int> ids;
+  if (const auto found = groups_.find(group); found != groups_.end())
+    for (const std::size_t i : found->second) ids.push_back(cells_[i].record->id);
+  return ids;
 }
 
 std::shared_ptr<const CellSection> CellBook::section(int cell) const {
@@ -173,7 +189,9 @@ void CellBook::read_properties(const std::vector<deck::Record>& records) {
       if (!hypothesis_of(*hypothesis) && !is_beam_card(*hypothesis) && refused.insert(upper(words)).second)
         diagnostics_.error(record.where("FORMULATION"),
                            fmt::format("the formulation {} ({}) is not in this version", words, names_of(hypothesis->groups)),
-                           "there are MEMB BIDIM and CONT PLAN (plane stress), DEFO PLAN (plane strain), AXIS, VOLUME and BEAM");
+                           "there are MEMB BIDIM and CONT PLAN (plane stress), DEFO PLAN (plane strain), AXIS, VOLUME, MEMBRANE "
+                           "(in space) and BEAM");
+      check_skin(record, *hypothesis);
       if (hypothesis->groups.empty())
         for (Cell& cell : cells_) cell.hypothesis = &record;
       for (const std::size_t i : members(record, hypothesis->groups)) cells_[i].hypothesis = &record;
@@ -184,6 +202,25 @@ void CellBook::read_properties(const std::vector<deck::Record>& records) {
   }
 }
 
+void CellBook::check_skin(const deck::Record& record, const deck::HypothesisCard& card) {
+  if (!is_skin(card)) {
+    for (const char* keyword : {"TENSION", "WRINKLING", "SLACK"})
+      if (record.given(keyword))
+        diagnostics_.error(record.where(keyword), fmt::format("{} is of membranes in space", keyword),
+                           ".HYP MEMBRANE, without BIDIM");
+    return;
+  }
+  if (card.slack && !card.wrinkling)
+    diagnostics_.error(record.where("SLACK"), "SLACK without WRINKLING", "WRINKLING, which leaves this part of the stiffness");
+  if (card.wrinkling && card.tension < 0)
+    diagnostics_.error(record.where("TENSION"), "a skin that wrinkles cannot be pressed in its reference configuration",
+                       "TENSION of 0 or more");
+  if (linear_)
+    diagnostics_.error(record.location, "membranes have displacements of any size, and this analysis small ones",
+                       ".SAM TYPE STATIC without DISPLACEMENTS SMALL, and .SUB");
+  if (lumped_) diagnostics_.error(record.location, "membranes have consistent masses only", "leave MASS LUMPED out of .SAM");
+}
+
 void CellBook::read_rotations(const BuildContext& context) {
   const deck::AnalysisCard* analysis = deck::last_analysis(*context.records);
   for (const deck::Record& record : *context.records) {
@@ -192,6 +229,7 @@ void CellBook::read_rotations(const BuildContext& context) {
     if (analysis && !analysis->type.is("STATIC"))
       diagnostics_.error(record.location, "ROT is a load of statics: what moves in axes that turn has Coriolis forces too",
                          "TYPE STATIC in .SAM, or let the body itself turn");
+    bool has_skins = false;
     auto rotation = std::make_shared<CellRotation>();
     rotation->record = &record;
     rotation->speed = card->speed;
@@ -200,7 +238,11 @@ void CellBook::read_rotations(const BuildContext& context) {
     if (card->function != 0)
       if (const auto found = context.functions.find(card->function); found != context.functions.end())
         rotation->function = found->second.get();
-    for (const std::size_t i : members(record, card->groups)) cells_[i].rotation = rotation;
+    for (const std::size_t i : members(record, card->groups)) {
+      cells_[i].rotation = rotation;
+      if (skin_card(cells_[i].hypothesis)) has_skins = true;
+    }
+    if (has_skins) diagnostics_.error(record.location, "ROT on membranes is not in this version", "leave them out of its groups");
   }
 }
 
@@ -244,14 +286,19 @@ void CellBook::report_lack(const Lacks& lacks, const std::string& what, const st
   if (count > 0) diagnostics_.error(first->record->location, fmt::format("cell {} {}{}", first->record->id, what, others), cure);
 }
 
-void CellBook::refuse_warm_rubber(const Temperatures& temperatures) {
+void CellBook::refuse_warm(const Temperatures& temperatures) {
   const auto is_warm = [&](int node) { return temperatures.contains(std::abs(node)); };
-  const auto refused = [&](const Cell& cell) {
-    if (!cell.section || !cell.section->law.neo_hookean) return false;
+  const auto any_warm = [&](const Cell& cell) {
     const std::vector<int>& nodes = cell.record->get<CellData>()->nodes;
     return std::any_of(nodes.begin(), nodes.end(), is_warm);
   };
-  report_lack(refused, "is neo-Hookean and has warm nodes: thermal expansion of this material is not in this version",
+  const auto skin = [&](const Cell& cell) { return cell.section && cell.section->skin && any_warm(cell); };
+  const auto rubber = [&](const Cell& cell) {
+    return cell.section && !cell.section->skin && cell.section->law.neo_hookean && any_warm(cell);
+  };
+  report_lack(skin, "is a membrane and has warm nodes: thermal expansion of membranes is not in this version",
+              "leave these nodes out of TEMP");
+  report_lack(rubber, "is neo-Hookean and has warm nodes: thermal expansion of this material is not in this version",
               "leave these nodes out of TEMP, or take BEHA \"ELASTIC\"");
 }
 
@@ -280,8 +327,16 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
   const auto [entry, fresh] = elastic_.try_emplace({cell.material->id, hypothesis});
   if (fresh) entry->second = elastic_of(*cell.material, hypothesis, diagnostics_);
   if (!entry->second) return nullptr;
+  const deck::HypothesisCard* skin = skin_card(cell.hypothesis);
+  if (skin && cell.material->get<deck::MaterialCard>()->young.size() != 1) {
+    if (crooked_.insert(cell.material->id).second)
+      diagnostics_.error(cell.material->where("YT"),
+                         fmt::format("material {} has axes, which membranes have not", cell.material->id),
+                         "one value of YT and one of NT");
+    return nullptr;
+  }
   const materials::Elastic material = materials::turned(*entry->second, axes);
-  if (hypothesis != Hypothesis::solid && !materials::is_plane(material)) {
+  if (hypothesis != Hypothesis::solid && !skin && !materials::is_plane(material)) {
     if (crooked_.insert(cell.material->id).second)
       diagnostics_.error(cell.axes->where("FRAME"),
                          fmt::format("the axes of material {} lead out of the plane", cell.material->id),
@@ -291,8 +346,10 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
   materials::Elasticity law = materials::law_of(hypothesis, material);
   if (linear_) law.neo_hookean.reset();  // its derivative at rest is all there is
   const bool has_thickness = hypothesis == Hypothesis::plane_stress || hypothesis == Hypothesis::plane_strain;
-  return std::make_shared<CellSection>(
+  auto section = std::make_shared<CellSection>(
       CellSection{hypothesis, law, has_thickness && cell.thickness > 0 ? cell.thickness : 1.0, linear_, number, lumped_});
+  if (skin) section->skin = SkinOptions{skin->tension, skin->wrinkling, skin->slack};
+  return section;
 }
 
 void CellBook::make_sections(const NodePositions& nodes) {
@@ -319,15 +376,16 @@ void CellBook::make_sections(const NodePositions& nodes) {
   report_lack([](const Cell& cell) { return !is_beam(cell) && !cell.material; }, "has no material", ".AEL I 1 J 9 K 1 MAT 1");
   report_lack([&](const Cell& cell) { return is_stress(cell) && cell.thickness == 0; }, "has no thickness",
               "plane stress needs .PHP GROUP \"name\" THICK VAL t");
-  using Key = std::tuple<Hypothesis, int, double, double, int>;
+  using Key = std::tuple<Hypothesis, int, double, double, int, const deck::Record*>;
   std::map<Key, std::shared_ptr<const CellSection>> sections;
   std::map<Key, int> numbers;
   for (Cell& cell : cells_) {
     const auto formulation = hypothesis(cell);
     const bool has_material = cell.material && cell.material->get<deck::MaterialCard>();
     if (is_beam(cell) || !formulation || !fits(cell) || !has_material || (is_stress(cell) && cell.thickness == 0)) continue;
-    const bool alone = frames_.is_curved(cell.frame);  // with axes of its own
-    const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame};
+    const deck::Record* skin = skin_card(cell.hypothesis) ? cell.hypothesis : nullptr;
+    const bool alone = !skin && frames_.is_curved(cell.frame);  // with axes of its own
+    const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame, skin};
     Key group = key;
     if (cell.material->get<deck::MaterialCard>()->young.size() == 1) {  // decks give axes to isotropic cells too, each its own
       std::get<3>(group) = 0;

@@ -17,6 +17,13 @@
 
 namespace engrane::elements::structural {
 
+/// What makes cells membranes in space: a tension, and whether they wrinkle.
+struct SkinOptions {
+  double tension = 0;
+  bool wrinkling = false;
+  std::optional<double> slack;  ///< part of the stiffness that is left where they wrinkle; none: the usual
+};
+
 /// What cells of one material, hypothesis and thickness share.
 struct CellSection {
   materials::Hypothesis hypothesis;
@@ -26,7 +33,8 @@ struct CellSection {
   /// Which of the sections of the deck: cells of one have the same material, hypothesis and thickness, and axes that are given in
   /// the same way where they matter. Where these turn from cell to cell, as in a cylindrical frame, each has a struct of its own.
   int number = 0;
-  bool lumped = false;  ///< masses at the nodes
+  bool lumped = false;                   ///< masses at the nodes
+  std::optional<SkinOptions> skin = {};  ///< membranes in space
 };
 
 /// What a cell that is a beam is made of.
@@ -61,6 +69,8 @@ class CellBook {
   const deck::Record* record(int cell) const;
   /// Pairs of a cell and its face, counted from 1, of a group of faces; nullptr when there is no such group.
   const std::vector<int>* faces(const std::string& group) const;
+  /// Cells of a group; nothing when there is no such group.
+  std::vector<int> cells(const std::string& group) const;
   /// nullptr: something is missing, and was reported.
   std::shared_ptr<const CellSection> section(int cell) const;
   /// Of a cell of two nodes, or three; nothing: something is missing, and was reported.
@@ -88,10 +98,11 @@ class CellBook {
   void read_groups(const std::vector<deck::Record>& records);
   void read_properties(const std::vector<deck::Record>& records);
   void read_rotations(const BuildContext& context);
+  void check_skin(const deck::Record& record, const deck::HypothesisCard& card);
   void assign(const deck::Record& record, const deck::AssignmentCard& assignment);
   void make_sections(const NodePositions& nodes);
   void check_beams(const Temperatures* temperatures);
-  void refuse_warm_rubber(const Temperatures& temperatures);
+  void refuse_warm(const Temperatures& temperatures);
   std::shared_ptr<const CellSection> make_section(const Cell& cell, materials::Hypothesis hypothesis, const Mat3& axes,
                                                   int number);
   /// Axes of the material of a cell; nothing where its frame does not exist, which is reported.

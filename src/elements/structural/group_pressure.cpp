@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "elements/structural/pressures.hpp"
 
 namespace engrane::elements::structural {
@@ -16,7 +18,19 @@ std::unique_ptr<Element> build(const GroupPressureData& data, BuildContext& cont
   std::unique_ptr<Element> first;
   int number = context.number;
   for (const std::string& name : data.groups) {
-    const std::vector<int>* faces = book->faces(name);
+    const std::vector<int> cells = book->cells(name);
+    const auto is_no_skin = [&](int cell) {
+      const auto section = book->section(cell);
+      return section && !section->skin;
+    };
+    if (const auto other = std::find_if(cells.begin(), cells.end(), is_no_skin); other != cells.end()) {
+      context.error("GROUP", fmt::format("cell {} of group \"{}\" is no membrane", *other, name),
+                    "a pressure on other cells is given by .SEL GROUP n FACES");
+      continue;
+    }
+    std::vector<int> of_skins;  // a membrane has one face
+    for (const int cell : cells) of_skins.insert(of_skins.end(), {cell, 1});
+    const std::vector<int>* faces = cells.empty() ? book->faces(name) : &of_skins;
     if (!faces) {
       context.diagnostics.missing(".SEL", context.record.where("GROUP"), fmt::format("there is no group of faces \"{}\"", name),
                                   "declare it with .SEL GROUP n FACES, and a row `I 57 3` (cell, face) for each");
@@ -42,11 +56,11 @@ ElementType group_pressure_type() {
   card.chapter("Boundary conditions, loads and functions")
       .redefines()
       .describe(
-          "On all faces of groups of faces (`.SEL GROUP n FACES`), of solids or of plane cells. A positive pressure pushes into "
-          "the "
-          "cells. With large displacements it follows the faces.")
+          "On all faces of groups of faces (`.SEL GROUP n FACES`), of solids or of plane cells, or on groups of membranes (`.SEL "
+          "GROUP n MAILLES`). A positive pressure pushes into the cells, and membranes to the side from which their corners go "
+          "round counterclockwise. With large displacements it follows the faces.")
       .example(".CLM\n GROUP \"flank\" PRE V 5.\n PRE GROUP \"bore\" V 2. NF 1");
-  card.add("GROUP", &GroupPressureData::groups, "groups of faces: names or numbers")
+  card.add("GROUP", &GroupPressureData::groups, "groups of faces, or of membranes: names or numbers")
       .refers(deck::Reference::group)
       .values(1, deck::detail::any_number)
       .required()

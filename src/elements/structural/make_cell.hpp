@@ -24,6 +24,9 @@ struct CellPlan {
 std::unique_ptr<Element> make_plane_cell(const CellPlan& plan, BlockStore* blocks);
 std::unique_ptr<Element> make_solid_cell(const CellPlan& plan, BlockStore* blocks);
 
+/// A membrane in space, made where these are: elements/membranes/skin.cpp. nullptr where it is folded or has no area.
+std::unique_ptr<Element> make_skin(const CellPlan& plan, BlockStore* blocks);
+
 /// Whether the cell has an area or a volume: its determinant has one sign at all points where something is evaluated.
 bool is_regular_plane(CellShape shape, const std::vector<Vec3>& places);
 bool is_regular_solid(CellShape shape, const std::vector<Vec3>& places);

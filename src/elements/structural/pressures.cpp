@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
+#include <numeric>
 
 #include "elements/structural/cell.hpp"
 #include "elements/structural/make_cell.hpp"
@@ -64,8 +65,8 @@ void Pressures<D>::push(const Face& face, const State& state, double sign, std::
   const bool axi = section.hypothesis == materials::Hypothesis::axisymmetric, follows = !section.linear;
   std::vector<Vector> x = face.places;
   for (std::size_t i = 0; i < nodes && follows; ++i) x[i] = state.nodes[i].x.template head<D>();
-  const double factor = sign * face.pressure * (face.function ? face.function->at(state.time).f : 1) * section.thickness *
-                        (axi ? 2 * std::numbers::pi : 1);
+  const double factor = sign * face.pressure * (face.function ? face.function->at(state.time).f : 1) *
+                        (D == 2 ? section.thickness : 1) * (axi ? 2 * std::numbers::pi : 1);
   for (const FaceSample& s : samples_) {
     Vector along[2] = {Vector::Zero(), Vector::Zero()};
     double radius = 0;
@@ -112,14 +113,20 @@ template <int D>
 std::unique_ptr<Element> add(const PressureOn& on, const Connectivity& cell, int number,
                              const std::shared_ptr<const CellSection>& section, BuildContext& context) {
   typename Pressures<D>::Face face{{}, {}, on.pressure, on.function, section};
-  for (const int i : face_nodes(cell.shape, on.face - 1)) {
+  std::vector<int> indices(cell.nodes.size());
+  std::iota(indices.begin(), indices.end(), 0);
+  if (!section->skin) indices = face_nodes(cell.shape, on.face - 1);
+  for (const int i : indices) {
     const int id = cell.nodes[static_cast<std::size_t>(i)];
     face.nodes.push_back(id);
     face.places.push_back(context.nodes.at(id).template head<D>());
   }
   std::vector<Vec3> places;
   for (const int id : cell.nodes) places.push_back(context.nodes.at(id));
-  if (handedness(cell.shape, places) < 0) face.pressure = -face.pressure;
+  if (section->skin)
+    face.pressure = -face.pressure;  // to the side from which its corners go round counterclockwise
+  else if (handedness(cell.shape, places) < 0)
+    face.pressure = -face.pressure;
   const std::size_t count = face.nodes.size();
   BlockStore alone;
   const auto block = (context.blocks ? *context.blocks : alone).block<Pressures<D>>(std::to_string(count), count);
@@ -142,10 +149,15 @@ std::unique_ptr<Element> make_pressure(const PressureOn& on, int number, const c
   if (!cell || !section) return nullptr;
   for (const int id : cell->nodes)
     if (!context.nodes.contains(id)) return nullptr;
-  const int faces = face_count(cell->shape);
+  const int faces = section->skin ? 1 : face_count(cell->shape);
   if (on.face >= 1 && on.face <= faces)
-    return is_solid(cell->shape) ? add<3>(on, *cell, number, section, context) : add<2>(on, *cell, number, section, context);
+    return is_solid(cell->shape) || section->skin ? add<3>(on, *cell, number, section, context)
+                                                  : add<2>(on, *cell, number, section, context);
   const bool solid = is_solid(cell->shape);
+  if (section->skin) {
+    context.error(keyword, fmt::format("membrane {} has no face {}", on.cell, on.face), "its face is 1");
+    return nullptr;
+  }
   context.error(keyword, fmt::format("cell {} has no {} {}", on.cell, solid ? "face" : "edge", on.face),
                 solid ? fmt::format("its faces are 1 to {}: the base, those on its sides in turn, the top", faces)
                       : fmt::format("its edges are 1 to {}: edge k begins at its corner k", faces));

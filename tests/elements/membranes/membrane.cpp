@@ -68,6 +68,16 @@ TEST(Membrane, Suite) {
     Subject s = subject(nodes, [](MembraneData& d) { d.tension = 7; });
     s.skip[Check::zero] = s.skip[Check::rigid] = "it is stretched in the reference configuration";
     run_suite(s);
+    for (const int material : {1, 2}) {
+      s = subject(nodes, [material](MembraneData& d) {
+        d.material = material;
+        d.wrinkling = true;
+        d.slack = 0.02;
+      });
+      s.step = 2e-5;  // differences over the moment when a point becomes taut are no derivative
+      s.tolerance = 1e-7;
+      run_suite(s);
+    }
     s = subject(nodes, [](MembraneData& d) { d.pressure = 3; });
     s.skip[Check::zero] = s.skip[Check::rigid] = "it is loaded in the reference configuration";
     s.skip[Check::lagrange] = "a pressure that follows has no potential";
@@ -121,6 +131,10 @@ TEST(Membrane, FaultsOfTheCard) {
   data.nodes = {1, 2, 3, 4};
   data.material = 3;
   EXPECT_EQ(message(data), "material 3 has no YT and NT of one value, which membranes need");
+  data.material = 1;
+  data.wrinkling = true;
+  data.tension = -1;
+  EXPECT_EQ(message(data), "a skin that wrinkles cannot be pressed in its reference configuration");
   data.material = 4;
   EXPECT_EQ(message(data), "material 4 does not exist");
 }

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/membranes/membrane_law.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "elements/materials/neo_hookean.hpp"
+
+namespace engrane::elements::membranes {
+
+namespace {
+
+using materials::Hypothesis;
+using materials::Voigt;
+
+/// Components 11, 22, 12 among those of Voigt.
+constexpr std::array<Eigen::Index, 3> in_plane = {0, 1, 3};
+
+/// Of a strain that the skin follows without wrinkles.
+SkinResponse taut(const MembraneLaw& law, double tension, const Plane& strain) {
+  SkinResponse r;
+  double transverse;
+  if (law.neo_hookean) {
+    Voigt all = Voigt::Zero();
+    all(in_plane) = strain;
+    const materials::Response found = materials::respond(*law.neo_hookean, Hypothesis::plane_stress, all);
+    r.stress = found.stress(in_plane);
+    r.moduli = found.moduli(in_plane, in_plane);
+    r.energy = found.energy;
+    transverse = found.transverse;
+  } else {
+    const double nu = law.poisson, D = law.young / (1 - nu * nu);
+    r.moduli << D, nu * D, 0, nu * D, D, 0, 0, 0, (1 - nu) / 2 * D;
+    r.stress << D * (strain[0] + nu * strain[1]), D * (strain[1] + nu * strain[0]), (1 - nu) / 2 * D * strain[2];
+    r.energy = r.stress.dot(strain) / 2;
+    transverse = -nu / (1 - nu) * (strain[0] + strain[1]);
+  }
+  r.stress[0] += tension;
+  r.stress[1] += tension;
+  r.energy += tension * (strain[0] + strain[1]);
+  r.thinning = std::sqrt(std::max(1 + 2 * transverse, 0.0));
+  r.area = std::sqrt(std::max((1 + 2 * strain[0]) * (1 + 2 * strain[1]) - strain[2] * strain[2], 0.0));
+  return r;
+}
+
+/// A strip under tension along its length alone: what a wrinkled skin is along its wrinkles.
+struct Strip {
+  double stress = 0;   ///< along it; not above zero: it is slack
+  double modulus = 0;  ///< derivative by the strain along it
+  double energy = 0;   ///< of a slack one that of the skin left to itself
+  double thinning = 1;
+  double area = 1;
+};
+
+/// ½ D (E₁² + E₂² + 2ν E₁E₂) + s (E₁ + E₂) is ½ D (E₂ + ν E₁ + s/D)² + ½ Y (E₁ − E_n)² + W_n, with D = Y/(1 − ν²): the first
+/// square is gone where E₂ is free. The skin left to itself has E₁ = E₂ = E_n = −(1 − ν) s/Y and the energy W_n.
+Strip linear_strip(const MembraneLaw& law, double tension, double strain) {
+  const double Y = law.young, nu = law.poisson, natural = -(1 - nu) * tension / Y;
+  const double along = std::max(strain, natural), across = -nu * along - (1 - nu * nu) * tension / Y;
+  const double transverse = -nu / (1 - nu) * (along + across);
+  Strip s;
+  s.stress = Y * (strain - natural);
+  s.modulus = Y;
+  s.energy = Y / 2 * (along - natural) * (along - natural) + tension * natural;
+  s.thinning = std::sqrt(std::max(1 + 2 * transverse, 0.0));
+  s.area = std::sqrt(std::max((1 + 2 * along) * (1 + 2 * across), 0.0));
+  return s;
+}
+
+/// Root of e^y − μ + a + b y, b ≥ 0: the left side rises and is convex, so that Newton's iteration finds it from anywhere.
+double root(double shear, double a, double b) {
+  constexpr int most = 100;
+  constexpr double rounding = 1e-15;
+  double y = std::log(shear);
+  for (int i = 0; i < most; ++i) {
+    const double e = std::exp(y), change = -(e - shear + a + b * y) / (e + b);
+    y += change;
+    if (std::abs(change) <= rounding * std::abs(y)) break;
+  }
+  return y;
+}
+
+/// S_i = μ + s_i − q/C_i with q = μ − λ ln J; the two free directions have C₂ = q/(μ + s) and C₃ = q/μ, which leaves one equation
+/// for y = ln q: e^y − μ + λ/2 (ln C₁ + 2y − ln μ(μ + s)) = 0. Left to itself the skin has C₁ = C₂ too.
+Strip neo_hookean_strip(const materials::NeoHookean& m, double tension, double strain) {
+  const double mu = m.shear, pulled = mu + tension, logs = std::log(mu) + std::log(pulled), half = m.lambda / 2;
+  double C1 = 1 + 2 * strain;
+  double q = std::exp(root(mu, half * (std::log(C1) - logs), m.lambda));
+  Strip s;
+  s.stress = pulled - q / C1;
+  if (!(s.stress > 0)) {
+    q = std::exp(root(mu, half * (-std::log(pulled) - logs), 3 * half));
+    C1 = q / pulled;
+  }
+  const double C2 = q / pulled, C3 = q / mu, log_J = std::log(C1 * C2 * C3) / 2;
+  s.modulus = 2 * q / (C1 * C1) * (1 + half / (q + m.lambda));
+  s.energy = mu / 2 * (C1 + C2 + C3 - 3 - 2 * log_J) + half * log_J * log_J + tension / 2 * (C1 + C2 - 2);
+  s.thinning = std::sqrt(C3);
+  s.area = std::sqrt(C1 * C2);
+  return s;
+}
+
+/// Makes of the answer of a skin that cannot wrinkle, under a tension, that of one that can.
+void relax(const MembraneLaw& law, double tension, const Plane& strain, SkinResponse& r) {
+  const double least = (r.stress[0] + r.stress[1]) / 2 - std::hypot((r.stress[0] - r.stress[1]) / 2, r.stress[2]);
+  if (!(least < 0)) return;
+  const double half = (strain[0] - strain[1]) / 2, shear = strain[2] / 2, radius = std::hypot(half, shear);
+  const double largest = (strain[0] + strain[1]) / 2 + radius;
+  const Strip strip =
+      law.neo_hookean ? neo_hookean_strip(*law.neo_hookean, tension, largest) : linear_strip(law, tension, largest);
+  const double left = *law.wrinkling, relaxed = 1 - left;
+  r.stress *= left;
+  r.moduli *= left;
+  r.energy = left * r.energy + relaxed * strip.energy;
+  r.thinning = strip.thinning;
+  r.area = strip.area;
+  r.state = SkinState::slack;
+  if (!(strip.stress > 0)) return;
+  r.state = SkinState::wrinkled;
+  // E₁ by the strain, and how its direction turns: the second derivative of E₁ is b bᵀ/radius
+  const double c = half / radius, s = shear / radius;
+  const Plane a((1 + c) / 2, (1 - c) / 2, s / 2), b(-s / 2, s / 2, c / 2);
+  r.stress += relaxed * strip.stress * a;
+  r.moduli += relaxed * (strip.modulus * a * a.transpose() + strip.stress / radius * b * b.transpose());
+}
+
+}  // namespace
+
+MembraneLaw membrane_law(const materials::Elasticity& material) {
+  const double D = material.stiffness(0, 0), nu = material.stiffness(0, 1) / D;
+  return {D * (1 - nu * nu), nu, material.neo_hookean, 0, {}};
+}
+
+/// Pipkin (1986), IMA J. Appl. Math. 36, 85; Steigmann (1990), Proc. R. Soc. Lond. A 429, 141: the energy is the least that the
+/// skin can have with wrinkles as fine as it likes. With E₁ ≥ E₂ it is that of the strain where both principal stresses pull,
+/// that of a strip with the strain E₁ where a strip would be pulled, and else that of a skin left to itself.
+///
+/// It wrinkles under a pressure c: the same law with the tension s + c, less the energy c (E₁ + E₂). A skin without stress
+/// across, as beside free edges, is taut then, and the change of its moduli is not where Newton's iteration ends.
+SkinResponse respond(const MembraneLaw& law, const Plane& strain) {
+  if (!law.wrinkling) return taut(law, law.tension, strain);
+  constexpr double before = 0.1;  // strain across at which what is left of the stiffness has the same stress
+  const double pressure = before * *law.wrinkling * law.young, tension = law.tension + pressure;
+  SkinResponse r = taut(law, tension, strain);
+  relax(law, tension, strain, r);
+  r.stress[0] -= pressure;
+  r.stress[1] -= pressure;
+  r.energy -= pressure * (strain[0] + strain[1]);
+  return r;
+}
+
+}  // namespace engrane::elements::membranes
