@@ -208,6 +208,19 @@ def models() -> dict[str, Model]:
             (1e-5, 5e-6, 2.5e-6, 1.25e-6),
             fixed=True,
         ),
+        "elbow": Model(
+            "elbow",
+            deck_text("decks/elements/beams/beam_elbow.dat"),
+            6.0,
+            0.05,
+            0.1,
+            (
+                ("node/17/UX", "node/17/UY", "node/17/UZ"),
+                ("node/17/VX", "node/17/VY", "node/17/VZ"),
+                ("element/1/TORQUE_A", "element/1/BENDING_MOMENT_2_A", "element/1/BENDING_MOMENT_3_A"),
+            ),
+            (0.1, 0.05, 0.025, 0.0125),
+        ),
         "valve": like("valve", "valve train", 0.012, 1e-4, (2e-5, 1e-5, 5e-6, 2.5e-6)),
     }
 

@@ -6,11 +6,12 @@ joints, processor time, memory, and what engrane spends its time on.
         [--kinds B32R B31] [--no-calculix] [--deck FILE]
 
 Columns and girders of 4 m and 0.1 x 0.1 m of steel, clamped at the foot, under their weight, and pushed
-sideways at each joint. Every member has `pieces` pieces of three nodes. Linear statics in CalculiX; in engrane
-an equilibrium of any displacements, whose loads are small enough to make no difference.
+sideways at each joint. Every member has `pieces` pieces of three nodes. Statics are linear in CalculiX; in
+engrane displacements are of any size, and loads are small enough to make no difference.
 
-CalculiX makes a solid of each beam: B32 one hexahedron of 20 nodes, B32R the same with reduced integration,
-B31 one of 8 with internal modes, and ties the solids to a rigid knot at each joint. B31 has twice the elements.
+CalculiX makes a solid of each beam, and ties the solids to a rigid knot at each joint: B32 is a hexahedron of
+20 nodes, B32R the same with reduced integration, B31 one of 8 nodes with internal modes, of which there are
+twice as many.
 """
 
 import argparse
@@ -25,7 +26,7 @@ from calculix import measured
 
 SPAN, WIDTH = 4.0, 0.1
 YOUNG, POISSON, DENSITY, GRAVITY, PUSH = 2.1e11, 0.3, 7850.0, 9.81, 20.0
-SCALE = 1
+SCALE = 1e-2  # of all loads
 
 
 class Frame:
