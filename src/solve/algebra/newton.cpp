@@ -188,7 +188,8 @@ void Newton::choose_factors() {
 /// A tangent at x_k leaves the part θ of the residual, which is half of what it changes by on the way to x_k+1: there it would
 /// leave the part 2 θ.
 bool Newton::tangent_serves_again() const {
-  if (rows_.size() < 2 || uses_ >= most_uses || !sliding_parts_.empty() || matrix_of_factors_ != assembler_.changes()) return false;
+  if (rows_.size() < 2 || uses_ >= most_uses || !sliding_parts_.empty() || matrix_of_factors_ != assembler_.changes())
+    return false;
   if (changed_ <= same_tangent) return true;
   const NewtonRow& before = rows_[rows_.size() - 2];
   const double left = imbalance_.largest();
