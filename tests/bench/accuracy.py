@@ -475,16 +475,19 @@ PICTURE = ("spur", "andrews", "crank")
 LADDER = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 
 
-def picture(binary: Path, folder: Path, known: dict[str, Model], path: Path, runs: int) -> None:
-    """Error over processor time of three models: fixed steps, tolerances and the four settings."""
+def picture(binary: Path, folder: Path, models: list[Model], path: Path, runs: int) -> None:
+    """Error over processor time of some models: fixed steps, tolerances and the settings, without REFERENCE
+    where there are waves that fixed steps do not follow."""
     import matplotlib
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, len(PICTURE), figsize=(13, 4.6), sharey=True, layout="constrained")
-    for axis, name in zip(axes, PICTURE, strict=True):
-        model = known[name]
+    size = (13 / 3 * len(models), 4.6)
+    figure, axes = plt.subplots(1, len(models), figsize=size, sharey=True, layout="constrained")
+    for axis, model in zip(axes, models, strict=True):
+        settings = [rung for rung in SETTINGS if not (model.waves and rung == "REFERENCE")]
+        ladder = LADDER[:-1] if model.waves else LADDER
         bench = Bench(binary, folder, model, runs)
         steps = [model.steps[0] * 2.0**-k for k in range(6)]
         lines = (
@@ -497,19 +500,19 @@ def picture(binary: Path, folder: Path, known: dict[str, Model], path: Path, run
             (
                 "Radau IIA, TOL",
                 "^-",
-                [("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL {t!r}") for t in LADDER],
+                [("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL {t!r}") for t in ladder],
             ),
             (
                 "ACCURACY, with its estimate",
                 "D--",
-                [(f"ACCURACY {rung}", f"H {model.step!r}") for rung in SETTINGS],
+                [(f"ACCURACY {rung}", f"H {model.step!r}") for rung in settings],
             ),
         )
         for label, mark, tries in lines:
             points = [(run.seconds, run.error) for run in (bench.run(*words) for words in tries)]
             axis.loglog(*zip(*points, strict=True), mark, label=label, markersize=7 if "D" in mark else 4)
             if "D" in mark:
-                for (x, y), rung in zip(points, SETTINGS, strict=True):
+                for (x, y), rung in zip(points, settings, strict=True):
                     axis.annotate(rung, (x, y), xytext=(6, 3), textcoords="offset points", fontsize=8)
         own = bench.run(None, f"H {model.step!r}")
         axis.plot(own.seconds, own.error, "k*", markersize=11, label="the deck as it is")
@@ -527,19 +530,20 @@ def main() -> None:
     )
     known = models()
     parser.add_argument("binary", type=Path)
-    parser.add_argument("--models", nargs="+", choices=known, default=list(known))
+    parser.add_argument("--models", nargs="+", choices=known)
     parser.add_argument("--runs", type=int, default=2)
     parser.add_argument("--no-dial", action="store_true")
     parser.add_argument("--tolerances", nargs="*", type=float, default=[])
     parser.add_argument("--companions", nargs="*", type=float, default=[], help="TOL of runs with companions")
-    parser.add_argument("--picture", type=Path, help="draw three models and print nothing")
+    parser.add_argument("--picture", type=Path, help="draw the models, or three, and print nothing")
     parser.add_argument("--slopes", action="store_true")
     a = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         if a.picture:
-            picture(a.binary.resolve(), Path(folder), known, a.picture, a.runs)
+            drawn = [known[name] for name in a.models or PICTURE]
+            picture(a.binary.resolve(), Path(folder), drawn, a.picture, a.runs)
             return
-        for name in a.models:
+        for name in a.models or known:
             bench = Bench(a.binary.resolve(), Path(folder), known[name], a.runs)
             own = f"own error {bench.own_error:.1e}" if bench.own_error else "equation of its own"
             print(f"\n{known[name].title}: truth: {own}\n")
