@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The dial `.SAM ACCURACY` on eleven models: what it estimates, what is true, and what it costs.
+"""The dial `.SAM ACCURACY` on nine models and on beams: what it estimates, what is true, and what it costs.
 
     python tests/bench/accuracy.py build/bin/engrane [--models bevel spur ...] [--runs 2]
         [--tolerances 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7] [--slopes] [--picture docs/figures/dial.png]
@@ -140,6 +140,45 @@ class Model:
         self.more = "".join(kept)
 
 
+def damped(path: str, time: float) -> str:
+    """A deck whose beams are damped by this time, s."""
+    return re.sub(r"(?m)^( I \d+ BEAM .*)$", rf"\1 DAMPING {time}", deck_text(path))
+
+
+def elbow(text: str, more: str = "") -> Model:
+    return Model(
+        "elbow" + more,
+        text,
+        3.0,
+        0.05,
+        0.05,
+        (
+            ("node/17/UX", "node/17/UY", "node/17/UZ"),
+            ("node/17/VX", "node/17/VY", "node/17/VZ"),
+            ("element/1/TORQUE_A", "element/1/BENDING_MOMENT_2_A", "element/1/BENDING_MOMENT_3_A"),
+        ),
+        (0.05, 0.025, 0.0125, 0.00625),
+        waves=True,
+    )
+
+
+def flexible_crank(text: str, more: str = "") -> Model:
+    return Model(
+        "flexible slider-crank" + more,
+        text,
+        TURN / 10,
+        TURN / 500,
+        TURN / 500,
+        (
+            ("node/6/UX", "node/6/UY", "node/11/UX"),
+            ("node/6/VX", "node/6/VY", "node/11/VX"),
+            ("element/2/BENDING_MOMENT_3_B", "element/11/DRIVE_TORQUE"),
+        ),
+        (TURN / 500, TURN / 1000, TURN / 2000, TURN / 4000),
+        waves=True,
+    )
+
+
 def models() -> dict[str, Model]:
     def like(
         name: str, title: str, end: float, interval: float, steps, text: str | None = None, **more
@@ -211,33 +250,11 @@ def models() -> dict[str, Model]:
             (1e-5, 5e-6, 2.5e-6, 1.25e-6),
             fixed=True,
         ),
-        "elbow": Model(
-            "elbow",
-            deck_text("decks/elements/beams/beam_elbow.dat"),
-            3.0,
-            0.05,
-            0.05,
-            (
-                ("node/17/UX", "node/17/UY", "node/17/UZ"),
-                ("node/17/VX", "node/17/VY", "node/17/VZ"),
-                ("element/1/TORQUE_A", "element/1/BENDING_MOMENT_2_A", "element/1/BENDING_MOMENT_3_A"),
-            ),
-            (0.05, 0.025, 0.0125, 0.00625),
-            waves=True,
-        ),
-        "flexible": Model(
-            "flexible slider-crank",
-            deck_text("decks/mechanisms/flexible_slider_crank.dat"),
-            TURN / 10,
-            TURN / 500,
-            TURN / 500,
-            (
-                ("node/6/UX", "node/6/UY", "node/11/UX"),
-                ("node/6/VX", "node/6/VY", "node/11/VX"),
-                ("element/2/BENDING_MOMENT_3_B", "element/11/DRIVE_TORQUE"),
-            ),
-            (TURN / 500, TURN / 1000, TURN / 2000, TURN / 4000),
-            waves=True,
+        "elbow": elbow(deck_text("decks/elements/beams/beam_elbow.dat")),
+        "damped_elbow": elbow(damped("decks/elements/beams/beam_elbow.dat", 1e-4), ", damped"),
+        "flexible": flexible_crank(deck_text("decks/mechanisms/flexible_slider_crank.dat")),
+        "damped_flexible": flexible_crank(
+            damped("decks/mechanisms/flexible_slider_crank.dat", 1e-6), ", damped"
         ),
         "valve": like("valve", "valve train", 0.012, 1e-4, (2e-5, 1e-5, 5e-6, 2.5e-6)),
     }
