@@ -120,22 +120,40 @@ std::string describe_analysis(const solve::SolverContext& context) {
 }
 
 std::string describe_geometry(const Model& model) {
-  std::string text;
+  std::string text, values, before;
+  const Model::Part *first = nullptr, *last = nullptr;
+  std::size_t alike = 0;
+  const auto tell = [&] {
+    if (!first) return;
+    text += fmt::format("\n  {} {}, nodes {}", first->type, first->element->id(), fmt::join(first->element->node_ids(), " "));
+    if (alike > 0) text += fmt::format(", and {} alike up to {} {}", alike, last->type, last->element->id());
+    text += "\n" + before;
+  };
   for (const Model::Part& part : model.parts) {
     const auto derived = part.element->derived();
     if (derived.empty()) continue;
-    text += fmt::format("\n  {} {}, nodes {}\n", part.type, part.element->id(), fmt::join(part.element->node_ids(), " "));
+    values.clear();
     for (const Derived& d : derived) {
       // angles are radians inside and degrees wherever a person reads or writes a deck
       const bool angle = d.dimension == dimension::angle;
       const double shown = angle ? d.value / degree : d.value;
       const double value = std::abs(shown) < 1e-14 ? 0.0 : shown;  // rounding, and no minus zero
-      text += fmt::format("    {:<42}{:>16.9g} {}\n", d.name, value,
-                          angle                            ? "deg"
-                          : d.dimension == dimension::none ? ""
-                                                           : model.units.label(d.dimension));
+      values += fmt::format("    {:<42}{:>16.9g} {}\n", d.name, value,
+                            angle                            ? "deg"
+                            : d.dimension == dimension::none ? ""
+                                                             : model.units.label(d.dimension));
     }
+    if (first && part.type == first->type && values == before) {
+      ++alike;
+    } else {
+      tell();
+      first = &part;
+      alike = 0;
+      before = values;
+    }
+    last = &part;
   }
+  tell();
   return text;
 }
 

@@ -13,7 +13,7 @@ output::BuiltSummary summarize(const Model& model, const Numbering& numbering);
 /// "DYNAMIC, CHUNG rho 0.8, t = 0 to 0.03, 15000 steps of 2e-06, MUMPS"
 std::string describe_analysis(const solve::SolverContext& context);
 
-/// Table of the derived geometry of each element that has any.
+/// Table of the derived geometry of each element that has any; neighbours that are alike are told once.
 std::string describe_geometry(const Model& model);
 
 /// Table of masses, centres and inertias of at most `most` bodies, and of all together; empty when nothing has mass.

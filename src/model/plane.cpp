@@ -89,8 +89,11 @@ class Examination {
 
   std::vector<PlaneFault> run(std::size_t most) {
     look_at_conditions();
+    // without constraints nothing carries what pushes out of the plane
+    const bool carried = std::any_of(model_.parts.begin(), model_.parts.end(),
+                                     [](const Model::Part& part) { return !part.element->layout().multipliers.empty(); });
     for (const Model::Part& part : model_.parts) {
-      if (faults_.size() >= most) break;
+      if (faults_.size() >= most || (most == 1 && !carried && !pushed_.empty())) break;
       look_at(part);
     }
     if (faults_.empty() && !pushed_.empty()) look_at_what_carries();

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The dial `.SAM ACCURACY` on nine models: what it estimates, what is true, and what it costs.
+"""The dial `.SAM ACCURACY` on nine models and on beams: what it estimates, what is true, and what it costs.
 
     python tests/bench/accuracy.py build/bin/engrane [--models bevel spur ...] [--runs 2]
         [--tolerances 1e-2 1e-3 1e-4 1e-5 1e-6 1e-7] [--slopes] [--picture docs/figures/dial.png]
@@ -7,9 +7,9 @@
 Errors are measured as the program estimates them: the root of the mean square over time of what a channel
 is off by, over its range; of some positions, velocities and forces of each model the worst channel
 counts. The truth is a run of RADAU with TOL 1e-9, for models with play of RADAU with short fixed steps;
-its own error is what it differs by from another of fixed steps. Processor time is that of the process
-with all it does, the estimate included, without that of a run of a single step; the least of --runs, in
-turn.
+its own error is what it differs by from another of fixed steps, or of TOL 1e-8. Processor time is that of
+the process with all it does, the estimate included, without that of a run of a single step; the least of
+--runs, in turn.
 
 Prints a Markdown table of the four settings; --tolerances: one of TOL, with the TOL that each setting
 would have needed; --picture: error over processor time of three models; --slopes: one of fixed steps of
@@ -41,6 +41,7 @@ from engrane_post import Results  # noqa: E402
 
 ENVIRONMENT = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 SETTINGS = {"FAST": 1e-2, "NORMAL": 1e-3, "FINE": 1e-5, "REFERENCE": 1e-8}
+TURN = 2 * math.pi / 150  # of the flexible slider-crank, s
 NO_RANGE = 1e-6  # as in src/app/companion.cpp
 
 PLANETARY = """
@@ -128,13 +129,54 @@ class Model:
     steps: tuple[float, ...]  #: fixed, for slopes: multiples or parts of `step` that divide `interval`
     truth: Callable[[np.ndarray], np.ndarray] | None = None  #: of an equation of its own: channels over times
     fixed: bool = False  #: the truth has fixed steps: forces at their ends, not between those about an event
+    waves: bool = False  #: that fixed steps do not follow: the own error is what TOL 1e-8 differs by
     schemes: tuple[str, ...] = ("",)  #: words that the settings are tried with
     names: tuple[str, ...] = field(init=False)
-    static: bool = field(init=False)
+    more: str = field(init=False)  #: words of `.SAM` that stay
 
     def __post_init__(self) -> None:
         self.names = tuple(name for kind in self.channels for name in kind)
-        self.static = re.search(r"^\.SAM.*START STATIC", self.text, re.M) is not None
+        kept = re.findall(r"^\.SAM.*?( START STATIC| PLANE \w+)", self.text, re.M)
+        self.more = "".join(kept)
+
+
+def damped(path: str, time: float) -> str:
+    """A deck whose beams are damped by this time, s."""
+    return re.sub(r"(?m)^( I \d+ BEAM .*)$", rf"\1 DAMPING {time}", deck_text(path))
+
+
+def elbow(text: str, more: str = "") -> Model:
+    return Model(
+        "elbow" + more,
+        text,
+        3.0,
+        0.05,
+        0.05,
+        (
+            ("node/17/UX", "node/17/UY", "node/17/UZ"),
+            ("node/17/VX", "node/17/VY", "node/17/VZ"),
+            ("element/1/TORQUE_A", "element/1/BENDING_MOMENT_2_A", "element/1/BENDING_MOMENT_3_A"),
+        ),
+        (0.05, 0.025, 0.0125, 0.00625),
+        waves=True,
+    )
+
+
+def flexible_crank(text: str, more: str = "") -> Model:
+    return Model(
+        "flexible slider-crank" + more,
+        text,
+        TURN / 10,
+        TURN / 500,
+        TURN / 500,
+        (
+            ("node/6/UX", "node/6/UY", "node/11/UX"),
+            ("node/6/VX", "node/6/VY", "node/11/VX"),
+            ("element/2/BENDING_MOMENT_3_B", "element/11/DRIVE_TORQUE"),
+        ),
+        (TURN / 500, TURN / 1000, TURN / 2000, TURN / 4000),
+        waves=True,
+    )
 
 
 def models() -> dict[str, Model]:
@@ -208,6 +250,12 @@ def models() -> dict[str, Model]:
             (1e-5, 5e-6, 2.5e-6, 1.25e-6),
             fixed=True,
         ),
+        "elbow": elbow(deck_text("decks/elements/beams/beam_elbow.dat")),
+        "damped_elbow": elbow(damped("decks/elements/beams/beam_elbow.dat", 1e-4), ", damped"),
+        "flexible": flexible_crank(deck_text("decks/mechanisms/flexible_slider_crank.dat")),
+        "damped_flexible": flexible_crank(
+            damped("decks/mechanisms/flexible_slider_crank.dat", 1e-6), ", damped"
+        ),
         "valve": like("valve", "valve train", 0.012, 1e-4, (2e-5, 1e-5, 5e-6, 2.5e-6)),
     }
 
@@ -216,7 +264,7 @@ def deck(model: Model, analysis: str | None, stepping: str) -> str:
     """`analysis`: words of `.SAM`, None for those of the deck; `stepping`: words of `.SUB` after TF."""
     text = re.sub(r"^\.(CHK|SAI)\b.*\n(?:[ !].*\n)*", "", model.text, flags=re.M)
     if analysis is not None:
-        words = f".SAM TYPE DYNAMIC {analysis} ENERGY 0" + (" START STATIC" if model.static else "")
+        words = f".SAM TYPE DYNAMIC {analysis} ENERGY 0{model.more}"
         text = re.sub(r"^\.SAM .*", words, text, flags=re.M)
     checks = [
         f" {'ELEMENT' if kind == 'element' else 'NODE'} {number} {channel} V 0 ATOL 1e30"
@@ -272,7 +320,8 @@ class Bench:
             controlled = ("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL 1e-9")
             fine = ("SCHEME RADAU SOLVER KLU PREC 1e-12", f"H {model.steps[-1] / 4!r}")
             longer = ("SCHEME RADAU SOLVER KLU PREC 1e-12", f"H {model.steps[-1] / 2!r}")
-            truth, other = (fine, longer) if model.fixed else (controlled, fine)
+            looser = ("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL 1e-8")
+            truth, other = (fine, longer) if model.fixed else (controlled, looser if model.waves else fine)
             self.truth = self.run(*truth, 1, compare=False)
             self.own_error = self.run(*other, 1).error
 
@@ -314,35 +363,32 @@ def cell(value: float) -> str:
     return f"{value:.1e}" if math.isfinite(value) else ""
 
 
-def dial(bench: Bench) -> list[str]:
-    model, rows = bench.model, []
+def dial(bench: Bench) -> Iterable[str]:
+    model = bench.model
     try:
         own = bench.run(None, f"H {model.step!r}")
-        rows.append(
+        yield (
             f"| {model.title} | as it is, H {model.step:g} | {own.steps} | {own.seconds:.3f} "
             f"| | {own.error:.1e} | | |"
         )
     except RuntimeError as error:
-        rows.append(f"| {model.title} | as it is | failed: {error} |")
+        yield f"| {model.title} | as it is | failed: {error} |"
     for setting, target in ((s + scheme, t) for scheme in model.schemes for s, t in SETTINGS.items()):
         try:
             run = bench.run(f"ACCURACY {setting}", f"H {model.step!r}")
         except RuntimeError as error:
             when = re.findall(r"step \d+, (t = [0-9.e-]+[0-9])", str(error))
-            rows.append(
-                f"| {model.title} | {setting} | fails at {when[-1] if when else error} | | | | | no |"
-            )
+            yield f"| {model.title} | {setting} | fails at {when[-1] if when else error} | | | | | no |"
             continue
         found = run.report.get("accuracy") or {}
         estimate = found.get("estimated_error")
         told = f"{estimate:.1e}" if estimate else "none"
         ratio = f"{estimate / run.error:.2g}" if estimate else ""
         met = "yes" if run.error <= target else f"no, {run.error / target:.2g} times"
-        rows.append(
+        yield (
             f"| {model.title} | {setting} | {run.steps} | {run.seconds:.3f} "
             f"| {told} | {run.error:.1e} | {ratio} | {met} |"
         )
-    return rows
 
 
 def ladder(bench: Bench, tolerances: list[float]) -> list[str]:
@@ -446,16 +492,19 @@ PICTURE = ("spur", "andrews", "crank")
 LADDER = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 
 
-def picture(binary: Path, folder: Path, known: dict[str, Model], path: Path, runs: int) -> None:
-    """Error over processor time of three models: fixed steps, tolerances and the four settings."""
+def picture(binary: Path, folder: Path, models: list[Model], path: Path, runs: int) -> None:
+    """Error over processor time of some models: fixed steps, tolerances and the settings, without REFERENCE
+    where there are waves that fixed steps do not follow."""
     import matplotlib
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, len(PICTURE), figsize=(13, 4.6), sharey=True, layout="constrained")
-    for axis, name in zip(axes, PICTURE, strict=True):
-        model = known[name]
+    size = (13 / 3 * len(models), 4.6)
+    figure, axes = plt.subplots(1, len(models), figsize=size, sharey=True, layout="constrained")
+    for axis, model in zip(axes, models, strict=True):
+        settings = [rung for rung in SETTINGS if not (model.waves and rung == "REFERENCE")]
+        ladder = LADDER[:-1] if model.waves else LADDER
         bench = Bench(binary, folder, model, runs)
         steps = [model.steps[0] * 2.0**-k for k in range(6)]
         lines = (
@@ -468,19 +517,19 @@ def picture(binary: Path, folder: Path, known: dict[str, Model], path: Path, run
             (
                 "Radau IIA, TOL",
                 "^-",
-                [("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL {t!r}") for t in LADDER],
+                [("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL {t!r}") for t in ladder],
             ),
             (
                 "ACCURACY, with its estimate",
                 "D--",
-                [(f"ACCURACY {rung}", f"H {model.step!r}") for rung in SETTINGS],
+                [(f"ACCURACY {rung}", f"H {model.step!r}") for rung in settings],
             ),
         )
         for label, mark, tries in lines:
             points = [(run.seconds, run.error) for run in (bench.run(*words) for words in tries)]
             axis.loglog(*zip(*points, strict=True), mark, label=label, markersize=7 if "D" in mark else 4)
             if "D" in mark:
-                for (x, y), rung in zip(points, SETTINGS, strict=True):
+                for (x, y), rung in zip(points, settings, strict=True):
                     axis.annotate(rung, (x, y), xytext=(6, 3), textcoords="offset points", fontsize=8)
         own = bench.run(None, f"H {model.step!r}")
         axis.plot(own.seconds, own.error, "k*", markersize=11, label="the deck as it is")
@@ -498,19 +547,20 @@ def main() -> None:
     )
     known = models()
     parser.add_argument("binary", type=Path)
-    parser.add_argument("--models", nargs="+", choices=known, default=list(known))
+    parser.add_argument("--models", nargs="+", choices=known)
     parser.add_argument("--runs", type=int, default=2)
     parser.add_argument("--no-dial", action="store_true")
     parser.add_argument("--tolerances", nargs="*", type=float, default=[])
     parser.add_argument("--companions", nargs="*", type=float, default=[], help="TOL of runs with companions")
-    parser.add_argument("--picture", type=Path, help="draw three models and print nothing")
+    parser.add_argument("--picture", type=Path, help="draw the models, or three, and print nothing")
     parser.add_argument("--slopes", action="store_true")
     a = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         if a.picture:
-            picture(a.binary.resolve(), Path(folder), known, a.picture, a.runs)
+            drawn = [known[name] for name in a.models or PICTURE]
+            picture(a.binary.resolve(), Path(folder), drawn, a.picture, a.runs)
             return
-        for name in a.models:
+        for name in a.models or known:
             bench = Bench(a.binary.resolve(), Path(folder), known[name], a.runs)
             own = f"own error {bench.own_error:.1e}" if bench.own_error else "equation of its own"
             print(f"\n{known[name].title}: truth: {own}\n")
@@ -520,7 +570,8 @@ def main() -> None:
                     + "|---" * 8
                     + "|"
                 )
-                print("\n".join(dial(bench)), flush=True)
+                for row in dial(bench):
+                    print(row, flush=True)
             if a.tolerances:
                 print("\n| model | TOL | steps | s | x | v | force | power of TOL |\n" + "|---" * 8 + "|")
                 print("\n".join(ladder(bench, a.tolerances)), flush=True)

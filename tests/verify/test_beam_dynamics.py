@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from beam_problems import Line, deck, straight
+from oracles import flexible_crank as crank
 from runs import run
 from scipy.optimize import least_squares
 
@@ -59,6 +60,51 @@ def test_energy(tmp_path: Path) -> None:
         drift = energy / energy[0] - 1
         assert abs(drift).max() < 1.5e-5
         assert (drift[-1] < -3e-6) == (rho < 1)
+
+
+def crank_deflection(pieces: int, folder: Path) -> np.ndarray:
+    """Of the middle of the rod of decks/mechanisms/flexible_slider_crank.dat, for half a turn."""
+    line = Line(lambda u: np.array([crank.CRANK + crank.LENGTH * u, 0, 0]), pieces, first=2)
+    moved, speeds, spins = crank.start(np.linspace(0, 1, len(line.ids)))
+    pin, middle, last, block = line.ids[0], line.ids[pieces], line.last, line.last + 1
+    joints = f""" I 101 HINGE N 0 1 AXIS 0 0 1 DRIVE SPEED NF 1
+ I 102 HINGE N 1 {pin} AXIS 0 0 1 AT {crank.CRANK} 0 0
+ I 103 HINGE N {last} {block} AXIS 0 0 1
+ I 104 PRISMATIC N 0 {block} AXIS 1 0 0
+ I 105 INERTIA N {block} M {crank.BLOCK}
+.MAT
+ I 1 YT {crank.YOUNG} NT {crank.POISSON} M {crank.DENSITY}
+.NOE
+ I 1
+ I {block} X {crank.CRANK + crank.LENGTH}"""
+    start = "\n".join(
+        f" DEP NOEUD {i} C 1 V {u:.16g}\n VIT NOEUD {i} C 2 6 V {v:.16g} {w:.16g}"
+        for i, u, v, w in zip(line.ids, moved, speeds, spins, strict=True)
+    )
+    rest = f""".FCT
+ I 1 EXPR "{crank.SPEED}"
+.INI
+ VIT NOEUD 1 C 6 V {crank.SPEED}
+ DEP NOEUD {block} C 1 V {moved[-1]:.16g}
+{start}
+.SAM TYPE DYNAMIC SCHEME RADAU SOLVER KLU PLANE XY
+.SUB TF {crank.TURN / 2!r} H {crank.TURN / 500!r}
+.SAI HISTORY {crank.TURN / 20!r}"""
+    section = f"RECTANGLE {crank.SIDE} {crank.SIDE}"
+    found = run(deck([line], section, rest, "BPR 1 MAT 1 AXIS2 0 1 0", joints), folder)
+    places = [
+        np.array([line.points[i - 2, 0] + found[f"node/{i}/UX"], found[f"node/{i}/UY"]]).T
+        for i in (pin, middle, last)
+    ]
+    return crank.deflection(*places)[1:]
+
+
+def test_flexible_slider_crank(tmp_path: Path) -> None:
+    """The middle of the rod bends by 1.5 mm as that of Reissner's rod by polynomials of its whole length."""
+    exact = crank.DEFLECTIONS[:10]
+    errors = [abs(crank_deflection(pieces, tmp_path) - exact).max() for pieces in (2, 4)]
+    assert errors[0] < 1.2e-5
+    assert errors[1] < 8e-7
 
 
 def whirl(pieces: int, end: float, folder: Path) -> np.ndarray:

@@ -18,6 +18,14 @@ constexpr double share_of_tried = 1e-3;
 /// what a tangent costs over that: counted for chains of 3, 20 and 100 links (docs/decisions/0024-kept-factors.md).
 constexpr double residual_of_slot = 225, tangent_over_residual = 5.4;
 
+/// A correction this small changes no tangent: what is left of forces is their rounding, or a kink that a new one would not see
+/// either.
+constexpr double same_tangent = 1e-10;
+/// A tangent serves again for a correction that is to leave this share of PREC.
+constexpr double share_of_precision = 1e-2;
+/// And no more often than this without a new one.
+constexpr int most_uses = 3;
+
 /// A sliding speed that counts as none, over the speed below which friction is regularised.
 constexpr double resting = 1e-3;
 
@@ -171,7 +179,21 @@ void Newton::choose_factors() {
     policy_.corrected(imbalance_.largest() / precision_);
   }
   // SNES asks for a tangent once (-2) or not at all (-1)
-  check_petsc(SNESSetLagJacobian(snes_, keep_ && !policy_.due() ? -1 : -2));
+  const bool serve = keep_ ? !policy_.due() : tangent_serves_again();
+  check_petsc(SNESSetLagJacobian(snes_, serve ? -1 : -2));
+  uses_ = serve ? uses_ + 1 : 1;
+}
+
+/// A tangent at x_k leaves the part θ of the residual, which is half of what it changes by on the way to x_k+1: there it would
+/// leave the part 2 θ.
+bool Newton::tangent_serves_again() const {
+  if (rows_.size() < 2 || uses_ >= most_uses || !sliding_parts_.empty() || matrix_of_factors_ != assembler_.changes())
+    return false;
+  if (changed_ <= same_tangent) return true;
+  const NewtonRow& before = rows_[rows_.size() - 2];
+  const double left = imbalance_.largest();
+  const double theta = left / std::max({before.force, before.moment, before.length, before.angle});
+  return uses_ == 1 && 2 * theta * left <= share_of_precision * precision_;
 }
 
 void Newton::save(Snapshot& snapshot) const {
@@ -289,7 +311,7 @@ bool Newton::judge(int iteration) {
   if (refined_ && iteration == 1 && row_.force + row_.moment > 0 && solver_.direct()) return false;
   if (imbalance_.within(precision_)) return true;
   if (one_tangent_ && iteration > 0 && left_to_rounding()) return true;
-  const double changed = std::max(row_.correction, forces);
+  const double changed = changed_ = std::max(row_.correction, forces);
   if (iteration > 1 && changed <= no_correction) return true;
   const double left = imbalance_.largest();
   if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;

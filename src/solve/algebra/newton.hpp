@@ -94,6 +94,8 @@ class Newton {
   }
   /// Decides whether the next correction is made with the factors there are.
   void choose_factors();
+  /// Whether another tangent than that of the last correction would gain nothing that counts.
+  bool tangent_serves_again() const;
   bool judge(int iteration);
   /// Whether what is left of every force of a linear model is no more than the rounding of positions makes: nothing better can be
   /// found. Collective.
@@ -117,6 +119,8 @@ class Newton {
   bool solving_ = false;         ///< for others the solver takes its factors as they are
   bool fresh_ = true;            ///< factors are those of the last residual's configuration
   long matrix_of_factors_ = -1;  ///< Assembler::changes() when the tangent was made that the factors belong to
+  int uses_ = 0;                 ///< corrections of this solution with the last tangent
+  double changed_ = 0;           ///< by the last correction, multipliers too
   double evaluation_ = 0;        ///< instructions of a residual, about
   References references_;
   NewtonRow row_;

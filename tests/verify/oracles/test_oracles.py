@@ -12,7 +12,7 @@ import pytest
 from scipy.linalg import eigh
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from oracles import gear_statics, parametric_mesh, planetary, rigid_body, spur_transmission
+from oracles import flexible_crank, gear_statics, parametric_mesh, planetary, rigid_body, spur_transmission
 
 
 def test_pendulum() -> None:
@@ -41,6 +41,16 @@ def test_run_up() -> None:
     assert flexible["omega"] == pytest.approx(6123.724356957946)
     stretch = 0.05 * flexible["angle1"] - 0.1 * flexible["angle2"]
     assert 1e8 * stretch == pytest.approx(flexible["force"], rel=1e-7, abs=1e-6)
+
+
+def test_flexible_crank() -> None:
+    """The equations of the Test Set end where it says; the other rod bends as in its table."""
+    end = flexible_crank.Modes().solve(np.array([0.1]), 1e-7)[:5, -1]
+    assert end == pytest.approx(flexible_crank.PUBLISHED[:5], rel=2e-5)
+    times = np.array([flexible_crank.TURN / 20])
+    rod = flexible_crank.Rod(8)
+    found = rod.deflection(times, rod.solve(times, 1e-6))
+    assert found == pytest.approx(flexible_crank.DEFLECTIONS[:1], abs=3e-8)
 
 
 def test_worm() -> None:
