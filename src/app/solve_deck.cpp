@@ -318,7 +318,8 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
       const ErrorEstimate estimate = companion->estimate(runner.steps());
       if (may_repeat && estimate.trouble.empty() && estimate.error > wanted.target) {
         tolerance = std::max(estimate.tolerance_for(wanted.target), most_at_once * wanted.tolerance);
-        if (companion->follows_tolerance()) tolerance = std::min(tolerance, wanted.tolerance / bolder);
+        // what was tried beyond the setting's own TOL goes back to that
+        tolerance = std::min(tolerance, tolerance_of(reading.model.commands.analysis).value_or(tolerance));
         writer->note(
             fmt::format("engrane: the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: again, "
                         "with TOL {:.1g}",

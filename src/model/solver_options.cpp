@@ -11,7 +11,7 @@ namespace {
 constexpr double longest_part = 0.02;
 /// Of the tolerance of a step: what iterations leave of forces, and how sharply events are met. Where a force jumps the error of
 /// an event's instant is one of velocities, as large a part of what a step changes; that of all forces is the most it can be.
-constexpr double share_of_newton = 0.03, share_of_event = 0.5;
+constexpr double share_of_newton = 0.01, share_of_event = 0.5;
 
 const AccuracyRung* rung_of(const deck::AnalysisCard& analysis) {
   for (const AccuracyRung& rung : accuracy_rungs)
@@ -50,7 +50,7 @@ SolverOptions solver_options(const deck::AnalysisCard& analysis, const deck::Ste
   o.package = analysis.solver.tag;
   // iterations with kept factors need not be better than their step; those with exact tangents are, by the last of them
   const double of_step =
-      o.tolerance > 0 && o.family == Family::radau ? std::clamp(share_of_newton * o.tolerance, 1e-12, 1e-4) : 1e-9;
+      o.tolerance > 0 && o.family == Family::radau ? std::clamp(share_of_newton * o.tolerance, 1e-12, 1e-5) : 1e-9;
   o.precision = analysis.precision.value_or(of_step);
   if (const AccuracyRung* rung = rung_of(analysis); rung && o.analysis == Analysis::dynamics) {
     o.target = rung->target;
