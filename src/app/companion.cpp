@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "app/instants.hpp"
 #include "app/selection.hpp"
@@ -20,9 +21,12 @@ namespace {
 
 /// The companion's tolerance over that of the run: steps are about twice as long, or three times those of generalised-alpha.
 constexpr double looser = 10, loosest = 0.05, longer = 2;
+constexpr double loosest_precision = 2e-5, sharpest_event = 1e-6;
 /// Results are taken to differ by this power of the ratio of steps (docs/accuracy.md, The dial: what fits nine models best).
 /// Radau's own order is 5; less where forces are interpolated, and where teeth and stops make and lose contact.
 constexpr double order_of_alpha = 2, order_of_radau = 4;
+/// TOL has chosen the steps where they are shorter than the longest by this, on the average.
+constexpr double well_below = 2;
 /// Ratios of steps nearer to 1 say nothing.
 constexpr double least_ratio = 1.02;
 /// No more values than this are kept, of no more instants: errors are means over time.
@@ -34,13 +38,23 @@ double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_
 
 }  // namespace
 
+SolverOptions with_tolerance(const Model& model, const SolverOptions& options, double tolerance) {
+  SolverOptions other = options;
+  const double ratio = tolerance / options.tolerance;
+  other.tolerance = tolerance;
+  other.precision = ratio > 1 ? std::min(ratio * options.precision, std::max(loosest_precision, options.precision))
+                              : ratio * options.precision;
+  if (model.commands.analysis.events.values.empty())
+    other.event_tolerance = std::max(sharpest_event, ratio * options.event_tolerance);
+  return other;
+}
+
 Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet) {
   const double begun = processor_time();
   const Model& model = reading.model;
-  SolverOptions loose = options;
-  loose.tolerance = std::min(looser * options.tolerance, std::max(loosest, 2 * options.tolerance));
+  SolverOptions loose =
+      with_tolerance(model, options, std::min(looser * options.tolerance, std::max(loosest, 2 * options.tolerance)));
   loose.longest *= longer;
-  loose.precision = std::min(loose.precision * looser, 1e-5);
   estimate_.tolerance = options.tolerance;
   estimate_.companion_tolerance = loose.tolerance;
   SolverContext context(model, loose, comm);
@@ -66,7 +80,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   double last = options.begin;
   Configuration whole;
   const auto take = [&](double time) {
-    if (context.assembler.rank() == 0) record(time, observer.values());
+    if (context.assembler.rank() == 0) record(time, observer.values(), values_);
   };
   const auto in_space = [&](const Configuration& c) -> const Configuration& {
     if (!context.out_of_plane.active()) return c;
@@ -93,6 +107,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     estimate_.trouble = failure.what();
   }
   steps_ = runner.steps();
+  follows_tolerance_ = static_cast<double>(steps_) * loose.longest >= well_below * (options.end - options.begin);
   begun_ = processor_time();
   estimate_.companion_seconds = begun_ - begun;
 }
@@ -123,19 +138,18 @@ std::optional<std::size_t> Companion::place(double time) const {
   return static_cast<std::size_t>(std::round(k));
 }
 
-void Companion::record(double time, const std::vector<double>& values) {
+void Companion::record(double time, const std::vector<double>& values, std::vector<double>& rows) const {
   const auto row = place(time);
   if (!row) return;
-  if (*row >= rows_) {
-    rows_ = *row + 1;
-    values_.resize(rows_ * columns_.size(), std::numeric_limits<double>::quiet_NaN());
-  }
-  for (std::size_t c = 0; c < columns_.size(); ++c) values_[*row * columns_.size() + c] = values[columns_[c].at];
+  const std::size_t first = *row * columns_.size();
+  if (first >= rows.size()) rows.resize(first + columns_.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t c = 0; c < columns_.size(); ++c) rows[first + c] = values[columns_[c].at];
 }
 
 void Companion::compare(double time, const std::vector<double>& values) {
+  record(time, values, own_);
   const auto row = place(time);
-  if (!row || *row >= rows_) return;
+  if (!row || *row * columns_.size() >= values_.size()) return;
   ++compared_;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     Column& column = columns_[c];
@@ -148,6 +162,20 @@ void Companion::compare(double time, const std::vector<double>& values) {
     column.least = std::min(column.least, value);
     column.largest = std::max(column.largest, value);
   }
+}
+
+void Companion::pass_on(const SolverOptions& options, long steps) {
+  values_ = std::exchange(own_, {});
+  steps_ = steps;
+  compared_ = 0;
+  for (Column& column : columns_) {
+    column.squares = 0;
+    column.least = std::numeric_limits<double>::infinity();
+    column.largest = -std::numeric_limits<double>::infinity();
+  }
+  estimate_.companion_tolerance = std::exchange(estimate_.tolerance, options.tolerance);
+  const double begun = std::exchange(begun_, processor_time());
+  estimate_.companion_seconds = begun_ - begun;
 }
 
 ErrorEstimate Companion::estimate(long steps) const {

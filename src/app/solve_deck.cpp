@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -140,6 +141,11 @@ constexpr int most_repeats = 3;
 /// Part of the tolerance that the next has at least: estimates of coarse runs are coarse.
 constexpr double most_at_once = 0.01;
 
+/// ACCURACY FAST begins with so much looser steps, where it is TOL that chooses them and the deck does not give it.
+constexpr double bolder = 4;
+/// A run with so much the TOL of the next, or more, serves as the companion of that.
+constexpr double less_accurate = 3;
+
 /// What came of a run: its exit status, or what to try instead.
 struct Verdict {
   int status = 0;
@@ -156,8 +162,33 @@ Verdict another_scheme(SolverOptions options, const std::string& why, int rank) 
   return {exit_status::fine, options};
 }
 
-Verdict solve_once(const Reading& reading, const Options& options, const SolverOptions& wanted, bool may_repeat,
-                   const Resumption* resumption, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
+/// `.SUB` says TOL.
+bool gives_tolerance(const deck::Deck& deck) {
+  return std::any_of(deck.records.begin(), deck.records.end(), [](const deck::Record& record) {
+    const deck::SteppingCard* card = record.get<deck::SteppingCard>();
+    return card && card->tolerance;
+  });
+}
+
+/// Runs the companion that `options` ask for, the first time. FAST then takes longer steps than its own where TOL chooses them:
+/// what those are made for are contacts that vibrate within a few of the longest steps. Collective.
+std::optional<Companion> first_companion(const Reading& reading, SolverOptions& options, MPI_Comm comm, bool quiet) {
+  std::optional<Companion> companion;
+  const bool fast = options.target >= accuracy_rungs.front().target && options.family == SolverOptions::Family::radau;
+  if (fast && !gives_tolerance(reading.deck)) {
+    const SolverOptions bold = with_tolerance(reading.model, options, bolder * options.tolerance);
+    companion.emplace(reading, bold, comm, quiet);
+    if (companion->trouble().empty() && companion->follows_tolerance()) {
+      options = bold;
+      return companion;
+    }
+  }
+  companion.emplace(reading, options, comm, quiet);
+  return companion;
+}
+
+Verdict solve_once(const Reading& reading, const Options& options, const SolverOptions& wanted, std::optional<Companion>& companion,
+                   bool may_repeat, const Resumption* resumption, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
@@ -165,8 +196,6 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
   user::forget_failures();  // those of another run
   forget_function_failures();
   Times times;
-  std::optional<Companion> companion;
-  if (wanted.target > 0 && wanted.tolerance > 0 && !resumption) companion.emplace(reading, wanted, comm, options.quiet);
   if (companion && !companion->trouble().empty() && wanted.scheme_is_free)
     return another_scheme(wanted, companion->trouble(), rank);
   SolverContext context(reading.model, wanted, comm);
@@ -301,6 +330,8 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
       const ErrorEstimate estimate = companion->estimate(runner.steps());
       if (may_repeat && estimate.trouble.empty() && estimate.error > wanted.target) {
         tolerance = std::max(estimate.tolerance_for(wanted.target), most_at_once * wanted.tolerance);
+        // what was tried beyond the setting's own TOL goes back to that
+        tolerance = std::min(tolerance, tolerance_of(reading.model.commands.analysis).value_or(tolerance));
         writer->note(
             fmt::format("engrane: the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: again, "
                         "with TOL {:.1g}",
@@ -311,9 +342,11 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
     }
     MPI_Bcast(&tolerance, 1, MPI_DOUBLE, 0, comm);
     if (tolerance > 0) {
-      SolverOptions sharper = wanted;
-      sharper.precision *= tolerance / wanted.tolerance;
-      sharper.tolerance = tolerance;
+      const SolverOptions sharper = with_tolerance(reading.model, wanted, tolerance);
+      if (companion->follows_tolerance() && less_accurate * tolerance < wanted.tolerance)
+        companion->pass_on(sharper, runner.steps());
+      else
+        companion.reset();
       return {exit_status::fine, sharper};
     }
   }
@@ -383,8 +416,13 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     return exit_status::wrong_deck;
   }
   SolverOptions wanted = solver_options(reading.model);
+  const bool estimates = wanted.target > 0 && wanted.tolerance > 0 && !resumption;
+  std::optional<Companion> companion;
   for (int repeats = 0;; ++repeats) {
-    Verdict verdict = solve_once(reading, options, wanted, repeats < most_repeats, resumption.get(), prefix, comm, summary);
+    if (estimates && repeats == 0) companion = first_companion(reading, wanted, comm, options.quiet);
+    if (estimates && !companion) companion.emplace(reading, wanted, comm, options.quiet);
+    const Verdict verdict =
+        solve_once(reading, options, wanted, companion, repeats < most_repeats, resumption.get(), prefix, comm, summary);
     if (!verdict.again) return verdict.status;
     wanted = *verdict.again;
   }

@@ -9,8 +9,9 @@ namespace {
 
 /// With error control no step is longer than this part of the run, unless the deck says so.
 constexpr double longest_part = 0.02;
-/// Of the tolerance of a step.
-constexpr double share_of_newton = 0.01;
+/// Of the tolerance of a step: what iterations leave of forces, and how sharply events are met. Where a force jumps the error of
+/// an event's instant is one of velocities, as large a part of what a step changes; that of all forces is the most it can be.
+constexpr double share_of_newton = 0.01, share_of_event = 0.5;
 
 const AccuracyRung* rung_of(const deck::AnalysisCard& analysis) {
   for (const AccuracyRung& rung : accuracy_rungs)
@@ -63,8 +64,7 @@ SolverOptions solver_options(const Model& model) {
   o.energy_error = analysis.energy;
   o.penalty = analysis.penalty.value_or(0);
   o.events = !analysis.events.is("NO");
-  // where a force jumps the error of an event's instant is one of velocities, as large a part of what a step changes
-  o.event_tolerance = analysis.events.values.empty() ? std::max(1e-6, share_of_newton * o.tolerance) : analysis.events.values[0];
+  o.event_tolerance = analysis.events.values.empty() ? std::max(1e-6, share_of_event * o.tolerance) : analysis.events.values[0];
   if (const auto& path = model.commands.path) {
     o.path.follow = true;
     o.path.steps = path->steps.value_or(0);

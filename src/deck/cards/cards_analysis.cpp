@@ -122,7 +122,7 @@ Schema analysis_card() {
       .synonyms({"EVENEMENTS"})
       .option({"YES",
                {"OUI"},
-               "each such instant is located, to a fraction of the step that may follow (1E-6; with TOL a hundredth of it where "
+               "each such instant is located, to a fraction of the step that may follow (1E-6; with TOL half of it where "
                "that is more)",
                0,
                1})
