@@ -62,6 +62,7 @@ SHOTS = (
     Shot("square_sail", "-0.8,1,0.25", 1.0, "mechanisms", "z"),
     Shot("falling_cloth", "-1,1.4,0.5", 1.0, "mechanisms", "z", 0.35, "TAUTNESS"),
     Shot("lee_frame", "0.25,0.15,1", 1.0, "mechanisms", "y"),
+    Shot("portal_frame", "0.25,0.15,1", 1.0, "mechanisms", "y"),
 )
 
 

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`engrane plot`: histories against time."""
+"""`engrane plot`: histories against time, or against one of them."""
 
 from __future__ import annotations
 
 import argparse
 from contextlib import ExitStack
+
+import numpy as np
 
 from . import options
 from .errors import UserError
@@ -15,7 +17,8 @@ EXAMPLES = """  engrane plot run --list
   engrane plot run element/7/NORMAL_FORCE
   engrane plot run 7.normal_force 7.u_m --from 0.01 --to 0.012
   engrane plot run 'element/*/NORMAL_FORCE' --together
-  engrane plot rigid.h5 flexible.h5 7/NORMAL_FORCE -o compare.png"""
+  engrane plot rigid.h5 flexible.h5 7/NORMAL_FORCE -o compare.png
+  engrane plot frame run/LOAD_TIME --against node/21/UY"""
 
 
 def add(commands: argparse._SubParsersAction) -> None:
@@ -31,6 +34,7 @@ def add(commands: argparse._SubParsersAction) -> None:
     )
     options.history_arguments(p)
     p.add_argument("--together", action="store_true", help="all channels in one diagram; two units at most")
+    p.add_argument("--against", metavar="channel", default="", help="this channel instead of time")
     p.add_argument("--title", help="text above the diagram (default: the deck's title)")
     p.set_defaults(run=run)
 
@@ -53,7 +57,7 @@ def run(args: argparse.Namespace) -> None:
         path = options.check_output(
             args.output or options.default_output(results[0], suffix, ".png"), (".png", ".pdf", ".svg")
         )
-        draw(results, channels, args.start, args.end, args.together, args.title, path)
+        draw(results, channels, args.start, args.end, args.together, args.title, path, args.against)
 
 
 def legend_text(result: Results, channel: Channel, several_files: bool, several_channels: bool) -> str:
@@ -73,9 +77,12 @@ def draw(
     together: bool,
     title: str | None,
     path: str,
+    against: str = "",
 ) -> None:
     """Reads, draws and writes one picture."""
     from . import style
+
+    abscissa = options.chosen(results, [against])[0] if against else None
 
     units = list(dict.fromkeys(c.unit for c in channels))
     if together and len(units) > 2:
@@ -94,6 +101,8 @@ def draw(
         axis = shared[channel.unit] if together else axes[i]
         for j, result in enumerate(results):
             t, y = options.finite(result, channel, *result.history(channel, start, end), need_all=False)
+            if abscissa:
+                t = np.interp(t, *result.history(abscissa, start, end))
             label = legend_text(result, channel, len(results) > 1, together and len(channels) > 1)
             pen = color if together else j
             axis.plot(
@@ -119,7 +128,8 @@ def draw(
         handles = [h for a in shared.values() for h in a.get_legend_handles_labels()[0]]
         if handles and (len(results) > 1 or len(channels) > 1):
             axes[0].legend(handles=handles, fontsize=8, loc="lower left", bbox_to_anchor=(0, 1.0), ncols=2)
-    axes[-1].set_xlabel(f"time {bracketed(results[0].time_unit)}".strip())
+    time = f"time {bracketed(results[0].time_unit)}".strip()
+    axes[-1].set_xlabel(f"{abscissa.axis_label} ({abscissa.owner})" if abscissa else time)
     for axis in axes:
         axis.margins(x=0.01)
     text = title if title is not None else results[0].title

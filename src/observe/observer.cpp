@@ -42,7 +42,7 @@ std::vector<Named> run_channels(const Model& model, bool moves) {
   for (const char* name : {"GROUND_MOMENT_X", "GROUND_MOMENT_Y", "GROUND_MOMENT_Z"})
     channels.push_back({name, dimension::moment, "its moment about the origin, global"});
   if (model.commands.path) {
-    channels.push_back({"LOAD_TIME", dimension::time, "the time of functions, which grows and falls along the path"});
+    channels.push_back({"LOAD_TIME", dimension::time, "load time: that of functions, which also falls along the path"});
     channels.push_back(
         {"UNSTABLE", dimension::none,
          "directions in which the equilibrium is unstable; with an unsymmetric tangent whether their number is odd"});

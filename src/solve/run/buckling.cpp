@@ -151,8 +151,7 @@ std::vector<BucklingMode> find_buckling(SolverContext& context, const Configurat
   Problem problem(context, equilibrium);
   if (!problem.loaded())
     throw SolutionFailure(
-        "no buckling loads: nothing moves when time grows; give the loads, or a prescribed displacement, a function of time with "
-        "NF");
+        "no buckling loads: nothing moves when time grows; give loads or prescribed displacements a function of time, NF");
   double step = first_step * context.options.step, before = 0;
   std::vector<Problem::Pair> found;
   for (int pass = 0; pass < most_passes; ++pass) {

@@ -60,16 +60,13 @@ ArcLength::ArcLength(SolverContext& context)
 
 StartReport ArcLength::start(Configuration& c) {
   StartReport report = Statics::start(c);
-  for (const Unknown& u : context_.numbering.unknowns())
-    if (u.multiplier && !context_.assembler.released(u.slot - context_.numbering.motion_slots())) ++constraints_;
   unit_ = 0;
   if (!examine(c, nullptr, here_))
     throw SolutionFailure("the path cannot be followed: the tangent matrix is singular at its start");
   if (unit_ == 0)
     throw SolutionFailure(
-        "the path cannot be followed: nothing moves when time grows; give the loads, or a prescribed displacement, a function of "
-        "time "
-        "with NF");
+        "the path cannot be followed: nothing moves when time grows; give loads or prescribed displacements a function of time, "
+        "NF");
   course_.next = context_.options.step;
   course_.unstable = unstable(here_);
   return report;
@@ -81,7 +78,13 @@ double ArcLength::length(std::span<const double> way) const {
   return std::sqrt(sum);
 }
 
-int ArcLength::unstable(const Point& point) const { return point.symmetric ? point.negative - constraints_ : point.negative; }
+int ArcLength::unstable(const Point& point) const {
+  if (!point.symmetric) return point.negative;
+  const std::vector<Unknown>& unknowns = context_.numbering.unknowns();
+  return point.negative - static_cast<int>(std::count_if(unknowns.begin(), unknowns.end(), [this](const Unknown& u) {
+           return u.multiplier && !context_.assembler.released(u.slot - context_.numbering.motion_slots());
+         }));
+}
 
 bool ArcLength::examine(const Configuration& c, const Point* before, Point& point) {
   Configuration rested;
@@ -338,10 +341,9 @@ void ArcLength::accept() {
 void ArcLength::save(Snapshot& snapshot) const {
   Statics::save(snapshot);
   snapshot.put("path/way", here_.way);
-  snapshot.put("path/state",
-               {here_.load, static_cast<double>(here_.negative), here_.symmetric ? 1.0 : 0.0, unit_,
-                static_cast<double>(constraints_), static_cast<double>(bifurcations_), static_cast<double>(steps_),
-                branching_ ? 1.0 : 0.0, course_.next, static_cast<double>(course_.unstable), course_.critical_time});
+  snapshot.put("path/state", {here_.load, static_cast<double>(here_.negative), here_.symmetric ? 1.0 : 0.0, unit_,
+                              static_cast<double>(bifurcations_), static_cast<double>(steps_), branching_ ? 1.0 : 0.0,
+                              course_.next, static_cast<double>(course_.unstable), course_.critical_time});
 }
 
 void ArcLength::load(const Snapshot& snapshot) {
@@ -353,13 +355,12 @@ void ArcLength::load(const Snapshot& snapshot) {
   here_.negative = static_cast<int>(state.at(1));
   here_.symmetric = state.at(2) != 0;
   unit_ = state.at(3);
-  constraints_ = static_cast<int>(state.at(4));
-  bifurcations_ = static_cast<int>(state.at(5));
-  steps_ = static_cast<int>(state.at(6));
-  branching_ = state.at(7) != 0;
-  course_.next = state.at(8);
-  course_.unstable = static_cast<int>(state.at(9));
-  course_.critical_time = state.at(10);
+  bifurcations_ = static_cast<int>(state.at(4));
+  steps_ = static_cast<int>(state.at(5));
+  branching_ = state.at(6) != 0;
+  course_.next = state.at(7);
+  course_.unstable = static_cast<int>(state.at(8));
+  course_.critical_time = state.at(9);
 }
 
 }  // namespace engrane::solve

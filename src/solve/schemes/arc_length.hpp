@@ -78,7 +78,6 @@ class ArcLength final : public Statics, private Border {
   Owned<Vec> load_, toward_, right_;  ///< change of the residual with the loads' time, solutions, right sides
   std::vector<double> weights_;       ///< of the length, by equation
   double unit_ = 1;                   ///< of the length
-  int constraints_ = 0;               ///< negative eigenvalues that multipliers make
   Point here_, there_;                ///< where the path has got to, and the end of the last attempt
   int bifurcations_ = 0, next_bifurcations_ = 0, steps_ = 0;
   bool branching_ = false;  ///< the next step leaves a bifurcation along its mode
