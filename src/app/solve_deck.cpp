@@ -139,8 +139,6 @@ constexpr double most_at_once = 0.01;
 
 /// ACCURACY FAST begins with so much looser steps, where it is TOL that chooses them and the deck does not give it.
 constexpr double bolder = 4;
-/// A run with so much the TOL of the next, or more, serves as the companion of that.
-constexpr double less_accurate = 3;
 
 /// What came of a run: its exit status, or what to try instead.
 struct Verdict {
@@ -183,8 +181,9 @@ std::optional<Companion> first_companion(const Reading& reading, SolverOptions& 
   return companion;
 }
 
-Verdict solve_once(const Reading& reading, const Options& options, const SolverOptions& wanted, std::optional<Companion>& companion,
-                   bool may_repeat, const Resumption* resumption, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
+Verdict solve_once(const Reading& reading, const Options& options, const SolverOptions& wanted,
+                   std::optional<Companion>& companion, bool may_repeat, const Resumption* resumption, const std::string& prefix,
+                   MPI_Comm comm, RunSummary& summary) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
@@ -331,10 +330,7 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
     MPI_Bcast(&tolerance, 1, MPI_DOUBLE, 0, comm);
     if (tolerance > 0) {
       const SolverOptions sharper = with_tolerance(reading.model, wanted, tolerance);
-      if (companion->follows_tolerance() && less_accurate * tolerance < wanted.tolerance)
-        companion->pass_on(sharper, runner.steps());
-      else
-        companion.reset();
+      companion.reset();
       return {exit_status::fine, sharper};
     }
   }
