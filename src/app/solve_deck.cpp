@@ -330,7 +330,6 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
     MPI_Bcast(&tolerance, 1, MPI_DOUBLE, 0, comm);
     if (tolerance > 0) {
       const SolverOptions sharper = with_tolerance(reading.model, wanted, tolerance);
-      companion.reset();
       return {exit_status::fine, sharper};
     }
   }
@@ -400,6 +399,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     return exit_status::wrong_deck;
   }
   SolverOptions wanted = solver_options(reading.model.commands.analysis, reading.model.commands.stepping);
+  const SolverOptions own = wanted;
   const bool estimates = wanted.target > 0 && wanted.tolerance > 0 && !resumption;
   std::optional<Companion> companion;
   for (int repeats = 0;; ++repeats) {
@@ -408,7 +408,11 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     const Verdict verdict =
         solve_once(reading, options, wanted, companion, repeats < most_repeats, resumption.get(), prefix, comm, summary);
     if (!verdict.again) return verdict.status;
+    companion.reset();
     wanted = *verdict.again;
+    // another scheme begins with the setting's own TOL
+    wanted.tolerance = std::min(wanted.tolerance, own.tolerance);
+    wanted.event_tolerance = std::min(wanted.event_tolerance, own.event_tolerance);
   }
 }
 
