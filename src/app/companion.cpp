@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 #include <set>
-#include <utility>
 
 #include "app/instants.hpp"
 #include "app/selection.hpp"
@@ -42,8 +41,8 @@ SolverOptions with_tolerance(const Model& model, const SolverOptions& options, d
   SolverOptions other = options;
   const double ratio = tolerance / options.tolerance;
   other.tolerance = tolerance;
-  other.precision = ratio > 1 ? std::min(ratio * options.precision, std::max(loosest_precision, options.precision))
-                              : ratio * options.precision;
+  other.precision =
+      ratio > 1 ? std::min(ratio * options.precision, std::max(loosest_precision, options.precision)) : ratio * options.precision;
   if (model.commands.analysis.events.values.empty())
     other.event_tolerance = std::max(sharpest_event, ratio * options.event_tolerance);
   return other;
@@ -80,7 +79,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   double last = options.begin;
   Configuration whole;
   const auto take = [&](double time) {
-    if (context.assembler.rank() == 0) record(time, observer.values(), values_);
+    if (context.assembler.rank() == 0) record(time, observer.values());
   };
   const auto in_space = [&](const Configuration& c) -> const Configuration& {
     if (!context.out_of_plane.active()) return c;
@@ -138,18 +137,19 @@ std::optional<std::size_t> Companion::place(double time) const {
   return static_cast<std::size_t>(std::round(k));
 }
 
-void Companion::record(double time, const std::vector<double>& values, std::vector<double>& rows) const {
+void Companion::record(double time, const std::vector<double>& values) {
   const auto row = place(time);
   if (!row) return;
-  const std::size_t first = *row * columns_.size();
-  if (first >= rows.size()) rows.resize(first + columns_.size(), std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t c = 0; c < columns_.size(); ++c) rows[first + c] = values[columns_[c].at];
+  if (*row >= rows_) {
+    rows_ = *row + 1;
+    values_.resize(rows_ * columns_.size(), std::numeric_limits<double>::quiet_NaN());
+  }
+  for (std::size_t c = 0; c < columns_.size(); ++c) values_[*row * columns_.size() + c] = values[columns_[c].at];
 }
 
 void Companion::compare(double time, const std::vector<double>& values) {
-  record(time, values, own_);
   const auto row = place(time);
-  if (!row || *row * columns_.size() >= values_.size()) return;
+  if (!row || *row >= rows_) return;
   ++compared_;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     Column& column = columns_[c];
@@ -162,20 +162,6 @@ void Companion::compare(double time, const std::vector<double>& values) {
     column.least = std::min(column.least, value);
     column.largest = std::max(column.largest, value);
   }
-}
-
-void Companion::pass_on(const SolverOptions& options, long steps) {
-  values_ = std::exchange(own_, {});
-  steps_ = steps;
-  compared_ = 0;
-  for (Column& column : columns_) {
-    column.squares = 0;
-    column.least = std::numeric_limits<double>::infinity();
-    column.largest = -std::numeric_limits<double>::infinity();
-  }
-  estimate_.companion_tolerance = std::exchange(estimate_.tolerance, options.tolerance);
-  const double begun = std::exchange(begun_, processor_time());
-  estimate_.companion_seconds = begun_ - begun;
 }
 
 ErrorEstimate Companion::estimate(long steps) const {

@@ -30,13 +30,10 @@ class Companion {
   const std::string& trouble() const { return estimate_.trouble; }
   /// Was it TOL that chose its steps, and not the longest step? On all ranks.
   bool follows_tolerance() const { return follows_tolerance_; }
-  /// The run it went with, of so many steps, becomes the companion of one with `options`. On all ranks.
-  void pass_on(const SolverOptions& options, long steps);
 
  private:
   void choose_columns(const observe::Observer& observer, const Model& model);
-  /// Keeps the values of an even instant among `rows`, of the companion or of the run.
-  void record(double time, const std::vector<double>& values, std::vector<double>& rows) const;
+  void record(double time, const std::vector<double>& values);
   /// Place of an instant among those kept; empty for the others.
   std::optional<std::size_t> place(double time) const;
 
@@ -49,11 +46,11 @@ class Companion {
   };
   std::vector<Column> columns_;
   double start_, interval_;
-  std::size_t compared_ = 0;
+  std::size_t rows_ = 0, compared_ = 0;
   long steps_ = 0;
   double order_of_steps_ = 2;
   bool follows_tolerance_ = false;
-  std::vector<double> values_, own_;  ///< row by row, of the companion and of the run; NaN where the instant was not reached
+  std::vector<double> values_;  ///< row by row; NaN where the instant was not reached
   ErrorEstimate estimate_;
   double begun_ = 0;  ///< processor time at which the run itself began
 };

@@ -143,8 +143,6 @@ constexpr double most_at_once = 0.01;
 
 /// ACCURACY FAST begins with so much looser steps, where it is TOL that chooses them and the deck does not give it.
 constexpr double bolder = 4;
-/// A run with so much the TOL of the next, or more, serves as the companion of that.
-constexpr double less_accurate = 3;
 
 /// What came of a run: its exit status, or what to try instead.
 struct Verdict {
@@ -187,8 +185,9 @@ std::optional<Companion> first_companion(const Reading& reading, SolverOptions& 
   return companion;
 }
 
-Verdict solve_once(const Reading& reading, const Options& options, const SolverOptions& wanted, std::optional<Companion>& companion,
-                   bool may_repeat, const Resumption* resumption, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
+Verdict solve_once(const Reading& reading, const Options& options, const SolverOptions& wanted,
+                   std::optional<Companion>& companion, bool may_repeat, const Resumption* resumption, const std::string& prefix,
+                   MPI_Comm comm, RunSummary& summary) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
@@ -343,10 +342,6 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
     MPI_Bcast(&tolerance, 1, MPI_DOUBLE, 0, comm);
     if (tolerance > 0) {
       const SolverOptions sharper = with_tolerance(reading.model, wanted, tolerance);
-      if (companion->follows_tolerance() && less_accurate * tolerance < wanted.tolerance)
-        companion->pass_on(sharper, runner.steps());
-      else
-        companion.reset();
       return {exit_status::fine, sharper};
     }
   }
@@ -416,6 +411,7 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     return exit_status::wrong_deck;
   }
   SolverOptions wanted = solver_options(reading.model);
+  const SolverOptions own = wanted;
   const bool estimates = wanted.target > 0 && wanted.tolerance > 0 && !resumption;
   std::optional<Companion> companion;
   for (int repeats = 0;; ++repeats) {
@@ -424,7 +420,11 @@ int solve_deck(const Reading& reading, const Options& options, const std::string
     const Verdict verdict =
         solve_once(reading, options, wanted, companion, repeats < most_repeats, resumption.get(), prefix, comm, summary);
     if (!verdict.again) return verdict.status;
+    companion.reset();
     wanted = *verdict.again;
+    // another scheme begins with the setting's own TOL
+    wanted.tolerance = std::min(wanted.tolerance, own.tolerance);
+    wanted.event_tolerance = std::min(wanted.event_tolerance, own.event_tolerance);
   }
 }
 

@@ -5,6 +5,7 @@ what it says of its own error."""
 import itertools
 import json
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -187,6 +188,20 @@ def test_the_dial_meets_its_error_and_knows_it(rung: str, target: float, tmp_pat
     assert told > worst / 3
     listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
     assert "Accuracy" in listing and f"ACCURACY {'NORMAL' if rung == 'FAST' else 'FAST'}" in listing
+
+
+def test_fast_takes_longer_steps_where_tol_chooses_them(tmp_path: Path) -> None:
+    text = (ROOT / "decks/paper/spur_transmission_a.dat").read_text(encoding="utf-8")
+    text = re.sub(r"(?m)^\.SAM .*", ".SAM TYPE DYNAMIC START STATIC ACCURACY FAST", text)
+    text = text.replace("TF 0.03", "TF 0.003")
+    text = re.sub(r"WINDOW \S+ \S+ V \S+ RTOL \S+", "V 0 ATOL 1E9", text)
+    told = dial(text, tmp_path)["accuracy"]
+    assert told["estimated_error"] < 1e-2
+    listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    assert "with TOL 0.02, where this one has 0.002" in listing
+    # a pendulum's steps are limited by HMAX: the setting's own TOL costs no more there
+    dial(pendulum("ACCURACY FAST", "HMAX 0.005"), tmp_path)
+    assert "with TOL 0.005, where this one has 0.0005" in (tmp_path / "deck.lst").read_text(encoding="utf-8")
 
 
 def test_the_dial_says_when_it_has_not_met_its_error(tmp_path: Path) -> None:
