@@ -25,6 +25,8 @@ constexpr double wished_turn = 6 * std::numbers::pi / 180, most_turn = 45 * std:
 constexpr double longest_step = 0.1;
 /// A corner of the path turns however short the step is.
 constexpr double corner = 1.0 / 128;
+/// A path without an end of its own is given up after so many steps.
+constexpr int most_steps = 10000;
 /// Bifurcations are sought to this part of the least eigenvalue, nothing to less than that part of a step. Nearer to a
 /// bifurcation what Newton's method leaves of forces is a visible displacement along the mode.
 constexpr double sharp = 1e-4, narrow = 1e-9;
@@ -169,6 +171,11 @@ void ArcLength::complete(Vec x, Vec step) {
 }
 
 Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& to) {
+  if (context_.options.path.steps == 0 && steps_ == most_steps)
+    throw SolutionFailure(fmt::format(
+        "the path has not come to load time {:g} in {} steps, and may never: give STEPS, or NODE with a displacement that "
+        "it comes to",
+        context_.options.end, most_steps));
   next_course_ = {};
   next_bifurcations_ = bifurcations_;
   NewtonReport report = follow(from, here_, h, to);
@@ -335,7 +342,7 @@ void ArcLength::accept() {
   bifurcations_ = next_bifurcations_;
   branching_ = course_.critical && course_.critical->switched != 0;
   if (branching_) course_.next = branch_step_;
-  if (context_.options.path.steps > 0 && ++steps_ >= context_.options.path.steps) course_.arrived = true;
+  if (++steps_ == context_.options.path.steps) course_.arrived = true;
 }
 
 void ArcLength::save(Snapshot& snapshot) const {
