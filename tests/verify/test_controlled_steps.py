@@ -200,7 +200,7 @@ def test_fast_takes_longer_steps_where_tol_chooses_them(tmp_path: Path) -> None:
     listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
     assert "with TOL 0.02, where this one has 0.002" in listing
     # a pendulum's steps are limited by HMAX: the setting's own TOL costs no more there
-    dial(pendulum("ACCURACY FAST", "HMAX 0.005"), tmp_path)
+    dial(pendulum("ACCURACY FAST", "", end=0.5), tmp_path)
     assert "with TOL 0.005, where this one has 0.0005" in (tmp_path / "deck.lst").read_text(encoding="utf-8")
 
 

@@ -15,7 +15,8 @@ Schema hypothesis_card() {
   card.describe(
       "`MEMB BIDIM` (or `CONT PLAN`) is plane stress, `DEFO PLAN` plane strain, `AXIS` axisymmetric about the global y axis with "
       "radius x; `MEMBRANE` alone makes cells in space membranes, as the element MEMBRANE; solids have VOLUME, also without a "
-      "record; cells of two nodes, or three, have BEAM. Other formulations of BACON are refused by their name. Of several records "
+      "record; cells of two nodes, or three, have BEAM. Other formulations of BACON are refused by their name. Of several "
+      "records "
       "on a cell the last holds.");
   card.add("FORMULATION", &HypothesisCard::formulation,
            "MEMBRANE, CONTRAINTE, DEFORMATION, AXISYMETRIQUE, VOLUME, or BEAM (POUTRE), or their beginning")

@@ -51,8 +51,7 @@ Schema path_card() {
 }
 
 Schema buckling_card() {
-  Card<BucklingCard> card(".BUCKLING", {".FLAMBEMENT", ".FLAMBAGE"},
-                          "Linearised buckling: the loads that make the tangent singular");
+  Card<BucklingCard> card(".BUCKLING", {".FLAMBEMENT"}, "Linearised buckling: the loads that make the tangent singular");
   card.chapter(analysis_chapter).once();
   card.describe(
       "Of a STATIC analysis. The tangent matrix is continued along the loads as it changes at one equilibrium, and the times of "

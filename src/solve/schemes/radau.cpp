@@ -346,31 +346,6 @@ bool Radau::complete(Configuration& c) {
   return true;
 }
 
-void Radau::drift(Configuration& c, double h) {
-  if (!constrained() || has_friction_) {
-    Dynamics::drift(c, h);
-    return;
-  }
-  // Heun's step, as there: complete() finds accelerations and closes what the velocities leave open, with one matrix
-  const auto before = context_.motion.accelerations(c);
-  Configuration later = glide(c, h);
-  if (!complete(later)) {
-    Dynamics::drift(c, h);
-    return;
-  }
-  auto v = context_.motion.velocities(later);
-  const auto after = context_.motion.accelerations(later);
-  for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
-  for (const auto& p : context_.motion.prescribed(later.time)) v[p.slot] = p.v;
-  context_.motion.set_velocities(v, later);
-  if (!complete(later)) {
-    Dynamics::drift(c, h);
-    return;
-  }
-  c = std::move(later);
-  restart_memory(c);
-}
-
 Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   scale_for(from, h, solver_.weights(h));
   for (std::size_t i = 0; i < configurations_.size(); ++i) {

@@ -18,7 +18,6 @@ class Radau final : public Dynamics {
   StartReport start(Configuration& c) override;
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
   void accept() override;
-  void drift(Configuration& c, double h) override;
   int order_of_error() const override { return static_cast<int>(collocation_.stages()); }
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;

@@ -26,8 +26,7 @@ SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm
   if (options.package == "CG") note_rigid_motions(assembler, assembler.matrix());
 }
 
-SolverContext::SolverContext(const Model& m, MPI_Comm comm)
-    : SolverContext(m, solver_options(m), comm) {}
+SolverContext::SolverContext(const Model& m, MPI_Comm comm) : SolverContext(m, solver_options(m), comm) {}
 
 void SolverContext::save(Snapshot& snapshot) const {
   assembler.save(snapshot);
