@@ -54,7 +54,7 @@ def test_a_card_stands_in_the_place_of_the_deck_s(engrane, pendulum):
         (".SUB TF 1 HH 2", "--card:1:11: error: `HH` is not a keyword of .SUB"),
         (".SUB TF 1 H 0.1 .SAM TYPE STATIC", "a command must be the first word of its line"),
         (".NOE I 1 X 0 0 0", "--card takes one card that a deck has once"),
-        (".CLM FIX NOEUD 1 C 1", "another of .UNIT, .TITRE, .SAM, .SUB and .SAI"),
+        (".CLM FIX NOEUD 1 C 1", "another of .UNIT, .TITRE, .SAM, .SUB, .SAI, .PATH and .BUCKLING"),
         (".NONSENSE", "--card takes one card"),
         ("TF 1 H 2", "--card takes one card"),
         (".SUB TF 1 H 0.1\n.CLM", "--card takes one card"),

@@ -9,7 +9,7 @@ namespace {
 constexpr const char* analysis_chapter = "Analysis";
 
 Schema path_card() {
-  Card<PathCard> card(".PATH", {".CHEMIN", ".RIKS"}, "Equilibria are followed by the length of their path, past limit loads");
+  Card<PathCard> card(".PATH", {".RIKS"}, "Equilibria are followed by the length of their path, past limit loads");
   card.chapter(analysis_chapter).once();
   card.describe(
       "Of a STATIC analysis. The time of functions is one more unknown, and may fall: channel LOAD_TIME of the run. The time of "
