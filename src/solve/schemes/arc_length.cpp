@@ -40,12 +40,6 @@ constexpr int most_trials = 60;
 constexpr int most_turns = 30;
 constexpr double settled = 1e-15;
 
-double product(std::span<const double> a, std::span<const double> b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 std::vector<double> copy(std::span<const double> values) { return {values.begin(), values.end()}; }
 
 bool across(double a, double b) { return (a < 0) != (b < 0); }
@@ -74,11 +68,13 @@ StartReport ArcLength::start(Configuration& c) {
   return report;
 }
 
-double ArcLength::length(std::span<const double> way) const {
+double ArcLength::product(std::span<const double> a, std::span<const double> b) const {
   double sum = 0;
-  for (std::size_t i = 0; i < way.size(); ++i) sum += weights_[i] * way[i] * way[i];
-  return std::sqrt(sum);
+  for (std::size_t i = 0; i < a.size(); ++i) sum += weights_[i] * a[i] * b[i];
+  return sum;
 }
+
+double ArcLength::length(std::span<const double> way) const { return std::sqrt(product(way, way)); }
 
 int ArcLength::unstable(const Point& point) const {
   if (!point.symmetric) return point.negative;
@@ -106,9 +102,7 @@ bool ArcLength::examine(const Configuration& c, const Point* before, Point& poin
   point.load = unit_ / size;
   for (double& value : point.way) value *= -point.load;
   if (!before) return true;
-  double along = 0;
-  for (std::size_t i = 0; i < point.way.size(); ++i) along += weights_[i] * before->way[i] * point.way[i];
-  if (along < 0) {
+  if (product(before->way, point.way) < 0) {
     point.load = -point.load;
     for (double& value : point.way) value = -value;
   }
@@ -116,20 +110,18 @@ bool ArcLength::examine(const Configuration& c, const Point* before, Point& poin
 }
 
 double ArcLength::cosine(const Point& a, const Point& b) const {
-  double along = 0;
-  for (std::size_t i = 0; i < a.way.size(); ++i) along += weights_[i] * a.way[i] * b.way[i];
-  along /= unit_ * unit_;
+  const double along = product(a.way, b.way) / (unit_ * unit_);
   return (along + a.load * b.load) / std::sqrt((1 + a.load * a.load) * (1 + b.load * b.load));
 }
 
-NewtonReport ArcLength::follow(const Configuration& from, const Point& here, double h, Configuration& to) {
+NewtonReport ArcLength::follow(const Configuration& from, double h, Configuration& to) {
   to = from;
   to.time = from.time + h;
   to.h = h;
-  now_ = from.load_time() + here.load * h;
-  load_derivative_.turn(here.load >= 0);
+  now_ = from.load_time() + here_.load * h;
+  load_derivative_.turn(here_.load >= 0);
   const auto before = context_.motion.prescribed(from.load_time());
-  std::vector<double> y(context_.motion.size(), 0.0), guess(here.way.size(), 0.0), normal(here.way.size());
+  std::vector<double> y(context_.motion.size(), 0.0), guess(here_.way.size(), 0.0), normal(here_.way.size());
   const auto prescribe = [&] {
     if (before.empty()) return;
     const auto after = context_.motion.prescribed(now_);
@@ -137,10 +129,10 @@ NewtonReport ArcLength::follow(const Configuration& from, const Point& here, dou
   };
   multipliers_to_unknowns(from, guess);
   for (std::size_t i = 0; i < guess.size(); ++i) {
-    guess[i] += h * here.way[i];
-    normal[i] = weights_[i] * here.way[i];
+    guess[i] += h * here_.way[i];
+    normal[i] = weights_[i] * here_.way[i];
   }
-  aim_ = h * product(normal, here.way);
+  aim_ = h * product(here_.way, here_.way);
   context_.assembler.spread(normal, plane_);
   const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
     context_.motion.scatter(unknowns, y);
@@ -178,7 +170,7 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
         context_.options.end, most_steps));
   next_course_ = {};
   next_bifurcations_ = bifurcations_;
-  NewtonReport report = follow(from, here_, h, to);
+  NewtonReport report = follow(from, h, to);
   if (!report.converged) return {std::move(report), {}};
   if (!examine(to, &here_, there_)) {
     report.converged = false;
@@ -234,7 +226,7 @@ ArcLength::Bracket ArcLength::locate(const Configuration& from, double& h, Confi
     bool solved = false;
     // next to a bifurcation the tangent may be too near to singular
     for (int nearer = 0; !solved && nearer < most_nearer; ++nearer, h_try -= aside * (h_try - low))
-      if (follow(from, here_, h_try, tried).converged && examine(tried, &here_, point)) {
+      if (follow(from, h_try, tried).converged && examine(tried, &here_, point)) {
         solved = true;
         break;
       }
@@ -308,7 +300,7 @@ ArcLength::Mode ArcLength::least_mode() {
     context_.assembler.spread(right, right_);
     factors_.solve(right_, toward_);
     std::vector<double> next = copy(context_.assembler.gather(toward_));
-    const double inverse = product(right, next);
+    const double inverse = product(mode.vector, next) / size;
     const double before = mode.eigenvalue;
     mode.eigenvalue = 1 / inverse;
     mode.vector = std::move(next);

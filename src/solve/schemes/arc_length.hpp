@@ -50,13 +50,15 @@ class ArcLength final : public Statics, private Border {
     } before, behind;
   };
 
-  /// An equilibrium at the length h from one of tangent `here`.
-  NewtonReport follow(const Configuration& from, const Point& here, double h, Configuration& to);
+  /// The equilibrium at the length h from the one of here_.
+  NewtonReport follow(const Configuration& from, double h, Configuration& to);
   void complete(Vec x, Vec step) override;
   /// The tangent at an equilibrium, on from `before` (nullptr: loads grow); false where the matrix is singular.
   bool examine(const Configuration& c, const Point* before, Point& point);
   /// Of the matrix examined last.
   Mode least_mode();
+  /// Of vectors by equation, with the weights of the length.
+  double product(std::span<const double> a, std::span<const double> b) const;
   double length(std::span<const double> way) const;
   /// Between the directions at two points, the loads' time counted as the length is at the start.
   double cosine(const Point& a, const Point& b) const;

@@ -15,7 +15,6 @@ class LoadDerivative {
   void find(const Configuration& c, Vec f);
   /// Looks ahead, or back.
   void turn(bool ahead) { step_ = ahead ? std::abs(step_) : -std::abs(step_); }
-  double step() const { return step_; }
 
  private:
   SolverContext& context_;
