@@ -138,6 +138,11 @@ void check_stability(const deck::Record& record, const Model& model, Diagnostics
   if (type != "STATIC")
     diagnostics.error(record.location, fmt::format("{} is for a STATIC analysis, not a {} one", record.schema->name, type),
                       "give .SAM TYPE STATIC");
+  if (model.commands.analysis.displacements.is("SMALL"))
+    diagnostics.error(
+        record.location,
+        fmt::format("{} needs forces that change with displacements, and those of the cells are SMALL", record.schema->name),
+        "give DISPLACEMENTS LARGE in .SAM");
   if (!path) return;
   if (model.commands.stepping.tolerance)
     diagnostics.error(record.location, ".PATH chooses its steps itself, and .SUB has TOL", "leave TOL out");
