@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 import pytest
 from runs import Run, run
-from test_membranes import Mesh, displacement, octant
+from test_membranes import Mesh, displacement, octant, planes_held
 
 YOUNG, POISSON, THICK, AMBIENT = 3.0, 0.49, 0.01, 0.05
 MU = YOUNG / (2 * (1 + POISSON))
@@ -37,11 +37,7 @@ def amount(stretch: np.ndarray) -> np.ndarray:
 def balloon(rings: int, stretch: float, folder: Path) -> tuple[Run, Mesh]:
     """An octant of the sphere, filled from its own size to `stretch` times as large."""
     mesh = Mesh(rings, 1, octant)
-    held = "\n".join(
-        f" FIX NOEUD {n + 1} C {' '.join(str(c + 1) for c in range(3) if abs(p[c]) < 1e-12)}"
-        for n, p in enumerate(mesh.points)
-        if (abs(p) < 1e-12).any()
-    )
+    held = planes_held(mesh)
     most = float(amount(np.array([stretch]))[0]) / 8
     least = AMBIENT * np.pi / 6 / most
     solved = run(
@@ -111,11 +107,7 @@ def breathing(h: float, tmp_path: Path) -> tuple[float, float]:
     its volume, over how far that swings, and of its energy."""
     young, poisson, thick, density, first, ambient, gamma, end = 4.0, 0.3, 0.02, 5.0, 0.6, 0.5, 1.4, 4.0
     mesh = Mesh(3, 1, octant)
-    held = "\n".join(
-        f" FIX NOEUD {n + 1} C {' '.join(str(c + 1) for c in range(3) if abs(p[c]) < 1e-12)}"
-        for n, p in enumerate(mesh.points)
-        if (abs(p) < 1e-12).any()
-    )
+    held = planes_held(mesh)
     solved = run(
         f""".NOE
 {mesh.text()}

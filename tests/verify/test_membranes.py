@@ -64,6 +64,15 @@ def octant(_: int, r: float, u: float) -> np.ndarray:
     return p / np.linalg.norm(p)
 
 
+def planes_held(mesh: Mesh) -> str:
+    """What holds the nodes of an octant in its planes of symmetry."""
+    return "\n".join(
+        f" FIX NOEUD {n + 1} C {' '.join(str(c + 1) for c in range(3) if abs(p[c]) < 1e-12)}"
+        for n, p in enumerate(mesh.points)
+        if (abs(p) < 1e-12).any()
+    )
+
+
 def displacement(file: Path) -> np.ndarray:
     with h5py.File(file) as results:
         frames = results["fields/displacement"]
@@ -122,11 +131,7 @@ def balloon(rings: int, folder: Path) -> np.ndarray:
     mesh = Mesh(rings, 1, octant)
     stretch, young, poisson, thin = 1.5, 1.0, 0.3, 0.01
     pressure = thin * young * (stretch**2 - 1) / ((1 - poisson) * stretch)
-    held = "\n".join(
-        f" FIX NOEUD {n + 1} C {' '.join(str(c + 1) for c in range(3) if abs(p[c]) < 1e-12)}"
-        for n, p in enumerate(mesh.points)
-        if (abs(p) < 1e-12).any()
-    )
+    held = planes_held(mesh)
     solved = run(
         f""".NOE
 {mesh.text()}
