@@ -13,44 +13,59 @@ namespace engrane {
 ///
 ///     φ_n(u) = Σ_k (−u)^k/(2k + n)!:   φ_1 = sin a/a,   φ_2 = (1 − cos a)/a²,   φ_3 = (a − sin a)/a³
 ///
-/// and slopes dφ_n/du, in numbers that elements differentiate. Accurate to rounding for angles up to about 3, zero among them.
-template <class T>
-struct RotationSeries {
-  T f1, f2, f3;          ///< φ_1, φ_2, φ_3
-  T f2_slope, f3_slope;  ///< dφ_2/du, dφ_3/du
+/// and their derivatives by u, by number n. Accurate to rounding for angles up to about 3, zero among them.
+struct RotationSeriesDerivatives {
+  std::array<double, 10> phi{};
+  std::array<double, 8> first{};
+  std::array<double, 6> second{};
+  std::array<double, 4> third{};
 
-  explicit RotationSeries(const T& u) {
-    constexpr std::size_t count = 10;
-    std::array<double, count> phi{}, inverse{};  // φ_n and 1/n!
-    inverse[0] = 1;
-    for (std::size_t n = 1; n < count; ++n) inverse[n] = inverse[n - 1] / static_cast<double>(n);
-    const double x = value_of(u);
+  explicit RotationSeriesDerivatives(double u) {
+    constexpr std::size_t count = 10, terms = 12;
+    static constexpr auto inverse = [] {  // 1/n!
+      std::array<double, count> all{1};
+      for (std::size_t n = 1; n < count; ++n) all[n] = all[n - 1] / static_cast<double>(n);
+      return all;
+    }();
+    static constexpr auto shrink = [] {  // 1/(m (m − 1)) of term k, m = 2k + n, of the last two n
+      std::array<std::array<double, terms + 1>, 2> all{};
+      for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t k = 1; k <= terms; ++k) {
+          const auto m = static_cast<double>(2 * k + count - 2 + i);
+          all[i][k] = 1 / (m * (m - 1));
+        }
+      return all;
+    }();
     // the last two by their series, the others from these: φ_n = 1/n! − u φ_{n+2}
-    constexpr int terms = 12;
-    for (const std::size_t n : {count - 2, count - 1}) {
+    for (std::size_t i = 0; i < 2; ++i) {
       double sum = 1;
-      for (int k = terms; k > 0; --k) {
-        const auto m = static_cast<double>(2 * k) + static_cast<double>(n);
-        sum = 1 - x / (m * (m - 1)) * sum;
-      }
-      phi[n] = inverse[n] * sum;
+      for (std::size_t k = terms; k > 0; --k) sum = 1 - u * shrink[i][k] * sum;
+      phi[count - 2 + i] = inverse[count - 2 + i] * sum;
     }
-    for (std::size_t n = count - 2; n-- > 0;) phi[n] = inverse[n] - x * phi[n + 2];
+    for (std::size_t n = count - 2; n-- > 0;) phi[n] = inverse[n] - u * phi[n + 2];
     // dφ_n/du = ½ (n φ_{n+2} − φ_{n+1})
-    std::array<double, 8> first{};
-    std::array<double, 6> second{};
-    std::array<double, 4> third{};
     const auto derive = [](const auto& of, auto& to) {
       for (std::size_t n = 0; n < to.size(); ++n) to[n] = (static_cast<double>(n) * of[n + 2] - of[n + 1]) / 2;
     };
     derive(phi, first);
     derive(first, second);
     derive(second, third);
-    f1 = compose(u, phi[1], first[1], second[1]);
-    f2 = compose(u, phi[2], first[2], second[2]);
-    f3 = compose(u, phi[3], first[3], second[3]);
-    f2_slope = compose(u, first[2], second[2], third[2]);
-    f3_slope = compose(u, first[3], second[3], third[3]);
+  }
+};
+
+/// φ_1, φ_2, φ_3 and slopes dφ_2/du, dφ_3/du in numbers that elements differentiate.
+template <class T>
+struct RotationSeries {
+  T f1, f2, f3;
+  T f2_slope, f3_slope;
+
+  explicit RotationSeries(const T& u) {
+    const RotationSeriesDerivatives at(value_of(u));
+    f1 = compose(u, at.phi[1], at.first[1], at.second[1]);
+    f2 = compose(u, at.phi[2], at.first[2], at.second[2]);
+    f3 = compose(u, at.phi[3], at.first[3], at.second[3]);
+    f2_slope = compose(u, at.first[2], at.second[2], at.third[2]);
+    f3_slope = compose(u, at.first[3], at.second[3], at.third[3]);
   }
 };
 

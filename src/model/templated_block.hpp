@@ -48,7 +48,7 @@ class TemplatedBlock : public Block {
   }
 
   void tangent(std::size_t first, std::span<const State> states, Weights weights, std::span<double> r,
-               std::span<double> k) const final {
+               std::span<double> k) const override {
     const std::size_t n = sweep_.slots();
     for (std::size_t i = 0; i < states.size(); ++i)
       sweep_.tangent(states[i], weights, r.subspan(i * n, n), k.subspan(i * n * n, n * n), evaluation(first + i, states[i]));

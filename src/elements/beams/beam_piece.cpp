@@ -45,8 +45,20 @@ std::pair<double, double> normal_stress(const BeamSection& section, const Vec6& 
 
 template <int Nodes, bool Held>
 Beams<Nodes, Held>::Beams(bool inextensible, bool unshearable)
-    : TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes + (Held ? 3 * (Nodes - 1) : 0)>(
-          piece_layout<Nodes>(inextensible, unshearable)) {}
+    : BeamSweep<Nodes, Held>(piece_layout<Nodes>(inextensible, unshearable)) {}
+
+template <int Nodes, bool Held>
+void Beams<Nodes, Held>::tangent(std::size_t first, std::span<const State> states, Weights weights, std::span<double> r,
+                                 std::span<double> k) const {
+  const auto n = static_cast<std::size_t>(this->layout().slots());
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto own_r = r.subspan(i * n, n), own_k = k.subspan(i * n * n, n * n);
+    if (const BeamPiece<Nodes>& piece = this->data(first + i); piece.has_tangent())
+      piece.tangent(states[i], weights, own_r, own_k);
+    else
+      BeamSweep<Nodes, Held>::tangent(first + i, states.subspan(i, 1), weights, own_r, own_k);
+  }
+}
 
 template <int Nodes, bool Held>
 Energies Beams<Nodes, Held>::energies(std::size_t e, const State& state) const {

@@ -58,6 +58,11 @@ struct BeamPiece {
     if (section->has_mass()) add_inertia(motion, state, balance);
   }
 
+  /// Is there a tangent in closed form? Pieces that hold strains, and small ones, sweep evaluate().
+  bool has_tangent() const { return !small && section->held.empty(); }
+  /// Residual and tangent in closed form, six unknowns a node.
+  void tangent(const State& state, Weights weights, std::span<double> r, std::span<double> k) const;
+
   /// Strains ε at a point.
   Vec6 strain(const Motion<double, Nodes>& motion, std::size_t point) const {
     if (small) return map(small_strain(at[point], small_shift(motion), small_turn(motion)));
@@ -80,6 +85,12 @@ struct BeamPiece {
   }
 
  private:
+  class Tangent;
+
+  bool has_mass_aside() const {
+    return std::any_of(centers.begin(), centers.end(), [](const Vec3& arm) { return !arm.isZero(0); });
+  }
+
   static Vec6 map(const std::array<double, 6>& values) { return Eigen::Map<const Vec6>(values.data()); }
 
   /// y_i and ψ_i, or their rates; those of the reference node are zero.
@@ -307,7 +318,7 @@ struct BeamPiece {
   template <class T>
   void add_inertia(const Motion<T, Nodes>& motion, const State& state, Balance<T, Nodes>& balance) const {
     std::array<Vec3T<T>, Nodes> acceleration;
-    const bool aside = std::any_of(centers.begin(), centers.end(), [](const Vec3& arm) { return !arm.isZero(0); });
+    const bool aside = has_mass_aside();
     for (std::size_t i = 0; i < Nodes; ++i) {
       const auto& node = motion.node[i];
       acceleration[i] = node.a - state.gravity.template cast<T>();
@@ -330,12 +341,17 @@ struct BeamPiece {
   }
 };
 
+template <int Nodes, bool Held>
+using BeamSweep = TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes + (Held ? 3 * (Nodes - 1) : 0)>;
+
 /// All pieces of a model with so many nodes that hold the same strains. `Held`: whether they hold any.
 template <int Nodes, bool Held>
-class Beams final : public TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes + (Held ? 3 * (Nodes - 1) : 0)> {
+class Beams final : public BeamSweep<Nodes, Held> {
  public:
   Beams(bool inextensible, bool unshearable);
 
+  void tangent(std::size_t first, std::span<const State> states, Weights weights, std::span<double> r,
+               std::span<double> k) const override;
   Energies energies(std::size_t e, const State& state) const override;
   bool is_body() const override { return true; }
   bool is_linear(std::size_t e) const override { return this->data(e).small != nullptr; }

@@ -31,6 +31,14 @@ struct RotationVector {
   Vec3T<T> moment(const Vec3T<T>& f) const {
     return f + cross(theta, f) * T(0.5) + cross(theta, Vec3T<T>(cross(theta, f))) * kappa;
   }
+
+  /// dκ/d(a²) = (1/8 − 3/2 κ + ½ κ² a²)/a², near zero by the series of κ.
+  T kappa_slope() const {
+    const T u = dot(theta, theta);
+    if (value_of(u) < 0.04)
+      return T(1.0 / 720) + u * (T(1.0 / 15120) + u * (T(1.0 / 403200) + u * (T(1.0 / 11975040) + u * T(691.0 / 261534873600))));
+    return (T(0.125) - kappa * T(1.5) + kappa * kappa * u * T(0.5)) / u;
+  }
 };
 
 template <class T>

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "deck/cards/profile_card.hpp"
+#include "elements/beams/beam_piece.hpp"
 #include "elements/common/building.hpp"
 #include "elements/structural/deck_model.hpp"
 #include "elements/suite.hpp"
@@ -125,6 +127,48 @@ TEST(Beam, Suite) {
           if (heavy && nodes.size() == 2) s.mass = *profile.mass * (bow.at(3) - bow.at(1)).norm();
           run_suite(s);
         }
+}
+
+/// The tangent in closed form is that of dual numbers, whatever the turns between nodes and the parameters of rotations.
+template <int Nodes>
+void expect_closed_form(const std::vector<int>& ids, const deck::ProfileCard& profile, double damping, double turn) {
+  const Subject s = subject(ids, profile, damping);
+  const auto element = s.build(Mat3::Identity());
+  StateBuffer state(*element, s.nodes);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const auto n = static_cast<double>(i);
+    NodeState& node = state.nodes[i];
+    node.x += turn * Vec3(0.1 * n, -0.2, 0.3 * n * n);
+    node.R = rotation_exp(Vec3(2.0, -1.0, 0.5)) * rotation_exp(turn * Vec3(0.2, 0.8, -0.5) * (n - 1));
+    node.T = rotation_tangent(Vec3(0.3, -0.2, 0.1 * n));
+    node.v = Vec3(n, 2, -1);
+    node.W = Vec3(1, -n, 0.5);
+    node.a = Vec3(-3, n, 1);
+    node.A = Vec3(n, 2, -n);
+  }
+  const auto& member = dynamic_cast<const BlockMember&>(*element);
+  const auto& block = dynamic_cast<const Beams<Nodes, false>&>(member.block());
+  constexpr std::size_t n = 6 * Nodes;
+  const State view = state.view();
+  std::vector<double> r(n), k(n * n), dual_r(n), dual_k(n * n);
+  const Weights weights{0.7, 3.0, 11.0, 1.0};
+  block.tangent(member.index(), {&view, 1}, weights, r, k);
+  block.BeamSweep<Nodes, false>::tangent(member.index(), {&view, 1}, weights, dual_r, dual_k);
+  const auto largest = [](const std::vector<double>& of) {
+    return std::abs(*std::max_element(of.begin(), of.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+  };
+  for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(r[i], dual_r[i], 1e-14 * largest(dual_r)) << i;
+  for (std::size_t i = 0; i < n * n; ++i) EXPECT_NEAR(k[i], dual_k[i], 2e-14 * largest(dual_k)) << i / n << ' ' << i % n;
+}
+
+TEST(Beam, ClosedForm) {
+  for (const double turn : {0.0, 1e-9, 1e-4, 0.1, 0.25, 0.7, 1.8})
+    for (const double damping : {0.0, 0.3})
+      for (const deck::ProfileCard& profile : {round_section(), coupled_section()}) {
+        SCOPED_TRACE(fmt::format("turn {}, damping {}", turn, damping));
+        expect_closed_form<3>({1, 2, 3}, profile, damping, turn);
+        expect_closed_form<2>({1, 3}, profile, damping, turn);
+      }
 }
 
 /// Strains that are held, each alone and together, also of a section that couples them.
