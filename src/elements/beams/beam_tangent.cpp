@@ -201,22 +201,22 @@ class BeamPiece<Nodes>::Tangent {
     }
     for (std::size_t i = 0; i < Nodes; ++i) {
       const NodeState& node = state_.nodes[i];
-      const Mat3& inertia = piece_.inertia[i];
+      const Mat3& tensor = piece_.inertia[i];
       Vec3 force = Vec3::Zero();
       for (std::size_t j = 0; j < Nodes; ++j) {
-        const double mass = piece_.mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-        force += mass * acceleration[j];
-        block(k_, row(i), row(j)).diagonal().array() += weights_.a * mass;
+        const double shared = piece_.mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        force += shared * acceleration[j];
+        block(k_, row(i), row(j)).diagonal().array() += weights_.a * shared;
         if (!aside) continue;
-        block(k_, row(i), row(j) + 3) += mass * by_turn[j];
-        const Mat3 lever = mass * skew(piece_.centers[i]) * node.R.transpose();
+        block(k_, row(i), row(j) + 3) += shared * by_turn[j];
+        const Mat3 lever = shared * skew(piece_.centers[i]) * node.R.transpose();
         block(k_, row(i) + 3, row(j)) += weights_.a * lever;
         block(k_, row(i) + 3, row(j) + 3) += lever * by_turn[j];
       }
-      const Vec3 spin = inertia * node.W;
+      const Vec3 spin = tensor * node.W;
       r_.template segment<3>(row(i)) += force;
-      r_.template segment<3>(row(i) + 3) += inertia * node.A + cross(node.W, spin);
-      block(k_, row(i) + 3, row(i) + 3) += weights_.a * inertia + weights_.v * (skew(node.W) * inertia - skew(spin));
+      r_.template segment<3>(row(i) + 3) += tensor * node.A + cross(node.W, spin);
+      block(k_, row(i) + 3, row(i) + 3) += weights_.a * tensor + weights_.v * (skew(node.W) * tensor - skew(spin));
       if (!aside) continue;
       const Vec3 own = node.R.transpose() * force;
       r_.template segment<3>(row(i) + 3) += cross(piece_.centers[i], own);

@@ -161,8 +161,9 @@ std::string explain_singular(Assembler& assembler, const std::string& what, Resi
   if (n == 0) return what;
   const Sparse matrix = whole_matrix(assembler);
   if (!Vector::Map(matrix.valuePtr(), matrix.nonZeros()).allFinite()) return what + ": the matrix is not finite";
-  const auto [null, of] = nearest_null_vector(matrix);
-  if (of == 0) return what;
+  const NullVector nearest = nearest_null_vector(matrix);
+  if (nearest.of == 0) return what;
+  const Vector& null = nearest.entries;
   std::vector<int> order(static_cast<std::size_t>(n));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(null[a]) > std::abs(null[b]); });
@@ -179,7 +180,7 @@ std::string explain_singular(Assembler& assembler, const std::string& what, Resi
     if (!moves && !numbering.unknown(e).multiplier) continue;
     names += fmt::format("{}{}", listed++ ? ", " : "", numbering.describe(e));
   }
-  const std::string more = of > 1 ? fmt::format(" (one of {} such)", of) : "";
+  const std::string more = nearest.of > 1 ? fmt::format(" (one of {} such)", nearest.of) : "";
   return moves ? fmt::format("{}: nothing resists a motion of {}{}{}", what, names, more,
                              advice(assembler, order, null, resistance))
                : fmt::format("{}: the reactions {} are not determined{}", what, names, more);

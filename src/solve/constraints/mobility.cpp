@@ -9,7 +9,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <ranges>
 #include <utility>
 
 #include "solve/constraints/constraint_factors.hpp"
@@ -86,7 +85,7 @@ void prefer_grips_and_drives(const Model& model, const Numbering& numbering, Spa
   std::vector<Eigen::SparseVector<double>> columns;
   for (Eigen::Index j = 0; j < null.cols(); ++j) columns.emplace_back(null.col(j));
   std::vector<bool> taken(columns.size(), false);
-  for (const int one : preferred | std::views::values) {
+  for (const auto& [grip, one] : preferred) {
     std::size_t best = columns.size();
     double largest = significant;
     for (std::size_t j = 0; j < columns.size(); ++j) {

@@ -50,7 +50,7 @@ Transient::Transient(SolverContext& context)
     : Dynamics(context), scheme_(coefficients(context.options)), changes_(context.assembler, context.newton, context.motion) {}
 
 Outcome Transient::attempt(const Configuration& from, double h, Configuration& to) {
-  const auto [am, af, beta, gamma] = scheme_;
+  const double am = scheme_.alpha_m, af = scheme_.alpha_f, beta = scheme_.beta, gamma = scheme_.gamma;
   const Weights weights{1, gamma / (beta * h), (1 - am) / ((1 - af) * beta * h * h)};
   scale_for(from, h, weights);
   const auto vdot0 = context_.motion.accelerations(from);
