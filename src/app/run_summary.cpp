@@ -57,6 +57,17 @@ Json diagnostics_json(const RunSummary& run) {
   return list;
 }
 
+Json critical_json(const std::vector<solve::CriticalPoint>& points) {
+  Json json = Json::array();
+  for (const solve::CriticalPoint& point : points)
+    json.push_back({{"kind", point.kind == solve::CriticalPoint::Kind::limit ? "limit" : "bifurcation"},
+                    {"load_time", number(point.load_time)},
+                    {"unstable_before", point.before},
+                    {"unstable_behind", point.after},
+                    {"mode", text(point.mode)}});
+  return json;
+}
+
 Json run_json(const RunSummary& run) {
   Json json{{"deck", text(run.deck)}, {"status", run.status}, {"outcome", run.outcome()}};
   Json definitions = Json::object();
@@ -86,6 +97,11 @@ Json run_json(const RunSummary& run) {
                         {"external_work", number(run.energies->external_work)},
                         {"dissipated", number(run.energies->dissipated)},
                         {"error", number(run.energies->error())}};
+  if (!run.critical.empty()) json["critical_points"] = critical_json(run.critical);
+  if (!run.buckling.empty()) {
+    json["buckling"] = Json::array();
+    for (const double load_time : run.buckling) json["buckling"].push_back(number(load_time));
+  }
   if (run.stress_error)
     json["stress_error"] = {{"relative", number(run.stress_error->relative())},
                             {"energy", number(run.stress_error->difference)},

@@ -11,6 +11,7 @@
 #include "observe/energies.hpp"
 #include "observe/fields.hpp"
 #include "output/results_layout.hpp"
+#include "solve/schemes/path_point.hpp"
 
 namespace engrane::app {
 
@@ -37,6 +38,8 @@ struct RunSummary {
   double time = 0, end = 0;  ///< reached, and asked for by .SUB
   std::optional<ErrorEstimate> accuracy;
   std::optional<Conditioning> conditioning;          ///< where --condition asks for it
+  std::vector<solve::CriticalPoint> critical;        ///< along a path of equilibria
+  std::vector<double> buckling;                      ///< load times of linearised buckling
   std::optional<observe::StressError> stress_error;  ///< of the last frame
   double seconds = 0;                                ///< of the clock on the wall
   std::vector<output::CheckResult> checks;           ///< of .CHK

@@ -370,6 +370,7 @@ void Writer::note_events(const Configuration& c, const StepReport& step) {
 }
 
 void Writer::note_critical(const CriticalPoint& point) {
+  summary_.critical.push_back(point);
   const bool limit = point.kind == CriticalPoint::Kind::limit;
   std::string text = fmt::format("{} at load time {:.9g}, ", limit ? "limit point" : "bifurcation point", point.load_time);
   text += point.after > point.before ? "stability is lost" : "stability is regained";
@@ -390,6 +391,7 @@ void Writer::buckling(const std::vector<BucklingMode>& modes, const Configuratio
   if (modes.empty()) buckling_ += "  no load time: the loads do not make the tangent singular\n";
   const std::vector<int>& copies = observer_.points().copies();
   for (const BucklingMode& mode : modes) {
+    summary_.buckling.push_back(mode.load_time);
     buckling_ += fmt::format("  {:>6}{:>20.10g}   {}\n", modes_.size() + 1, mode.load_time, mode.largest);
     const auto rows = [&](const std::vector<Vec3>& parts) {
       std::vector<double> all;

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -49,7 +50,8 @@ def test_truss(solver: str, tmp_path: Path) -> None:
 {path(loads, ".PATH")}
 .FIN 1
 """.replace("TYPE STATIC", f"TYPE STATIC SOLVER {solver}")
-    found = run(text, tmp_path)
+    found = run(text, tmp_path, options=("--json",), output=tmp_path / "out.json")
+    summary = json.loads((tmp_path / "out.json").read_text())["runs"][0]["critical_points"]
     w = -found["node/2/UY"]
     load = 1e5 / 17**1.5 * (2 * w - w**2) * (1 - w)
     assert 1000 * found["run/LOAD_TIME"] == pytest.approx(load, abs=1e-6)
@@ -57,8 +59,29 @@ def test_truss(solver: str, tmp_path: Path) -> None:
     points = critical_points(found)
     assert [kind for kind, _ in points] == ["limit", "limit"]
     assert [value for _, value in points] == pytest.approx([limit, -limit], rel=1e-8)
+    assert [p["load_time"] for p in summary] == pytest.approx([limit, -limit], rel=1e-8)
+    assert [(p["kind"], p["unstable_before"], p["unstable_behind"]) for p in summary] == [
+        ("limit", 0, 1),
+        ("limit", 1, 0),
+    ]
     assert found["run/UNSTABLE"].max() == 1
     assert found["run/LOAD_TIME"][-1] == pytest.approx(1.5, rel=1e-8)
+
+
+def test_goal_of_a_restart(tmp_path: Path) -> None:
+    """A path that has come to its end stays there; one that is to go farther goes on."""
+    text = """.NOE
+ I 1
+ I 2 X 10 0 0
+.MCE
+ I 1 BAR N 1 2 EA 1D3
+""" + path(" FIX NOEUD 1 C 1 2 3\n FIX NOEUD 2 C 2 3\n CHA NOEUD 2 C 1 V 100 NF 1", ".PATH\n.FIN 1\n", 1.0)
+    first = run(text, tmp_path, "first")
+    again = run(text, tmp_path, "first", options=("--restart", "first"))
+    assert again["run/LOAD_TIME"] == pytest.approx(first["run/LOAD_TIME"], abs=0)
+    on = run(text.replace("TF 1.0", "TF 1.4"), tmp_path, "first", options=("--restart", "first"))
+    assert on["run/LOAD_TIME"][-1] == pytest.approx(1.4, rel=1e-9)
+    assert on["run/LOAD_TIME"][len(first.t) - 1] == pytest.approx(1.0, rel=1e-9)
 
 
 def test_compressible_column(tmp_path: Path) -> None:

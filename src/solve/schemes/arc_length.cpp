@@ -343,6 +343,13 @@ void ArcLength::save(Snapshot& snapshot) const {
   snapshot.put("path/state", {here_.load, static_cast<double>(here_.negative), here_.symmetric ? 1.0 : 0.0, unit_,
                               static_cast<double>(bifurcations_), static_cast<double>(steps_), branching_ ? 1.0 : 0.0,
                               course_.next, static_cast<double>(course_.unstable), course_.critical_time});
+  snapshot.put("path/arrived", course_.arrived ? goal() : std::vector<double>{});
+}
+
+std::vector<double> ArcLength::goal() const {
+  const SolverOptions::Path& path = context_.options.path;
+  return {context_.options.end, static_cast<double>(path.steps), static_cast<double>(path.node),
+          static_cast<double>(path.component), path.displacement};
 }
 
 void ArcLength::load(const Snapshot& snapshot) {
@@ -360,6 +367,7 @@ void ArcLength::load(const Snapshot& snapshot) {
   course_.next = state.at(7);
   course_.unstable = static_cast<int>(state.at(8));
   course_.critical_time = state.at(9);
+  course_.arrived = snapshot.array("path/arrived") == goal();
 }
 
 }  // namespace engrane::solve

@@ -66,6 +66,8 @@ class ArcLength final : public Statics, private Border {
   /// end.
   Bracket locate(const Configuration& from, double& h, Configuration& to, Point& there, double first, double precision,
                  const std::function<double(const Configuration&, const Point&)>& value);
+  /// What ends the path, as numbers.
+  std::vector<double> goal() const;
   /// Ends a step that passes a critical point there.
   void find_critical(const Configuration& from, double& h, Configuration& to, Point& there);
   /// Ends a step that passes what the deck asks for there.
