@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -31,17 +32,15 @@ class Ring(Sheet):
         self.kept = [i for i in range(len(self.points)) if i not in same]
 
 
-@pytest.mark.parametrize("link", ["RIGID_LINK", "MEAN_LINK"])
-@pytest.mark.parametrize("ranks", [1, 2])
-def test_rim_of_many_nodes(link: str, ranks: int, tmp_path: Path) -> None:
-    """MUMPS needs more room than it foresees for the rigid link, and gets it."""
-    mesh = Ring(800)
+def rim(link: str, around: int, analysis: str, torque: float) -> str:
+    """A deck of the ring, held inside and turned by node 90001 outside."""
+    mesh = Ring(around)
     rows = mesh.text("MEMB BIDIM", f"YT {YOUNG} NT {POISSON}").split("\n")
     lost = {i + 1 for i in set(range(len(mesh.points))) - set(mesh.kept)}
     end = rows.index(".MAI")
     rows = [row for row in rows[:end] if row == ".NOE" or int(row.split()[1]) not in lost] + rows[end:]
     names = {name: [i for i in mesh.kept if mesh.unit[i][0] == u] for name, u in (("hub", 0.0), ("rim", 1.0))}
-    assert len(names["rim"]) == 1600
+    assert len(names["rim"]) == 2 * around
     rows.insert(1, " I 90001 X 0 Y 0")
     deck = [
         *rows,
@@ -50,18 +49,43 @@ def test_rim_of_many_nodes(link: str, ranks: int, tmp_path: Path) -> None:
         *(mesh.group(k, name, nodes) for k, (name, nodes) in enumerate(names.items(), 2)),
         f'.MCE\n I 90001 {link} N 90001 GROUP "rim"',
         '.CLM\n GROUP "hub" FIX C 1 2\n NOEUD 90001 FIX C 3 4 5',
-        f" NOEUD 90001 CHA C 6 V {TORQUE}",
-        ".SAM TYPE STATIC DISPLACEMENTS LARGE SOLVER MUMPS",
+        f" NOEUD 90001 CHA C 6 V {torque}",
+        f".SAM TYPE STATIC {analysis} SOLVER MUMPS",
         ".SUB TF 1 H 1",
         ".SAI NOEUD 90001",
         ".FIN 1",
     ]
-    results = Results(run("\n".join(deck), tmp_path, ranks=ranks).file)
+    return "\n".join(deck)
+
+
+def turn_of_rim(torque: float) -> float:
     shear = YOUNG / 2 / (1 + POISSON)
-    expected = TORQUE / (4 * np.pi * shear) * (1 / INNER**2 - 1 / OUTER**2)
+    return torque / (4 * np.pi * shear) * (1 / INNER**2 - 1 / OUTER**2)
+
+
+@pytest.mark.parametrize("link", ["RIGID_LINK", "MEAN_LINK"])
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_rim_of_many_nodes(link: str, ranks: int, tmp_path: Path) -> None:
+    """MUMPS needs more room than it foresees for the rigid link, and gets it."""
+    results = Results(run(rim(link, 800, "DISPLACEMENTS LARGE", TORQUE), tmp_path, ranks=ranks).file)
+    expected = turn_of_rim(TORQUE)
     found = results.history("node/90001/RZ")[-1][-1]
     # equal weights are not those of a uniform shear on edges of three nodes
     assert found == pytest.approx(expected, rel=1e-9 if link == "RIGID_LINK" else 5e-5)
+
+
+@pytest.mark.parametrize("link", ["RIGID_LINK", "MEAN_LINK"])
+def test_small_displacements(link: str, tmp_path: Path) -> None:
+    """One linear system, also of a load that turns the rim by nearly a radian."""
+    large = 4e6
+    text = rim(link, 80, "DISPLACEMENTS SMALL", large * TORQUE)
+    found = run(text, tmp_path, options=("--json",), output=tmp_path / "out.json")
+    assert json.loads((tmp_path / "out.json").read_text())["runs"][0]["iterations"] <= 4
+    expected = large * turn_of_rim(TORQUE)
+    assert 0.9 < expected < 1.1
+    assert found["node/90001/RZ"][-1] == pytest.approx(expected, rel=1e-5 if link == "RIGID_LINK" else 5e-3)
+    small = run(rim(link, 80, "DISPLACEMENTS SMALL", TORQUE), tmp_path, "small")
+    assert found["node/90001/RZ"][-1] == pytest.approx(large * small["node/90001/RZ"][-1], rel=1e-9)
 
 
 def test_short_steps(tmp_path: Path) -> None:

@@ -28,6 +28,7 @@ class FirstShare final : public TemplatedElement<FirstShare, 2, 15> {
   }
 
   bool in_mesh() const override { return false; }
+  bool is_linear() const override { return share_.small; }
 
   const std::vector<Named>& channels() const override {
     static const std::vector<Named> names = {{"FORCE_X", dimension::force, "force of the node N on the group"},
@@ -45,7 +46,7 @@ class FirstShare final : public TemplatedElement<FirstShare, 2, 15> {
     for (std::size_t c = 0; c < forces; ++c) force[static_cast<Eigen::Index>(c)] = state.multipliers[c];
     for (std::size_t c = forces; c < state.multipliers.size(); ++c)
       moment[static_cast<Eigen::Index>(forces == 2 ? 2 : c - forces)] = state.multipliers[c];
-    const Mat3& R = state.nodes[0].R;
+    const Mat3 R = share_.small ? Mat3(Mat3::Identity()) : state.nodes[0].R;
     Eigen::Map<Vec3>(values.data()) = R * force;
     Eigen::Map<Vec3>(values.data() + 3) = R * moment;
   }
@@ -123,7 +124,7 @@ std::unique_ptr<Element> build(const MeanLinkData& data, BuildContext& context) 
     all.topRows<3>() = (*weights)[i] * Mat3::Identity();
     all.bottomRows<3>() = (*weights)[i] * flexibility * skew(group->places[i] - centre);
     if (group->in_plane) all.col(2).setZero();
-    NodeLink share{group->places[i], all(rows, Eigen::all), true, group->in_plane};
+    NodeLink share{group->places[i], all(rows, Eigen::all), true, group->in_plane, group->small};
     if (!first) {
       whole.nodes = {data.master, group->nodes[i]};
       first = std::make_unique<FirstShare>(context.record.id, whole, std::move(share));

@@ -13,12 +13,14 @@ namespace engrane::elements::structural {
 
 namespace {
 
-/// Nodes of plane cells, which do not move along z.
-struct PlaneNodes {
-  std::unordered_set<int> ids;
+/// What links ask of the cells of a deck.
+struct LinkedMesh {
+  std::unordered_set<int> ids;  ///< nodes of plane cells, which do not move along z
+  bool small = false;           ///< displacements
 
-  explicit PlaneNodes(const BuildContext& context) {
+  explicit LinkedMesh(const BuildContext& context) {
     if (!context.records) return;
+    small = deck::has_small_displacements(*context.records);
     std::unordered_set<int> of_solids;
     for (const deck::Record& record : *context.records)
       if (const auto* data = record.get<CellData>())
@@ -49,10 +51,11 @@ std::optional<LinkedGroup> linked_group(const LinkData& data, BuildContext& cont
   const Vec3 master = context.nodes.at(data.master);
   for (const int id : group.nodes) group.places.push_back(context.nodes.at(id) - master);
   BuildNotes alone;
-  const auto& plane = (context.notes ? *context.notes : alone).get<PlaneNodes>([&] { return PlaneNodes(context); });
-  const auto other = std::find_if(group.nodes.begin(), group.nodes.end(), [&](int id) { return !plane.ids.contains(id); });
+  const auto& mesh = (context.notes ? *context.notes : alone).get<LinkedMesh>([&] { return LinkedMesh(context); });
+  group.small = mesh.small;
+  const auto other = std::find_if(group.nodes.begin(), group.nodes.end(), [&](int id) { return !mesh.ids.contains(id); });
   group.in_plane = other == group.nodes.end();
-  const auto flat = std::find_if(group.nodes.begin(), group.nodes.end(), [&](int id) { return plane.ids.contains(id); });
+  const auto flat = std::find_if(group.nodes.begin(), group.nodes.end(), [&](int id) { return mesh.ids.contains(id); });
   if (!group.in_plane && flat != group.nodes.end()) {
     context.error("N", fmt::format("node {} of the group is one of plane cells, node {} is not", *flat, *other),
                   "link them by two links");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "deck/cards/cards.hpp"
+#include "elements/common/rotation_vector.hpp"
 #include "model/registry.hpp"
 #include "model/templated_block.hpp"
 
@@ -24,20 +25,26 @@ struct LinkData : deck::NodeTarget {
 ///
 ///     Φ = Σ_i A_i g_i,   g_i = R_0ᵀ (x_i − x_0) − d_i
 ///
-/// The gap g_i is how far node i is from where the master would carry it, in the master's material axes.
+/// The gap g_i is how far node i is from where the master would carry it, in the master's material axes. With small displacements
+///
+///     g_i = x_i − x_0 − d_i − θ × d_i
+///
+/// in space, with θ the rotation vector of the master: constraints and forces are linear, as those of the cells.
 struct NodeLink {
   using Weights = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor, 6, 3>;
   Vec3 place;       ///< d_i: of the node in the reference configuration, from the master
   Weights weights;  ///< A_i: a row for each constraint
   bool shares = false;
   bool in_plane = false;  ///< the node does not move along z, which is no unknown of it
+  bool small = false;     ///< displacements are small
 
   /// The residual is −Aᵀλ at the node, and its reaction on the master. A penalty acts on constraints that are whole: of a share
   /// it would be a stiffness between nodes that may move.
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     const auto& master = motion.node[0];
-    Vec3T<T> arm = rotate_back(master.R, Vec3T<T>(motion.node[1].x - master.x));
+    const Vec3T<T> apart = motion.node[1].x - master.x, at_rest = place.template cast<T>();
+    Vec3T<T> arm = small ? Vec3T<T>(apart - cross(RotationVector<T>::of(master.R).theta, at_rest)) : rotate_back(master.R, apart);
     if (in_plane) arm[2] = T(place[2]);
     Vec3T<T> f(T(0), T(0), T(0));
     for (Eigen::Index row = 0; row < weights.rows(); ++row) {
@@ -47,9 +54,9 @@ struct NodeLink {
       if (shares) force += state.penalty * phi;
       for (int c = 0; c < 3; ++c) f[c] += weights(row, c) * force;
     }
-    const Vec3T<T> force = rotate(master.R, f);
+    const Vec3T<T> force = small ? f : rotate(master.R, f);
     balance.force(0, force);
-    balance.moment(0, cross(arm, f));
+    balance.moment(0, small ? rotate_back(master.R, Vec3T<T>(cross(at_rest, f))) : Vec3T<T>(cross(arm, f)));
     balance.force(1, Vec3T<T>(-force));
   }
 };
@@ -59,6 +66,7 @@ class NodeLinks final : public TemplatedBlock<NodeLink, 2, 15> {
  public:
   using TemplatedBlock::TemplatedBlock;
   bool in_mesh() const override { return false; }
+  bool is_linear(std::size_t e) const override { return data(e).small; }
 };
 
 /// The nodes that a link joins.
@@ -66,6 +74,7 @@ struct LinkedGroup {
   std::vector<int> nodes;    ///< ids, ascending
   std::vector<Vec3> places;  ///< of each, from the master
   bool in_plane = false;     ///< nodes of plane cells
+  bool small = false;        ///< displacements of the deck's cells are
 };
 
 /// What a card names, where a link can join it; faults are reported.

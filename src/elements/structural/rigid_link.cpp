@@ -21,7 +21,7 @@ std::unique_ptr<Element> build(const RigidLinkData& data, BuildContext& context)
   std::unique_ptr<Element> first;
   for (std::size_t i = 0; i < group->nodes.size(); ++i) {
     auto one = NodeLinks::add(block, context.record.id, {data.master, group->nodes[i]},
-                              {group->places[i], NodeLink::Weights::Identity(rows, 3), false, group->in_plane});
+                              {group->places[i], NodeLink::Weights::Identity(rows, 3), false, group->in_plane, group->small});
     if (!first)
       first = std::move(one);
     else if (context.more)
@@ -37,7 +37,8 @@ ElementType rigid_link_type() {
   card.numbered()
       .chapter("Meshes")
       .describe(
-          "Every node of the group keeps its place in the axes of the node N, in displacements and rotations of any size: the "
+          "Every node of the group keeps its place in the axes of the node N, in displacements and rotations of any size (small "
+          "where those of the cells are): the "
           "group is rigid. Only translations of the group are linked. Joints, gears and loads act on N. Of nodes of plane cells "
           "the components x and y are linked, and the rotation of N about z turns them.")
       .example("I 7 RIGID_LINK N 100 GROUP \"hub\"")
