@@ -63,6 +63,7 @@ SHOTS = (
     Shot("falling_cloth", "-1,1.4,0.5", 1.0, "mechanisms", "z", 0.35, "TAUTNESS"),
     Shot("lee_frame", "0.25,0.15,1", 1.0, "mechanisms", "y"),
     Shot("portal_frame", "0.25,0.15,1", 1.0, "mechanisms", "y"),
+    Shot("turbine_shaft", "1,0.6,0.7", 1.0, "mechanisms", "y", None, "", 20),
 )
 
 
