@@ -61,8 +61,10 @@ SHOTS = (
     Shot("mylar_balloon", "1,0.7,0.8", 1.0, "mechanisms", "z"),
     Shot("square_sail", "-0.8,1,0.25", 1.0, "mechanisms", "z"),
     Shot("falling_cloth", "-1,1.4,0.5", 1.0, "mechanisms", "z", 0.35, "TAUTNESS"),
+    Shot("inflating_cushion", "1,0.7,0.5", 1.0, "mechanisms", "z", 0.5, "TAUTNESS"),
     Shot("lee_frame", "0.25,0.15,1", 1.0, "mechanisms", "y"),
     Shot("portal_frame", "0.25,0.15,1", 1.0, "mechanisms", "y"),
+    Shot("turbine_shaft", "1,0.6,0.7", 1.0, "mechanisms", "y", None, "", 20),
 )
 
 

@@ -34,6 +34,7 @@ KIND_OF = {
     "beam": "beam",
     "coil": "spring",
     "mass": "mass",
+    "disc": "mass",
     "arrow": "load",
 }
 
@@ -69,7 +70,7 @@ class Scene:
         self.items: list[Item] = []
         self.carried: dict[int, tuple[int, np.ndarray]] = {}
         joints = [j for j in (linkage.joint(self, e) for e in result.elements) if j]
-        self.size = self._size([place for j in joints for _, place in j.ends()])
+        self.size = self._size([place for j in joints for _, place in j.ends()] + self._rims())
         self.link_slots: dict[int, int] = {}
         self.bodies: dict[int, int] = {}
         for element in result.elements:
@@ -118,6 +119,18 @@ class Scene:
             if item.remake is None and item.kind != "wheel":
                 x = np.reshape(item.mesh.bounds, (3, 2))
                 yield item.node, np.array([[a, b, c] for a in x[0] for b in x[1] for c in x[2]])
+
+    def _discs(self) -> list[dict[str, Any]]:
+        return [d for e in self.result.elements for d in e.drawing if d.get("shape") == "disc"]
+
+    def _rims(self) -> list[np.ndarray]:
+        """Ends of two diameters of each disc."""
+        out = []
+        for d in self._discs():
+            for side in shapes.square_to(np.asarray(d["axis"], float)):
+                reach = 0.5 * float(d["outer"]) * side
+                out += [np.asarray(d["center"], float) + reach, np.asarray(d["center"], float) - reach]
+        return out
 
     def _size(self, places: list[np.ndarray]) -> float:
         corners = np.concatenate([self.corners([self.result.reference()]), np.reshape(places, (-1, 3))])
@@ -223,6 +236,11 @@ class Scene:
         elif kind == "roller":
             radius = float(d["radius"])
             self.items.append(Item(shapes.roller(center, axis, radius, 1.5 * radius), STEEL, node))
+        elif kind == "disc":
+            radii = 0.5 * float(d["inner"]), 0.5 * float(d["outer"])
+            ring, spots = shapes.disc(center, axis, radii, float(d["width"]))
+            color = WHEEL_COLORS[self.bodies.get(node, node) % len(WHEEL_COLORS)]
+            self.items += [Item(mesh, c, node, smooth=False) for mesh, c in ((ring, color), (spots, DARK))]
         elif kind == "mass" and node in self.row:
             self.items.append(Item(shapes.ball(self.points[node], size * 0.016), DARK, node))
         elif kind == "arrow":
@@ -247,6 +265,10 @@ class Scene:
             tip = 1.2 * (w.shape.radius + w.shape.module)
             if np.linalg.norm(w.center - center) < 1e-3 * w.shape.radius and tip < 0.15 * self.size:
                 radius, gap = max(radius, tip), w.frame[:, 1]
+        for d in self._discs():
+            rim = 0.5 * float(d["outer"])
+            if np.linalg.norm(np.asarray(d["center"]) - center) < 1e-3 * rim and rim < 0.2 * self.size:
+                radius = max(radius, 1.25 * rim)
         return radius, gap
 
     def _flexible(self, remake: Callable[[dict[int, np.ndarray]], pv.PolyData], color: str) -> None:

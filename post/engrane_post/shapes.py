@@ -46,6 +46,27 @@ def wheel(w: Wheel, color: str, mark: str, dark: str) -> list[tuple[pv.PolyData,
     return [(m, c) for m, c in out if m.n_cells]
 
 
+def disc(
+    center: np.ndarray, axis: np.ndarray, radii: tuple[float, float], width: float
+) -> tuple[pv.PolyData, pv.PolyData]:
+    """A ring (radii of its hole and outside), and the dark spots on its faces that show its turn."""
+    inner, outer = radii
+    frame = gear_mesh.frame_of(axis, np.array([0.0, 1.0, 0.1]))
+    points, corners = gear_mesh.tube_mesh(-width / 2, width / 2, inner, outer)
+    turn = 2 * np.pi / 5 * np.arange(5)
+    marks = [
+        pv.Cylinder(
+            center=center + frame[:, 1:] @ (0.5 * (inner + outer) * np.array([np.cos(a), np.sin(a)])),
+            direction=frame[:, 0],
+            radius=0.2 * (outer - inner),
+            height=1.01 * width,
+            resolution=32,
+        )
+        for a in turn
+    ]
+    return quads(points @ frame.T + center, corners), pv.merge(marks)
+
+
 def spots(shape: gear_mesh.WheelShape, frame: np.ndarray, center: np.ndarray) -> pv.PolyData | None:
     """The discs on a wheel's web that show its turn."""
     holes = gear_mesh.holes(shape)

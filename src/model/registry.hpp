@@ -95,6 +95,8 @@ struct ElementType {
   std::function<std::optional<NodePlacement>(const BuildContext&)> place = nullptr;
   /// Of a short form: puts the records that stand for the card's; such a card is never built.
   std::function<void(ShortForm&)> expand = nullptr;
+  /// Of a card that is a short form with some keywords only: whether this record is. None: always.
+  std::function<bool(const deck::Record&)> is_short = nullptr;
 };
 
 /// All elements, in the order of the manual; written by CMake's add_element().

@@ -80,7 +80,8 @@ std::shared_ptr<const deck::Deck> write_out(const deck::Deck& deck, const std::v
     const auto [entry, fresh] = forms.try_emplace(record.schema, nullptr);
     for (const ElementType& type : types)
       if (fresh && type.expand && type.schema.name == record.schema->name) entry->second = &type;
-    return entry->second;
+    const ElementType* form = entry->second;
+    return form && form->is_short && !form->is_short(record) ? nullptr : form;
   };
   ShortForm::FreeNumbers free;
   bool any = false;

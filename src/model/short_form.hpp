@@ -61,4 +61,11 @@ ElementType short_form(const deck::Card<Data>& card, void (*expand)(const Data&,
   return type;
 }
 
+/// Lets the card of an element be a short form where `applies` says so.
+template <class Data>
+void short_where(ElementType& type, bool (*applies)(const Data&), void (*expand)(const Data&, ShortForm&)) {
+  type.is_short = [applies](const deck::Record& record) { return applies(*record.get<Data>()); };
+  type.expand = [expand](ShortForm& form) { expand(*form.record.get<Data>(), form); };
+}
+
 }  // namespace engrane

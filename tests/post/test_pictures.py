@@ -170,6 +170,21 @@ def test_cam_plate() -> None:
     assert np.ptp(whole.points, axis=0) == pytest.approx([2, 2, 0.5])
 
 
+def test_disc(tmp_path: Path) -> None:
+    """A ring of the sizes that the result gives, which moves with its node."""
+    drawn = dict(shape="disc", node=1, center=[1, 0, 0.5], axis=[0, 0, 2], outer=0.4, inner=0.1, width=0.06)
+    elements = [dict(id=1, type="INERTIA", nodes=[1], parameters={}, drawing=[drawn])]
+    path = models.write(
+        tmp_path / "disc.h5", {1: (1.0, 0.0, 0.0)}, elements, np.zeros(1), np.zeros((1, 1, 3))
+    )
+    s = scene(path)
+    ring, spots = s.items
+    r = np.hypot(ring.mesh.points[:, 0] - 1, ring.mesh.points[:, 1])
+    assert [r.min(), r.max()] == pytest.approx([0.05, 0.2])
+    assert ring.mesh.bounds[4:] == pytest.approx([0.47, 0.53])
+    assert ring.node == spots.node == 1 and ring.kind == spots.kind == "mass"
+
+
 def test_topology() -> None:
     data = np.array([1, 1, 0, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5, 0, 1, 2, 3, 36, 0, 1, 2, 3, 4, 5])
 

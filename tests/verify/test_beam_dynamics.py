@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from beam_problems import Line, deck, straight
+from beam_problems import Line, clamp, deck, orders, straight
 from oracles import flexible_crank as crank
 from runs import run
-from scipy.optimize import least_squares
+from scipy.optimize import brentq, least_squares
 
 ROD = "EA 1D4 GA 1D4 1D4 GJ 500 EI 500 500 M 1 J 10 10 10"  # Simo and Vu-Quoc 1988, the flying beam in space
 ROD_FOOT, ROD_HEAD = np.array([6.0, 0, 0]), np.array([0.0, 8, 0])
@@ -182,3 +182,46 @@ def test_geared_shafts(tmp_path: Path) -> None:
 """
     twist = run(deck, tmp_path)["31/U_M"]
     assert frequencies(twist[1:], step, 4)[1:3] == pytest.approx([571.748, 2523.572], rel=5e-4)
+
+
+def cantilever(pieces: int, roots: np.ndarray, folder: Path) -> np.ndarray:
+    """First natural frequencies of a slender cantilever, L = EI = 1 and a mass of 1 per length, measured: it
+    is thrown with its first forms, and its tip swings in as many waves."""
+    line = Line(straight(1), pieces)
+    x = line.points[:, 0]
+    speed, spin = np.zeros_like(x), np.zeros_like(x)
+    for b in roots:
+        ratio = (np.cosh(b) + np.cos(b)) / (np.sinh(b) + np.sin(b))
+        speed += 1e-4 * (np.cosh(b * x) - np.cos(b * x) - ratio * (np.sinh(b * x) - np.sin(b * x)))
+        spin += 1e-4 * b * (np.sinh(b * x) + np.sin(b * x) - ratio * (np.cosh(b * x) - np.cos(b * x)))
+    start = "\n".join(
+        f" VIT NOEUD {i} C 2 6 V {v:.16g} {w:.16g}"
+        for i, v, w in zip(line.ids[1:], speed[1:], spin[1:], strict=True)
+    )
+    step = 4e-3
+    rest = f""".CLM
+ {clamp(line.ids[0])}
+.INI
+{start}
+.SAM TYPE DYNAMIC SCHEME RADAU SOLVER KLU PLANE XY
+.SUB TF 1 H {step}
+.SAI HISTORY {step}"""
+    section = "EA 1 GA 1 1 GJ 1 EI 1 1 M 1 J 0 0 0"
+    found = run(deck([line], section, rest, "BPR 1 AXIS2 0 1 0 INEXTENSIBLE UNSHEARABLE"), folder)
+    return 2 * np.pi * frequencies(found[f"node/{line.last}/UY"][1:], step, len(roots))
+
+
+def test_cantilever(tmp_path: Path) -> None:
+    """(beta L)^2 = 3.51601526850, 22.03449156467, 61.69721441355 of Euler's beam: cos(b) cosh(b) = -1. Errors
+    with 4, 8 and 16 pieces have order 4, and what is extrapolated from 8 and 16 has only what is left."""
+    roots = np.array(
+        [brentq(lambda b: np.cos(b) * np.cosh(b) + 1, low, low + 1.5, xtol=1e-14) for low in (1.5, 4.0, 7.0)]
+    )
+    exact = roots**2
+    found = [cantilever(pieces, roots, tmp_path) for pieces in (4, 8, 16)]
+    errors = [w / exact - 1 for w in found]
+    assert errors[0] == pytest.approx([1.14e-4, 3.76e-3, 2.78e-2], rel=0.01)
+    assert errors[2] == pytest.approx([3.95e-7, 1.538e-5, 1.197e-4], rel=0.01)
+    assert orders(errors)[-1] == pytest.approx(4, abs=0.06)
+    assert (16 * found[2] - found[1]) / 15 == pytest.approx(exact, rel=4e-6)
+    assert ((16 * found[2] - found[1]) / 15)[0] == pytest.approx(3.51601526850, rel=3e-8)

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "elements/beams/beam_piece.hpp"
+#include "elements/beams/beam_release.hpp"
 #include "elements/beams/line_shape.hpp"
 #include "elements/beams/make_beam.hpp"
 #include "elements/common/building.hpp"
@@ -183,9 +184,13 @@ ElementType beam_type() {
           "three nodes, which stand along the beam and share their ends, so that N 1 2 3 4 5 is two pieces; their numbers count "
           "on from that of the record. The error of the nodes falls with the fourth power of the length of the pieces; with "
           "LINEAR, or two nodes, pieces have two and it falls with the second. Nodes on a curve make a curved beam, which is "
-          "relaxed where it stands. The section is one of `.BPR`.")
+          "relaxed where it stands. The section is one of `.BPR`. RELEASE_A and RELEASE_B make hinges and slides at its ends: "
+          "the "
+          "beam is then written out with a node of its own there, and a joint from it to the node of N, which `engrane check` "
+          "lists; the joints are numbered after the pieces.")
       .example("I 1 BEAM N 1 2 3 4 5  BPR 1  MAT 1")
-      .example("I 9 BEAM N 1 2  BPR 2  AXIS2 0 0 1  DAMPING 1E-4");
+      .example("I 9 BEAM N 1 2  BPR 2  AXIS2 0 0 1  DAMPING 1E-4")
+      .example("I 12 BEAM N 1 2 3  BPR 2  AXIS2 0 1 0  RELEASE_A 5 6  RELEASE_B 6");
   card.add("N", &BeamData::nodes, "the nodes along the beam: 2, 3, 5, 7 …, or with LINEAR any number")
       .synonyms({"NODES", "NOEUDS"})
       .refers(deck::Reference::node)
@@ -215,7 +220,15 @@ ElementType beam_type() {
            "does not stretch, whatever its EA: a multiplier at each point of Gauss holds it");
   card.add("UNSHEARABLE", &BeamData::unshearable, "does not shear, whatever its GA: sections stay across the line")
       .synonyms({"INCISAILLABLE"});
-  return element_type(card, build);
+  card.add("RELEASE_A", &BeamData::release_a,
+           "components in the axes of the section that the first end leaves free: 1 N, 2 V2, 3 V3, 4 T, 5 M2, 6 M3")
+      .synonyms({"LIBERE_A"})
+      .at_least(1)
+      .at_most(6);
+  card.add("RELEASE_B", &BeamData::release_b, "the same of the last end").synonyms({"LIBERE_B"}).at_least(1).at_most(6);
+  ElementType type = element_type(card, build);
+  short_where(type, has_releases, write_releases);
+  return type;
 }
 
 }  // namespace engrane::elements::beams

@@ -10,7 +10,7 @@
 namespace engrane::elements::beams {
 
 /// Card of a beam. `BEAM N n1 n2 … BPR p [BPR_END q] [MAT m] [AXIS2 x y z] [AXIS2_END x y z] [DAMPING t] [LINEAR]
-/// [INEXTENSIBLE] [UNSHEARABLE]`
+/// [INEXTENSIBLE] [UNSHEARABLE] [RELEASE_A c …] [RELEASE_B c …]`
 struct BeamData {
   std::vector<int> nodes;  ///< along it
   int profile = 0;
@@ -21,6 +21,7 @@ struct BeamData {
   double damping = 0;                               ///< a time
   bool linear = false;                              ///< pieces of two nodes
   bool inextensible = false, unshearable = false;
+  std::vector<int> release_a, release_b;  ///< components 1 to 6 that the first and the last end leave free
 };
 
 /// BEAM (POUTRE): a flexible line of nodes.

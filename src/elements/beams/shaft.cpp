@@ -46,14 +46,19 @@ class ShaftWriter {
     }
     for (std::size_t i = 0; i < data_.discs.size(); ++i) {
       const double polar = each(data_.polar, i);
-      add_inertia(id++, data_.discs[i], each(data_.mass, i), polar,
-                  data_.diametral.empty() ? polar / 2 : each(data_.diametral, i));
+      form_.add(
+          "INERTIA", id++,
+          inertia(data_.discs[i], each(data_.mass, i), polar, data_.diametral.empty() ? polar / 2 : each(data_.diametral, i)));
     }
     for (std::size_t i = 0; i < data_.wheels.size(); ++i) {
       const double outer = each(data_.outer, i), inner = inner_of(i), width = each(data_.width, i);
       const double mass = *density() * std::numbers::pi / 4 * (outer * outer - inner * inner) * width;
       const double polar = mass * (outer * outer + inner * inner) / 8;
-      add_inertia(id++, data_.wheels[i], mass, polar, polar / 2 + mass * width * width / 12);
+      bodies::InertiaData wheel = inertia(data_.wheels[i], mass, polar, polar / 2 + mass * width * width / 12);
+      wheel.outer = outer;
+      wheel.inner = inner;
+      wheel.width = width;
+      form_.add("INERTIA", id++, wheel);
     }
     for (std::size_t i = 0; i < data_.bearings.size(); ++i) add_bearing(id++, i);
   }
@@ -286,14 +291,14 @@ class ShaftWriter {
     return beam;
   }
 
-  void add_inertia(int id, int node, double mass, double polar, double diametral) {
+  bodies::InertiaData inertia(int node, double mass, double polar, double diametral) const {
     const Vec3 side = perpendicular(axis_);
-    bodies::InertiaData inertia;
-    inertia.node = node;
-    inertia.mass = mass;
-    inertia.tensor = {polar, diametral, diametral};
-    inertia.axes = {axis_[0], axis_[1], axis_[2], side[0], side[1], side[2]};
-    form_.add("INERTIA", id, inertia);
+    bodies::InertiaData out;
+    out.node = node;
+    out.mass = mass;
+    out.tensor = {polar, diametral, diametral};
+    out.axes = {axis_[0], axis_[1], axis_[2], side[0], side[1], side[2]};
+    return out;
   }
 
   void add_bearing(int id, std::size_t i) {

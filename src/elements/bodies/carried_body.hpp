@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+#include <utility>
+
 #include "elements/bodies/body_inertia.hpp"
 #include "model/templated_element.hpp"
 
@@ -10,7 +13,10 @@ namespace engrane::elements::bodies {
 /// the body has a tensor or an offset.
 class CarriedBody final : public TemplatedElement<CarriedBody, 1, 6> {
  public:
-  CarriedBody(int id, int node, const BodyInertia& body) : TemplatedElement(id), body_(body), channels_(body_channels(body)) {
+  /// `drawing` as in docs/format.md; by itself a ball at the node.
+  CarriedBody(int id, int node, const BodyInertia& body, std::string drawing = {})
+      : TemplatedElement(id), body_(body), channels_(body_channels(body)), drawing_(std::move(drawing)) {
+    if (drawing_.empty()) drawing_ = R"("shape": "mass", "node": )" + std::to_string(node);
     Layout layout;
     layout.nodes = {node};
     layout.needs = {!body.turns() ? NodeNeed::translation : body.mass == 0 ? NodeNeed::rotation : NodeNeed::both};
@@ -29,11 +35,12 @@ class CarriedBody final : public TemplatedElement<CarriedBody, 1, 6> {
   Mat3 inertia_at(int node) const override { return node == layout().nodes[0] ? body_.about_node() : Mat3(Mat3::Zero()); }
   const std::vector<Named>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override { observe_body(body_, state.nodes[0], values); }
-  Drawing drawing() const override { return {R"("shape": "mass", "node": )" + std::to_string(layout().nodes[0])}; }
+  Drawing drawing() const override { return {drawing_}; }
 
  private:
   BodyInertia body_;
   std::vector<Named> channels_;
+  std::string drawing_;
 };
 
 }  // namespace engrane::elements::bodies

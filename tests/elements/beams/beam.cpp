@@ -405,5 +405,79 @@ TEST(Beam, FaultsOfTheCard) {
   EXPECT_EQ(message(data), "AXIS2_END is along beam 1");
 }
 
+/// The elements of a beam with these keywords: their types, numbers and nodes.
+std::vector<std::string> released(const std::string& keywords, std::optional<Vec3>* made = nullptr) {
+  const DeckModel deck(R"(.NOE
+ I 1 X 0 0 0
+ I 5 X 0.3 0.4 0
+ I 7 X 0.6 0.8 0
+.BPR
+ I 1 EA 1D3 GA 1D3 1D3 GJ 1 EI 1 1
+.MCE
+ I 4 BEAM N 1 5 7 BPR 1 )" +
+                       keywords + "\n.FIN 1\n");
+  std::vector<std::string> parts;
+  for (const Model::Part& part : deck.model.parts) {
+    parts.push_back(part.type + " " + std::to_string(part.element->id()));
+    for (const int node : part.element->node_ids()) parts.back() += " " + std::to_string(node);
+  }
+  if (made) *made = deck.nodes().at(8);
+  return parts;
+}
+
+TEST(Beam, Releases) {
+  using Parts = std::vector<std::string>;
+  std::optional<Vec3> made;
+  EXPECT_EQ(released("AXIS2 0 0 1 RELEASE_B 6", &made), (Parts{"BEAM 4 1 5 8", "HINGE 5 8 7"}));
+  EXPECT_EQ(*made, Vec3(0.6, 0.8, 0));
+  EXPECT_EQ(released("AXIS2 0 0 1 RELEASE_A 6 RELEASE_B 5 6"), (Parts{"BEAM 4 8 5 9", "HINGE 5 8 1", "UNIVERSAL 6 9 7"}));
+  for (const auto& [components, joint] : std::vector<std::pair<std::string, std::string>>{{"4", "HINGE"},
+                                                                                          {"5", "HINGE"},
+                                                                                          {"4 6", "UNIVERSAL"},
+                                                                                          {"4 5", "UNIVERSAL"},
+                                                                                          {"4 5 6", "SPHERICAL"},
+                                                                                          {"1", "PRISMATIC"},
+                                                                                          {"3", "PRISMATIC"},
+                                                                                          {"2 5", "CYLINDRICAL"},
+                                                                                          {"1 4 5 6", "POINT_LINE"},
+                                                                                          {"2 3 4", "PLANAR"},
+                                                                                          {"1 3 5", "PLANAR"},
+                                                                                          {"1 2 4 5 6", "POINT_PLANE"}})
+    EXPECT_EQ(released("AXIS2 0 0 1 RELEASE_A " + components).back(), joint + " 5 8 1") << components;
+  EXPECT_EQ(released("RELEASE_A 5 6").back(), "UNIVERSAL 5 8 1") << "a round beam needs no AXIS2 for both";
+}
+
+/// Of small motions of the end of the beam, along and about the axes of its section, the joint holds all but the released ones.
+TEST(Beam, ReleasesAreAboutTheAxesOfTheSection) {
+  for (const std::string components : {"1", "2", "3", "4", "5", "6", "5 6", "4 6", "1 2 6", "2 4 5 6", "1 3 4 5 6"}) {
+    const DeckModel deck(R"(.NOE
+ I 1 X 0 0 0
+ I 5 X 0.3 0.4 0
+ I 7 X 0.6 0.8 0
+.BPR
+ I 1 EA 1D3 GA 1D3 1D3 GJ 1 EI 1 1
+.MCE
+ I 4 BEAM N 1 5 7 BPR 1 AXIS2 0 0 1 AXIS2_END -0.8 0.6 0 RELEASE_B )" +
+                         components + "\n.FIN 1\n");
+    const Element& joint = *deck.model.parts.back().element;
+    // of the section at the last node: the beam is twisted by a right angle
+    Mat3 axes;
+    axes << Vec3(0.6, 0.8, 0), Vec3(-0.8, 0.6, 0), Vec3(0, 0, 1);
+    for (int k = 0; k < 6; ++k) {
+      StateBuffer state(joint, {{8, {0.6, 0.8, 0}}, {7, {0.6, 0.8, 0}}});
+      const Vec3 e = 1e-6 * axes.col(k % 3);
+      if (k < 3)
+        state.nodes[0].x += e;
+      else
+        state.turn(0, rotation_exp(e), Vec3::Zero());
+      const auto r = residual_of(joint, state);
+      double gap = 0;
+      for (std::size_t i = r.size() - joint.layout().multipliers.size(); i < r.size(); ++i) gap = std::max(gap, std::abs(r[i]));
+      const bool is_free = components.find(std::to_string(k + 1)) != std::string::npos;
+      EXPECT_EQ(gap < 1e-9, is_free) << components << " moved along " << k + 1;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace engrane::elements::beams

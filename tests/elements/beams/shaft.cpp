@@ -42,6 +42,17 @@ TEST(Shaft, BecomesOtherElements) {
   EXPECT_LE((deck.nodes().at(11) - Vec3(1.125, 0.25, 0.25)).norm(), 1e-15);
 }
 
+TEST(Shaft, WheelsAreDrawn) {
+  const DeckModel deck(stepped);
+  std::vector<Drawing> bodies;
+  for (const Model::Part& part : deck.model.parts)
+    if (part.type == "INERTIA") bodies.push_back(part.element->drawing());
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_EQ(bodies[0], Drawing{R"("shape": "mass", "node": 5)"});
+  EXPECT_EQ(bodies[1].front().find(R"("shape": "disc", "node": 7, "center": [1.2, 0.4, 0.4], "axis": [0.333)"), 0U);
+  EXPECT_NE(bodies[1].front().find(R"("outer": 0.2, "inner": 0.02, "width": 0.03)"), std::string::npos);
+}
+
 /// Mass and moment of inertia about the axis of cylinders and a cone; moments across it of a disc and a wheel.
 TEST(Shaft, Masses) {
   const DeckModel deck(stepped);

@@ -85,6 +85,25 @@ TEST(Inertia, EulerEquations) {
   EXPECT_NEAR(r[5], 3 * 0.3 + (2 - 1) * 0.5 * 0.7, 1e-15);
 }
 
+TEST(Inertia, DrawnAsADisc) {
+  InertiaData data;
+  data.node = 3;
+  data.mass = 1;
+  data.tensor = {3, 2, 2};
+  data.axes = {0, 0, 2, 1, 0, 0};
+  data.offset = {1, 0, 0};
+  const auto drawing = [&] { return build(inertia_type(), data, {{3, {1, 0.5, 0}}})->drawing(); };
+  EXPECT_EQ(drawing(), Drawing{R"("shape": "mass", "node": 3)"});
+  data.outer = 0.5;
+  data.width = 0.125;
+  EXPECT_EQ(
+      drawing(),
+      Drawing{
+          R"("shape": "disc", "node": 3, "center": [2, 0.5, 0], "axis": [0, 0, 1], "outer": 0.5, "inner": 0, "width": 0.125)"});
+  data.axis = {0, 2, 0};
+  EXPECT_NE(drawing().front().find(R"("axis": [0, 1, 0])"), std::string::npos);
+}
+
 TEST(Inertia, FaultsOfTheCard) {
   const NodeMap nodes = {{3, Vec3::Zero()}};
   const auto faults = [&](const InertiaData& data) {
