@@ -17,12 +17,13 @@ std::string model_json(const Model& model) {
   const Model::Part* before = nullptr;
   for (const Model::Part& part : model.parts) {
     const auto nodes = part.element->node_ids();
-    // what a card says of many parts, such as the weights of a link, is said with the first
+    // what a card says of many parts, such as the weights of a link, is said with the first; of a cell it says the nodes again
     const bool goes_on = before && before->record == part.record && before->element->id() == part.element->id();
+    const bool says_more = !goes_on && part.element->cell_shape() == CellShape::none;
     before = &part;
     json +=
         fmt::format("{}\n  {{\"id\": {}, \"type\": {}, \"nodes\": [{}], \"parameters\": {}, \"drawing\": [", first ? "" : ",",
-                    part.element->id(), json_string(part.type), fmt::join(nodes, ", "), goes_on ? "{}" : parameters_json(part));
+                    part.element->id(), json_string(part.type), fmt::join(nodes, ", "), says_more ? parameters_json(part) : "{}");
     first = false;
     const Drawing shapes = part.element->drawing();
     for (std::size_t i = 0; i < shapes.size(); ++i) json += fmt::format("{}{{{}}}", i ? ", " : "", shapes[i]);

@@ -2,6 +2,7 @@
 #include "app/read.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <filesystem>
 
@@ -81,6 +82,18 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
   for (const Diagnostic& d : building.all())
     if (!is_echo(d, reading.deck)) reading.diagnostics.add(d);
   return reading;
+}
+
+bool Reading::is_one_solution() const { return has_cells(model) && !deck::says_analysis(deck.records); }
+
+void Reading::forget_mesh() {
+  for (deck::Record& record : deck.records) {
+    if (record.schema->name != ".NOE" && record.schema->name != ".MAI") continue;
+    // the record stays, since parts of the model point to it
+    record.data.reset();
+    std::vector<deck::FieldLocation>().swap(record.field_locations);
+  }
+  malloc_trim(0);  // what was freed lies between what stays
 }
 
 std::string Reading::assumptions() const {
