@@ -87,13 +87,13 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
 bool Reading::is_one_solution() const { return has_cells(model) && !deck::says_analysis(deck.records); }
 
 void Reading::forget_mesh() {
-  for (deck::Record& record : deck.records) {
-    if (record.schema->name != ".NOE" && record.schema->name != ".MAI") continue;
-    // the record stays, since parts of the model point to it
-    record.data.reset();
-    std::vector<deck::FieldLocation>().swap(record.field_locations);
-  }
-  malloc_trim(0);  // what was freed lies between what stays
+  const auto is_of_mesh = [](const deck::Record& record) {
+    return record.schema->name == ".NOE" || record.schema->name == ".MAI";
+  };
+  std::erase_if(deck.records, is_of_mesh);
+  deck.records.shrink_to_fit();
+  for (Model::Part& part : model.parts) part.record = nullptr;  // they have moved
+  malloc_trim(0);                                               // what was freed lies between what stays
 }
 
 std::string Reading::assumptions() const {

@@ -108,11 +108,8 @@ void Writer::resumed(const Resumption& from) {
 
 void Writer::remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
   if (!kept && !last && !results_.due()) return;
-  // a restart point would hold the matrix
-  if (reading_.is_one_solution() && (!last || c.time >= reading_.model.commands.stepping.end)) {
-    if (!last && results_.full()) results_.flush();
-    return;
-  }
+  // a restart point would hold the matrix, and fields written now would be written again at the end
+  if (reading_.is_one_solution() && (!last || c.time >= reading_.model.commands.stepping.end)) return;
   Snapshot memory;
   runner.save(memory);
   observer_.save(memory);

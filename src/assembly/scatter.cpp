@@ -67,8 +67,23 @@ void Scatter::find_pattern() {
 
   std::vector<PetscInt> row_begin{0}, columns, seen(static_cast<std::size_t>(n), -1);
   row_begin.reserve(rows + 1);
+  // rows of a node have the same elements, and so the same columns
+  const auto as_before = [&](std::size_t row) {
+    return row > 0 && begin[row] > begin[row - 1] &&
+           std::equal(parts.begin() + static_cast<std::ptrdiff_t>(begin[row]),
+                      parts.begin() + static_cast<std::ptrdiff_t>(begin[row + 1]),
+                      parts.begin() + static_cast<std::ptrdiff_t>(begin[row - 1]),
+                      parts.begin() + static_cast<std::ptrdiff_t>(begin[row]));
+  };
   for (std::size_t row = 0; row < rows; ++row) {
     const PetscInt own = first_row + static_cast<PetscInt>(row);
+    if (as_before(row)) {
+      const auto last = static_cast<std::size_t>(row_begin[row - 1]), count = columns.size() - last;
+      columns.resize(columns.size() + count);
+      std::copy_n(columns.begin() + static_cast<std::ptrdiff_t>(last), count, columns.end() - static_cast<std::ptrdiff_t>(count));
+      row_begin.push_back(static_cast<PetscInt>(columns.size()));
+      continue;
+    }
     const auto first = static_cast<std::ptrdiff_t>(columns.size());
     const auto add = [&](PetscInt column) {
       if (column < 0 || seen[static_cast<std::size_t>(column)] == own) return;
@@ -115,9 +130,10 @@ void Scatter::find_runs(int part) {
 }
 
 void Scatter::forget_places() {
-  begin_ = {};
-  runs_ = {};
-  places_ = {};
+  // assigning nothing would keep the memory
+  std::vector<Begin>().swap(begin_);
+  std::vector<Run>().swap(runs_);
+  std::vector<PetscInt>().swap(places_);
 }
 
 void Scatter::find_places() {
