@@ -172,17 +172,30 @@ void Place::attribute(const char* name, const std::string& content) const {
 void Place::attribute(const char* name, double number) const { write_attribute(*this, name, H5T_NATIVE_DOUBLE, &number); }
 void Place::attribute(const char* name, int number) const { write_attribute(*this, name, H5T_NATIVE_INT, &number); }
 
-Handle Place::text(const std::string& name, const std::string& content) const { return texts(name, std::span(&content, 1)); }
+namespace {
+
+Handle fixed_text_type(std::size_t width, const std::string& file) {
+  Handle type(check(H5Tcopy(H5T_C_S1), file));
+  check(H5Tset_size(type.id(), std::max<std::size_t>(1, width)), file);
+  check(H5Tset_strpad(type.id(), H5T_STR_NULLPAD), file);
+  check(H5Tset_cset(type.id(), H5T_CSET_UTF8), file);
+  return type;
+}
+
+}  // namespace
+
+Handle Place::text(const std::string& name, const std::string& content) const {
+  const Handle type = fixed_text_type(content.size(), file);
+  const hsize_t shape[1] = {1};
+  return write_array(*this, name, type.id(), content.c_str(), shape);  // an empty text has one byte, that of its end
+}
 
 Handle Place::texts(const std::string& name, std::span<const std::string> contents) const {
   std::size_t width = 1;
   for (const std::string& text : contents) width = std::max(width, text.size());
   std::string block(width * contents.size(), '\0');
   for (std::size_t i = 0; i < contents.size(); ++i) contents[i].copy(block.data() + i * width, width);
-  const Handle type(check(H5Tcopy(H5T_C_S1), file));
-  check(H5Tset_size(type.id(), width), file);
-  check(H5Tset_strpad(type.id(), H5T_STR_NULLPAD), file);
-  check(H5Tset_cset(type.id(), H5T_CSET_UTF8), file);
+  const Handle type = fixed_text_type(width, file);
   const hsize_t shape[1] = {contents.size()};
   return write_array(*this, name, type.id(), block.data(), shape);
 }
