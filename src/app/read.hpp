@@ -22,7 +22,7 @@ struct Reading {
   /// Linear statics, which no card asks for: it is over once it is solved, and no other run continues it.
   bool is_one_solution() const;
   /// Forgets the records of nodes and cells, and which record each part of the model is from: only building the model and the
-  /// results file ask for them, and they take 0.3 GB for a million nodes.
+  /// results file ask for them.
   void forget_mesh();
 };
 
