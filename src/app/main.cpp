@@ -76,13 +76,14 @@ void make_folder(const std::string& prefix) {
 /// Checks or solves one deck.
 int perform(const std::string& deck, const Options& options, bool talk, RunSummary& run) {
   if (options.task == Options::Task::check && !options.allow_user) user::Library::trust_only_neighbours();
-  const Reading reading = read_deck(deck, options.wishes);
+  Reading reading = read_deck(deck, options.wishes);
   if (talk) reading.diagnostics.print(std::cerr, reading.sources);
   run.diagnostics = reading.diagnostics.all();
   for (Diagnostic& d : run.diagnostics)
     if (d.location.known() && reading.sources.foreign(d.location.file)) d.message = without_quotes(d.message);
   for (int file = 0; file < reading.sources.size(); ++file) run.sources.push_back(reading.sources.path(file));
   if (!reading.good()) return exit_status::wrong_deck;
+  if (run.diagnostics.empty()) reading.sources = {};  // nobody will ask for a line of the deck
   run.time = reading.model.commands.stepping.start;
   run.end = reading.model.commands.stepping.end;
   if (options.task == Options::Task::check) return talk ? print_model(reading, std::cout) : exit_status::fine;

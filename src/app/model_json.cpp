@@ -5,6 +5,7 @@
 #include <petscversion.h>
 
 #include <Eigen/Core>
+#include <iterator>
 
 #include "assembly/petsc.hpp"
 #include "base/text.hpp"
@@ -16,17 +17,17 @@ std::string model_json(const Model& model) {
   bool first = true;
   const Model::Part* before = nullptr;
   for (const Model::Part& part : model.parts) {
-    const auto nodes = part.element->node_ids();
-    // what a card says of many parts, such as the weights of a link, is said with the first
+    // what a card says of many parts, such as the weights of a link, is said with the first; of a cell it says the nodes again
     const bool goes_on = before && before->record == part.record && before->element->id() == part.element->id();
+    const bool says_more = !goes_on && part.element->cell_shape() == CellShape::none;
     before = &part;
-    json +=
-        fmt::format("{}\n  {{\"id\": {}, \"type\": {}, \"nodes\": [{}], \"parameters\": {}, \"drawing\": [", first ? "" : ",",
-                    part.element->id(), json_string(part.type), fmt::join(nodes, ", "), goes_on ? "{}" : parameters_json(part));
+    fmt::format_to(std::back_inserter(json), "{}\n  {{\"id\": {}, \"type\": {}, \"nodes\": [{}]", first ? "" : ",",
+                   part.element->id(), json_string(part.type), fmt::join(part.element->node_ids(), ", "));
     first = false;
-    const Drawing shapes = part.element->drawing();
-    for (std::size_t i = 0; i < shapes.size(); ++i) json += fmt::format("{}{{{}}}", i ? ", " : "", shapes[i]);
-    json += "]}";
+    if (says_more) json += ", \"parameters\": " + parameters_json(part);
+    if (const Drawing shapes = part.element->drawing(); !shapes.empty())
+      json += fmt::format(", \"drawing\": [{{{}}}]", fmt::join(shapes, "}, {"));
+    json += '}';
   }
   return json + "]}\n";
 }

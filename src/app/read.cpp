@@ -2,6 +2,7 @@
 #include "app/read.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <filesystem>
 
@@ -81,6 +82,18 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
   for (const Diagnostic& d : building.all())
     if (!is_echo(d, reading.deck)) reading.diagnostics.add(d);
   return reading;
+}
+
+bool Reading::is_one_solution() const { return has_cells(model) && !deck::says_analysis(deck.records); }
+
+void Reading::forget_mesh() {
+  const auto is_of_mesh = [](const deck::Record& record) {
+    return record.schema->name == ".NOE" || record.schema->name == ".MAI";
+  };
+  std::erase_if(deck.records, is_of_mesh);
+  deck.records.shrink_to_fit();
+  for (Model::Part& part : model.parts) part.record = nullptr;  // they have moved
+  malloc_trim(0);                                               // what was freed lies between what stays
 }
 
 std::string Reading::assumptions() const {

@@ -19,6 +19,11 @@ struct Reading {
   /// A sentence about what holds because the deck says nothing of it; empty when it says all.
   std::string assumptions() const;
   bool good() const { return !diagnostics.has_errors(); }
+  /// Linear statics, which no card asks for: it is over once it is solved, and no other run continues it.
+  bool is_one_solution() const;
+  /// Forgets the records of nodes and cells, and which record each part of the model is from: only building the model and the
+  /// results file ask for them.
+  void forget_mesh();
 };
 
 /// What the command line has to say about a deck.

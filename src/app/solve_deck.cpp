@@ -185,9 +185,8 @@ std::optional<Companion> first_companion(const Reading& reading, SolverOptions& 
   return companion;
 }
 
-Verdict solve_once(const Reading& reading, const Options& options, const SolverOptions& wanted,
-                   std::optional<Companion>& companion, bool may_repeat, const Resumption* resumption, const std::string& prefix,
-                   MPI_Comm comm, RunSummary& summary) {
+Verdict solve_once(Reading& reading, const Options& options, const SolverOptions& wanted, std::optional<Companion>& companion,
+                   bool may_repeat, const Resumption* resumption, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
@@ -217,6 +216,7 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
     if (rank == 0) std::cerr << "engrane: " << terminal_text(trouble) << '\n';
     return {exit_status::solution_failed, {}};
   }
+  if (reading.is_one_solution()) reading.forget_mesh();
   if (!options.quiet)  // on every rank, since all foresee together
     context.solver.announce = [&](const ForeseenFactors& foreseen) {
       if (rank != 0 || foreseen.bytes < worth_announcing) return;
@@ -253,6 +253,8 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
       observer.set_buckling_times(std::move(found));
       if (rank == 0) writer->buckling(modes, solved);
     }
+    // what follows is output, and may have the memory
+    if (step.last && reading.is_one_solution() && context.solver.direct() && !options.condition) context.solver.reset();
     const bool checked = !reading.model.commands.checks.empty();
     const auto seen = [&](const Configuration& found) -> const Configuration& { return in_space(found, true); };
     std::optional<Instants> instants;
@@ -388,7 +390,7 @@ std::string mesh_in_the_way(const Reading& reading, const std::string& prefix) {
 
 bool was_interrupted() { return interrupted != 0; }
 
-int solve_deck(const Reading& reading, const Options& options, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
+int solve_deck(Reading& reading, const Options& options, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);

@@ -10,7 +10,7 @@ namespace engrane::app {
 
 /// Solves a good deck on all ranks of `comm`; rank 0 writes results and listing as `prefix`, speaks, and fills in the summary.
 /// Returns the exit status.
-int solve_deck(const Reading& reading, const Options& options, const std::string& prefix, MPI_Comm comm, RunSummary& summary);
+int solve_deck(Reading& reading, const Options& options, const std::string& prefix, MPI_Comm comm, RunSummary& summary);
 
 /// Has a signal asked the program to end?
 bool was_interrupted();

@@ -108,12 +108,8 @@ void Writer::resumed(const Resumption& from) {
 
 void Writer::remember(const Configuration& c, const Runner& runner, bool kept, bool last) {
   if (!kept && !last && !results_.due()) return;
-  // linear statics, which no card asks for, is over once it is solved; a restart point would hold its matrix
-  const bool one_step = has_cells(reading_.model) && !deck::says_analysis(reading_.deck.records);
-  if (one_step && (!last || c.time >= reading_.model.commands.stepping.end)) {
-    if (!last && results_.full()) results_.flush();
-    return;
-  }
+  // a restart point would hold the matrix, and fields written now would be written again at the end
+  if (reading_.is_one_solution() && (!last || c.time >= reading_.model.commands.stepping.end)) return;
   Snapshot memory;
   runner.save(memory);
   observer_.save(memory);

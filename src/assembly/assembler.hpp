@@ -85,6 +85,9 @@ class Assembler {
   /// The same in a matrix of new_matrix().
   void tangent(const Configuration& configuration, Weights weights, Mat into);
 
+  /// Of a matrix that is made once: gives back the memory of what another tangent would need, and would find again.
+  void forget_places() { scatter_.forget_places(); }
+
   /// What the projections of the start move with.
   enum class Metric {
     geometric,  ///< least movement: translations over the extent, rotations in radians

@@ -67,8 +67,23 @@ void Scatter::find_pattern() {
 
   std::vector<PetscInt> row_begin{0}, columns, seen(static_cast<std::size_t>(n), -1);
   row_begin.reserve(rows + 1);
+  // rows of a node have the same elements, and so the same columns
+  const auto as_before = [&](std::size_t row) {
+    return row > 0 && begin[row] > begin[row - 1] &&
+           std::equal(parts.begin() + static_cast<std::ptrdiff_t>(begin[row]),
+                      parts.begin() + static_cast<std::ptrdiff_t>(begin[row + 1]),
+                      parts.begin() + static_cast<std::ptrdiff_t>(begin[row - 1]),
+                      parts.begin() + static_cast<std::ptrdiff_t>(begin[row]));
+  };
   for (std::size_t row = 0; row < rows; ++row) {
     const PetscInt own = first_row + static_cast<PetscInt>(row);
+    if (as_before(row)) {
+      const auto last = static_cast<std::size_t>(row_begin[row - 1]), count = columns.size() - last;
+      columns.resize(columns.size() + count);
+      std::copy_n(columns.begin() + static_cast<std::ptrdiff_t>(last), count, columns.end() - static_cast<std::ptrdiff_t>(count));
+      row_begin.push_back(static_cast<PetscInt>(columns.size()));
+      continue;
+    }
     const auto first = static_cast<std::ptrdiff_t>(columns.size());
     const auto add = [&](PetscInt column) {
       if (column < 0 || seen[static_cast<std::size_t>(column)] == own) return;
@@ -81,9 +96,18 @@ void Scatter::find_pattern() {
     std::sort(columns.begin() + first, columns.end());
     row_begin.push_back(static_cast<PetscInt>(columns.size()));
   }
-  // of the two the one that is not of the matrix's type does nothing
-  check_petsc(MatSeqAIJSetPreallocationCSR(matrix_, row_begin.data(), columns.data(), nullptr));
-  check_petsc(MatMPIAIJSetPreallocationCSR(matrix_, row_begin.data(), columns.data(), nullptr));
+  if (size_ > 1) {
+    check_petsc(MatMPIAIJSetPreallocationCSR(matrix_, row_begin.data(), columns.data(), nullptr));
+  } else {
+    // the same without a search for the place of each entry
+    std::vector<PetscInt> widths(rows);
+    for (std::size_t row = 0; row < rows; ++row) widths[row] = row_begin[row + 1] - row_begin[row];
+    check_petsc(MatSeqAIJSetPreallocation(matrix_, 0, widths.data()));
+    check_petsc(MatSeqAIJSetColumnIndices(matrix_, columns.data()));
+    check_petsc(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
+    check_petsc(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
+    check_petsc(MatZeroEntries(matrix_));
+  }
   check_petsc(MatSetOption(matrix_, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
   check_petsc(MatSetOption(matrix_, MAT_NO_OFF_PROC_ENTRIES, PETSC_TRUE));
 }
@@ -103,6 +127,13 @@ void Scatter::find_runs(int part) {
     }
     before = equation;
   }
+}
+
+void Scatter::forget_places() {
+  // assigning nothing would keep the memory
+  std::vector<Begin>().swap(begin_);
+  std::vector<Run>().swap(runs_);
+  std::vector<PetscInt>().swap(places_);
 }
 
 void Scatter::find_places() {
@@ -150,8 +181,9 @@ std::size_t Scatter::bytes() const {
   return begin_.size() * sizeof(Begin) + runs_.size() * sizeof(Run) + places_.size() * sizeof(PetscInt);
 }
 
-Scatter::MatrixSum::MatrixSum(const Scatter& scatter, Mat matrix)
+Scatter::MatrixSum::MatrixSum(Scatter& scatter, Mat matrix)
     : scatter_(scatter), matrix_(matrix), pieces_(pieces_of(matrix, scatter.size_ > 1)) {
+  if (scatter.begin_.empty()) scatter.find_places();
   check_petsc(MatZeroEntries(matrix));
   check_petsc(MatSeqAIJGetArray(pieces_.own, &own_));
   if (pieces_.others) check_petsc(MatSeqAIJGetArray(pieces_.others, &others_));

@@ -33,7 +33,7 @@ class Scatter {
   /// Sums into matrix() or a matrix of new_matrix(), from zero; finish() (collective) must be called once all is added.
   class MatrixSum {
    public:
-    MatrixSum(const Scatter& scatter, Mat matrix);
+    MatrixSum(Scatter& scatter, Mat matrix);
     ~MatrixSum();
     MatrixSum(const MatrixSum&) = delete;
     MatrixSum& operator=(const MatrixSum&) = delete;
@@ -70,6 +70,9 @@ class Scatter {
     Vec vector_;
     PetscScalar* values_ = nullptr;
   };
+
+  /// Forgets where entries go until they are summed again, which finds it anew: for matrices that are made once.
+  void forget_places();
 
   /// Bytes that this keeps for the elements.
   std::size_t bytes() const;

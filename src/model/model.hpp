@@ -76,8 +76,9 @@ struct Model {
   struct Part {
     std::unique_ptr<Element> element;
     std::string type;  ///< card name, such as `GEAR`; `CHA` for a nodal load
-    const deck::Record* record =
-        nullptr;  ///< of the deck that the model was built from, which lives as long, or of `written_out`
+    /// Of the deck that the model was built from, which lives as long, or of `written_out`; nullptr once the records of a mesh are
+    /// forgotten.
+    const deck::Record* record = nullptr;
     Location location;
     std::vector<int> nodes;  ///< indices of the element's nodes
   };

@@ -4,6 +4,8 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -85,13 +87,12 @@ constexpr std::size_t most_of_chunk = std::size_t{1} << 20;
 /// Of smaller arrays, compressing costs no time that matters.
 constexpr std::size_t worth_a_trial = std::size_t{1} << 20;
 /// Arrays of numbers that deflate leaves more of are stored as they are. All digits of a computed stress differ: 0.74 to 0.79
-/// is left of it, displacements leave 0.58, at 0.1 GB/s both.
-constexpr double most_left = 0.7;
+/// is left of it, displacements in a plane leave 0.58, at 0.1 GB/s both, which is slower than a disk.
+constexpr double most_left = 0.5;
 
 /// Whether shuffle and deflate make an array of numbers so much smaller that it is worth their time, by a few stretches of it.
 bool shrinks(const double* values, std::size_t count) {
   constexpr std::size_t stretches = 8, length = 4096, width = sizeof(double);
-  if (count * width < worth_a_trial) return true;
   std::vector<unsigned char> shuffled(length * width), deflated(compressBound(length * width));
   std::size_t before = 0, after = 0;
   for (std::size_t s = 0; s < stretches; ++s) {
@@ -125,14 +126,32 @@ Handle storage(const Place& place, std::span<const hsize_t> shape, std::size_t s
   return creation;
 }
 
+/// How the values of an array come to stand in the file.
+enum class Keep : unsigned char {
+  deflated,
+  plain,
+  nothing  ///< all are zero, which HDF5 takes for what was never written
+};
+
+bool all_zero(const double* values, std::size_t count) {
+  // a negative zero has a bit that is not
+  return std::all_of(values, values + count, [](double value) { return std::bit_cast<std::uint64_t>(value) == 0; });
+}
+
+Keep best_way(const double* values, std::size_t count) {
+  if (count * sizeof(double) < worth_a_trial) return Keep::deflated;
+  if (all_zero(values, count)) return Keep::nothing;
+  return shrinks(values, count) ? Keep::deflated : Keep::plain;
+}
+
 Handle write_array(const Place& place, const std::string& name, hid_t type, const void* values, std::span<const hsize_t> shape,
-                   bool compressed = true) {
+                   Keep keep = Keep::deflated) {
   const Handle space(check(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), place.file));
-  const Handle creation = storage(place, shape, H5Tget_size(type), compressed);
+  const Handle creation = storage(place, shape, H5Tget_size(type), keep == Keep::deflated);
   const Handle links(check(H5Pcreate(H5P_LINK_CREATE), place.file));
   check(H5Pset_create_intermediate_group(links.id(), 1), place.file);
   Handle set(check(H5Dcreate2(place.id, name.c_str(), type, space.id(), links.id(), creation.id(), H5P_DEFAULT), place.file));
-  if (H5Sget_simple_extent_npoints(space.id()) > 0)
+  if (keep != Keep::nothing && H5Sget_simple_extent_npoints(space.id()) > 0)
     check(H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), place.file);
   return set;
 }
@@ -153,23 +172,36 @@ void Place::attribute(const char* name, const std::string& content) const {
 void Place::attribute(const char* name, double number) const { write_attribute(*this, name, H5T_NATIVE_DOUBLE, &number); }
 void Place::attribute(const char* name, int number) const { write_attribute(*this, name, H5T_NATIVE_INT, &number); }
 
-Handle Place::text(const std::string& name, const std::string& content) const { return texts(name, std::span(&content, 1)); }
+namespace {
+
+Handle fixed_text_type(std::size_t width, const std::string& file) {
+  Handle type(check(H5Tcopy(H5T_C_S1), file));
+  check(H5Tset_size(type.id(), std::max<std::size_t>(1, width)), file);
+  check(H5Tset_strpad(type.id(), H5T_STR_NULLPAD), file);
+  check(H5Tset_cset(type.id(), H5T_CSET_UTF8), file);
+  return type;
+}
+
+}  // namespace
+
+Handle Place::text(const std::string& name, const std::string& content) const {
+  const Handle type = fixed_text_type(content.size(), file);
+  const hsize_t shape[1] = {1};
+  return write_array(*this, name, type.id(), content.c_str(), shape);  // an empty text has one byte, that of its end
+}
 
 Handle Place::texts(const std::string& name, std::span<const std::string> contents) const {
   std::size_t width = 1;
   for (const std::string& text : contents) width = std::max(width, text.size());
   std::string block(width * contents.size(), '\0');
   for (std::size_t i = 0; i < contents.size(); ++i) contents[i].copy(block.data() + i * width, width);
-  const Handle type(check(H5Tcopy(H5T_C_S1), file));
-  check(H5Tset_size(type.id(), width), file);
-  check(H5Tset_strpad(type.id(), H5T_STR_NULLPAD), file);
-  check(H5Tset_cset(type.id(), H5T_CSET_UTF8), file);
+  const Handle type = fixed_text_type(width, file);
   const hsize_t shape[1] = {contents.size()};
   return write_array(*this, name, type.id(), block.data(), shape);
 }
 
 Handle Place::numbers(const std::string& name, std::span<const double> values, std::span<const hsize_t> shape) const {
-  return write_array(*this, name, H5T_NATIVE_DOUBLE, values.data(), shape, shrinks(values.data(), values.size()));
+  return write_array(*this, name, H5T_NATIVE_DOUBLE, values.data(), shape, best_way(values.data(), values.size()));
 }
 
 Handle Place::plain_numbers(const std::string& name, std::span<const double> values) const {

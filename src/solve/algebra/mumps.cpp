@@ -52,6 +52,7 @@ bool Mumps::analyse() {
   if (factors_) return !failed();
   if (form_ == Form::unknown)
     become(!symmetry_.symmetric() ? Form::general : symmetry_.positive_diagonal() ? Form::definite : Form::symmetric);
+  symmetry_.rest();
   if (form_ != Form::definite) note_analysed();  // without pivots to choose the pattern alone decides
   const bool symmetric = form_ != Form::general;
   if (symmetric) check_petsc(MatSetOption(matrix_, MAT_SPD, form_ == Form::definite ? PETSC_TRUE : PETSC_FALSE));

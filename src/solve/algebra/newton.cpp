@@ -136,6 +136,7 @@ PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
         self.matrix_of_factors_ == self.assembler_.changes() && similar(self.weights_, self.weights_of_factors_);
     if (self.keep_) self.frames_.take_old(*self.work_, self.assembler_.matrix(), comparable);
     self.assembler_.tangent(*self.work_, self.weights_);
+    if (self.one_tangent_) self.assembler_.forget_places();
     if (self.keep_) self.frames_.renew(*self.work_, self.assembler_.matrix(), [&](int equation) { return self.reach(equation); });
     self.fresh_ = true;
     self.policy_.renewed();

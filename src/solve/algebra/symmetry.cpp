@@ -34,6 +34,10 @@ void SymmetryTest::prepare() {
   fill_probe(probe_);
 }
 
+void SymmetryTest::rest() {
+  for (Owned<Vec>* vector : {&probe_, &product_, &transposed_, &largest_}) *vector = {};
+}
+
 bool SymmetryTest::symmetric(double part) {
   prepare();
   check_petsc(MatMult(matrix_, probe_, product_));

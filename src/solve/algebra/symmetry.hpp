@@ -17,6 +17,8 @@ class SymmetryTest {
   bool symmetric(double part = rounding);
   /// Whether no entry on the diagonal is zero or negative: a positive definite matrix has none. Collective.
   bool positive_diagonal();
+  /// Gives back its memory until it is asked again.
+  void rest();
 
  private:
   void prepare();

@@ -24,28 +24,58 @@ Mat3 compensated_turn(const Mat3& R, const Vec3& y, Eigen::Ref<Vec3> remainder) 
   return turned;
 }
 
+/// Moves a node that stands where it starts from; `y` and `remainder`: its six entries.
+void move_node(const double* y, double* remainder, NodeState& node) {
+  for (int k = 0; k < 3; ++k) node.x[k] = compensated_sum(node.x[k], y[k], remainder[k]);
+  const Vec3 rotation(y[3], y[4], y[5]);
+  if (rotation.isZero(0)) {
+    node.T.setIdentity();
+  } else {
+    node.R = compensated_turn(node.R, rotation, Eigen::Map<Vec3>(remainder + 3));
+    node.T = rotation_tangent(rotation);
+  }
+}
+
+/// Moves the scalars of `to`, whose remainders are those of where it starts from.
+void move_scalars(std::span<const double> from, std::span<const double> y, Configuration& to) {
+  const std::size_t first = 6 * to.nodes.size();
+  to.scalars.resize(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) to.scalars[i] = compensated_sum(from[i], y[first + i], to.remainders[first + i]);
+}
+
 }  // namespace
 
 void MotionSlots::move(const Configuration& from, std::span<const double> y, Configuration& to) const {
   to.remainders = from.remainders;
   for (std::size_t i = 1; i < from.nodes.size(); ++i) {
-    const Vec3 translation(y[6 * i], y[6 * i + 1], y[6 * i + 2]);
-    const Vec3 rotation(y[6 * i + 3], y[6 * i + 4], y[6 * i + 5]);
-    NodeState& node = to.nodes[i];
-    node = from.nodes[i];
-    double* remainder = &to.remainders[6 * i];
-    for (int k = 0; k < 3; ++k) node.x[k] = compensated_sum(node.x[k], translation[k], remainder[k]);
-    if (rotation.isZero(0)) {
-      node.T.setIdentity();
-    } else {
-      node.R = compensated_turn(from.nodes[i].R, rotation, Eigen::Map<Vec3>(remainder + 3));
-      node.T = rotation_tangent(rotation);
-    }
+    to.nodes[i] = from.nodes[i];
+    move_node(&y[6 * i], &to.remainders[6 * i], to.nodes[i]);
   }
-  const std::size_t first = 6 * from.nodes.size();
-  to.scalars.resize(from.scalars.size());
-  for (std::size_t i = 0; i < from.scalars.size(); ++i)
-    to.scalars[i] = compensated_sum(from.scalars[i], y[first + i], to.remainders[first + i]);
+  move_scalars(from.scalars, y, to);
+}
+
+MotionSlots::Origin::Origin(const Configuration& c) : scalars(c.scalars), remainders(c.remainders) {
+  places.reserve(c.nodes.size());
+  for (std::size_t i = 0; i < c.nodes.size(); ++i) {
+    places.push_back(c.nodes[i].x);
+    if (c.nodes[i].R != Mat3::Identity()) turned.emplace_back(i, c.nodes[i].R);
+  }
+}
+
+void MotionSlots::move(const Origin& from, std::span<const double> y, Configuration& to) const {
+  to.remainders = from.remainders;
+  auto turned = from.turned.begin();
+  for (std::size_t i = 1; i < from.places.size(); ++i) {
+    NodeState& node = to.nodes[i];
+    while (turned != from.turned.end() && turned->first < i) ++turned;
+    node.x = from.places[i];
+    if (turned != from.turned.end() && turned->first == i)
+      node.R = turned->second;
+    else
+      node.R.setIdentity();
+    move_node(&y[6 * i], &to.remainders[6 * i], node);
+  }
+  move_scalars(from.scalars, y, to);
 }
 
 std::vector<double> MotionSlots::velocities(const Configuration& c) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "assembly/numbering.hpp"
@@ -18,6 +19,20 @@ class MotionSlots {
   /// `to` = `from` moved by y: positions and scalars added, rotations multiplied by exp of the rotation vector; sets
   /// NodeState::T. Rates and history are copied. Sums are compensated (Configuration::remainders).
   void move(const Configuration& from, std::span<const double> y, Configuration& to) const;
+
+  /// What move() starts from, a fifth of a configuration's size where few nodes have turned.
+  class Origin {
+   public:
+    explicit Origin(const Configuration& c);
+
+   private:
+    friend class MotionSlots;
+    std::vector<Vec3> places;                          ///< of all nodes
+    std::vector<std::pair<std::size_t, Mat3>> turned;  ///< nodes that are not as in the reference configuration, ascending
+    std::vector<double> scalars, remainders;
+  };
+  /// The same for `to` that was equal to the origin, and has only been moved since.
+  void move(const Origin& from, std::span<const double> y, Configuration& to) const;
 
   std::vector<double> velocities(const Configuration& c) const;
   std::vector<double> accelerations(const Configuration& c) const;

@@ -59,10 +59,10 @@ bool Runner::run(const Observer& observer, const std::function<void(const StartR
   if (!context_.newton.keeps_one_tangent()) context_.solver.reset();
   context_.assembler.commit(now_);
   if (locator_.active()) locator_.switches().take(now_);
-  next_ = now_;
   started_ = true;
   step_.course = scheme_.course();
   step_.last = over();
+  if (!step_.last) next_ = now_;
   return observer(now_, step_) && march();
 }
 

@@ -24,9 +24,7 @@ void apply_initial_displacements(const SolverContext& context, Configuration& c)
   for (const InitialValue& value : context.model.initial)
     if (!value.velocity) y[static_cast<std::size_t>(6 * value.node + value.component)] += value.value;
   for (const auto& p : context.motion.prescribed(c.time)) y[p.slot] = p.u;
-  Configuration moved = c;
-  context.motion.move(c, y, moved);
-  c = std::move(moved);
+  context.motion.move(MotionSlots::Origin(c), y, c);
 }
 
 void apply_initial_velocities(const SolverContext& context, Configuration& c) {

@@ -53,8 +53,8 @@ Statics::Statics(SolverContext& context)
       error_(context.model, context.numbering, context.options),
       path_(points, longest_continuation),
       forces_(points, longest_continuation),
-      way_(context.motion.size(), 0.0),
-      y_(way_.size(), 0.0) {
+      way_(error_.wanted() ? context.motion.size() : 0, 0.0),
+      y_(context.motion.size(), 0.0) {
   *unknowns_.out() = context.assembler.new_vector();
   if (std::all_of(context.model.parts.begin(), context.model.parts.end(),
                   [](const Model::Part& part) { return part.element->is_linear(); }))
@@ -66,17 +66,15 @@ StartReport Statics::start(Configuration& c) {
   apply_initial_displacements(context_, c);
   context_.start.assemble(c, report);
   context_.assembler.choose_scale(c, {1, 0, 0}, context_.options.scale);
-  Configuration balanced = c;
   if (context_.newton.keeps_one_tangent()) context_.newton.refine_next();
-  const NewtonReport newton = Statics::attempt(c, 0, balanced).newton;
+  const NewtonReport newton = find(c, 0, c, false);
   if (!newton.converged) {
     std::string why = fmt::format("no equilibrium at the start, t = {:.6g}: {}", c.time, newton.reason);
     if (newton.conflict) throw SolutionFailure(why);
     if (newton.singular) throw SolutionFailure(explain_singular(context_.assembler, why, Resistance::at_rest));
-    why += "; " + explain_residual(context_.assembler, balanced, newton);
+    why += "; " + explain_residual(context_.assembler, c, newton);
     throw SolutionFailure(why + ". Loads given without NF act in full from the start: ramp them with a function of time");
   }
-  c = std::move(balanced);
   if (error_.wanted()) {
     begin_path(c.time, c.multipliers);
     error_.take(way_);
@@ -93,8 +91,12 @@ Outcome Statics::attempt(const Configuration& from, double h, Configuration& to)
 }
 
 NewtonReport Statics::find(const Configuration& from, double h, Configuration& to, bool predicted) {
-  to = from;
-  to.time = from.time + h;
+  const double begin = from.time;
+  const MotionSlots::Origin origin(from);
+  const bool in_place = &to == &from;
+  const std::optional<Configuration> kept = in_place && has_contacts_ ? std::optional(from) : std::nullopt;
+  if (!in_place) to = from;
+  to.time = begin + h;
   to.h = h;
   std::vector<double>& y = y_;
   std::fill(y.begin(), y.end(), 0.0);
@@ -103,14 +105,14 @@ NewtonReport Statics::find(const Configuration& from, double h, Configuration& t
     for (std::size_t i = 0; i < y.size(); ++i) y[i] -= way_[i];
     forces_.at(to.time, h, to.multipliers);
   }
-  prescribe_step(from.time, from.time + h, y);
-  const std::vector<double> prescribed = y;
-  NewtonReport report = balance(from, y, to);
+  prescribe_step(begin, begin + h, y);
+  const std::vector<double> prescribed = has_contacts_ ? y : std::vector<double>();
+  NewtonReport report = balance(origin, y, to);
   if (!report.converged && has_contacts_ && !predicted) {
-    Configuration other = from;
+    Configuration other = kept ? *kept : from;
     other.time = to.time;
     y = prescribed;
-    if (NewtonReport across = balance_across_gaps(from, y, other); across.converged) {
+    if (NewtonReport across = balance_across_gaps(origin, y, other); across.converged) {
       to = std::move(other);
       report = std::move(across);
     }
@@ -185,7 +187,7 @@ void Statics::load(const Snapshot& snapshot) {
   way_ = snapshot.array("scheme/way");
 }
 
-NewtonReport Statics::balance(const Configuration& from, std::span<double> y, Configuration& to) {
+NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
   const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
     context_.motion.scatter(unknowns, y);
     context_.motion.move(from, y, c);
@@ -200,7 +202,7 @@ NewtonReport Statics::balance(const Configuration& from, std::span<double> y, Co
   return report;
 }
 
-NewtonReport Statics::balance_across_gaps(const Configuration& from, std::span<double> y, Configuration& to) {
+NewtonReport Statics::balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
   NewtonReport report;
   int iterations = 0;
   for (const double contact_homotopy : {1.0, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6, 0.0}) {

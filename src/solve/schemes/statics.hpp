@@ -32,7 +32,8 @@ class Statics : public Scheme {
   class Inside;
   static constexpr std::size_t points = 4;  ///< of the polynomial
 
-  /// An equilibrium h later; Newton's iteration begins on the path, or where `from` is.
+  /// An equilibrium h later; Newton's iteration begins on the path, or where `from` is. `to` may be `from` itself, and is then no
+  /// more what it was where nothing is found.
   NewtonReport find(const Configuration& from, double h, Configuration& to, bool predicted);
   /// The first step of a path has an equilibrium in its middle, for the others to be compared with.
   bool find_middle(const Configuration& from, double h);
@@ -40,9 +41,9 @@ class Statics : public Scheme {
   /// Forgets what lies before the equilibrium at way_.
   void begin_path(double time, std::span<const double> multipliers);
   /// Newton's iteration from the displacements `y` and the multipliers of `to`, which end as the solution.
-  NewtonReport balance(const Configuration& from, std::span<double> y, Configuration& to);
+  NewtonReport balance(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
   /// Flanks across a gap give no stiffness to find each other by: contacts begin as springs that fade away.
-  NewtonReport balance_across_gaps(const Configuration& from, std::span<double> y, Configuration& to);
+  NewtonReport balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
 
   bool has_contacts_;
   Owned<Vec> unknowns_;

@@ -89,6 +89,14 @@ TEST(Scatter, TangentIsTheSumOfTheElements) {
   EXPECT_GT(expected.cwiseAbs().maxCoeff(), 400);
 }
 
+TEST(Scatter, ForgottenPlacesAreFoundAgain) {
+  System system(row_of_masses(11, true, true));
+  const Eigen::MatrixXd before = system.tangent(step_weights);
+  system.assembler.forget_places();
+  system.state = shaken(system.numbering);
+  EXPECT_EQ(system.tangent(step_weights), before);
+}
+
 TEST(Scatter, HeldComponentsAreLeftOut) {
   Model model = row_of_masses(7, true, true);
   model.supports = {{2, 1, 0, nullptr}, {3, 0, 0, nullptr}, {3, 4, 0, nullptr}};
