@@ -76,8 +76,8 @@ struct Model {
   struct Part {
     std::unique_ptr<Element> element;
     std::string type;  ///< card name, such as `GEAR`; `CHA` for a nodal load
-    /// Of the deck that the model was built from, which lives as long, or of `written_out`; nullptr once the records of a mesh are
-    /// forgotten.
+    /// Of the deck that the model was built from, which lives as long, or of `written_out`; nullptr once the records of a mesh
+    /// are forgotten.
     const deck::Record* record = nullptr;
     Location location;
     std::vector<int> nodes;  ///< indices of the element's nodes
