@@ -277,75 +277,6 @@ void Radau::keep(const Configuration& c, double h) {
   kept_scale_ = context_.assembler.scale();
 }
 
-bool Radau::complete(Configuration& c) {
-  Assembler& assembler = context_.assembler;
-  const Numbering& numbering = context_.numbering;
-  const MasslessMotions* massless = massless_at(c);
-  std::vector<double> phi, rate, second, right(static_cast<std::size_t>(numbering.equations()), 0.0);
-  assembler.projection(c, Assembler::Metric::dynamic, {}, balance_matrix_);
-  const auto solve = [&] {
-    assembler.spread(right, right_);
-    return balance_.solve(right_, solution_);
-  };
-  // velocities: what the stages leave open of the rates lies along the forces of the multipliers
-  assembler.constraint_rates(c, phi, rate, second);
-  for (std::size_t e = 0; e < right.size(); ++e) {
-    const Unknown& u = numbering.unknown(static_cast<int>(e));
-    const int m = u.slot - numbering.motion_slots();
-    if (u.multiplier && !assembler.released(m)) right[e] = rate[static_cast<std::size_t>(m)];
-  }
-  if (!solve()) return false;
-  auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
-  std::vector<double> change(v.size(), 0.0);
-  context_.motion.scatter(assembler.gather(solution_), change);
-  add(1, change, v);
-  context_.motion.set_velocities(v, c);
-  // accelerations and multipliers: once where forces are linear in these
-  constexpr int most = 12;
-  double before = std::numeric_limits<double>::infinity(), first = 0;
-  for (int k = 0; k < most; ++k) {
-    std::vector<double> r = assembler.slot_residual(c);
-    if (massless) massless->remove_forces(r);
-    assembler.constraint_rates(c, phi, rate, second);
-    double size = 0;
-    for (std::size_t e = 0; e < right.size(); ++e) {
-      const Unknown& u = numbering.unknown(static_cast<int>(e));
-      const auto m = static_cast<std::size_t>(u.slot) - context_.motion.size();
-      if (!u.multiplier)
-        right[e] = -r[static_cast<std::size_t>(u.slot)];
-      else if (assembler.released(static_cast<int>(m)))
-        right[e] = assembler.released_value(static_cast<int>(m)) - c.multipliers[m];
-      else
-        right[e] = second[m];
-      size = std::max(size, std::abs(right[e]));
-    }
-    if (!std::isfinite(size)) return false;
-    if (k == 0) first = size;
-    const bool balanced = size <= 1e-8 * first;
-    if (balanced || (k > 0 && size >= 0.5 * before)) {
-      if (!context_.redundancy.share(c)) {
-        // friction may jam: this says so
-        if (!balanced && has_friction_) context_.start.balance_accelerations(c, most, nullptr, massless);
-        break;
-      }
-      before = std::numeric_limits<double>::infinity();
-      continue;
-    }
-    before = size;
-    if (!solve()) return false;
-    const auto found = assembler.gather(solution_);
-    std::fill(change.begin(), change.end(), 0.0);
-    context_.motion.scatter(found, change);
-    if (massless) massless->remove(change);
-    add(1, change, a);
-    context_.motion.set_accelerations(a, c);
-    for (std::size_t e = 0; e < found.size(); ++e)
-      if (const Unknown& u = numbering.unknown(static_cast<int>(e)); u.multiplier)
-        c.multipliers[static_cast<std::size_t>(u.slot) - context_.motion.size()] += found[e];
-  }
-  return true;
-}
-
 Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   scale_for(from, h, solver_.weights(h));
   for (std::size_t i = 0; i < configurations_.size(); ++i) {
@@ -461,6 +392,11 @@ void Radau::save(Snapshot& snapshot) const {
   }
   save_part(references_, "radau/", snapshot);
   save_part(balance_, "radau/", snapshot);
+  if (balance_kept_) {
+    Snapshot kept;
+    balance_.save_factors(kept);
+    save_part(kept, "radau/balance/", snapshot);
+  }
 }
 
 void Radau::load(const Snapshot& snapshot) {
@@ -470,6 +406,7 @@ void Radau::load(const Snapshot& snapshot) {
   multipliers_.load(snapshot, "radau/multipliers");
   references_.load_memory(part_of(snapshot, "radau/"));
   balance_.load(part_of(snapshot, "radau/"));
+  balance_kept_ = balance_.load_factors(part_of(snapshot, "radau/balance/"));
   solver_.load(snapshot);
   kept_step_ = 0;
   if (const double h = snapshot.number("radau/kept_step"); h > 0) {
