@@ -19,6 +19,9 @@ namespace {
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 /// Corrections that shrink by less than this ask for matrices of the present place: at once, and before the next step.
 constexpr double slow = 0.3, growing_slow = 0.1;
+/// So many corrections that shrink by less than this end a controlled step.
+constexpr double no_contraction = 0.7;
+constexpr int most_idle = 3;
 /// Guesses go through this many ends of steps, and no farther than so many times the distance of two of them.
 constexpr std::size_t points_of_guess = 4;
 /// Iterations may leave so much of the tolerance of a step.
@@ -208,6 +211,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
   double contraction = 0, slowest = 0;
   bool evaluated = false;  // in this step
   int uses = 0;            // of the matrices, in this step
+  int idle = 0;            // corrections that were hardly smaller than the one before
   for (int k = 0;; ++k) {
     differentiate(from, h);
     const Imbalance found = evaluate(from);
@@ -264,6 +268,12 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     if (++uses < 2 || (evaluated && last.motion <= negligible_correction)) continue;
     slowest = std::max(slowest, contraction);
     renew = contraction > slow;
+    // across an event corrections go from one law to the other and back: a shorter step costs less than to wait for them
+    if (error_.wanted() && contraction > no_contraction && ++idle == most_idle) {
+      report.iterations = k + 1;
+      report.reason = "the iteration does not converge";
+      break;
+    }
   }
   if (!report.converged) references_.restore(remembered);
   if (!report.converged || slowest > growing_slow) kept_step_ = 0;
