@@ -326,7 +326,7 @@ Verdict solve_once(const Reading& reading, const Options& options, const SolverO
   if (companion && complete) {
     double tolerance = 0;
     if (rank == 0) {
-      const ErrorEstimate estimate = companion->estimate(runner.steps() - runner.drifts());
+      const ErrorEstimate estimate = companion->estimate(runner.steps());
       if (may_repeat && estimate.trouble.empty() && estimate.error > wanted.target) {
         tolerance = std::max(estimate.tolerance_for(wanted.target), most_at_once * wanted.tolerance);
         // what was tried beyond the setting's own TOL goes back to that

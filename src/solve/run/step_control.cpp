@@ -41,7 +41,6 @@ void StepControl::remember(double size, double step, Landing landing) {
 }
 
 double StepControl::enter(const std::vector<int>& sides, double asked) {
-  size_before_ = 0;  // what was before the event tells little of what follows
   entered_ = sides;
   const auto known = steps_.find(sides);
   return known == steps_.end() ? asked : std::min(known->second, longest_);

@@ -20,7 +20,7 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 /// Corrections that shrink by less than this ask for matrices of the present place: at once, and before the next step.
 constexpr double slow = 0.3, growing_slow = 0.1;
 /// So many corrections that shrink by less than this end a controlled step.
-constexpr double no_contraction = 0.7;
+constexpr double no_contraction = 1;
 constexpr int most_idle = 3;
 /// Guesses go through this many ends of steps, and no farther than so many times the distance of two of them.
 constexpr std::size_t points_of_guess = 4;
