@@ -24,7 +24,7 @@ class Companion {
 
   /// An even instant of the run itself, with the observer's values there. On rank 0.
   void compare(double time, const std::vector<double>& values);
-  /// After the run, of so many steps, drifts across events not counted. On rank 0.
+  /// After the run, of so many steps. On rank 0.
   ErrorEstimate estimate(long steps) const;
   /// Why it failed; empty when it did not. On all ranks.
   const std::string& trouble() const { return estimate_.trouble; }

@@ -217,7 +217,6 @@ bool Runner::drift(double time, double target) {
   const bool arrives = left - time < locator_.shortest();
   const double size = arrives ? left : time;
   scheme_.drift(now_, size);
-  ++drifts_;
   locator_.forget();
   if (arrives) now_.time = target;
   step_.newton = nullptr;

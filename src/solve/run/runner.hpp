@@ -46,7 +46,6 @@ class Runner {
   void save(Snapshot& snapshot) const;
   const Configuration& now() const { return now_; }
   long steps() const { return step_.number; }
-  long drifts() const { return drifts_; }    ///< of these, since the run or its continuation began
   bool started() const { return started_; }  ///< now() is an accepted configuration
 
  private:
@@ -78,7 +77,6 @@ class Runner {
   bool renewed_ = false;          ///< constraints have been analysed anew on the way to the present target
   std::optional<double> corner_;  ///< of a function of time, that is being approached
   double pending_drift_ = 0;      ///< time to drift over the event that the last step has landed before
-  long drifts_ = 0;
   StepReport step_;
 };
 
