@@ -10,7 +10,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// What is left of rates and forces.
+/// What is left of forces.
 constexpr double left_open = 1e-8;
 /// A matrix of an earlier place that takes away less than the rest in one correction is made anew: eight corrections lead to
 /// left_open then, which cost about as much.
@@ -72,28 +72,21 @@ bool Radau::fit_velocities(Configuration& c) {
   std::vector<double> phi, rate, second, change;
   std::span<const double> found;
   auto v = context_.motion.velocities(c);
-  // what the stages leave open of the rates lies along the forces of the multipliers
-  double before = std::numeric_limits<double>::infinity(), first = 0;
-  for (int k = 0; k < most_corrections; ++k) {
-    assembler.constraint_rates(c, phi, rate, second);
-    right_side_.assign(static_cast<std::size_t>(numbering.equations()), 0.0);
-    double size = 0;
-    for (std::size_t e = 0; e < right_side_.size(); ++e) {
-      const Unknown& u = numbering.unknown(static_cast<int>(e));
-      const int m = u.slot - numbering.motion_slots();
-      if (u.multiplier && !assembler.released(m)) right_side_[e] = rate[static_cast<std::size_t>(m)];
-      size = std::max(size, std::abs(right_side_[e]));
-    }
-    if (k == 0) first = size;
-    if (k > 0 && size <= left_open * first) break;
-    if (size > slow * before) renew_balance(c);
-    before = size;
-    if (!solve_balance(change, found)) return false;
-    add(change, v);
-    context_.motion.set_velocities(v, c);
-    // linear in velocities: with the matrix of this place once is enough
-    if (balance_fits_ || !worth(change, v)) break;
+  assembler.constraint_rates(c, phi, rate, second);
+  right_side_.assign(static_cast<std::size_t>(numbering.equations()), 0.0);
+  for (std::size_t e = 0; e < right_side_.size(); ++e) {
+    const Unknown& u = numbering.unknown(static_cast<int>(e));
+    const int m = u.slot - numbering.motion_slots();
+    if (u.multiplier && !assembler.released(m)) right_side_[e] = rate[static_cast<std::size_t>(m)];
   }
+  // what the stages leave open of the rates lies along the forces that the multipliers have here, and not where the matrix is of
+  if (!solve_balance(change, found)) return false;
+  if (!balance_fits_ && worth(change, v)) {
+    renew_balance(c);
+    if (!solve_balance(change, found)) return false;
+  }
+  add(change, v);
+  context_.motion.set_velocities(v, c);
   return true;
 }
 
