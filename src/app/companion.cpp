@@ -66,7 +66,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   interval_ = shown.even_step(options.step) * std::ceil(static_cast<double>(expected) / static_cast<double>(most));
   deck::ArchiveCard archive = model.commands.archive;
   archive.history_step = interval_;
-  archive.field_step.reset();
+  archive.field_step = options.end - options.begin;  // fields are not compared
   Schedule schedule(model.commands.stepping, archive);
   using output::Progress;
   Progress progress(options.begin, options.end,
@@ -106,7 +106,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     estimate_.trouble = failure.what();
   }
   steps_ = runner.steps();
-  follows_tolerance_ = static_cast<double>(steps_) * loose.longest >= well_below * (options.end - options.begin);
+  follows_tolerance_ = static_cast<double>(runner.steps()) * loose.longest >= well_below * (options.end - options.begin);
   begun_ = processor_time();
   estimate_.companion_seconds = begun_ - begun;
 }

@@ -107,7 +107,8 @@ int Observer::channel(const std::string& owner, const std::string& name) const {
 
 void Observer::observe(const Configuration& c, const Step& step, bool histories, bool fields) {
   last_reactions_ = supports_.at(c);
-  // what comes after an event continues nothing
+  // what comes after an event continues nothing: a drift across it ends where the points of the next step begin
+  const bool begins = step.events > 0 && !inside_;
   if (step.events > 0) {
     if (inside_)
       event_ = true;
@@ -121,7 +122,7 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
   if (histories || keeps_ends_) evaluate_histories(c, step);
   if (!keeps_ends_) return;
   keep(c.time);
-  if (!std::exchange(inside_, false)) steady_ = 0;
+  if (!std::exchange(inside_, false) && !begins) steady_ = 0;
   if (!step.corner) return;
   event_ = true;
   ledger_.begin_anew();

@@ -204,6 +204,19 @@ def test_fast_takes_longer_steps_where_tol_chooses_them(tmp_path: Path) -> None:
     assert "with TOL 0.005, where this one has 0.0005" in (tmp_path / "deck.lst").read_text(encoding="utf-8")
 
 
+def test_most_events_are_met_by_the_first_attempt(tmp_path: Path) -> None:
+    text = (ROOT / "decks/paper/spur_transmission_c.dat").read_text(encoding="utf-8")
+    text = re.sub(r"(?m)^\.SAM .*", ".SAM TYPE DYNAMIC START STATIC ACCURACY FAST", text)
+    text = text.replace("TF 0.03", "TF 0.003")
+    text = re.sub(r"WINDOW \S+ \S+ V \S+ RTOL \S+", "V 0 ATOL 1E9", text)
+    assert dial(text, tmp_path)["accuracy"]["estimated_error"] < 1e-2
+    listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    events, more = map(int, re.search(r"(\d+) in all, located by (\d+) attempts", listing).groups())
+    refused = int(re.search(r"(\d+) failed attempts", listing)[1])
+    assert events > 70
+    assert more + refused < 0.6 * events
+
+
 def test_the_dial_says_when_it_has_not_met_its_error(tmp_path: Path) -> None:
     found = dial(pendulum("ACCURACY REFERENCE", "TOL 1E-3"), tmp_path)
     assert "more than the 1e-08 asked for" in found["said"]

@@ -23,8 +23,14 @@ constexpr double foreseen = 4;
 constexpr int most_failures = 30;
 /// The motion of switches is continued by no more than so many steps like the last.
 constexpr double farthest = 3;
+/// Where no step tells how they move, motion with the accelerations of its beginning is looked at so many times in a step.
+constexpr int looks = 6;
 /// An event no farther behind the end of a step that was to meet it than this part of the step is met by another attempt.
 constexpr double near_miss = 0.25;
+
+/// A drift's error is a sixth of the cube of its part of a step, where that step changes accelerations by themselves. With this
+/// part of the cube root of TOL it is a fiftieth of TOL. Longer ones would pass more than one event.
+constexpr double part_of_root = 0.5, longest_drift = 0.05;
 
 /// The cubic with values a, b and rates da, db at 0 and h: a + s (c1 + s (c2 + s c3)), s = t/h.
 struct Cubic {
@@ -167,6 +173,7 @@ double Switches::time_to_change(const std::vector<Switch>& now, double tolerance
 EventLocator::EventLocator(SolverContext& context, Scheme& scheme)
     : scheme_(scheme), switches_(context), step_(context.options.step), sharpness_(context.options.event_tolerance) {
   step_is(step_);
+  part_of_drift_ = std::min(longest_drift, part_of_root * std::cbrt(context.options.tolerance));
   active_ = scheme.meets_events() && context.options.events && !switches_.empty();
 }
 
@@ -174,6 +181,8 @@ void EventLocator::step_is(double step) {
   step_ = step;
   tolerance_ = step * sharpness_;
 }
+
+double EventLocator::reach(double size) const { return std::max(tolerance_, part_of_drift_ * std::min(4 * size, step_)); }
 
 bool EventLocator::chatters() {
   if (!chattered_ || told_) return false;
@@ -205,13 +214,29 @@ void EventLocator::load(const Snapshot& snapshot) {
 
 double EventLocator::foresee(const Configuration& from, double size) {
   aimed_ = 0;
-  if (!active_ || last_step_ <= 0 || size > farthest * last_step_) return size;
+  if (!active_) return size;
   std::vector<Switch> now = switches_.before(from);
-  Switches::complete(before_, now, last_step_);
-  const auto event = switches_.next_change(before_, now, last_step_, size);
+  std::optional<double> event;
+  if (last_step_ <= 0 || size > farthest * last_step_) {
+    event = coasting_change(from, std::move(now), size);
+  } else {
+    Switches::complete(before_, now, last_step_);
+    event = switches_.next_change(before_, now, last_step_, size);
+  }
   if (!event || *event <= shortest() || *event >= size) return size;
   aimed_ = size;
   return *event - 0.5 * tolerance_;
+}
+
+std::optional<double> EventLocator::coasting_change(const Configuration& from, std::vector<Switch> now, double size) const {
+  const double part = size / looks;
+  for (int k = 1; k <= looks; ++k) {
+    std::vector<Switch> then = switches_.at(scheme_.coast(from, k * part));
+    Switches::complete(now, then, part);
+    if (const auto change = switches_.first_change(now, then, part)) return (k - 1) * part + *change;
+    now = std::move(then);
+  }
+  return {};
 }
 
 EventLocator::Finding EventLocator::inspect(const Configuration& from, double size, bool converged, Configuration& to) {
@@ -243,7 +268,7 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
       // a step that was to end just before an event has done so, or misses it by little
       event = size + ahead;
       if (ahead > near_miss * size || event >= aimed_) return found;
-      if (ahead <= tolerance_) {
+      if (ahead <= reach(size)) {
         if (++located_ == most_events) chattered_ = true;
         found.kind = Finding::Kind::land;
         found.drift = ahead + tolerance_;
@@ -290,7 +315,7 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
       continue;
     }
     const auto change = change_within(size_tried);
-    if (last || (!change && ahead <= tolerance_)) {
+    if (last || (!change && ahead <= reach(size_tried))) {
       found.kind = Finding::Kind::land;
       found.drift = std::min(ahead, past - size_tried) + tolerance_;
       return found;

@@ -34,6 +34,9 @@ class Switches {
   /// Takes the sides of the grips anew, which mean something else after their friction has come to rest or given way.
   void renew(const Configuration& c);
 
+  /// The sides: 1, −1, or 0 of a switch that says nothing.
+  const std::vector<int>& sides() const { return side_; }
+
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
 
@@ -64,7 +67,8 @@ class Switches {
 std::optional<double> first_descent(double a, double da, double b, double db, double h, double band);
 
 /// Ends steps at events. An event is met by a step that ends a little before it and a drift across it; steps are never
-/// shorter than `shortest()`, below which the inverse square of the step enlarges rounding: there it drifts.
+/// shorter than `shortest()`, below which the inverse square of the step enlarges rounding: there it drifts. Controlled steps may
+/// end as far before it as a drift is more accurate than they are.
 class EventLocator {
  public:
   EventLocator(SolverContext& context, Scheme& scheme);
@@ -113,9 +117,15 @@ class EventLocator {
   bool chatters();
 
  private:
+  /// Time to the first event within `size` as velocities and accelerations of `from` foretell it; `now`: the switches there.
+  std::optional<double> coasting_change(const Configuration& from, std::vector<Switch> now, double size) const;
+  /// How far before an event a step of `size` may end.
+  double reach(double size) const;
+
   Scheme& scheme_;
   Switches switches_;
   double step_, sharpness_, tolerance_ = 0;
+  double part_of_drift_ = 0;  ///< of a controlled step
   bool active_ = false;
   std::vector<Switch> began_;   ///< at the beginning of the last attempt
   std::vector<Switch> before_;  ///< at the beginning of the last step that stands

@@ -74,7 +74,7 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   scheme_.load(snapshot);
   locator_.load(snapshot);
   scheme_.take_over(now_);
-  control_.load(snapshot);
+  control_.load(snapshot, locator_.switches().sides().size());
   h_ = std::min(snapshot.number("runner/h"), control_.active() ? options_.longest : options_.step);
   step_.number = static_cast<int>(snapshot.number("runner/number"));
   renewed_ = snapshot.number("runner/renewed") != 0;
@@ -192,8 +192,10 @@ bool Runner::reach(double target) {
       std::swap(now_, next_);
       // the inverse square of a short step enlarges rounding in accelerations and multipliers: they are found anew
       if (locator_.active() && size < noisy * (control_.active() ? h_ : options_.step)) scheme_.drift(now_, 0);
+      using Landing = StepControl::Landing;
+      const Landing landing = found.kind != Kind::land ? Landing::none : found.attempts > 0 ? Landing::sought : Landing::foreseen;
       // back to the asked step as soon as it goes
-      h_ = control_.active() ? control_.after(size, error, h_) : std::min(options_.step, 2 * h_);
+      h_ = control_.active() ? control_.after(size, error, h_, landing) : std::min(options_.step, 2 * h_);
       step_.newton = &report;
       if (control_.active() && found.kind == Kind::none) locator_.new_target();
       pending_drift_ = found.kind != Kind::none && now_.time < target ? found.drift : 0;
@@ -236,6 +238,7 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   step_.events.clear();
   if (locator_.active()) step_.events = locator_.switches().take(now_);
   if (scheme_.settle_friction(now_) && locator_.active()) locator_.switches().renew(now_);
+  if (control_.active() && !step_.events.empty()) h_ = control_.enter(locator_.switches().sides(), h_);
   ++step_.number;
   step_.step = size;
   step_.regular = regular;

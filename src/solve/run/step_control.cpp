@@ -18,13 +18,35 @@ constexpr double worthwhile = 1.2;
 constexpr double fading = 0.8;
 /// Errors below this part of the tolerance are nothing.
 constexpr double least_error = 1e-6;
+/// Steps behind events are kept for no more combinations of sides.
+constexpr std::size_t most_sides = 1000;
 
 }  // namespace
 
 StepControl::StepControl(const SolverOptions& options, int order)
     : active_(options.tolerance > 0), longest_(options.longest), order_(order) {}
 
-double StepControl::after(double size, double error, double asked) {
+double StepControl::after(double size, double error, double asked, Landing landing) {
+  const double step = next(size, error, asked);
+  if (!entered_.empty() && steps_.size() < most_sides) remember(size, step, landing);
+  entered_.clear();
+  return step;
+}
+
+void StepControl::remember(double size, double step, Landing landing) {
+  // one that ended where the event was expected says nothing against longer ones, and nothing for them
+  const auto [known, first] = steps_.try_emplace(entered_, landing == Landing::none ? step : worthwhile * size);
+  if (first || landing == Landing::foreseen) return;
+  known->second = std::min(worthwhile * (landing == Landing::none ? known->second : size), step);
+}
+
+double StepControl::enter(const std::vector<int>& sides, double asked) {
+  entered_ = sides;
+  const auto known = steps_.find(sides);
+  return known == steps_.end() ? asked : std::min(known->second, longest_);
+}
+
+double StepControl::next(double size, double error, double asked) {
   error = std::max(error, least_error);
   // where the estimate passes through zero the error does not
   if (size_before_ > 0) error = std::max(error, fading * error_before_ * std::pow(size / size_before_, order_));
@@ -36,11 +58,11 @@ double StepControl::after(double size, double error, double asked) {
   error_before_ = error;
   size_before_ = size;
   const bool grow = !std::exchange(refused_, false);
-  const double next = size * std::clamp(factor, most_cut, grow ? most_growth : 1.0);
+  const double found = size * std::clamp(factor, most_cut, grow ? most_growth : 1.0);
   // a step cut short tells little of those that are not
-  if (size < asked && error <= 1) return std::min(std::max(next, asked), longest_);
+  if (size < asked && error <= 1) return std::min(std::max(found, asked), longest_);
   const bool stay = factor < worthwhile && error <= safety;
-  return std::min(stay ? std::max(size, asked) : next, longest_);
+  return std::min(stay ? std::max(size, asked) : found, longest_);
 }
 
 double StepControl::retry(double size, double error) {
@@ -50,13 +72,31 @@ double StepControl::retry(double size, double error) {
 
 void StepControl::save(Snapshot& snapshot) const {
   snapshot.put("runner/error", {error_before_, size_before_, refused_ ? 1.0 : 0.0});
+  std::vector<double> steps;
+  for (const auto& [sides, step] : steps_) {
+    steps.insert(steps.end(), sides.begin(), sides.end());
+    steps.push_back(step);
+  }
+  snapshot.put("runner/steps_behind_events", std::move(steps));
+  snapshot.put("runner/entered", {entered_.begin(), entered_.end()});
 }
 
-void StepControl::load(const Snapshot& snapshot) {
+void StepControl::load(const Snapshot& snapshot, std::size_t sides) {
   if (!snapshot.has("runner/error")) return;
   error_before_ = snapshot.array("runner/error").at(0);
   size_before_ = snapshot.array("runner/error").at(1);
   refused_ = snapshot.array("runner/error").at(2) != 0;
+  if (!snapshot.has("runner/entered")) return;
+  const auto whole = [](double side) { return static_cast<int>(side); };
+  const std::vector<double>&entered = snapshot.array("runner/entered"), &steps = snapshot.array("runner/steps_behind_events");
+  entered_.resize(entered.size());
+  std::transform(entered.begin(), entered.end(), entered_.begin(), whole);
+  steps_.clear();
+  for (std::size_t i = 0; i + sides < steps.size(); i += sides + 1) {
+    std::vector<int> key(sides);
+    std::transform(&steps[i], &steps[i] + sides, key.begin(), whole);
+    steps_[std::move(key)] = steps[i + sides];
+  }
 }
 
 }  // namespace engrane::solve

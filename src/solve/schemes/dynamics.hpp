@@ -16,6 +16,7 @@ class Dynamics : public Scheme {
 
   StartReport start(Configuration& c) override;
   bool meets_events() const override { return true; }
+  Configuration coast(const Configuration& c, double h) const override { return glide(c, h); }
   void drift(Configuration& c, double h) override;
   bool settle_friction(Configuration& c) override;
   void take_over(Configuration& c) override;

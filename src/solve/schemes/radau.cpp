@@ -19,6 +19,9 @@ namespace {
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 /// Corrections that shrink by less than this ask for matrices of the present place: at once, and before the next step.
 constexpr double slow = 0.3, growing_slow = 0.1;
+/// So many corrections that shrink by less than this end a controlled step.
+constexpr double no_contraction = 1;
+constexpr int most_idle = 3;
 /// Guesses go through this many ends of steps, and no farther than so many times the distance of two of them.
 constexpr std::size_t points_of_guess = 4;
 /// Iterations may leave so much of the tolerance of a step.
@@ -208,6 +211,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
   double contraction = 0, slowest = 0;
   bool evaluated = false;  // in this step
   int uses = 0;            // of the matrices, in this step
+  int idle = 0;            // corrections that were hardly smaller than the one before
   for (int k = 0;; ++k) {
     differentiate(from, h);
     const Imbalance found = evaluate(from);
@@ -264,6 +268,12 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     if (++uses < 2 || (evaluated && last.motion <= negligible_correction)) continue;
     slowest = std::max(slowest, contraction);
     renew = contraction > slow;
+    // across an event corrections go from one law to the other and back: a shorter step costs less than to wait for them
+    if (error_.wanted() && contraction > no_contraction && ++idle == most_idle) {
+      report.iterations = k + 1;
+      report.reason = "the iteration does not converge";
+      break;
+    }
   }
   if (!report.converged) references_.restore(remembered);
   if (!report.converged || slowest > growing_slow) kept_step_ = 0;
@@ -275,75 +285,6 @@ void Radau::keep(const Configuration& c, double h) {
   kept_ = c;
   kept_step_ = matrices_step_ = h;
   kept_scale_ = context_.assembler.scale();
-}
-
-bool Radau::complete(Configuration& c) {
-  Assembler& assembler = context_.assembler;
-  const Numbering& numbering = context_.numbering;
-  const MasslessMotions* massless = massless_at(c);
-  std::vector<double> phi, rate, second, right(static_cast<std::size_t>(numbering.equations()), 0.0);
-  assembler.projection(c, Assembler::Metric::dynamic, {}, balance_matrix_);
-  const auto solve = [&] {
-    assembler.spread(right, right_);
-    return balance_.solve(right_, solution_);
-  };
-  // velocities: what the stages leave open of the rates lies along the forces of the multipliers
-  assembler.constraint_rates(c, phi, rate, second);
-  for (std::size_t e = 0; e < right.size(); ++e) {
-    const Unknown& u = numbering.unknown(static_cast<int>(e));
-    const int m = u.slot - numbering.motion_slots();
-    if (u.multiplier && !assembler.released(m)) right[e] = rate[static_cast<std::size_t>(m)];
-  }
-  if (!solve()) return false;
-  auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
-  std::vector<double> change(v.size(), 0.0);
-  context_.motion.scatter(assembler.gather(solution_), change);
-  add(1, change, v);
-  context_.motion.set_velocities(v, c);
-  // accelerations and multipliers: once where forces are linear in these
-  constexpr int most = 12;
-  double before = std::numeric_limits<double>::infinity(), first = 0;
-  for (int k = 0; k < most; ++k) {
-    std::vector<double> r = assembler.slot_residual(c);
-    if (massless) massless->remove_forces(r);
-    assembler.constraint_rates(c, phi, rate, second);
-    double size = 0;
-    for (std::size_t e = 0; e < right.size(); ++e) {
-      const Unknown& u = numbering.unknown(static_cast<int>(e));
-      const auto m = static_cast<std::size_t>(u.slot) - context_.motion.size();
-      if (!u.multiplier)
-        right[e] = -r[static_cast<std::size_t>(u.slot)];
-      else if (assembler.released(static_cast<int>(m)))
-        right[e] = assembler.released_value(static_cast<int>(m)) - c.multipliers[m];
-      else
-        right[e] = second[m];
-      size = std::max(size, std::abs(right[e]));
-    }
-    if (!std::isfinite(size)) return false;
-    if (k == 0) first = size;
-    const bool balanced = size <= 1e-8 * first;
-    if (balanced || (k > 0 && size >= 0.5 * before)) {
-      if (!context_.redundancy.share(c)) {
-        // friction may jam: this says so
-        if (!balanced && has_friction_) context_.start.balance_accelerations(c, most, nullptr, massless);
-        break;
-      }
-      before = std::numeric_limits<double>::infinity();
-      continue;
-    }
-    before = size;
-    if (!solve()) return false;
-    const auto found = assembler.gather(solution_);
-    std::fill(change.begin(), change.end(), 0.0);
-    context_.motion.scatter(found, change);
-    if (massless) massless->remove(change);
-    add(1, change, a);
-    context_.motion.set_accelerations(a, c);
-    for (std::size_t e = 0; e < found.size(); ++e)
-      if (const Unknown& u = numbering.unknown(static_cast<int>(e)); u.multiplier)
-        c.multipliers[static_cast<std::size_t>(u.slot) - context_.motion.size()] += found[e];
-  }
-  return true;
 }
 
 Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
@@ -461,6 +402,11 @@ void Radau::save(Snapshot& snapshot) const {
   }
   save_part(references_, "radau/", snapshot);
   save_part(balance_, "radau/", snapshot);
+  if (balance_kept_) {
+    Snapshot kept;
+    balance_.save_factors(kept);
+    save_part(kept, "radau/balance/", snapshot);
+  }
 }
 
 void Radau::load(const Snapshot& snapshot) {
@@ -470,6 +416,7 @@ void Radau::load(const Snapshot& snapshot) {
   multipliers_.load(snapshot, "radau/multipliers");
   references_.load_memory(part_of(snapshot, "radau/"));
   balance_.load(part_of(snapshot, "radau/"));
+  balance_kept_ = balance_.load_factors(part_of(snapshot, "radau/balance/"));
   solver_.load(snapshot);
   kept_step_ = 0;
   if (const double h = snapshot.number("radau/kept_step"); h > 0) {

@@ -18,6 +18,7 @@ class Radau final : public Dynamics {
   StartReport start(Configuration& c) override;
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
   void accept() override;
+  void drift(Configuration& c, double h) override;
   int order_of_error() const override { return static_cast<int>(collocation_.stages()); }
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
@@ -63,6 +64,18 @@ class Radau final : public Dynamics {
   NewtonReport iterate(const Configuration& from, double h);
   /// Velocities, accelerations and multipliers that fit at the end of a step whose positions fit; false when there are none.
   bool complete(Configuration& c);
+  /// The first of these, and the others.
+  bool fit_velocities(Configuration& c);
+  bool fit_accelerations(Configuration& c);
+  /// A part of what is there already that the two need not be corrected by.
+  double least_correction() const;
+  /// Is a correction of velocities or accelerations, by motion slot, more than that of the largest of them, over the length of
+  /// the model or in radians?
+  bool worth(std::span<const double> change, std::span<const double> rates) const;
+  /// Makes the matrix of these at `c`. Controlled steps keep it as long as the iteration is quick with it.
+  void renew_balance(const Configuration& c);
+  /// The change of the motion (by slot) and of multipliers (by equation) that right_side_ asks for; false when singular.
+  bool solve_balance(std::vector<double>& change, std::span<const double>& found);
   bool has_equation(std::size_t slot) const { return context_.numbering.equation(static_cast<int>(slot)) >= 0; }
 
   Extrapolation accelerations_, multipliers_;  ///< at the ends of steps since the last event
@@ -82,6 +95,9 @@ class Radau final : public Dynamics {
   bool has_friction_ = false;
   Owned<Mat> balance_matrix_;
   LinearSolver balance_;
+  bool balance_kept_ = false;       ///< its matrix is worth trying
+  bool balance_fits_ = false;       ///< and was made at this very place
+  std::vector<double> right_side_;  ///< by equation
   Owned<Vec> right_, solution_;
 };
 

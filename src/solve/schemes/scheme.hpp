@@ -68,6 +68,8 @@ class Scheme {
   virtual void pass_corner(const Configuration&) {}
   /// Whether steps are to end at the events of the elements' switches; drift() is then defined.
   virtual bool meets_events() const { return false; }
+  /// `c` moved by h with the velocities and accelerations it has: where the next step may lead.
+  virtual Configuration coast(const Configuration& c, double /*h*/) const { return c; }
   /// Moves an accepted configuration over a stretch much shorter than a step, past an event; what the scheme
   /// remembers of earlier steps is forgotten.
   virtual void drift(Configuration&, double /*h*/) {}

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What fits the positions at an end of a step of Radau IIA: velocities, accelerations and multipliers.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solve/schemes/radau.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+/// What is left of forces.
+constexpr double left_open = 1e-8;
+/// A matrix of an earlier place that takes away less than the rest in one correction is made anew: eight corrections lead to
+/// left_open then, which cost about as much.
+constexpr double slow = 0.1;
+constexpr int most_corrections = 12;
+/// Nor are corrections worth a second one where they are less than this part of the precision that steps have.
+constexpr double share_of_precision = 1e-3;
+constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+
+void add(std::span<const double> values, std::span<double> sum) {
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += values[i];
+}
+
+}  // namespace
+
+void Radau::renew_balance(const Configuration& c) {
+  context_.assembler.projection(c, Assembler::Metric::dynamic, {}, balance_matrix_);
+  balance_kept_ = error_.wanted();
+  balance_fits_ = true;
+}
+
+bool Radau::solve_balance(std::vector<double>& change, std::span<const double>& found) {
+  context_.assembler.spread(right_side_, right_);
+  if (!balance_.solve(right_, solution_)) {
+    balance_kept_ = false;
+    return false;
+  }
+  found = context_.assembler.gather(solution_);
+  change.assign(context_.motion.size(), 0.0);
+  context_.motion.scatter(found, change);
+  return true;
+}
+
+bool Radau::worth(std::span<const double> change, std::span<const double> rates) const {
+  const double extent = context_.model.extent();
+  double changed = 0, most = 0;
+  for (const Unknown& u : context_.numbering.unknowns()) {
+    if (u.multiplier) continue;
+    const auto slot = static_cast<std::size_t>(u.slot);
+    changed = std::max(changed, std::abs(change[slot]) / size_of(u, extent));
+    most = std::max(most, std::abs(rates[slot]) / size_of(u, extent));
+  }
+  return changed > least_correction() * most;
+}
+
+double Radau::least_correction() const { return std::max(rounding, share_of_precision * context_.options.precision); }
+
+bool Radau::complete(Configuration& c) {
+  if (balance_kept_)
+    balance_fits_ = false;
+  else
+    renew_balance(c);
+  return fit_velocities(c) && fit_accelerations(c);
+}
+
+bool Radau::fit_velocities(Configuration& c) {
+  Assembler& assembler = context_.assembler;
+  const Numbering& numbering = context_.numbering;
+  std::vector<double> phi, rate, second, change;
+  std::span<const double> found;
+  auto v = context_.motion.velocities(c);
+  assembler.constraint_rates(c, phi, rate, second);
+  right_side_.assign(static_cast<std::size_t>(numbering.equations()), 0.0);
+  for (std::size_t e = 0; e < right_side_.size(); ++e) {
+    const Unknown& u = numbering.unknown(static_cast<int>(e));
+    const int m = u.slot - numbering.motion_slots();
+    if (u.multiplier && !assembler.released(m)) right_side_[e] = rate[static_cast<std::size_t>(m)];
+  }
+  // what the stages leave open of the rates lies along the forces that the multipliers have here, and not where the matrix is of
+  if (!solve_balance(change, found)) return false;
+  if (!balance_fits_ && worth(change, v)) {
+    renew_balance(c);
+    if (!solve_balance(change, found)) return false;
+  }
+  add(change, v);
+  context_.motion.set_velocities(v, c);
+  return true;
+}
+
+bool Radau::fit_accelerations(Configuration& c) {
+  Assembler& assembler = context_.assembler;
+  const Numbering& numbering = context_.numbering;
+  const MasslessMotions* massless = massless_at(c);
+  std::vector<double> phi, rate, second, change;
+  std::span<const double> found;
+  auto a = context_.motion.accelerations(c);
+  // once where forces are linear in these
+  double before = std::numeric_limits<double>::infinity(), first = 0;
+  bool settled = false;
+  for (int k = 0; k < most_corrections; ++k) {
+    if (settled && !context_.redundancy.share(c)) break;
+    settled = false;
+    std::vector<double> r = assembler.slot_residual(c);
+    if (massless) massless->remove_forces(r);
+    assembler.constraint_rates(c, phi, rate, second);
+    right_side_.assign(static_cast<std::size_t>(numbering.equations()), 0.0);
+    double size = 0;
+    for (std::size_t e = 0; e < right_side_.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      const auto m = static_cast<std::size_t>(u.slot) - context_.motion.size();
+      if (!u.multiplier)
+        right_side_[e] = -r[static_cast<std::size_t>(u.slot)];
+      else if (assembler.released(static_cast<int>(m)))
+        right_side_[e] = assembler.released_value(static_cast<int>(m)) - c.multipliers[m];
+      else
+        right_side_[e] = second[m];
+      size = std::max(size, std::abs(right_side_[e]));
+    }
+    if (!std::isfinite(size)) return false;
+    if (k == 0) first = size;
+    const bool balanced = size <= left_open * first;
+    if (!balanced && !balance_fits_ && size > slow * before) {
+      renew_balance(c);
+    } else if (balanced || (k > 0 && size >= 0.5 * before)) {
+      if (!context_.redundancy.share(c)) {
+        // friction may jam: this says so
+        if (!balanced && has_friction_) context_.start.balance_accelerations(c, most_corrections, nullptr, massless);
+        break;
+      }
+      before = std::numeric_limits<double>::infinity();
+      continue;
+    }
+    before = size;
+    if (!solve_balance(change, found)) return false;
+    if (massless) massless->remove(change);
+    add(change, a);
+    context_.motion.set_accelerations(a, c);
+    double most = 0, changed = 0;
+    for (std::size_t e = 0; e < found.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      if (!u.multiplier) continue;
+      double& multiplier = c.multipliers[static_cast<std::size_t>(u.slot) - context_.motion.size()];
+      multiplier += found[e];
+      most = std::max(most, std::abs(multiplier));
+      changed = std::max(changed, std::abs(found[e]));
+    }
+    settled = error_.wanted() && changed <= least_correction() * most && !worth(change, a);
+  }
+  return true;
+}
+
+void Radau::drift(Configuration& c, double h) {
+  if (!error_.wanted()) return Dynamics::drift(c, h);
+  // Heun's step as there, and what fits behind it, with the matrix that steps keep
+  const auto before = context_.motion.accelerations(c);
+  Configuration later = glide(c, h);
+  auto a = context_.motion.accelerations(later);
+  for (const auto& p : context_.motion.prescribed(later.time)) a[p.slot] = p.a;
+  context_.motion.set_accelerations(a, later);
+  if (balance_kept_)
+    balance_fits_ = false;
+  else
+    renew_balance(later);
+  if (!fit_accelerations(later)) return Dynamics::drift(c, h);
+  auto v = context_.motion.velocities(later);
+  const auto after = context_.motion.accelerations(later);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
+  for (const auto& p : context_.motion.prescribed(later.time)) v[p.slot] = p.v;
+  context_.motion.set_velocities(v, later);
+  if (constrained() && !(fit_velocities(later) && fit_accelerations(later))) return Dynamics::drift(c, h);
+  c = std::move(later);
+  restart_memory(c);
+}
+
+}  // namespace engrane::solve
