@@ -9,17 +9,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
 
+#include "bench/beside.hpp"
 #include "elements/beams/beam_piece.hpp"
 #include "math/rotation.hpp"
 
 namespace {
 
 using namespace engrane;
+using bench::microseconds;
 using namespace engrane::elements::beams;
 
 // Vectors and matrices of three, row by row.
@@ -390,13 +391,7 @@ class Pair {
     const auto k = k_;
     const auto r = r_;
     other();
-    double apart = 0, largest = 0;
-    for (std::size_t i = 0; i < k.size(); ++i) {
-      apart = std::max(apart, std::abs(k[i] - k_[i]));
-      largest = std::max(largest, std::abs(k[i]));
-    }
-    for (std::size_t i = 0; i < r.size(); ++i) apart = std::max(apart, std::abs(r[i] - r_[i]));
-    return apart / largest;
+    return bench::difference(r, k, r_, k_);
   }
 
  private:
@@ -409,17 +404,6 @@ class Pair {
   std::array<double, 6 * N> r_;
   std::array<double, 36 * N * N> k_;
 };
-
-template <class Work>
-double microseconds(const Work& work) {
-  double least = 1e9;
-  for (int round = 0; round < 200; ++round) {
-    const auto begin = std::chrono::steady_clock::now();
-    for (int i = 0; i < 200; ++i) work();
-    least = std::min(least, std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count() / 200);
-  }
-  return least;
-}
 
 template <int N>
 void measure(std::string_view which, int count) {

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tangents of membranes beside the same sums written out by hand, over the same points.
 //
-//     cmake --build build --target membrane_cost && build/tests/membrane_cost
-//     valgrind --tool=callgrind --callgrind-out-file=/dev/null build/tests/membrane_cost block 8 1000
+//     cmake --build build --target membrane_cost && build/bin/membrane_cost
+//     valgrind --tool=callgrind --callgrind-out-file=/dev/null build/bin/membrane_cost block 8 1000
 //
 // Without arguments: microseconds of both, the least of many rounds. With `block` or `hand`, nodes and a number: so many tangents
 // of one of them, to be counted (the difference of 2000 and 1000).
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
 
+#include "bench/beside.hpp"
 #include "elements/membranes/membrane_cells.hpp"
 #include "elements/structural/cell_shapes.hpp"
 
 namespace {
 
 using namespace engrane;
+using bench::microseconds;
 using namespace engrane::elements;
 
 /// Residual and tangent of an elastic membrane with a pressure, in arrays and loops alone. The shape functions are tabulated, as
@@ -137,13 +138,7 @@ class Pair {
     const auto k = k_;
     const auto r = r_;
     hand();
-    double apart = 0, largest = 0;
-    for (std::size_t i = 0; i < k.size(); ++i) {
-      apart = std::max(apart, std::abs(k[i] - k_[i]));
-      largest = std::max(largest, std::abs(k[i]));
-    }
-    for (std::size_t i = 0; i < r.size(); ++i) apart = std::max(apart, std::abs(r[i] - r_[i]));
-    return apart / largest;
+    return bench::difference(r, k, r_, k_);
   }
 
  private:
@@ -154,17 +149,6 @@ class Pair {
   std::array<double, 9 * N * N> k_;
   std::unique_ptr<Element> membrane_;
 };
-
-template <class Work>
-double microseconds(const Work& work) {
-  double least = 1e9;
-  for (int round = 0; round < 200; ++round) {
-    const auto begin = std::chrono::steady_clock::now();
-    for (int i = 0; i < 200; ++i) work();
-    least = std::min(least, std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count() / 200);
-  }
-  return least;
-}
 
 template <CellShape S>
 void measure(std::string_view which, int count) {

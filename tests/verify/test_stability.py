@@ -125,6 +125,34 @@ def test_follower_force(tmp_path: Path) -> None:
     assert found["run/UNSTABLE"].max() == 0
 
 
+def test_lees_frame(tmp_path: Path) -> None:
+    """Both limits of the force converge with order 4 to the published ones."""
+    errors = []
+    for pieces in (10, 20, 40):
+        column = Line(straight(120, (0, 1, 0)), pieces)
+        beam = Line(lambda u: np.array([120 * u, 120, 0]), pieces, first=column.last, element=101)
+        nodes = "\n".join([column.text(), *beam.text().splitlines()[1:]])
+        loaded = beam.ids[2 * pieces // 5]
+        rest = path(f" CHA NOEUD {loaded} C 2 V -20000 NF 1", f".PATH NODE {loaded} C 2 V -80", 1.0)
+        text = f""".NOE
+{nodes}
+.BPR
+ I 1 EA 43.2D6 GA (43.2D6/2.6*5/6) (43.2D6/2.6*5/6) GJ 14.4D6 EI 14.4D6 14.4D6
+.MCE
+{column.beam()}
+{beam.beam()}
+ I 201 HINGE N 0 1 AXIS 0 0 1
+ I 202 HINGE N 0 {beam.last} AXIS 0 0 1
+{rest}
+.FIN 1
+""".replace("TYPE STATIC", "TYPE STATIC PLANE XY")
+        points = critical_points(run(text, tmp_path))
+        assert [kind for kind, _ in points] == ["limit", "limit"]
+        errors.append(np.array([20000 * value for _, value in points]) - [18544.5271, -9392.4896])
+    assert np.log2(errors[0] / errors[1]) == pytest.approx([4, 4], abs=0.1)
+    assert (16 * errors[2] - errors[1]) / 15 == pytest.approx([0, 0], abs=3e-4)
+
+
 def test_right_angle_frame(tmp_path: Path) -> None:
     """Two legs at a right angle, bent in their plane by moments at their ends, tip over (Argyris 1979;
     622.2080872 without what they bend before)."""

@@ -405,9 +405,8 @@ TEST(Beam, FaultsOfTheCard) {
   EXPECT_EQ(message(data), "AXIS2_END is along beam 1");
 }
 
-/// The elements of a beam with these keywords: their types, numbers and nodes.
-std::vector<std::string> released(const std::string& keywords, std::optional<Vec3>* made = nullptr) {
-  const DeckModel deck(R"(.NOE
+std::string deck_of_beam(const std::string& keywords) {
+  return R"(.NOE
  I 1 X 0 0 0
  I 5 X 0.3 0.4 0
  I 7 X 0.6 0.8 0
@@ -415,7 +414,12 @@ std::vector<std::string> released(const std::string& keywords, std::optional<Vec
  I 1 EA 1D3 GA 1D3 1D3 GJ 1 EI 1 1
 .MCE
  I 4 BEAM N 1 5 7 BPR 1 )" +
-                       keywords + "\n.FIN 1\n");
+         keywords + "\n.FIN 1\n";
+}
+
+/// The elements of a beam with these keywords: their types, numbers and nodes.
+std::vector<std::string> released(const std::string& keywords, std::optional<Vec3>* made = nullptr) {
+  const DeckModel deck(deck_of_beam(keywords));
   std::vector<std::string> parts;
   for (const Model::Part& part : deck.model.parts) {
     parts.push_back(part.type + " " + std::to_string(part.element->id()));
@@ -450,15 +454,7 @@ TEST(Beam, Releases) {
 /// Of small motions of the end of the beam, along and about the axes of its section, the joint holds all but the released ones.
 TEST(Beam, ReleasesAreAboutTheAxesOfTheSection) {
   for (const std::string components : {"1", "2", "3", "4", "5", "6", "5 6", "4 6", "1 2 6", "2 4 5 6", "1 3 4 5 6"}) {
-    const DeckModel deck(R"(.NOE
- I 1 X 0 0 0
- I 5 X 0.3 0.4 0
- I 7 X 0.6 0.8 0
-.BPR
- I 1 EA 1D3 GA 1D3 1D3 GJ 1 EI 1 1
-.MCE
- I 4 BEAM N 1 5 7 BPR 1 AXIS2 0 0 1 AXIS2_END -0.8 0.6 0 RELEASE_B )" +
-                         components + "\n.FIN 1\n");
+    const DeckModel deck(deck_of_beam("AXIS2 0 0 1 AXIS2_END -0.8 0.6 0 RELEASE_B " + components));
     const Element& joint = *deck.model.parts.back().element;
     // of the section at the last node: the beam is twisted by a right angle
     Mat3 axes;
