@@ -219,3 +219,12 @@ template class Beams<2, true>;
 template class Beams<3, true>;
 
 }  // namespace engrane::elements::beams
+
+namespace engrane {
+
+template class TemplatedBlock<elements::beams::BeamPiece<2>, 2, 12>;
+template class TemplatedBlock<elements::beams::BeamPiece<3>, 3, 18>;
+template class TemplatedBlock<elements::beams::BeamPiece<2>, 2, 15>;
+template class TemplatedBlock<elements::beams::BeamPiece<3>, 3, 24>;
+
+}  // namespace engrane

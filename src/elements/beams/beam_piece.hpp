@@ -374,3 +374,13 @@ extern template class Beams<2, true>;
 extern template class Beams<3, true>;
 
 }  // namespace engrane::elements::beams
+
+namespace engrane {
+
+// Compiled in beam_piece.cpp alone, since sweeps of dual numbers take long: the bases of Beams.
+extern template class TemplatedBlock<elements::beams::BeamPiece<2>, 2, 12>;
+extern template class TemplatedBlock<elements::beams::BeamPiece<3>, 3, 18>;
+extern template class TemplatedBlock<elements::beams::BeamPiece<2>, 2, 15>;
+extern template class TemplatedBlock<elements::beams::BeamPiece<3>, 3, 24>;
+
+}  // namespace engrane
