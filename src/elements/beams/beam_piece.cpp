@@ -48,6 +48,9 @@ Beams<Nodes, Held>::Beams(bool inextensible, bool unshearable)
     : BeamSweep<Nodes, Held>(piece_layout<Nodes>(inextensible, unshearable)) {}
 
 template <int Nodes, bool Held>
+Beams<Nodes, Held>::~Beams() = default;
+
+template <int Nodes, bool Held>
 void Beams<Nodes, Held>::tangent(std::size_t first, std::span<const State> states, Weights weights, std::span<double> r,
                                  std::span<double> k) const {
   const auto n = static_cast<std::size_t>(this->layout().slots());
@@ -219,12 +222,3 @@ template class Beams<2, true>;
 template class Beams<3, true>;
 
 }  // namespace engrane::elements::beams
-
-namespace engrane {
-
-template class TemplatedBlock<elements::beams::BeamPiece<2>, 2, 12>;
-template class TemplatedBlock<elements::beams::BeamPiece<3>, 3, 18>;
-template class TemplatedBlock<elements::beams::BeamPiece<2>, 2, 15>;
-template class TemplatedBlock<elements::beams::BeamPiece<3>, 3, 24>;
-
-}  // namespace engrane

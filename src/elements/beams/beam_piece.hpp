@@ -349,6 +349,7 @@ template <int Nodes, bool Held>
 class Beams final : public BeamSweep<Nodes, Held> {
  public:
   Beams(bool inextensible, bool unshearable);
+  ~Beams() override;  // not in the class: whoever compiles it compiles the sweeps of dual numbers too
 
   void tangent(std::size_t first, std::span<const State> states, Weights weights, std::span<double> r,
                std::span<double> k) const override;
@@ -374,13 +375,3 @@ extern template class Beams<2, true>;
 extern template class Beams<3, true>;
 
 }  // namespace engrane::elements::beams
-
-namespace engrane {
-
-// Compiled in beam_piece.cpp alone, since sweeps of dual numbers take long: the bases of Beams.
-extern template class TemplatedBlock<elements::beams::BeamPiece<2>, 2, 12>;
-extern template class TemplatedBlock<elements::beams::BeamPiece<3>, 3, 18>;
-extern template class TemplatedBlock<elements::beams::BeamPiece<2>, 2, 15>;
-extern template class TemplatedBlock<elements::beams::BeamPiece<3>, 3, 24>;
-
-}  // namespace engrane
