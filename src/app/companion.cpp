@@ -106,7 +106,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     estimate_.trouble = failure.what();
   }
   steps_ = runner.steps();
-  follows_tolerance_ = static_cast<double>(runner.steps()) * loose.longest >= well_below * (options.end - options.begin);
+  follows_tolerance_ = static_cast<double>(steps_) * loose.longest >= well_below * (options.end - options.begin);
   begun_ = processor_time();
   estimate_.companion_seconds = begun_ - begun;
 }

@@ -185,8 +185,8 @@ ElementType beam_type() {
           "on from that of the record. The error of the nodes falls with the fourth power of the length of the pieces; with "
           "LINEAR, or two nodes, pieces have two and it falls with the second. Nodes on a curve make a curved beam, which is "
           "relaxed where it stands. The section is one of `.BPR`. RELEASE_A and RELEASE_B make hinges and slides at its ends: "
-          "the "
-          "beam is then written out with a node of its own there, and a joint from it to the node of N, which `engrane check` "
+          "the beam is then written out with a node of its own there, and a joint from it to the node of N, which `engrane "
+          "check` "
           "lists; the joints are numbered after the pieces.")
       .example("I 1 BEAM N 1 2 3 4 5  BPR 1  MAT 1")
       .example("I 9 BEAM N 1 2  BPR 2  AXIS2 0 0 1  DAMPING 1E-4")

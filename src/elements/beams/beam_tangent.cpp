@@ -88,6 +88,7 @@ class BeamPiece<Nodes>::Tangent {
 
   /// How y, ψ and their rates change with the unknowns of the node i itself, and of r.
   struct Changes {
+    Mat3 change;                 ///< A
     Mat3 place, turn;            ///< y by x_i and ψ by θ_i
     Mat3 arm, counter;           ///< y and ψ by θ_r; y by x_r is −place
     Mat3 place_rate, turn_rate;  ///< the same of the rates
@@ -99,14 +100,14 @@ class BeamPiece<Nodes>::Tangent {
     const NodeState &own = state_.nodes[i], &r = state_.nodes[reference];
     const auto [q, v, a, m] = weights_;
     const RotationVector<double>& vector = relative.vector[i];
-    const Mat3 change = change_matrix(vector);
     Changes c;
+    c.change = change_matrix(vector);
     c.phi = q * relative.turn[i] * own.T;
     c.phi_counter = -q * r.T;
     c.place = q * r.R.transpose();
-    c.turn = change * c.phi;
+    c.turn = c.change * c.phi;
     c.arm = q * skew(relative.y[i]) * r.T;
-    c.counter = change * c.phi_counter;
+    c.counter = c.change * c.phi_counter;
     if (!damped_) return c;
     const Mat3 spin = skew(r.W);
     const Vec3 own_spin = relative.turn[i] * own.W, phi_rate = own_spin - r.W;
@@ -115,8 +116,8 @@ class BeamPiece<Nodes>::Tangent {
     const Mat3 bend = change_by_vector(vector, phi_rate, -1);
     c.place_rate = v * r.R.transpose() - spin * c.place;
     c.arm_rate = q * skew(apart) * r.T + v * skew(relative.y[i]) - spin * c.arm;
-    c.turn_rate = change * (v * relative.turn[i] - relative.turn[i] * skew(own.W) * own.T * q) + bend * c.turn;
-    c.counter_rate = change * (q * skew(own_spin) * r.T - v * Mat3::Identity()) + bend * c.counter;
+    c.turn_rate = c.change * (v * relative.turn[i] - relative.turn[i] * skew(own.W) * own.T * q) + bend * c.turn;
+    c.counter_rate = c.change * (q * skew(own_spin) * r.T - v * Mat3::Identity()) + bend * c.counter;
     return c;
   }
 
@@ -155,8 +156,9 @@ class BeamPiece<Nodes>::Tangent {
     for (Eigen::Index o = 0; o < Nodes - 1; ++o) {
       const std::size_t i = node(o);
       const Changes& c = all[static_cast<std::size_t>(o)];
-      const Mat3 change = change_matrix(relative.vector[i]), back = relative.turn[i].transpose();
-      const Vec3 g = force_.template segment<3>(6 * o), mu = force_.template segment<3>(6 * o + 3), tau = change.transpose() * mu;
+      const Mat3 back = relative.turn[i].transpose();
+      const Vec3 g = force_.template segment<3>(6 * o), mu = force_.template segment<3>(6 * o + 3),
+                 tau = c.change.transpose() * mu;
       const Vec3 in_space = frame * g;
       r_.template segment<3>(row(i)) += in_space;
       r_.template segment<3>(row(i) + 3) += back * tau;
@@ -167,7 +169,7 @@ class BeamPiece<Nodes>::Tangent {
       using Rows = Eigen::Matrix<double, 3, unknowns>;
       const auto forces = by.template middleRows<3>(6 * o);
       const Mat3 bend = change_by_vector(relative.vector[i], mu, 1), pull = skew(g);
-      Rows moments = change.transpose().lazyProduct(by.template middleRows<3>(6 * o + 3));
+      Rows moments = c.change.transpose().lazyProduct(by.template middleRows<3>(6 * o + 3));
       block(moments, 0, row(i) + 3) += bend * c.turn;
       block(moments, 0, row(r) + 3) += bend * c.counter;
       k_.template middleRows<3>(row(r) + 3) -= moments + skew(relative.y[i]).lazyProduct(forces);

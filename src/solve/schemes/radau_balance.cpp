@@ -2,6 +2,7 @@
 // What fits the positions at an end of a step of Radau IIA: velocities, accelerations and multipliers.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "solve/schemes/radau.hpp"
@@ -19,10 +20,6 @@ constexpr int most_corrections = 12;
 /// Nor are corrections worth a second one where they are less than this part of the precision that steps have.
 constexpr double share_of_precision = 1e-3;
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-
-void add(std::span<const double> values, std::span<double> sum) {
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += values[i];
-}
 
 }  // namespace
 
@@ -85,7 +82,7 @@ bool Radau::fit_velocities(Configuration& c) {
     renew_balance(c);
     if (!solve_balance(change, found)) return false;
   }
-  add(change, v);
+  std::transform(v.begin(), v.end(), change.begin(), v.begin(), std::plus<>());
   context_.motion.set_velocities(v, c);
   return true;
 }
@@ -136,7 +133,7 @@ bool Radau::fit_accelerations(Configuration& c) {
     before = size;
     if (!solve_balance(change, found)) return false;
     if (massless) massless->remove(change);
-    add(change, a);
+    std::transform(a.begin(), a.end(), change.begin(), a.begin(), std::plus<>());
     context_.motion.set_accelerations(a, c);
     double most = 0, changed = 0;
     for (std::size_t e = 0; e < found.size(); ++e) {
