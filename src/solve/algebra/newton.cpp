@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace engrane::solve {
@@ -35,16 +36,34 @@ bool similar(const Weights& a, const Weights& b) {
   return near(a.q, b.q) && near(a.v, b.v) && near(a.a, b.a) && a.multipliers == b.multipliers;
 }
 
+/// Norms of residuals and corrections, which judge nothing here, are for those who give SNES options such as -snes_monitor.
+PetscBool snes_is_watched() {
+  char* options = nullptr;
+  check_petsc(PetscOptionsGetAll(nullptr, &options));
+  const bool watched = std::string_view(options).find("-snes_") != std::string_view::npos;
+  check_petsc(PetscFree(options));
+  return watched ? PETSC_TRUE : PETSC_FALSE;
+}
+
+PetscErrorCode no_jacobian(SNES, Vec, Mat, Mat, void*) { return 0; }
+
 }  // namespace
 
 Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int iterations)
-    : assembler_(assembler), solver_(solver), precision_(precision), frames_(assembler), references_(assembler, precision) {
+    : assembler_(assembler),
+      solver_(solver),
+      precision_(precision),
+      iterations_(iterations),
+      frames_(assembler),
+      references_(assembler, precision) {
   *residual_.out() = assembler.new_vector();
   check_petsc(SNESCreate(assembler.comm(), snes_.out()));
   check_petsc(SNESSetType(snes_, SNESNEWTONLS));
   check_petsc(SNESSetKSP(snes_, solver.ksp()));
   check_petsc(SNESSetFunction(snes_, residual_, form_function, this));
-  check_petsc(SNESSetJacobian(snes_, assembler.matrix(), assembler.matrix(), form_jacobian, this));
+  // tangents are made where their need is decided: SNES would look up nine of its options before each
+  check_petsc(SNESSetJacobian(snes_, assembler.matrix(), assembler.matrix(), no_jacobian, nullptr));
+  check_petsc(SNESSetLagJacobian(snes_, -1));
   SNESLineSearch search = nullptr;
   check_petsc(SNESGetLineSearch(snes_, &search));
   check_petsc(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
@@ -57,7 +76,9 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
     const Layout& layout = part.element->layout();
     evaluation_ += residual_of_slot * static_cast<double>(layout.slots());
   }
-  check_petsc(SNESSetTolerances(snes_, 0, 0, 0, iterations, 100000));
+  // one more than judged: SNES evaluates no residual behind its last iteration
+  check_petsc(SNESSetTolerances(snes_, 0, 0, 0, iterations + 1, 100000));
+  check_petsc(SNESLineSearchSetComputeNorms(search, snes_is_watched()));
   check_petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
   check_petsc(SNESSetFromOptions(snes_));
   check_petsc(SNESSetUp(snes_));
@@ -128,25 +149,17 @@ PetscErrorCode Newton::form_function(SNES snes, Vec x, Vec f, void* context) {
   return 0;
 }
 
-PetscErrorCode Newton::form_jacobian(SNES, Vec, Mat, Mat, void* context) {
-  auto& self = *static_cast<Newton*>(context);
-  try {
-    // work_ is the configuration of the last residual, which SNES evaluates at the same point just before
-    const bool comparable =
-        self.matrix_of_factors_ == self.assembler_.changes() && similar(self.weights_, self.weights_of_factors_);
-    if (self.keep_) self.frames_.take_old(*self.work_, self.assembler_.matrix(), comparable);
-    self.assembler_.tangent(*self.work_, self.weights_);
-    if (self.one_tangent_) self.assembler_.forget_places();
-    if (self.keep_) self.frames_.renew(*self.work_, self.assembler_.matrix(), [&](int equation) { return self.reach(equation); });
-    self.fresh_ = true;
-    self.policy_.renewed();
-    self.matrix_of_factors_ = self.assembler_.changes();
-    self.weights_of_factors_ = self.weights_;
-  } catch (const std::exception& e) {
-    self.failure_ = e.what();
-    return PETSC_ERR_LIB;
-  }
-  return 0;
+void Newton::make_tangent() {
+  // work_ is the configuration of the last residual, at the same point
+  const bool comparable = matrix_of_factors_ == assembler_.changes() && similar(weights_, weights_of_factors_);
+  if (keep_) frames_.take_old(*work_, assembler_.matrix(), comparable);
+  assembler_.tangent(*work_, weights_);
+  if (one_tangent_) assembler_.forget_places();
+  if (keep_) frames_.renew(*work_, assembler_.matrix(), [this](int equation) { return reach(equation); });
+  fresh_ = true;
+  policy_.renewed();
+  matrix_of_factors_ = assembler_.changes();
+  weights_of_factors_ = weights_;
 }
 
 PetscErrorCode Newton::before_solution(KSP, Vec right, Vec, void* context) {
@@ -165,7 +178,7 @@ PetscErrorCode Newton::after_solution(KSP, Vec, Vec solution, void* context) {
 void Newton::choose_factors() {
   if (one_tangent_) {
     const bool made = policy_.usable() && matrix_of_factors_ == assembler_.changes();
-    check_petsc(SNESSetLagJacobian(snes_, made ? -1 : -2));
+    if (!made) make_tangent();
     return;
   }
   if (rows_.size() == 1) {
@@ -179,9 +192,8 @@ void Newton::choose_factors() {
   } else {
     policy_.corrected(imbalance_.largest() / precision_);
   }
-  // SNES asks for a tangent once (-2) or not at all (-1)
   const bool serve = keep_ ? !policy_.due() : tangent_serves_again();
-  check_petsc(SNESSetLagJacobian(snes_, serve ? -1 : -2));
+  if (!serve) make_tangent();
   uses_ = serve ? uses_ + 1 : 1;
 }
 
@@ -322,17 +334,17 @@ bool Newton::judge(int iteration) {
   return std::max(row_.correction, before.correction) <= no_correction && left > 0.5 * std::max(before.force, before.moment);
 }
 
-PetscErrorCode Newton::test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal fnorm,
-                                        SNESConvergedReason* reason, void* context) {
+PetscErrorCode Newton::test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal, SNESConvergedReason* reason,
+                                        void* context) {
   auto& self = *static_cast<Newton*>(context);
   *reason = SNES_CONVERGED_ITERATING;
-  if (!std::isfinite(fnorm)) {
-    *reason = SNES_DIVERGED_FNORM_NAN;
-    return 0;
-  }
   try {
-    if (self.judge(static_cast<int>(iteration)))
+    if (!std::isfinite(self.imbalance_.largest()))
+      *reason = SNES_DIVERGED_FNORM_NAN;
+    else if (self.judge(static_cast<int>(iteration)))
       *reason = SNES_CONVERGED_FNORM_ABS;
+    else if (iteration >= self.iterations_)
+      *reason = SNES_DIVERGED_MAX_IT;
     else
       self.choose_factors();
   } catch (const std::exception& e) {

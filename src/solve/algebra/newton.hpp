@@ -80,7 +80,6 @@ class Newton {
 
  private:
   static PetscErrorCode form_function(SNES, Vec x, Vec f, void* self);
-  static PetscErrorCode form_jacobian(SNES, Vec x, Mat, Mat, void* self);
   static PetscErrorCode before_solution(KSP, Vec right, Vec solution, void* self);
   static PetscErrorCode after_solution(KSP, Vec right, Vec solution, void* self);
   static PetscErrorCode test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal, SNESConvergedReason* reason,
@@ -92,8 +91,9 @@ class Newton {
   int equation(int multiplier) const {
     return assembler_.numbering().equation(assembler_.numbering().motion_slots() + multiplier);
   }
-  /// Decides whether the next correction is made with the factors there are.
+  /// Decides whether the next correction is made with the factors there are, and makes a tangent for new ones if not.
   void choose_factors();
+  void make_tangent();
   /// Whether another tangent than that of the last correction would gain nothing that counts.
   bool tangent_serves_again() const;
   bool judge(int iteration);
@@ -104,6 +104,7 @@ class Newton {
   Assembler& assembler_;
   LinearSolver& solver_;
   double precision_;
+  int iterations_;
   Owned<SNES> snes_;
   Owned<Vec> residual_, trial_;
   std::vector<int> sliding_parts_;  ///< elements with regularised friction
