@@ -57,12 +57,14 @@ class Shaken {
 };
 
 /// Of an element whose nodes move along x and y only. Accelerations 1, x and y of all nodes along x give its mass matrix times
-/// these, and hence all moments of its mass in the plane; across it all mass is at the height of the nodes.
-MassProperties plane_mass_properties(const Model& model, const Model::Part& part) {
+/// these, and hence all moments of its mass in the plane; across it all mass is at the height of the nodes. `mass_alone`: no
+/// more is found than that.
+MassProperties plane_mass_properties(const Model& model, const Model::Part& part, bool mass_alone) {
   ElementAtRest body(model, part);
   const std::size_t count = body.nodes.size();
   std::vector<double> still(2 * count), moved(2 * count);
   part.element->residual(body.view(), still);
+  MassProperties found;
   Eigen::Matrix3d moments;  // of 1, x and y with one another
   const Vec3 origin = body.nodes.front().x;
   const auto function = [&](std::size_t i, Eigen::Index of) { return of == 0 ? 1 : body.nodes[i].x[of - 1] - origin[of - 1]; };
@@ -73,11 +75,11 @@ MassProperties plane_mass_properties(const Model& model, const Model::Part& part
       double sum = 0;
       for (std::size_t i = 0; i < count; ++i) sum += function(i, row) * (moved[2 * i] - still[2 * i]);
       moments(row, column) = sum;
-      if (column == 0 && row == 0 && sum == 0) return {};
+      if (column > 0 || row > 0) continue;
+      found.mass = sum;
+      if (mass_alone || sum == 0) return found;
     }
   }
-  MassProperties found;
-  found.mass = moments(0, 0);
   const Eigen::Vector2d from = moments.block<2, 1>(1, 0) / found.mass;
   const Eigen::Matrix2d second = moments.block<2, 2>(1, 1) - found.mass * from * from.transpose();
   found.centre = origin + Vec3(from[0], from[1], 0);
@@ -100,7 +102,7 @@ MassProperties mass_properties(const Model& model, const Model::Part& part) {
   if (part.nodes.empty() || part.element->layout().node_slots() == 0) return found;
   if (part.element->layout().needs_any(0, NodeNeed::in_plane)) {
     if (part.element->cell_shape() == CellShape::none) return found;  // a load
-    return plane_mass_properties(model, part);
+    return plane_mass_properties(model, part, false);
   }
   Shaken shaken(model, part);
   // most elements of a large model have no mass: one look at them is enough
@@ -122,6 +124,12 @@ MassProperties mass_properties(const Model& model, const Model::Part& part) {
   const double rounding = 1e-13 * (about.cwiseAbs().maxCoeff() + std::abs(found.mass) * from.squaredNorm());
   found.inertia = found.inertia.unaryExpr([rounding](double x) { return std::abs(x) <= rounding ? 0.0 : x; });
   return found;
+}
+
+double mass_of(const Model& model, const Model::Part& part) {
+  const bool is_plane_cell = part.element->cell_shape() != CellShape::none && part.element->layout().node_slots() > 0 &&
+                             part.element->layout().needs_any(0, NodeNeed::in_plane);
+  return is_plane_cell ? plane_mass_properties(model, part, true).mass : mass_properties(model, part).mass;
 }
 
 }  // namespace engrane

@@ -439,14 +439,14 @@ std::unique_ptr<Element> add_cell(const CellPlan& plan, BlockStore* blocks) {
 
 /// Whether the determinants at the points of a rule have the sign of the first of all, in `sign`, and are none of rounding.
 template <CellShape S>
-bool is_regular(const std::vector<Vec3>& places, const QuadratureRule& points, double& sign) {
+bool is_regular(const std::vector<Vec3>& places, const std::vector<typename CellTraits<S>::Sample>& samples, double& sign) {
   constexpr int D = CellTraits<S>::dimension;
   constexpr double rounding = 1e-12;
   Eigen::Matrix<double, D, CellTraits<S>::nodes> x;
   for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = places[static_cast<std::size_t>(i)].template head<D>();
   const double size = (x.colwise() - x.col(0)).norm();
-  for (const QuadraturePoint& p : points) {
-    const Eigen::Matrix<double, D, D> jacobian = CellTraits<S>::sample(p).slope * x.transpose();
+  for (const auto& sample : samples) {
+    const Eigen::Matrix<double, D, D> jacobian = sample.slope * x.transpose();
     const double determinant = jacobian.determinant();
     if (sign == 0) sign = determinant > 0 ? 1 : -1;
     if (!(sign * determinant > rounding * std::pow(size, D))) return false;
@@ -456,9 +456,9 @@ bool is_regular(const std::vector<Vec3>& places, const QuadratureRule& points, d
 
 template <CellShape S>
 bool is_regular(const std::vector<Vec3>& places) {
+  static const auto stiffness = tabulate<S>(CellTraits<S>::stiffness_points()), loads = tabulate<S>(CellTraits<S>::load_points());
   double sign = 0;
-  return is_regular<S>(places, CellTraits<S>::stiffness_points(), sign) &&
-         is_regular<S>(places, CellTraits<S>::load_points(), sign);
+  return is_regular<S>(places, stiffness, sign) && is_regular<S>(places, loads, sign);
 }
 
 }  // namespace engrane::elements::structural

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "solve/algebra/rows.hpp"
+
 namespace engrane::solve {
 
 namespace {
@@ -261,27 +263,18 @@ bool Newton::keep_sliding(Vec x, Vec step) {
 
 bool Newton::left_to_rounding() const {
   constexpr double some = 4 * std::numeric_limits<double>::epsilon();
-  const auto size = [this](PetscInt equation) {
-    const Unknown& u = assembler_.numbering().unknown(static_cast<int>(equation));
+  std::vector<double> size(static_cast<std::size_t>(assembler_.numbering().equations()));
+  for (std::size_t e = 0; e < size.size(); ++e) {
+    const Unknown& u = assembler_.numbering().unknown(static_cast<int>(e));
     const double place = u.node < 0 || u.item > 2 ? 0 : work_->nodes[static_cast<std::size_t>(u.node)].x[u.item];
-    return std::max(references_.length(static_cast<int>(equation)), std::abs(place));
-  };
-  Mat matrix = assembler_.matrix();
-  PetscInt first = 0, end = 0;
+    size[e] = some * std::max(references_.length(static_cast<int>(e)), std::abs(place));
+  }
+  const std::vector<double> noise = magnitudes_times(assembler_.matrix(), size);
   const PetscScalar* left = nullptr;
-  check_petsc(VecGetOwnershipRange(residual_, &first, &end));
   check_petsc(VecGetArrayRead(residual_, &left));
   int yes = 1;
-  for (PetscInt row = first; yes && row < end; ++row) {
-    PetscInt count = 0;
-    const PetscInt* column = nullptr;
-    const PetscScalar* value = nullptr;
-    check_petsc(MatGetRow(matrix, row, &count, &column, &value));
-    double noise = 0;
-    for (PetscInt i = 0; i < count; ++i) noise += some * std::abs(value[i]) * size(column[i]);
-    check_petsc(MatRestoreRow(matrix, row, &count, &column, &value));
-    if (!(std::abs(left[row - first]) <= noise)) yes = 0;
-  }
+  for (std::size_t row = 0; row < noise.size(); ++row)
+    if (!(std::abs(left[row]) <= noise[row])) yes = 0;
   check_petsc(VecRestoreArrayRead(residual_, &left));
   MPI_Allreduce(MPI_IN_PLACE, &yes, 1, MPI_INT, MPI_LAND, assembler_.comm());
   return yes != 0;
