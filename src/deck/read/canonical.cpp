@@ -75,12 +75,12 @@ void write_fields(Writer& writer, const Record& record, bool ranges_allowed) {
         ranges_allowed && field.type == FieldType::integer && field.reference != Reference::nothing && field.max_values > 1;
     if (!record.given(field)) {
       if (!has_default(field, values)) continue;
-      for (const std::string& word : deck_words(field, values, ids)) defaults.append(word).append(1, ' ');
+      for_each_deck_word(field, values, ids, [&](std::string_view word) { defaults.append(word).append(1, ' '); });
       continue;
     }
     if (field.type == FieldType::text && values.texts.empty()) values.texts.emplace_back();  // an empty text was given
     if (!values.present && field.type != FieldType::text) continue;                          // all its codes were unknown
-    for (const std::string& word : deck_words(field, values, ids)) writer.word(word);
+    for_each_deck_word(field, values, ids, [&](std::string_view word) { writer.word(word); });
   }
   if (!defaults.empty()) writer.comment("by default: " + defaults);
 }

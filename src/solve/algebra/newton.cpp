@@ -75,7 +75,9 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   weights_ = weights;
   keep_ = keep;
   NewtonReport report;
-  const std::vector<double> before = references_.memory();
+  // nothing before the first solution, for whose factors a large model needs the room
+  std::vector<double> before;
+  if (references_.remembers()) before = references_.memory();
   references_.begin(work);
   solver_.correct_only(keep);
   rows_.clear();
@@ -103,11 +105,12 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   if (report.converged) {
     const double tried = weights.a > 0 ? 0 : share_of_tried;
     std::vector<double> memory = references_.memory();
-    for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = std::max(before[i], tried * memory[i]);
+    for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = std::max(before.empty() ? 0.0 : before[i], tried * memory[i]);
     references_.restore(std::move(memory));
     references_.take(work, assembler_.carried());
   } else {
-    references_.restore(before);
+    before.resize(references_.memory().size());
+    references_.restore(std::move(before));
   }
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
   report.rows = rows_;
