@@ -56,9 +56,9 @@ class Shaken {
   std::vector<double> still_, moved_;
 };
 
-/// Of an element whose nodes move along x and y only. Accelerations 1, x and y of all nodes along x give its mass matrix times
-/// these, and hence all moments of its mass in the plane; across it all mass is at the height of the nodes. `mass_alone`: no
-/// more is found than that.
+/// Of a cell whose nodes move along x and y only, with the same mass along both. Accelerations 1, x and y of all nodes give its
+/// mass matrix times these, and hence all moments of its mass in the plane; across it all mass is at the height of the nodes.
+/// `mass_alone`: no more is found than that.
 MassProperties plane_mass_properties(const Model& model, const Model::Part& part, bool mass_alone) {
   ElementAtRest body(model, part);
   const std::size_t count = body.nodes.size();
@@ -68,18 +68,21 @@ MassProperties plane_mass_properties(const Model& model, const Model::Part& part
   Eigen::Matrix3d moments;  // of 1, x and y with one another
   const Vec3 origin = body.nodes.front().x;
   const auto function = [&](std::size_t i, Eigen::Index of) { return of == 0 ? 1 : body.nodes[i].x[of - 1] - origin[of - 1]; };
-  for (Eigen::Index column = 0; column < 3; ++column) {
-    for (std::size_t i = 0; i < count; ++i) body.nodes[i].a = Vec3(function(i, column), 0, 0);
-    part.element->residual(body.view(), moved);
-    for (Eigen::Index row = 0; row < 3; ++row) {
-      double sum = 0;
-      for (std::size_t i = 0; i < count; ++i) sum += function(i, row) * (moved[2 * i] - still[2 * i]);
-      moments(row, column) = sum;
-      if (column > 0 || row > 0) continue;
-      found.mass = sum;
-      if (mass_alone || sum == 0) return found;
-    }
-  }
+  /// Forces along a direction times `row`, as resistance to the acceleration last given.
+  const auto moment = [&](Eigen::Index row, std::size_t direction) {
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) sum += function(i, row) * (moved[2 * i + direction] - still[2 * i + direction]);
+    return sum;
+  };
+  for (std::size_t i = 0; i < count; ++i) body.nodes[i].a = Vec3(1, mass_alone ? 0 : function(i, 1), 0);
+  part.element->residual(body.view(), moved);
+  found.mass = moment(0, 0);
+  if (mass_alone || found.mass == 0) return found;
+  for (Eigen::Index row = 0; row < 3; ++row)
+    for (const std::size_t direction : {0U, 1U}) moments(row, static_cast<Eigen::Index>(direction)) = moment(row, direction);
+  for (std::size_t i = 0; i < count; ++i) body.nodes[i].a = Vec3(function(i, 2), 0, 0);
+  part.element->residual(body.view(), moved);
+  for (Eigen::Index row = 0; row < 3; ++row) moments(row, 2) = moment(row, 0);
   const Eigen::Vector2d from = moments.block<2, 1>(1, 0) / found.mass;
   const Eigen::Matrix2d second = moments.block<2, 2>(1, 1) - found.mass * from * from.transpose();
   found.centre = origin + Vec3(from[0], from[1], 0);

@@ -179,8 +179,13 @@ class Cells final : public Block {
     const Cell& cell = cells_[e];
     const CellSection& section = *cell.section;
     const Eigen::Map<const Eigen::Matrix<double, width, N>> given(at_nodes.data());
-    const Kernel kernel(cell.places, section.thickness);
-    const typename Kernel::Moves moves = moves_of(cell, state, kernel);
+    std::optional<Kernel> kernel;  // of cells with modes; the points are others where there are none
+    if constexpr (Kernel::modes > 0) kernel.emplace(cell.places, section.thickness);
+    typename Kernel::Moves moves;
+    if constexpr (Kernel::modes > 0)
+      moves = moves_of(cell, state, *kernel);
+    else
+      moves = displacements(cell, state);
     const Eigen::LLT<typename Kernel::Stiffness> moduli(Kernel::reduced(section.law.stiffness));
     const auto energy = [&moduli](const Stress& stress) {
       return moduli.matrixL().solve(Kernel::reduced(stress)).squaredNorm() / 2;
@@ -191,8 +196,8 @@ class Cells final : public Block {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       std::optional<Kernel> other;
       if constexpr (Kernel::modes == 0) other.emplace(cell.places, section.thickness, std::span(samples).subspan(i, 1));
-      const typename Kernel::Point& point = other ? other->point(0) : kernel.point(static_cast<int>(i));
-      const AtPoint p = at_point(section, kernel.deformation(point, moves), rise(cell, state, samples[i]));
+      const typename Kernel::Point& point = other ? other->point(0) : kernel->point(static_cast<int>(i));
+      const AtPoint p = at_point(section, (other ? *other : *kernel).deformation(point, moves), rise(cell, state, samples[i]));
       Stress wanted = Stress::Zero();
       wanted.template head<width>() = given * samples[i].value;
       if (!section.linear) {
