@@ -48,11 +48,14 @@ output::ResultsLayout results_layout(const Reading& reading, const observe::Obse
   for (const observe::Table& table : observer.tables())
     layout.history.push_back({table.path, table.type, table.ids, table.channels});
   layout.history.push_back({"run", "", {}, observer.run_channels()});
-  for (const observe::ElementField& field : observer.element_fields()) {
+  for (std::size_t f = 0; f < observer.element_fields().size(); ++f) {
+    const observe::ElementField& field = observer.element_fields()[f];
     layout.cell_fields.push_back({field.named, field.components});
-    if (field.place_parts.empty()) continue;
+    if (field.place_count == 0) continue;
     output::PointField& points = layout.point_fields.emplace_back(output::PointField{layout.cell_fields.back(), {}, {}});
-    for (const int part : field.place_parts) {
+    points.elements.reserve(field.place_count);
+    points.points.reserve(field.place_count);
+    for (const int part : observer.place_parts(f)) {
       const int id = model.parts[static_cast<std::size_t>(part)].element->id();
       points.points.push_back(!points.elements.empty() && points.elements.back() == id ? points.points.back() + 1 : 0);
       points.elements.push_back(id);
@@ -83,7 +86,7 @@ output::FrameValues frame_values(const Model& model, const observe::Observer& ob
     for (std::size_t p = 0; p < model.parts.size(); ++p)
       if (has_cell(model.parts[p]))
         for (std::size_t k = 0; k < field.width(); ++k) rows.push_back(field.rows[p * field.width() + k]);
-    if (!field.place_parts.empty()) values.points.push_back(field.places);
+    if (field.place_count > 0) values.points.push_back(field.places);
   }
   return values;
 }

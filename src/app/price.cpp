@@ -128,7 +128,8 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   text += table.text();
   MatInfo info{};
   check_petsc(MatGetInfo(context.assembler.matrix(), MAT_LOCAL, &info));
-  text += fmt::format("  matrix: {} equations, {:.0f} nonzeros", numbering.equations(), info.nz_used);
+  const double whole = context.assembler.half() ? 2 * info.nz_used - numbering.equations() : info.nz_used;
+  text += fmt::format("  matrix: {} equations, {:.0f} nonzeros", numbering.equations(), whole);
   if (regular && bytes > 0) text += fmt::format("; the factors take {}{}", factored ? "" : "about ", size_text(bytes));
   const double steps = std::ceil((stepping.end - stepping.start) / h * (1 - 1e-9)), step = 1.2 * 2 * iteration;
   const std::string source = factored ? "as measured on this machine"

@@ -9,8 +9,8 @@
 
 namespace engrane {
 
-Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm comm)
-    : model_(model), numbering_(numbering), comm_(comm), scatter_(numbering, comm) {
+Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm comm, bool half)
+    : model_(model), numbering_(numbering), comm_(comm), scatter_(numbering, comm, half) {
   MPI_Comm_rank(comm, &rank_);
   MPI_Comm_size(comm, &size_);
   find_batches();

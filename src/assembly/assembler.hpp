@@ -28,7 +28,8 @@ struct Magnitudes {
 /// and the row is −kΦ, of the size of the forces.
 class Assembler {
  public:
-  Assembler(const Model& model, const Numbering& numbering, MPI_Comm comm);
+  /// `half`: as Scatter has it, for a tangent that is symmetric in every state.
+  Assembler(const Model& model, const Numbering& numbering, MPI_Comm comm, bool half = false);
 
   MPI_Comm comm() const { return comm_; }
   const Model& model() const { return model_; }
@@ -38,6 +39,8 @@ class Assembler {
   const std::vector<int>& own_parts() const { return numbering_.partition().own(); }
   bool owns(int part) const { return numbering_.partition().owner(part) == rank_; }
   Mat matrix() const { return scatter_.matrix(); }
+  /// Whether matrix() has only its diagonal and what is above it.
+  bool half() const { return scatter_.half(); }
   Vec new_vector() const { return scatter_.new_vector(); }
   /// A matrix like matrix(), of the caller's.
   Mat new_matrix() const { return scatter_.new_matrix(); }

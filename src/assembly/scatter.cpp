@@ -38,7 +38,7 @@ class Places {
 
 }  // namespace
 
-Scatter::Scatter(const Numbering& numbering, MPI_Comm comm) : numbering_(numbering), comm_(comm) {
+Scatter::Scatter(const Numbering& numbering, MPI_Comm comm, bool half) : numbering_(numbering), comm_(comm), half_(half) {
   MPI_Comm_size(comm, &size_);
   find_pattern();
   find_places();
@@ -49,8 +49,8 @@ void Scatter::find_pattern() {
   check_petsc(MatCreate(comm_, matrix_.out()));
   const PetscInt first_row = numbering_.first_row(), own_rows = numbering_.end_row() - first_row;
   check_petsc(MatSetSizes(matrix_, own_rows, own_rows, n, n));
-  check_petsc(MatSetType(matrix_, MATAIJ));
-  check_petsc(MatSetFromOptions(matrix_));
+  check_petsc(MatSetType(matrix_, half_ ? MATSEQSBAIJ : MATAIJ));
+  if (!half_) check_petsc(MatSetFromOptions(matrix_));
   // the elements of each row
   const auto rows = static_cast<std::size_t>(own_rows);
   std::vector<std::size_t> begin(rows + 1, 0);
@@ -67,6 +67,13 @@ void Scatter::find_pattern() {
 
   std::vector<PetscInt> row_begin{0}, columns, seen(static_cast<std::size_t>(n), -1);
   row_begin.reserve(rows + 1);
+  if (half_) {
+    // no more than if elements shared no pair of equations; memory that is never written is never taken
+    std::size_t most = rows;
+    for (const int p : numbering_.evaluated())
+      most += numbering_.part_slots(p).size() * (numbering_.part_slots(p).size() + 1) / 2;
+    columns.reserve(most);
+  }
   // rows of a node have the same elements, and so the same columns
   const auto as_before = [&](std::size_t row) {
     return row > 0 && begin[row] > begin[row - 1] &&
@@ -78,7 +85,8 @@ void Scatter::find_pattern() {
   for (std::size_t row = 0; row < rows; ++row) {
     const PetscInt own = first_row + static_cast<PetscInt>(row);
     if (as_before(row)) {
-      const auto last = static_cast<std::size_t>(row_begin[row - 1]), count = columns.size() - last;
+      // of a half but for the diagonal of the row before
+      const auto last = static_cast<std::size_t>(row_begin[row - 1]) + (half_ ? 1 : 0), count = columns.size() - last;
       columns.resize(columns.size() + count);
       std::copy_n(columns.begin() + static_cast<std::ptrdiff_t>(last), count, columns.end() - static_cast<std::ptrdiff_t>(count));
       row_begin.push_back(static_cast<PetscInt>(columns.size()));
@@ -86,7 +94,7 @@ void Scatter::find_pattern() {
     }
     const auto first = static_cast<std::ptrdiff_t>(columns.size());
     const auto add = [&](PetscInt column) {
-      if (column < 0 || seen[static_cast<std::size_t>(column)] == own) return;
+      if (column < (half_ ? own : 0) || seen[static_cast<std::size_t>(column)] == own) return;
       seen[static_cast<std::size_t>(column)] = own;
       columns.push_back(column);
     };
@@ -96,14 +104,24 @@ void Scatter::find_pattern() {
     std::sort(columns.begin() + first, columns.end());
     row_begin.push_back(static_cast<PetscInt>(columns.size()));
   }
+  preallocate(row_begin, columns);
+}
+
+void Scatter::preallocate(const std::vector<PetscInt>& row_begin, std::vector<PetscInt>& columns) {
   if (size_ > 1) {
     check_petsc(MatMPIAIJSetPreallocationCSR(matrix_, row_begin.data(), columns.data(), nullptr));
   } else {
     // the same without a search for the place of each entry
-    std::vector<PetscInt> widths(rows);
-    for (std::size_t row = 0; row < rows; ++row) widths[row] = row_begin[row + 1] - row_begin[row];
-    check_petsc(MatSeqAIJSetPreallocation(matrix_, 0, widths.data()));
-    check_petsc(MatSeqAIJSetColumnIndices(matrix_, columns.data()));
+    std::vector<PetscInt> widths(row_begin.size() - 1);
+    for (std::size_t row = 0; row < widths.size(); ++row) widths[row] = row_begin[row + 1] - row_begin[row];
+    if (half_) {
+      check_petsc(MatSeqSBAIJSetPreallocation(matrix_, 1, 0, widths.data()));
+      check_petsc(MatSeqSBAIJSetColumnIndices(matrix_, columns.data()));
+      check_petsc(MatSetOption(matrix_, MAT_GETROW_UPPERTRIANGULAR, PETSC_TRUE));
+    } else {
+      check_petsc(MatSeqAIJSetPreallocation(matrix_, 0, widths.data()));
+      check_petsc(MatSeqAIJSetColumnIndices(matrix_, columns.data()));
+    }
     check_petsc(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
     check_petsc(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
     check_petsc(MatZeroEntries(matrix_));
@@ -157,7 +175,11 @@ void Scatter::find_places() {
     for (std::size_t r = first; r < end; ++r) {
       if (!numbering_.is_own(equation(runs_[r].first))) continue;
       for (int i = runs_[r].first; i < runs_[r].first + runs_[r].length; ++i)
-        for (std::size_t c = first; c < end; ++c) places_.push_back(place_of(equation(i), equation(runs_[c].first)));
+        for (std::size_t c = first; c < end; ++c) {
+          // of a half: the diagonal and the runs behind it
+          if (half_ && equation(runs_[c].first) < equation(runs_[r].first)) continue;
+          places_.push_back(place_of(equation(i), half_ && c == r ? equation(i) : equation(runs_[c].first)));
+        }
     }
   }
   begin_.push_back({runs_.size(), places_.size(), true});
@@ -185,11 +207,33 @@ Scatter::MatrixSum::MatrixSum(Scatter& scatter, Mat matrix)
     : scatter_(scatter), matrix_(matrix), pieces_(pieces_of(matrix, scatter.size_ > 1)) {
   if (scatter.begin_.empty()) scatter.find_places();
   check_petsc(MatZeroEntries(matrix));
-  check_petsc(MatSeqAIJGetArray(pieces_.own, &own_));
+  check_petsc(scatter.half_ ? MatSeqSBAIJGetArray(pieces_.own, &own_) : MatSeqAIJGetArray(pieces_.own, &own_));
   if (pieces_.others) check_petsc(MatSeqAIJGetArray(pieces_.others, &others_));
 }
 
+void Scatter::MatrixSum::add_half(std::size_t at, std::span<const double> k) {
+  const Numbering& numbering = scatter_.numbering_;
+  const auto slots = numbering.part_slots(numbering.evaluated()[at]);
+  const std::size_t n = slots.size();
+  const auto equation = [&](const Run* run) { return numbering.equation(slots[static_cast<std::size_t>(run->first)]); };
+  const Run *first = scatter_.runs_.data() + scatter_.begin_[at].run, *end = scatter_.runs_.data() + scatter_.begin_[at + 1].run;
+  const PetscInt* place = scatter_.places_.data() + scatter_.begin_[at].place;
+  for (const Run* rows = first; rows != end; ++rows) {
+    const int begin = equation(rows);
+    for (int i = rows->first; i < rows->first + rows->length; ++i) {
+      const double* row = k.data() + static_cast<std::size_t>(i) * n;
+      for (const Run* columns = first; columns != end; ++columns) {
+        if (equation(columns) < begin) continue;
+        PetscScalar* to = own_ + *place++;
+        const int from = columns == rows ? i : columns->first;
+        for (int c = from; c < columns->first + columns->length; ++c) *to++ += row[c];
+      }
+    }
+  }
+}
+
 void Scatter::MatrixSum::add(std::size_t at, std::span<const double> k) {
+  if (scatter_.half_) return add_half(at, k);
   const Numbering& numbering = scatter_.numbering_;
   const auto slots = numbering.part_slots(numbering.evaluated()[at]);
   const std::size_t n = slots.size();
@@ -212,7 +256,7 @@ void Scatter::MatrixSum::add(std::size_t at, std::span<const double> k) {
 void Scatter::MatrixSum::leave_arrays() {
   if (left_) return;
   left_ = true;
-  check_petsc(MatSeqAIJRestoreArray(pieces_.own, &own_));
+  check_petsc(scatter_.half_ ? MatSeqSBAIJRestoreArray(pieces_.own, &own_) : MatSeqAIJRestoreArray(pieces_.own, &own_));
   if (pieces_.others) check_petsc(MatSeqAIJRestoreArray(pieces_.others, &others_));
 }
 
@@ -229,7 +273,7 @@ void Scatter::MatrixSum::finish() {
 
 Scatter::MatrixSum::~MatrixSum() {
   if (left_) return;
-  (void)MatSeqAIJRestoreArray(pieces_.own, &own_);
+  (void)(scatter_.half_ ? MatSeqSBAIJRestoreArray(pieces_.own, &own_) : MatSeqAIJRestoreArray(pieces_.own, &own_));
   if (pieces_.others) (void)MatSeqAIJRestoreArray(pieces_.others, &others_);
 }
 

@@ -14,8 +14,9 @@ namespace engrane {
 /// spring). Rows of other ranks are left out: these evaluate the element too (Numbering::evaluated), so that nothing is sent.
 class Scatter {
  public:
-  /// For the elements of Numbering::evaluated(); collective.
-  Scatter(const Numbering& numbering, MPI_Comm comm);
+  /// For the elements of Numbering::evaluated(); collective. `half`, on one rank: of a matrix that is symmetric whatever the
+  /// state, only the diagonal and what is above it are kept (MATSEQSBAIJ).
+  Scatter(const Numbering& numbering, MPI_Comm comm, bool half = false);
 
   /// Columns of this rank's equations, and of all others; with one rank all are its own. `global` numbers the others' columns.
   struct Pieces {
@@ -29,6 +30,7 @@ class Scatter {
   /// Another one like it. The caller owns it.
   Mat new_matrix() const;
   Vec new_vector() const;
+  bool half() const { return half_; }
 
   /// Sums into matrix() or a matrix of new_matrix(), from zero; finish() (collective) must be called once all is added.
   class MatrixSum {
@@ -45,6 +47,7 @@ class Scatter {
     void finish();
 
    private:
+    void add_half(std::size_t at, std::span<const double> k);
     void leave_arrays();
     const Scatter& scatter_;
     Mat matrix_;
@@ -86,12 +89,14 @@ class Scatter {
     bool whole;  ///< no row is of another rank
   };
   void find_pattern();
+  void preallocate(const std::vector<PetscInt>& row_begin, std::vector<PetscInt>& columns);
   void find_runs(int part);
   void find_places();
 
   const Numbering& numbering_;
   MPI_Comm comm_;
   int size_ = 1;
+  bool half_ = false;
   Owned<Mat> matrix_;
   std::vector<Begin> begin_;
   std::vector<Run> runs_;

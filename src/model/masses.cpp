@@ -56,28 +56,33 @@ class Shaken {
   std::vector<double> still_, moved_;
 };
 
-/// Of an element whose nodes move along x and y only. Accelerations 1, x and y of all nodes along x give its mass matrix times
-/// these, and hence all moments of its mass in the plane; across it all mass is at the height of the nodes.
-MassProperties plane_mass_properties(const Model& model, const Model::Part& part) {
+/// Of a cell whose nodes move along x and y only, with the same mass along both. Accelerations 1, x and y of all nodes give its
+/// mass matrix times these, and hence all moments of its mass in the plane; across it all mass is at the height of the nodes.
+/// `mass_alone`: no more is found than that.
+MassProperties plane_mass_properties(const Model& model, const Model::Part& part, bool mass_alone) {
   ElementAtRest body(model, part);
   const std::size_t count = body.nodes.size();
   std::vector<double> still(2 * count), moved(2 * count);
   part.element->residual(body.view(), still);
+  MassProperties found;
   Eigen::Matrix3d moments;  // of 1, x and y with one another
   const Vec3 origin = body.nodes.front().x;
   const auto function = [&](std::size_t i, Eigen::Index of) { return of == 0 ? 1 : body.nodes[i].x[of - 1] - origin[of - 1]; };
-  for (Eigen::Index column = 0; column < 3; ++column) {
-    for (std::size_t i = 0; i < count; ++i) body.nodes[i].a = Vec3(function(i, column), 0, 0);
-    part.element->residual(body.view(), moved);
-    for (Eigen::Index row = 0; row < 3; ++row) {
-      double sum = 0;
-      for (std::size_t i = 0; i < count; ++i) sum += function(i, row) * (moved[2 * i] - still[2 * i]);
-      moments(row, column) = sum;
-      if (column == 0 && row == 0 && sum == 0) return {};
-    }
-  }
-  MassProperties found;
-  found.mass = moments(0, 0);
+  /// Forces along a direction times `row`, as resistance to the acceleration last given.
+  const auto moment = [&](Eigen::Index row, std::size_t direction) {
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) sum += function(i, row) * (moved[2 * i + direction] - still[2 * i + direction]);
+    return sum;
+  };
+  for (std::size_t i = 0; i < count; ++i) body.nodes[i].a = Vec3(1, mass_alone ? 0 : function(i, 1), 0);
+  part.element->residual(body.view(), moved);
+  found.mass = moment(0, 0);
+  if (mass_alone || found.mass == 0) return found;
+  for (Eigen::Index row = 0; row < 3; ++row)
+    for (const std::size_t direction : {0U, 1U}) moments(row, static_cast<Eigen::Index>(direction)) = moment(row, direction);
+  for (std::size_t i = 0; i < count; ++i) body.nodes[i].a = Vec3(function(i, 2), 0, 0);
+  part.element->residual(body.view(), moved);
+  for (Eigen::Index row = 0; row < 3; ++row) moments(row, 2) = moment(row, 0);
   const Eigen::Vector2d from = moments.block<2, 1>(1, 0) / found.mass;
   const Eigen::Matrix2d second = moments.block<2, 2>(1, 1) - found.mass * from * from.transpose();
   found.centre = origin + Vec3(from[0], from[1], 0);
@@ -100,7 +105,7 @@ MassProperties mass_properties(const Model& model, const Model::Part& part) {
   if (part.nodes.empty() || part.element->layout().node_slots() == 0) return found;
   if (part.element->layout().needs_any(0, NodeNeed::in_plane)) {
     if (part.element->cell_shape() == CellShape::none) return found;  // a load
-    return plane_mass_properties(model, part);
+    return plane_mass_properties(model, part, false);
   }
   Shaken shaken(model, part);
   // most elements of a large model have no mass: one look at them is enough
@@ -122,6 +127,12 @@ MassProperties mass_properties(const Model& model, const Model::Part& part) {
   const double rounding = 1e-13 * (about.cwiseAbs().maxCoeff() + std::abs(found.mass) * from.squaredNorm());
   found.inertia = found.inertia.unaryExpr([rounding](double x) { return std::abs(x) <= rounding ? 0.0 : x; });
   return found;
+}
+
+double mass_of(const Model& model, const Model::Part& part) {
+  const bool is_plane_cell = part.element->cell_shape() != CellShape::none && part.element->layout().node_slots() > 0 &&
+                             part.element->layout().needs_any(0, NodeNeed::in_plane);
+  return is_plane_cell ? plane_mass_properties(model, part, true).mass : mass_properties(model, part).mass;
 }
 
 }  // namespace engrane

@@ -18,5 +18,7 @@ struct MassProperties {
 
 /// Of one element: the forces and moments with which its residual resists accelerations of all its nodes as one rigid body.
 MassProperties mass_properties(const Model& model, const Model::Part& part);
+/// The mass alone, the same number: of a plane cell half of the work.
+double mass_of(const Model& model, const Model::Part& part);
 
 }  // namespace engrane

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "math/rotation.hpp"
 #include "math/stress.hpp"
@@ -64,25 +65,27 @@ const std::vector<DerivedKind>& derived_kinds() {
 ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler), points_(assembler.model()), averages_(points_) {
   const Model& model = assembler.model();
   std::map<std::string, std::size_t> known;
-  for (std::size_t p = 0; p < model.parts.size(); ++p) {
-    std::size_t first = 0;
-    for (const Field& field : model.parts[p].element->fields()) {
-      const auto [at, is_new] = known.try_emplace(field.name, fields_.size());
-      if (is_new) fields_.push_back({field, field.components, {}, {}, {}});
-      const std::size_t size = field.size(model.parts[p].nodes.size());
-      const std::size_t width = field.components.empty() ? 1 : field.components.size();
-      if (std::vector<int>& parts = fields_[at->second].place_parts; width == fields_[at->second].width()) {
-        uses_.push_back({static_cast<int>(p), at->second, first, size / width, parts.size(), field.averaged});
-        parts.insert(parts.end(), size / width, static_cast<int>(p));
-        if (field.averaged) averages_.declare(field, model.parts[p]);
-      }
-      first += size;
-    }
+  // elements of a block declare their fields in one place
+  std::map<std::pair<const std::vector<Field>*, std::size_t>, int> kinds;
+  kind_of_part_.reserve(model.parts.size());
+  for (const Model::Part& part : model.parts) {
+    const std::vector<Field>& declared = part.element->fields();
+    const auto [kind, is_new] = kinds.try_emplace({&declared, part.nodes.size()}, static_cast<int>(kinds_.size()));
+    if (is_new) kinds_.push_back(make_kind(part, known));
+    kind_of_part_.push_back(kind->second);
+    for (const Use& use : kinds_[static_cast<std::size_t>(kind->second)].uses) fields_[use.field].place_count += use.places;
+    for (const Field& field : declared)
+      if (const std::size_t width = std::max<std::size_t>(1, field.components.size());
+          field.averaged && width == fields_[known.at(field.name)].width())
+        averages_.declare(field, part);
   }
   // one value in each part needs no second list
   for (std::size_t f = 0; f < fields_.size(); ++f)
-    if (std::none_of(uses_.begin(), uses_.end(), [f](const Use& use) { return use.field == f && use.places > 1; }))
-      fields_[f].place_parts.clear();
+    if (std::none_of(kinds_.begin(), kinds_.end(), [f](const Kind& kind) {
+          return std::any_of(kind.uses.begin(), kind.uses.end(),
+                             [f](const Use& use) { return use.field == f && use.places > 1; });
+        }))
+      fields_[f].place_count = 0;
   if (averages_.empty()) return;
   for (const DerivedKind& kind : derived_kinds())
     if (const auto at = known.find(kind.name); at != known.end()) {
@@ -91,39 +94,65 @@ ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler), poin
     }
   stress_ = known.at(stress);
   error_ = fields_.size();
-  fields_.push_back({{"ERROR", dimension::energy, "strain energy of the estimated error of the stress"}, {}, {}, {}, {}});
+  fields_.push_back({{"ERROR", dimension::energy, "strain energy of the estimated error of the stress"}, {}, {}, {}, 0});
 }
 
-bool ElementFields::has(std::size_t field, const Model::Part& part) const {
-  if (field == error_) return part.element->section() >= 0 && has(stress_, part);
-  const std::vector<Field>& own = part.element->fields();
-  return std::any_of(own.begin(), own.end(), [&](const Field& one) {
-    return one.name == fields_[field].named.name && std::max<std::size_t>(1, one.components.size()) == fields_[field].width();
-  });
+ElementFields::Kind ElementFields::make_kind(const Model::Part& part, std::map<std::string, std::size_t>& known) {
+  Kind kind;
+  for (const Field& field : part.element->fields()) {
+    const auto [at, is_new] = known.try_emplace(field.name, fields_.size());
+    if (is_new) fields_.push_back({field, field.components, {}, {}, 0});
+    const std::size_t size = field.size(part.nodes.size()), width = std::max<std::size_t>(1, field.components.size());
+    if (width == fields_[at->second].width()) kind.uses.push_back({at->second, kind.size, size / width, field.averaged});
+    kind.size += size;
+  }
+  return kind;
+}
+
+std::vector<int> ElementFields::place_parts(std::size_t field) const {
+  std::vector<int> parts;
+  if (fields_[field].place_count == 0) return parts;
+  parts.reserve(fields_[field].place_count);
+  for (std::size_t p = 0; p < kind_of_part_.size(); ++p)
+    for (const Use& use : kinds_[static_cast<std::size_t>(kind_of_part_[p])].uses)
+      if (use.field == field) parts.insert(parts.end(), use.places, static_cast<int>(p));
+  return parts;
+}
+
+bool ElementFields::has(std::size_t field, std::size_t part) const {
+  const auto declares = [&](std::size_t wanted) {
+    const std::vector<Use>& uses = kinds_[static_cast<std::size_t>(kind_of_part_[part])].uses;
+    return std::any_of(uses.begin(), uses.end(), [wanted](const Use& use) { return use.field == wanted; });
+  };
+  if (field != error_) return declares(field);
+  return assembler_.model().parts[part].element->section() >= 0 && declares(stress_);
 }
 
 void ElementFields::evaluate_own(const Configuration& c) {
   const Model& model = assembler_.model();
   std::vector<double> values;
-  int evaluated = -1;
-  for (const Use& use : uses_) {
-    if (!assembler_.owns(use.part)) continue;
-    const Model::Part& part = model.parts[static_cast<std::size_t>(use.part)];
-    if (use.part != evaluated) {
-      std::size_t size = 0;
-      for (const Field& field : part.element->fields()) size += field.size(part.nodes.size());
-      values.assign(size, 0.0);
-      part.element->evaluate_fields(assembler_.view(use.part, c), values);
-      evaluated = use.part;
+  std::vector<std::size_t> next(fields_.size(), 0);  // of the next part's rows among the places of each field
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const Model::Part& part = model.parts[p];
+    const Kind& kind = kinds_[static_cast<std::size_t>(kind_of_part_[p])];
+    const bool is_own = !kind.uses.empty() && assembler_.owns(static_cast<int>(p));
+    if (is_own) {
+      values.assign(kind.size, 0.0);
+      part.element->evaluate_fields(assembler_.view(static_cast<int>(p), c), values);
     }
-    ElementField& field = fields_[use.field];
-    const auto own = std::span<const double>(values).subspan(use.first, use.places * field.width());
-    double* row = field.rows.data() + static_cast<std::size_t>(use.part) * field.width();
-    for (std::size_t place = 0; place < use.places; ++place)
-      for (std::size_t k = 0; k < field.width(); ++k) row[k] += own[place * field.width() + k] / static_cast<double>(use.places);
-    if (!field.place_parts.empty())
-      std::copy(own.begin(), own.end(), field.places.begin() + static_cast<std::ptrdiff_t>(use.row * field.width()));
-    if (use.averaged) averages_.add(field.named.name, part, own);
+    for (const Use& use : kind.uses) {
+      const std::size_t first = std::exchange(next[use.field], next[use.field] + use.places);
+      if (!is_own) continue;
+      ElementField& field = fields_[use.field];
+      const auto own = std::span<const double>(values).subspan(use.first, use.places * field.width());
+      double* row = field.rows.data() + p * field.width();
+      for (std::size_t place = 0; place < use.places; ++place)
+        for (std::size_t k = 0; k < field.width(); ++k)
+          row[k] += own[place * field.width() + k] / static_cast<double>(use.places);
+      if (field.place_count > 0)
+        std::copy(own.begin(), own.end(), field.places.begin() + static_cast<std::ptrdiff_t>(first * field.width()));
+      if (use.averaged) averages_.add(field.named.name, part, own);
+    }
   }
 }
 
@@ -151,7 +180,7 @@ void ElementFields::evaluate(const Configuration& c) {
   // parts that other ranks evaluate are zero, and so is the sum until it is known who has the field
   for (ElementField& field : fields_) {
     field.rows.assign(model.parts.size() * field.width(), 0.0);
-    field.places.assign(field.place_parts.size() * field.width(), 0.0);
+    field.places.assign(field.place_count * field.width(), 0.0);
   }
   averages_.clear();
   evaluate_own(c);
@@ -166,7 +195,7 @@ void ElementFields::evaluate(const Configuration& c) {
       MPI_Reduce(root ? MPI_IN_PLACE : all->data(), all->data(), static_cast<int>(all->size()), MPI_DOUBLE, MPI_SUM, 0,
                  assembler_.comm());
     for (std::size_t p = 0; p < model.parts.size(); ++p)
-      if (!has(f, model.parts[p]))
+      if (!has(f, p))
         std::fill_n(field.rows.begin() + static_cast<std::ptrdiff_t>(p * field.width()), field.width(),
                     std::numeric_limits<double>::quiet_NaN());
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ struct ElementField {
 
   /// Where some part has several values: all of them, a row for each node or point of a part that has the field, part by part.
   std::vector<double> places;
-  std::vector<int> place_parts;  ///< index of the part of each row; empty: `rows` says all
+  std::size_t place_count = 0;  ///< of these rows; 0: `rows` says all
 
   std::size_t width() const { return components.empty() ? 1 : components.size(); }
 };
@@ -48,6 +49,8 @@ class ElementFields {
 
   /// Names, units and components; rows as evaluated last, on rank 0.
   const std::vector<ElementField>& fields() const { return fields_; }
+  /// Of each row of ElementField::places the index of its part.
+  std::vector<int> place_parts(std::size_t field) const;
   /// Each rank evaluates its own elements. Collective.
   void evaluate(const Configuration& c);
   /// Gives rows and places of each field to `replace`, to be changed.
@@ -68,24 +71,29 @@ class ElementFields {
   std::optional<StressError> stress_error() const;
 
  private:
-  /// One field of one part.
+  /// One field of parts of a kind.
   struct Use {
-    int part = 0;
     std::size_t field = 0;   ///< in fields_
     std::size_t first = 0;   ///< of its numbers among all that the part evaluates
     std::size_t places = 1;  ///< nodes or points
-    std::size_t row = 0;     ///< of the first in ElementField::places
     bool averaged = false;   ///< at nodes as well
   };
+  /// Parts with the same declarations and as many nodes.
+  struct Kind {
+    std::vector<Use> uses;
+    std::size_t size = 0;  ///< of all numbers that such a part evaluates
+  };
+  Kind make_kind(const Model::Part& part, std::map<std::string, std::size_t>& known);
   void evaluate_own(const Configuration& c);
   void estimate_errors(const Configuration& c);
-  bool has(std::size_t field, const Model::Part& part) const;
+  bool has(std::size_t field, std::size_t part) const;
 
   Assembler& assembler_;
   SectionPoints points_;
   NodalAverages averages_;
   std::vector<ElementField> fields_;
-  std::vector<Use> uses_;             ///< of all ranks, by part
+  std::vector<Kind> kinds_;
+  std::vector<int> kind_of_part_;     ///< of all ranks, in kinds_
   std::optional<std::size_t> error_;  ///< in fields_: the estimated error, which no element declares
   std::size_t stress_ = 0;            ///< in fields_: what it is the error of
   std::vector<double> energies_;      ///< those of StressError

@@ -79,7 +79,7 @@ Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
       ends_(most_ends, std::numeric_limits<double>::infinity()) {
   if (!cells_) return;
   for (const int p : assembler.own_parts())
-    mass_ += mass_properties(assembler.model(), assembler.model().parts[static_cast<std::size_t>(p)]).mass;
+    mass_ += mass_of(assembler.model(), assembler.model().parts[static_cast<std::size_t>(p)]);
   MPI_Allreduce(MPI_IN_PLACE, &mass_, 1, MPI_DOUBLE, MPI_SUM, assembler.comm());
 }
 

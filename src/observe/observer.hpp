@@ -67,6 +67,8 @@ class Observer {
   /// Of the last configuration for which fields were wanted.
   const std::vector<NodalField>& fields() const { return fields_; }
   const std::vector<ElementField>& element_fields() const { return element_fields_.fields(); }
+  /// Parts of the rows of ElementField::places.
+  std::vector<int> place_parts(std::size_t field) const { return element_fields_.place_parts(field); }
   /// Fields averaged at nodes, and the points that they have values at.
   const std::vector<AveragedField>& averages() const { return element_fields_.averages(); }
   const SectionPoints& points() const { return element_fields_.points(); }

@@ -138,7 +138,7 @@ std::vector<double> ResultFile::copy_from(hid_t earlier, std::size_t samples, st
     for (const CellField& field : layout_->cell_fields)
       bring(fmt::format("fields/{}/{:06}", field.named.name, f), cells, field.width(), unknown);
     for (const PointField& one : layout_->point_fields)
-      bring(fmt::format("points/{}/{:06}", one.field.named.name, f), one.elements.size(), one.field.width(), unknown);
+      bring(fmt::format("points/{}/{:06}", one.field.named.name, f), one.rows(), one.field.width(), unknown);
     for (const CellField& field : layout_->averages)
       bring(fmt::format("nodes/{}/{:06}", field.named.name, f), layout_->points.size(), field.width(), unknown);
   }

@@ -295,8 +295,8 @@ void ResultFile::append_cell_fields(const Batch::Frame& frame, const std::string
 void ResultFile::append_point_fields(const Batch::Frame& frame, const std::string& name) {
   for (std::size_t f = 0; f < layout_->point_fields.size(); ++f) {
     const PointField& one = layout_->point_fields[f];
-    assert(frame.values.points[f].size() == one.elements.size() * one.field.width());
-    const hsize_t shape[2] = {one.elements.size(), one.field.width()};
+    assert(frame.values.points[f].size() == one.rows() * one.field.width());
+    const hsize_t shape[2] = {one.rows(), one.field.width()};
     at(file_).numbers(fmt::format("points/{}/{}", one.field.named.name, name), frame.values.points[f], shape);
   }
 }

@@ -63,6 +63,7 @@ void Results::create(const RestartFile* earlier, const RestartPoint* from) {
   // known to the file from now on, and large: assigning an empty text would keep the memory
   std::string().swap(layout_.deck_text);
   std::string().swap(layout_.model_json);
+  for (PointField& field : layout_.point_fields) field.forget();
   set_pace(pace_);
 }
 

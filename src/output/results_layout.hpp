@@ -47,6 +47,15 @@ struct PointField {
   CellField field;
   std::vector<int> elements;  ///< id of the element that each value belongs to
   std::vector<int> points;    ///< and its number in that element, from 0
+  std::size_t count = 0;      ///< of values, where the two lists are forgotten
+
+  std::size_t rows() const { return elements.empty() ? count : elements.size(); }
+  /// Once a file has the two lists they need not be kept.
+  void forget() {
+    count = rows();
+    std::vector<int>().swap(elements);
+    std::vector<int>().swap(points);
+  }
 };
 
 /// Everything about a result file that is known before the first step (docs/format.md).

@@ -16,7 +16,10 @@ MassProperties of(const std::string& text, int id) {
   const Model model = build_model(deck, element_types(), diagnostics);
   EXPECT_FALSE(diagnostics.has_errors());
   for (const Model::Part& part : model.parts)
-    if (part.element->id() == id) return mass_properties(model, part);
+    if (part.element->id() == id) {
+      EXPECT_EQ(mass_of(model, part), mass_properties(model, part).mass);
+      return mass_properties(model, part);
+    }
   ADD_FAILURE() << "no element " << id;
   return {};
 }

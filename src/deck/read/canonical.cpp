@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/text.hpp"
@@ -65,9 +66,8 @@ class Writer {
 };
 
 /// The words behind the record key, and those of the defaults that hold because nothing was given.
-void write_fields(Writer& writer, const Record& record) {
+void write_fields(Writer& writer, const Record& record, bool ranges_allowed) {
   std::string defaults;
-  const bool ranges_allowed = !match_field(*record.schema, "A").exact;
   for (const Field& field : record.schema->fields) {
     if (!field.whole.empty()) continue;
     Field::Values values = field.load(record.data);
@@ -75,12 +75,12 @@ void write_fields(Writer& writer, const Record& record) {
         ranges_allowed && field.type == FieldType::integer && field.reference != Reference::nothing && field.max_values > 1;
     if (!record.given(field)) {
       if (!has_default(field, values)) continue;
-      for (const std::string& word : deck_words(field, values, ids)) defaults.append(word).append(1, ' ');
+      for_each_deck_word(field, values, ids, [&](std::string_view word) { defaults.append(word).append(1, ' '); });
       continue;
     }
     if (field.type == FieldType::text && values.texts.empty()) values.texts.emplace_back();  // an empty text was given
     if (!values.present && field.type != FieldType::text) continue;                          // all its codes were unknown
-    for (const std::string& word : deck_words(field, values, ids)) writer.word(word);
+    for_each_deck_word(field, values, ids, [&](std::string_view word) { writer.word(word); });
   }
   if (!defaults.empty()) writer.comment("by default: " + defaults);
 }
@@ -91,6 +91,8 @@ std::string canonical_text(const Deck& deck) {
   Writer writer;
   std::string open;            // the command under which records stand
   std::set<std::string> seen;  // commands opened before: those that start afresh need ADD
+  const Schema* last = nullptr;
+  bool ranges_allowed = false;  // of the last schema: a mesh has very many records of few
   for (const Record& record : deck.records) {
     const Schema& schema = *record.schema;
     const std::string command(schema.command());
@@ -110,7 +112,8 @@ std::string canonical_text(const Deck& deck) {
     } else if (leads) {
       writer.line(" ");
     }
-    write_fields(writer, record);
+    if (std::exchange(last, &schema) != &schema) ranges_allowed = !match_field(schema, "A").exact;
+    write_fields(writer, record, ranges_allowed);
   }
   return writer.finish();
 }

@@ -30,7 +30,13 @@ std::string noun(const Field& field) {
 }
 
 /// Numbers, with `n*v` for repeated ones and `a A b` for runs of ids.
-void append_numbers(std::vector<std::string>& words, const std::vector<double>& numbers, bool ranges) {
+void for_each_number(const std::vector<double>& numbers, bool ranges, const std::function<void(std::string_view)>& use) {
+  std::string text;
+  const auto number = [&](double value) {
+    append_number(text, value);
+    use(text);
+    text.clear();
+  };
   for (std::size_t i = 0; i < numbers.size();) {
     std::size_t same = i + 1;
     while (same < numbers.size() && numbers[same] == numbers[i] && std::signbit(numbers[same]) == std::signbit(numbers[i]))
@@ -38,15 +44,16 @@ void append_numbers(std::vector<std::string>& words, const std::vector<double>& 
     std::size_t run = i + 1;
     while (ranges && run < numbers.size() && numbers[run] == numbers[run - 1] + 1) ++run;
     if (run - i > 2) {
-      words.push_back(format_number(numbers[i]));
-      words.emplace_back("A");
-      words.push_back(format_number(numbers[run - 1]));
+      number(numbers[i]);
+      use("A");
+      number(numbers[run - 1]);
       i = run;
     } else if (same - i > 3) {
-      words.push_back(std::to_string(same - i) + "*" + format_number(numbers[i]));
+      text = std::to_string(same - i) + "*";
+      number(numbers[i]);
       i = same;
     } else {
-      words.push_back(format_number(numbers[i++]));
+      number(numbers[i++]);
     }
   }
 }
@@ -67,14 +74,20 @@ std::string value_kind(const Field& field) {
 }
 
 std::vector<std::string> deck_words(const Field& field, const Field::Values& values, bool ranges) {
-  std::vector<std::string> words{field.keyword};
-  if (field.type == FieldType::text) {
-    for (const std::string& text : values.texts) words.push_back("\"" + text + "\"");
-    return words;
-  }
-  if (field.type == FieldType::choice) words.push_back(values.tag);
-  append_numbers(words, values.numbers, ranges);
+  std::vector<std::string> words;
+  for_each_deck_word(field, values, ranges, [&words](std::string_view word) { words.emplace_back(word); });
   return words;
+}
+
+void for_each_deck_word(const Field& field, const Field::Values& values, bool ranges,
+                        const std::function<void(std::string_view)>& use) {
+  use(field.keyword);
+  if (field.type == FieldType::text) {
+    for (const std::string& text : values.texts) use("\"" + text + "\"");
+    return;
+  }
+  if (field.type == FieldType::choice) use(values.tag);
+  for_each_number(values.numbers, ranges, use);
 }
 
 bool has_default(const Field& field, const Field::Values& defaults) {

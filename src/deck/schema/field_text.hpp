@@ -2,7 +2,9 @@
 // What help, templates, the manual and canonical decks say about a field; one wording for all of them.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "deck/schema/schema.hpp"
@@ -15,6 +17,9 @@ std::string value_kind(const Field& field);
 /// The words of a field as the deck spells them, keyword first: `ALPHA 20`, `ERR COS 0.004`, `NOM "hub"`.
 /// `ranges` allows `1 A 20` for runs of ids.
 std::vector<std::string> deck_words(const Field& field, const Field::Values& values, bool ranges);
+/// Gives these words to `use`, one after the other.
+void for_each_deck_word(const Field& field, const Field::Values& values, bool ranges,
+                        const std::function<void(std::string_view)>& use);
 
 /// The default as the deck would spell it, without the keyword; empty when there is none.
 std::string default_text(const Schema& schema, const Field& field);

@@ -186,7 +186,9 @@ class CellKernel {
       r.noalias() += b.transpose() * stress;
       if (!k) continue;
       const Eigen::Matrix<double, strains, size> c = p.volume * response.moduli * b;
-      k->noalias() += b.transpose() * c;
+      // sums of a few strains: column by column, without what Eigen prepares for long ones
+      const Eigen::Matrix<double, size, strains> turned = b.transpose();
+      k->noalias() += turned.lazyProduct(c);
       if (!law.linear) add_geometric(p, stress, *k);
     }
   }

@@ -179,8 +179,13 @@ class Cells final : public Block {
     const Cell& cell = cells_[e];
     const CellSection& section = *cell.section;
     const Eigen::Map<const Eigen::Matrix<double, width, N>> given(at_nodes.data());
-    const Kernel kernel(cell.places, section.thickness);
-    const typename Kernel::Moves moves = moves_of(cell, state, kernel);
+    std::optional<Kernel> kernel;  // of cells with modes; the points are others where there are none
+    if constexpr (Kernel::modes > 0) kernel.emplace(cell.places, section.thickness);
+    typename Kernel::Moves moves;
+    if constexpr (Kernel::modes > 0)
+      moves = moves_of(cell, state, *kernel);
+    else
+      moves = displacements(cell, state);
     const Eigen::LLT<typename Kernel::Stiffness> moduli(Kernel::reduced(section.law.stiffness));
     const auto energy = [&moduli](const Stress& stress) {
       return moduli.matrixL().solve(Kernel::reduced(stress)).squaredNorm() / 2;
@@ -191,8 +196,8 @@ class Cells final : public Block {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       std::optional<Kernel> other;
       if constexpr (Kernel::modes == 0) other.emplace(cell.places, section.thickness, std::span(samples).subspan(i, 1));
-      const typename Kernel::Point& point = other ? other->point(0) : kernel.point(static_cast<int>(i));
-      const AtPoint p = at_point(section, kernel.deformation(point, moves), rise(cell, state, samples[i]));
+      const typename Kernel::Point& point = other ? other->point(0) : kernel->point(static_cast<int>(i));
+      const AtPoint p = at_point(section, (other ? *other : *kernel).deformation(point, moves), rise(cell, state, samples[i]));
       Stress wanted = Stress::Zero();
       wanted.template head<width>() = given * samples[i].value;
       if (!section.linear) {
@@ -439,14 +444,14 @@ std::unique_ptr<Element> add_cell(const CellPlan& plan, BlockStore* blocks) {
 
 /// Whether the determinants at the points of a rule have the sign of the first of all, in `sign`, and are none of rounding.
 template <CellShape S>
-bool is_regular(const std::vector<Vec3>& places, const QuadratureRule& points, double& sign) {
+bool is_regular(const std::vector<Vec3>& places, const std::vector<typename CellTraits<S>::Sample>& samples, double& sign) {
   constexpr int D = CellTraits<S>::dimension;
   constexpr double rounding = 1e-12;
   Eigen::Matrix<double, D, CellTraits<S>::nodes> x;
   for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = places[static_cast<std::size_t>(i)].template head<D>();
   const double size = (x.colwise() - x.col(0)).norm();
-  for (const QuadraturePoint& p : points) {
-    const Eigen::Matrix<double, D, D> jacobian = CellTraits<S>::sample(p).slope * x.transpose();
+  for (const auto& sample : samples) {
+    const Eigen::Matrix<double, D, D> jacobian = sample.slope * x.transpose();
     const double determinant = jacobian.determinant();
     if (sign == 0) sign = determinant > 0 ? 1 : -1;
     if (!(sign * determinant > rounding * std::pow(size, D))) return false;
@@ -456,9 +461,9 @@ bool is_regular(const std::vector<Vec3>& places, const QuadratureRule& points, d
 
 template <CellShape S>
 bool is_regular(const std::vector<Vec3>& places) {
+  static const auto stiffness = tabulate<S>(CellTraits<S>::stiffness_points()), loads = tabulate<S>(CellTraits<S>::load_points());
   double sign = 0;
-  return is_regular<S>(places, CellTraits<S>::stiffness_points(), sign) &&
-         is_regular<S>(places, CellTraits<S>::load_points(), sign);
+  return is_regular<S>(places, stiffness, sign) && is_regular<S>(places, loads, sign);
 }
 
 }  // namespace engrane::elements::structural

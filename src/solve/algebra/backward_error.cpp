@@ -21,6 +21,21 @@ void add_row(const Rows& rows, PetscInt row, const PetscScalar* x, double& remai
   }
 }
 
+/// The same of all rows of a matrix of which the upper half is kept. A row gets its products in the order of the columns.
+void add_halves(const Rows& rows, const PetscScalar* x, PetscScalar* remainder, double* terms) {
+  for (PetscInt row = 0; row < rows.size(); ++row) {
+    PetscInt k = rows.begin()[row];
+    const PetscInt end = rows.begin()[row + 1];
+    add_row(rows, row, x, remainder[row], terms[row]);
+    for (++k; k < end; ++k) {
+      const PetscInt column = rows.column()[k];
+      const double term = rows.value()[k] * x[row];
+      remainder[column] -= term;
+      terms[column] += std::abs(term);
+    }
+  }
+}
+
 /// Kind of rows without a mechanical unit, after those of Measure.
 constexpr unsigned char signal_rows = 4;
 
@@ -74,11 +89,13 @@ double BackwardError::of(Vec right, Vec solution) {
   {
     const Rows own(own_);
     for (PetscInt row = 0; row < own.size(); ++row) {
-      double terms = std::abs(b[row]);
+      terms_[static_cast<std::size_t>(row)] = std::abs(b[row]);
       r[row] = b[row];
-      add_row(own, row, x, r[row], terms);
-      terms_[static_cast<std::size_t>(row)] = terms;
     }
+    if (own.half())
+      add_halves(own, x, r, terms_.data());
+    else
+      for (PetscInt row = 0; row < own.size(); ++row) add_row(own, row, x, r[row], terms_[static_cast<std::size_t>(row)]);
   }
   if (parallel_) {
     const Rows others(others_);

@@ -109,6 +109,7 @@ void Mumps::save(Snapshot& snapshot) const {
 void Mumps::load(const Snapshot& snapshot) {
   forget();
   if (snapshot.has("solver/MUMPS form")) become(static_cast<Form>(static_cast<int>(snapshot.number("solver/MUMPS form"))));
+  if (half_ && form_ == Form::general) become(Form::unknown);
   PackageFactors::load(snapshot);
 }
 

@@ -11,11 +11,11 @@ namespace engrane::solve {
 /// the matrix is not symmetric. The first of these that fits is taken; where its solutions are not good enough the next one.
 class Mumps final : public PackageFactors {
  public:
-  explicit Mumps(Mat matrix) : PackageFactors(matrix, "MUMPS"), symmetry_(matrix) {}
+  explicit Mumps(Mat matrix) : PackageFactors(matrix, "MUMPS"), symmetry_(matrix), half_(is_half(matrix)) {}
 
   bool factor() override;
   /// With more pivots to choose from.
-  bool improvable() const override { return form_ != Form::general; }
+  bool improvable() const override { return form_ != Form::general && !(half_ && form_ == Form::symmetric); }
   bool improve() override;
   void forget() override;
   void save(Snapshot& snapshot) const override;
@@ -38,6 +38,7 @@ class Mumps final : public PackageFactors {
   void refuse_without_memory() const;
 
   SymmetryTest symmetry_;
+  bool half_;  ///< the matrix cannot be factored but as a symmetric one
   Form form_ = Form::unknown;
   int room_ = 50;  ///< MUMPS' ICNTL(14): per cent over the estimate
 };

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "solve/algebra/rows.hpp"
+
 namespace engrane::solve {
 
 namespace {
@@ -94,7 +96,9 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   weights_ = weights;
   keep_ = keep;
   NewtonReport report;
-  const std::vector<double> before = references_.memory();
+  // nothing before the first solution, for whose factors a large model needs the room
+  std::vector<double> before;
+  if (references_.remembers()) before = references_.memory();
   references_.begin(work);
   solver_.correct_only(keep);
   rows_.clear();
@@ -122,11 +126,12 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   if (report.converged) {
     const double tried = weights.a > 0 ? 0 : share_of_tried;
     std::vector<double> memory = references_.memory();
-    for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = std::max(before[i], tried * memory[i]);
+    for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = std::max(before.empty() ? 0.0 : before[i], tried * memory[i]);
     references_.restore(std::move(memory));
     references_.take(work, assembler_.carried());
   } else {
-    references_.restore(before);
+    before.resize(references_.memory().size());
+    references_.restore(std::move(before));
   }
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
   report.rows = rows_;
@@ -273,27 +278,18 @@ bool Newton::keep_sliding(Vec x, Vec step) {
 
 bool Newton::left_to_rounding() const {
   constexpr double some = 4 * std::numeric_limits<double>::epsilon();
-  const auto size = [this](PetscInt equation) {
-    const Unknown& u = assembler_.numbering().unknown(static_cast<int>(equation));
+  std::vector<double> size(static_cast<std::size_t>(assembler_.numbering().equations()));
+  for (std::size_t e = 0; e < size.size(); ++e) {
+    const Unknown& u = assembler_.numbering().unknown(static_cast<int>(e));
     const double place = u.node < 0 || u.item > 2 ? 0 : work_->nodes[static_cast<std::size_t>(u.node)].x[u.item];
-    return std::max(references_.length(static_cast<int>(equation)), std::abs(place));
-  };
-  Mat matrix = assembler_.matrix();
-  PetscInt first = 0, end = 0;
+    size[e] = some * std::max(references_.length(static_cast<int>(e)), std::abs(place));
+  }
+  const std::vector<double> noise = magnitudes_times(assembler_.matrix(), size);
   const PetscScalar* left = nullptr;
-  check_petsc(VecGetOwnershipRange(residual_, &first, &end));
   check_petsc(VecGetArrayRead(residual_, &left));
   int yes = 1;
-  for (PetscInt row = first; yes && row < end; ++row) {
-    PetscInt count = 0;
-    const PetscInt* column = nullptr;
-    const PetscScalar* value = nullptr;
-    check_petsc(MatGetRow(matrix, row, &count, &column, &value));
-    double noise = 0;
-    for (PetscInt i = 0; i < count; ++i) noise += some * std::abs(value[i]) * size(column[i]);
-    check_petsc(MatRestoreRow(matrix, row, &count, &column, &value));
-    if (!(std::abs(left[row - first]) <= noise)) yes = 0;
-  }
+  for (std::size_t row = 0; row < noise.size(); ++row)
+    if (!(std::abs(left[row]) <= noise[row])) yes = 0;
   check_petsc(VecRestoreArrayRead(residual_, &left));
   MPI_Allreduce(MPI_IN_PLACE, &yes, 1, MPI_INT, MPI_LAND, assembler_.comm());
   return yes != 0;

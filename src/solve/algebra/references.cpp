@@ -180,6 +180,10 @@ void References::take(const Configuration& c, const std::vector<double>& carried
   }
 }
 
+bool References::remembers() const {
+  return std::any_of(largest_of_slot_.begin(), largest_of_slot_.end(), [](double load) { return load != 0; });
+}
+
 void References::restore(std::vector<double> memory) { largest_of_slot_ = std::move(memory); }
 
 void References::save(Snapshot& snapshot) const {

@@ -41,6 +41,8 @@ class References {
   double largest_force() const { return largest_force_; }
   /// The memory of loads so far, to be put back where an iteration failed.
   const std::vector<double>& memory() const { return largest_of_slot_; }
+  /// Whether any of it is not zero.
+  bool remembers() const;
   void restore(std::vector<double> memory);
 
   void save(Snapshot& snapshot) const;

@@ -53,6 +53,10 @@ Sparse whole_matrix(Assembler& assembler) {
       rows.push_back(row);
       columns.push_back(at[i]);
       values.push_back(entries[i]);
+      if (!assembler.half() || at[i] == row) continue;
+      rows.push_back(at[i]);
+      columns.push_back(row);
+      values.push_back(entries[i]);
     }
     check_petsc(MatRestoreRow(assembler.matrix(), row, &count, &at, &entries));
   }

@@ -232,10 +232,14 @@ constexpr const char* usual_cure =
 }  // namespace
 
 Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const Configuration& configuration, double tolerance) {
-  Configuration c = outside_of_steps(configuration);
-  const ConstraintFactors here(assembler, c, ConstraintColumns::gradients, tolerance);
   Mobility found;
   found.analysed = true;
+  if (const Numbering& numbering = assembler.numbering(); numbering.slots() == numbering.motion_slots()) {
+    found.motions = numbering.equations();  // without constraints all are free
+    return found;
+  }
+  Configuration c = outside_of_steps(configuration);
+  const ConstraintFactors here(assembler, c, ConstraintColumns::gradients, tolerance);
   found.motions = static_cast<int>(here.rows());
   found.constraints = static_cast<int>(here.columns()) - assembler.idle_count();
   found.rank = static_cast<int>(here.rank());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/constraints/motion.hpp"
 
+#include <algorithm>
+
 #include "math/rotation.hpp"
 
 namespace engrane::solve {
@@ -54,7 +56,8 @@ void MotionSlots::move(const Configuration& from, std::span<const double> y, Con
   move_scalars(from.scalars, y, to);
 }
 
-MotionSlots::Origin::Origin(const Configuration& c) : scalars(c.scalars), remainders(c.remainders) {
+MotionSlots::Origin::Origin(const Configuration& c) : scalars(c.scalars) {
+  if (std::any_of(c.remainders.begin(), c.remainders.end(), [](double left) { return left != 0; })) remainders = c.remainders;
   places.reserve(c.nodes.size());
   for (std::size_t i = 0; i < c.nodes.size(); ++i) {
     places.push_back(c.nodes[i].x);
@@ -63,7 +66,10 @@ MotionSlots::Origin::Origin(const Configuration& c) : scalars(c.scalars), remain
 }
 
 void MotionSlots::move(const Origin& from, std::span<const double> y, Configuration& to) const {
-  to.remainders = from.remainders;
+  if (from.remainders.empty())
+    std::fill(to.remainders.begin(), to.remainders.end(), 0.0);
+  else
+    to.remainders = from.remainders;
   auto turned = from.turned.begin();
   for (std::size_t i = 1; i < from.places.size(); ++i) {
     NodeState& node = to.nodes[i];

@@ -29,7 +29,8 @@ class MotionSlots {
     friend class MotionSlots;
     std::vector<Vec3> places;                          ///< of all nodes
     std::vector<std::pair<std::size_t, Mat3>> turned;  ///< nodes that are not as in the reference configuration, ascending
-    std::vector<double> scalars, remainders;
+    std::vector<double> scalars;
+    std::vector<double> remainders;  ///< empty: all are zero
   };
   /// The same for `to` that was equal to the origin, and has only been moved since.
   void move(const Origin& from, std::span<const double> y, Configuration& to) const;

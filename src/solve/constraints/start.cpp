@@ -121,6 +121,14 @@ void Start::verify_imposed(const Configuration& c, std::span<const double> wishe
 }
 
 void Start::assemble(Configuration& c, StartReport& report, bool initial) {
+  if (initial && assembler_.numbering().slots() == assembler_.numbering().motion_slots() && assembler_.model().initial.empty() &&
+      assembler_.model().initial_coordinates.empty()) {
+    // nothing joins the parts, or moves them from where the deck has put them
+    redundancy_.analyse(c);
+    report.redundant = redundancy_.mobility().redundant();
+    report.mobility = describe_mobility(assembler_, c, redundancy_.mobility());
+    return;
+  }
   const Configuration given = c;
   if (initial) {
     redundancy_.analyse(given);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -10,11 +11,23 @@
 
 namespace engrane::solve {
 
+namespace {
+
+/// Whether MUMPS factors one tangent that is symmetric by construction, so that half of it is enough.
+bool half_is_enough(const Model& model, const SolverOptions& options, const Numbering& numbering) {
+  return options.package == "MUMPS" && options.analysis == SolverOptions::Analysis::statics && !options.path.follow &&
+         !model.commands.buckling && numbering.partition().ranks() == 1 && numbering.slots() == numbering.motion_slots() &&
+         std::all_of(model.parts.begin(), model.parts.end(),
+                     [](const Model::Part& part) { return part.element->is_linear() && part.element->layout().scalars.empty(); });
+}
+
+}  // namespace
+
 SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm)
     : model(m),
       options(std::move(chosen)),
       numbering(m, Partition(m, comm)),
-      assembler(m, numbering, comm),
+      assembler(m, numbering, comm, half_is_enough(m, options, numbering)),
       solver(assembler.matrix(), options.package, kinds_of_rows(numbering)),
       newton(assembler, solver, options.precision, options.iterations),
       motion(m, numbering),

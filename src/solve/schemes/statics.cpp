@@ -193,10 +193,12 @@ NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double>
     context_.motion.move(from, y, c);
     unknowns_to_multipliers(unknowns, c);
   };
-  std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
-  context_.motion.gather(y, guess);
-  multipliers_to_unknowns(to, guess);
-  context_.assembler.spread(guess, unknowns_);
+  {
+    std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
+    context_.motion.gather(y, guess);
+    multipliers_to_unknowns(to, guess);
+    context_.assembler.spread(guess, unknowns_);
+  }
   NewtonReport report = solve(unknowns_, {1, 0, 0}, apply, to);
   refuse_half_turns(y, report);
   return report;

@@ -36,8 +36,8 @@ std::vector<double> values_of(Vec vector) {
 }
 
 struct System {
-  explicit System(Model m)
-      : model(std::move(m)), numbering(model), assembler(model, numbering, PETSC_COMM_SELF), state(shaken(numbering)) {}
+  explicit System(Model m, bool half = false)
+      : model(std::move(m)), numbering(model), assembler(model, numbering, PETSC_COMM_SELF, half), state(shaken(numbering)) {}
   Model model;
   Numbering numbering;
   Assembler assembler;
@@ -95,6 +95,16 @@ TEST(Scatter, ForgottenPlacesAreFoundAgain) {
   system.assembler.forget_places();
   system.state = shaken(system.numbering);
   EXPECT_EQ(system.tangent(step_weights), before);
+}
+
+TEST(Scatter, AHalfIsTheWholeFromTheDiagonalOn) {
+  for (const bool in_turn : {false, true}) {
+    System whole(row_of_masses(11, true, in_turn)), half(row_of_masses(11, true, in_turn), true);
+    const Eigen::MatrixXd upper = whole.tangent(step_weights).triangularView<Eigen::Upper>();
+    EXPECT_EQ(half.tangent(step_weights), upper);
+    half.assembler.forget_places();
+    EXPECT_EQ(half.tangent(step_weights), upper);
+  }
 }
 
 TEST(Scatter, HeldComponentsAreLeftOut) {

@@ -193,8 +193,10 @@ TEST(Fields, OfElementsAreRowsOfTheParts) {
   EXPECT_TRUE(std::isnan(traction.rows[0]));
   EXPECT_EQ(std::vector<double>(traction.rows.begin() + 3, traction.rows.end()), (std::vector<double>{4, 0, 3}));
   EXPECT_EQ(place.rows[1], 2);  // the mean over its points
-  EXPECT_TRUE(traction.place_parts.empty());
-  EXPECT_EQ(place.place_parts, (std::vector<int>(place.places.size(), 1)));
+  EXPECT_EQ(traction.place_count, 0u);
+  EXPECT_TRUE(observer.place_parts(0).empty());
+  EXPECT_EQ(place.place_count, place.places.size());
+  EXPECT_EQ(observer.place_parts(1), (std::vector<int>(place.places.size(), 1)));
   ASSERT_GT(place.places.size(), 1u);
   EXPECT_EQ(std::accumulate(place.places.begin(), place.places.end(), 0.0) / static_cast<double>(place.places.size()), 2);
   EXPECT_NE(place.places[0], place.places[1]);
