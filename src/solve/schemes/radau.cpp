@@ -53,6 +53,7 @@ Radau::Radau(SolverContext& context)
       references_(context.assembler, context.options.precision),
       configurations_(static_cast<std::size_t>(collocation_.stages())),
       prescribed_(configurations_.size()),
+      kept_(context.assembler, solver_),
       balance_matrix_(),
       balance_((*balance_matrix_.out() = context.assembler.new_matrix(), balance_matrix_), context.solver.package(),
                kinds_of_rows(context.numbering)) {
@@ -88,8 +89,18 @@ StartReport Radau::start(Configuration& c) {
 void Radau::start_memory(const Configuration& c, const MasslessMotions*) { restart_memory(c); }
 
 void Radau::restart_memory(const Configuration&) {
+  forget_motion();
+  kept_.clear();
+}
+
+void Radau::forget_motion() {
   accelerations_.clear();
   multipliers_.clear();
+  kept_step_ = 0;
+}
+
+void Radau::enter(const std::vector<int>& sides) {
+  kept_.enter(sides);
   kept_step_ = 0;
 }
 
@@ -206,7 +217,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
   const std::vector<double> remembered = references_.memory();
   const double precision = context_.options.precision;
   references_.begin(from);
-  bool renew = !(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale();
+  bool renew = (!(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale()) && !recall(h);
   Correction last;
   double contraction = 0, slowest = 0;
   bool evaluated = false;  // in this step
@@ -276,15 +287,24 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     }
   }
   if (!report.converged) references_.restore(remembered);
-  if (!report.converged || slowest > growing_slow) kept_step_ = 0;
+  if (!report.converged || slowest > growing_slow) {
+    kept_.drop();
+    kept_step_ = 0;
+  }
   return report;
 }
 
 void Radau::keep(const Configuration& c, double h) {
-  solver_.evaluate(c, h);
-  kept_ = c;
+  kept_.evaluate(c, h);
   kept_step_ = matrices_step_ = h;
   kept_scale_ = context_.assembler.scale();
+}
+
+bool Radau::recall(double h) {
+  if (!error_.wanted() || !kept_.recall(h)) return false;
+  kept_step_ = matrices_step_ = h;
+  kept_scale_ = context_.assembler.scale();
+  return true;
 }
 
 Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
@@ -394,12 +414,7 @@ void Radau::save(Snapshot& snapshot) const {
   multipliers_.save(snapshot, "radau/multipliers");
   solver_.save(snapshot);
   snapshot.put("radau/kept_step", kept_step_);
-  if (kept_step_ > 0) {
-    Snapshot kept;
-    save_configuration(kept_, kept);
-    save_part(kept, "radau/kept/", snapshot);
-    snapshot.put("radau/kept_scale", kept_scale_);
-  }
+  save_part(kept_, "radau/kept/", snapshot);
   save_part(references_, "radau/", snapshot);
   save_part(balance_, "radau/", snapshot);
   if (balance_kept_) {
@@ -418,13 +433,12 @@ void Radau::load(const Snapshot& snapshot) {
   balance_.load(part_of(snapshot, "radau/"));
   balance_kept_ = balance_.load_factors(part_of(snapshot, "radau/balance/"));
   solver_.load(snapshot);
+  kept_.load(part_of(snapshot, "radau/kept/"));
   kept_step_ = 0;
-  if (const double h = snapshot.number("radau/kept_step"); h > 0) {
-    kept_ = context_.numbering.reference_configuration(0);
-    load_configuration(part_of(snapshot, "radau/kept/"), kept_);
-    keep(Configuration(kept_), h);
+  if (const double h = snapshot.number("radau/kept_step"); h > 0 && kept_.recall(h)) {
     solver_.restore_factors();
-    kept_scale_ = snapshot.array("radau/kept_scale");
+    kept_step_ = matrices_step_ = h;
+    kept_scale_ = context_.assembler.scale();
   }
 }
 
