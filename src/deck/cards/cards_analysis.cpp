@@ -57,7 +57,8 @@ Schema analysis_card() {
       .option({"BOSSAK", {}, "Wood, Bossak and Zienkiewicz, damping set by ALPHA"})
       .option({"RADAU", {}, "Radau IIA of order 5: accurate results with long steps"});
   card.add("ACCURACY", &AnalysisCard::accuracy,
-           "how accurate a DYNAMIC analysis is to be: chooses scheme, TOL of .SUB, PREC, solver and PLANE where the deck does not; "
+           "how accurate a DYNAMIC analysis is to be: chooses scheme, TOL of .SUB, PREC, solver and PLANE where the deck does "
+           "not; "
            "a run with longer steps before it tells the error of what is asked for, over its range")
       .synonyms({"EXACTITUDE"})
       .option({"FAST", {"RAPIDE"}, "1E-2"})

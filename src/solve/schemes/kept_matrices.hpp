@@ -9,21 +9,24 @@
 
 namespace engrane::solve {
 
-/// K, C and M of simplified Newton iterations, one set for each combination of sides that the switches of elements have had: a
-/// tooth that meets the next one again finds the matrices of the last time. They serve steps of any length.
+/// K, C and M of simplified Newton iterations for steps of any length, one set for each phase between two events: a tooth that
+/// meets the next one again finds the matrices of the last time. A phase is known by the sides that the switches of elements are
+/// on, by those before the event, and by how many steps have been made in it.
 class KeptMatrices {
  public:
   KeptMatrices(Assembler& assembler, StageSolver& solver);
 
-  /// The sides of all switches from now on.
-  void enter(const std::vector<int>& sides) { sides_ = sides; }
-  /// Makes the solver's systems for steps of h from what is kept for these sides; false where there is nothing, or where the
+  /// An event leads to these sides of all switches.
+  void enter(const std::vector<int>& sides);
+  /// A step has been made since then.
+  void step();
+  /// Makes the solver's systems for steps of h from what is kept for this phase; false where there is nothing, or where the
   /// scales of multipliers have changed.
   bool recall(double h);
-  /// Evaluates what is to be kept for these sides, at `c`, and makes the systems for steps of h.
+  /// Evaluates what is to be kept for this phase, at `c`, and makes the systems for steps of h.
   void evaluate(const Configuration& c, double h);
-  /// What is kept for these sides is no good any more.
-  void drop() { sets_.erase(sides_); }
+  /// What is kept for this phase is no good any more.
+  void drop() { sets_.erase(phase_); }
   /// The same of all.
   void clear() { sets_.clear(); }
 
@@ -40,8 +43,8 @@ class KeptMatrices {
 
   Assembler& assembler_;
   StageSolver& solver_;
-  std::size_t most_ = 1;  ///< sets
-  std::vector<int> sides_;
+  std::size_t most_ = 1;    ///< sets
+  std::vector<int> phase_;  ///< sides, sides before, steps; empty before the first event
   std::map<std::vector<int>, Set> sets_;
 };
 

@@ -41,9 +41,7 @@ Weights weights_of(const Collocation::Block& b, double h) {
   return {1, b.alpha / h, (b.alpha * b.alpha - b.beta * b.beta) / (h * h)};
 }
 
-Weights imaginary_weights_of(const Collocation::Block& b, double h) {
-  return {0, b.beta / h, 2 * b.alpha * b.beta / (h * h), 0};
-}
+Weights imaginary_weights_of(const Collocation::Block& b, double h) { return {0, b.beta / h, 2 * b.alpha * b.beta / (h * h), 0}; }
 
 }  // namespace
 
