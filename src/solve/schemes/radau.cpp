@@ -227,6 +227,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
   const std::vector<double> remembered = references_.memory();
   const double precision = context_.options.precision;
   references_.begin(from);
+  fresh_ = false;
   bool renew = (!(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale()) && !recall(h);
   Correction last;
   double contraction = 0, slowest = 0;
@@ -307,7 +308,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     }
   }
   if (!report.converged) references_.restore(remembered);
-  if (!report.converged || slowest > (error_.wanted() ? slow : growing_slow)) {
+  if (!report.converged || slowest > growing_slow) {
     kept_.drop();
     kept_step_ = 0;
   }
@@ -316,6 +317,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
 
 void Radau::keep(const Configuration& c, double h) {
   kept_.evaluate(c, h);
+  fresh_ = true;
   kept_step_ = matrices_step_ = h;
   kept_scale_ = context_.assembler.scale();
 }
@@ -373,15 +375,28 @@ bool Radau::restore_balance(Configuration& c) {
   if (!(matrices_step_ > 0)) return false;
   const Configuration before = c;
   const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
-  if (!multipliers_.empty()) multipliers_.at(c.time, 0, c.multipliers);
   // What is stiff or rigid finds its place, and what is not its acceleration. The change of places counts as one of accelerations
   // too, by 13/h² times it, which is more than these were off by: forces are found anew with those of the motion.
-  const bool moved = balance_near(c, 1);
-  context_.motion.set_velocities(v, c);
-  context_.motion.set_accelerations(a, c);
-  if (!moved || !balance_near(c, 8)) {
+  const auto found = [&] {
     c = before;
-    return false;
+    if (!multipliers_.empty()) multipliers_.at(c.time, 0, c.multipliers);
+    const bool moved = balance_near(c, 1);
+    context_.motion.set_velocities(v, c);
+    context_.motion.set_accelerations(a, c);
+    return moved && balance_near(c, 8);
+  };
+  if (!found()) {
+    // matrices that were good enough for the step may not be for this; the next phase is not to find those of this one
+    const bool again = !fresh_;
+    if (again) {
+      keep(outside_of_steps(before), matrices_step_);
+      kept_.drop();
+      kept_step_ = 0;
+    }
+    if (!again || !found()) {
+      c = before;
+      return false;
+    }
   }
   context_.redundancy.share(c);
   return true;

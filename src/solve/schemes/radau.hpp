@@ -101,6 +101,7 @@ class Radau final : public Dynamics {
   double kept_step_ = 0;      ///< that the systems are worth trying for; 0: none
   double matrices_step_ = 0;  ///< that they were last made for; 0: never
   std::vector<double> kept_scale_;
+  bool fresh_ = false;  ///< they were evaluated in the last attempt
   bool has_friction_ = false;
   Owned<Mat> balance_matrix_;
   LinearSolver balance_;
