@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "assembly/configuration_snapshot.hpp"
 #include "math/rotation.hpp"
@@ -23,8 +22,6 @@ constexpr double slow = 0.3, growing_slow = 0.1;
 /// So many corrections that shrink by less than this end a controlled step.
 constexpr double no_contraction = 1;
 constexpr int most_idle = 3;
-/// A residual that is foretold to be less than this part of PREC is not evaluated.
-constexpr double foretold = 0.3;
 /// Guesses go through this many ends of steps, and no farther than so many times the distance of two of them.
 constexpr std::size_t points_of_guess = 4;
 /// Iterations may leave so much of the tolerance of a step.
@@ -169,21 +166,14 @@ void Radau::differentiate(const Configuration& from, double h) {
   }
 }
 
-void Radau::place(const Configuration& from) {
+Imbalance Radau::evaluate(const Configuration& from) {
+  Imbalance all;
   for (std::size_t i = 0; i < configurations_.size(); ++i) {
     Configuration& c = configurations_[i];
     context_.motion.move(from, now_.y[i], c);
     context_.motion.set_velocities(now_.v[i], c);
     context_.motion.set_accelerations(now_.a[i], c);
     c.multipliers = now_.multipliers[i];
-  }
-}
-
-Imbalance Radau::evaluate(const Configuration& from) {
-  Imbalance all;
-  place(from);
-  for (std::size_t i = 0; i < configurations_.size(); ++i) {
-    const Configuration& c = configurations_[i];
     context_.assembler.residual(c, residuals_[i]);
     references_.take(c, context_.assembler.carried());
     all.join(imbalance(context_.assembler, references_, residuals_[i]));
@@ -234,7 +224,6 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
   bool evaluated = false;  // in this step
   int uses = 0;            // of the matrices, in this step
   int idle = 0;            // corrections that were hardly smaller than the one before
-  double left_before = 0;  // residual of the iteration before
   for (int k = 0;; ++k) {
     differentiate(from, h);
     const Imbalance found = evaluate(from);
@@ -287,19 +276,10 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     const double before = last.motion;
     last = correct();
     contraction = k > 0 && before > 0 ? last.motion / before : 1;
-    const double before_that = std::exchange(left_before, left);
     // the first correction after matrices have changed says nothing of them; what is left of rounding says nothing of new ones
     if (++uses < 2 || (evaluated && last.motion <= negligible_correction)) continue;
     slowest = std::max(slowest, contraction);
     renew = contraction > slow;
-    // what corrections and residuals have shrunk by tells what the next residual would be
-    if (error_.wanted() && !renew && left * left <= foretold * precision * before_that && settled()) {
-      differentiate(from, h);
-      place(from);
-      report.converged = true;
-      report.iterations = k + 1;
-      break;
-    }
     // across an event corrections go from one law to the other and back: a shorter step costs less than to wait for them
     if (error_.wanted() && contraction > no_contraction && ++idle == most_idle) {
       report.iterations = k + 1;

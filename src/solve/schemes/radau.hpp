@@ -47,9 +47,7 @@ class Radau final : public Dynamics {
   void predict(const Configuration& from, double h);
   /// Velocities and accelerations of the stages from y, with what is prescribed.
   void differentiate(const Configuration& from, double h);
-  /// Sets the stages' configurations.
-  void place(const Configuration& from);
-  /// The same, and evaluates their residuals and compares these with the references.
+  /// Sets the stages' configurations, evaluates their residuals and compares these with the references.
   Imbalance evaluate(const Configuration& from);
   /// Outcome::error of a step of h that has converged.
   std::optional<double> local_error(const Configuration& from, double h, const Configuration& to);
