@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "app/instants.hpp"
 #include "app/selection.hpp"
@@ -57,7 +58,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   estimate_.tolerance = options.tolerance;
   estimate_.companion_tolerance = loose.tolerance;
   SolverContext context(model, loose, comm);
-  observe::Observer observer(context.assembler, moves(model), select_histories(model));
+  observe::Observer observer(context.assembler, moves(model), select_compared(model));
   observer.keep_ends();
   choose_columns(observer, model);
   const Schedule shown(model.commands.stepping, model.commands.archive);
@@ -123,12 +124,13 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
     for (const int id : table.ids)
       for (const Named& channel : table.channels) {
         if (asked.empty() || asked.count(at) > 0)
-          columns_.push_back({static_cast<std::size_t>(at),
-                              table.path.substr(0, table.path.find('/') + 1) + std::to_string(id) + "/" + channel.name,
+          columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at),
+                              table.path.substr(0, table.path.find('/') + 1) + std::to_string(id), channel.name,
                               channel.dimension, 0, std::numeric_limits<double>::infinity(),
                               -std::numeric_limits<double>::infinity()});
         ++at;
       }
+  placed_ = asked.empty();  // else the run has more histories than this one
 }
 
 std::optional<std::size_t> Companion::place(double time) const {
@@ -144,12 +146,15 @@ void Companion::record(double time, const std::vector<double>& values) {
     rows_ = *row + 1;
     values_.resize(rows_ * columns_.size(), std::numeric_limits<double>::quiet_NaN());
   }
-  for (std::size_t c = 0; c < columns_.size(); ++c) values_[*row * columns_.size() + c] = values[columns_[c].at];
+  for (std::size_t c = 0; c < columns_.size(); ++c) values_[*row * columns_.size() + c] = values[columns_[c].own];
 }
 
-void Companion::compare(double time, const std::vector<double>& values) {
+void Companion::compare(double time, const observe::Observer& observer) {
   const auto row = place(time);
   if (!row || *row >= rows_) return;
+  if (!std::exchange(placed_, true))
+    for (Column& column : columns_) column.at = static_cast<std::size_t>(observer.channel(column.owner, column.channel));
+  const std::vector<double>& values = observer.values();
   ++compared_;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     Column& column = columns_[c];
@@ -179,7 +184,7 @@ ErrorEstimate Companion::estimate(long steps) const {
     const double error = share * std::sqrt(column.squares / static_cast<double>(compared_)) / range;
     if (error >= found.error) {
       found.error = error;
-      found.channel = column.name;
+      found.channel = column.owner + "/" + column.channel;
     }
   }
   if (found.channel.empty()) found.trouble = "nothing that is asked for changes";

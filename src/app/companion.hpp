@@ -22,8 +22,8 @@ class Companion {
   /// Runs; collective. `options`: of the run that it goes with. `quiet`: without a word on how far it is.
   Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet);
 
-  /// An even instant of the run itself, with the observer's values there. On rank 0.
-  void compare(double time, const std::vector<double>& values);
+  /// An even instant of the run itself, which its observer has seen last. On rank 0.
+  void compare(double time, const observe::Observer& observer);
   /// After the run, of so many steps. On rank 0.
   ErrorEstimate estimate(long steps) const;
   /// Why it failed; empty when it did not. On all ranks.
@@ -39,12 +39,13 @@ class Companion {
 
   /// A channel that is compared.
   struct Column {
-    std::size_t at;
-    std::string name;
+    std::size_t own, at;  ///< place among the values of this run's observer, and of the run's own
+    std::string owner, channel;
     Dimension dimension;
     double squares = 0, least = 0, largest = 0;
   };
   std::vector<Column> columns_;
+  bool placed_ = true;  ///< Column::at is known
   double start_, interval_;
   std::size_t rows_ = 0, compared_ = 0;
   long steps_ = 0;

@@ -178,6 +178,14 @@ observe::Selection select_histories(const Model& model) {
   return selection;
 }
 
+observe::Selection select_compared(const Model& model) {
+  observe::Selection selection = select_histories(model);
+  const deck::ArchiveCard& archive = model.commands.archive;
+  if (!selects(archive) && archive.channels.empty() && !model.commands.checks.empty())
+    selection.all_parts = selection.all_nodes = false;
+  return selection;
+}
+
 int checked_channel(const observe::Observer& observer, const deck::CheckCard& check) {
   const std::string owner = check.element ? fmt::format("element/{}", *check.element)
                             : check.node  ? fmt::format("node/{}", *check.node)

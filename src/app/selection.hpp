@@ -17,6 +17,9 @@ bool moves(const Model& model);
 /// Whose histories are kept: what `.SAI` says, and always what `.CHK` compares.
 observe::Selection select_histories(const Model& model);
 
+/// The histories that an estimate of the error compares: what `.SAI` names, else what `.CHK` compares, else all.
+observe::Selection select_compared(const Model& model);
+
 /// The place of what a row of `.CHK` compares among the observer's values; -1 where there is no such channel.
 int checked_channel(const observe::Observer& observer, const deck::CheckCard& check);
 

@@ -268,7 +268,7 @@ Verdict solve_once(Reading& reading, const Options& options, const SolverOptions
       observe_step(context, observer, in_space(solved, true), step, {});
       due = instants->show([&](double time, const Schedule::Due& now) {
         if (rank == 0 && failure.empty()) try {
-            if (companion) companion->compare(time, observer.values());
+            if (companion) companion->compare(time, observer);
             writer->between(time, now);
           } catch (const OutputError& e) {
             failure = e.what();
@@ -281,7 +281,7 @@ Verdict solve_once(Reading& reading, const Options& options, const SolverOptions
     last_time = solved.time;
     int stop = failure.empty() ? 0 : 1;
     if (rank == 0 && stop == 0) try {
-        if (companion && schedule.even(solved.time)) companion->compare(solved.time, observer.values());
+        if (companion && schedule.even(solved.time)) companion->compare(solved.time, observer);
         writer->step(solved, step, due, context.numbering);
         writer->remember(solved, runner, due.restart, false);
       } catch (const OutputError& e) {

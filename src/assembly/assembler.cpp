@@ -292,7 +292,7 @@ void Assembler::tangent(const Configuration& configuration, Weights weights, Mat
     scale_multipliers(evaluated(at), k);
     sum.add(at, k);
   });
-  for (int row = numbering_.first_row(); any_released_ && row < numbering_.end_row(); ++row)
+  for (int row = numbering_.first_row(); any_released_ && weights.multipliers != 0 && row < numbering_.end_row(); ++row)
     if (released_equation(row))
       sum.add_diagonal(row, -scale_[static_cast<std::size_t>(numbering_.unknown(row).slot - numbering_.motion_slots())]);
   sum.finish();

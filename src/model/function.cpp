@@ -94,9 +94,12 @@ class FormulaFunction final : public Function {
       : formula_(std::move(formula)),
         name_(std::move(name)),
         text_(std::move(text)),
-        integral_([this](double x) { return formula_.value(x); }) {}
+        integral_([this](double x) { return formula_.value(x); }) {
+    if (formula_.constant()) constant_ = formula_.value(0);
+  }
 
   Jet at(double x) const override {
+    if (constant_) return {*constant_, 0, 0, 0};
     const Jet j = formula_.at(x);
     const std::array values{j.f, j.d1, j.d2, j.d3};
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -107,6 +110,7 @@ class FormulaFunction final : public Function {
     return j;
   }
   double integral(double x) const override {
+    if (constant_) return *constant_ * x;
     const double area = integral_(x);
     if (!std::isfinite(area)) {
       const double value = formula_.value(x);
@@ -129,6 +133,7 @@ class FormulaFunction final : public Function {
 
   Expression formula_;
   std::string name_, text_;
+  std::optional<double> constant_;  ///< where the formula does not use its variable
   PanelIntegral integral_;
 };
 

@@ -71,7 +71,7 @@ class Results {
 
   /// How much is gathered before it is written. For tests; the defaults suit any run.
   struct Pace {
-    std::size_t samples = 4096;
+    std::size_t samples = 65536;
     std::size_t bytes = std::size_t{64} << 20;
     std::chrono::duration<double> time{1.0};
   };

@@ -217,6 +217,20 @@ def test_most_events_are_met_by_the_first_attempt(tmp_path: Path) -> None:
     assert more + refused < 0.6 * events
 
 
+def test_the_dial_solves_in_the_plane_that_the_motion_stays_in(tmp_path: Path) -> None:
+    text = (ROOT / "decks/paper/spur_transmission_c.dat").read_text(encoding="utf-8")
+    text = re.sub(r"WINDOW \S+ \S+ V \S+ RTOL \S+", "V 0 ATOL 1E9", text.replace("TF 0.03", "TF 0.0006"))
+    forces = []
+    for plane, solved in (("", "the plane XY"), (" PLANE NO", "space")):
+        words = f".SAM TYPE DYNAMIC START STATIC ACCURACY NORMAL{plane}"
+        dial(re.sub(r"(?m)^\.SAM .*", words, text), tmp_path)
+        assert f"solved in                 {solved}" in (tmp_path / "deck.lst").read_text(encoding="utf-8")
+        with Results(tmp_path / "deck.h5") as results:
+            _, force = results.history("element/7/NORMAL_FORCE")
+        forces.append(force)
+    assert np.abs(forces[0] - forces[1]).max() < 1e-5 * np.ptp(forces[0])
+
+
 def test_the_dial_says_when_it_has_not_met_its_error(tmp_path: Path) -> None:
     found = dial(pendulum("ACCURACY REFERENCE", "TOL 1E-3"), tmp_path)
     assert "more than the 1e-08 asked for" in found["said"]

@@ -34,6 +34,7 @@ void check_analysis(AnalysisCard& analysis, Record& record, Diagnostics& diagnos
     analysis.scheme_is_free = !record.given("SCHEME") && !analysis.rho && !analysis.alpha;
     if (analysis.scheme_is_free) analysis.scheme.tag = "RADAU";
     if (!record.given("SOLVER")) analysis.solver.tag = "AUTO";
+    if (!record.given("PLANE")) analysis.plane.tag = "AUTO";
   }
   if (analysis.type.is("DYNAMIC")) return;
   for (const char* keyword : {"ACCURACY", "SCHEME", "RHO", "ALPHA", "START", "EVENTS", "ENERGY", "TANGENT"})
@@ -56,9 +57,9 @@ Schema analysis_card() {
       .option({"BOSSAK", {}, "Wood, Bossak and Zienkiewicz, damping set by ALPHA"})
       .option({"RADAU", {}, "Radau IIA of order 5: accurate results with long steps"});
   card.add("ACCURACY", &AnalysisCard::accuracy,
-           "how accurate a DYNAMIC analysis is to be: chooses scheme, TOL of .SUB, PREC and solver where the deck does not; a "
-           "run with "
-           "longer steps before it tells the error of what is asked for, over its range")
+           "how accurate a DYNAMIC analysis is to be: chooses scheme, TOL of .SUB, PREC, solver and PLANE where the deck does "
+           "not; "
+           "a run with longer steps before it tells the error of what is asked for, over its range")
       .synonyms({"EXACTITUDE"})
       .option({"FAST", {"RAPIDE"}, "1E-2"})
       .option({"NORMAL", {}, "1E-3"})

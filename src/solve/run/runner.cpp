@@ -238,7 +238,10 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   step_.events.clear();
   if (locator_.active()) step_.events = locator_.switches().take(now_);
   if (scheme_.settle_friction(now_) && locator_.active()) locator_.switches().renew(now_);
-  if (control_.active() && !step_.events.empty()) h_ = control_.enter(locator_.switches().sides(), h_);
+  if (control_.active() && !step_.events.empty()) {
+    h_ = control_.enter(locator_.switches().sides(), h_);
+    scheme_.enter(locator_.switches().sides());
+  }
   ++step_.number;
   step_.step = size;
   step_.regular = regular;

@@ -148,7 +148,9 @@ bool Dynamics::counts(std::span<const double> changes, double scale, std::span<c
 bool Dynamics::constrained() const { return context_.numbering.slots() > context_.numbering.motion_slots(); }
 
 void Dynamics::scale_for(const Configuration& c, double h, Weights weights) {
-  if (h > 0.3 * scaled_for_ && h < 3 * scaled_for_) return;
+  // controlled steps of many lengths are made with the same matrices (KeptMatrices), which belong to one scale
+  const double far = error_.wanted() ? 10 : 3;
+  if (far * h > scaled_for_ && h < far * scaled_for_) return;
   context_.assembler.choose_scale(c, weights, context_.options.scale);
   scaled_for_ = h;
 }

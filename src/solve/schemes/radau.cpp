@@ -53,6 +53,7 @@ Radau::Radau(SolverContext& context)
       references_(context.assembler, context.options.precision),
       configurations_(static_cast<std::size_t>(collocation_.stages())),
       prescribed_(configurations_.size()),
+      kept_(context.assembler, solver_),
       balance_matrix_(),
       balance_((*balance_matrix_.out() = context.assembler.new_matrix(), balance_matrix_), context.solver.package(),
                kinds_of_rows(context.numbering)) {
@@ -88,8 +89,18 @@ StartReport Radau::start(Configuration& c) {
 void Radau::start_memory(const Configuration& c, const MasslessMotions*) { restart_memory(c); }
 
 void Radau::restart_memory(const Configuration&) {
+  forget_motion();
+  kept_.clear();
+}
+
+void Radau::forget_motion() {
   accelerations_.clear();
   multipliers_.clear();
+  kept_step_ = 0;
+}
+
+void Radau::enter(const std::vector<int>& sides) {
+  kept_.enter(sides);
   kept_step_ = 0;
 }
 
@@ -206,7 +217,8 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
   const std::vector<double> remembered = references_.memory();
   const double precision = context_.options.precision;
   references_.begin(from);
-  bool renew = !(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale();
+  fresh_ = false;
+  bool renew = (!(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale()) && !recall(h);
   Correction last;
   double contraction = 0, slowest = 0;
   bool evaluated = false;  // in this step
@@ -276,15 +288,25 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     }
   }
   if (!report.converged) references_.restore(remembered);
-  if (!report.converged || slowest > growing_slow) kept_step_ = 0;
+  if (!report.converged || slowest > growing_slow) {
+    kept_.drop();
+    kept_step_ = 0;
+  }
   return report;
 }
 
 void Radau::keep(const Configuration& c, double h) {
-  solver_.evaluate(c, h);
-  kept_ = c;
+  kept_.evaluate(c, h);
+  fresh_ = true;
   kept_step_ = matrices_step_ = h;
   kept_scale_ = context_.assembler.scale();
+}
+
+bool Radau::recall(double h) {
+  if (!error_.wanted() || !kept_.recall(h)) return false;
+  kept_step_ = matrices_step_ = h;
+  kept_scale_ = context_.assembler.scale();
+  return true;
 }
 
 Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
@@ -333,15 +355,28 @@ bool Radau::restore_balance(Configuration& c) {
   if (!(matrices_step_ > 0)) return false;
   const Configuration before = c;
   const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
-  if (!multipliers_.empty()) multipliers_.at(c.time, 0, c.multipliers);
   // What is stiff or rigid finds its place, and what is not its acceleration. The change of places counts as one of accelerations
   // too, by 13/h² times it, which is more than these were off by: forces are found anew with those of the motion.
-  const bool moved = balance_near(c, 1);
-  context_.motion.set_velocities(v, c);
-  context_.motion.set_accelerations(a, c);
-  if (!moved || !balance_near(c, 8)) {
+  const auto found = [&] {
     c = before;
-    return false;
+    if (!multipliers_.empty()) multipliers_.at(c.time, 0, c.multipliers);
+    const bool moved = balance_near(c, 1);
+    context_.motion.set_velocities(v, c);
+    context_.motion.set_accelerations(a, c);
+    return moved && balance_near(c, 8);
+  };
+  if (!found()) {
+    // matrices that were good enough for the step may not be for this; the next phase is not to find those of this one
+    const bool again = !fresh_;
+    if (again) {
+      keep(outside_of_steps(before), matrices_step_);
+      kept_.drop();
+      kept_step_ = 0;
+    }
+    if (!again || !found()) {
+      c = before;
+      return false;
+    }
   }
   context_.redundancy.share(c);
   return true;
@@ -386,6 +421,7 @@ bool Radau::balance_near(Configuration& c, int most) {
 void Radau::accept() {
   accelerations_.add(tried_.time, tried_.a);
   multipliers_.add(tried_.time, tried_.multipliers);
+  if (error_.wanted()) kept_.step();
 }
 
 void Radau::save(Snapshot& snapshot) const {
@@ -394,12 +430,7 @@ void Radau::save(Snapshot& snapshot) const {
   multipliers_.save(snapshot, "radau/multipliers");
   solver_.save(snapshot);
   snapshot.put("radau/kept_step", kept_step_);
-  if (kept_step_ > 0) {
-    Snapshot kept;
-    save_configuration(kept_, kept);
-    save_part(kept, "radau/kept/", snapshot);
-    snapshot.put("radau/kept_scale", kept_scale_);
-  }
+  save_part(kept_, "radau/kept/", snapshot);
   save_part(references_, "radau/", snapshot);
   save_part(balance_, "radau/", snapshot);
   if (balance_kept_) {
@@ -418,13 +449,12 @@ void Radau::load(const Snapshot& snapshot) {
   balance_.load(part_of(snapshot, "radau/"));
   balance_kept_ = balance_.load_factors(part_of(snapshot, "radau/balance/"));
   solver_.load(snapshot);
+  kept_.load(part_of(snapshot, "radau/kept/"));
   kept_step_ = 0;
-  if (const double h = snapshot.number("radau/kept_step"); h > 0) {
-    kept_ = context_.numbering.reference_configuration(0);
-    load_configuration(part_of(snapshot, "radau/kept/"), kept_);
-    keep(Configuration(kept_), h);
+  if (const double h = snapshot.number("radau/kept_step"); h > 0 && kept_.recall(h)) {
     solver_.restore_factors();
-    kept_scale_ = snapshot.array("radau/kept_scale");
+    kept_step_ = matrices_step_ = h;
+    kept_scale_ = context_.assembler.scale();
   }
 }
 

@@ -4,6 +4,7 @@
 #include "math/extrapolation.hpp"
 #include "solve/algebra/references.hpp"
 #include "solve/schemes/dynamics.hpp"
+#include "solve/schemes/kept_matrices.hpp"
 #include "solve/schemes/stage_solver.hpp"
 
 namespace engrane::solve {
@@ -19,6 +20,7 @@ class Radau final : public Dynamics {
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
   void accept() override;
   void drift(Configuration& c, double h) override;
+  void enter(const std::vector<int>& sides) override;
   int order_of_error() const override { return static_cast<int>(collocation_.stages()); }
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
@@ -58,8 +60,13 @@ class Radau final : public Dynamics {
   };
   /// Adds the last changes to the stages.
   Correction correct();
-  /// Evaluates the matrices at `c` for steps of h; they serve as long as the iteration is quick with them.
+  /// What is to foretell steps is forgotten.
+  void forget_motion();
+  /// Evaluates the matrices at `c` for steps of h; they serve as long as the iteration is quick with them, controlled steps of
+  /// other lengths and behind other events too.
   void keep(const Configuration& c, double h);
+  /// The systems of steps of h from matrices that are kept; false when there are none.
+  bool recall(double h);
   /// Simplified Newton iteration from the stages in now_.
   NewtonReport iterate(const Configuration& from, double h);
   /// Velocities, accelerations and multipliers that fit at the end of a step whose positions fit; false when there are none.
@@ -88,10 +95,11 @@ class Radau final : public Dynamics {
   std::vector<Configuration> configurations_;
   std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;
   std::vector<Owned<Vec>> residuals_, changes_;
-  Configuration kept_;        ///< that the matrices were evaluated at
-  double kept_step_ = 0;      ///< for steps of this; 0: they are to be evaluated
-  double matrices_step_ = 0;  ///< that they were last evaluated for; 0: never
+  KeptMatrices kept_;
+  double kept_step_ = 0;      ///< that the systems are worth trying for; 0: none
+  double matrices_step_ = 0;  ///< that they were last made for; 0: never
   std::vector<double> kept_scale_;
+  bool fresh_ = false;  ///< they were evaluated in the last attempt
   bool has_friction_ = false;
   Owned<Mat> balance_matrix_;
   LinearSolver balance_;

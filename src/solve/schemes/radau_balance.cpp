@@ -169,7 +169,7 @@ void Radau::drift(Configuration& c, double h) {
   context_.motion.set_velocities(v, later);
   if (constrained() && !(fit_velocities(later) && fit_accelerations(later))) return Dynamics::drift(c, h);
   c = std::move(later);
-  restart_memory(c);
+  forget_motion();
 }
 
 }  // namespace engrane::solve

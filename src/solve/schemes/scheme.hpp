@@ -73,6 +73,8 @@ class Scheme {
   /// Moves an accepted configuration over a stretch much shorter than a step, past an event; what the scheme
   /// remembers of earlier steps is forgotten.
   virtual void drift(Configuration&, double /*h*/) {}
+  /// After a controlled step or a drift the switches of elements are on other sides.
+  virtual void enter(const std::vector<int>& /*sides*/) {}
 
   /// Looks at an accepted configuration for frictions that come to rest or give way; true when `c` has been changed to fit what
   /// they do now, and what the scheme remembers with it.

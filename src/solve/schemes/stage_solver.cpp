@@ -32,7 +32,7 @@ class Local {
 };
 
 /// `sum` = Σ factors(j) vectors[j].
-void combine(const Eigen::VectorXd& factors, const std::vector<Owned<Vec>>& vectors, Vec sum) {
+void add_up(const Eigen::VectorXd& factors, const std::vector<Owned<Vec>>& vectors, Vec sum) {
   check_petsc(VecSet(sum, 0));
   for (Eigen::Index j = 0; j < factors.size(); ++j) check_petsc(VecAXPY(sum, factors[j], vectors[static_cast<std::size_t>(j)]));
 }
@@ -40,6 +40,8 @@ void combine(const Eigen::VectorXd& factors, const std::vector<Owned<Vec>>& vect
 Weights weights_of(const Collocation::Block& b, double h) {
   return {1, b.alpha / h, (b.alpha * b.alpha - b.beta * b.beta) / (h * h)};
 }
+
+Weights imaginary_weights_of(const Collocation::Block& b, double h) { return {0, b.beta / h, 2 * b.alpha * b.beta / (h * h), 0}; }
 
 }  // namespace
 
@@ -52,8 +54,6 @@ StageSolver::StageSolver(Assembler& assembler, const Collocation& collocation, c
     System& system = systems_.emplace_back();
     system.block = block;
     if (block.complex()) {
-      *system.real.out() = assembler.new_matrix();
-      *system.imaginary.out() = assembler.new_matrix();
       *system.whole.out() = new_double_matrix();
       check_petsc(MatCreateVecs(system.whole, system.solution.out(), system.right.out()));
     } else {
@@ -95,10 +95,11 @@ Mat StageSolver::new_double_matrix() const {
   return matrix;
 }
 
-void StageSolver::interleave(const System& system) const {
+void StageSolver::interleave(const Matrices& matrices, double h, const System& system) const {
   const Numbering& numbering = assembler_.numbering();
+  const Weights real = weights_of(system.block, h), imaginary = imaginary_weights_of(system.block, h);
   PetscInt first = 0, end = 0;
-  check_petsc(MatGetOwnershipRange(system.real, &first, &end));
+  check_petsc(MatGetOwnershipRange(matrices.stiffness, &first, &end));
   const bool sequential = is_sequential(system.whole);
   PetscScalar* values = nullptr;
   if (sequential) check_petsc(MatSeqAIJGetArray(system.whole, &values));
@@ -107,28 +108,33 @@ void StageSolver::interleave(const System& system) const {
   for (PetscInt row = first; row < end; ++row) {
     PetscInt count = 0;
     const PetscInt* from = nullptr;
-    const PetscScalar *re = nullptr, *im = nullptr;
-    check_petsc(MatGetRow(system.real, row, &count, &from, &re));
-    check_petsc(MatGetRow(system.imaginary, row, nullptr, nullptr, &im));
+    const PetscScalar *k = nullptr, *c = nullptr, *m = nullptr;
+    check_petsc(MatGetRow(matrices.stiffness, row, &count, &from, &k));
+    check_petsc(MatGetRow(matrices.damping, row, nullptr, nullptr, &c));
+    check_petsc(MatGetRow(matrices.mass, row, nullptr, nullptr, &m));
     // constraints have no imaginary part; that of one that is released is but the 1 of its equation
     const double part = numbering.unknown(static_cast<int>(row)).multiplier ? 0 : 1;
-    for (auto& values_of_row : pair) values_of_row.clear();
-    for (PetscInt k = 0; k < count; ++k) {
-      pair[0].insert(pair[0].end(), {re[k], -part * im[k]});
-      pair[1].insert(pair[1].end(), {part * im[k], re[k]});
+    for (auto& values_of_row : pair) values_of_row.resize(2 * static_cast<std::size_t>(count));
+    for (PetscInt i = 0; i < count; ++i) {
+      const auto at = 2 * static_cast<std::size_t>(i);
+      const double re = k[i] + real.v * c[i] + real.a * m[i], im = part * (imaginary.v * c[i] + imaginary.a * m[i]);
+      pair[0][at] = pair[1][at + 1] = re;
+      pair[0][at + 1] = -im;
+      pair[1][at] = im;
     }
     if (sequential) {
       for (const auto& values_of_row : pair) values = std::copy(values_of_row.begin(), values_of_row.end(), values);
     } else {
       columns.clear();
-      for (PetscInt k = 0; k < count; ++k) columns.insert(columns.end(), {2 * from[k], 2 * from[k] + 1});
+      for (PetscInt i = 0; i < count; ++i) columns.insert(columns.end(), {2 * from[i], 2 * from[i] + 1});
       for (PetscInt i = 0; i < 2; ++i) {
         const PetscInt into = 2 * row + i;
         check_petsc(MatSetValues(system.whole, 1, &into, 2 * count, columns.data(), pair[i].data(), INSERT_VALUES));
       }
     }
-    check_petsc(MatRestoreRow(system.imaginary, row, nullptr, nullptr, &im));
-    check_petsc(MatRestoreRow(system.real, row, &count, &from, &re));
+    check_petsc(MatRestoreRow(matrices.mass, row, nullptr, nullptr, &m));
+    check_petsc(MatRestoreRow(matrices.damping, row, nullptr, nullptr, &c));
+    check_petsc(MatRestoreRow(matrices.stiffness, row, &count, &from, &k));
   }
   if (sequential) {
     values = nullptr;
@@ -138,19 +144,34 @@ void StageSolver::interleave(const System& system) const {
   check_petsc(MatAssemblyEnd(system.whole, MAT_FINAL_ASSEMBLY));
 }
 
-void StageSolver::evaluate(const Configuration& c, double h) {
+StageSolver::Matrices StageSolver::new_matrices() const {
+  Matrices matrices;
+  for (Owned<Mat>* matrix : {&matrices.stiffness, &matrices.damping, &matrices.mass}) *matrix->out() = assembler_.new_matrix();
+  return matrices;
+}
+
+void StageSolver::evaluate(const Configuration& c, const Matrices& matrices) {
+  assembler_.tangent(c, {1, 0, 0}, matrices.stiffness);
+  assembler_.tangent(c, {0, 1, 0, 0}, matrices.damping);
+  assembler_.tangent(c, {0, 0, 1, 0}, matrices.mass);
+}
+
+void StageSolver::combine(const Matrices& matrices, double h) {
   for (System& system : systems_) {
-    const auto& b = system.block;
-    assembler_.tangent(c, weights_of(b, h), b.complex() ? system.real : system.whole);
-    if (!b.complex()) continue;
-    assembler_.tangent(c, {0, b.beta / h, 2 * b.alpha * b.beta / (h * h), 0}, system.imaginary);
-    interleave(system);
+    if (system.block.complex()) {
+      interleave(matrices, h, system);
+      continue;
+    }
+    const Weights weights = weights_of(system.block, h);
+    check_petsc(MatCopy(matrices.stiffness, system.whole, SAME_NONZERO_PATTERN));
+    check_petsc(MatAXPY(system.whole, weights.v, matrices.damping, SAME_NONZERO_PATTERN));
+    check_petsc(MatAXPY(system.whole, weights.a, matrices.mass, SAME_NONZERO_PATTERN));
   }
 }
 
 bool StageSolver::solve(const std::vector<Owned<Vec>>& residuals, const std::vector<Owned<Vec>>& changes) {
   for (std::size_t i = 0; i < residuals.size(); ++i)
-    combine(-collocation_.untransform.row(static_cast<Eigen::Index>(i)).transpose(), residuals, transformed_[i]);
+    add_up(-collocation_.untransform.row(static_cast<Eigen::Index>(i)).transpose(), residuals, transformed_[i]);
   for (System& system : systems_) {
     const auto k = static_cast<std::size_t>(system.block.first);
     if (!system.block.complex()) {
@@ -172,7 +193,7 @@ bool StageSolver::solve(const std::vector<Owned<Vec>>& residuals, const std::vec
     }
   }
   for (std::size_t i = 0; i < changes.size(); ++i)
-    combine(collocation_.transform.row(static_cast<Eigen::Index>(i)).transpose(), solved_, changes[i]);
+    add_up(collocation_.transform.row(static_cast<Eigen::Index>(i)).transpose(), solved_, changes[i]);
   return true;
 }
 

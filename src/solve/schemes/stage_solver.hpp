@@ -16,14 +16,21 @@ namespace engrane::solve {
 /// imaginary parts of an unknown next to each other.
 class StageSolver {
  public:
+  /// K, C and M of one place, scaled as the assembler was then (Assembler).
+  struct Matrices {
+    Owned<Mat> stiffness, damping, mass;
+  };
+
   StageSolver(Assembler& assembler, const Collocation& collocation, const std::string& package);
 
   /// The weights of the real eigenvalue, or of the real part of the complex one where there is no real one.
   Weights weights(double h) const;
   /// γ of the real eigenvalue: increments over γ/h and velocities of its system go together.
   double real_rate() const;
-  /// Evaluates the matrices at `c` for a step of h.
-  void evaluate(const Configuration& c, double h);
+  Matrices new_matrices() const;
+  void evaluate(const Configuration& c, const Matrices& matrices);
+  /// The systems for steps of h with these. No element is evaluated.
+  void combine(const Matrices& matrices, double h);
   /// Changes of all stages' unknowns that bring the residuals, one vector for each stage, to zero; false when singular. Residuals
   /// are overwritten.
   bool solve(const std::vector<Owned<Vec>>& residuals, const std::vector<Owned<Vec>>& changes);
@@ -39,7 +46,6 @@ class StageSolver {
   /// One block of the collocation.
   struct System {
     Collocation::Block block;
-    Owned<Mat> real, imaginary;  ///< of a complex one; else the system is `whole`
     Owned<Mat> whole;
     std::unique_ptr<LinearSolver> solver;
     Owned<Vec> right, solution;  ///< of a complex one
@@ -48,7 +54,7 @@ class StageSolver {
   const System& real() const;
   Mat new_double_matrix() const;
   /// [Re −Im; Im Re] with rows and columns 2i and 2i + 1 for the two parts of unknown i.
-  void interleave(const System& system) const;
+  void interleave(const Matrices& matrices, double h, const System& system) const;
 
   Assembler& assembler_;
   const Collocation& collocation_;
