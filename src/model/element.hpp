@@ -328,7 +328,8 @@ class Element {
   virtual std::vector<Release> releases() const;
   /// Whether the element makes its nodes a body that can have mass; advice against motions that no inertia resists looks here.
   virtual bool is_body() const { return false; }
-  /// Its forces at rest are linear in the displacements: one tangent serves any equilibrium.
+  /// Its forces at rest are linear in the displacements: one tangent serves any equilibrium. Without multipliers it is symmetric,
+  /// for such forces have a potential.
   virtual bool is_linear() const { return false; }
 
   /// Where its forces are not finite: why, and what to change, after the element's name. Empty: nothing more is known.
