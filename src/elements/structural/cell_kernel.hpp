@@ -34,7 +34,7 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
   static constexpr int N = Traits::nodes, D = Traits::dimension;
   static constexpr int modes = internal_modes(S);
   static constexpr int columns = N + modes;
-  static constexpr int size = D * columns, nodal = D * N;
+  static constexpr int size = D * columns, nodal = D * N, own = D * modes;  ///< unknowns: all, of the nodes, of the modes
 
   using Local = CellStrain<D, Axi>;
   using Local::normals, Local::shears, Local::strains;
@@ -160,7 +160,7 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     if constexpr (modes == 0) {
       sum(law, out.moves, out.forces, wants_tangent ? &out.tangent : nullptr);
     } else {
-      constexpr int own = D * modes, most = 25;
+      constexpr int most = 25;
       // its square is rounding: the last correction is carried over to the forces to first order
       constexpr double small = 1e-9;
       const auto norm = [](const double* of_modes) { return Eigen::Map<const Eigen::VectorXd>(of_modes, own).norm(); };
