@@ -217,18 +217,17 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     }
   }
 
-  /// Adds bᵀ · moduli · b, on the diagonal and above. Its inner loop runs along rows of `b` for the vector unit.
+  /// Adds bᵀ · moduli · b, on the diagonal and above. Inner loops run along rows of `b` for the vector unit.
   static void add_material(const double (&b)[strains][size], const Stiffness& moduli, Tangent& k) {
+    double c[strains][size] = {};
+    for (int n = 0; n < strains; ++n)
+      for (int m = 0; m < strains; ++m)
+        for (int j = 0; j < size; ++j) c[n][j] += moduli(n, m) * b[m][j];
     for (int j = 0; j < size; ++j) {
-      double c[strains];
-      for (int n = 0; n < strains; ++n) {
-        c[n] = 0;
-        for (int m = 0; m < strains; ++m) c[n] += moduli(n, m) * b[m][j];
-      }
       double* to = k.data() + size * j;
       for (int i = 0; i <= j; ++i) {
         double entry = 0;
-        for (int n = 0; n < strains; ++n) entry += b[n][i] * c[n];
+        for (int n = 0; n < strains; ++n) entry += b[n][i] * c[n][j];
         to[i] += entry;
       }
     }
