@@ -119,7 +119,7 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
   /// Resisting forces and, where wanted, their derivative, of nodes and modes for any amplitudes of the modes. Of the derivative,
   /// which is symmetric, only what stands on the diagonal or above it.
   void sum(const Law& law, const Moves& moves, Forces& r, Tangent* k) const {
-    entries(r).setZero();
+    std::fill_n(r.data(), size, 0);
     if (k) k->fill(0);
     double b[strains][size];
     for (int i = 0; i < count_; ++i) {

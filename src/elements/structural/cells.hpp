@@ -318,7 +318,7 @@ class Cells final : public Block {
     if (wants_tangent || cell.warmth || !entries(moved).isZero(0)) {
       const Kernel kernel(cell.places, cell.section->thickness);
       kernel.condense(law_of(cell, state), moved, wants_tangent, sum);
-      out = entries(sum.forces);
+      std::copy_n(sum.forces.data(), D * N, r);
     } else {
       out.setZero();  // as it is asked when masses are found
     }

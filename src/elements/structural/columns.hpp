@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <type_traits>
 
 namespace engrane::elements::structural {
@@ -25,7 +26,7 @@ auto entries(Matrix& m) {
 template <class Matrix>
 Matrix zero() {
   Matrix m;
-  entries(m).setZero();
+  std::fill_n(m.data(), m.size(), 0);
   return m;
 }
 
