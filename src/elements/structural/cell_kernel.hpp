@@ -3,15 +3,17 @@
 // the one with large displacements at rest, by the same lines.
 #pragma once
 
-#include <Eigen/LU>
+#include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <span>
 
-#include "elements/materials/neo_hookean.hpp"
 #include "elements/structural/cell_shapes.hpp"
+#include "elements/structural/cell_strain.hpp"
+#include "elements/structural/columns.hpp"
 
 namespace engrane::elements::structural {
 
@@ -21,38 +23,35 @@ constexpr int internal_modes(CellShape shape) {
   return shape == CellShape::quadrilateral ? 2 : shape == CellShape::hexahedron ? 3 : 0;
 }
 
+/// x of a x = b in the place of b; a is lost.
+void solve_in_place(Eigen::Map<Eigen::MatrixXd> a, Eigen::Map<Eigen::MatrixXd> b);
+
 /// `Axi`: round the y axis, where x is the radius. Nodes and internal modes stand side by side as columns.
 template <CellShape S, bool Axi>
-class CellKernel {
+class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
  public:
   using Traits = CellTraits<S>;
   static constexpr int N = Traits::nodes, D = Traits::dimension;
   static constexpr int modes = internal_modes(S);
   static constexpr int columns = N + modes;
-  static constexpr int shears = D == 3 ? 3 : 1;
-  static constexpr int normals = D == 3 || Axi ? 3 : 2;
-  static constexpr int strains = normals + shears;
-  static constexpr int size = D * columns;
-  /// Where the strains stand among xx, yy, zz, xy, yz, zx.
-  static constexpr std::array<Eigen::Index, static_cast<std::size_t>(strains)> components = [] {
-    std::array<Eigen::Index, static_cast<std::size_t>(strains)> at{};
-    for (int i = 0; i < strains; ++i) at[static_cast<std::size_t>(i)] = i < normals ? i : 3 + i - normals;
-    return at;
-  }();
+  static constexpr int size = D * columns, nodal = D * N, own = D * modes;  ///< unknowns: all, of the nodes, of the modes
+
+  using Local = CellStrain<D, Axi>;
+  using Local::normals, Local::shears, Local::strains;
+  using typename Local::Deformation, typename Local::Square, typename Local::Stiffness, typename Local::Strain;
 
   using Places = Eigen::Matrix<double, D, N>;
   using Moves = Eigen::Matrix<double, D, columns>;  ///< displacements of the nodes, amplitudes of the modes
-  using Forces = Eigen::Matrix<double, size, 1>;
-  using Tangent = Eigen::Matrix<double, size, size>;
-  using Strain = Eigen::Matrix<double, strains, 1>;
-  using Stiffness = Eigen::Matrix<double, strains, strains>;
-  using Square = Eigen::Matrix<double, D, D>;
+  using Forces = Moves;
+  /// Columns of a square matrix, one after the other.
+  using Tangent = std::array<double, static_cast<std::size_t>(size* size)>;
+  using NodalTangent = std::array<double, static_cast<std::size_t>(nodal* nodal)>;
 
   /// Geometry of a Gauss point in the reference configuration.
   struct Point {
     double volume = 0;  ///< that the point stands for
     Eigen::Matrix<double, D, columns> gradient;
-    Eigen::Matrix<double, 1, columns> hoop;  ///< strain round the axis of each column's displacement along x; Axi only
+    std::array<double, static_cast<std::size_t>(columns)> hoop;  ///< strain round the axis of each column's displacement along x
   };
   static constexpr int most_points = S == CellShape::hexahedron20 ? 27 : D == 3 ? 9 : 4;
 
@@ -74,23 +73,23 @@ class CellKernel {
   /// `at` other than the points of the stiffness: only of cells without modes, whose mean is that over the cell.
   CellKernel(const Places& places, double thickness, std::span<const typename Traits::Sample> at = samples()) {
     for (const auto& s : at) {
-      const Square jacobian = s.slope * places.transpose();  // rows: along ξ, η, ζ
+      const Square jacobian = dyads(s.slope, places);  // rows: along ξ, η, ζ
       const Square inverse = jacobian.inverse();
       Point& p = points_[count_];
-      p.gradient.template leftCols<N>() = inverse * s.slope;
+      for (int n = 0; n < N; ++n) column(p.gradient, n) = inverse * column(s.slope, n);
       p.volume = s.weight * std::abs(jacobian.determinant()) * thickness;
       double radius = 0;
       if constexpr (Axi) {
-        radius = places.row(0).dot(s.value);
+        for (int n = 0; n < N; ++n) radius += places(0, n) * s.value[n];
         p.volume *= 2 * std::numbers::pi * radius;
-        p.hoop.template leftCols<N>() = s.value.transpose() / radius;
+        for (int n = 0; n < N; ++n) p.hoop[static_cast<std::size_t>(n)] = s.value[n] / radius;
       }
       if constexpr (modes > 0) {
         const QuadraturePoint& q = points()[static_cast<std::size_t>(count_)];
         const double place[3] = {q.xi, q.eta, q.zeta};
         for (int i = 0; i < modes; ++i) {
-          p.gradient.col(N + i) = -2 * place[i] * inverse.col(i);
-          if constexpr (Axi) p.hoop[N + i] = (1 - place[i] * place[i]) / radius;
+          column(p.gradient, N + i) = -2 * place[i] * inverse.col(i);
+          if constexpr (Axi) p.hoop[static_cast<std::size_t>(N + i)] = (1 - place[i] * place[i]) / radius;
         }
       }
       ++count_;
@@ -101,94 +100,48 @@ class CellKernel {
   int count() const { return count_; }
   const Point& point(int i) const { return points_[i]; }
 
-  /// Deformation at a point: F and, round an axis, its entry of the circumference.
-  struct Deformation {
-    Square F = Square::Identity();
-    double hoop = 1;
-  };
   Deformation deformation(const Point& p, const Moves& moves) const {
     Deformation d;
-    d.F += moves * p.gradient.transpose();
-    if constexpr (Axi) d.hoop += moves.row(0).dot(p.hoop);
+    d.F += dyads(moves, p.gradient);
+    if constexpr (Axi)
+      for (int n = 0; n < columns; ++n) d.hoop += moves(0, n) * p.hoop[static_cast<std::size_t>(n)];
     return d;
   }
 
-  /// Strain of Green and Lagrange, or its linear part.
-  static Strain strain(const Deformation& d, bool linear) {
-    const Square H = d.F - Square::Identity();
-    Square E = (H + H.transpose()) / 2;
-    if (!linear) E += H.transpose() * H / 2;
-    Strain e;
-    for (int i = 0; i < D; ++i) e[i] = E(i, i);
-    for (int i = 0; i < shears; ++i) e[normals + i] = 2 * E(i, (i + 1) % D);
-    if constexpr (Axi) {
-      const double h = d.hoop - 1;
-      e[2] = linear ? h : h + h * h / 2;
-    }
-    return e;
-  }
-
-  /// What the cell is made of: stresses are stiffness · (strain − free), with the strain that warmth alone gives at each point.
-  struct Law {
-    Stiffness stiffness;
-    std::array<Strain, static_cast<std::size_t>(most_points)> free{};
+  /// The law, with the strain that warmth alone gives at each point.
+  struct Law : Local::Law {
     bool is_warm = false;
-    bool linear = true;                                  ///< small displacements
-    const materials::NeoHookean* neo_hookean = nullptr;  ///< instead
-    materials::Hypothesis hypothesis = materials::Hypothesis::solid;
-  };
-  static Stiffness reduced(const materials::Moduli& full) { return full(components, components); }
-  static Strain reduced(const materials::Voigt& full) { return full(components); }
+    std::array<Strain, static_cast<std::size_t>(most_points)> free{};
 
-  /// The stress at a point, its derivative by the strain, and the energy per volume.
-  struct Response {
-    Strain stress;
-    Stiffness moduli;
-    double energy;
+    const Strain* free_at(int point) const { return is_warm ? &free[static_cast<std::size_t>(point)] : nullptr; }
   };
-  static Response respond(const Law& law, int point, const Deformation& now) {
-    Strain e = strain(now, law.linear);
-    // strains do not tell a body from one turned inside out
-    if (!law.linear && !is_right_way_round(now)) e.setConstant(std::numeric_limits<double>::quiet_NaN());
-    if (law.neo_hookean) {
-      materials::Voigt all = materials::Voigt::Zero();
-      all(components) = e;
-      const materials::Response found = materials::respond(*law.neo_hookean, law.hypothesis, all);
-      return {reduced(found.stress), reduced(found.moduli), found.energy};
-    }
-    if (law.is_warm) e -= law.free[static_cast<std::size_t>(point)];
-    const Strain stress = law.stiffness * e;
-    return {stress, law.stiffness, e.dot(stress) / 2};
-  }
-  static bool is_right_way_round(const Deformation& now) { return now.F.determinant() > 0 && now.hoop > 0; }
 
-  /// Resisting forces and, where wanted, their derivative, of nodes and modes for any amplitudes of the modes.
+  /// Resisting forces and, where wanted, their derivative, of nodes and modes for any amplitudes of the modes. Of the derivative,
+  /// which is symmetric, only what stands on the diagonal or above it.
   void sum(const Law& law, const Moves& moves, Forces& r, Tangent* k) const {
-    r.setZero();
-    if (k) k->setZero();
-    Eigen::Matrix<double, strains, size> b;
+    std::fill_n(r.data(), size, 0);
+    if (k) k->fill(0);
+    double b[strains][size];
     for (int i = 0; i < count_; ++i) {
       const Point& p = points_[i];
       const Deformation now = deformation(p, moves);
-      const Response response = respond(law, i, now);
+      const auto response = Local::respond(law, law.free_at(i), now);
       const Strain stress = p.volume * response.stress;
       const Deformation at = law.linear ? Deformation{} : now;
       for (int j = 0; j < columns; ++j)
         for (int a = 0; a < D; ++a) {
-          const int column = D * j + a;
-          for (int n = 0; n < D; ++n) b(n, column) = at.F(a, n) * p.gradient(n, j);
+          const int slot = D * j + a;
+          for (int n = 0; n < D; ++n) b[n][slot] = at.F(a, n) * p.gradient(n, j);
           for (int n = 0; n < shears; ++n) {
             const int m = (n + 1) % D;
-            b(normals + n, column) = at.F(a, n) * p.gradient(m, j) + at.F(a, m) * p.gradient(n, j);
+            b[normals + n][slot] = at.F(a, n) * p.gradient(m, j) + at.F(a, m) * p.gradient(n, j);
           }
-          if constexpr (Axi) b(2, column) = a == 0 ? at.hoop * p.hoop[j] : 0;
+          if constexpr (Axi) b[2][slot] = a == 0 ? at.hoop * p.hoop[static_cast<std::size_t>(j)] : 0;
         }
-      r.noalias() += b.transpose() * stress;
+      for (int n = 0; n < strains; ++n)
+        for (int j = 0; j < size; ++j) r.data()[j] += b[n][j] * stress[n];
       if (!k) continue;
-      const Eigen::Matrix<double, strains, size> c = p.volume * response.moduli * b;
-      // sums of a few strains: column by column, without what Eigen prepares for long ones
-      const Eigen::Matrix<double, size, strains> turned = b.transpose();
-      k->noalias() += turned.lazyProduct(c);
+      add_material(b, p.volume * response.moduli, *k);
       if (!law.linear) add_geometric(p, stress, *k);
     }
   }
@@ -196,42 +149,52 @@ class CellKernel {
   /// What is left of forces and tangent once the modes carry no force.
   struct Condensed {
     Moves moves;  ///< with the amplitudes of the modes
-    Eigen::Matrix<double, D * N, 1> forces;
-    Eigen::Matrix<double, D * N, D * N> tangent;
+    Places forces;
+    NodalTangent tangent;  ///< on the diagonal and above
   };
 
   /// Forces on the nodes for their displacements. The modes are found by Newton's iteration, which begins at zero, so that the
   /// forces are a function of the displacements alone; where it finds no balance the forces are not numbers.
   void condense(const Law& law, const Places& displacements, bool wants_tangent, Condensed& out) const {
-    out.moves.template leftCols<N>() = displacements;
-    Forces r;
-    Tangent k;
+    std::copy_n(displacements.data(), nodal, out.moves.data());
     if constexpr (modes == 0) {
-      sum(law, out.moves, r, wants_tangent ? &k : nullptr);
-      out.forces = r;
-      if (wants_tangent) out.tangent = k;
+      sum(law, out.moves, out.forces, wants_tangent ? &out.tangent : nullptr);
     } else {
-      constexpr int nodal = D * N, own = D * modes, most = 25;
+      constexpr int most = 25;
       // its square is rounding: the last correction is carried over to the forces to first order
       constexpr double small = 1e-9;
-      out.moves.template rightCols<modes>().setZero();
+      const auto norm = [](const double* of_modes) { return Eigen::Map<const Eigen::VectorXd>(of_modes, own).norm(); };
+      std::fill_n(out.moves.data() + nodal, own, 0);
+      Forces r;
+      Tangent k;
+      double square[own * own], solved[own * (nodal + 1)];  // the last column has the forces of the modes
       for (int iteration = 0; iteration < most; ++iteration) {
         sum(law, out.moves, r, &k);
-        const Eigen::Matrix<double, own, nodal + 1> right =
-            (Eigen::Matrix<double, own, nodal + 1>() << k.template bottomLeftCorner<own, nodal>(), r.template tail<own>())
-                .finished();
-        const Eigen::Matrix<double, own, nodal + 1> solved = k.template bottomRightCorner<own, own>().partialPivLu().solve(right);
-        const Eigen::Matrix<double, own, 1> change = -solved.col(nodal);
-        out.moves.template rightCols<modes>() += Eigen::Map<const Eigen::Matrix<double, D, modes>>(change.data());
-        if (!law.linear && !(change.norm() * points_[0].gradient.template rightCols<modes>().norm() < small)) continue;
-        out.forces = r.template head<nodal>() + k.template topRightCorner<nodal, own>() * change;
-        if (wants_tangent)
-          out.tangent = k.template topLeftCorner<nodal, nodal>() -
-                        k.template topRightCorner<nodal, own>() * solved.template leftCols<nodal>();
+        for (int m = 0; m < own; ++m) {
+          const double* above = k.data() + size * (nodal + m);
+          for (int j = 0; j < nodal; ++j) solved[own * j + m] = above[j];
+          for (int n = 0; n <= m; ++n) square[own * m + n] = square[own * n + m] = above[nodal + n];
+          solved[own * nodal + m] = r.data()[nodal + m];
+        }
+        solve_in_place({square, own, own}, {solved, own, nodal + 1});
+        const double* back = solved + own * nodal;  // the change of the modes with the other sign
+        for (int m = 0; m < own; ++m) out.moves.data()[nodal + m] -= back[m];
+        if (!law.linear && !(norm(back) * norm(points_[0].gradient.data() + nodal) < small)) continue;
+        std::copy_n(r.data(), nodal, out.forces.data());
+        for (int m = 0; m < own; ++m)
+          for (int i = 0; i < nodal; ++i) out.forces.data()[i] -= k.data()[size * (nodal + m) + i] * back[m];
+        for (int j = 0; wants_tangent && j < nodal; ++j) {
+          double* to = out.tangent.data() + nodal * j;
+          std::copy_n(k.data() + size * j, j + 1, to);
+          for (int m = 0; m < own; ++m) {
+            const double* above = k.data() + size * (nodal + m);
+            for (int i = 0; i <= j; ++i) to[i] -= above[i] * solved[own * j + m];
+          }
+        }
         return;
       }
-      out.forces.setConstant(std::numeric_limits<double>::quiet_NaN());
-      out.tangent.setConstant(std::numeric_limits<double>::quiet_NaN());
+      entries(out.forces).setConstant(std::numeric_limits<double>::quiet_NaN());
+      out.tangent.fill(std::numeric_limits<double>::quiet_NaN());
     }
   }
 
@@ -239,17 +202,34 @@ class CellKernel {
   /// Ibrahimbegović and Wilson (1991), Commun. Appl. Numer. Methods 7: a constant stress does no work on modes whose gradients
   /// have no mean, whatever the shape of the cell.
   void remove_mean() {
-    double volume = 0;
-    Eigen::Matrix<double, D, modes> gradient = Eigen::Matrix<double, D, modes>::Zero();
-    Eigen::Matrix<double, 1, modes> hoop = Eigen::Matrix<double, 1, modes>::Zero();
-    for (int i = 0; i < count_; ++i) {
-      volume += points_[i].volume;
-      gradient += points_[i].volume * points_[i].gradient.template rightCols<modes>();
-      if constexpr (Axi) hoop += points_[i].volume * points_[i].hoop.template rightCols<modes>();
+    for (int m = N; m < columns; ++m) {
+      double volume = 0, hoop = 0;
+      Eigen::Matrix<double, D, 1> gradient = Eigen::Matrix<double, D, 1>::Zero();
+      for (int i = 0; i < count_; ++i) {
+        volume += points_[i].volume;
+        gradient += points_[i].volume * column(points_[i].gradient, m);
+        if constexpr (Axi) hoop += points_[i].volume * points_[i].hoop[static_cast<std::size_t>(m)];
+      }
+      for (int i = 0; i < count_; ++i) {
+        column(points_[i].gradient, m) -= gradient / volume;
+        if constexpr (Axi) points_[i].hoop[static_cast<std::size_t>(m)] -= hoop / volume;
+      }
     }
-    for (int i = 0; i < count_; ++i) {
-      points_[i].gradient.template rightCols<modes>() -= gradient / volume;
-      if constexpr (Axi) points_[i].hoop.template rightCols<modes>() -= hoop / volume;
+  }
+
+  /// Adds bᵀ · moduli · b, on the diagonal and above. Inner loops run along rows of `b` for the vector unit.
+  static void add_material(const double (&b)[strains][size], const Stiffness& moduli, Tangent& k) {
+    double c[strains][size] = {};
+    for (int n = 0; n < strains; ++n)
+      for (int m = 0; m < strains; ++m)
+        for (int j = 0; j < size; ++j) c[n][j] += moduli(n, m) * b[m][j];
+    for (int j = 0; j < size; ++j) {
+      double* to = k.data() + size * j;
+      for (int i = 0; i <= j; ++i) {
+        double entry = 0;
+        for (int n = 0; n < strains; ++n) entry += b[n][i] * c[n][j];
+        to[i] += entry;
+      }
     }
   }
 
@@ -258,12 +238,15 @@ class CellKernel {
     Square second;
     for (int i = 0; i < D; ++i) second(i, i) = stress[i];
     for (int i = 0; i < shears; ++i) second(i, (i + 1) % D) = second((i + 1) % D, i) = stress[normals + i];
-    const Eigen::Matrix<double, columns, columns> g = p.gradient.transpose() * second * p.gradient;
-    for (int j = 0; j < columns; ++j)
-      for (int i = 0; i < columns; ++i) {
-        for (int a = 0; a < D; ++a) k(D * i + a, D * j + a) += g(i, j);
-        if constexpr (Axi) k(D * i, D * j) += stress[2] * p.hoop[i] * p.hoop[j];
+    for (int j = 0; j < columns; ++j) {
+      const Eigen::Matrix<double, D, 1> across = second * column(p.gradient, j);
+      for (int i = 0; i <= j; ++i) {
+        const double g = across.dot(column(p.gradient, i));
+        double* to = k.data() + size * D * j + D * i;
+        for (int a = 0; a < D; ++a) to[(size + 1) * a] += g;
+        if constexpr (Axi) to[0] += stress[2] * p.hoop[static_cast<std::size_t>(i)] * p.hoop[static_cast<std::size_t>(j)];
       }
+    }
   }
 
   Point points_[most_points];

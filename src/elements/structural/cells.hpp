@@ -11,6 +11,7 @@
 
 #include "elements/structural/cell_kernel.hpp"
 #include "elements/structural/cell_recovery.hpp"
+#include "elements/structural/columns.hpp"
 #include "elements/structural/make_cell.hpp"
 #include "math/stress.hpp"
 
@@ -25,8 +26,6 @@ class Cells final : public Block {
   using Places = typename Kernel::Places;
   using Law = typename Kernel::Law;
   static constexpr int N = Traits::nodes, D = Traits::dimension;
-  using Vector = Eigen::Matrix<double, D * N, 1>;
-  using Square = Eigen::Matrix<double, D * N, D * N>;
   using Shape = Eigen::Matrix<double, N, 1>;
   using Stress = materials::Voigt;
   static constexpr int width = D == 2 ? 4 : 6;  ///< components of stress among the results
@@ -40,7 +39,7 @@ class Cells final : public Block {
   std::size_t add(const CellPlan& plan) {
     Cell& cell = cells_.emplace_back();
     std::copy_n(plan.nodes.begin(), N, cell.nodes.begin());
-    for (Eigen::Index i = 0; i < N; ++i) cell.places.col(i) = plan.places[static_cast<std::size_t>(i)].template head<D>();
+    for (Eigen::Index i = 0; i < N; ++i) column(cell.places, i) = plan.places[static_cast<std::size_t>(i)].template head<D>();
     cell.section = plan.section;
     cell.warmth = plan.warmth;
     cell.rotation = plan.rotation;
@@ -71,8 +70,11 @@ class Cells final : public Block {
       typename Kernel::Condensed sum;
       resist(cell, states[i], true, sum, r.data() + i * D * N);
       // symmetric, so that rows and columns need no care
-      Eigen::Map<Square> tangent(k.data() + i * D * D * N * N);
-      tangent = weights.q * sum.tangent;
+      constexpr std::size_t size = Kernel::nodal;
+      double* tangent = k.data() + i * size * size;
+      for (std::size_t column = 0; column < size; ++column)
+        for (std::size_t row = 0; row <= column; ++row)
+          tangent[size * column + row] = tangent[size * row + column] = weights.q * sum.tangent[size * column + row];
       if (weights.a != 0) add_mass(cell, weights.a, Mat3::Identity(), tangent);
       if (cell.rotation && !cell.section->linear) {
         const double speed = cell.rotation->speed_at(states[i].time);
@@ -94,7 +96,7 @@ class Cells final : public Block {
     Energies energies;
     for (int i = 0; i < kernel.count(); ++i) {
       const double volume = kernel.point(i).volume;
-      const auto response = Kernel::respond(law, i, kernel.deformation(kernel.point(i), sum.moves));
+      const auto response = Kernel::respond(law, law.free_at(i), kernel.deformation(kernel.point(i), sum.moves));
       energies.strain += volume * response.energy;
       if (!law.is_warm) continue;
       // V also depends on the warmth ΔT: its change does the work ∂V/∂ΔT dΔT
@@ -104,20 +106,19 @@ class Cells final : public Block {
       energies.external +=
           volume * (held * warmer - Kernel::reduced(section.law.growth).dot(response.stress)) * rise_rate(cell, state, s);
     }
-    Vector weight;
     energies.potential = energies.strain;
-    if (weigh(cell, state, weight)) energies.potential -= weight.dot(moved.reshaped());
-    if (Vector outward = Vector::Zero(); add_centrifugal(cell, state, outward)) energies.external += outward.dot(rates(state));
-    if (section.law.density != 0) {
-      const Places v = rates(state).reshaped(D, N);
-      if (!v.isZero(0))
-        for_each_mass(cell, [&](const auto& shape, double mass) { energies.kinetic += mass / 2 * (v * shape).squaredNorm(); });
-    }
+    if (Places weight; weigh(cell, state, weight)) energies.potential -= entries(weight).dot(entries(moved));
+    const Places v = rates(state);
+    if (Places outward = zero<Places>(); add_centrifugal(cell, state, outward))
+      energies.external += entries(outward).dot(entries(v));
+    if (section.law.density != 0 && !entries(v).isZero(0))
+      for_each_mass(
+          cell, [&](const Shape& shape, double mass) { energies.kinetic += mass / 2 * interpolated(v, shape).squaredNorm(); });
     return energies;
   }
 
   bool applied(std::size_t e, const State& state, std::span<double> forces) const override {
-    Vector sum = Vector::Zero();
+    auto sum = zero<Places>();
     const bool heavy = weigh(cells_[e], state, sum), turns = add_centrifugal(cells_[e], state, sum);
     if (heavy || turns) std::copy_n(sum.data(), D * N, forces.begin());
     return heavy || turns;
@@ -178,7 +179,9 @@ class Cells final : public Block {
   StressEnergies stress_energies(std::size_t e, const State& state, std::span<const double> at_nodes) const override {
     const Cell& cell = cells_[e];
     const CellSection& section = *cell.section;
-    const Eigen::Map<const Eigen::Matrix<double, width, N>> given(at_nodes.data());
+    const auto given = [&at_nodes](Eigen::Index node) {
+      return Eigen::Map<const Eigen::Matrix<double, width, 1>>(at_nodes.data() + width * node);
+    };
     std::optional<Kernel> kernel;  // of cells with modes; the points are others where there are none
     if constexpr (Kernel::modes > 0) kernel.emplace(cell.places, section.thickness);
     typename Kernel::Moves moves;
@@ -199,7 +202,7 @@ class Cells final : public Block {
       const typename Kernel::Point& point = other ? other->point(0) : kernel->point(static_cast<int>(i));
       const AtPoint p = at_point(section, (other ? *other : *kernel).deformation(point, moves), rise(cell, state, samples[i]));
       Stress wanted = Stress::Zero();
-      wanted.template head<width>() = given * samples[i].value;
+      for (Eigen::Index n = 0; n < N; ++n) wanted.template head<width>() += samples[i].value[n] * given(n);
       if (!section.linear) {
         const Mat3 back = p.F.inverse();
         wanted = components_of(p.F.determinant() * back * symmetric_tensor(shown(wanted)) * back.transpose());
@@ -235,18 +238,15 @@ class Cells final : public Block {
   static Places displacements(const Cell& cell, const State& state) {
     Places u;
     for (Eigen::Index i = 0; i < N; ++i)
-      u.col(i) = state.nodes[static_cast<std::size_t>(i)].x.template head<D>() - cell.places.col(i);
+      column(u, i) = state.nodes[static_cast<std::size_t>(i)].x.template head<D>() - column(cell.places, i);
     return u;
   }
 
   static Law law_of(const Cell& cell, const State& state) {
     const materials::Elasticity& material = cell.section->law;
-    Law law{Kernel::reduced(material.stiffness),
-            {},
-            cell.warmth != nullptr,
-            cell.section->linear,
-            material.neo_hookean ? &*material.neo_hookean : nullptr,
-            cell.section->hypothesis};
+    Law law{{Kernel::reduced(material.stiffness), cell.section->linear, material.neo_hookean ? &*material.neo_hookean : nullptr,
+             cell.section->hypothesis},
+            cell.warmth != nullptr};
     for (std::size_t i = 0; law.is_warm && i < Kernel::samples().size(); ++i)
       law.free[i] = rise(cell, state, Kernel::samples()[i]) * Kernel::reduced(material.growth);
     return law;
@@ -318,12 +318,12 @@ class Cells final : public Block {
 
   /// The residual goes to `r`; `sum` has what resists, and its tangent where that is wanted.
   static void resist(const Cell& cell, const State& state, bool wants_tangent, typename Kernel::Condensed& sum, double* r) {
-    Eigen::Map<Vector> out(r);
+    Eigen::Map<Eigen::VectorXd> out(r, D * N);
     const Places moved = displacements(cell, state);
-    if (wants_tangent || cell.warmth || !moved.isZero(0)) {
+    if (wants_tangent || cell.warmth || !entries(moved).isZero(0)) {
       const Kernel kernel(cell.places, cell.section->thickness);
       kernel.condense(law_of(cell, state), moved, wants_tangent, sum);
-      out = sum.forces;
+      std::copy_n(sum.forces.data(), D * N, r);
     } else {
       out.setZero();  // as it is asked when masses are found
     }
@@ -334,39 +334,41 @@ class Cells final : public Block {
   template <class Use>
   static void for_each_point(const Cell& cell, const std::vector<Sample>& samples, const Use& use) {
     for (const Sample& s : samples) {
-      const typename Kernel::Square jacobian = s.slope * cell.places.transpose();
+      const typename Kernel::Square jacobian = dyads(s.slope, cell.places);
       double volume = s.weight * std::abs(jacobian.determinant()) * cell.section->thickness;
-      if constexpr (Axi) volume *= 2 * std::numbers::pi * cell.places.row(0).dot(s.value);
+      if constexpr (Axi) volume *= 2 * std::numbers::pi * interpolated(cell.places, s.value)[0];
       use(s, volume);
     }
   }
 
   /// Weight on the nodes; false when there is none.
-  static bool weigh(const Cell& cell, const State& state, Vector& weight) {
+  static bool weigh(const Cell& cell, const State& state, Places& weight) {
     const double density = cell.section->law.density;
     const Eigen::Matrix<double, D, 1> gravity = state.gravity.template head<D>();
     if (density == 0 || gravity.isZero(0)) return false;
     // round an axis the radius makes one degree more
     static const auto samples = tabulate<S>(Axi ? Traits::mass_points() : Traits::load_points());
-    Shape share = Shape::Zero();
+    auto share = zero<Shape>();
     if (cell.section->lumped)
       share = lumped(cell);
     else
-      for_each_point(cell, samples, [&](const Sample& s, double volume) { share += density * volume * s.value; });
-    for (Eigen::Index i = 0; i < N; ++i) weight.template segment<D>(D * i) = share[i] * gravity;
+      for_each_point(cell, samples,
+                     [&](const Sample& s, double volume) { entries(share) += density * volume * entries(s.value); });
+    for (Eigen::Index i = 0; i < N; ++i) column(weight, i) = share[i] * gravity;
     return true;
   }
 
   /// Masses at the nodes: the diagonal of the consistent matrix, scaled to the mass of the cell (Hinton, Rock and Zienkiewicz
   /// 1976, Earthquake Eng. Struct. Dyn. 4).
   static Shape lumped(const Cell& cell) {
-    Shape diagonal = Shape::Zero();
+    auto diagonal = zero<Shape>();
     double volume = 0;
     for_each_point(cell, masses(), [&](const Sample& s, double part) {
-      diagonal += part * s.value.cwiseAbs2();
+      for (Eigen::Index i = 0; i < N; ++i) diagonal[i] += part * s.value[i] * s.value[i];
       volume += part;
     });
-    return cell.section->law.density * volume / diagonal.sum() * diagonal;
+    entries(diagonal) *= cell.section->law.density * volume / entries(diagonal).sum();
+    return diagonal;
   }
 
   /// `use(shape functions, mass)` at points that carry the mass: those of a rule, or the nodes where masses are lumped.
@@ -374,58 +376,70 @@ class Cells final : public Block {
   static void for_each_mass(const Cell& cell, const Use& use) {
     if (cell.section->lumped) {
       const Shape mass = lumped(cell);
-      for (Eigen::Index i = 0; i < N; ++i) use(Shape::Unit(i), mass[i]);
+      for (Eigen::Index i = 0; i < N; ++i) {
+        auto at_node = zero<Shape>();
+        at_node[i] = 1;
+        use(at_node, mass[i]);
+      }
       return;
     }
     const double density = cell.section->law.density;
     for_each_point(cell, masses(), [&](const Sample& s, double volume) { use(s.value, density * volume); });
   }
 
-  static Vector rates(const State& state) {
-    Vector v;
-    for (Eigen::Index i = 0; i < N; ++i)
-      v.template segment<D>(D * i) = state.nodes[static_cast<std::size_t>(i)].v.template head<D>();
+  static Places rates(const State& state) {
+    Places v;
+    for (Eigen::Index i = 0; i < N; ++i) column(v, i) = state.nodes[static_cast<std::size_t>(i)].v.template head<D>();
     return v;
   }
 
   /// Adds ∫ N_i ρ ω² P (x − o) dV, with P across the axis and a point o on it; false when the cell does not turn.
-  static bool add_centrifugal(const Cell& cell, const State& state, Vector& forces) {
+  static bool add_centrifugal(const Cell& cell, const State& state, Places& forces) {
     if (!cell.rotation || cell.section->law.density == 0) return false;
     const CellRotation& turn = *cell.rotation;
     const double speed = turn.speed_at(state.time);
     const Mat3 across = turn.projection();
-    Places arms, outward = Places::Zero();
+    Places arms;
     for (Eigen::Index i = 0; i < N; ++i) {
       Vec3 x = state.nodes[static_cast<std::size_t>(i)].x;
-      if (cell.section->linear) x.head<D>() = cell.places.col(i);
-      arms.col(i) = (across * (x - turn.point)).template head<D>();
+      if (cell.section->linear) x.head<D>() = column(cell.places, i);
+      column(arms, i) = (across * (x - turn.point)).template head<D>();
     }
-    for_each_mass(cell,
-                  [&](const auto& shape, double mass) { outward += speed * speed * mass * (arms * shape) * shape.transpose(); });
-    forces += outward.reshaped();
+    for_each_mass(cell, [&](const Shape& shape, double mass) {
+      add_dyad(speed * speed * mass * interpolated(arms, shape), shape, forces.data());
+    });
     return true;
   }
 
-  static void add_inertia_and_weight(const Cell& cell, const State& state, Eigen::Map<Vector>& r) {
+  static void add_inertia_and_weight(const Cell& cell, const State& state, Eigen::Map<Eigen::VectorXd>& r) {
     if (cell.section->law.density == 0) return;
-    if (Vector weight; weigh(cell, state, weight)) r -= weight;
-    if (Vector outward = Vector::Zero(); add_centrifugal(cell, state, outward)) r -= outward;
+    if (Places weight; weigh(cell, state, weight)) r -= entries(weight);
+    if (auto outward = zero<Places>(); add_centrifugal(cell, state, outward)) r -= entries(outward);
     Places a;
-    for (Eigen::Index i = 0; i < N; ++i) a.col(i) = state.nodes[static_cast<std::size_t>(i)].a.template head<D>();
-    if (a.isZero(0)) return;
-    Places inertia = Places::Zero();
-    for_each_mass(cell, [&](const auto& shape, double mass) { inertia += mass * (a * shape) * shape.transpose(); });
-    r += inertia.reshaped();
+    for (Eigen::Index i = 0; i < N; ++i) column(a, i) = state.nodes[static_cast<std::size_t>(i)].a.template head<D>();
+    if (entries(a).isZero(0)) return;
+    for_each_mass(cell, [&](const Shape& shape, double mass) { add_dyad(mass * interpolated(a, shape), shape, r.data()); });
+  }
+
+  /// Adds v times each of the shape functions.
+  static void add_dyad(const Eigen::Matrix<double, D, 1>& v, const Shape& shape, double* to) {
+    for (Eigen::Index n = 0; n < N; ++n)
+      for (Eigen::Index i = 0; i < D; ++i) to[D * n + i] += shape[n] * v[i];
   }
 
   /// Adds the mass matrix times `factor`, with the directions along which it acts.
-  static void add_mass(const Cell& cell, double factor, const Mat3& directions, Eigen::Map<Square>& k) {
+  static void add_mass(const Cell& cell, double factor, const Mat3& directions, double* k) {
     if (cell.section->law.density == 0) return;
-    Eigen::Matrix<double, N, N> matrix = Eigen::Matrix<double, N, N>::Zero();
-    for_each_mass(cell, [&](const auto& shape, double mass) { matrix += factor * mass * shape * shape.transpose(); });
-    for (Eigen::Index i = 0; i < N; ++i)
+    std::array<double, static_cast<std::size_t>(N * N)> matrix{};
+    for_each_mass(cell, [&](const Shape& shape, double mass) {
       for (Eigen::Index j = 0; j < N; ++j)
-        k.template block<D, D>(D * i, D * j) += matrix(i, j) * directions.topLeftCorner<D, D>();
+        for (Eigen::Index i = 0; i < N; ++i) matrix[static_cast<std::size_t>(N * j + i)] += factor * mass * shape[i] * shape[j];
+    });
+    for (Eigen::Index j = 0; j < N; ++j)
+      for (Eigen::Index i = 0; i < N; ++i)
+        for (Eigen::Index b = 0; b < D; ++b)
+          for (Eigen::Index a = 0; a < D; ++a)
+            k[D * N * (D * j + b) + D * i + a] += matrix[static_cast<std::size_t>(N * j + i)] * directions(a, b);
   }
 
   /// The components among the results.
@@ -448,10 +462,13 @@ bool is_regular(const std::vector<Vec3>& places, const std::vector<typename Cell
   constexpr int D = CellTraits<S>::dimension;
   constexpr double rounding = 1e-12;
   Eigen::Matrix<double, D, CellTraits<S>::nodes> x;
-  for (Eigen::Index i = 0; i < x.cols(); ++i) x.col(i) = places[static_cast<std::size_t>(i)].template head<D>();
-  const double size = (x.colwise() - x.col(0)).norm();
+  double size = 0;
+  for (Eigen::Index i = 0; i < x.cols(); ++i) {
+    column(x, i) = places[static_cast<std::size_t>(i)].template head<D>();
+    size = std::max(size, (column(x, i) - column(x, 0)).norm());
+  }
   for (const auto& sample : samples) {
-    const Eigen::Matrix<double, D, D> jacobian = sample.slope * x.transpose();
+    const Eigen::Matrix<double, D, D> jacobian = dyads(sample.slope, x);
     const double determinant = jacobian.determinant();
     if (sign == 0) sign = determinant > 0 ? 1 : -1;
     if (!(sign * determinant > rounding * std::pow(size, D))) return false;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "elements/structural/cell_topology.hpp"
+
 namespace engrane::elements::structural {
 namespace {
 

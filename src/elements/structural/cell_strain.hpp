@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a point of a cell in the plane, round an axis or in space answers to its deformation, whatever the shape of the cell.
+#pragma once
+
+#include <Eigen/LU>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "elements/materials/neo_hookean.hpp"
+
+namespace engrane::elements::structural {
+
+/// `Axi`: round the y axis, where x is the radius.
+template <int D, bool Axi>
+struct CellStrain {
+  static constexpr int shears = D == 3 ? 3 : 1;
+  static constexpr int normals = D == 3 || Axi ? 3 : 2;
+  static constexpr int strains = normals + shears;
+  /// Where the strains stand among xx, yy, zz, xy, yz, zx.
+  static constexpr std::array<Eigen::Index, static_cast<std::size_t>(strains)> components = [] {
+    std::array<Eigen::Index, static_cast<std::size_t>(strains)> at{};
+    for (int i = 0; i < strains; ++i) at[static_cast<std::size_t>(i)] = i < normals ? i : 3 + i - normals;
+    return at;
+  }();
+
+  using Strain = Eigen::Matrix<double, strains, 1>;
+  using Stiffness = Eigen::Matrix<double, strains, strains>;
+  using Square = Eigen::Matrix<double, D, D>;
+
+  static Stiffness reduced(const materials::Moduli& full) { return full(components, components); }
+  static Strain reduced(const materials::Voigt& full) { return full(components); }
+
+  /// Deformation at a point: F and, round an axis, its entry of the circumference.
+  struct Deformation {
+    Square F = Square::Identity();
+    double hoop = 1;
+
+    bool is_right_way_round() const { return F.determinant() > 0 && hoop > 0; }
+  };
+
+  /// Strain of Green and Lagrange, or its linear part.
+  static Strain strain(const Deformation& d, bool linear) {
+    const Square H = d.F - Square::Identity();
+    Square E = (H + H.transpose()) / 2;
+    if (!linear) E += H.transpose() * H / 2;
+    Strain e;
+    for (int i = 0; i < D; ++i) e[i] = E(i, i);
+    for (int i = 0; i < shears; ++i) e[normals + i] = 2 * E(i, (i + 1) % D);
+    if constexpr (Axi) {
+      const double h = d.hoop - 1;
+      e[2] = linear ? h : h + h * h / 2;
+    }
+    return e;
+  }
+
+  /// What the cell is made of: stresses are stiffness · (strain − free).
+  struct Law {
+    Stiffness stiffness;
+    bool linear = true;                                  ///< small displacements
+    const materials::NeoHookean* neo_hookean = nullptr;  ///< instead
+    materials::Hypothesis hypothesis = materials::Hypothesis::solid;
+  };
+
+  /// The stress at a point, its derivative by the strain, and the energy per volume.
+  struct Response {
+    Strain stress;
+    Stiffness moduli;
+    double energy;
+  };
+  /// `free`: the strain that warmth alone gives; nullptr: none.
+  static Response respond(const Law& law, const Strain* free, const Deformation& now) {
+    Strain e = strain(now, law.linear);
+    // strains do not tell a body from one turned inside out
+    if (!law.linear && !now.is_right_way_round()) e.setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (law.neo_hookean) {
+      materials::Voigt all = materials::Voigt::Zero();
+      all(components) = e;
+      const materials::Response found = materials::respond(*law.neo_hookean, law.hypothesis, all);
+      return {reduced(found.stress), reduced(found.moduli), found.energy};
+    }
+    if (free) e -= *free;
+    const Strain stress = law.stiffness * e;
+    return {stress, law.stiffness, e.dot(stress) / 2};
+  }
+};
+
+}  // namespace engrane::elements::structural

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Matrices with one column for each node of a cell, taken apart into pieces whose type does not depend on the number of nodes.
+// What is written with them is compiled once for all shapes; as expressions of the whole matrices it took GCC minutes.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <type_traits>
+
+namespace engrane::elements::structural {
+
+/// Column i.
+template <class Matrix>
+auto column(Matrix& m, Eigen::Index i) {
+  using Column = Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1>;
+  return Eigen::Map<std::conditional_t<std::is_const_v<Matrix>, const Column, Column>>(m.data() + m.rows() * i);
+}
+
+/// All entries, one column after the other.
+template <class Matrix>
+auto entries(Matrix& m) {
+  using Vector = std::conditional_t<std::is_const_v<Matrix>, const Eigen::VectorXd, Eigen::VectorXd>;
+  return Eigen::Map<Vector>(m.data(), static_cast<Eigen::Index>(m.size()));
+}
+
+template <class Matrix>
+Matrix zero() {
+  Matrix m;
+  std::fill_n(m.data(), m.size(), 0);
+  return m;
+}
+
+/// a bᵀ: the sum over the nodes of the dyads of their columns.
+template <int A, int B, int N>
+Eigen::Matrix<double, A, B> dyads(const Eigen::Matrix<double, A, N>& a, const Eigen::Matrix<double, B, N>& b) {
+  Eigen::Matrix<double, A, B> sum = Eigen::Matrix<double, A, B>::Zero();
+  for (Eigen::Index n = 0; n < N; ++n) sum += column(a, n) * column(b, n).transpose();
+  return sum;
+}
+
+/// m v: what the shape functions v make of values at the nodes.
+template <int D, int N>
+Eigen::Matrix<double, D, 1> interpolated(const Eigen::Matrix<double, D, N>& m, const Eigen::Matrix<double, N, 1>& v) {
+  Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();
+  for (Eigen::Index n = 0; n < N; ++n) sum += v[n] * column(m, n);
+  return sum;
+}
+
+}  // namespace engrane::elements::structural
