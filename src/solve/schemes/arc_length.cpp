@@ -273,8 +273,8 @@ void ArcLength::find_critical(const Configuration& from, double& h, Configuratio
   CriticalPoint point;
   point.kind = limit ? CriticalPoint::Kind::limit : CriticalPoint::Kind::bifurcation;
   point.load_time = to.load_time();
-  if (limit)
-    there.load = bracket.behind.point.load;
+  if (limit)  // passed, whichever side of it the last trial came to; the other end of the bracket may be far behind
+    there.load = std::copysign(there.load, bracket.behind.point.load);
   else
     point.load_time = std::lerp(bracket.before.load_time, bracket.behind.load_time,
                                 bracket.before.value / (bracket.before.value - bracket.behind.value));
