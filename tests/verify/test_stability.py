@@ -35,27 +35,34 @@ def column(section: str, pieces: int, folder: Path, rest: str, end: float = 1.5)
     return run(deck([line], section, path(loads, rest, end), "BPR 1 AXIS2 1 0 0"), folder)
 
 
-@pytest.mark.parametrize("solver", ["MUMPS", "KLU"])
-def test_truss(solver: str, tmp_path: Path) -> None:
-    """Two shallow bars snap through: P = (EA/L^3) (2 h w - w^2) (h - w) with Green's strain. Both limits, and
-    the path between them."""
+STIFFNESS = 1e5 / 17**1.5  #: EA/L^3 of the shallow truss
+
+
+def truss(step: float = 0.1) -> str:
+    """Two shallow bars that snap through: P = (EA/L^3) (2 h w - w^2) (h - w) with Green's strain, h = 1."""
     loads = " FIX NOEUD 1 3 C 1 2 3\n FIX NOEUD 2 C 1 3\n CHA NOEUD 2 C 2 V -1000 NF 1"
-    text = f""".NOE
+    return f""".NOE
  I 1 X -4 0 0
  I 2 X 0 1 0
  I 3 X 4 0 0
 .MCE
  I 1 BAR N 1 2 EA 1D5
  I 2 BAR N 3 2 EA 1D5
-{path(loads, ".PATH")}
+{path(loads, ".PATH", step=step)}
 .FIN 1
-""".replace("TYPE STATIC", f"TYPE STATIC SOLVER {solver}")
+"""
+
+
+@pytest.mark.parametrize("solver", ["MUMPS", "KLU"])
+def test_truss(solver: str, tmp_path: Path) -> None:
+    """Both limits, and the path between them."""
+    text = truss().replace("TYPE STATIC", f"TYPE STATIC SOLVER {solver}")
     found = run(text, tmp_path, options=("--json",), output=tmp_path / "out.json")
     summary = json.loads((tmp_path / "out.json").read_text())["runs"][0]["critical_points"]
     w = -found["node/2/UY"]
-    load = 1e5 / 17**1.5 * (2 * w - w**2) * (1 - w)
+    load = STIFFNESS * (2 * w - w**2) * (1 - w)
     assert 1000 * found["run/LOAD_TIME"] == pytest.approx(load, abs=1e-6)
-    limit = 1e5 / 17**1.5 * 2 / (3 * np.sqrt(3)) / 1000
+    limit = STIFFNESS * 2 / (3 * np.sqrt(3)) / 1000
     points = critical_points(found)
     assert [kind for kind, _ in points] == ["limit", "limit"]
     assert [value for _, value in points] == pytest.approx([limit, -limit], rel=1e-8)
@@ -66,6 +73,22 @@ def test_truss(solver: str, tmp_path: Path) -> None:
     ]
     assert found["run/UNSTABLE"].max() == 1
     assert found["run/LOAD_TIME"][-1] == pytest.approx(1.5, rel=1e-8)
+
+
+@pytest.mark.parametrize("step", [0.1, 0.09, 0.08, 0.07, 0.06, 0.05])
+def test_step_behind_a_limit(step: float, tmp_path: Path) -> None:
+    """Steps are as long as lets the path turn by 6 degrees, by its turn in the step before; from a limit point
+    too, whichever side of it the last trial came to. The path lies in the plane of deflection and load."""
+    found = run(truss(step), tmp_path)
+    w, sizes = -found["node/2/UY"], found["run/STEP"]
+    slope = STIFFNESS * (2 - 6 * w + 3 * w**2)  # dP/dw
+    direction = np.arctan(slope / slope[0])
+    turn = np.abs(np.diff(direction))
+    expected = sizes[1:-1] * np.clip(np.radians(6) / turn[:-1], 0.5, 2)
+    limit = int(np.argmin(np.abs(w - (1 - 1 / np.sqrt(3)))))
+    assert w[limit] == pytest.approx(1 - 1 / np.sqrt(3), rel=1e-6)
+    assert sizes[limit + 2] == pytest.approx(expected[limit], rel=1e-5)
+    assert sizes[limit + 3] == pytest.approx(expected[limit + 1], rel=1e-5)
 
 
 def test_goal_of_a_restart(tmp_path: Path) -> None:
