@@ -77,8 +77,8 @@ def test_truss(solver: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("step", [0.1, 0.09, 0.08, 0.07, 0.06, 0.05])
 def test_step_behind_a_limit(step: float, tmp_path: Path) -> None:
-    """Steps are as long as lets the path turn by 6 degrees, by its turn in the step before; from a limit point
-    too, whichever side of it the last trial came to. The path lies in the plane of deflection and load."""
+    """Steps are as long as lets the path turn by 6 degrees, by its turn in the step before; from a limit too,
+    whichever side of it the last trial came to. The path lies in the plane of deflection and load."""
     found = run(truss(step), tmp_path)
     w, sizes = -found["node/2/UY"], found["run/STEP"]
     slope = STIFFNESS * (2 - 6 * w + 3 * w**2)  # dP/dw
