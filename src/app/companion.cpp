@@ -21,7 +21,7 @@ namespace {
 
 /// The companion's tolerance over that of the run: steps are about twice as long, or three times those of generalised-alpha.
 constexpr double looser = 10, loosest = 0.05, longer = 2;
-constexpr double loosest_precision = 2e-5, sharpest_event = 1e-6;
+constexpr double loosest_precision = 2e-5;
 /// Results are taken to differ by this power of the ratio of steps (docs/accuracy.md, The dial: what fits nine models best).
 /// Radau's own order is 5; less where forces are interpolated, and where teeth and stops make and lose contact.
 constexpr double order_of_alpha = 2, order_of_radau = 4;
@@ -44,8 +44,7 @@ SolverOptions with_tolerance(const Model& model, const SolverOptions& options, d
   other.tolerance = tolerance;
   other.precision =
       ratio > 1 ? std::min(ratio * options.precision, std::max(loosest_precision, options.precision)) : ratio * options.precision;
-  if (model.commands.analysis.events.values.empty())
-    other.event_tolerance = std::max(sharpest_event, ratio * options.event_tolerance);
+  if (model.commands.analysis.events.values.empty()) other.event_tolerance = event_tolerance_for(tolerance);
   return other;
 }
 

@@ -144,20 +144,41 @@ constexpr double most_at_once = 0.01;
 /// ACCURACY FAST begins with so much looser steps, where it is TOL that chooses them and the deck does not give it.
 constexpr double bolder = 4;
 
+/// A run to make, and what those before it have told.
+struct Trial {
+  SolverOptions options;
+  bool may_repeat = true;                 ///< when the error is too large
+  std::optional<SolverOptions> complete;  ///< of a run that came to its end, but with too large an error
+  std::string sharper_failed;             ///< how one with a sharper tolerance than this failed
+};
+
 /// What came of a run: its exit status, or what to try instead.
 struct Verdict {
   int status = 0;
-  std::optional<SolverOptions> again;
+  std::optional<Trial> again;
 };
 
-/// Generalised-alpha where Radau fails: at positions in which the rank of the constraints falls, for one.
-Verdict another_scheme(SolverOptions options, const std::string& why, int rank) {
+/// Generalised-alpha where Radau fails: at positions in which the rank of the constraints falls, for one. It begins with the
+/// setting's own TOL.
+Verdict another_scheme(const Model& model, Trial trial, const std::string& why, int rank) {
   if (rank == 0) std::cerr << "engrane: SCHEME RADAU fails here, again with CHUNG: " << terminal_text(why) << '\n';
+  SolverOptions& options = trial.options;
+  const SolverOptions own = solver_options(model);
   options.family = SolverOptions::Family::chung;
   options.scheme_is_free = false;
   options.damping = 0.8;
   options.precision = 1e-9;
-  return {exit_status::fine, options};
+  options.tolerance = std::min(options.tolerance, own.tolerance);
+  options.event_tolerance = std::min(options.event_tolerance, own.event_tolerance);
+  return {exit_status::fine, std::move(trial)};
+}
+
+/// Back to the last run that came to its end, where one with a sharper tolerance fails: a result that is less accurate than was
+/// asked for is better than half of one.
+Verdict back(const Trial& failed, const std::string& why, int rank) {
+  const std::string text = fmt::format("with TOL {:.1g} the run fails: {}", failed.options.tolerance, why);
+  if (rank == 0) std::cerr << fmt::format("engrane: {}; back to TOL {:.1g}\n", terminal_text(text), failed.complete->tolerance);
+  return {exit_status::fine, Trial{*failed.complete, false, {}, text}};
 }
 
 /// `.SUB` says TOL.
@@ -185,8 +206,8 @@ std::optional<Companion> first_companion(const Reading& reading, SolverOptions& 
   return companion;
 }
 
-Verdict solve_once(Reading& reading, const Options& options, const SolverOptions& wanted, std::optional<Companion>& companion,
-                   bool may_repeat, const Resumption* resumption, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
+Verdict solve_once(Reading& reading, const Options& options, const Trial& trial, std::optional<Companion>& companion,
+                   const Resumption* resumption, const std::string& prefix, MPI_Comm comm, RunSummary& summary) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
@@ -194,8 +215,9 @@ Verdict solve_once(Reading& reading, const Options& options, const SolverOptions
   user::forget_failures();  // those of another run
   forget_function_failures();
   Times times;
+  const SolverOptions& wanted = trial.options;
   if (companion && !companion->trouble().empty() && wanted.scheme_is_free)
-    return another_scheme(wanted, companion->trouble(), rank);
+    return another_scheme(reading.model, trial, companion->trouble(), rank);
   SolverContext context(reading.model, wanted, comm);
   observe::Observer observer(context.assembler, moves(reading.model), select_histories(reading.model));
   Schedule schedule(reading.model.commands.stepping, reading.model.commands.archive);
@@ -324,12 +346,13 @@ Verdict solve_once(Reading& reading, const Options& options, const SolverOptions
     failure = e.what();
   }
   starting = 0;
-  if (unsolved && wanted.scheme_is_free) return another_scheme(wanted, failure, rank);
+  if (unsolved && trial.complete) return back(trial, failure, rank);
+  if (unsolved && wanted.scheme_is_free) return another_scheme(reading.model, trial, failure, rank);
   if (companion && complete) {
     double tolerance = 0;
     if (rank == 0) {
       const ErrorEstimate estimate = companion->estimate(runner.steps());
-      if (may_repeat && estimate.trouble.empty() && estimate.error > wanted.target) {
+      if (trial.may_repeat && estimate.trouble.empty() && estimate.error > wanted.target) {
         tolerance = std::max(estimate.tolerance_for(wanted.target), most_at_once * wanted.tolerance);
         // what was tried beyond the setting's own TOL goes back to that
         tolerance = std::min(tolerance, tolerance_of(reading.model.commands.analysis).value_or(tolerance));
@@ -338,14 +361,11 @@ Verdict solve_once(Reading& reading, const Options& options, const SolverOptions
                         "with TOL {:.1g}",
                         estimate.error, estimate.channel, wanted.target, tolerance));
       } else {
-        writer->accuracy(estimate, wanted.target);
+        writer->accuracy(estimate, wanted.target, trial.sharper_failed);
       }
     }
     MPI_Bcast(&tolerance, 1, MPI_DOUBLE, 0, comm);
-    if (tolerance > 0) {
-      const SolverOptions sharper = with_tolerance(reading.model, wanted, tolerance);
-      return {exit_status::fine, sharper};
-    }
+    if (tolerance > 0) return {exit_status::fine, Trial{with_tolerance(reading.model, wanted, tolerance), true, wanted, {}}};
   }
   if (options.condition) {
     const std::optional<double> condition = context.solver.condition();
@@ -412,21 +432,17 @@ int solve_deck(Reading& reading, const Options& options, const std::string& pref
     if (rank == 0) std::cerr << "engrane: " << terminal_text(e.what()) << '\n';
     return exit_status::wrong_deck;
   }
-  SolverOptions wanted = solver_options(reading.model);
-  const SolverOptions own = wanted;
-  const bool estimates = wanted.target > 0 && wanted.tolerance > 0 && !resumption;
+  Trial trial{solver_options(reading.model), true, {}, {}};
+  const bool estimates = trial.options.target > 0 && trial.options.tolerance > 0 && !resumption;
   std::optional<Companion> companion;
   for (int repeats = 0;; ++repeats) {
-    if (estimates && repeats == 0) companion = first_companion(reading, wanted, comm, options.quiet);
-    if (estimates && !companion) companion.emplace(reading, wanted, comm, options.quiet);
-    const Verdict verdict =
-        solve_once(reading, options, wanted, companion, repeats < most_repeats, resumption.get(), prefix, comm, summary);
+    if (estimates && repeats == 0) companion = first_companion(reading, trial.options, comm, options.quiet);
+    if (estimates && !companion) companion.emplace(reading, trial.options, comm, options.quiet);
+    trial.may_repeat = trial.may_repeat && repeats < most_repeats;
+    Verdict verdict = solve_once(reading, options, trial, companion, resumption.get(), prefix, comm, summary);
     if (!verdict.again) return verdict.status;
     companion.reset();
-    wanted = *verdict.again;
-    // another scheme begins with the setting's own TOL
-    wanted.tolerance = std::min(wanted.tolerance, own.tolerance);
-    wanted.event_tolerance = std::min(wanted.event_tolerance, own.event_tolerance);
+    trial = std::move(*verdict.again);
   }
 }
 

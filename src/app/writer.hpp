@@ -47,8 +47,9 @@ class Writer {
   void between(double time, const Schedule::Due& due);
   /// For the listing and the summary.
   void conditioning(const Conditioning& found) { summary_.conditioning = found; }
-  /// What the results are estimated to be off by, for the listing; `target` is what ACCURACY asks for.
-  void accuracy(const ErrorEstimate& estimate, double target);
+  /// What the results are estimated to be off by, for the listing; `target` is what ACCURACY asks for, `sharper_failed` how a
+  /// run with a sharper tolerance failed, if one did.
+  void accuracy(const ErrorEstimate& estimate, double target, const std::string& sharper_failed);
   /// Ends listing and results; returns the exit status.
   int finish(output::RunStatus status, const std::string& failure, const output::TimeSplit& times);
 

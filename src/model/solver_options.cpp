@@ -11,7 +11,7 @@ namespace {
 constexpr double longest_part = 0.02;
 /// Of the tolerance of a step: what iterations leave of forces, and how sharply events are met. Where a force jumps the error of
 /// an event's instant is one of velocities, as large a part of what a step changes; that of all forces is the most it can be.
-constexpr double share_of_newton = 0.01, share_of_event = 0.5;
+constexpr double share_of_newton = 0.01, share_of_event = 0.5, sharpest_event = 1e-6;
 
 const AccuracyRung* rung_of(const deck::AnalysisCard& analysis) {
   for (const AccuracyRung& rung : accuracy_rungs)
@@ -26,6 +26,8 @@ std::optional<double> tolerance_of(const deck::AnalysisCard& analysis) {
   if (!rung || !analysis.type.is("DYNAMIC")) return {};
   return rung->tolerance;
 }
+
+double event_tolerance_for(double tolerance) { return std::max(sharpest_event, share_of_event * tolerance); }
 
 SolverOptions solver_options(const Model& model) {
   const deck::AnalysisCard& analysis = model.commands.analysis;
@@ -64,7 +66,7 @@ SolverOptions solver_options(const Model& model) {
   o.energy_error = analysis.energy;
   o.penalty = analysis.penalty.value_or(0);
   o.events = !analysis.events.is("NO");
-  o.event_tolerance = analysis.events.values.empty() ? std::max(1e-6, share_of_event * o.tolerance) : analysis.events.values[0];
+  o.event_tolerance = analysis.events.values.empty() ? event_tolerance_for(o.tolerance) : analysis.events.values[0];
   if (const auto& path = model.commands.path) {
     o.path.follow = true;
     o.path.steps = path->steps.value_or(0);

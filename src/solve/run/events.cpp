@@ -28,9 +28,9 @@ constexpr int looks = 6;
 /// An event no farther behind the end of a step that was to meet it than this part of the step is met by another attempt.
 constexpr double near_miss = 0.25;
 
-/// A drift's error is a sixth of the cube of its part of a step, where that step changes accelerations by themselves. With this
-/// part of the cube root of TOL it is a fiftieth of TOL. Longer ones would pass more than one event.
-constexpr double part_of_root = 0.5, longest_drift = 0.05;
+/// Where a step changes velocities by themselves, a drift of a part s of it leaves an error of s²/2 in them, and of s³/6 in
+/// positions: with s = √TOL half of TOL. Longer drifts would pass more than one event; shorter steps enlarge rounding.
+constexpr double longest_drift = 0.05, shortest_step = 0.01;
 
 /// The cubic with values a, b and rates da, db at 0 and h: a + s (c1 + s (c2 + s c3)), s = t/h.
 struct Cubic {
@@ -173,7 +173,9 @@ double Switches::time_to_change(const std::vector<Switch>& now, double tolerance
 EventLocator::EventLocator(SolverContext& context, Scheme& scheme)
     : scheme_(scheme), switches_(context), step_(context.options.step), sharpness_(context.options.event_tolerance) {
   step_is(step_);
-  part_of_drift_ = std::min(longest_drift, part_of_root * std::cbrt(context.options.tolerance));
+  const double root = std::sqrt(context.options.tolerance);
+  part_of_drift_ = std::min(longest_drift, root);
+  shortest_part_ = root > 0 ? std::min(shortest_step, root) : shortest_step;
   active_ = scheme.meets_events() && context.options.events && !switches_.empty();
 }
 

@@ -68,13 +68,13 @@ std::optional<double> first_descent(double a, double da, double b, double db, do
 
 /// Ends steps at events. An event is met by a step that ends a little before it and a drift across it; steps are never
 /// shorter than `shortest()`, below which the inverse square of the step enlarges rounding: there it drifts. Controlled steps may
-/// end as far before it as a drift is more accurate than they are.
+/// end as far before it as a drift is more accurate than they are, and are as short as longer drifts would not be.
 class EventLocator {
  public:
   EventLocator(SolverContext& context, Scheme& scheme);
 
   bool active() const { return active_; }
-  double shortest() const { return 0.01 * step_; }
+  double shortest() const { return shortest_part_ * step_; }
   /// How far an event may be from the end of the step before it.
   double tolerance() const { return tolerance_; }
 
@@ -126,6 +126,7 @@ class EventLocator {
   Switches switches_;
   double step_, sharpness_, tolerance_ = 0;
   double part_of_drift_ = 0;  ///< of a controlled step
+  double shortest_part_ = 0;  ///< of the present length
   bool active_ = false;
   std::vector<Switch> began_;   ///< at the beginning of the last attempt
   std::vector<Switch> before_;  ///< at the beginning of the last step that stands

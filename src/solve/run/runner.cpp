@@ -16,6 +16,9 @@ namespace {
 
 /// With error control steps may be cut this much deeper than CUTS says.
 constexpr int deeper = 20;
+/// A controlled step without a solution is cut to this part: equal steps of it do not end where it did, which may be a singular
+/// position. Halves would, again and again.
+constexpr double aside = 0.38;
 /// Part of the run below which two corners of functions of time count as one.
 constexpr double shortest_way = 1e-9;
 /// Part of H below which reactions would carry visible noise of rounding.
@@ -175,7 +178,7 @@ bool Runner::reach(double target) {
       // other constraints may depend on the rest here than did at the start
       if (renew(report)) continue;
       control_.refused();
-      cut(size, size / 2, report);
+      cut(size, (control_.active() ? aside : 0.5) * size, report);
       continue;
     }
     const double error = outcome.error.value_or(0);

@@ -67,7 +67,14 @@ double StepControl::next(double size, double error, double asked) {
 
 double StepControl::retry(double size, double error) {
   refused_ = true;
-  return size * std::clamp(safety * std::pow(error, -1 / order_), most_cut, safety);
+  const double factor = std::clamp(safety * std::pow(error, -1 / order_), most_cut, safety);
+  // steps behind it are not to come back to this one at once; but to pass a place where an error is large however short the
+  // step, such as a singular position, they are to be long again
+  if (factor > most_cut) {
+    error_before_ = std::pow(safety / factor, order_);
+    size_before_ = size;
+  }
+  return size * factor;
 }
 
 void StepControl::save(Snapshot& snapshot) const {
