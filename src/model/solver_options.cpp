@@ -11,7 +11,7 @@ namespace {
 constexpr double longest_part = 0.02;
 /// Of the tolerance of a step: what iterations leave of forces, and how sharply events are met. Where a force jumps the error of
 /// an event's instant is one of velocities, as large a part of what a step changes; that of all forces is the most it can be.
-constexpr double share_of_newton = 0.01, share_of_event = 0.5, sharpest_event = 1e-6;
+constexpr double share_of_newton = 0.01, share_of_event = 0.5, event_of_fixed_steps = 1e-6;
 
 const AccuracyRung* rung_of(const deck::AnalysisCard& analysis) {
   for (const AccuracyRung& rung : accuracy_rungs)
@@ -27,7 +27,7 @@ std::optional<double> tolerance_of(const deck::AnalysisCard& analysis) {
   return rung->tolerance;
 }
 
-double event_tolerance_for(double tolerance) { return std::max(sharpest_event, share_of_event * tolerance); }
+double event_tolerance_for(double tolerance) { return tolerance > 0 ? share_of_event * tolerance : event_of_fixed_steps; }
 
 SolverOptions solver_options(const Model& model) {
   const deck::AnalysisCard& analysis = model.commands.analysis;

@@ -13,6 +13,8 @@ namespace {
 
 /// A switch closer to zero than this part of its terms says nothing.
 constexpr double rounding = 1e-13;
+/// An event is met no more sharply than so many times the time in which its switch passes through rounding.
+constexpr double blurs = 4;
 /// More events between two multiples of H than this are chattering: the law, not the motion, makes them.
 constexpr int most_events = 40;
 /// Bisections enough for any tolerance, and some attempts by extrapolation before them.
@@ -28,9 +30,9 @@ constexpr int looks = 6;
 /// An event no farther behind the end of a step that was to meet it than this part of the step is met by another attempt.
 constexpr double near_miss = 0.25;
 
-/// Where a step changes velocities by themselves, a drift of a part s of it leaves an error of s²/2 in them, and of s³/6 in
-/// positions: with s = √TOL half of TOL. Longer drifts would pass more than one event; shorter steps enlarge rounding.
-constexpr double longest_drift = 0.05, shortest_step = 0.01;
+/// A drift's error is a sixth of the cube of its part of a step, where that step changes accelerations by themselves. With this
+/// part of the cube root of TOL it is a fiftieth of TOL. Longer ones would pass more than one event.
+constexpr double part_of_root = 0.5, longest_drift = 0.05;
 
 /// The cubic with values a, b and rates da, db at 0 and h: a + s (c1 + s (c2 + s c3)), s = t/h.
 struct Cubic {
@@ -170,12 +172,19 @@ double Switches::time_to_change(const std::vector<Switch>& now, double tolerance
   return least;
 }
 
+double Switches::blur(const std::vector<Switch>& now, double ahead) const {
+  double longest = 0;
+  for (std::size_t i = 0; i < side_.size(); ++i) {
+    const double value = side_[i] * now[i].value, rate = side_[i] * now[i].rate, band = rounding * now[i].size;
+    if (value > band && value < -rate * ahead) longest = std::max(longest, -band / rate);
+  }
+  return longest;
+}
+
 EventLocator::EventLocator(SolverContext& context, Scheme& scheme)
     : scheme_(scheme), switches_(context), step_(context.options.step), sharpness_(context.options.event_tolerance) {
   step_is(step_);
-  const double root = std::sqrt(context.options.tolerance);
-  part_of_drift_ = std::min(longest_drift, root);
-  shortest_part_ = root > 0 ? std::min(shortest_step, root) : shortest_step;
+  part_of_drift_ = std::min(longest_drift, part_of_root * std::cbrt(context.options.tolerance));
   active_ = scheme.meets_events() && context.options.events && !switches_.empty();
 }
 
@@ -185,6 +194,10 @@ void EventLocator::step_is(double step) {
 }
 
 double EventLocator::reach(double size) const { return std::max(tolerance_, part_of_drift_ * std::min(4 * size, step_)); }
+
+void EventLocator::sharpen(const std::vector<Switch>& now, double ahead) {
+  tolerance_ = std::max(step_ * sharpness_, std::min(blurs * switches_.blur(now, ahead), 0.5 * shortest()));
+}
 
 bool EventLocator::chatters() {
   if (!chattered_ || told_) return false;
@@ -218,6 +231,7 @@ double EventLocator::foresee(const Configuration& from, double size) {
   aimed_ = 0;
   if (!active_) return size;
   std::vector<Switch> now = switches_.before(from);
+  sharpen(now, size);
   std::optional<double> event;
   if (last_step_ <= 0 || size > farthest * last_step_) {
     event = coasting_change(from, std::move(now), size);
@@ -246,6 +260,7 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
   found.step = size;
   if (!active_) return found;
   began_ = switches_.before(from);
+  sharpen(began_, size);
   if (located_ >= most_events) return found;
   std::vector<Switch>& before = began_;
   std::vector<Switch> after;
@@ -288,11 +303,18 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
   }
   if (++located_ == most_events) chattered_ = true;
 
+  bool coasted = false;
   while (true) {
     if (event < shortest()) {
-      found.kind = Finding::Kind::drift;
-      found.drift = event + tolerance_;
-      return found;
+      // a step across an event is a poor witness of its time: over so short a way velocities and accelerations are a better one
+      const std::optional<double> near = coasted ? event : coasting_change(from, before, shortest());
+      if (near) {
+        found.kind = Finding::Kind::drift;
+        found.drift = *near + tolerance_;
+        return found;
+      }
+      coasted = true;
+      event = shortest();
     }
     // the step is to end before the event, where the law is still that of its beginning
     double size_tried = std::max(event - 0.5 * tolerance_, shortest());

@@ -50,6 +50,9 @@ class Switches {
   /// Time from an instant to the next change of a side, as its values and rates foretell; infinite when none is near. What stays
   /// within rounding of zero for longer than `tolerance` rests there: its side changes when it leaves.
   double time_to_change(const std::vector<Switch>& now, double tolerance) const;
+  /// How long the values of switches that are to change within `ahead` take to pass through their rounding: no event can be met
+  /// more sharply.
+  double blur(const std::vector<Switch>& now, double ahead) const;
 
  private:
   SolverContext& context_;
@@ -68,13 +71,13 @@ std::optional<double> first_descent(double a, double da, double b, double db, do
 
 /// Ends steps at events. An event is met by a step that ends a little before it and a drift across it; steps are never
 /// shorter than `shortest()`, below which the inverse square of the step enlarges rounding: there it drifts. Controlled steps may
-/// end as far before it as a drift is more accurate than they are, and are as short as longer drifts would not be.
+/// end as far before it as a drift is more accurate than they are.
 class EventLocator {
  public:
   EventLocator(SolverContext& context, Scheme& scheme);
 
   bool active() const { return active_; }
-  double shortest() const { return shortest_part_ * step_; }
+  double shortest() const { return 0.01 * step_; }
   /// How far an event may be from the end of the step before it.
   double tolerance() const { return tolerance_; }
 
@@ -121,12 +124,13 @@ class EventLocator {
   std::optional<double> coasting_change(const Configuration& from, std::vector<Switch> now, double size) const;
   /// How far before an event a step of `size` may end.
   double reach(double size) const;
+  /// How sharply events within `ahead` of these values are met.
+  void sharpen(const std::vector<Switch>& now, double ahead);
 
   Scheme& scheme_;
   Switches switches_;
   double step_, sharpness_, tolerance_ = 0;
   double part_of_drift_ = 0;  ///< of a controlled step
-  double shortest_part_ = 0;  ///< of the present length
   bool active_ = false;
   std::vector<Switch> began_;   ///< at the beginning of the last attempt
   std::vector<Switch> before_;  ///< at the beginning of the last step that stands

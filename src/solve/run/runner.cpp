@@ -21,6 +21,8 @@ constexpr int deeper = 20;
 constexpr double aside = 0.38;
 /// Part of the run below which two corners of functions of time count as one.
 constexpr double shortest_way = 1e-9;
+/// What a drift across an event begins with before it and ends with behind it, in tolerances of the locator.
+constexpr double crossing = 1.5;
 /// Part of H below which reactions would carry visible noise of rounding.
 constexpr double noisy = 0.1;
 
@@ -219,7 +221,14 @@ bool Runner::drift(double time, double target) {
   const double left = target - now_.time;
   const bool arrives = left - time < locator_.shortest();
   const double size = arrives ? left : time;
-  scheme_.drift(now_, size);
+  // a drift has the mean of the forces at its ends: where one jumps at the event it is to count from there on
+  const double before = size - crossing * locator_.tolerance();
+  if (before > locator_.tolerance()) {
+    scheme_.drift(now_, before);
+    scheme_.drift(now_, size - before);
+  } else {
+    scheme_.drift(now_, size);
+  }
   locator_.forget();
   if (arrives) now_.time = target;
   step_.newton = nullptr;
