@@ -27,7 +27,7 @@ std::optional<double> tolerance_of(const deck::AnalysisCard& analysis) {
   return rung->tolerance;
 }
 
-double event_tolerance_for(double tolerance) { return tolerance > 0 ? share_of_event * tolerance : event_of_fixed_steps; }
+double event_tolerance_for(double tolerance) { return share_of_event * tolerance; }
 
 SolverOptions solver_options(const Model& model) {
   const deck::AnalysisCard& analysis = model.commands.analysis;
@@ -66,7 +66,9 @@ SolverOptions solver_options(const Model& model) {
   o.energy_error = analysis.energy;
   o.penalty = analysis.penalty.value_or(0);
   o.events = !analysis.events.is("NO");
-  o.event_tolerance = analysis.events.values.empty() ? event_tolerance_for(o.tolerance) : analysis.events.values[0];
+  o.event_tolerance = !analysis.events.values.empty() ? analysis.events.values[0]
+                      : o.tolerance > 0               ? event_tolerance_for(o.tolerance)
+                                                      : event_of_fixed_steps;
   if (const auto& path = model.commands.path) {
     o.path.follow = true;
     o.path.steps = path->steps.value_or(0);

@@ -64,7 +64,7 @@ std::optional<double> tolerance_of(const deck::AnalysisCard& analysis);
 
 SolverOptions solver_options(const Model& model);
 
-/// How sharply events are met, as a part of the step, in a deck that does not say: half of TOL, 1e-6 with fixed steps.
+/// How sharply controlled steps meet events, as a part of their length, in a deck that does not say: half of TOL.
 double event_tolerance_for(double tolerance);
 
 }  // namespace engrane

@@ -123,8 +123,8 @@ Schema analysis_card() {
       .synonyms({"EVENEMENTS"})
       .option({"YES",
                {"OUI"},
-               "each such instant is located, to a fraction of the step that may follow (1E-6; with TOL half of it where "
-               "that is more)",
+               "each such instant is located, to a fraction of the step that may follow (1E-6; "
+               "with TOL half of it), as far as rounding lets it",
                0,
                1})
       .option({"NO", {"NON"}, "steps pass over them"});

@@ -173,10 +173,11 @@ double Switches::time_to_change(const std::vector<Switch>& now, double tolerance
 }
 
 double Switches::blur(const std::vector<Switch>& now, double ahead) const {
+  constexpr double about = 4;  // rates change
   double longest = 0;
   for (std::size_t i = 0; i < side_.size(); ++i) {
     const double value = side_[i] * now[i].value, rate = side_[i] * now[i].rate, band = rounding * now[i].size;
-    if (value > band && value < -rate * ahead) longest = std::max(longest, -band / rate);
+    if (value > band && value < -about * rate * ahead) longest = std::max(longest, -band / rate);
   }
   return longest;
 }
