@@ -29,7 +29,8 @@ def test_a_run_is_plotted_while_it_goes_on(engrane, pendulum):
     run = subprocess.Popen([program, "-q", "long.dat"], cwd=engrane.folder, stderr=subprocess.DEVNULL)
     try:
         deadline = time.monotonic() + 60
-        while not (engrane.folder / "long.h5").exists() and time.monotonic() < deadline:
+        # the first samples are written after about a second
+        while plot(engrane.folder, "long", "node/1/UZ").returncode != 0 and time.monotonic() < deadline:
             time.sleep(0.05)
         ends = []
         for i in range(4):

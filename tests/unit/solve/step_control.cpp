@@ -42,6 +42,27 @@ TEST(StepControl, LandingsTellOfLongerStepsOnlyWhereTheseWentTooFar) {
   EXPECT_DOUBLE_EQ(control.enter(apart, 1), 1.2 * 0.02);
 }
 
+TEST(StepControl, DoesNotComeBackToARefusedLengthAtOnce) {
+  // an error that rounding hides reads as nothing; it grows with the cube of the step all the same
+  StepControl control(options(), order);
+  const double retried = control.retry(0.1, 8);
+  EXPECT_DOUBLE_EQ(retried, 0.9 * 0.1 / 2);
+  double step = control.after(retried, 0, retried);
+  EXPECT_EQ(step, retried);
+  for (int i = 0; i < 3; ++i) step = control.after(step, 0, step);
+  EXPECT_LT(step, 0.1);
+  for (int i = 0; i < 10; ++i) step = control.after(step, 0, step);
+  EXPECT_GT(step, 0.1);
+}
+
+TEST(StepControl, ComesBackAtOnceWhereErrorsAreLargeHoweverShortTheStep) {
+  StepControl control(options(), order);
+  const double retried = control.retry(0.1, 1e6);
+  EXPECT_DOUBLE_EQ(retried, 0.02);
+  EXPECT_EQ(control.after(retried, 0, retried), retried);
+  EXPECT_EQ(control.after(retried, 0, retried), 2 * retried);
+}
+
 TEST(StepControl, GoesOnAfterARestart) {
   StepControl control(options(), order), other(options(), order);
   control.enter(apart, 0.1);
