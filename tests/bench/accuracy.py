@@ -129,7 +129,7 @@ class Model:
     steps: tuple[float, ...]  #: fixed, for slopes: multiples or parts of `step` that divide `interval`
     truth: Callable[[np.ndarray], np.ndarray] | None = None  #: of an equation of its own: channels over times
     fixed: bool = False  #: the truth has fixed steps: forces at their ends, not between those about an event
-    waves: bool = False  #: or events at once, that fixed steps follow poorly: the own error is that of TOL 1e-8
+    waves: bool = False  #: or events at once: the own error is what TOL 1e-8 differs by
     schemes: tuple[str, ...] = ("",)  #: words that the settings are tried with
     names: tuple[str, ...] = field(init=False)
     more: str = field(init=False)  #: words of `.SAM` that stay

@@ -236,6 +236,14 @@ def test_the_dial_says_when_it_has_not_met_its_error(tmp_path: Path) -> None:
     assert "more than the 1e-08 asked for" in found["said"]
 
 
+def test_a_sharper_run_that_fails_does_not_take_the_results(tmp_path: Path) -> None:
+    """Steps are no shorter than H cut twenty times: 4 ms, too long for the sharper run."""
+    found = dial(pendulum("ACCURACY REFERENCE CUTS 0", "TOL 1E-2 HMAX 1", h=4e3), tmp_path)
+    assert "the run fails" in found["said"] and "back to TOL 0.01" in found["said"]
+    assert found["accuracy"]["estimated_error"] > 1e-8
+    assert Run(tmp_path / "deck.h5").t[-1] == 4
+
+
 def test_what_the_deck_says_wins(tmp_path: Path) -> None:
     dial(pendulum("ACCURACY NORMAL SCHEME CHUNG RHO 0.9", ""), tmp_path)
     listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
