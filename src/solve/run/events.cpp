@@ -215,6 +215,7 @@ void EventLocator::save(Snapshot& snapshot) const {
   for (const Switch& one : before_) before.insert(before.end(), {one.value, one.rate, one.size});
   snapshot.put("events/before", std::move(before));
   snapshot.put("events/last_step", last_step_);
+  snapshot.put("events/tolerance", tolerance_);
 }
 
 void EventLocator::load(const Snapshot& snapshot) {
@@ -226,6 +227,8 @@ void EventLocator::load(const Snapshot& snapshot) {
   before_.resize(before.size() / 3);
   for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = {before[3 * i], before[3 * i + 1], before[3 * i + 2]};
   last_step_ = snapshot.number("events/last_step");
+  // files of earlier versions lack it
+  if (snapshot.has("events/tolerance")) tolerance_ = snapshot.number("events/tolerance");
 }
 
 double EventLocator::foresee(const Configuration& from, double size) {

@@ -21,7 +21,7 @@ constexpr int deeper = 20;
 constexpr double aside = 0.38;
 /// Part of the run below which two corners of functions of time count as one.
 constexpr double shortest_way = 1e-9;
-/// What a drift across an event begins with before it and ends with behind it, in tolerances of the locator.
+/// So many tolerances of the locator before its end, a drift across an event has not come to the event yet.
 constexpr double crossing = 1.5;
 /// Part of H below which reactions would carry visible noise of rounding.
 constexpr double noisy = 0.1;
