@@ -310,7 +310,7 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
   bool coasted = false;
   while (true) {
     if (event < shortest()) {
-      // a step across an event is a poor witness of its time: over so short a way velocities and accelerations are a better one
+      // an attempt that has crossed an event predicts its time poorly; over so short a time the motion at its start is better
       const std::optional<double> near = coasted ? event : coasting_change(from, before, shortest());
       if (near) {
         found.kind = Finding::Kind::drift;

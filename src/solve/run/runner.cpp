@@ -21,7 +21,7 @@ constexpr int deeper = 20;
 constexpr double aside = 0.38;
 /// Part of the run below which two corners of functions of time count as one.
 constexpr double shortest_way = 1e-9;
-/// So many tolerances of the locator before its end, a drift across an event has not come to the event yet.
+/// A drift across an event is certain to be still before it this many of the locator's tolerances before its end.
 constexpr double crossing = 1.5;
 /// Part of H below which reactions would carry visible noise of rounding.
 constexpr double noisy = 0.1;
@@ -221,7 +221,7 @@ bool Runner::drift(double time, double target) {
   const double left = target - now_.time;
   const bool arrives = left - time < locator_.shortest();
   const double size = arrives ? left : time;
-  // a drift has the mean of the forces at its ends: where one jumps at the event it is to count from there on
+  // a drift takes the mean of the forces at its ends: a force that jumps at the event must act only after it
   const double before = size - crossing * locator_.tolerance();
   if (before > locator_.tolerance()) {
     scheme_.drift(now_, before);

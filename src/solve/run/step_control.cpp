@@ -68,8 +68,8 @@ double StepControl::next(double size, double error, double asked) {
 double StepControl::retry(double size, double error) {
   refused_ = true;
   const double factor = std::clamp(safety * std::pow(error, -1 / order_), most_cut, safety);
-  // steps behind it are not to come back to this one at once; but to pass a place where an error is large however short the
-  // step, such as a singular position, they are to be long again
+  // the next steps do not return to this length at once; but where the error is large at any length, as near a singular
+  // position, only a longer step gets past
   if (factor > most_cut) {
     error_before_ = std::pow(safety / factor, order_);
     size_before_ = size;
