@@ -73,6 +73,8 @@ Eigen::Index RowSpace::rank() const {
   return static_cast<Eigen::Index>(leaves_.columns.size()) + (factors_ ? static_cast<Eigen::Index>(factors_->qr->rank) : 0);
 }
 
+double RowSpace::left_out() const { return factors_ ? factors_->cholmod.get()->SPQR_norm_E_fro : 0; }
+
 Dense RowSpace::part(const Dense& x) const {
   Dense result = x;
   const auto size = static_cast<Eigen::Index>(leaves_.rest.size());

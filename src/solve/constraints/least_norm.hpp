@@ -21,6 +21,10 @@ class RowSpace {
   RowSpace(const Eigen::SparseMatrix<double>& a, double tolerance, std::vector<int> groups = {});
 
   Eigen::Index rank() const;
+  /// The remainders of the rows that count as dependent, of rows of length 1, as one length: how exactly the space holds the
+  /// rows. Rounding over the smallest remainder of the others, since these are taken as they come: a(x − part(x)) is as large
+  /// times the lengths of rows and x, and the error of part(x) that over the smallest singular value.
+  double left_out() const;
   /// The part of each column of `x` that lies in the space.
   Eigen::MatrixXd part(const Eigen::MatrixXd& x) const;
 
