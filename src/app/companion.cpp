@@ -33,6 +33,8 @@ constexpr double least_ratio = 1.02;
 constexpr std::size_t most_values = std::size_t{1} << 23, most_instants = 2000;
 /// A channel whose range is less than this part of the largest of its kind, or of its own size, tells of rounding.
 constexpr double no_range = 1e-6;
+/// So does one whose range is less than this part of the largest size of its kind.
+constexpr double no_size = 1e-12;
 
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -140,17 +142,16 @@ std::optional<std::size_t> Companion::place(double time) const {
 
 void Companion::record(double time, const std::vector<double>& values) {
   const auto row = place(time);
-  if (!row) return;
-  if (*row >= rows_) {
-    rows_ = *row + 1;
-    values_.resize(rows_ * columns_.size(), std::numeric_limits<double>::quiet_NaN());
-  }
+  if (!row || *row < rows_) return;  // of the two ends of a jump the first counts
+  rows_ = *row + 1;
+  values_.resize(rows_ * columns_.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t c = 0; c < columns_.size(); ++c) values_[*row * columns_.size() + c] = values[columns_[c].own];
 }
 
 void Companion::compare(double time, const observe::Observer& observer) {
   const auto row = place(time);
-  if (!row || *row >= rows_) return;
+  if (!row || *row >= rows_ || *row < next_compared_) return;
+  next_compared_ = *row + 1;
   if (!std::exchange(placed_, true))
     for (Column& column : columns_) column.at = static_cast<std::size_t>(observer.channel(column.owner, column.channel));
   const std::vector<double>& values = observer.values();
@@ -176,10 +177,12 @@ ErrorEstimate Companion::estimate(long steps) const {
   const double share = 1 / (std::pow(std::max(ratio, least_ratio), order_of_steps_) - 1);
   for (const Column& column : columns_) {
     const double range = column.largest - column.least;
-    double largest = std::max(std::abs(column.largest), std::abs(column.least));
+    const auto size = [](const Column& one) { return std::max(std::abs(one.largest), std::abs(one.least)); };
+    double noise = no_range * size(column);
     for (const Column& other : columns_)
-      if (other.dimension == column.dimension) largest = std::max(largest, other.largest - other.least);
-    if (!(range > no_range * largest)) continue;
+      if (other.dimension == column.dimension)
+        noise = std::max({noise, no_range * (other.largest - other.least), no_size * size(other)});
+    if (!(range > noise)) continue;
     const double error = share * std::sqrt(column.squares / static_cast<double>(compared_)) / range;
     if (error >= found.error) {
       found.error = error;

@@ -47,7 +47,7 @@ class Companion {
   std::vector<Column> columns_;
   bool placed_ = true;  ///< Column::at is known
   double start_, interval_;
-  std::size_t rows_ = 0, compared_ = 0;
+  std::size_t rows_ = 0, compared_ = 0, next_compared_ = 0;
   long steps_ = 0;
   double order_of_steps_ = 2;
   bool follows_tolerance_ = false;

@@ -46,7 +46,7 @@ Schedule::Due Instants::show(const std::function<void(double, const Schedule::Du
       c_ = end_;
       c_.time = time;
     }
-    const Schedule::Due due = schedule_.at(time, even, true, false);
+    const Schedule::Due due = schedule_.beside_even(time) ? Schedule::Due() : schedule_.at(time, even, true, false);
     restart = restart || due.restart;
     observer_.between(in_space_(c_));
     if (due.frame) find_fields(c_);

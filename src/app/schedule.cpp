@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace engrane::app {
 
@@ -20,6 +21,16 @@ Schedule::Schedule(const deck::SteppingCard& stepping, const deck::ArchiveCard& 
   sample_ = {archive.history_step.value_or(controlled_ ? step_ : 0), start_};
   frame_ = {archive.field_step.value_or((end_ - start_) / 200), start_};
   if (archive.restart_step) restart_ = Interval{*archive.restart_step, start_ + *archive.restart_step};
+}
+
+void Schedule::ask(std::vector<double> times) {
+  wanted_ = std::move(times);
+  std::sort(wanted_.begin(), wanted_.end());
+  wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
+}
+
+bool Schedule::beside_even(double time) const {
+  return std::binary_search(wanted_.begin(), wanted_.end(), time) && (even_ == 0 || !even(time));
 }
 
 bool Schedule::Interval::due(double time, double start) {
@@ -51,12 +62,16 @@ bool Schedule::even(double time) const {
 
 std::vector<double> Schedule::between(double from, double to) const {
   std::vector<double> times;
+  for (const double time : wanted_)
+    if (time > from && time < to && beside_even(time)) times.push_back(time);
   if (even_ == 0) return times;
   for (double k = std::floor((from - start_) / even_ + on_time) + 1;; ++k) {
     const double time = start_ + k * even_;
-    if (time >= to - on_time * even_) return times;
+    if (time >= to - on_time * even_) break;
     times.push_back(time);
   }
+  std::sort(times.begin(), times.end());
+  return times;
 }
 
 std::size_t Schedule::expected_samples() const {

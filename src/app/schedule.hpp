@@ -13,6 +13,8 @@ namespace engrane::app {
 class Schedule {
  public:
   Schedule(const deck::SteppingCard& stepping, const deck::ArchiveCard& archive);
+  /// Instants within controlled steps at which values are asked for, beside the even ones: nothing else is due there.
+  void ask(std::vector<double> times);
 
   struct Due {
     bool sample = false, frame = false, restart = false;
@@ -21,12 +23,14 @@ class Schedule {
   /// want samples at equal intervals, so what lies between multiples of H for an event is for energies and checks only.
   Due at(double time, double step, bool regular, bool last);
 
-  /// The instants between two ends of controlled steps at which something may be due: the even ones. None where histories are of
-  /// every step.
+  /// The instants between two ends of controlled steps at which something may be due: the even ones, none where histories are of
+  /// every step; and those of ask().
   std::vector<double> between(double from, double to) const;
   /// Is this such an instant, or the end?
   bool even(double time) const;
-  /// The time between them, or a `step` where ends of steps serve.
+  /// Is it one of ask(), and no even one?
+  bool beside_even(double time) const;
+  /// The time between even ones, or a `step` where ends of steps serve.
   double even_step(double step) const { return even_ > 0 ? even_ : step; }
   /// Steps are controlled by their error (`.SUB TOL`).
   bool controlled() const { return controlled_; }
@@ -46,8 +50,9 @@ class Schedule {
   };
   double start_, end_, step_;
   bool controlled_;
-  double even_ = 0;   ///< time between even instants; 0: the ends of steps serve
-  double asked_ = 0;  ///< the last regular time that was asked about, with what counts as early
+  std::vector<double> wanted_;  ///< of ask(), ascending
+  double even_ = 0;             ///< time between even instants; 0: the ends of steps serve
+  double asked_ = 0;            ///< the last regular time that was asked about, with what counts as early
   Interval sample_, frame_;
   std::optional<Interval> restart_;
 };

@@ -40,6 +40,10 @@ class Expression {
 
   double value(double x) const;
   Jet at(double x) const;
+  /// Between two values of the variable, in increasing order: where a comparison, sign, abs, min or max decides otherwise than
+  /// before, which is where the formula may jump or have a corner; to the last digit. Looked for at a thousand places: what comes
+  /// and goes between two of them is not seen. None where there are more than `most`.
+  std::vector<double> corners(double from, double to, std::size_t most) const;
   /// Does the text not use the variable?
   bool constant() const { return constant_; }
 

@@ -256,6 +256,32 @@ std::size_t operand_count(Code code) {
   return code >= Code::add ? 2 : 1;
 }
 
+bool decides(Code code) {
+  switch (code) {
+    case Code::absolute:
+    case Code::sign:
+    case Code::minimum:
+    case Code::maximum:
+    case Code::transfer_sign:
+    case Code::less:
+    case Code::less_or_equal:
+    case Code::greater:
+    case Code::greater_or_equal:
+    case Code::equal:
+    case Code::not_equal:
+      return true;
+    default:
+      return false;
+  }
+}
+
+signed char decision(Code code, const Series& a, const Series& b) {
+  const double sign = operand_count(code) == 1      ? sign_on_the_right(a)
+                      : code == Code::transfer_sign ? sign_on_the_right(b)
+                                                    : difference_on_the_right(a, b);
+  return static_cast<signed char>(std::isnan(sign) ? 2 : sign);
+}
+
 double apply(Code code, double a, double b, double c) {
   switch (operand_count(code)) {
     case 1:

@@ -27,10 +27,15 @@ double apply(Expression::Instruction::Code code, double a, double b = 0, double 
 /// The same on series: at corners and jumps those on the right.
 Series apply(Expression::Instruction::Code code, const Series& a, const Series& b = {}, const Series& c = {});
 
+/// Is it a comparison, sign or choice of the larger, where a formula of smooth parts may jump or have a corner?
+bool decides(Expression::Instruction::Code code);
+/// Which way it decides just right of here: -1, 0 or 1, or 2 where it is not a number.
+signed char decision(Expression::Instruction::Code code, const Series& a, const Series& b);
+
 /// Runs a program on doubles or series; variables in the order of Instruction::number. The parser has checked that the stack
-/// suffices.
-template <class T>
-T evaluate_program(const std::vector<Expression::Instruction>& program, const std::array<T, 3>& variables) {
+/// suffices. `see` is called before each operation, with it and its first two operands.
+template <class T, class See>
+T evaluate_program(const std::vector<Expression::Instruction>& program, const std::array<T, 3>& variables, See&& see) {
   using Code = Expression::Instruction::Code;
   std::array<T, most_waiting_operands> stack;
   std::size_t top = 0;
@@ -43,12 +48,17 @@ T evaluate_program(const std::vector<Expression::Instruction>& program, const st
       const std::size_t count = operand_count(i.code);
       top -= count - 1;
       T& result = stack[top - 1];
+      see(i.code, result, stack[top]);
       result = count == 1   ? apply(i.code, result)
                : count == 2 ? apply(i.code, result, stack[top])
                             : apply(i.code, result, stack[top], stack[top + 1]);
     }
   }
   return stack[0];
+}
+template <class T>
+T evaluate_program(const std::vector<Expression::Instruction>& program, const std::array<T, 3>& variables) {
+  return evaluate_program<T>(program, variables, [](auto&&...) {});
 }
 
 }  // namespace engrane

@@ -123,6 +123,9 @@ class FormulaFunction final : public Function {
     return area;
   }
   const Expression* law() const override { return formula_.is_law() ? &formula_ : nullptr; }
+  std::vector<double> corners(double from, double to, std::size_t most) const override {
+    return formula_.is_law() ? std::vector<double>() : formula_.corners(from, to, most);
+  }
 
  private:
   void note(int order, double value, double x) const {

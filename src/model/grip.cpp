@@ -102,12 +102,11 @@ void grip_switches(const Element& element, const State& state, std::span<Switch>
   find_grips(element, state, grips);
   for (std::size_t i = 0; i < count; ++i) {
     const Grip& grip = grips[i];
-    const double force = grip.force.norm();
     const bool slides = grip.state.mode == GripState::sliding, holds = grip.state.mode == GripState::holding;
     const Vec3& along = grip.state.direction;
     values[2 * i] = slides ? Switch{along.dot(grip.speed), along.dot(grip.acceleration), grip.speeds + least} : Switch{};
     // no element knows the rate of a multiplier
-    values[2 * i + 1] = holds ? Switch{grip.limit - force, unknown, grip.limit + force + least} : Switch{};
+    values[2 * i + 1] = holds ? Switch{grip.spare(), unknown, grip.limit + grip.force.norm() + least} : Switch{};
   }
 }
 

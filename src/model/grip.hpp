@@ -27,6 +27,8 @@ struct GripState {
 
   /// Sliding along several coordinates ends where less than this part is left of the speed with which a step began.
   static constexpr double halt = 0.1;
+  /// A force beyond what holds by this part of it is rounding.
+  static constexpr double slack = 1e-9;
 
   static GripState slides_towards(const Vec3& direction, const Vec3& held = Vec3::Zero()) {
     return {sliding, held, direction.normalized(), 0};
@@ -78,7 +80,10 @@ struct Grip {
   Vec3 speed = Vec3::Zero(), acceleration = speed;  ///< of sliding
   Vec3 force = Vec3::Zero();                        ///< of friction at rest, on the speeds of sliding
   double limit = 0;                                 ///< the largest that holds
-  double speeds = 0, accelerations = 0;             ///< sums of what these are differences of: what is rounding
+  /// By what it could be larger; below zero the grip gives way. The switch of the event and what is decided at it are this
+  /// number.
+  double spare() const { return (1 + GripState::slack) * limit - force.norm(); }
+  double speeds = 0, accelerations = 0;  ///< sums of what these are differences of: what is rounding
 };
 /// Of each grip of an element, in the order of its multipliers.
 void find_grips(const Element& element, const State& state, std::span<Grip> grips);

@@ -73,6 +73,17 @@ std::vector<double> Model::corners(double from, double to) const {
   return {all.begin(), all.end()};
 }
 
+bool Model::jumps_at(double time) const {
+  constexpr double rounding = 1e-12;
+  const double just_before = std::nextafter(time, -std::numeric_limits<double>::infinity());
+  return std::any_of(of_time.begin(), of_time.end(), [&](const Function* function) {
+    const Function::Jet before = function->at(just_before), after = function->at(time);
+    const double slope = std::abs(before.d1) + std::abs(after.d1);
+    return std::abs(after.f - before.f) >
+           100 * slope * (time - just_before) + rounding * std::max(std::abs(before.f), std::abs(after.f));
+  });
+}
+
 void Model::measure() {
   extent_ = size_of_nodes(*this);
   if (extent_ == 0) extent_ = largest_length(*this);

@@ -102,6 +102,8 @@ struct Model {
   Vec3 gravity_at(double time) const;
   /// Instants between two others at which a function of time has a corner (Function::corners), in increasing order.
   std::vector<double> corners(double from, double to) const;
+  /// Does one of them jump there, from the number before `time` to `time` itself?
+  bool jumps_at(double time) const;
   /// The length that tolerances are measured with: the diagonal of the box around the nodes that elements use. Where all of
   /// them are in one place, but for rounding, the largest length that an element knows (radius of gyration, pitch radius,
   /// natural length); 1 where no length exists at all.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "assembly/configuration_snapshot.hpp"
@@ -15,6 +14,9 @@ namespace engrane::observe {
 namespace {
 
 constexpr std::size_t points_of_powers = 4;
+/// A step that is longer than the one before by more than this comes after a force has jumped, say: a polynomial would lead over
+/// that, with slopes that such short steps make of rounding. Control goes from a first step to the longest by less.
+constexpr double longest_beside = 100;
 /// Part of a step's length along a path for which the loads' time is taken to pass where it stands still.
 constexpr double stand_still = 1e-9;
 
@@ -86,10 +88,7 @@ double static_work(Assembler& assembler, Reactions& supports, Configuration from
 }
 
 EnergyLedger::EnergyLedger(Assembler& assembler, Reactions& supports, bool moves)
-    : assembler_(assembler),
-      supports_(supports),
-      moves_(moves),
-      powers_(points_of_powers, std::numeric_limits<double>::infinity()) {}
+    : assembler_(assembler), supports_(supports), moves_(moves), powers_(points_of_powers, longest_beside) {}
 
 void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reactions) {
   Energies sum = total_energies(assembler_, c);
@@ -104,14 +103,14 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
   } else if (!moves_) {
     balance_.external_work += static_work(assembler_, supports_, before_.unpacked(), c);
   } else {
-    const double half = 0.5 * (c.time - last_time_);
+    const double step = c.time - last_time_, half = 0.5 * step;
     // nothing leads over an event: a force that jumps has no slope there
     const bool continues = !powers_.empty();
     if (smooth_) powers_.add(c.time, std::array{sum.external, sum.dissipated});
     if (continues) {  // Gauss's two points: exact for cubics
       for (const double side : {-1.0, 1.0}) {
         std::array<double, 2> power{};
-        powers_.at(last_time_ + half * (1 + side / std::numbers::sqrt3), 0, power);
+        powers_.at(last_time_ + half * (1 + side / std::numbers::sqrt3), step, power);
         balance_.external_work += half * power[0];
         balance_.dissipated += half * power[1];
       }

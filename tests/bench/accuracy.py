@@ -42,7 +42,7 @@ from engrane_post import Results  # noqa: E402
 ENVIRONMENT = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 SETTINGS = {"FAST": 1e-2, "NORMAL": 1e-3, "FINE": 1e-5, "REFERENCE": 1e-8}
 TURN = 2 * math.pi / 150  # of the flexible slider-crank, s
-NO_RANGE = 1e-6  # as in src/app/companion.cpp
+NO_RANGE, NO_SIZE = 1e-6, 1e-12  # as in src/app/companion.cpp
 
 PLANETARY = """
 .UNIT SI
@@ -289,12 +289,11 @@ class Run:
         off = self.values - truth.values
         turns = [i for i, name in enumerate(model.names) if units[name] == "rad"]
         off[:, turns] = (off[:, turns] + math.pi) % (2 * math.pi) - math.pi
-        ranges = np.ptp(self.values, axis=0)
+        ranges, sizes = np.ptp(self.values, axis=0), np.abs(self.values).max(axis=0)
         for i, name in enumerate(model.names):
-            largest = max(
-                r for r, other in zip(ranges, model.names, strict=True) if units[other] == units[name]
-            )
-            if ranges[i] > NO_RANGE * max(largest, np.abs(self.values[:, i]).max()):
+            alike = [units[other] == units[name] for other in model.names]
+            noise = max(NO_RANGE * max(ranges[alike].max(), sizes[i]), NO_SIZE * sizes[alike].max())
+            if ranges[i] > noise:
                 self.by_channel[name] = float(np.sqrt(np.mean(off[:, i] ** 2)) / ranges[i])
         return self
 

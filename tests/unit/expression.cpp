@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace engrane {
 namespace {
@@ -250,6 +251,22 @@ TEST(Expression, LawsOfElongationRateAndTime) {
   EXPECT_FALSE(formula("2*D").uses_time());
   EXPECT_FALSE(formula("2*V").constant());
   EXPECT_FALSE(fault("2*D", false).message.empty());
+}
+
+TEST(Expression, CornersAndJumpsToTheLastDigit) {
+  using Places = std::vector<double>;
+  const auto corners = [](std::string_view text, std::size_t most = 100) { return formula(text).corners(0, 2, most); };
+  EXPECT_EQ(corners("if(T < 1, -2.5, 0)"), Places{1});
+  EXPECT_EQ(corners("if(T <= 1, -2.5, 0)"), Places{1});
+  EXPECT_EQ(corners("if(T >= 0.25 .AND. T < 1.75, 3, 0)*T"), (Places{0.25, 1.75}));
+  EXPECT_EQ(corners("max(0, T - 0.3) + sign(T - 0.3001)"), (Places{0.3, 0.3001}));  // between two looks
+  EXPECT_EQ(corners("min(T, 0.5, 2)"), Places{0.5});
+  const Places folds = corners("abs(sin(PI*T*2))");
+  ASSERT_EQ(folds.size(), 3u);
+  for (std::size_t k = 0; k < folds.size(); ++k) EXPECT_NEAR(folds[k], 0.5 * static_cast<double>(k + 1), 4e-16);
+  EXPECT_EQ(corners("abs((T - 1)**2)"), Places{}) << "touches zero";
+  EXPECT_EQ(corners("sin(T) + T**2"), Places{});
+  EXPECT_EQ(corners("abs(sin(60*T))", 10), Places{}) << "a measured curve";
 }
 
 TEST(Expression, OutsideItsDomainNotANumber) {

@@ -17,8 +17,8 @@ namespace {
 constexpr double rounding = 1e-12;
 /// Places are known to this part of the extent, or of a radian.
 constexpr double place_rounding = 1e-14;
-/// A force beyond what holds by this part of it is rounding.
-constexpr double slack = 1e-9;
+/// Differences within this part of what they are of are rounding.
+constexpr double slack = GripState::slack;
 /// A grip that bears more than this part of what it holds may give way within the next step.
 constexpr double near = 0.8;
 
@@ -44,7 +44,7 @@ Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start, double 
 bool Grips::rests(const Seen& grip) { return grip.speed.norm() <= rounding * grip.speeds; }
 
 bool Grips::overloaded(const Seen& grip) {
-  return grip.state.mode == GripState::holding && grip.force.norm() > (1 + slack) * grip.limit;
+  return grip.state.mode == GripState::holding && grip.spare() < 0;
 }
 
 bool Grips::dragged(const Seen& grip) {

@@ -57,6 +57,8 @@ class Runner {
   /// Looks at the constraints again after an attempt that failed; true where that changes them.
   bool renew(const NewtonReport& report);
   bool drift(double time, double target);
+  /// Of a drift over an event the part before it, under the law that has held so far; 0: all is too short to be divided.
+  double before_event(double drift) const;
   /// now_ is accepted: by a step that was `solved`, which next_ began, or by a drift.
   bool accepted(double size, bool regular, bool solved);
   /// The step that an attempt towards a point `left` ahead takes: equal parts of it, as long as h_ allows.

@@ -94,6 +94,16 @@ void Dynamics::drift(Configuration& c, double h) {
   restart_memory(c);
 }
 
+double Dynamics::drift_error(const Configuration& c, double h) {
+  if (!error_.wanted()) return 0;
+  Configuration later = glide(c, h);
+  context_.start.balance_accelerations(later, 2, nullptr, massless_at(c));
+  auto rates = context_.motion.accelerations(later);
+  const auto before = context_.motion.accelerations(c);
+  for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = (rates[i] - before[i]) * h / 6;
+  return error_.over_tolerance(rates, context_.motion.velocities(later), h);
+}
+
 bool Dynamics::settle_friction(Configuration& c) {
   if (!context_.grips.violated(c)) return false;
   context_.grips.settle(c, has_massless_.value_or(false));

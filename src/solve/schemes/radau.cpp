@@ -184,6 +184,7 @@ Imbalance Radau::evaluate(const Configuration& from) {
 Radau::Correction Radau::correct() {
   const Numbering& numbering = context_.numbering;
   Correction largest;
+  change_before_.swap(last_change_);
   last_change_.assign(context_.motion.size(), 0.0);
   for (std::size_t i = 0; i < changes_.size(); ++i) {
     const auto change = context_.assembler.gather(changes_[i]);
@@ -246,11 +247,16 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     const bool still =
         k > 1 && (changed <= std::max(no_correction, rounding * increment()) ||
                   (left <= std::sqrt(precision) && (changed * std::min(1.0, contraction) <= negligible_correction || noise())));
-    // what is left of positions is no part of the step's error either: θ/(1 − θ) of the last correction (Hairer and Wanner, IV.8)
+    // What is left of positions is no part of the step's error either: θ/(1 − θ) of the last correction (Hairer and Wanner,
+    // IV.8), with the θ of each unknown: matrices of another place may leave one open while all others converge.
     const auto settled = [&] {
       if (!error_.wanted()) return true;
       std::vector<double> rates = last_change_;
-      for (double& rate : rates) rate *= std::min(1.0, contraction / std::max(1 - contraction, 0.5)) / h;
+      for (std::size_t i = 0; i < rates.size(); ++i) {
+        const double own = k > 1 ? std::abs(rates[i]) / std::max(std::abs(change_before_[i]), std::abs(rates[i])) : 1;
+        const double theta = std::max(contraction, rates[i] == 0 ? 0 : own);
+        rates[i] *= std::min(1.0, theta / std::max(1 - theta, 0.5)) / h;
+      }
       return error_.over_tolerance(rates, now_.v.back(), h) <= share_of_iteration;
     };
     if ((k > 0 && found.within(precision) && settled()) || still) {
@@ -348,7 +354,7 @@ std::optional<double> Radau::local_error(const Configuration& from, double h, co
     for (std::size_t i = 0; i < now_.y.size(); ++i)
       rates[slot] += collocation_.embedded[static_cast<Eigen::Index>(i)] * now_.y[i][slot] / h;
   }
-  return error_.over_tolerance(rates, context_.motion.velocities(to), h);
+  return error_.over_tolerance(rates, context_.motion.velocities(to), h, collocation_.embedded.lpNorm<1>());
 }
 
 bool Radau::restore_balance(Configuration& c) {

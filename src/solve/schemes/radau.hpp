@@ -91,7 +91,7 @@ class Radau final : public Dynamics {
   References references_;
   Stages now_;                       ///< of the present step
   End tried_;                        ///< of the last attempt
-  std::vector<double> last_change_;  ///< the last correction of the end of the step, by motion slot
+  std::vector<double> last_change_, change_before_;  ///< the last two corrections of the end of the step, by motion slot
   std::vector<Configuration> configurations_;
   std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;
   std::vector<Owned<Vec>> residuals_, changes_;

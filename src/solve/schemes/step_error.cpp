@@ -56,7 +56,8 @@ double StepError::range(const Group& group, std::span<const double> velocities) 
   return std::sqrt(square);
 }
 
-double StepError::over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h) const {
+double StepError::over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h,
+                                 double weight) const {
   std::array<double, measures> fastest{};
   std::vector<double> ranges(groups_.size());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -70,8 +71,8 @@ double StepError::over_tolerance(std::span<const double> rates, std::span<const 
     for (std::size_t k = 0; k < group.size; ++k) {
       const std::size_t slot = group.first + k;
       if (group.free[k])
-        largest =
-            std::max(largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot]) - known * group.place / h) / scale);
+        largest = std::max(
+            largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot]) - known * weight * group.place / h) / scale);
     }
   }
   return largest;

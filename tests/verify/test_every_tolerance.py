@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Decks whose results are known, with steps that follow their error: from TOL 1e-3 to 1e-10 each run ends
+well, and its error falls with TOL."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from runs import Run, run
+
+DECKS = Path(__file__).resolve().parents[2] / "decks"
+DECADES = range(3, 11)
+
+
+def controlled(deck: str, tolerance: str, words: str = "SCHEME RADAU", archive: str = "") -> str:
+    """The deck with other steps, and without its checks."""
+    text = (DECKS / f"{deck}.dat").read_text(encoding="utf-8")
+    text = re.sub(r"(?m)^\.CHK.*\n(?:[ !].*\n)*", "", text)
+    text = re.sub(r"(?m)^\.SAM TYPE DYNAMIC.*", f".SAM TYPE DYNAMIC SOLVER KLU {words}", text)
+    return re.sub(r"(?m)^(\.SUB TF \S+ H \S+).*", rf"{archive}\1 {tolerance}", text)
+
+
+def test_a_puck_is_torn_off_when_friction_gives_way(tmp_path: Path) -> None:
+    """What the event is located by and what is decided at it are one number: a grip that is found to hold at
+    its event would do so over the whole next step. Between the steps too it rests until it slides. It
+    gives way at 1e-9 more than it holds, later by as much."""
+    s, held = 0.5 * 2 * 9.81 / 20, 0.4 * 2 * 9.81
+    for k in DECADES:
+        found = run(controlled("elements/joints/stick_directions", f"TOL 1e-{k}"), tmp_path)
+        t = found.t
+        exact = np.where(t > s, 0.8 * (10 * (t**2 - s**2) - held * (t - s)) / 2, 0)
+        assert np.abs(found["node/5/VX"] - exact).max() < 0.1 * 10.0**-k + s * 1e-9, f"TOL 1e-{k}"
+        listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
+        assert "POINT_PLANE 7: breaks away" in listing
+
+
+def test_a_driven_shaft_without_mass(tmp_path: Path) -> None:
+    """Its joint stays open by what iterations leave: the error of the next step must not be made of that,
+    which no shorter step mends."""
+    last = 1.0
+    for k in DECADES:
+        found = run(controlled("elements/springs/bushing_oscillator", f"TOL 1e-{k}"), tmp_path)
+        w = np.sqrt(15.96)
+        exact = 8 / w * np.exp(-0.2 * found.t) * np.sin(w * found.t)
+        error = np.abs(found["2/ROTATION_1"] - exact).max()
+        assert error < 10.0**-k + 1e-11, f"TOL 1e-{k}"
+        assert error < max(2 * last, 1e-11)
+        last = error
+
+
+JUMP = """
+.NOE
+ I 1 X 0 0 0
+ I 2 X 1 0 0
+.FCT
+ I 1 EXPR "if(T < 0.37, 3, -1)"
+ I 2 EXPR "if(T < 0.37, 2, 1)"
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 AT 0 0 0
+ I 2 TORQUE N 1 AXIS 0 0 1 V 1 NF 1
+ I 3 INERTIA N 1 J 0.5 0.5 0.5
+ I 4 HINGE N 0 2 AXIS 0 0 1 AT 1 0 0 {drive}
+ I 5 INERTIA N 2 J 0.5 0.5 0.5
+.SAM TYPE DYNAMIC SOLVER KLU {words}
+.SUB TF 1 H 0.01 TOL {tolerance}
+"""
+
+
+@pytest.mark.parametrize("words", ["SCHEME RADAU", "RHO 0.8"])
+@pytest.mark.parametrize("tolerance", ["1e-3", "1e-9"])
+def test_steps_end_where_a_formula_jumps(words: str, tolerance: str, tmp_path: Path) -> None:
+    """A step that ends there knows nothing of what follows: speeds to the last digits, whatever TOL is."""
+    text = JUMP.format(words=words, tolerance=tolerance, drive="DRIVE SPEED NF 2")
+    found = run(text, tmp_path)
+    t = found.t
+    speed = np.where(t < 0.37, 6 * t, 6 * 0.37 - 2 * (t - 0.37))
+    assert np.abs(found["1/SPEED"] - speed).max() < 1e-12
+    driven = np.where(t < 0.37, 2 * t, 2 * 0.37 + t - 0.37)
+    assert np.abs(found["4/ANGLE"] - driven).max() < 1e-12
+    text = JUMP.format(words=words, tolerance=tolerance, drive="")
+    work = 0.25 * run(text, tmp_path, "free")["1/SPEED"][-1] ** 2
+    assert np.abs(run(text, tmp_path, "free")["run/ENERGY_ERROR"]).max() < 1e-9 * work
+
+
+def test_a_run_resumed_at_a_jump_has_every_bit(tmp_path: Path) -> None:
+    text = JUMP.format(words="SCHEME RADAU", tolerance="1e-6", drive="DRIVE SPEED NF 2")
+    whole = run(text, tmp_path, "whole")
+    run(text, tmp_path, "part", options=("--until", "0.37"), status=2)
+    part = run(text, tmp_path, "part", options=("--restart", "part"))
+    for channel in ("1/SPEED", "1/ANGLE", "4/ANGLE", "run/ENERGY_ERROR", "run/STEP"):
+        assert np.array_equal(whole[channel], part[channel]), channel
+
+
+@pytest.mark.parametrize("k", [4, 6, 8, 9, 11])
+def test_a_hoist_is_left_alone_by_its_motor(k: int, tmp_path: Path) -> None:
+    """The worm stops within a millisecond of the jump of the torque, behind steps of 30 ms: no stretch of the
+    way to rest may be taken with constant accelerations, and no energy comes from nowhere."""
+    found = run(controlled("gears/worm_hold", f"TOL 1e-{k}"), tmp_path)
+    assert abs(found["3/TORQUE_B"][-1] + 20) < 1e-8
+    assert np.abs(found["run/ENERGY_ERROR"]).max() < 30 * 10.0**-k + 1e-7
+    listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    assert re.search(r"1\.000755\d* +GEAR 3: comes to rest", listing)
+
+
+def test_what_is_at_rest_has_energies_of_rounding(tmp_path: Path) -> None:
+    """The pin of a Geneva wheel turns without mass for 10 ms before it meets the wheel."""
+    text = controlled("mechanisms/geneva_index", "TOL 1e-9", archive=".SAI HISTORY 0\n")
+    found = run(text, tmp_path, options=("--until", "0.0095"), status=2)
+    listing = found.file.with_suffix(".lst").read_text(encoding="utf-8")
+    assert "interrupted at t = 0.0" in listing
+    assert np.abs(found["2/ANGLE"]).max() < 1e-11
+
+
+def test_checks_at_any_time_are_of_the_motion_within_the_step(tmp_path: Path) -> None:
+    """Not of the polynomial through samples 0.1 apart, between which a pendulum hits its stop."""
+    text = (DECKS / "elements/joints/hinge_stop.dat").read_text(encoding="utf-8")
+    text = re.sub(r"(?m)^\.SAM .*", ".SAM TYPE DYNAMIC SOLVER KLU SCHEME RADAU", text)
+    text = re.sub(r"(?m)^\.SUB .*", ".SAI HISTORY DT 0.1 FIELDS DT 0.6\n.SUB TF 1.2 H 0.01 TOL 1e-7", text)
+    found = run(text, tmp_path)  # its checks pass
+    assert len(found.t) == 13
+
+
+def test_a_channel_that_is_noise_beside_others_is_not_judged(tmp_path: Path) -> None:
+    """The force along the wire of a bead is zero, 1e-15 of what the other wire bears."""
+    text = controlled("elements/joints/point_line", "", "ACCURACY FINE")
+    checks = ".CHK\n ELEMENT 2 FORCE_1 T 1 V 0 ATOL 1e-9\n ELEMENT 4 FORCE_2 T 1 V -12 RTOL 1e-6\n"
+    run(text.replace(".FIN", f"{checks} ELEMENT 2 SLIDE T 1 V 1.5 ATOL 9\n.FIN"), tmp_path)
+    listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    assert re.search(r"estimated error +\S+, element/2/SLIDE;", listing)
+
+
+def test_a_jump_at_an_instant_of_results_is_one_sample(tmp_path: Path) -> None:
+    """That on its left."""
+    text = JUMP.format(words="SCHEME RADAU", tolerance="1e-6", drive="").replace("0.37", "0.25")
+    found: Run = run(text, tmp_path)
+    assert np.allclose(found.t, np.arange(101) * 0.01, rtol=0, atol=1e-12)
