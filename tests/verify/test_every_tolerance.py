@@ -35,6 +35,16 @@ def test_a_puck_is_torn_off_when_friction_gives_way(tmp_path: Path) -> None:
         assert "POINT_PLANE 7: breaks away" in listing
 
 
+def test_a_puck_is_torn_off_by_a_slow_force(tmp_path: Path) -> None:
+    """Fixed steps of generalised-α: within the tolerance of the event the force grows by 2e-10 of itself."""
+    text = controlled("elements/joints/stick_directions", "", "RHO 0.8")
+    text = text.replace("V 20 NF 1", "V 0.2 NF 1").replace("TF 1 H 0.0053", "TF 60 H 0.01")
+    found = run(text, tmp_path)
+    s, held = 50 * 2 * 9.81 / 20, 0.4 * 2 * 9.81
+    exact = np.where(found.t > s, 0.8 * (0.1 * (found.t**2 - s**2) - held * (found.t - s)) / 2, 0)
+    assert np.abs(found["node/5/VX"] - exact).max() < 1e-6 * exact.max()
+
+
 def test_a_driven_shaft_without_mass(tmp_path: Path) -> None:
     """Its joint stays open by what iterations leave: the error of the next step must not be made of that,
     which no shorter step mends."""
