@@ -109,6 +109,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   }
   steps_ = runner.steps();
   follows_tolerance_ = static_cast<double>(steps_) * loose.longest >= well_below * (options.end - options.begin);
+  last_ = -std::numeric_limits<double>::infinity();
   begun_ = processor_time();
   estimate_.companion_seconds = begun_ - begun;
 }
@@ -140,18 +141,24 @@ std::optional<std::size_t> Companion::place(double time) const {
   return static_cast<std::size_t>(std::round(k));
 }
 
+bool Companion::repeats(double time) {
+  const double before = std::exchange(last_, time);
+  return std::abs(time - before) <= 4 * std::numeric_limits<double>::epsilon() * std::abs(time);
+}
+
 void Companion::record(double time, const std::vector<double>& values) {
   const auto row = place(time);
-  if (!row || *row < rows_) return;  // of the two ends of a jump the first counts
-  rows_ = *row + 1;
-  values_.resize(rows_ * columns_.size(), std::numeric_limits<double>::quiet_NaN());
+  if (!row || repeats(time)) return;
+  if (*row >= rows_) {
+    rows_ = *row + 1;
+    values_.resize(rows_ * columns_.size(), std::numeric_limits<double>::quiet_NaN());
+  }
   for (std::size_t c = 0; c < columns_.size(); ++c) values_[*row * columns_.size() + c] = values[columns_[c].own];
 }
 
 void Companion::compare(double time, const observe::Observer& observer) {
   const auto row = place(time);
-  if (!row || *row >= rows_ || *row < next_compared_) return;
-  next_compared_ = *row + 1;
+  if (!row || *row >= rows_ || repeats(time)) return;
   if (!std::exchange(placed_, true))
     for (Column& column : columns_) column.at = static_cast<std::size_t>(observer.channel(column.owner, column.channel));
   const std::vector<double>& values = observer.values();

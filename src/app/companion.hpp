@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,9 @@ class Companion {
   /// Place of an instant among those kept; empty for the others.
   std::optional<std::size_t> place(double time) const;
 
+  /// Is it that of the last call? Of the two ends of a jump the first counts.
+  bool repeats(double time);
+
   /// A channel that is compared.
   struct Column {
     std::size_t own, at;  ///< place among the values of this run's observer, and of the run's own
@@ -47,7 +51,8 @@ class Companion {
   std::vector<Column> columns_;
   bool placed_ = true;  ///< Column::at is known
   double start_, interval_;
-  std::size_t rows_ = 0, compared_ = 0, next_compared_ = 0;
+  std::size_t rows_ = 0, compared_ = 0;
+  double last_ = -std::numeric_limits<double>::infinity();  ///< the instant recorded, or compared, before
   long steps_ = 0;
   double order_of_steps_ = 2;
   bool follows_tolerance_ = false;

@@ -43,9 +43,7 @@ Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start, double 
 
 bool Grips::rests(const Seen& grip) { return grip.speed.norm() <= rounding * grip.speeds; }
 
-bool Grips::overloaded(const Seen& grip) {
-  return grip.state.mode == GripState::holding && grip.spare() < 0;
-}
+bool Grips::overloaded(const Seen& grip) { return grip.state.mode == GripState::holding && grip.spare() < 0; }
 
 bool Grips::dragged(const Seen& grip) {
   return grip.state.mode == GripState::holding && grip.redundant && grip.speed.norm() > slack * grip.speeds;

@@ -36,10 +36,15 @@ void KeptMatrices::step() {
   if (!phase_.empty() && phase_.back() < most_steps) ++phase_.back();
 }
 
-bool KeptMatrices::recall(double h) {
-  const auto known = sets_.find(phase_);
+bool KeptMatrices::recall(double h) { return combine(phase_, h); }
+
+bool KeptMatrices::restore(double h) { return combine(std::vector<int>(current_), h); }
+
+bool KeptMatrices::combine(const std::vector<int>& phase, double h) {
+  const auto known = sets_.find(phase);
   if (known == sets_.end() || known->second.scale != assembler_.scale()) return false;
   solver_.combine(known->second.matrices, h);
+  current_ = phase;
   return true;
 }
 
@@ -52,10 +57,12 @@ void KeptMatrices::evaluate(const Configuration& c, double h) {
   set.scale = assembler_.scale();
   solver_.evaluate(c, set.matrices);
   solver_.combine(set.matrices, h);
+  current_ = phase_;
 }
 
 void KeptMatrices::save(Snapshot& snapshot) const {
   snapshot.put("phase", {phase_.begin(), phase_.end()});
+  snapshot.put("current", {current_.begin(), current_.end()});
   int number = 0;
   for (const auto& [phase, set] : sets_) {
     if (set.scale != assembler_.scale()) continue;
@@ -68,13 +75,14 @@ void KeptMatrices::save(Snapshot& snapshot) const {
 }
 
 void KeptMatrices::load(const Snapshot& snapshot) {
-  const auto whole = [](const Snapshot& from) {
-    const std::vector<double>& phase = from.array("phase");
+  const auto whole = [](const Snapshot& from, const char* name = "phase") {
+    const std::vector<double>& phase = from.array(name);
     std::vector<int> numbers(phase.size());
     std::transform(phase.begin(), phase.end(), numbers.begin(), [](double number) { return static_cast<int>(number); });
     return numbers;
   };
   phase_ = whole(snapshot);
+  current_ = snapshot.has("current") ? whole(snapshot, "current") : phase_;  // files of earlier versions lack it
   sets_.clear();
   for (int number = 0; number < static_cast<int>(snapshot.number("sets")); ++number) {
     const Snapshot one = part_of(snapshot, fmt::format("set {}/", number));

@@ -23,6 +23,8 @@ class KeptMatrices {
   /// Makes the solver's systems for steps of h from what is kept for this phase; false where there is nothing, or where the
   /// scales of multipliers have changed.
   bool recall(double h);
+  /// Makes them of what they were made of last, which may be of the phase before: behind load().
+  bool restore(double h);
   /// Evaluates what is to be kept for this phase, at `c`, and makes the systems for steps of h.
   void evaluate(const Configuration& c, double h);
   /// What is kept for this phase is no good any more.
@@ -35,6 +37,8 @@ class KeptMatrices {
   void load(const Snapshot& snapshot);
 
  private:
+  bool combine(const std::vector<int>& phase, double h);
+
   struct Set {
     Configuration at;
     std::vector<double> scale;
@@ -43,8 +47,9 @@ class KeptMatrices {
 
   Assembler& assembler_;
   StageSolver& solver_;
-  std::size_t most_ = 1;    ///< sets
-  std::vector<int> phase_;  ///< sides, sides before, steps; empty before the first event
+  std::size_t most_ = 1;      ///< sets
+  std::vector<int> phase_;    ///< sides, sides before, steps; empty before the first event
+  std::vector<int> current_;  ///< of what the systems were made of last
   std::map<std::vector<int>, Set> sets_;
 };
 

@@ -457,7 +457,7 @@ void Radau::load(const Snapshot& snapshot) {
   solver_.load(snapshot);
   kept_.load(part_of(snapshot, "radau/kept/"));
   kept_step_ = 0;
-  if (const double h = snapshot.number("radau/kept_step"); h > 0 && kept_.recall(h)) {
+  if (const double h = snapshot.number("radau/kept_step"); h > 0 && kept_.restore(h)) {
     solver_.restore_factors();
     kept_step_ = matrices_step_ = h;
     kept_scale_ = context_.assembler.scale();

@@ -89,8 +89,8 @@ class Radau final : public Dynamics {
   Collocation collocation_;
   StageSolver solver_;
   References references_;
-  Stages now_;                       ///< of the present step
-  End tried_;                        ///< of the last attempt
+  Stages now_;                                       ///< of the present step
+  End tried_;                                        ///< of the last attempt
   std::vector<double> last_change_, change_before_;  ///< the last two corrections of the end of the step, by motion slot
   std::vector<Configuration> configurations_;
   std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;

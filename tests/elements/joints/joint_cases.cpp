@@ -211,7 +211,7 @@ void run_grips(ElementType (*type)(), const JointData& plain, bool has_radius, c
           const Switch& holds = switches[2 * i + 1];
           if (mode == GripState::holding) {
             EXPECT_EQ(slides.size, 0);
-            EXPECT_DOUBLE_EQ(holds.value, grip.limit - grip.force.norm());
+            EXPECT_DOUBLE_EQ(holds.value, (1 + GripState::slack) * grip.limit - grip.force.norm());
           } else {
             EXPECT_EQ(holds.size, 0);
             EXPECT_DOUBLE_EQ(slides.value, grip.state.direction.dot(grip.speed));
