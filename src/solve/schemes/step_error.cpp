@@ -56,8 +56,7 @@ double StepError::range(const Group& group, std::span<const double> velocities) 
   return std::sqrt(square);
 }
 
-double StepError::over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h,
-                                 double weight) const {
+double StepError::over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h, double part) const {
   std::array<double, measures> fastest{};
   std::vector<double> ranges(groups_.size());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -72,7 +71,7 @@ double StepError::over_tolerance(std::span<const double> rates, std::span<const 
       const std::size_t slot = group.first + k;
       if (group.free[k])
         largest = std::max(
-            largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot]) - known * weight * group.place / h) / scale);
+            largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot]) - part * known * group.place / h) / scale);
     }
   }
   return largest;

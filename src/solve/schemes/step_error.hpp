@@ -25,9 +25,8 @@ class StepError {
   /// Takes the velocities (by motion slot) of an accepted configuration.
   void take(std::span<const double> velocities);
   /// The largest of `rates`, the local error of displacements over the length h of the step by motion slot, over its tolerance.
-  /// The velocities at the end of the step count as reached. What rounding makes of positions does not count, times `weight`:
-  /// the sum of the factors that positions have in `rates`, times h.
-  double over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h, double weight = 1) const;
+  /// The velocities at the end of the step count as reached. What rounding makes of positions does not count; `part`: less of it.
+  double over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h, double part = 1) const;
 
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
