@@ -51,6 +51,7 @@ Radau::Radau(SolverContext& context)
       collocation_(Collocation::radau()),
       solver_(context.assembler, collocation_, context.solver.package()),
       references_(context.assembler, context.options.precision),
+      weight_of_places_(collocation_.embedded.lpNorm<1>()),
       configurations_(static_cast<std::size_t>(collocation_.stages())),
       prescribed_(configurations_.size()),
       kept_(context.assembler, solver_),
@@ -96,6 +97,7 @@ void Radau::restart_memory(const Configuration&) {
 void Radau::forget_motion() {
   accelerations_.clear();
   multipliers_.clear();
+  open_ = 0;
   kept_step_ = 0;
 }
 
@@ -258,11 +260,11 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
         rates[i] *= std::min(1.0, theta / std::max(1 - theta, 0.5)) / h;
       }
       // the next step's error takes what joints leave open with the weights of its formula
-      const double unseen = 1 / collocation_.embedded.lpNorm<1>();
-      return error_.over_tolerance(rates, now_.v.back(), h, unseen) <= share_of_iteration;
+      return error_.over_tolerance(rates, now_.v.back(), h, StepError::known / weight_of_places_) <= share_of_iteration;
     };
     if ((k > 0 && found.within(precision) && settled()) || still) {
       report.converged = true;
+      tried_.open = std::max(found.length, found.angle);
       break;
     }
     if (k == context_.options.iterations) {
@@ -343,7 +345,9 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
     report.singular = true;
     report.reason = "the accelerations are not determined";
   }
-  tried_ = {to.time, context_.motion.accelerations(to), to.multipliers};
+  tried_.time = to.time;
+  tried_.a = context_.motion.accelerations(to);
+  tried_.multipliers = to.multipliers;
   return {std::move(report), error};
 }
 
@@ -356,7 +360,7 @@ std::optional<double> Radau::local_error(const Configuration& from, double h, co
     for (std::size_t i = 0; i < now_.y.size(); ++i)
       rates[slot] += collocation_.embedded[static_cast<Eigen::Index>(i)] * now_.y[i][slot] / h;
   }
-  return error_.over_tolerance(rates, context_.motion.velocities(to), h);
+  return error_.over_tolerance(rates, context_.motion.velocities(to), h, StepError::known + weight_of_places_ * open_);
 }
 
 bool Radau::restore_balance(Configuration& c) {
@@ -429,6 +433,7 @@ bool Radau::balance_near(Configuration& c, int most) {
 void Radau::accept() {
   accelerations_.add(tried_.time, tried_.a);
   multipliers_.add(tried_.time, tried_.multipliers);
+  open_ = tried_.open;
   if (error_.wanted()) kept_.step();
 }
 
@@ -438,6 +443,7 @@ void Radau::save(Snapshot& snapshot) const {
   multipliers_.save(snapshot, "radau/multipliers");
   solver_.save(snapshot);
   snapshot.put("radau/kept_step", kept_step_);
+  snapshot.put("radau/open", open_);
   save_part(kept_, "radau/kept/", snapshot);
   save_part(references_, "radau/", snapshot);
   save_part(balance_, "radau/", snapshot);
@@ -457,6 +463,7 @@ void Radau::load(const Snapshot& snapshot) {
   balance_.load(part_of(snapshot, "radau/"));
   balance_kept_ = balance_.load_factors(part_of(snapshot, "radau/balance/"));
   solver_.load(snapshot);
+  if (snapshot.has("radau/open")) open_ = snapshot.number("radau/open");  // files of earlier versions lack it
   kept_.load(part_of(snapshot, "radau/kept/"));
   kept_step_ = 0;
   if (const double h = snapshot.number("radau/kept_step"); h > 0 && kept_.restore(h)) {

@@ -42,6 +42,7 @@ class Radau final : public Dynamics {
   struct End {
     double time = 0;
     std::vector<double> a, multipliers;
+    double open = 0;  ///< the largest part of a length, or of a radian, that constraints are open by
   };
   /// A first guess of the stages of a step.
   void predict(const Configuration& from, double h);
@@ -90,6 +91,8 @@ class Radau final : public Dynamics {
   StageSolver solver_;
   References references_;
   Stages now_;                                       ///< of the present step
+  double weight_of_places_;                          ///< in the embedded formula, which tells a step's error
+  double open_ = 0;                                  ///< End::open of the last accepted step
   End tried_;                                        ///< of the last attempt
   std::vector<double> last_change_, change_before_;  ///< the last two corrections of the end of the step, by motion slot
   std::vector<Configuration> configurations_;

@@ -17,8 +17,6 @@ constexpr double least_motion = 1e-3;
 /// So is what is slower by this than the fastest of its kind.
 constexpr double negligible = 1e-3;
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-/// Part of a length, or of a radian, that positions are known to: what the joints of a step leave open, several times over.
-constexpr double known = 1e-12;
 
 }  // namespace
 
@@ -56,7 +54,7 @@ double StepError::range(const Group& group, std::span<const double> velocities) 
   return std::sqrt(square);
 }
 
-double StepError::over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h, double part) const {
+double StepError::over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h, double open) const {
   std::array<double, measures> fastest{};
   std::vector<double> ranges(groups_.size());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -70,8 +68,8 @@ double StepError::over_tolerance(std::span<const double> rates, std::span<const 
     for (std::size_t k = 0; k < group.size; ++k) {
       const std::size_t slot = group.first + k;
       if (group.free[k])
-        largest = std::max(
-            largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot]) - part * known * group.place / h) / scale);
+        largest =
+            std::max(largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot]) - open * group.place / h) / scale);
     }
   }
   return largest;

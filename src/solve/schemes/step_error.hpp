@@ -24,9 +24,12 @@ class StepError {
   bool wanted() const { return tolerance_ > 0; }
   /// Takes the velocities (by motion slot) of an accepted configuration.
   void take(std::span<const double> velocities);
+  /// Part of a length, or of a radian, that positions are known to: what the joints of a step leave open, several times over.
+  static constexpr double known = 1e-12;
   /// The largest of `rates`, the local error of displacements over the length h of the step by motion slot, over its tolerance.
-  /// The velocities at the end of the step count as reached. What rounding makes of positions does not count; `part`: less of it.
-  double over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h, double part = 1) const;
+  /// The velocities at the end of the step count as reached. What rounding makes of positions does not count, nor what part of a
+  /// length, or of a radian, they are `open` by.
+  double over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h, double open = known) const;
 
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
