@@ -33,8 +33,9 @@ endfunction()
 function(engrane_room name)
 endfunction()
 
-# The foreign headers that nearly every source reads, parsed once: half of the time that a small source takes. Sources include
-# what they use all the same; ENGRANE_PRECOMPILED=OFF shows it.
+# The headers that nearly every source reads, parsed once: half of the time that a small source takes. Most layers have the foreign
+# ones only; the two largest add what all of their sources read. Sources include what they use all the same;
+# ENGRANE_PRECOMPILED=OFF shows it.
 function(engrane_precompiled target)
   if(NOT ENGRANE_PRECOMPILED)
     return()
@@ -43,6 +44,13 @@ function(engrane_precompiled target)
     target_precompile_headers(
       ${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <functional> <map> <memory>
       <optional> <span> <string> <vector>)
+  elseif(target STREQUAL "engrane_elements")
+    target_precompile_headers(
+      ${target} PRIVATE <Eigen/Dense> <fmt/format.h> ${PROJECT_SOURCE_DIR}/src/model/templated_element.hpp
+      ${PROJECT_SOURCE_DIR}/src/deck/cards/cards.hpp)
+  elseif(target STREQUAL "engrane_solve")
+    target_precompile_headers(
+      ${target} PRIVATE <Eigen/Dense> <Eigen/SparseCore> <fmt/format.h> ${PROJECT_SOURCE_DIR}/src/assembly/assembler.hpp)
   elseif(target STREQUAL "element_tests")
     target_precompile_headers(${target} PRIVATE <gtest/gtest.h> ${PROJECT_SOURCE_DIR}/src/model/templated_element.hpp
                                                 ${PROJECT_SOURCE_DIR}/tests/elements/suite.hpp)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs a deck on 1, 2 and 3 ranks: each run must pass its own .CHK, and all must give the same results. On
-3 ranks, more than machines for tests have cores, a long run is compared over its first 300 samples.
+3 ranks, more than machines for tests have cores, a long run is compared over its first 100 samples.
 
 A run on one rank that is interrupted at a third of the way and continued must give every bit of the whole
 run. Every channel must be what version 0.3.0 gave: last value and root of the mean square, from
@@ -42,7 +42,7 @@ REFERENCE = Path(__file__).parent / "verify" / "results_0.3.0.json"
 # How many steps and iterations a run takes is its own affair.
 NOT_COMPARED = re.compile(r"^(run/(STEP|ITERATIONS)|checks|deck|model|history/.*|restart/.*)$")
 
-LONG = 300  # samples of a run
+LONG = 100  # samples of a run
 
 
 def wishes(deck: Path) -> dict[str, list[str]]:

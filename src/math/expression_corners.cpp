@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "math/expression.hpp"
 #include "math/expression_operations.hpp"
