@@ -17,8 +17,8 @@ using Decisions = std::vector<signed char>;
 Decisions decisions(const std::vector<Expression::Instruction>& program, double x) {
   Decisions found;
   evaluate_program<Series>(program, {Series{x, 1, 0, 0}, Series{0}, Series{0}},
-                           [&found](Expression::Instruction::Code code, const Series& a, const Series& b) {
-                             if (decides(code)) found.push_back(decision(code, a, b));
+                           [&found](Expression::Instruction::Code code, const Series* operands) {
+                             if (decides(code)) found.push_back(decision(code, operands));
                            });
   return found;
 }

@@ -275,10 +275,10 @@ bool decides(Code code) {
   }
 }
 
-signed char decision(Code code, const Series& a, const Series& b) {
-  const double sign = operand_count(code) == 1      ? sign_on_the_right(a)
-                      : code == Code::transfer_sign ? sign_on_the_right(b)
-                                                    : difference_on_the_right(a, b);
+signed char decision(Code code, const Series* operands) {
+  const double sign = operand_count(code) == 1      ? sign_on_the_right(operands[0])
+                      : code == Code::transfer_sign ? sign_on_the_right(operands[1])
+                                                    : difference_on_the_right(operands[0], operands[1]);
   return static_cast<signed char>(std::isnan(sign) ? 2 : sign);
 }
 

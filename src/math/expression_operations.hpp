@@ -29,11 +29,11 @@ Series apply(Expression::Instruction::Code code, const Series& a, const Series& 
 
 /// Is it a comparison, sign or choice of the larger, where a formula of smooth parts may jump or have a corner?
 bool decides(Expression::Instruction::Code code);
-/// Which way it decides just right of here: -1, 0 or 1, or 2 where it is not a number.
-signed char decision(Expression::Instruction::Code code, const Series& a, const Series& b);
+/// Which way it decides just right of here: -1, 0 or 1, or 2 where it is not a number. `operands`: as many as it takes.
+signed char decision(Expression::Instruction::Code code, const Series* operands);
 
 /// Runs a program on doubles or series; variables in the order of Instruction::number. The parser has checked that the stack
-/// suffices. `see` is called before each operation, with it and its first two operands.
+/// suffices. `see` is called before each operation, with it and its operands.
 template <class T, class See>
 T evaluate_program(const std::vector<Expression::Instruction>& program, const std::array<T, 3>& variables, See&& see) {
   using Code = Expression::Instruction::Code;
@@ -48,7 +48,7 @@ T evaluate_program(const std::vector<Expression::Instruction>& program, const st
       const std::size_t count = operand_count(i.code);
       top -= count - 1;
       T& result = stack[top - 1];
-      see(i.code, result, stack[top]);
+      see(i.code, &result);
       result = count == 1   ? apply(i.code, result)
                : count == 2 ? apply(i.code, result, stack[top])
                             : apply(i.code, result, stack[top], stack[top + 1]);

@@ -38,7 +38,7 @@ void KeptMatrices::step() {
 
 bool KeptMatrices::recall(double h) { return combine(phase_, h); }
 
-bool KeptMatrices::restore(double h) { return combine(std::vector<int>(current_), h); }
+bool KeptMatrices::restore(double h) { return combine(current_, h); }
 
 bool KeptMatrices::combine(const std::vector<int>& phase, double h) {
   const auto known = sets_.find(phase);
