@@ -106,6 +106,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   solving_ = true;
   const PetscErrorCode code = SNESSolve(snes_, nullptr, x);
   solving_ = refined_ = false;
+  open_ = 1;
   if (!failure_.empty()) throw PetscFailure(failure_);
   solver_.rethrow();
   check_petsc(code);
@@ -318,7 +319,7 @@ bool Newton::judge(int iteration) {
   }
   rows_.push_back(row_);
   if (refined_ && iteration == 1 && row_.force + row_.moment > 0 && solver_.direct()) return false;
-  if (imbalance_.within(precision_)) return true;
+  if (imbalance_.within(precision_) && std::max(imbalance_.length, imbalance_.angle) <= open_) return true;
   if (one_tangent_ && iteration > 0 && left_to_rounding()) return true;
   const double changed = changed_ = std::max(row_.correction, forces);
   if (iteration > 1 && changed <= no_correction) return true;

@@ -59,6 +59,8 @@ class Newton {
   /// The next solution is corrected at least twice: the second correction costs little beside the factors that both share, and
   /// gains the digits that rounding in them took. With an iterative solver it would cost as much as the first: it is left out.
   void refine_next() { refined_ = true; }
+  /// The next solution leaves no constraint open by more than this part of its length, or of a radian.
+  void close_next(double open) { open_ = open; }
 
   /// The largest force that an element has contributed so far.
   double largest_force() const { return references_.largest_force(); }
@@ -115,6 +117,7 @@ class Newton {
   bool keep_ = false;
   bool one_tangent_ = false;
   bool refined_ = false;
+  double open_ = 1;  ///< of close_next()
   FactorPolicy policy_;
   FactorFrames frames_;
   bool solving_ = false;         ///< for others the solver takes its factors as they are

@@ -16,6 +16,8 @@ namespace {
 constexpr double least_motion = 1e-3;
 /// So is what is slower by this than the fastest of its kind.
 constexpr double negligible = 1e-3;
+/// Of its tolerance, what a step may leave open for the next.
+constexpr double share_left_open = 0.1;
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -54,25 +56,38 @@ double StepError::range(const Group& group, std::span<const double> velocities) 
   return std::sqrt(square);
 }
 
-double StepError::over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h, double open) const {
+std::vector<double> StepError::allowed(std::span<const double> velocities) const {
   std::array<double, measures> fastest{};
-  std::vector<double> ranges(groups_.size());
+  std::vector<double> scales(groups_.size());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    ranges[g] = range(groups_[g], velocities);
-    fastest[groups_[g].kind] = std::max(fastest[groups_[g].kind], ranges[g]);
+    scales[g] = range(groups_[g], velocities);
+    fastest[groups_[g].kind] = std::max(fastest[groups_[g].kind], scales[g]);
   }
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    scales[g] = tolerance_ * std::max({scales[g], groups_[g].least, negligible * fastest[groups_[g].kind]});
+  return scales;
+}
+
+double StepError::over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h, double open) const {
+  const std::vector<double> scales = allowed(velocities);
   double largest = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
-    const double scale = tolerance_ * std::max({ranges[g], group.least, negligible * fastest[group.kind]});
     for (std::size_t k = 0; k < group.size; ++k) {
       const std::size_t slot = group.first + k;
       if (group.free[k])
-        largest =
-            std::max(largest, (std::abs(rates[slot]) - rounding * std::abs(velocities[slot]) - open * group.place / h) / scale);
+        largest = std::max(largest,
+                           (std::abs(rates[slot]) - rounding * std::abs(velocities[slot]) - open * group.place / h) / scales[g]);
     }
   }
   return largest;
+}
+
+double StepError::may_be_open(std::span<const double> velocities, double h) const {
+  const std::vector<double> scales = allowed(velocities);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t g = 0; g < groups_.size(); ++g) least = std::min(least, scales[g] * h / groups_[g].place);
+  return std::max(share_left_open * least, known);
 }
 
 void StepError::save(Snapshot& snapshot) const {

@@ -30,6 +30,9 @@ class StepError {
   /// The velocities at the end of the step count as reached. What rounding makes of positions does not count, nor what part of a
   /// length, or of a radian, they are `open` by.
   double over_tolerance(std::span<const double> rates, std::span<const double> velocities, double h, double open = known) const;
+  /// The part of a length, or of a radian, that joints may be left open by at the end of a step of h, so that what the next step
+  /// closes does not count beside its tolerance; no less than `known`.
+  double may_be_open(std::span<const double> velocities, double h) const;
 
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
@@ -44,6 +47,8 @@ class StepError {
     std::array<bool, 3> free{};     ///< those that have an equation
   };
   double range(const Group& group, std::span<const double> velocities) const;
+  /// What the error of displacements over the length of a step may be, of each group.
+  std::vector<double> allowed(std::span<const double> velocities) const;
 
   double tolerance_;
   std::vector<Group> groups_;

@@ -124,6 +124,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     changes_.state(from, h, y);
   };
   context_.assembler.spread(guess, unknowns_);
+  if (error_.wanted() && constrained()) context_.newton.close_next(error_.may_be_open(v0, h));
   NewtonReport report = solve(unknowns_, weights, apply, to, keep);
   changes_.end();
   refuse_half_turns(y, report);
