@@ -31,10 +31,11 @@ constexpr double well_below = 2;
 constexpr double least_ratio = 1.02;
 /// No more values than this are kept, of no more instants: errors are means over time.
 constexpr std::size_t most_values = std::size_t{1} << 23, most_instants = 2000;
-/// A channel whose range is less than this part of the largest of its kind, or of its own size, tells of rounding.
+/// A channel whose range is less than this part of the largest of its dimension, or of its own size, tells of rounding; so does a
+/// rate that changes what it is the rate of by no more than this in the whole run.
 constexpr double no_range = 1e-6;
-/// So does one whose range is less than this part of the largest size of its kind.
-constexpr double no_size = 1e-12;
+/// So does one whose range is less than this part of the sizes of its kind, which is what iterations leave of them.
+constexpr double no_size = 1e-9;
 
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -50,7 +51,8 @@ SolverOptions with_tolerance(const Model& model, const SolverOptions& options, d
   return other;
 }
 
-Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet) {
+Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet)
+    : extent_(reading.model.extent()), duration_(options.end - options.begin) {
   const double begun = processor_time();
   const Model& model = reading.model;
   SolverOptions loose =
@@ -124,8 +126,8 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
   int at = 0;
   for (const observe::Table& table : observer.tables())
     for (const int id : table.ids)
-      for (const Named& channel : table.channels) {
-        if (asked.empty() || asked.count(at) > 0)
+      for (const Channel& channel : table.channels) {
+        if (channel.course == Channel::Course::smooth && (asked.empty() || asked.count(at) > 0))
           columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at),
                               table.path.substr(0, table.path.find('/') + 1) + std::to_string(id), channel.name,
                               channel.dimension, 0, std::numeric_limits<double>::infinity(),
@@ -176,6 +178,23 @@ void Companion::compare(double time, const observe::Observer& observer) {
   }
 }
 
+double Companion::noise_of(const Column& column) const {
+  const Dimension& own = column.dimension;
+  const auto is_place = [](const Dimension& d) { return d.mass == 0 && d.time == 0; };
+  double noise = no_range * column.size();
+  if (is_place(own)) noise = std::max(noise, no_size * std::pow(extent_, own.length));
+  for (const Column& other : columns_) {
+    const Dimension& d = other.dimension;
+    if (d == own) noise = std::max(noise, no_range * other.range());
+    // a length and an angle, a force and a moment are of one kind but for a lever; a rate but for a time
+    const int levers = own.length - d.length, times = own.time - d.time;
+    if (d.mass != own.mass || std::abs(levers) > 1) continue;
+    const double size = is_place(d) ? other.range() : other.size();  // how far from the origin a place is says nothing
+    noise = std::max(noise, (times < 0 ? no_range : no_size) * size * std::pow(extent_, levers) * std::pow(duration_, times));
+  }
+  return noise;
+}
+
 ErrorEstimate Companion::estimate(long steps) const {
   ErrorEstimate found = estimate_;
   found.seconds = processor_time() - begun_;
@@ -183,14 +202,8 @@ ErrorEstimate Companion::estimate(long steps) const {
   const double ratio = static_cast<double>(steps) / static_cast<double>(std::max(steps_, 1L));
   const double share = 1 / (std::pow(std::max(ratio, least_ratio), order_of_steps_) - 1);
   for (const Column& column : columns_) {
-    const double range = column.largest - column.least;
-    const auto size = [](const Column& one) { return std::max(std::abs(one.largest), std::abs(one.least)); };
-    double noise = no_range * size(column);
-    for (const Column& other : columns_)
-      if (other.dimension == column.dimension)
-        noise = std::max({noise, no_range * (other.largest - other.least), no_size * size(other)});
-    if (!(range > noise)) continue;
-    const double error = share * std::sqrt(column.squares / static_cast<double>(compared_)) / range;
+    if (!(column.range() > noise_of(column))) continue;
+    const double error = share * std::sqrt(column.squares / static_cast<double>(compared_)) / column.range();
     if (error >= found.error) {
       found.error = error;
       found.channel = column.owner + "/" + column.channel;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -33,6 +35,7 @@ class Companion {
   bool follows_tolerance() const { return follows_tolerance_; }
 
  private:
+  /// Those that are smooth: a state that changes at another instant, or a ratio without bound, says nothing of the run.
   void choose_columns(const observe::Observer& observer, const Model& model);
   void record(double time, const std::vector<double>& values);
   /// Place of an instant among those kept; empty for the others.
@@ -47,9 +50,15 @@ class Companion {
     std::string owner, channel;
     Dimension dimension;
     double squares = 0, least = 0, largest = 0;
+
+    double range() const { return largest - least; }
+    double size() const { return std::max(std::abs(largest), std::abs(least)); }
   };
+  /// A range that tells of nothing but rounding.
+  double noise_of(const Column& column) const;
   std::vector<Column> columns_;
-  bool placed_ = true;  ///< Column::at is known
+  bool placed_ = true;        ///< Column::at is known
+  double extent_, duration_;  ///< of the model, and of the run
   double start_, interval_;
   std::size_t rows_ = 0, compared_ = 0;
   double last_ = -std::numeric_limits<double>::infinity();  ///< the instant recorded, or compared, before

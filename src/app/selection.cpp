@@ -50,9 +50,9 @@ void report_channel(const Location& where, const std::string& owner, const std::
                     near.empty() ? "it has " + list : fmt::format("did you mean {}? It has {}", near, list));
 }
 
-std::vector<std::string> names_of(const std::vector<Named>& channels) {
+std::vector<std::string> names_of(const std::vector<Channel>& channels) {
   std::vector<std::string> names;
-  for (const Named& channel : channels) names.push_back(channel.name);
+  for (const Channel& channel : channels) names.push_back(channel.name);
   return names;
 }
 
@@ -116,7 +116,7 @@ void check_archive(const deck::Record& record, const deck::ArchiveCard& archive,
   // a channel that none of the selected has
   const observe::Selection selection = select_histories(model);
   std::vector<std::string> names;
-  const auto add = [&names](const std::vector<Named>& channels) {
+  const auto add = [&names](const std::vector<Channel>& channels) {
     for (const Named& channel : channels)
       if (std::find(names.begin(), names.end(), channel.name) == names.end()) names.push_back(channel.name);
   };

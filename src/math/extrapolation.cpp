@@ -47,6 +47,14 @@ void Extrapolation::at(double time, double h, std::span<double> values) const {
   }
 }
 
+Extrapolation::Around Extrapolation::around(double time) const {
+  std::size_t after = 0;
+  while (after + 2 < count_ && points_[after + 1].time > time) ++after;
+  const Point &to = points_[after], &from = points_[count_ > 1 ? after + 1 : after];
+  const double part = to.time > from.time ? std::clamp((time - from.time) / (to.time - from.time), 0.0, 1.0) : 1;
+  return {from.values, to.values, part};
+}
+
 void Extrapolation::save(Snapshot& snapshot, const std::string& name) const {
   std::vector<double> all;
   for (std::size_t p = 0; p < count_; ++p) {

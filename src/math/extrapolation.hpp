@@ -25,6 +25,12 @@ class Extrapolation {
   void add(double time, std::span<const double> values);
   /// Writes what the polynomial for a step of h has at `time`, within this step.
   void at(double time, double h, std::span<double> values) const;
+  /// The latest values at both sides of a time; part 0 stands for those before it, 1 for those after it.
+  struct Around {
+    std::span<const double> before, after;
+    double part;
+  };
+  Around around(double time) const;
   /// How far the polynomial through a new value at `time` and the latest ones departs from the truth since the last of them, over
   /// how far at() was from the new value; as many points in both, for a step of h.
   double share(double time, double h) const;

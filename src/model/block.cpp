@@ -22,8 +22,8 @@ Energies Block::energies(std::size_t, const State&) const { return {}; }
 
 Mat3 Block::inertia_at(std::size_t, int) const { return Mat3::Zero(); }
 
-const std::vector<Named>& Block::channels() const {
-  static const std::vector<Named> none;
+const std::vector<Channel>& Block::channels() const {
+  static const std::vector<Channel> none;
   return none;
 }
 

@@ -47,7 +47,7 @@ class Block {
   virtual bool is_linear(std::size_t) const { return false; }
   virtual const char* why_not_finite() const { return ""; }
   virtual Mat3 inertia_at(std::size_t e, int node) const;
-  virtual const std::vector<Named>& channels() const;
+  virtual const std::vector<Channel>& channels() const;
   virtual void observe(std::size_t e, const State& state, std::span<double> values) const;
   virtual const std::vector<Field>& fields() const;
   virtual void evaluate_fields(std::size_t e, const State& state, std::span<double> values) const;
@@ -94,7 +94,7 @@ class BlockMember final : public Element {
   bool is_linear() const override { return block_->is_linear(index_); }
   const char* why_not_finite() const override { return block_->why_not_finite(); }
   Mat3 inertia_at(int node) const override { return block_->inertia_at(index_, node); }
-  const std::vector<Named>& channels() const override { return block_->channels(); }
+  const std::vector<Channel>& channels() const override { return block_->channels(); }
   void observe(const State& state, std::span<double> values) const override { block_->observe(index_, state, values); }
   const std::vector<Field>& fields() const override { return block_->fields(); }
   void evaluate_fields(const State& state, std::span<double> values) const override {

@@ -397,7 +397,7 @@ class Builder {
                          "name a joint with a free coordinate, such as HINGE or PRISMATIC, or a SENSOR");
       return;
     }
-    const std::vector<Named>& channels = part->element->channels();
+    const std::vector<Channel>& channels = part->element->channels();
     int channel = 0;
     std::string names;
     for (; channel < 2 * count; channel += 2) {

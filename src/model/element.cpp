@@ -28,8 +28,8 @@ Energies Element::energies(const State&) const { return {}; }
 
 Mat3 Element::inertia_at(int) const { return Mat3::Zero(); }
 
-const std::vector<Named>& Element::channels() const {
-  static const std::vector<Named> none;
+const std::vector<Channel>& Element::channels() const {
+  static const std::vector<Channel> none;
   return none;
 }
 

@@ -32,11 +32,23 @@ enum class CellShape : unsigned char {
   hexahedron20
 };
 
-/// A named scalar of an element: an unknown of its own, a multiplier, or an output channel.
+/// A scalar with a name.
 struct Named {
   std::string name;     ///< upper case with underscores: `NORMAL_FORCE`
   Dimension dimension;  ///< of the value; of a multiplier: of its constraint
   std::string help;     ///< a few words, shown beside plots and in the listing
+};
+
+/// A result of an element, a node or the run at each instant.
+struct Channel : Named {
+  /// What is between two instants at which the value is known.
+  enum class Course : unsigned char {
+    smooth,  ///< the values of a polynomial
+    ratio,   ///< a straight line: of two results that may pass through zero together, where the ratio jumps
+    state,   ///< the value of the nearer one: it has a few values only, such as whether teeth touch
+    step     ///< the value of the later one: it tells of the whole step
+  };
+  Course course = Course::smooth;
 };
 
 /// An unknown of an element's own.
@@ -308,7 +320,7 @@ class Element {
   virtual Mat3 inertia_at(int node) const;
 
   /// Output channels and their values in the order of `channels()`.
-  virtual const std::vector<Named>& channels() const;
+  virtual const std::vector<Channel>& channels() const;
   virtual void observe(const State& state, std::span<double> values) const;
 
   /// Fields, and all their values: field by field, in each place by place, in each component by component.

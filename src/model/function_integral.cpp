@@ -64,13 +64,13 @@ void PanelIntegral::extend(Side& side, double sign) const {
     const double tolerance = 1e-13 * magnitude + 1e-16 * side.magnitude + blur;
     const bool agree = std::abs(whole.area - near.area - far.area) <= tolerance &&
                        std::abs(near.area - near.gauss) + std::abs(far.area - far.gauss) <= 1e-6 * magnitude + tolerance;
-    const bool last_resort = width <= narrowest * std::max(std::abs(start), 1e-3);
+    const bool last_resort = width <= narrowest * std::max(std::abs(start), first);
     if (agree || last_resort) {
       side.broken = !std::isfinite(whole.area);
       side.ends.push_back(end);
       side.areas.push_back(side.areas.back() + near.area + far.area);
       side.magnitude += magnitude;
-      side.width = std::min(2 * width, std::max(1e-3, widest * std::abs(end)));
+      side.width = std::min(2 * width, std::max(first, widest * std::abs(end)));
       return;
     }
     width /= 2;

@@ -13,17 +13,17 @@ namespace engrane {
 namespace {
 
 /// The channels of all loads of a kind: there may be very many loads.
-const std::vector<Named>& named(bool force, bool moment) {
+const std::vector<Channel>& named(bool force, bool moment) {
   static const auto list = [](bool pushes, bool turns) {
-    std::vector<Named> all;
+    std::vector<Channel> all;
     for (const char* axis : {"X", "Y", "Z"})
       if (pushes) all.push_back({fmt::format("FORCE_{}", axis), dimension::force, "on the node, global"});
     for (const char* axis : {"X", "Y", "Z"})
       if (turns) all.push_back({fmt::format("MOMENT_{}", axis), dimension::moment, "on the node, global"});
     return all;
   };
-  static const std::array<std::vector<Named>, 4> lists{list(false, false), list(true, false), list(false, true),
-                                                       list(true, true)};
+  static const std::array<std::vector<Channel>, 4> lists{list(false, false), list(true, false), list(false, true),
+                                                         list(true, true)};
   return lists[(force ? 1U : 0U) + (moment ? 2U : 0U)];
 }
 
@@ -61,7 +61,7 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
     return true;
   }
 
-  const std::vector<Named>& channels() const override { return named(!force_.isZero(0), !moment_.isZero(0)); }
+  const std::vector<Channel>& channels() const override { return named(!force_.isZero(0), !moment_.isZero(0)); }
 
   void observe(const State& state, std::span<double> values) const override {
     std::size_t i = 0;
@@ -121,7 +121,7 @@ class NodeForce final : public Element {
     return true;
   }
 
-  const std::vector<Named>& channels() const override { return named(true, false); }
+  const std::vector<Channel>& channels() const override { return named(true, false); }
   void observe(const State& state, std::span<double> values) const override {
     for (std::size_t i = 0; i < 3; ++i) values[i] = factor(state) * force_[static_cast<Eigen::Index>(i)];
   }

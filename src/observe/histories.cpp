@@ -12,12 +12,12 @@ namespace engrane::observe {
 
 namespace {
 
-void add_vector(std::vector<Named>& channels, const char* prefix, Dimension d, const char* help) {
+void add_vector(std::vector<Channel>& channels, const char* prefix, Dimension d, const char* help) {
   for (const char axis : {'X', 'Y', 'Z'}) channels.push_back({fmt::format("{}{}", prefix, axis), d, help});
 }
 
 /// Places of the selected channels of one owner.
-std::vector<int> selected_places(const Selection& selection, bool of_part, int index, const std::vector<Named>& channels) {
+std::vector<int> selected_places(const Selection& selection, bool of_part, int index, const std::vector<Channel>& channels) {
   const bool chosen =
       of_part ? selection.all_parts || selection.parts.contains(index) : selection.all_nodes || selection.nodes.contains(index);
   std::vector<int> places;
@@ -38,8 +38,8 @@ std::string signature(int place, const Named& c) {
 
 }  // namespace
 
-std::vector<Named> node_channels(bool moves, bool supported) {
-  std::vector<Named> c;
+std::vector<Channel> node_channels(bool moves, bool supported) {
+  std::vector<Channel> c;
   add_vector(c, "U", dimension::length, "displacement");
   add_vector(c, "R", dimension::angle, "rotation vector");
   if (moves) {
@@ -71,7 +71,7 @@ void Histories::add_parts(const Selection& selection) {
   std::map<std::string, std::map<std::string, Table>> kinds;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Model::Part& part = model.parts[p];
-    const std::vector<Named>& channels = part.element->channels();
+    const std::vector<Channel>& channels = part.element->channels();
     std::vector<int> places = selected_places(selection, true, static_cast<int>(p), channels);
     if (places.empty()) continue;
     std::string names;
@@ -96,7 +96,7 @@ void Histories::add_parts(const Selection& selection) {
 
 void Histories::add_nodes(const Selection& selection) {
   const Model& model = assembler_.model();
-  const std::vector<Named> channels[2] = {node_channels(moves_, false), node_channels(moves_, true)};
+  const std::vector<Channel> channels[2] = {node_channels(moves_, false), node_channels(moves_, true)};
   std::map<std::vector<int>, Table> variants;
   for (std::size_t n = 1; n < model.nodes.size(); ++n) {
     const auto& all = channels[supports_.supported(static_cast<int>(n)) ? 1 : 0];

@@ -33,14 +33,14 @@ struct Table {
   std::string type;         ///< of elements: the card's name
   std::vector<int> ids;     ///< of the owners in the deck
   std::vector<int> owners;  ///< their indices into Model::parts or Model::nodes
-  std::vector<Named> channels;
+  std::vector<Channel> channels;
   std::vector<int> places;  ///< of the channels among all that an owner has
 
   std::size_t columns() const { return owners.size() * channels.size(); }
 };
 
 /// Channels of a node: position and rotation, in motion their rates, on a support the reactions.
-std::vector<Named> node_channels(bool moves, bool supported);
+std::vector<Channel> node_channels(bool moves, bool supported);
 
 /// The histories of elements and nodes that a run keeps: what they are, and their values. Each rank evaluates the elements
 /// that it owns.

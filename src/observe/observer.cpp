@@ -27,12 +27,13 @@ bool of_motion(const Dimension& d) {
 
 }  // namespace
 
-std::vector<Named> run_channels(const Model& model, bool moves) {
+std::vector<Channel> run_channels(const Model& model, bool moves) {
   const bool cells = has_cells(model);
-  std::vector<Named> channels{{"STEP", dimension::time, "time step"},
-                              {"ITERATIONS", dimension::none, "Newton iterations of the step"},
-                              {"EVENTS", dimension::none, "events met since the start: teeth that begin or cease to touch"},
-                              {"POTENTIAL_ENERGY", dimension::energy, "potential energy"}};
+  std::vector<Channel> channels{
+      {"STEP", dimension::time, "time step", Channel::Course::step},
+      {"ITERATIONS", dimension::none, "Newton iterations of the step", Channel::Course::step},
+      {"EVENTS", dimension::none, "events met since the start: teeth that begin or cease to touch", Channel::Course::step},
+      {"POTENTIAL_ENERGY", dimension::energy, "potential energy"}};
   if (moves) channels.push_back({"KINETIC_ENERGY", dimension::energy, "kinetic energy"});
   channels.push_back({"EXTERNAL_WORK", dimension::energy, "work of applied forces and drives"});
   if (moves) channels.push_back({"DISSIPATED_ENERGY", dimension::energy, "energy lost to damping"});
@@ -84,7 +85,7 @@ Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
 }
 
 int Observer::channel(const std::string& owner, const std::string& name) const {
-  const auto place = [&name](const std::vector<Named>& channels) {
+  const auto place = [&name](const std::vector<Channel>& channels) {
     const auto found = std::find_if(channels.begin(), channels.end(), [&](const Named& c) { return c.name == name; });
     return found == channels.end() ? -1 : static_cast<int>(found - channels.begin());
   };
@@ -204,9 +205,20 @@ void Observer::between(const Configuration& c) {
   if (assembler_.rank() != 0) return;
   ends_.at(c.time, 0, values_);
   for (std::size_t i = smooth ? histories_.node_columns() : 0; i < moved->size(); ++i)
-    if (ways_[i] == Way::motion) values_[i] = (*moved)[i];
-  for (std::size_t i = moved->size(); i < values_.size(); ++i)
-    if (ways_[i] == Way::end) values_[i] = end_[i];
+    if (ways_[i].moves) values_[i] = (*moved)[i];
+  const auto [before, after, part] = ends_.around(c.time);
+  for (std::size_t i = 0; i < values_.size(); ++i) switch (ways_[i].course) {
+      case Channel::Course::smooth:
+        break;
+      case Channel::Course::ratio:
+        values_[i] = before[i] + part * (after[i] - before[i]);
+        break;
+      case Channel::Course::state:
+        values_[i] = part < 0.5 ? before[i] : after[i];
+        break;
+      case Channel::Course::step:
+        values_[i] = end_[i];
+    }
 }
 
 void Observer::back_to_end() {
@@ -244,12 +256,11 @@ void Observer::find_fields(const Configuration& c, const Configuration& from, co
 
 std::vector<Observer::Way> Observer::ways() const {
   std::vector<Way> all;
-  const auto append = [&all](const Named& named) { all.push_back(of_motion(named.dimension) ? Way::motion : Way::smooth); };
+  const auto append = [&all](const Channel& channel) { all.push_back({channel.course, of_motion(channel.dimension)}); };
   for (const Table& table : histories_.tables())
     for (std::size_t owner = 0; owner < table.owners.size(); ++owner)
-      for (const Named& channel : table.channels) append(channel);
-  for (const Named& channel : run_channels_) append(channel);
-  for (const char* name : {"STEP", "ITERATIONS", "EVENTS"}) all[static_cast<std::size_t>(channel("run", name))] = Way::end;
+      for (const Channel& channel : table.channels) append(channel);
+  for (const Channel& channel : run_channels_) append(channel);
   return all;
 }
 

@@ -57,7 +57,7 @@ class Observer {
 
   const std::vector<Table>& tables() const { return histories_.tables(); }
   /// Channels of the whole model, whose values stand behind those of all tables.
-  const std::vector<Named>& run_channels() const { return run_channels_; }
+  const std::vector<Channel>& run_channels() const { return run_channels_; }
   /// Column of a channel in values(), or -1. `owner` is `element/7`, `node/4` or `run`.
   int channel(const std::string& owner, const std::string& name) const;
 
@@ -96,7 +96,7 @@ class Observer {
   Reactions supports_;
   Histories histories_;
   EnergyLedger ledger_;
-  std::vector<Named> run_channels_;
+  std::vector<Channel> run_channels_;
   std::vector<double> values_;
   std::vector<NodalField> fields_;
   ElementFields element_fields_;
@@ -108,8 +108,11 @@ class Observer {
   double mass_ = 0;  ///< of all, where it has
 
   void evaluate_histories(const Configuration& c, const Step& step);
-  /// What a value is between two ends: on the polynomial, of the motion, or that of the end after it.
-  enum class Way : unsigned char { smooth, motion, end };
+  /// What a value is between two ends.
+  struct Way {
+    Channel::Course course;
+    bool moves;  ///< it is that of the motion
+  };
   std::vector<Way> ways() const;
   /// Adds values() to the points of the polynomials.
   void keep(double time);
@@ -125,6 +128,6 @@ class Observer {
 };
 
 /// Channels of the whole model.
-std::vector<Named> run_channels(const Model& model, bool moves);
+std::vector<Channel> run_channels(const Model& model, bool moves);
 
 }  // namespace engrane::observe

@@ -16,7 +16,7 @@ struct HistoryTable {
   std::string path;      ///< `element/GEAR`, `node/NODE` or `run`
   std::string type;      ///< of elements: the card's name
   std::vector<int> ids;  ///< of the owners; empty for `run`, which is one owner
-  std::vector<Named> channels;
+  std::vector<Channel> channels;
 
   std::size_t owners() const { return ids.empty() ? 1 : ids.size(); }
   std::size_t columns() const { return owners() * channels.size(); }

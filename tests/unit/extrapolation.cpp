@@ -33,6 +33,22 @@ TEST(Extrapolation, GoesNoFartherThanItsPointsAllow) {
   EXPECT_NEAR(found[1], parabolas(1.001)[1], 1e-14);  // differences of a short step tell nothing about a long one
 }
 
+TEST(Extrapolation, TellsTheValuesAround) {
+  Extrapolation e(3, 2);
+  e.add(0, parabolas(0));
+  EXPECT_EQ(e.around(0.3).before[0], 3);
+  EXPECT_EQ(e.around(0.3).after[0], 3);
+  for (const double t : {1.0, 3.0, 4.0}) e.add(t, parabolas(t));  // the first is forgotten
+  const Extrapolation::Around found = e.around(2.5);
+  EXPECT_EQ(found.before[1], 7);
+  EXPECT_EQ(found.after[1], 21);
+  EXPECT_EQ(found.part, 0.75);
+  EXPECT_EQ(e.around(3).part, 0);
+  EXPECT_EQ(e.around(0.5).part, 0);
+  EXPECT_EQ(e.around(9).part, 1);
+  EXPECT_EQ(e.around(9).after[1], 28);
+}
+
 TEST(Extrapolation, GoesOnFromASnapshot) {
   Extrapolation e(3, 2), resumed(3, 2);
   for (const double t : {0.0, 0.1}) e.add(t, parabolas(t));

@@ -127,6 +127,15 @@ TEST(Function, FormulaIntegralIsExactToRounding) {
   expect("T/(T*T+1E-6)", 1, 0.5 * std::log((1 + 1e-6) / 1e-6), 1e-12);
   expect("exp(-((T-5)*20)**2)", 10, std::sqrt(pi) / 20, 1e-14);
   expect("3", 1e6, 3e6, 1e-6);
+  // a corner may be as near to zero, or as far away, as units make it
+  for (const double unit : {1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6}) {
+    const std::string at = std::to_string(1 / unit), text = "min(1, " + at + "*T)";
+    for (const double x : {0.5, 1.001, 1.2, 20.0}) {
+      const double exact = x < 1 ? 0.5 * x * x : x - 0.5;
+      expect(text, x * unit, exact * unit, 1e-14 * x * unit);
+      expect(text, -x * unit, 0.5 * x * x * unit, 1e-14 * x * x * unit);
+    }
+  }
   EXPECT_TRUE(std::isnan(make(formula("sqrt(1-T)"))->integral(2)));
   EXPECT_NEAR(make(formula("if(T < 0.37, 0, 1)"))->integral(1), 0.63, 1e-9);
   EXPECT_NEAR(make(formula("sign(T - 1) + 3*(T > 2)"))->integral(3), 4, 1e-9);

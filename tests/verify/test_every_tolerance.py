@@ -161,3 +161,70 @@ def test_teeth_with_play_on_a_driven_wheel_without_mass(tmp_path: Path) -> None:
         error = np.abs(found["node/2/WZ"] - truth["node/2/WZ"])[early].max() / 107
         assert error < min(10 * 10.0**-k, 0.4 * last), f"TOL 1e-{k}"
         last = error
+
+
+TEETH = """.NOE
+ I 1
+ I 2 X 0.09
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE SPEED NF 1
+ I 2 HINGE N 0 2 AXIS 0 0 1 C 0.2
+ I 3 GEAR N 1 2 Z 30 60 MN 0.002 HELIX 0 AXIS 0 0 1 KM 1D6 XI 0.05 WIDTH 0.02
+ I 4 INERTIA N 1 J 1D-3
+ I 5 INERTIA N 2 J 1D-2
+.FCT
+ I 1 EXPR "min(20, 2000*T)"
+.SAM TYPE DYNAMIC ACCURACY {setting}
+.SUB TF 0.05 H 1D-4
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize("setting", ["FAST", "FINE"])
+def test_states_and_ratios_between_steps(setting: str, tmp_path: Path) -> None:
+    """A wheel runs up and swings on its teeth, which change their flank without an event. Whether they touch
+    is not a number of a polynomial, nor is a ratio of powers that pass through zero; neither is judged."""
+    found = run(TEETH.format(setting=setting), tmp_path)
+    assert set(np.unique(found["3/CONTACT"])) == {-1, 1}
+    efficiency = found["3/EFFICIENCY"]
+    assert efficiency.min() >= 0
+    assert efficiency.max() <= 1
+    listing = found.file.with_suffix(".lst").read_text(encoding="utf-8")
+    estimate = re.search(r"estimated error +(\S+), (?:element|node)/", listing)
+    assert float(estimate.group(1)) < {"FAST": 1e-2, "FINE": 1e-5}[setting]
+    assert int(re.findall(r"\n  (\d+) steps,", listing)[0]) < {"FAST": 100, "FINE": 1000}[setting]
+
+
+def test_a_wheel_that_only_turns_has_no_error_of_its_place(tmp_path: Path) -> None:
+    """Its node moves by rounding, and so do all others: there is no length beside it but the model's size."""
+    text = TEETH.replace("3 GEAR N 1 2 Z 30 60 MN 0.002 HELIX 0 AXIS 0 0 1 KM 1D6 XI 0.05 WIDTH 0.02", BELT)
+    found = run(text.format(setting="FINE"), tmp_path)
+    listing = found.file.with_suffix(".lst").read_text(encoding="utf-8")
+    error, channel = re.search(r"estimated error +(\S+), (\S+);", listing).groups()
+    assert float(error) < 1e-5
+    assert not re.match(r"node/\d/[UVA][XYZ]", channel)
+
+
+STILL = [
+    "bearings/bearing_film",
+    "bodies/initial_spin",
+    "joints/hinge_speed",
+    "joints/planar",
+    "joints/point_line",
+    "joints/prismatic",
+    "joints/screw",
+    "joints/spherical",
+]
+
+
+@pytest.mark.parametrize("deck", STILL)
+def test_accelerations_that_are_rounding_are_not_judged(deck: str, tmp_path: Path) -> None:
+    """Of what has a constant speed, or hardly turns: those of short steps are larger than of long ones."""
+    found = run(controlled(f"elements/{deck}", "", "ACCURACY FINE"), tmp_path)
+    listing = found.file.with_suffix(".lst").read_text(encoding="utf-8")
+    error, _ = re.search(r"estimated error +(\S+), (\S+);", listing).groups()
+    assert float(error) < 1e-5
+    assert "again, with TOL" not in listing
+
+
+BELT = "3 BELT N 1 2 AXIS 0 0 1 R 0.02 0.04 K 2D4 PRELOAD 300 C 40"

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from engrane_post import Results
-from runs import run
+from runs import Run, run
 
 # numbers are written <value|dimension>: powers of L, M and T
 DECKS = {
@@ -210,28 +210,61 @@ def size_of(unit: str, units: dict[str, float]) -> float:
     return size
 
 
+def assert_alike(plain: Run, other: Run, units: dict[str, float], tolerance: float) -> None:
+    """The same results at the end, each in its units."""
+    with Results(plain.file) as a, Results(other.file) as b:
+        largest: dict[str, float] = {}
+        gaps: dict[str, tuple[float, str]] = {}
+        for channel in a.channels.values():
+            if channel.name == "run/STEP" or (channel.name.startswith("run/") and not channel.unit):
+                continue
+            size = size_of(channel.unit, units)
+            x, y = a.history(channel.name)[1], b.history(channel.name)[1] / size
+            largest[channel.unit] = max(largest.get(channel.unit, 0), np.abs(x).max())
+            gap = np.abs(x[-1] - y[-1])
+            gaps[channel.unit] = max(gaps.get(channel.unit, (0, "")), (gap, channel.name))
+        assert len(largest) > 3
+        for unit, (gap, path) in gaps.items():
+            # what is zero but for rounding is compared with the deck's own sizes, all near 1
+            assert gap <= tolerance * max(largest[unit], 0.1), (units, path, gap, largest[unit])
+
+
+def any_units(random: np.random.Generator) -> dict[str, float]:
+    return {u: float(10 ** random.uniform(-5, 5)) for u in "LMT"}
+
+
 @pytest.mark.parametrize("name", DECKS)
 def test_any_units(name: str, tmp_path: Path) -> None:
     random = np.random.default_rng(sum(map(ord, name)))
     plain = run(in_units(DECKS[name], {"L": 1, "M": 1, "T": 1}), tmp_path, "plain")
     for trial in range(2):
-        units = {u: float(10 ** random.uniform(-5, 5)) for u in "LMT"}
-        other = run(in_units(DECKS[name], units), tmp_path, f"trial{trial}")
-        with Results(plain.file) as a, Results(other.file) as b:
-            largest: dict[str, float] = {}
-            gaps: dict[str, tuple[float, str]] = {}
-            for channel in a.channels.values():
-                if channel.name.startswith("run/") and not channel.unit:
-                    continue
-                size = size_of(channel.unit, units)
-                x, y = a.history(channel.name)[1], b.history(channel.name)[1] / size
-                largest[channel.unit] = max(largest.get(channel.unit, 0), np.abs(x).max())
-                gap = np.abs(x[-1] - y[-1])
-                gaps[channel.unit] = max(gaps.get(channel.unit, (0, "")), (gap, channel.name))
-            assert len(largest) > 3
-            for unit, (gap, path) in gaps.items():
-                # what is zero but for rounding is compared with the deck's own sizes, all near 1
-                assert gap <= 1e-8 * max(largest[unit], 0.1), (units, path, gap, largest[unit])
+        units = any_units(random)
+        assert_alike(plain, run(in_units(DECKS[name], units), tmp_path, f"trial{trial}"), units, 1e-8)
+
+
+CONTROLLED = [name for name, text in DECKS.items() if "DYNAMIC" in text]
+
+
+@pytest.mark.parametrize(
+    ("words", "tolerance"),
+    [("SCHEME RADAU", "TOL 1D-6"), ("SCHEME CHUNG", "TOL 1D-4"), ("ACCURACY FINE", "")],
+)
+@pytest.mark.parametrize("name", CONTROLLED)
+def test_steps_know_no_units(name: str, words: str, tolerance: str, tmp_path: Path) -> None:
+    """Nor do the steps that a tolerance chooses, what the dial judges, and integrals of formulas."""
+    text = re.sub(r"(?m)^\.SAM .*", f".SAM TYPE DYNAMIC {words}", DECKS[name])
+    text = re.sub(r"(?m)^(\.SUB .*)", rf"\1 {tolerance}", text)
+    random = np.random.default_rng(sum(map(ord, name)))
+    plain = run(in_units(text, {"L": 1, "M": 1, "T": 1}), tmp_path, "plain")
+    units = any_units(random)
+    other = run(in_units(text, units), tmp_path, "other")
+    # accelerations of what a joint holds still are rounding over h² with generalised-alpha
+    assert_alike(plain, other, units, 1e-4 if "CHUNG" in words else 1e-8)
+    steps = []
+    for run_ in (plain, other):
+        listing = run_.file.with_suffix(".lst").read_text(encoding="utf-8")
+        steps.append(int(re.findall(r"\n  (\d+) steps,", listing)[0]))
+    assert abs(steps[0] - steps[1]) <= 0.02 * steps[0] + 1
 
 
 WATCH = """

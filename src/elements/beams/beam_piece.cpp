@@ -106,9 +106,9 @@ Mat3 Beams<Nodes, Held>::inertia_at(std::size_t e, int node) const {
 }
 
 template <int Nodes, bool Held>
-const std::vector<Named>& Beams<Nodes, Held>::channels() const {
-  static const std::vector<Named> all = [] {
-    std::vector<Named> list;
+const std::vector<Channel>& Beams<Nodes, Held>::channels() const {
+  static const std::vector<Channel> all = [] {
+    std::vector<Channel> list;
     for (const char* end : ends) {
       const auto add = [&](const char* name, Dimension dimension, const char* help) {
         list.push_back({fmt::format("{}_{}", name, end), dimension,

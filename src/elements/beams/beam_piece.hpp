@@ -361,7 +361,7 @@ class Beams final : public BeamSweep<Nodes, Held> {
            "or loads that grow from zero (NF)";
   }
   Mat3 inertia_at(std::size_t e, int node) const override;
-  const std::vector<Named>& channels() const override;
+  const std::vector<Channel>& channels() const override;
   void observe(std::size_t e, const State& state, std::span<double> values) const override;
   const std::vector<Field>& fields() const override;
   void evaluate_fields(std::size_t e, const State& state, std::span<double> values) const override;

@@ -46,11 +46,11 @@ class LineLoad final : public TemplatedElement<LineLoad<Nodes>, Nodes, 6 * Nodes
     return true;
   }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> all = {{"FORCE_X", dimension::force, "resultant, global axes"},
-                                           {"FORCE_Y", dimension::force, "resultant, global axes"},
-                                           {"FORCE_Z", dimension::force, "resultant, global axes"},
-                                           {"POWER", dimension::power, "power given to the mechanism"}};
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> all = {{"FORCE_X", dimension::force, "resultant, global axes"},
+                                             {"FORCE_Y", dimension::force, "resultant, global axes"},
+                                             {"FORCE_Z", dimension::force, "resultant, global axes"},
+                                             {"POWER", dimension::power, "power given to the mechanism"}};
     return all;
   }
 

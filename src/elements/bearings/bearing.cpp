@@ -69,8 +69,8 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
     for (std::size_t i = 0; i < 5; ++i) values[0].rate += loads.gradient[i] * rate[i];
   }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> of_matrices = list(false), of_rolling = list(true);
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> of_matrices = list(false), of_rolling = list(true);
     return parts_.rolling ? of_rolling : of_matrices;
   }
 
@@ -148,8 +148,8 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
     return {q[0], q[1], q[2], q[4], q[5]};
   }
 
-  static std::vector<Named> list(bool rolling) {
-    std::vector<Named> all;
+  static std::vector<Channel> list(bool rolling) {
+    std::vector<Channel> all;
     const auto add = [&](const char* name, std::initializer_list<int> axes, Dimension dimension, const char* help) {
       for (const int axis : axes) all.push_back({fmt::format("{}_{}", name, axis), dimension, help});
     };
@@ -163,7 +163,7 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
     if (rolling) {
       all.push_back({"ELEMENT_LOAD", dimension::force, "largest force on a ball or roller"});
       all.push_back({"CONTACT_PRESSURE", dimension::pressure, "largest pressure between a ball or roller and a ring"});
-      all.push_back({"LOADED_ELEMENTS", dimension::none, "number of balls or rollers that carry"});
+      all.push_back({"LOADED_ELEMENTS", dimension::none, "number of balls or rollers that carry", Channel::Course::state});
     }
     return all;
   }

@@ -17,8 +17,8 @@ Energies BodyInertia::energies(const NodeState& node, const Vec3& gravity) const
   return e;
 }
 
-std::vector<Named> body_channels(const BodyInertia& body) {
-  std::vector<Named> all = {{"KINETIC_ENERGY", dimension::energy, "of translation and rotation"}};
+std::vector<Channel> body_channels(const BodyInertia& body) {
+  std::vector<Channel> all = {{"KINETIC_ENERGY", dimension::energy, "of translation and rotation"}};
   if (!body.turns()) return all;
   const Dimension angular{2, 1, -1, 0};
   const char* letters[3] = {"X", "Y", "Z"};

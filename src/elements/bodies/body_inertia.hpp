@@ -48,7 +48,7 @@ struct BodyInertia {
 };
 
 /// Names and values of the channels of a body: where its centre is, how it spins, its momenta and kinetic energy.
-std::vector<Named> body_channels(const BodyInertia& body);
+std::vector<Channel> body_channels(const BodyInertia& body);
 void observe_body(const BodyInertia& body, const NodeState& node, std::span<double> values);
 
 /// What a card says of the mass of one body, or of the parts that make up one body: entry i of each list is part i.

@@ -33,13 +33,13 @@ class CarriedBody final : public TemplatedElement<CarriedBody, 1, 6> {
   Energies energies(const State& state) const override { return body_.energies(state.nodes[0], state.gravity); }
   bool is_body() const override { return true; }
   Mat3 inertia_at(int node) const override { return node == layout().nodes[0] ? body_.about_node() : Mat3(Mat3::Zero()); }
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override { observe_body(body_, state.nodes[0], values); }
   Drawing drawing() const override { return {drawing_}; }
 
  private:
   BodyInertia body_;
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
   std::string drawing_;
 };
 

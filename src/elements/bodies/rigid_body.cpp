@@ -83,7 +83,7 @@ class RigidBody final : public Element {
   Energies energies(const State& state) const override { return body_ ? body_->energies(of_master(state)) : Energies{}; }
   bool is_body() const override { return true; }
   Mat3 inertia_at(int node) const override { return body_ ? body_->inertia_at(node) : Mat3(Mat3::Zero()); }
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
 
   void observe(const State& state, std::span<double> values) const override {
     std::size_t next = 0;
@@ -156,7 +156,7 @@ class RigidBody final : public Element {
   Layout layout_;
   std::unique_ptr<CarriedBody> body_;
   std::vector<std::unique_ptr<RigidLink>> links_;
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
 };
 
 /// The centre of each part's mass: CG, or the master.

@@ -84,12 +84,12 @@ class Bar final : public TemplatedElement<Bar, 2, 6> {
     return e;
   }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> all = {{"FORCE", dimension::force, "tension"},
-                                           {"STRAIN", dimension::none, "with that of the prestress"},
-                                           {"LENGTH", dimension::length, "distance of the nodes"},
-                                           {"SPRING_ENERGY", dimension::energy, "energy stored"},
-                                           {"DAMPER_POWER", dimension::power, "power lost"}};
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> all = {{"FORCE", dimension::force, "tension"},
+                                             {"STRAIN", dimension::none, "with that of the prestress"},
+                                             {"LENGTH", dimension::length, "distance of the nodes"},
+                                             {"SPRING_ENERGY", dimension::energy, "energy stored"},
+                                             {"DAMPER_POWER", dimension::power, "power lost"}};
     return all;
   }
 

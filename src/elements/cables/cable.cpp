@@ -69,13 +69,13 @@ class Cable final : public TemplatedElement<Cable, 2, 6> {
                  hangs(cable) ? 0 : cable.length};
   }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> all = [] {
-      std::vector<Named> list = {{"TENSION_A", dimension::force, "at A"},
-                                 {"TENSION_B", dimension::force, "at B"},
-                                 {"LENGTH", dimension::length, "of the stretched cable"},
-                                 {"SAG", dimension::length, "largest distance from the line of the ends, along the weight"},
-                                 {"SPRING_ENERGY", dimension::energy, "energy stored"}};
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> all = [] {
+      std::vector<Channel> list = {{"TENSION_A", dimension::force, "at A"},
+                                   {"TENSION_B", dimension::force, "at B"},
+                                   {"LENGTH", dimension::length, "of the stretched cable"},
+                                   {"SAG", dimension::length, "largest distance from the line of the ends, along the weight"},
+                                   {"SPRING_ENERGY", dimension::energy, "energy stored"}};
       for (const char* end : {"A", "B"})
         for (const char* axis : {"X", "Y", "Z"})
           list.push_back(

@@ -42,8 +42,8 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
   }
   if (parts_.guide.kind != CamGuide::Kind::none)
     channels_.push_back({"PRESSURE_ANGLE", dimension::angle, "between the contact's normal and the follower's way"});
-  channels_.push_back(roller ? Named{"ROLLER_SPEED", dimension::angular_velocity, "of the roller in the follower, as it rolls"}
-                             : Named{"SLIDING_SPEED", dimension::velocity, "of the follower over the profile"});
+  channels_.push_back(roller ? Channel{"ROLLER_SPEED", dimension::angular_velocity, "of the roller in the follower, as it rolls"}
+                             : Channel{"SLIDING_SPEED", dimension::velocity, "of the follower over the profile"});
   if (parts_.friction) channels_.push_back({"FRICTION_FORCE", dimension::force, "size of the friction"});
   if (parts_.law) channels_.push_back({"SPRING_ENERGY", dimension::energy, "energy stored in the contact"});
   if (parts_.law || parts_.friction) channels_.push_back({"POWER_LOST", dimension::power, "by damping and friction"});

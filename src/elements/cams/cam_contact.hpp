@@ -92,7 +92,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
   void switches(const State& state, std::span<Switch> values) const override;
   void sliding(const State& state, std::span<Vec3> speeds) const override;
   Energies energies(const State& state) const override;
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override;
   std::vector<Derived> derived() const override { return parts_.derived; }
   Drawing drawing() const override;
@@ -133,7 +133,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
   }
 
   CamParts parts_;
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
 };
 
 template <class T>

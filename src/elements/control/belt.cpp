@@ -116,7 +116,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
     return e;
   }
 
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
 
   void observe(const State& state, std::span<double> values) const override {
     const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);
@@ -278,15 +278,15 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
       channels_.push_back({"STRETCH_2", dimension::length, "stretch of the second span beyond its preload"});
     }
     if (law_.friction)
-      channels_.push_back(
-          {"GRIP_USED", dimension::none, "difference of the tensions over the most that friction holds; 1 slips"});
+      channels_.push_back({"GRIP_USED", dimension::none, "difference of the tensions over the most that friction holds; 1 slips",
+                           Channel::Course::ratio});
   }
 
   joints::JointFrame frame_;
   BeltShape shape_;
   BeltLaw law_;
   double distance_, taken_;  ///< in the reference configuration
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
 };
 
 std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {

@@ -99,7 +99,7 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
     return e;
   }
 
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
 
   void observe(const State& state, std::span<double> values) const override {
     const auto in = input_.read<double>(state.nodes, state), out = output_.read<double>(state.nodes, state);
@@ -182,7 +182,7 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
   double reference_;
   const Function* function_;
   PlacedCoordinate input_, output_;
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
 };
 
 std::optional<ControllerInput> read_input(const ControllerData& data, const BuildContext& context) {

@@ -48,7 +48,7 @@ class Coupling final : public TemplatedElement<Coupling, 4, 25> {
     return e;
   }
 
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
 
   void observe(const State& state, std::span<double> values) const override {
     const Apart now = apart(state);
@@ -87,7 +87,7 @@ class Coupling final : public TemplatedElement<Coupling, 4, 25> {
 
   Law law_;
   PlacedCoordinate first_, second_;
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
 };
 
 std::unique_ptr<Element> build(const CouplingData& data, BuildContext& context) {

@@ -46,7 +46,7 @@ class Motor final : public TemplatedElement<Motor, 2, 12> {
     return e;
   }
 
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
 
   void observe(const State& state, std::span<double> values) const override {
     const Output now = output(state);
@@ -80,7 +80,7 @@ class Motor final : public TemplatedElement<Motor, 2, 12> {
   MotorCurve curve_;
   double ratio_;
   const Function* supply_;
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
 };
 
 /// The curve of the card, or nothing with an error.

@@ -33,7 +33,7 @@ class Sensor final : public TemplatedElement<Sensor, 2, 1>, public joints::Coord
     coordinate_.commit(state.nodes[0], state.nodes[1], state.history, history);
   }
 
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
   std::vector<Coordinate> coordinates() const override { return {coordinate_}; }
 
   void observe(const State& state, std::span<double> values) const override {
@@ -52,7 +52,7 @@ class Sensor final : public TemplatedElement<Sensor, 2, 1>, public joints::Coord
 
  private:
   Coordinate coordinate_;
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
 };
 
 /// What a sensor measures, or nothing, with errors.

@@ -7,7 +7,7 @@
 
 namespace engrane::elements::gears {
 
-void add_force_channels(std::vector<Named>& list, const std::array<const char*, 2>& bodies) {
+void add_force_channels(std::vector<Channel>& list, const std::array<const char*, 2>& bodies) {
   for (const std::size_t body : {std::size_t{0}, std::size_t{1}})
     for (const char* kind : {"FORCE", "MOMENT"})
       for (const char* component : {"X", "Y", "Z"}) {
@@ -28,13 +28,14 @@ void put_force_channels(ChannelWriter& out, const ContactReport& report, const V
   out.put(contact);
 }
 
-void add_contact_channels(std::vector<Named>& list, const ToothContact& contact) {
+void add_contact_channels(std::vector<Channel>& list, const ToothContact& contact) {
   using namespace dimension;
   const Dimension speed = dimension::velocity, watts = dimension::power;
   list.push_back({"SLIDING_SPEED", speed, "sliding speed of the flanks at the pitch point"});
   list.push_back({"POWER_A", watts, "power of the teeth on A, in the pair's frame"});
   list.push_back({"POWER_B", watts, "power of the teeth on B, in the pair's frame"});
-  list.push_back({"EFFICIENCY", none, "1 less the part of the power through the teeth that is lost; 1 without power"});
+  list.push_back({"EFFICIENCY", none, "1 less the part of the power through the teeth that is lost; 1 without power",
+                  Channel::Course::ratio});
   if (contact.options().friction) {
     list.push_back({"FRICTION_FORCE", force, "friction between the flanks"});
     list.push_back({"FRICTION_POWER", watts, "power lost by sliding and rolling"});
@@ -43,11 +44,11 @@ void add_contact_channels(std::vector<Named>& list, const ToothContact& contact)
   if (contact.elastic()) {
     list.push_back({"U_M", length, "tooth deformation and play along the circumference, u_m"});
     list.push_back({"TRANSMISSION_ERROR", length, "approach of the teeth, u_m + x_err"});
-    list.push_back({"CONTACT", none, "contact: 1 where A drives, -1 on the other flank, 0 apart"});
+    list.push_back({"CONTACT", none, "contact: 1 where A drives, -1 on the other flank, 0 apart", Channel::Course::state});
     if (contact.law().course.varies()) list.push_back({"STIFFNESS", stiffness, "tooth stiffness along the circumference"});
   }
   if (const int n = contact.options().slices; n > 1) {
-    list.push_back({"FACE_LOAD_FACTOR", none, "largest over mean load along the face width, K_H_beta"});
+    list.push_back({"FACE_LOAD_FACTOR", none, "largest over mean load along the face width, K_H_beta", Channel::Course::ratio});
     list.push_back({"TILTING_MOMENT", moment, "moment of the load along the face about the middle of the face"});
     for (int i = 1; i <= n; ++i)
       list.push_back(

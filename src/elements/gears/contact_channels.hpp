@@ -25,11 +25,11 @@ class ChannelWriter {
 };
 
 /// Force and moment of the teeth on both bodies, global components, and the contact point; `bodies` are their names in help.
-void add_force_channels(std::vector<Named>& list, const std::array<const char*, 2>& bodies);
+void add_force_channels(std::vector<Channel>& list, const std::array<const char*, 2>& bodies);
 void put_force_channels(ChannelWriter& out, const ContactReport& report, const Vec3& contact);
 
 /// Power, sliding, friction and the state of the teeth, as far as the options of the contact give them.
-void add_contact_channels(std::vector<Named>& list, const ToothContact& contact);
+void add_contact_channels(std::vector<Channel>& list, const ToothContact& contact);
 /// Their values; `power` is what the teeth give to A and B, in the pair's frame.
 void put_contact_channels(ChannelWriter& out, const ToothContact& contact, const ContactReport& report,
                           const std::array<double, 2>& power, std::span<const double> scalars);

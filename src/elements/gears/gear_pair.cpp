@@ -21,9 +21,9 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-std::vector<Named> channel_list() {
+std::vector<Channel> channel_list() {
   using namespace dimension;
-  std::vector<Named> list{{"NORMAL_FORCE", force, "normal tooth force, positive where A drives"}};
+  std::vector<Channel> list{{"NORMAL_FORCE", force, "normal tooth force, positive where A drives"}};
   for (const char* wheel : {"A", "B"}) {
     const std::string w(wheel), of = " on wheel " + w;
     list.push_back({"TANGENTIAL_FORCE_" + w, force, "tooth force" + of + " along its positive sense of turning"});

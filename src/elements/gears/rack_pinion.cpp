@@ -22,14 +22,14 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-std::vector<Named> channel_list() {
+std::vector<Channel> channel_list() {
   using namespace dimension;
-  std::vector<Named> list{{"NORMAL_FORCE", force, "normal tooth force, positive where the pinion drives"},
-                          {"TANGENTIAL_FORCE_A", force, "tooth force on the pinion along its positive sense of turning"},
-                          {"RADIAL_FORCE_A", force, "tooth force on the pinion towards its axle"},
-                          {"AXIAL_FORCE_A", force, "tooth force on the pinion along its axle"},
-                          {"TORQUE_A", moment, "moment of the tooth forces on the pinion about its axle"},
-                          {"RACK_FORCE", force, "tooth force on the rack along DIR"}};
+  std::vector<Channel> list{{"NORMAL_FORCE", force, "normal tooth force, positive where the pinion drives"},
+                            {"TANGENTIAL_FORCE_A", force, "tooth force on the pinion along its positive sense of turning"},
+                            {"RADIAL_FORCE_A", force, "tooth force on the pinion towards its axle"},
+                            {"AXIAL_FORCE_A", force, "tooth force on the pinion along its axle"},
+                            {"TORQUE_A", moment, "moment of the tooth forces on the pinion about its axle"},
+                            {"RACK_FORCE", force, "tooth force on the rack along DIR"}};
   add_force_channels(list, {"the pinion", "the rack"});
   list.push_back({"PSI_A", angle, "turn of the pinion relative to the pair's frame, whole turns included"});
   list.push_back({"TRAVEL", length, "travel of the rack relative to the pair's frame, along DIR"});

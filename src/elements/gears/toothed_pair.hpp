@@ -25,7 +25,7 @@ template <class Derived>
 class ToothedPair : public TemplatedElement<Derived, 2, 20> {
  public:
   ToothedPair(int id, std::array<int, 2> nodes, const ToothContact& contact, std::array<Scalar, 2> motions, int history,
-              std::vector<Named> channels)
+              std::vector<Channel> channels)
       : TemplatedElement<Derived, 2, 20>(id), contact_(contact), channels_(std::move(channels)) {
     add_contact_channels(channels_, contact_);
     Layout layout;
@@ -77,7 +77,7 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20> {
     std::fill(history.begin(), history.end(), 0.0);
   }
   Energies energies(const State& state) const override { return energies_of(report(state)); }
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
   void switches(const State& state, std::span<Switch> values) const override {
     if (values.empty()) return;
     const std::size_t of_grips = contact_.grips() ? 2 : 0, others = values.size() - of_grips;
@@ -111,7 +111,7 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20> {
     return history - 1 - static_cast<std::size_t>(contact_.grips() ? GripState::history({}) : 0);
   }
 
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
 };
 
 }  // namespace engrane::elements::gears

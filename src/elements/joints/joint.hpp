@@ -85,7 +85,7 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   void sliding(const State& state, std::span<Vec3> speeds) const override;
   void grip_limits(const State& state, std::span<double> limits) const override;
   Energies energies(const State& state) const override;
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override;
   /// Usual kinds of joint that hold some of the same directions and no other.
   std::vector<Release> releases() const override;
@@ -129,7 +129,7 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   bool has_rates_ = false;       ///< and depends on its speed
   bool whole_b_ = false;         ///< what acts looks at B's second or third axis
   std::vector<Measure> angles_;  ///< counted in turns, in the order of the history
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
 };
 
 }  // namespace engrane::elements::joints

@@ -82,7 +82,7 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
     return e;
   }
 
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
 
   void observe(const State& state, std::span<double> values) const override {
     values[0] = sum(state);
@@ -124,7 +124,7 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
   std::vector<Term> terms_;
   double value_;
   const Function* function_;
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
 };
 
 std::unique_ptr<Element> build(const LinearRelationData& data, BuildContext& context) {

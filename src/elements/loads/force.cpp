@@ -33,11 +33,11 @@ class LineForce final : public TemplatedElement<LineForce, 2, 6> {
     return e;
   }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> all = {{"FORCE", dimension::force, "positive pushes the nodes apart"},
-                                           {"LENGTH", dimension::length, "distance of the ends"},
-                                           {"SPEED", dimension::velocity, "rate of the length"},
-                                           {"POWER", dimension::power, "power given to the mechanism"}};
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> all = {{"FORCE", dimension::force, "positive pushes the nodes apart"},
+                                             {"LENGTH", dimension::length, "distance of the ends"},
+                                             {"SPEED", dimension::velocity, "rate of the length"},
+                                             {"POWER", dimension::power, "power given to the mechanism"}};
     return all;
   }
 
@@ -96,10 +96,10 @@ class NodeForce final : public TemplatedElement<NodeForce, 1, 6> {
     return e;
   }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> all = {{"FORCE", dimension::force, "along its direction"},
-                                           {"SPEED", dimension::velocity, "of the point along the direction"},
-                                           {"POWER", dimension::power, "power given to the mechanism"}};
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> all = {{"FORCE", dimension::force, "along its direction"},
+                                             {"SPEED", dimension::velocity, "of the point along the direction"},
+                                             {"POWER", dimension::power, "power given to the mechanism"}};
     return all;
   }
 

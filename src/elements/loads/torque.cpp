@@ -41,10 +41,10 @@ class Torque final : public TemplatedElement<Torque, 2, 6> {
     return e;
   }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> all = {{"TORQUE", dimension::moment, "moment on the last node about the axis"},
-                                           {"SPEED", dimension::angular_velocity, "relative speed about the axis"},
-                                           {"POWER", dimension::power, "power given to the mechanism"}};
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> all = {{"TORQUE", dimension::moment, "moment on the last node about the axis"},
+                                             {"SPEED", dimension::angular_velocity, "relative speed about the axis"},
+                                             {"POWER", dimension::power, "power given to the mechanism"}};
     return all;
   }
 

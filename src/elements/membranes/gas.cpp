@@ -70,13 +70,13 @@ class Gas final : public Element {
     return e;
   }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> with_mass = {
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> with_mass = {
         {"PRESSURE", dimension::pressure, "absolute pressure of the gas"},
         {"OVERPRESSURE", dimension::pressure, "pressure of the gas over that of the atmosphere"},
         {"VOLUME", {3, 0, 0, 0}, "volume of the gas"},
         {"MASS", dimension::mass, "mass of the gas"}};
-    static const std::vector<Named> without_mass(with_mass.begin(), with_mass.end() - 1);
+    static const std::vector<Channel> without_mass(with_mass.begin(), with_mass.end() - 1);
     return mass_ > 0 ? with_mass : without_mass;
   }
   void observe(const State& state, std::span<double> values) const override {

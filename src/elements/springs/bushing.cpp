@@ -47,9 +47,9 @@ class Bushing final : public TemplatedElement<Bushing, 2, 12> {
     return e;
   }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> all = [] {
-      std::vector<Named> list;
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> all = [] {
+      std::vector<Channel> list;
       const auto three = [&](const std::string& name, Dimension dimension, const std::string& help) {
         for (const char* axis : {"_1", "_2", "_3"}) list.push_back({name + axis, dimension, help});
       };

@@ -29,13 +29,13 @@ struct SpringOnLine {
     return law.energies(reach.length - natural, reach.rate, state.time);
   }
 
-  static const std::vector<Named>& channels() {
-    static const std::vector<Named> all = {{"LENGTH", dimension::length, "distance of the ends"},
-                                           {"ELONGATION", dimension::length, "length less natural length"},
-                                           {"SPEED", dimension::velocity, "rate of the length"},
-                                           {"FORCE", dimension::force, "of spring and damper, positive in tension"},
-                                           {"SPRING_ENERGY", dimension::energy, "energy stored"},
-                                           {"DAMPER_POWER", dimension::power, "power lost in the damper"}};
+  static const std::vector<Channel>& channels() {
+    static const std::vector<Channel> all = {{"LENGTH", dimension::length, "distance of the ends"},
+                                             {"ELONGATION", dimension::length, "length less natural length"},
+                                             {"SPEED", dimension::velocity, "rate of the length"},
+                                             {"FORCE", dimension::force, "of spring and damper, positive in tension"},
+                                             {"SPRING_ENERGY", dimension::energy, "energy stored"},
+                                             {"DAMPER_POWER", dimension::power, "power lost in the damper"}};
     return all;
   }
 
@@ -71,7 +71,7 @@ class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
     spring_.evaluate(motion, state, balance);
   }
   Energies energies(const State& state) const override { return spring_.energies(state); }
-  const std::vector<Named>& channels() const override { return spring_.channels(); }
+  const std::vector<Channel>& channels() const override { return spring_.channels(); }
   void observe(const State& state, std::span<double> values) const override { spring_.observe(state, values); }
   std::vector<Derived> derived() const override { return spring_.derived(); }
   Drawing drawing() const override { return spring_.drawing(); }
@@ -101,7 +101,7 @@ class LinearSprings final : public TemplatedBlock<SpringOnLine<LinearLaw>, 2, 6>
   using TemplatedBlock::TemplatedBlock;
 
   Energies energies(std::size_t e, const State& state) const override { return data(e).energies(state); }
-  const std::vector<Named>& channels() const override { return SpringOnLine<LinearLaw>::channels(); }
+  const std::vector<Channel>& channels() const override { return SpringOnLine<LinearLaw>::channels(); }
   void observe(std::size_t e, const State& state, std::span<double> values) const override { data(e).observe(state, values); }
   std::vector<Derived> derived(std::size_t e) const override { return data(e).derived(); }
   Drawing drawing(std::size_t e) const override { return data(e).drawing(); }
@@ -149,15 +149,15 @@ class DirectionalSpring final : public TemplatedElement<DirectionalSpring, 2, 6>
     return e;
   }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> all = {{"ELONGATION_X", dimension::length, "displacement of b relative to a, global"},
-                                           {"ELONGATION_Y", dimension::length, "displacement of b relative to a, global"},
-                                           {"ELONGATION_Z", dimension::length, "displacement of b relative to a, global"},
-                                           {"FORCE_X", dimension::force, "of spring and damper, positive in tension, global"},
-                                           {"FORCE_Y", dimension::force, "of spring and damper, positive in tension, global"},
-                                           {"FORCE_Z", dimension::force, "of spring and damper, positive in tension, global"},
-                                           {"SPRING_ENERGY", dimension::energy, "energy stored"},
-                                           {"DAMPER_POWER", dimension::power, "power lost in the damper"}};
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> all = {{"ELONGATION_X", dimension::length, "displacement of b relative to a, global"},
+                                             {"ELONGATION_Y", dimension::length, "displacement of b relative to a, global"},
+                                             {"ELONGATION_Z", dimension::length, "displacement of b relative to a, global"},
+                                             {"FORCE_X", dimension::force, "of spring and damper, positive in tension, global"},
+                                             {"FORCE_Y", dimension::force, "of spring and damper, positive in tension, global"},
+                                             {"FORCE_Z", dimension::force, "of spring and damper, positive in tension, global"},
+                                             {"SPRING_ENERGY", dimension::energy, "energy stored"},
+                                             {"DAMPER_POWER", dimension::power, "power lost in the damper"}};
     return all;
   }
 

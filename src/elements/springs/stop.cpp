@@ -176,7 +176,7 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
     return e;
   }
 
-  const std::vector<Named>& channels() const override { return channels_; }
+  const std::vector<Channel>& channels() const override { return channels_; }
 
   void observe(const State& state, std::span<double> values) const override {
     const auto at = coordinate_.template at<double>(this->template motion<double>(state).node, state.history);
@@ -209,7 +209,7 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
   Coordinate coordinate_;
   StopRange range_;
   bool tells_damping_;
-  std::vector<Named> channels_;
+  std::vector<Channel> channels_;
 };
 
 /// False, with an error, when a keyword is given that has no meaning for this kind of stop.

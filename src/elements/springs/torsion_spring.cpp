@@ -42,12 +42,12 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
 
   Energies energies(const State& state) const override { return law_.energies(angle(state) - angle0_, speed(state), state.time); }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> all = {{"ANGLE", dimension::angle, "turn of B from A about the axis, whole turns counted"},
-                                           {"SPEED", dimension::angular_velocity, "rate of the angle"},
-                                           {"TORQUE", dimension::moment, "torque of spring and damper on B, the opposite on A"},
-                                           {"SPRING_ENERGY", dimension::energy, "energy stored"},
-                                           {"DAMPER_POWER", dimension::power, "power lost in the damper"}};
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> all = {{"ANGLE", dimension::angle, "turn of B from A about the axis, whole turns counted"},
+                                             {"SPEED", dimension::angular_velocity, "rate of the angle"},
+                                             {"TORQUE", dimension::moment, "torque of spring and damper on B, the opposite on A"},
+                                             {"SPRING_ENERGY", dimension::energy, "energy stored"},
+                                             {"DAMPER_POWER", dimension::power, "power lost in the damper"}};
     return all;
   }
 

@@ -30,13 +30,13 @@ class FirstShare final : public TemplatedElement<FirstShare, 2, 15> {
   bool in_mesh() const override { return false; }
   bool is_linear() const override { return share_.small; }
 
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> names = {{"FORCE_X", dimension::force, "force of the node N on the group"},
-                                             {"FORCE_Y", dimension::force, ""},
-                                             {"FORCE_Z", dimension::force, ""},
-                                             {"MOMENT_X", dimension::moment, "moment at the mean place of the group"},
-                                             {"MOMENT_Y", dimension::moment, ""},
-                                             {"MOMENT_Z", dimension::moment, ""}};
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> names = {{"FORCE_X", dimension::force, "force of the node N on the group"},
+                                               {"FORCE_Y", dimension::force, ""},
+                                               {"FORCE_Z", dimension::force, ""},
+                                               {"MOMENT_X", dimension::moment, "moment at the mean place of the group"},
+                                               {"MOMENT_Y", dimension::moment, ""},
+                                               {"MOMENT_Z", dimension::moment, ""}};
     return names;
   }
 

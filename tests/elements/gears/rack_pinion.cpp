@@ -187,7 +187,7 @@ struct Observed {
     throw std::runtime_error("no channel " + name);
   }
   Vec3 vector(const std::string& name) const { return {(*this)(name + "X"), (*this)(name + "Y"), (*this)(name + "Z")}; }
-  std::vector<Named> names;
+  std::vector<Channel> names;
   std::vector<double> values;
 };
 

@@ -62,8 +62,8 @@ class LineSpring final : public PlainElement {
     }
   }
   Energies energies(const State& s) const override { return {0, 0.5 * stiffness_ * along(s).squaredNorm(), 0, 0}; }
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> names{{"LENGTH", dimension::length, "length"}, {"FORCE", dimension::force, "force"}};
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> names{{"LENGTH", dimension::length, "length"}, {"FORCE", dimension::force, "force"}};
     return names;
   }
   void observe(const State& s, std::span<double> values) const override {
@@ -102,9 +102,9 @@ class Stay final : public PlainElement {
     std::fill(r.begin(), r.end(), 0.0);
     r[0] = -s.multipliers[0];
   }
-  const std::vector<Named>& channels() const override {
-    static const std::vector<Named> names{{"FORCE", dimension::force, "force of the stay"},
-                                          {"ONE", dimension::none, "always one"}};
+  const std::vector<Channel>& channels() const override {
+    static const std::vector<Channel> names{{"FORCE", dimension::force, "force of the stay"},
+                                            {"ONE", dimension::none, "always one"}};
     return names;
   }
   void observe(const State& s, std::span<double> values) const override {
