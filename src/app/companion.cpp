@@ -127,7 +127,8 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
   for (const observe::Table& table : observer.tables())
     for (const int id : table.ids)
       for (const Channel& channel : table.channels) {
-        if (channel.course == Channel::Course::smooth && (asked.empty() || asked.count(at) > 0))
+        if ((channel.course == Channel::Course::smooth || channel.course == Channel::Course::size) &&
+            (asked.empty() || asked.count(at) > 0))
           columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at),
                               table.path.substr(0, table.path.find('/') + 1) + std::to_string(id), channel.name,
                               channel.dimension, 0, std::numeric_limits<double>::infinity(),

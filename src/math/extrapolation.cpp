@@ -36,15 +36,19 @@ double Extrapolation::share(double time, double h) const {
   return largest / distances(time, points);
 }
 
+std::vector<double> Extrapolation::weights(double time, double h) const {
+  std::vector<double> all(reach(h), 1.0);  // Lagrange's
+  for (std::size_t p = 0; p < all.size(); ++p)
+    for (std::size_t q = 0; q < all.size(); ++q)
+      if (q != p) all[p] *= (time - points_[q].time) / (points_[p].time - points_[q].time);
+  return all;
+}
+
 void Extrapolation::at(double time, double h, std::span<double> values) const {
-  const std::size_t points = reach(h);
+  const std::vector<double> weight = weights(time, h);
   std::fill(values.begin(), values.end(), 0.0);
-  for (std::size_t p = 0; p < points; ++p) {
-    double weight = 1;  // Lagrange's
-    for (std::size_t q = 0; q < points; ++q)
-      if (q != p) weight *= (time - points_[q].time) / (points_[p].time - points_[q].time);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] += weight * points_[p].values[i];
-  }
+  for (std::size_t p = 0; p < weight.size(); ++p)
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] += weight[p] * points_[p].values[i];
 }
 
 Extrapolation::Around Extrapolation::around(double time) const {

@@ -25,6 +25,9 @@ class Extrapolation {
   void add(double time, std::span<const double> values);
   /// Writes what the polynomial for a step of h has at `time`, within this step.
   void at(double time, double h, std::span<double> values) const;
+  /// The weights of the points in it, the latest first, and their values.
+  std::vector<double> weights(double time, double h) const;
+  std::span<const double> values(std::size_t point) const { return points_[point].values; }
   /// The latest values at both sides of a time; part 0 stands for those before it, 1 for those after it.
   struct Around {
     std::span<const double> before, after;

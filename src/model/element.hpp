@@ -44,6 +44,7 @@ struct Channel : Named {
   /// What is between two instants at which the value is known.
   enum class Course : unsigned char {
     smooth,  ///< the values of a polynomial
+    size,    ///< the root of a polynomial of squares: the size of a vector, which has a corner where that passes near zero
     ratio,   ///< a straight line: of two results that may pass through zero together, where the ratio jumps
     state,   ///< the value of the nearer one: it has a few values only, such as whether teeth touch
     step     ///< the value of the later one: it tells of the whole step

@@ -228,3 +228,20 @@ def test_accelerations_that_are_rounding_are_not_judged(deck: str, tmp_path: Pat
 
 
 BELT = "3 BELT N 1 2 AXIS 0 0 1 R 0.02 0.04 K 2D4 PRELOAD 300 C 40"
+
+
+@pytest.mark.parametrize(
+    ("deck", "size", "parts"),
+    [
+        ("mechanisms/andrews_squeezer", "15/RADIAL_FORCE", ("15/FORCE_2", "15/FORCE_3")),
+        ("mechanisms/slider_crank", "1/BENDING_MOMENT", ("1/MOMENT_2", "1/MOMENT_3")),
+        ("mechanisms/slider_crank", "2/FORCE_SIZE", ("2/FORCE_X", "2/FORCE_Y", "2/FORCE_Z")),
+    ],
+)
+def test_sizes_between_steps_are_those_of_their_parts(
+    deck: str, size: str, parts: tuple[str, ...], tmp_path: Path
+) -> None:
+    """Where the vector passes near zero its size has a corner, over which no polynomial leads."""
+    found = run(controlled(deck, "TOL 1e-6"), tmp_path)
+    exact = np.sqrt(sum(found[part] ** 2 for part in parts))
+    assert np.abs(found[size] - exact).max() < 1e-5 * exact.max()

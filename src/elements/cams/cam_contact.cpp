@@ -34,7 +34,7 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
       {"GAP", dimension::length, "between follower and profile; negative: pressed together"},
       {"CAM_ANGLE", dimension::angle, "parameter of the profile at the contact: of a motion the cam's turn, within a turn"},
       {"CONTACT_ANGLE", dimension::angle, "polar angle of the contact point in the cam"},
-      {"RADIUS_OF_CURVATURE", dimension::length, "of the profile at the contact; negative in a hollow"},
+      {"RADIUS_OF_CURVATURE", dimension::length, "of the profile at the contact; negative in a hollow", Channel::Course::ratio},
       {"POWER", dimension::power, "power that the follower takes from the cam"}};
   if (parts_.profile->curve().motion()) {
     const bool arm = parts_.guide.kind == CamGuide::Kind::arm;

@@ -269,7 +269,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
                  {"FORCE_X", dimension::force, "force of the belt on B, global"},
                  {"FORCE_Y", dimension::force, "force of the belt on B, global"},
                  {"FORCE_Z", dimension::force, "force of the belt on B, global"},
-                 {"BEARING_FORCE", dimension::force, "size of the force of the belt on either pulley"},
+                 {"BEARING_FORCE", dimension::force, "size of the force of the belt on either pulley", Channel::Course::size},
                  {"SPAN", dimension::length, "length of a free span"},
                  {"WRAP_1", dimension::angle, "angle that the belt wraps round A"},
                  {"WRAP_2", dimension::angle, "angle that the belt wraps round B"}};

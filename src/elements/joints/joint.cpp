@@ -505,11 +505,14 @@ void Joint::name_channels() {
   if (parts_.has_moment) name("MOMENT", dimension::moment, "moment of the joint on B at the joint point");
   if (parts_.has_axial) channels_.push_back({"AXIAL_FORCE", dimension::force, "force on B along the axis"});
   if (parts_.is_bearing) {
-    channels_.push_back({"RADIAL_FORCE", dimension::force, "size of the force on B across the axis"});
-    if (parts_.has_moment) channels_.push_back({"BENDING_MOMENT", dimension::moment, "size of the moment on B across the axis"});
+    channels_.push_back({"RADIAL_FORCE", dimension::force, "size of the force on B across the axis", Channel::Course::size});
+    if (parts_.has_moment)
+      channels_.push_back(
+          {"BENDING_MOMENT", dimension::moment, "size of the moment on B across the axis", Channel::Course::size});
   }
   if (parts_.has_thrust) channels_.push_back({"THRUST", dimension::force, "force that pushes the ends apart"});
-  if (!parts_.has_axis) channels_.push_back({"FORCE_SIZE", dimension::force, "size of the force of the joint on B"});
+  if (!parts_.has_axis)
+    channels_.push_back({"FORCE_SIZE", dimension::force, "size of the force of the joint on B", Channel::Course::size});
   if (parts_.has_bend) channels_.push_back({"BEND", dimension::angle, "angle between the shafts"});
   if (!parts_.normal_channel.empty())
     channels_.push_back({parts_.normal_channel, is_length(parts_.constraints[0].measure) ? dimension::force : dimension::moment,
@@ -528,8 +531,8 @@ void Joint::name_channels() {
     }
   }
   for (const JointFriction& f : parts_.friction) {
-    channels_.push_back(
-        {"PRESSING_FORCE" + f.suffix, dimension::force, "sum of the forces that press the rubbing surfaces together"});
+    channels_.push_back({"PRESSING_FORCE" + f.suffix, dimension::force,
+                         "sum of the forces that press the rubbing surfaces together", Channel::Course::size});
     if (rubs_along(f)) channels_.push_back({"FRICTION_FORCE" + f.suffix, dimension::force, "size of the friction force"});
     if (rubs_round(f)) channels_.push_back({"FRICTION_MOMENT" + f.suffix, dimension::moment, "size of the friction moment"});
     channels_.push_back({"FRICTION_POWER" + f.suffix, dimension::power, "power lost in friction"});
