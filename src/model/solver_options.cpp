@@ -53,8 +53,11 @@ SolverOptions solver_options(const Model& model) {
   o.cuts = analysis.cuts;
   o.package = analysis.solver.tag;
   // iterations with kept factors need not be better than their step; those with exact tangents are, by the last of them
-  const double of_step =
-      o.tolerance > 0 && o.family == Family::radau ? std::clamp(share_of_newton * o.tolerance, 1e-12, 1e-5) : 1e-9;
+  double of_step = 1e-9;
+  if (o.tolerance > 0 && o.analysis == Analysis::dynamics && o.family == Family::radau)
+    of_step = std::clamp(share_of_newton * o.tolerance, 1e-12, 1e-5);
+  else if (o.tolerance > 0)
+    of_step = std::clamp(1e-3 * o.tolerance, 1e-12, of_step);
   o.precision = analysis.precision.value_or(of_step);
   if (const AccuracyRung* rung = rung_of(analysis); rung && o.analysis == Analysis::dynamics) {
     o.target = rung->target;

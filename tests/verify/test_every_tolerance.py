@@ -245,3 +245,22 @@ def test_sizes_between_steps_are_those_of_their_parts(
     found = run(controlled(deck, "TOL 1e-6"), tmp_path)
     exact = np.sqrt(sum(found[part] ** 2 for part in parts))
     assert np.abs(found[size] - exact).max() < 1e-5 * exact.max()
+
+
+@pytest.mark.parametrize(
+    ("deck", "tolerance"),
+    [
+        ("elements/cables/bar", "1e-9"),
+        ("elements/joints/hinge_drive", "1e-3"),
+        ("elements/joints/universal", "1e-9"),
+        ("mechanisms/double_wishbone", "1e-9"),
+        ("paper/bevel_pair", "1e-9"),
+    ],
+)
+def test_load_steps_are_closed_as_far_as_their_tolerance_needs(
+    deck: str, tolerance: str, tmp_path: Path
+) -> None:
+    """The error of the next would be what one has left; and an angle of 100 turns is not known to 1e-13."""
+    text = (DECKS / f"{deck}.dat").read_text(encoding="utf-8")
+    text = re.sub(r"(?m)^\.CHK.*\n(?:[ !].*\n)*", "", text)
+    run(re.sub(r"(?m)^(\.SUB [^!\n]*)", rf"\1 TOL {tolerance}", text), tmp_path)

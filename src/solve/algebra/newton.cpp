@@ -29,6 +29,10 @@ constexpr double share_of_precision = 1e-2;
 /// And no more often than this without a new one.
 constexpr int most_uses = 3;
 
+/// A constraint that is open by less counts as closed, and corrections no larger than so many times what it is open by as its
+/// own.
+constexpr double closed = 1e-9, most_of_open = 2;
+
 /// A sliding speed that counts as none, over the speed below which friction is regularised.
 constexpr double resting = 1e-3;
 
@@ -326,9 +330,14 @@ bool Newton::judge(int iteration) {
   const double left = imbalance_.largest();
   if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;
   if (changed <= negligible_correction) return true;
-  // forces that are small beside stiffness times the rounding of positions follow that rounding and never settle
+  // forces that are small beside stiffness times the rounding of positions follow that rounding and never settle; rounding may
+  // be that of an angle of many turns, which its constraint then stays open by
   const NewtonRow& before = rows_[rows_.size() - 2];
-  return std::max(row_.correction, before.correction) <= no_correction && left > 0.5 * std::max(before.force, before.moment);
+  const auto rounds = [](const NewtonRow& row) {
+    const double open = std::max(row.length, row.angle);
+    return row.correction <= std::max(no_correction, open <= closed ? most_of_open * open : 0.0);
+  };
+  return rounds(row_) && rounds(before) && left > 0.5 * std::max(before.force, before.moment);
 }
 
 PetscErrorCode Newton::test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal, SNESConvergedReason* reason,

@@ -199,6 +199,7 @@ NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double>
     multipliers_to_unknowns(to, guess);
     context_.assembler.spread(guess, unknowns_);
   }
+  if (error_.wanted()) context_.newton.close_next(error_.may_be_open(way_, 1));
   NewtonReport report = solve(unknowns_, {1, 0, 0}, apply, to);
   refuse_half_turns(y, report);
   return report;
