@@ -426,9 +426,9 @@ TEST(Cell, WarmthOfABodyFreeInItsPlane) {
         EXPECT_NEAR(strain(p, 2), held ? 0 : alpha * rise, 1e-15);
       }
       for (const double r : residual_of(*element, state)) EXPECT_NEAR(r, 0, 1e-13 * young);
-      const double density = field_of(*element, state, "STRAIN_ENERGY_DENSITY")(0, 0);
-      EXPECT_NEAR(density, held ? young * std::pow(alpha * rise, 2) / 2 : 0, 1e-15);
-      EXPECT_NEAR(element->energies(state.view()).strain, held ? density * area_of(places, false) : 0, 1e-14);
+      const double stored = field_of(*element, state, "STRAIN_ENERGY_DENSITY")(0, 0);
+      EXPECT_NEAR(stored, held ? young * std::pow(alpha * rise, 2) / 2 : 0, 1e-15);
+      EXPECT_NEAR(element->energies(state.view()).strain, held ? stored * area_of(places, false) : 0, 1e-14);
     }
 }
 

@@ -328,7 +328,9 @@ TEST(Solid, FacesCloseTheCell) {
         const Vec3& b = places[static_cast<std::size_t>(nodes[(i + 1) % count])];
         area += a.cross(b) / 2;
         centre += a / static_cast<double>(count);
-        if (has_middles(shape)) EXPECT_LT((places[static_cast<std::size_t>(nodes[count + i])] - (a + b) / 2).norm(), 1e-15);
+        if (has_middles(shape)) {
+          EXPECT_LT((places[static_cast<std::size_t>(nodes[count + i])] - (a + b) / 2).norm(), 1e-15);
+        }
       }
       EXPECT_GT(area.dot(centre - middle), 0) << "face " << f;
       sum += area;
