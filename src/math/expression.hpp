@@ -44,6 +44,8 @@ class Expression {
   /// before, which is where the formula may jump or have a corner; to the last digit. Looked for at a thousand places: what comes
   /// and goes between two of them is not seen. None where there are more than `most`.
   std::vector<double> corners(double from, double to, std::size_t most) const;
+  /// How far rounding may have taken value(time), or a law's value there, where its variables are exact.
+  double rounding(double time, double elongation = 0, double rate = 0) const;
   /// Does the text not use the variable?
   bool constant() const { return constant_; }
 

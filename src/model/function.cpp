@@ -94,7 +94,7 @@ class FormulaFunction final : public Function {
       : formula_(std::move(formula)),
         name_(std::move(name)),
         text_(std::move(text)),
-        integral_([this](double x) { return formula_.value(x); }) {
+        integral_([this](double x) { return formula_.value(x); }, [this](double x) { return formula_.rounding(x); }) {
     if (formula_.constant()) constant_ = formula_.value(0);
   }
 

@@ -61,16 +61,20 @@ void PanelIntegral::extend(Side& side, double sign) const {
     const double magnitude = near.magnitude + far.magnitude;
     // Places are rounded, so that areas are uncertain by that rounding times the rise of the function.
     const double blur = 1e-15 * std::abs(end) * (std::abs(f_(end) - f_(cut)) + std::abs(f_(cut) - f_(start)));
+    const auto agree = [&](double tolerance) {
+      return std::abs(whole.area - near.area - far.area) <= tolerance &&
+             std::abs(near.area - near.gauss) + std::abs(far.area - far.gauss) <= 1e-6 * magnitude + tolerance;
+    };
     const double tolerance = 1e-13 * magnitude + 1e-16 * side.magnitude + blur;
-    const bool agree = std::abs(whole.area - near.area - far.area) <= tolerance &&
-                       std::abs(near.area - near.gauss) + std::abs(far.area - far.gauss) <= 1e-6 * magnitude + tolerance;
-    const bool last_resort = width <= narrowest * std::max(std::abs(start), first);
-    if (agree || last_resort) {
+    // near 0 a difference may be no more than rounding of its parts: 1 - cos(T) is
+    const auto rounding = [&] { return rounding_ ? width * (rounding_(start) + rounding_(cut) + rounding_(end)) : 0; };
+    const bool last_resort = width <= narrowest * std::max(std::abs(start), first_);
+    if (agree(tolerance) || last_resort || agree(tolerance + rounding())) {
       side.broken = !std::isfinite(whole.area);
       side.ends.push_back(end);
       side.areas.push_back(side.areas.back() + near.area + far.area);
       side.magnitude += magnitude;
-      side.width = std::min(2 * width, std::max(first, widest * std::abs(end)));
+      side.width = std::min(2 * width, std::max(first_, widest * std::abs(end)));
       return;
     }
     width /= 2;

@@ -127,6 +127,10 @@ TEST(Function, FormulaIntegralIsExactToRounding) {
   expect("T/(T*T+1E-6)", 1, 0.5 * std::log((1 + 1e-6) / 1e-6), 1e-12);
   expect("exp(-((T-5)*20)**2)", 10, std::sqrt(pi) / 20, 1e-14);
   expect("3", 1e6, 3e6, 1e-6);
+  // values that are differences are rounding near zero
+  expect("75*(1-cos(PI*min(T/0.02, 1)))", 0.01, 75 * (0.01 - 0.02 / pi), 1e-14);
+  expect("sqrt(1+T*T)-1", 1e-3, 1e-9 / 6 - 1e-15 / 40, 1e-18);
+  expect("exp(T)-1-T", 1e-4, std::pow(1e-4, 3) / 6 + std::pow(1e-4, 4) / 24, 1e-19);
   // a corner may be as near to zero, or as far away, as units make it
   for (const double unit : {1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6}) {
     const std::string at = std::to_string(1 / unit), text = "min(1, " + at + "*T)";

@@ -56,7 +56,8 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
       if (!law.formula) return {};
       law.formula_id_ = static_cast<int>(id);
       if (!law.formula->uses_time())
-        law.of_formula_ = std::make_shared<PanelIntegral>([f = law.formula](double e) { return f->law(e, 0, 0).value; });
+        law.of_formula_ = std::make_shared<PanelIntegral>([f = law.formula](double e) { return f->law(e, 0, 0).value; },
+                                                          [f = law.formula](double e) { return f->rounding(0, e); });
     } else {
       law.of_stretch = context.function(static_cast<int>(id), "LAW" + suffix);
       if (!law.of_stretch) return {};
