@@ -139,9 +139,11 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
 }
 
 std::optional<std::size_t> Companion::place(double time) const {
-  const double k = (time - start_) / interval_;
-  if (std::abs(k - std::round(k)) > 1e-3) return {};
-  return static_cast<std::size_t>(std::round(k));
+  // an end of a step that is near an instant but not there is before an event, of which another run may be past
+  const double k = std::round((time - start_) / interval_);
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * (std::abs(start_) + std::abs(time));
+  if (std::abs(time - (start_ + k * interval_)) > rounding) return {};
+  return static_cast<std::size_t>(k);
 }
 
 bool Companion::repeats(double time) {
