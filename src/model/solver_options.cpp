@@ -11,7 +11,7 @@ namespace {
 constexpr double longest_part = 0.02;
 /// Of the tolerance of a step: what iterations leave of forces, and how sharply events are met. Where a force jumps the error of
 /// an event's instant is one of velocities, as large a part of what a step changes; that of all forces is the most it can be.
-constexpr double share_of_newton = 0.01, share_of_event = 0.5, event_of_fixed_steps = 1e-6;
+constexpr double share_of_newton = 0.01, share_of_path = 1e-3, share_of_event = 0.5, event_of_fixed_steps = 1e-6;
 
 const AccuracyRung* rung_of(const deck::AnalysisCard& analysis) {
   for (const AccuracyRung& rung : accuracy_rungs)
@@ -56,8 +56,8 @@ SolverOptions solver_options(const Model& model) {
   double of_step = 1e-9;
   if (o.tolerance > 0 && o.analysis == Analysis::dynamics && o.family == Family::radau)
     of_step = std::clamp(share_of_newton * o.tolerance, 1e-12, 1e-5);
-  else if (o.tolerance > 0)
-    of_step = std::clamp(1e-3 * o.tolerance, 1e-12, of_step);
+  else if (o.tolerance > 0 && o.analysis == Analysis::statics)
+    of_step = std::clamp(share_of_path * o.tolerance, 1e-12, of_step);
   o.precision = analysis.precision.value_or(of_step);
   if (const AccuracyRung* rung = rung_of(analysis); rung && o.analysis == Analysis::dynamics) {
     o.target = rung->target;

@@ -330,12 +330,12 @@ bool Newton::judge(int iteration) {
   const double left = imbalance_.largest();
   if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;
   if (changed <= negligible_correction) return true;
-  // forces that are small beside stiffness times the rounding of positions follow that rounding and never settle; rounding may
-  // be that of an angle of many turns, which its constraint then stays open by
+  // forces that are small beside stiffness times the rounding of positions follow that rounding and never settle; at rest
+  // rounding may be that of an angle of many turns, which its constraint then stays open by
   const NewtonRow& before = rows_[rows_.size() - 2];
-  const auto rounds = [](const NewtonRow& row) {
+  const auto rounds = [this](const NewtonRow& row) {
     const double open = std::max(row.length, row.angle);
-    return row.correction <= std::max(no_correction, open <= closed ? most_of_open * open : 0.0);
+    return row.correction <= std::max(no_correction, weights_.a == 0 && open <= closed ? most_of_open * open : 0.0);
   };
   return rounds(row_) && rounds(before) && left > 0.5 * std::max(before.force, before.moment);
 }
