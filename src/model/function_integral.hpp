@@ -20,8 +20,8 @@ class PanelIntegral {
   /// `rounding`: how far rounding takes each value of f, which tells small panels whether they differ by more. The first one
   /// then ends at 1e-15, so that no unit of x counts.
   PanelIntegral(Curve f, Curve rounding) : PanelIntegral(std::move(f), std::move(rounding), 1e-15) {}
-  /// Where nothing is known of rounding the first panel ends at 1e-3, and others are as wide up to 0.02.
-  explicit PanelIntegral(Curve f) : PanelIntegral(std::move(f), {}, 1e-3) {}
+  /// Where nothing is known of rounding: panels are no narrower than `first` unless f asks for it.
+  PanelIntegral(Curve f, double first) : PanelIntegral(std::move(f), {}, first) {}
 
   double operator()(double x) const;
 

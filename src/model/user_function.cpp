@@ -21,9 +21,11 @@ UserFunction::UserFunction(std::shared_ptr<const user::Source> source, const Fun
       routine_(std::move(source), user::Kind::function, {steps_per_scale * setting.step, 1, 1}),
       start_(setting.start),
       end_(setting.end),
-      integral_([this](double x) {
-        return routine_.at({x, 0, 0})[0];
-      }) {}
+      integral_(
+          [this](double x) {
+            return routine_.at({x, 0, 0})[0];
+          },
+          setting.step) {}
 
 Function::Jet UserFunction::at(double x) const {
   const user::Results y = routine_.at({x, 0, 0});

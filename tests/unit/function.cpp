@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/function_integral.hpp"
+
 namespace engrane {
 namespace {
 
@@ -144,6 +146,14 @@ TEST(Function, FormulaIntegralIsExactToRounding) {
   EXPECT_NEAR(make(formula("if(T < 0.37, 0, 1)"))->integral(1), 0.63, 1e-9);
   EXPECT_NEAR(make(formula("sign(T - 1) + 3*(T > 2)"))->integral(3), 4, 1e-9);
   for (const double x : {-2.0, 0.3, 1.0, 5.0}) expect_consistent(*make(formula("cos(T)*exp(-T/3)")), x);
+}
+
+TEST(Function, IntegralOfWhatIsKnownByValuesOnly) {
+  for (const double unit : {1e-9, 1.0, 1e6}) {
+    const PanelIntegral area([unit](double x) { return std::min(1.0, x / unit); }, 0.01 * unit);
+    for (const double x : {0.5, 1.001, 20.0})
+      EXPECT_NEAR(area(x * unit), (x < 1 ? 0.5 * x * x : x - 0.5) * unit, 1e-13 * x * unit);
+  }
 }
 
 TEST(Function, IntegralDoesNotDependOnTheOrderOfQuestions) {
