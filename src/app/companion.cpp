@@ -31,8 +31,8 @@ constexpr double well_below = 2;
 constexpr double least_ratio = 1.02;
 /// No more values than this are kept, of no more instants: errors are means over time.
 constexpr std::size_t most_values = std::size_t{1} << 23, most_instants = 2000;
-/// A channel whose range is less than this part of the largest of its dimension, or of its own size, tells of rounding; so does a
-/// rate that changes what it is the rate of by no more than this in the whole run.
+/// A channel whose range is less than this part of the largest of its dimension, or of its own size, tells of rounding; so does
+/// an acceleration that changes no velocity by more than this in the whole run.
 constexpr double no_range = 1e-6;
 /// So does one whose range is less than this part of the sizes of its kind, which is what iterations leave of them.
 constexpr double no_size = 1e-9;
@@ -183,17 +183,19 @@ void Companion::compare(double time, const observe::Observer& observer) {
 
 double Companion::noise_of(const Column& column) const {
   const Dimension& own = column.dimension;
-  const auto is_place = [](const Dimension& d) { return d.mass == 0 && d.time == 0; };
+  const bool is_place = own.mass == 0 && own.time == 0, is_acceleration = own.mass == 0 && own.time == -2;
   double noise = no_range * column.size();
-  if (is_place(own)) noise = std::max(noise, no_size * std::pow(extent_, own.length));
+  if (is_place) noise = std::max(noise, no_size * std::pow(extent_, own.length));
   for (const Column& other : columns_) {
-    const Dimension& d = other.dimension;
-    if (d == own) noise = std::max(noise, no_range * other.range());
-    // a length and an angle, a force and a moment are of one kind but for a lever; a rate but for a time
-    const int levers = own.length - d.length, times = own.time - d.time;
-    if (d.mass != own.mass || std::abs(levers) > 1) continue;
-    const double size = is_place(d) ? other.range() : other.size();  // how far from the origin a place is says nothing
-    noise = std::max(noise, (times < 0 ? no_range : no_size) * size * std::pow(extent_, levers) * std::pow(duration_, times));
+    if (other.dimension == own) noise = std::max(noise, no_range * other.range());
+    // an angular velocity and a velocity, a force and a moment are of one kind but for a lever
+    const int levers = own.length - other.dimension.length, times = own.time - other.dimension.time;
+    if (is_place || other.dimension.mass != own.mass || std::abs(levers) > 1) continue;
+    const double size = other.size() * std::pow(extent_, levers) * std::pow(duration_, times);
+    if (is_acceleration && times == -1)
+      noise = std::max(noise, no_range * size);
+    else if (times == 0 || own.mass != 0)
+      noise = std::max(noise, no_size * size);
   }
   return noise;
 }

@@ -208,15 +208,15 @@ void Observer::between(const Configuration& c) {
     if (ways_[i].moves) values_[i] = (*moved)[i];
   const auto [before, after, part] = ends_.around(c.time);
   const std::vector<double> weights = ends_.weights(c.time, 0);
-  for (std::size_t i = 0; i < values_.size(); ++i) switch (ways_[i].course) {
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    double square = 0;
+    switch (ways_[i].course) {
       case Channel::Course::smooth:
         break;
-      case Channel::Course::size: {
-        double square = 0;
+      case Channel::Course::size:
         for (std::size_t p = 0; p < weights.size(); ++p) square += weights[p] * std::pow(ends_.values(p)[i], 2);
         values_[i] = std::sqrt(std::max(square, 0.0));
         break;
-      }
       case Channel::Course::ratio:
         values_[i] = before[i] + part * (after[i] - before[i]);
         break;
@@ -225,7 +225,9 @@ void Observer::between(const Configuration& c) {
         break;
       case Channel::Course::step:
         values_[i] = end_[i];
+        break;
     }
+  }
 }
 
 void Observer::back_to_end() {
