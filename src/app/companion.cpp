@@ -68,6 +68,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   const std::size_t expected = shown.expected_samples(), most = std::min(most_instants, most_values / (columns_.size() + 1));
   start_ = options.begin;
   interval_ = shown.even_step(options.step) * std::ceil(static_cast<double>(expected) / static_cast<double>(most));
+  interval_ = std::min(interval_, duration_);
   deck::ArchiveCard archive = model.commands.archive;
   archive.history_step = interval_;
   archive.field_step = options.end - options.begin;  // fields are not compared

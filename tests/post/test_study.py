@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import math
 import os
+import re
 import subprocess
 from itertools import pairwise
 from pathlib import Path
@@ -323,7 +324,7 @@ def test_runs_that_fail_are_told_and_passed_over(deck: Path, command) -> None:
         assert row["outcome"] in out
     good = of_setting(rows, "CHUNG")
     assert all(r["outcome"] == "complete" and float(r["error"]) > 0 for r in good)
-    assert ".SAM TYPE DYNAMIC SCHEME CHUNG SOLVER" in out and "ITMA 2 CUTS 0\n.SUB TF 0.2 H 0.0025" in out
+    assert re.search(r"\.SAM TYPE DYNAMIC SCHEME CHUNG .*ITMA 2 CUTS 0\n\.SUB TF 0\.2 H 0\.0025", out)
 
 
 @pytest.mark.parametrize(
