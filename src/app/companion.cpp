@@ -182,17 +182,28 @@ void Companion::compare(double time, const observe::Observer& observer) {
   }
 }
 
-double Companion::noise_of(const Column& column) const {
+std::vector<Companion::Largest> Companion::largest_by_dimension() const {
+  std::vector<Largest> all;
+  for (const Column& column : columns_) {
+    auto found = std::find_if(all.begin(), all.end(), [&](const Largest& l) { return l.dimension == column.dimension; });
+    if (found == all.end()) found = all.insert(found, {column.dimension});
+    found->range = std::max(found->range, column.range());
+    found->size = std::max(found->size, column.size());
+  }
+  return all;
+}
+
+double Companion::noise_of(const Column& column, const std::vector<Largest>& all) const {
   const Dimension& own = column.dimension;
   const bool is_place = own.mass == 0 && own.time == 0, is_acceleration = own.mass == 0 && own.time == -2;
   double noise = no_range * column.size();
   if (is_place) noise = std::max(noise, no_size * std::pow(extent_, own.length));
-  for (const Column& other : columns_) {
-    if (other.dimension == own) noise = std::max(noise, no_range * other.range());
+  for (const Largest& other : all) {
+    if (other.dimension == own) noise = std::max(noise, no_range * other.range);
     // an angular velocity and a velocity, a force and a moment are of one kind but for a lever
     const int levers = own.length - other.dimension.length, times = own.time - other.dimension.time;
     if (is_place || other.dimension.mass != own.mass || std::abs(levers) > 1) continue;
-    const double size = other.size() * std::pow(extent_, levers) * std::pow(duration_, times);
+    const double size = other.size * std::pow(extent_, levers) * std::pow(duration_, times);
     if (is_acceleration && times == -1)
       noise = std::max(noise, no_range * size);
     else if (times == 0 || own.mass != 0)
@@ -207,8 +218,9 @@ ErrorEstimate Companion::estimate(long steps) const {
   if (!found.trouble.empty()) return found;
   const double ratio = static_cast<double>(steps) / static_cast<double>(std::max(steps_, 1L));
   const double share = 1 / (std::pow(std::max(ratio, least_ratio), order_of_steps_) - 1);
+  const std::vector<Largest> all = largest_by_dimension();
   for (const Column& column : columns_) {
-    if (!(column.range() > noise_of(column))) continue;
+    if (!(column.range() > noise_of(column, all))) continue;
     const double error = share * std::sqrt(column.squares / static_cast<double>(compared_)) / column.range();
     if (error >= found.error) {
       found.error = error;

@@ -54,8 +54,14 @@ class Companion {
     double range() const { return largest - least; }
     double size() const { return std::max(std::abs(largest), std::abs(least)); }
   };
-  /// A range that tells of nothing but rounding.
-  double noise_of(const Column& column) const;
+  /// The largest range and size of all channels of a dimension.
+  struct Largest {
+    Dimension dimension;
+    double range = 0, size = 0;
+  };
+  std::vector<Largest> largest_by_dimension() const;
+  /// A range that tells of nothing but rounding, beside all channels.
+  double noise_of(const Column& column, const std::vector<Largest>& all) const;
   std::vector<Column> columns_;
   bool placed_ = true;        ///< Column::at is known
   double extent_, duration_;  ///< of the model, and of the run
