@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseQR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
 
+#include "math/sparse_qr.hpp"
 #include "model/model.hpp"
 
 namespace engrane {
@@ -324,13 +323,7 @@ class Examination {
     gradient.makeCompressed();
     for (Eigen::Index j = 0; j < gradient.cols(); ++j)
       if (const double length = gradient.col(j).norm(); length > 0) gradient.col(j) /= length;
-    bool held = !entries.empty() && gradient.rows() >= gradient.cols();
-    if (held) {
-      Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> factors;
-      factors.setPivotThreshold(1e-9);
-      factors.compute(gradient);
-      held = factors.rank() == gradient.cols();
-    }
+    const bool held = gradient.rows() >= gradient.cols() && rank_of(gradient, 1e-9) == gradient.cols();
     if (!held) {
       for (PlaneFault& fault : pushed_) fault.what += ", and no joints hold all nodes against that";
       faults_.insert(faults_.begin(), pushed_.begin(), pushed_.end());

@@ -10,7 +10,7 @@
 #include <queue>
 #include <utility>
 
-#include "solve/constraints/sparse_qr.hpp"
+#include "math/sparse_qr.hpp"
 
 namespace engrane::solve {
 

@@ -4,7 +4,7 @@
 #include <new>
 #include <utility>
 
-#include "solve/constraints/sparse_qr.hpp"
+#include "math/sparse_qr.hpp"
 
 namespace engrane::solve {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace engrane::solve {
+namespace engrane {
 
 /// CHOLMOD's settings and memory.
 class Cholmod {
@@ -59,4 +59,8 @@ class CompressedColumns {
   cholmod_sparse view_{};
 };
 
-}  // namespace engrane::solve
+/// Number of independent columns of `a`, compressed. A column of which less than `tolerance` is left beside the others counts as
+/// dependent.
+Eigen::Index rank_of(const Eigen::SparseMatrix<double>& a, double tolerance);
+
+}  // namespace engrane
