@@ -75,6 +75,17 @@ def test_bits_of_the_whole_run(tmp_path, solver):
     assert tables(tmp_path / "whole.h5") == tables(tmp_path / "third.h5")
 
 
+@pytest.mark.parametrize("sam", ["", "TANGENT KEPT", "SCHEME RADAU"])
+@pytest.mark.parametrize("solver", ["MUMPS", "KLU"])
+def test_bits_of_the_whole_run_on_several_ranks(tmp_path, solver, sam):
+    """Too few equations for ranks to solve them together: the first one's factors go on."""
+    path = str(deck(tmp_path, "whole", end=0.4, solver=solver, sam=sam))
+    run(tmp_path, path, ranks=2)
+    run(tmp_path, path, "-o", "part", "--until", "0.15", ranks=2, status=2)
+    run(tmp_path, path, "-o", "part", "--restart", "part", ranks=2)
+    assert tables(tmp_path / "whole.h5") == tables(tmp_path / "part.h5")
+
+
 def test_points_that_the_deck_asks_for(tmp_path):
     run(tmp_path, str(deck(tmp_path, "whole", sai="RESTART DT 0.25")))
     run(tmp_path, str(deck(tmp_path, "again", sam='RESTART "whole" T 0.6', sai="RESTART DT 0.25")))
@@ -192,8 +203,9 @@ def test_a_file_of_another_version_is_refused(tmp_path):
     assert "no" in run(tmp_path, str(deck(tmp_path, "none", sam='RESTART "nothing"')), status=1)
 
 
-def test_other_numbers_of_ranks(tmp_path):
-    whole = str(deck(tmp_path, "whole", solver="MUMPS"))
+@pytest.mark.parametrize("solver", ["MUMPS", "KLU"])
+def test_other_numbers_of_ranks(tmp_path, solver):
+    whole = str(deck(tmp_path, "whole", solver=solver))
     run(tmp_path, whole)
     run(tmp_path, whole, "-o", "a", "--until", "0.3", status=2)
     run(tmp_path, whole, "-o", "b", "--restart", "a", "--until", "0.6", ranks=3, status=2)

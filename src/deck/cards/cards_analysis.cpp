@@ -69,10 +69,14 @@ Schema analysis_card() {
       .at_least(0)
       .at_most(1);
   card.add("ALPHA", &AnalysisCard::alpha, "HHT and BOSSAK: numerical damping; 0 damps nothing").at_least(0).at_most(1.0 / 3.0);
-  card.add("SOLVER", &AnalysisCard::solver, "solver of the linear systems")
+  card.add("SOLVER", &AnalysisCard::solver,
+           "solver of the linear systems. Of several processes one solves systems of up to 3000 equations, with any of these; "
+           "larger "
+           "ones all solve together, with MUMPS or CG")
       .synonyms({"SOLVEUR"})
-      .option({"MUMPS", {}, "multifrontal; direct, on any number of processes"})
-      .option({"AUTO", {}, "on one process the cheaper one of KLU and MUMPS, as their operations foretell; else MUMPS"})
+      .option({"MUMPS", {}, "multifrontal"})
+      .option(
+          {"AUTO", {}, "the cheaper one of KLU and MUMPS, as their operations foretell; MUMPS where processes solve together"})
       .option({"KLU", {}, "fastest for mechanisms"})
       .option({"UMFPACK", {}, "multifrontal, serial"})
       .option({"SUPERLU", {}, "supernodal, serial"})

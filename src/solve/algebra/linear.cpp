@@ -1,40 +1,56 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/algebra/linear.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <string>
 #include <utility>
 
-#include "solve/algebra/condition.hpp"
 #include "solve/algebra/rows.hpp"
 
 namespace engrane::solve {
 
 namespace {
 
-/// Refinement that changes a solution by more than this part of its largest entry does not converge: the matrix is singular to
-/// working precision (Higham, Accuracy and Stability of Numerical Algorithms, 2002, section 12.1). The solution stays as it was:
-/// of a motion that nothing resists and nothing drives it holds rounding, and the correction holds that over rounding.
-constexpr double most_refinement = 0.5;
+/// Up to so many rows, one rank solves what several share: measured in docs/performance.md, "Small systems of several ranks".
+constexpr PetscInt most_gathered = 3000;
 
-double largest(Vec vector) {
-  PetscReal norm = 0;
-  check_petsc(VecNorm(vector, NORM_INFINITY, &norm));
-  return norm;
+bool worth_gathering(Mat matrix, const std::string& wanted) {
+  PetscInt rows = 0;
+  check_petsc(MatGetSize(matrix, &rows, nullptr));
+  return !is_sequential(matrix) && wanted != "CG" && rows <= most_gathered;
+}
+
+MPI_Comm comm_of(Mat matrix) {
+  MPI_Comm comm = PETSC_COMM_SELF;
+  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
+  return comm;
+}
+
+int ranks_of(Mat matrix) {
+  int ranks = 1;
+  MPI_Comm_size(comm_of(matrix), &ranks);
+  return ranks;
+}
+
+/// The first rank's text, on all.
+std::string spread(std::string text, MPI_Comm comm) {
+  auto size = static_cast<int>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, comm);
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), size, MPI_CHAR, 0, comm);
+  return text;
 }
 
 }  // namespace
 
 LinearSolver::LinearSolver(Mat matrix, const std::string& package, const std::vector<unsigned char>& kinds)
-    : matrix_(matrix),
-      package_(choose_package(matrix, package)),
-      factors_(make_factors(matrix, package_)),
-      backward_error_(matrix, kinds) {
+    : matrix_(matrix), gathered_(worth_gathering(matrix, package) ? std::make_unique<GatheredSystem>(matrix) : nullptr) {
+  const MPI_Comm comm = comm_of(matrix);
+  const bool here = !gathered_ || gathered_->here();
+  if (here) package_ = choose_package(factored(), package);
+  if (gathered_) package_ = spread(package_, comm);
+  if (here) factors_ = std::make_unique<JudgedFactors>(factored(), package_, kinds);
   check_petsc(PetscLogEventGetId("MatLUFactorNum", &factoring_));
   check_petsc(PetscLogEventGetId("MatSolve", &solving_));
-  MPI_Comm comm = PETSC_COMM_SELF;
-  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
-  check_petsc(MatCreateVecs(matrix, correction_.out(), nullptr));
   check_petsc(KSPCreate(comm, ksp_.out()));
   check_petsc(KSPSetOperators(ksp_, matrix, matrix));
   check_petsc(KSPSetType(ksp_, KSPPREONLY));
@@ -49,9 +65,7 @@ LinearSolver::LinearSolver(Mat matrix, const std::string& package, const std::ve
 }
 
 void LinearSolver::correct_only(bool corrections) {
-  const double enough = corrections ? fair_solution : good_solution;
-  if (enough < enough_) proven_ = false;
-  enough_ = enough;
+  if (factors_) factors_->correct_only(corrections);
 }
 
 bool LinearSolver::solve(Vec right, Vec solution) {
@@ -71,19 +85,55 @@ void LinearSolver::rethrow() {
 }
 
 void LinearSolver::reset() {
-  factors_->forget();
-  state_ = State::forgotten;
+  if (factors_) factors_->reset();
+}
+
+template <class Act>
+bool LinearSolver::agree(const Act& act) {
+  if (!gathered_) return act();
+  enum class Outcome { regular, singular, failed };
+  Outcome outcome = Outcome::regular;
+  std::string trouble;
+  if (factors_) {
+    try {
+      outcome = act() ? Outcome::regular : Outcome::singular;
+      work_ = factors_->package().work();
+    } catch (const std::exception& failure) {
+      outcome = Outcome::failed;
+      trouble = failure.what();
+    }
+  }
+  double told[] = {static_cast<double>(outcome), work_.factor, work_.solution};
+  const MPI_Comm comm = comm_of(matrix_);
+  MPI_Bcast(told, 3, MPI_DOUBLE, 0, comm);
+  outcome = static_cast<Outcome>(static_cast<int>(told[0]));
+  work_ = {told[1], told[2]};
+  if (outcome == Outcome::failed) throw PetscFailure(spread(trouble, comm));
+  return outcome == Outcome::regular;
+}
+
+std::optional<ForeseenFactors> LinearSolver::foresee() {
+  if (gathered_) return {};  // too little to tell of
+  return factors_->package().foresee();
 }
 
 bool LinearSolver::factor() {
   const LoggedTime logged(factoring_);
-  proven_ = false;
   if (announce) {
-    if (const auto foreseen = factors_->foresee()) announce(*foreseen);
+    if (const auto foreseen = foresee()) announce(*foreseen);
     announce = nullptr;
   }
-  state_ = factors_->factor() ? State::ready : State::singular;
-  return state_ == State::ready;
+  if (gathered_) gathered_->fetch_matrix();
+  return agree([this] { return factors_->factor(); });
+}
+
+bool LinearSolver::solve_with_factors(Vec right, Vec solution) {
+  const LoggedTime logged(solving_);
+  if (!gathered_) return factors_->solve(right, solution);
+  gathered_->fetch(right);
+  const bool regular = agree([this] { return factors_->solve(gathered_->right(), gathered_->solution()); });
+  if (regular) gathered_->give(solution);
+  return regular;
 }
 
 PetscErrorCode LinearSolver::set_up(PC pc) {
@@ -102,75 +152,50 @@ PetscErrorCode LinearSolver::apply(PC pc, Vec right, Vec solution) {
   LinearSolver* self = nullptr;
   PetscCall(PCShellGetContext(pc, &self));
   try {
-    if (self->state_ == State::forgotten) self->factor();
-    if (self->state_ == State::singular) return PCSetFailedReason(pc, PC_FACTOR_NUMERIC_ZEROPIVOT);
-    const LoggedTime logged(self->solving_);
-    self->solve_well(right, solution);
-    if (self->state_ == State::singular || !std::isfinite(self->error_))
-      return PCSetFailedReason(pc, PC_FACTOR_NUMERIC_ZEROPIVOT);
+    return self->solve_with_factors(right, solution) ? 0 : PCSetFailedReason(pc, PC_FACTOR_NUMERIC_ZEROPIVOT);
   } catch (...) {
     self->failure_ = std::current_exception();
     return PETSC_ERR_LIB;
   }
-  return 0;
-}
-
-void LinearSolver::solve_well(Vec right, Vec solution) {
-  solve_and_refine(right, solution);
-  if (error_ <= fair_solution) return factors_->served();
-  if (!factors_->improvable()) return;
-  proven_ = false;
-  state_ = factors_->improve() ? State::ready : State::singular;
-  if (state_ == State::ready) solve_and_refine(right, solution);
-}
-
-void LinearSolver::solve_and_refine(Vec right, Vec solution) {
-  factors_->solve(right, solution);
-  if (proven_) return;
-  error_ = backward_error_.of(right, solution);
-  proven_ = error_ <= enough_;
-  if (proven_ || !std::isfinite(error_)) return;
-  factors_->solve(backward_error_.residual(), correction_);
-  if (!(largest(correction_) <= most_refinement * largest(solution))) return;
-  check_petsc(VecAXPY(solution, 1, correction_));
-  // what was good enough before is so after it
-  if (error_ > fair_solution) error_ = backward_error_.of(right, solution);
 }
 
 void LinearSolver::save(Snapshot& snapshot) const {
-  factors_->save(snapshot);
-  snapshot.put("solver/proven", proven_ ? 1 : 0);
+  factors_->package().save(snapshot);
+  snapshot.put("solver/proven", factors_->proven() ? 1 : 0);
+  snapshot.put("solver/ranks", ranks_of(matrix_));
 }
 
 void LinearSolver::load(const Snapshot& snapshot) {
-  factors_->load(snapshot);
+  // ranks number the rows: with others of them entries have other places
+  resumable_ = (snapshot.has("solver/ranks") ? snapshot.number("solver/ranks") : 1) == ranks_of(matrix_);
+  if (!resumable_) return;
+  if (factors_) factors_->package().load(snapshot);
   if (snapshot.has("solver/proven")) proven_before_ = snapshot.number("solver/proven") != 0;
 }
 
 void LinearSolver::save_factors(Snapshot& snapshot) const {
-  if (is_sequential(matrix_)) snapshot.put("factors/" + package_, values_of(matrix_));
+  if (is_sequential(factored())) snapshot.put("factors/" + package_, values_of(factored()));
 }
 
 bool LinearSolver::load_factors(const Snapshot& snapshot) {
   const std::string name = "factors/" + package_;
-  if (!is_sequential(matrix_) || !snapshot.has(name) || !set_values(matrix_, snapshot.array(name))) return false;
-  restore_factors();
-  return true;
+  if (!resumable_ || !snapshot.has(name)) return false;
+  const bool taken = agree([&] { return is_sequential(factored()) && set_values(factored(), snapshot.array(name)); });
+  if (taken) make_factors_again();
+  return taken;
 }
 
 void LinearSolver::restore_factors() {
-  restored_ = factors_->restore();
-  state_ = restored_ ? State::ready : State::singular;
-  proven_ = proven_before_;
+  if (gathered_) gathered_->fetch_matrix();
+  make_factors_again();
+}
+
+void LinearSolver::make_factors_again() {
+  restored_ = agree([this] { return factors_->restore(proven_before_); });
   check_petsc(KSPSetUp(ksp_));  // finds them made
   restored_ = false;
 }
 
-std::optional<double> LinearSolver::condition() {
-  if (state_ != State::ready) return {};
-  PetscReal norm = 0;
-  check_petsc(MatNorm(matrix_, NORM_1, &norm));
-  return norm * inverse_norm(*factors_, matrix_);
-}
+std::optional<double> LinearSolver::condition() { return factors_ ? factors_->condition() : std::nullopt; }
 
 }  // namespace engrane::solve

@@ -8,20 +8,19 @@
 #include <string>
 #include <vector>
 
-#include "solve/algebra/backward_error.hpp"
-#include "solve/algebra/factors.hpp"
+#include "solve/algebra/gathered_system.hpp"
+#include "solve/algebra/judged_factors.hpp"
 #include "solve/algebra/solver_cost.hpp"
 
 namespace engrane::solve {
 
 /// A solver on one matrix whose pattern never changes: the symbolic analysis is done once. To PETSc it is a preconditioner
-/// (PCSHELL).
-///
-/// The first solution with each factorisation is judged by its backward error (BackwardError), refined where that helps and found
-/// with better factors where it does not; the others too, unless the first was as good as it can be.
+/// (PCSHELL). Its solutions are judged (JudgedFactors). A small matrix of several ranks is solved by the first of them
+/// (GatheredSystem).
 class LinearSolver {
  public:
-  /// `package` as in the deck: AUTO, MUMPS, KLU, UMFPACK, SUPERLU, CG. On several ranks MUMPS is taken unless CG is wanted.
+  /// `package` as in the deck: AUTO, MUMPS, KLU, UMFPACK, SUPERLU, CG. A matrix that several ranks factor together is factored by
+  /// MUMPS unless CG is wanted.
   /// `kinds`: what each row is (BackwardError).
   LinearSolver(Mat matrix, const std::string& package, const std::vector<unsigned char>& kinds = {});
   LinearSolver(const LinearSolver&) = delete;
@@ -29,8 +28,8 @@ class LinearSolver {
 
   KSP ksp() const { return ksp_; }
   const std::string& package() const { return package_; }
-  /// Factors::direct()
-  bool direct() const { return factors_->direct(); }
+  /// Whether solutions are those of factors (Factors::direct()).
+  bool direct() const { return gathered_ || factors_->package().direct(); }
 
   /// Called once, before the first factorisation, with what the package foresees of it; set on every rank or on none.
   std::function<void(const ForeseenFactors&)> announce;
@@ -47,57 +46,58 @@ class LinearSolver {
   void rethrow();
 
   /// What factors of the matrix as it stands will take, without making them; nothing where the package does not tell.
-  std::optional<ForeseenFactors> foresee() { return factors_->foresee(); }
+  std::optional<ForeseenFactors> foresee();
 
   /// Forgets the analysis, which looks at numbers too: after a failure, or before matrices of another kind.
   void reset();
 
-  /// What the next solution owes to earlier ones.
+  /// What the next solution owes to earlier ones, as the first rank keeps it for all.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
-  /// The matrix whose factors go on to serve, as it stands; on one rank.
+  /// The matrix whose factors go on to serve, as it stands, where one rank has all of it.
   void save_factors(Snapshot& snapshot) const;
   /// Takes it back, after load(), and factors it; false where there is none.
   bool load_factors(const Snapshot& snapshot);
   /// Factors the matrix as it stands as the run did that load() has taken over from.
   void restore_factors();
 
-  /// Factors::remark().
-  std::string remark() const { return factors_->remark(); }
+  /// Factors::remark(), on the first rank.
+  std::string remark() const { return factors_ ? factors_->package().remark() : std::string(); }
   /// What a factorisation and a solution cost.
-  SolverWork work() const { return factors_->work(); }
+  SolverWork work() const { return gathered_ ? work_ : factors_->package().work(); }
   /// What KLU and MUMPS cost for this matrix; on one rank.
   ForeseenWork foreseen() const { return foresee_work(matrix_); }
-  /// Memory of the factors in bytes, as the package reports it; 0 when it does not.
-  double factor_bytes() const { return factors_->bytes(); }
+  /// Memory of the factors in bytes, as the package reports it; 0 when it does not. On the first rank.
+  double factor_bytes() const { return factors_ ? factors_->package().bytes() : 0; }
 
   /// Condition of the matrix that was factored last, in the norm of the largest sum of a column: an estimate from its factors.
-  /// Nothing where there are none. Collective.
+  /// Nothing where there are none. Collective; known on the first rank.
   std::optional<double> condition();
-  /// Backward error of the last solution that was looked at.
-  double backward_error() const { return error_; }
+  /// Backward error of the last solution that was looked at; on the first rank.
+  double backward_error() const { return factors_ ? factors_->backward_error() : 0; }
 
  private:
   static PetscErrorCode set_up(PC pc);
   static PetscErrorCode apply(PC pc, Vec right, Vec solution);
-  /// The matrix as it stands; false where it is singular.
+  /// The matrix that is factored; null on ranks that wait.
+  Mat factored() const { return gathered_ ? gathered_->matrix() : matrix_; }
   bool factor();
-  void solve_well(Vec right, Vec solution);
-  /// Solves, refines once where the backward error asks for it, and notes the backward error.
-  void solve_and_refine(Vec right, Vec solution);
+  bool solve_with_factors(Vec right, Vec solution);
+  /// Those of factored(), as the run had them that load() has taken over from.
+  void make_factors_again();
+  /// Does what tells whether the matrix is regular, on the ranks that factor, and tells all. What it throws is thrown on all.
+  template <class Act>
+  bool agree(const Act& act);
 
   Mat matrix_;
   std::string package_;
-  std::unique_ptr<Factors> factors_;
-  BackwardError backward_error_;
-  Owned<Vec> correction_;
+  std::unique_ptr<GatheredSystem> gathered_;  ///< null where each rank factors its part
+  std::unique_ptr<JudgedFactors> factors_;    ///< null on ranks that wait for the first one
   Owned<KSP> ksp_;
-  enum class State { forgotten, ready, singular } state_ = State::forgotten;  ///< the factors are
-  bool proven_ = false;            ///< a solution with these factors was good enough at once
-  bool proven_before_ = false;     ///< proven_ of the run that load() has taken over from
-  bool restored_ = false;          ///< the factors are those of restore_factors()
-  double enough_ = good_solution;  ///< backward error of such a solution
-  double error_ = 0;
+  SolverWork work_;             ///< of the first rank's factors, known to all
+  bool proven_before_ = false;  ///< JudgedFactors::proven() of the run that load() has taken over from
+  bool resumable_ = true;       ///< what load() was given is of as many ranks
+  bool restored_ = false;       ///< the factors are those of make_factors_again()
   std::exception_ptr failure_;  ///< to be thrown once PETSc has been left
   PetscLogEvent factoring_ = -1, solving_ = -1;
 };

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "assembly/petsc.hpp"
+
+namespace engrane::solve {
+
+/// The whole of a linear system whose rows several ranks share, on the first of them. A small system is solved there: the
+/// messages of a package that solves it on all ranks would take longer than its solution. All functions are collective.
+class GatheredSystem {
+ public:
+  /// `shared`: a matrix on several ranks whose pattern is complete.
+  explicit GatheredSystem(Mat shared);
+
+  /// Whether this is the first rank, which has the matrix and the vectors below; others have none.
+  bool here() const { return rank_ == 0; }
+  Mat matrix() const { return matrix_; }
+  Vec right() const { return right_; }
+  Vec solution() const { return solution_; }
+
+  /// Takes over the entries of the shared matrix as it stands.
+  void fetch_matrix();
+  /// Into right(), from a vector that the ranks share.
+  void fetch(Vec right);
+  /// From solution(), to a vector that the ranks share.
+  void give(Vec solution) const;
+
+ private:
+  void gather_sizes(PetscInt rows, std::size_t entries);
+  /// Makes the matrix of the first rank from the row and the column of every entry, as they will arrive.
+  void make_matrix(const std::vector<PetscInt>& rows, const std::vector<PetscInt>& columns);
+
+  Mat shared_;
+  MPI_Comm comm_ = MPI_COMM_NULL;
+  int rank_ = 0;
+  Owned<Mat> matrix_;
+  Owned<Vec> right_, solution_;
+  std::vector<double> own_;  ///< entries of this rank: those within its own columns, then the others
+  // of the first rank:
+  std::vector<int> rows_of_, first_row_of_;       ///< each rank's rows
+  std::vector<int> entries_of_, first_entry_of_;  ///< each rank's entries
+  std::vector<double> arrived_;                   ///< all entries, one rank's after the other's
+  std::vector<PetscInt> place_;                   ///< where each of these stands in matrix_
+};
+
+}  // namespace engrane::solve
