@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "app/check.hpp"
+#include "app/interruption.hpp"
 #include "app/options.hpp"
 #include "app/read.hpp"
 #include "app/session_folder.hpp"

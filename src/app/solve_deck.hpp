@@ -12,7 +12,4 @@ namespace engrane::app {
 /// Returns the exit status.
 int solve_deck(Reading& reading, const Options& options, const std::string& prefix, MPI_Comm comm, RunSummary& summary);
 
-/// Has a signal asked the program to end?
-bool was_interrupted();
-
 }  // namespace engrane::app

@@ -208,11 +208,12 @@ def net(side: int) -> str:
     )
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-def test_memory_that_is_not_there(ranks, engrane, monkeypatch):
-    """Factors that do not fit are refused before they are made, by a run and by check."""
+@pytest.mark.parametrize(("ranks", "side"), [(1, 25), (2, 25), (2, 40)])
+def test_memory_that_is_not_there(ranks, side, engrane, monkeypatch):
+    """Factors that do not fit are refused before they are made, by a run and by check: on one process, on one
+    of two, on both."""
     monkeypatch.setenv("ENGRANE_MEMORY", "1e-4")
-    (engrane.folder / "net.dat").write_text(net(25))
+    (engrane.folder / "net.dat").write_text(net(side))
     done = engrane("net.dat", ranks=ranks)
     assert done.returncode == 2
     assert "equations would take" in done.stderr and "0.0001 GB are free" in done.stderr

@@ -91,13 +91,16 @@ void LinearSolver::reset() {
 template <class Act>
 bool LinearSolver::agree(const Act& act) {
   if (!gathered_) return act();
-  enum class Outcome { regular, singular, failed };
+  enum class Outcome { regular, singular, short_of_memory, failed };
   Outcome outcome = Outcome::regular;
   std::string trouble;
   if (factors_) {
     try {
       outcome = act() ? Outcome::regular : Outcome::singular;
       work_ = factors_->package().work();
+    } catch (const MemoryShortage& shortage) {
+      outcome = Outcome::short_of_memory;
+      trouble = shortage.what();
     } catch (const std::exception& failure) {
       outcome = Outcome::failed;
       trouble = failure.what();
@@ -108,6 +111,7 @@ bool LinearSolver::agree(const Act& act) {
   MPI_Bcast(told, 3, MPI_DOUBLE, 0, comm);
   outcome = static_cast<Outcome>(static_cast<int>(told[0]));
   work_ = {told[1], told[2]};
+  if (outcome == Outcome::short_of_memory) throw MemoryShortage(spread(trouble, comm));
   if (outcome == Outcome::failed) throw PetscFailure(spread(trouble, comm));
   return outcome == Outcome::regular;
 }

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/attempt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <vector>
+
+#include "app/interruption.hpp"
+#include "app/selection.hpp"
+#include "app/terminal.hpp"
+#include "base/memory.hpp"
+#include "deck/cards/cards.hpp"
+#include "model/function_failure.hpp"
+#include "model/masses.hpp"
+#include "solve/constraints/diagnosis.hpp"
+#include "solve/run/buckling.hpp"
+#include "user/routine.hpp"
+
+namespace engrane::app {
+
+using namespace output;
+using namespace solve;
+
+namespace {
+
+/// Bytes of factors that a run speaks of before it takes them.
+constexpr double worth_announcing = 1e9;
+/// Part of the tolerance that the next has at least: estimates of coarse runs are coarse.
+constexpr double most_at_once = 0.01;
+
+/// The text of the first rank that has one; empty when none has. Collective.
+std::string first_text(std::string text, MPI_Comm comm, int rank, int ranks) {
+  int teller = text.empty() ? ranks : rank;
+  MPI_Allreduce(MPI_IN_PLACE, &teller, 1, MPI_INT, MPI_MIN, comm);
+  if (teller == ranks) return {};
+  int size = static_cast<int>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT, teller, comm);
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), size, MPI_CHAR, teller, comm);
+  return text;
+}
+
+/// The failure with what user routines and formulas, on whichever rank, complained of last. Collective.
+std::string with_causes(std::string failure, MPI_Comm comm, int rank, int ranks) {
+  const std::string routine = first_text(user::last_failure(), comm, rank, ranks);
+  const std::string function = first_text(last_function_failure(), comm, rank, ranks);
+  if (failure.empty()) return failure;
+  if (!routine.empty()) failure += ". The user routine " + routine;
+  if (function.empty()) return failure;
+  // what a formula without a value was part of is not finite either, and not to blame
+  const bool consequence = failure.find("finite") != std::string::npos || failure.find("nan") != std::string::npos;
+  return consequence ? function + "; hence " + failure : failure + ". Note that " + function;
+}
+
+/// The instants at which checks ask for values.
+std::vector<double> times_of(const std::vector<deck::CheckCard>& checks) {
+  std::vector<double> times;
+  for (const deck::CheckCard& check : checks)
+    if (check.time) times.push_back(*check.time);
+  return times;
+}
+
+/// Energy that is as good as none: of a billionth of the extent, covered by all masses in the time of the analysis.
+double unnoticed_energy(const Model& model, const SolverOptions& options) {
+  MassProperties all;
+  for (const Model::Part& part : model.parts) all.add(mass_properties(model, part));
+  const double extent = model.extent(), speed = 1e-9 * extent / (options.end - options.begin);
+  return 0.5 * (all.mass + all.inertia.trace() / (extent * extent)) * speed * speed;
+}
+
+/// Why the run must end when its energies say that it is wrong; empty when they do not.
+std::string energy_failure(const SolverContext& context, const observe::Observer& observer, const Configuration& c) {
+  const double allowed = context.options.energy_error;
+  if (context.options.analysis != SolverOptions::Analysis::dynamics || allowed == 0) return {};
+  const observe::EnergyBalance& balance = observer.energies();
+  // what Newton's iteration leaves of forces in a machine at rest does work too
+  const double rounding = 1e-6 * context.newton.largest_force() * context.model.extent();
+  if (std::abs(balance.error()) <= allowed * std::max(balance.handled(), rounding)) return {};
+  if (std::abs(balance.error()) <= allowed * unnoticed_energy(context.model, context.options)) return {};
+  const std::string unit = context.model.units.label(dimension::energy);
+  return fmt::format(
+      "the energy balance is off by {:.4g} {} at t = {:.6g}, more than the {:.4g} {} that were in the machine or passed through "
+      "it: "
+      "the results went wrong some time before this. Take a smaller step H{}; ENERGY 0 in .SAM lets the run continue",
+      balance.error(), unit, c.time, balance.handled(), unit,
+      context.options.family == SolverOptions::Family::newmark || context.options.damping > 0.99
+          ? ", or a scheme with damping (RHO below 1): without it, rounding errors in the constraints grow"
+          : "");
+}
+
+/// Those of user routines and formulas that have been said, or that belong to attempts which were cut.
+void forget_failures() {
+  user::forget_failures();
+  forget_function_failures();
+}
+
+}  // namespace
+
+Attempt::Attempt(const Task& task, const Trial& trial, std::optional<Companion>& companion)
+    : task_(task),
+      trial_(trial),
+      companion_(companion),
+      context_(task.reading.model, trial.options, task.comm),
+      observer_(context_.assembler, moves(task.reading.model), select_histories(task.reading.model)),
+      schedule_(task.reading.model.commands.stepping, task.reading.model.commands.archive),
+      last_time_(task.reading.model.commands.stepping.start) {
+  MPI_Comm_rank(task.comm, &rank_);
+  MPI_Comm_size(task.comm, &ranks_);
+  if (schedule_.controlled()) schedule_.ask(times_of(task.reading.model.commands.checks));
+}
+
+Verdict Attempt::make() {
+  if (!open_results()) return {exit_status::solution_failed, {}};
+  if (task_.reading.is_one_solution()) task_.reading.forget_mesh();
+  announce();
+  run();
+  if (unsolved_ && trial_.complete) return back(trial_, failure_, rank_);
+  if (unsolved_ && trial_.options.scheme_is_free) return another_scheme(task_.reading.model, trial_, failure_, rank_);
+  if (const double tolerance = sharper_tolerance(); tolerance > 0)
+    return {exit_status::fine, Trial{with_tolerance(task_.reading.model, trial_.options, tolerance), true, trial_.options, {}}};
+  tell_condition();
+  return {finish(), {}};
+}
+
+bool Attempt::open_results() {
+  leave_at_once(false);
+  std::string trouble;
+  if (rank_ == 0) try {
+      writer_.emplace(task_.reading, observer_, schedule_, task_.options, task_.prefix, task_.resumption, task_.summary);
+      writer_->begin(context_, ranks_);
+    } catch (const OutputError& e) {
+      trouble = e.what();
+    }
+  int bad = !trouble.empty();
+  MPI_Bcast(&bad, 1, MPI_INT, 0, task_.comm);
+  if (!bad) return true;
+  task_.summary.failure = trouble;
+  if (rank_ == 0) std::cerr << "engrane: " << terminal_text(trouble) << '\n';
+  return false;
+}
+
+void Attempt::announce() {
+  if (!task_.options.quiet)  // on every rank, since all foresee together
+    context_.solver.announce = [this](const ForeseenFactors& foreseen) {
+      if (rank_ != 0 || foreseen.bytes < worth_announcing) return;
+      writer_->note(fmt::format("engrane: the factors of {} equations will take about {:.1f} GB; {:.1f} GB are free",
+                                context_.numbering.equations(), foreseen.bytes / 1e9, available_memory() / 1e9));
+    };
+  const std::string& asked = task_.reading.model.commands.analysis.solver.tag;
+  if (rank_ == 0 && asked != "AUTO" && context_.solver.package() != asked)
+    writer_->note("engrane: on several processes MUMPS solves, not " + asked);
+}
+
+void Attempt::run() {
+  scheme_ = make_scheme(context_);
+  runner_.emplace(context_, *scheme_);
+  if (schedule_.controlled()) observer_.keep_ends();
+  const Observer seen = [this](const Configuration& solved, const StepReport& step) { return after_step(solved, step); };
+  leave_at_once(true);
+  try {
+    if (const Resumption* resumption = task_.resumption) {
+      const Snapshot& memory = resumption->point.memory;
+      observer_.load(memory);
+      schedule_.load(memory);
+      last_time_ = resumption->point.time;
+      if (rank_ == 0) writer_->resumed(*resumption);
+      complete_ = runner_->resume(memory, seen);
+    } else {
+      complete_ = runner_->run(seen, [this](const StartReport& start) {
+        if (rank_ == 0) writer_->started(start);
+      });
+    }
+  } catch (const std::out_of_range& e) {
+    // of the restart point: its arrays do not fit this model
+    if (!task_.resumption) throw;
+    failure_ = fmt::format("cannot restart from {}: {}", task_.resumption->earlier.path(), e.what());
+  } catch (const SolutionFailure& e) {
+    failure_ = e.what();
+    unsolved_ = true;
+  } catch (const MemoryShortage& e) {
+    failure_ = e.what();
+  }
+  leave_at_once(false);
+}
+
+bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
+  leave_at_once(false);
+  forget_failures();
+  find_buckling_modes(solved, step);
+  // what follows is output, and may have the memory
+  if (step.last && task_.reading.is_one_solution() && context_.solver.direct() && !task_.options.condition)
+    context_.solver.reset();
+  const auto seen = [this](const Configuration& found) -> const Configuration& { return in_space(found); };
+  std::optional<Instants> instants;
+  if (schedule_.controlled() && step.number > 0) {
+    instants.emplace(schedule_, observer_, seen, last_time_, solved, step);
+    instants->observe_inside();
+  }
+  const auto watch = times_.output();
+  const Schedule::Due due = instants ? show_instants(*instants, solved, step) : show(solved, step);
+  last_time_ = solved.time;
+  write([&] {
+    if (companion_ && schedule_.even(solved.time)) companion_->compare(solved.time, observer_);
+    writer_->step(solved, step, due, context_.numbering);
+    writer_->remember(solved, *runner_, due.restart, false);
+  });
+  int stop = failure_.empty() ? 0 : 1;
+  if (ranks_ > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, task_.comm);
+  if (const std::string wrong = energy_failure(context_, observer_, solved); !wrong.empty() && stop == 0) {
+    failure_ = wrong;
+    stop = 1;
+  }
+  const bool far_enough = task_.options.until && solved.time >= *task_.options.until && !step.last;
+  if (were_interrupted(task_.comm, ranks_) || far_enough) {
+    failure_ = fmt::format("interrupted at t = {:.6g}", solved.time);
+    stop = 1;
+  }
+  return stop == 0;
+}
+
+void Attempt::find_buckling_modes(const Configuration& solved, const StepReport& step) {
+  const auto& wanted = task_.reading.model.commands.buckling;
+  if (!wanted || !(wanted->base.is("END") ? step.last : step.number == 0)) return;
+  const std::vector<BucklingMode> modes = find_buckling(context_, solved, wanted->modes);
+  std::vector<double> times;
+  for (const BucklingMode& mode : modes) times.push_back(mode.load_time);
+  observer_.set_buckling_times(std::move(times));
+  if (rank_ == 0) writer_->buckling(modes, solved);
+}
+
+Schedule::Due Attempt::show(const Configuration& solved, const StepReport& step) {
+  const Schedule::Due due = schedule_.at(solved.time, step.number == 0 ? 0.0 : step.step, step.regular, step.last);
+  const bool looked_at = due.sample || due.frame || !task_.reading.model.commands.checks.empty();
+  observe(looked_at ? in_space(solved) : solved, step, due);
+  return due;
+}
+
+Schedule::Due Attempt::show_instants(Instants& instants, const Configuration& solved, const StepReport& step) {
+  observe(in_space(solved), step, {});
+  return instants.show([this](double time, const Schedule::Due& due) {
+    write([&] {
+      if (companion_ && !schedule_.beside_even(time)) companion_->compare(time, observer_);
+      writer_->between(time, due);
+    });
+  });
+}
+
+void Attempt::observe(const Configuration& seen, const StepReport& step, const Schedule::Due& due) {
+  const int iterations = step.newton ? step.newton->iterations : 0;
+  observe::Step observed{step.step, iterations, step.events.size(), step.corner};
+  if (step.course) {
+    observed.unstable = step.course->unstable;
+    observed.critical_time = step.course->critical_time;
+  }
+  observer_.observe(seen, observed, due.sample || !context_.model.commands.checks.empty(), due.frame);
+  if (context_.redundancy.active() && (step.last || (step.number & (step.number - 1)) == 0))
+    observer_.find_not_unique(seen, context_.redundancy.undetermined(seen));
+}
+
+const Configuration& Attempt::in_space(const Configuration& found) {
+  if (!context_.out_of_plane.active()) return found;
+  whole_ = found;
+  context_.out_of_plane.find(whole_);
+  return whole_;
+}
+
+template <class Write>
+void Attempt::write(const Write& write) {
+  if (rank_ != 0 || !failure_.empty()) return;
+  try {
+    write();
+  } catch (const OutputError& e) {
+    failure_ = e.what();
+  }
+}
+
+double Attempt::sharper_tolerance() {
+  if (!companion_ || !complete_) return 0;
+  const SolverOptions& wanted = trial_.options;
+  double tolerance = 0;
+  if (rank_ == 0) {
+    const ErrorEstimate estimate = companion_->estimate(runner_->steps());
+    if (trial_.may_repeat && estimate.trouble.empty() && estimate.error > wanted.target) {
+      tolerance = std::max(estimate.tolerance_for(wanted.target), most_at_once * wanted.tolerance);
+      // what was tried beyond the setting's own TOL goes back to that
+      tolerance = std::min(tolerance, tolerance_of(task_.reading.model.commands.analysis).value_or(tolerance));
+      writer_->note(
+          fmt::format("engrane: the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: again, "
+                      "with TOL {:.1g}",
+                      estimate.error, estimate.channel, wanted.target, tolerance));
+    } else {
+      writer_->accuracy(estimate, wanted.target, trial_.sharper_failed);
+    }
+  }
+  MPI_Bcast(&tolerance, 1, MPI_DOUBLE, 0, task_.comm);
+  return tolerance;
+}
+
+void Attempt::tell_condition() {
+  if (!task_.options.condition) return;
+  const std::optional<double> condition = context_.solver.condition();
+  if (rank_ != 0) return;
+  if (condition)
+    writer_->conditioning({*condition, context_.solver.backward_error()});
+  else
+    writer_->note("engrane: --condition: no linear system was solved whose factors could tell");
+}
+
+int Attempt::finish() {
+  failure_ = with_causes(std::move(failure_), task_.comm, rank_, ranks_);
+  int status = complete_ ? exit_status::fine : exit_status::solution_failed;
+  std::string unresolved;
+  if (complete_)
+    unresolved = explain_unresolved(context_.assembler, context_.newton, runner_->now(), observer_.energies().handled());
+  if (rank_ == 0) {
+    try {
+      if (!unresolved.empty()) writer_->warn(unresolved);
+      if (const std::string remark = context_.solver.remark(); !remark.empty()) writer_->warn(remark);
+      if (runner_->started()) writer_->remember(runner_->now(), *runner_, false, true);
+      status = writer_->finish(complete_ ? RunStatus::complete : RunStatus::failed, failure_, times_.split(context_.solver));
+    } catch (const OutputError& e) {
+      failure_ = e.what();
+      status = exit_status::solution_failed;
+    }
+    const Options& options = task_.options;
+    task_.summary.failure = failure_;
+    task_.summary.files = writer_->paths();
+    if (!failure_.empty())
+      std::cerr << "engrane: " << terminal_text(failure_) << "\n         results up to there are in " << writer_->path() << '\n';
+    else if (const std::string advice = times_.advice(context_.solver, ranks_); !advice.empty() && !options.quiet)
+      std::cerr << advice;
+    if (!options.quiet && !options.json && options.decks.size() == 1) std::cout << terminal_text(writer_->closing_lines());
+  }
+  MPI_Bcast(&status, 1, MPI_INT, 0, task_.comm);
+  return status;
+}
+
+}  // namespace engrane::app
