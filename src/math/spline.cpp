@@ -194,7 +194,7 @@ std::vector<double> Curve::corners(double from, double to, std::size_t most) con
       corners.push_back(p.x0);
   }
   std::vector<double> found;
-  if (corners.empty()) return found;
+  if (corners.empty() || (period_ && !std::isfinite(to - from))) return found;
   for (double turns = period_ ? std::floor((from - first) / *period_) : 0;; ++turns) {
     for (const double corner : corners) {
       const double x = period_ ? corner + turns * *period_ : corner;

@@ -124,7 +124,7 @@ class FormulaFunction final : public Function {
   }
   const Expression* law() const override { return formula_.is_law() ? &formula_ : nullptr; }
   std::vector<double> corners(double from, double to, std::size_t most) const override {
-    return formula_.is_law() ? std::vector<double>() : formula_.corners(from, to, most);
+    return formula_.is_law() || !std::isfinite(to - from) ? std::vector<double>() : formula_.corners(from, to, most);
   }
 
  private:

@@ -29,7 +29,8 @@ class Function {
   /// to about 1e-13 of ∫|f|.
   virtual double integral(double x) const = 0;
   /// Between two values of x, in increasing order: where the function jumps or has a corner, and where it begins or ends to
-  /// change. None where there are more than `most` of them: a measured curve. Those of user routines are not known.
+  /// change. None where there are more than `most` of them: a measured curve. Those of user routines are not known, nor between
+  /// infinite values those of formulas and of what repeats.
   virtual std::vector<double> corners(double /*from*/, double /*to*/, std::size_t /*most*/) const { return {}; }
   /// The formula of a law, if this is one and no function of one variable.
   virtual const Expression* law() const { return nullptr; }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "model/function_failure.hpp"
 #include "model/user_function.hpp"
@@ -11,6 +12,14 @@
 namespace engrane::elements {
 
 namespace {
+
+/// A law with more corners than this is a measured curve.
+constexpr std::size_t most_corners = 20;
+
+std::vector<double> corners_of(const Function& function) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return function.corners(-infinity, infinity, most_corners);
+}
 
 /// The formula of D and V that a keyword names; nullptr with an error when it is none.
 const Expression* find_formula(const BuildContext& context, const std::string& keyword, int id) {
@@ -61,6 +70,7 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
     } else {
       law.of_stretch = context.function(static_cast<int>(id), "LAW" + suffix);
       if (!law.of_stretch) return {};
+      law.corners = corners_of(*law.of_stretch);
     }
   } else if (data.law.is("USER")) {
     std::vector<user::Arguments> samples{{first, 0, 0}};
@@ -78,8 +88,27 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
   if (data.damping_law != 0) {
     law.of_rate = context.function(data.damping_law, "CLAW" + suffix);
     if (!law.of_rate) return {};
+    law.corners_of_rate = corners_of(*law.of_rate);
   }
   return law;
+}
+
+void SpringLaw::name_switches(std::vector<SwitchNames>& names, const std::string& before) const {
+  const auto add = [&](const char* law, double corner) {
+    const std::string what = fmt::format("{}{} passes its corner at {:.6g}", before, law, corner);
+    names.push_back({what + " upwards", what + " downwards"});
+  };
+  for (const double corner : corners) add("LAW", corner);
+  for (const double corner : corners_of_rate) add("CLAW", corner);
+}
+
+std::size_t SpringLaw::switches(const Taylor& stretch, double size, std::span<Switch> values) const {
+  constexpr double least = std::numeric_limits<double>::min();
+  std::size_t next = 0;
+  for (const double corner : corners) values[next++] = {stretch.value - corner, stretch.d1, std::abs(corner) + size + least};
+  for (const double corner : corners_of_rate)
+    values[next++] = {stretch.d1 - corner, stretch.d2, std::abs(corner) + std::abs(stretch.d1) + least};
+  return next;
 }
 
 Expression::Law SpringLaw::of_both(double stretch, double rate, double time) const {

@@ -3,8 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "elements/common/building.hpp"
+#include "math/taylor.hpp"
 #include "model/function.hpp"
 #include "model/function_integral.hpp"
 #include "user/routine.hpp"
@@ -27,6 +31,8 @@ struct SpringLaw {
   std::shared_ptr<const user::Routine> user;  ///< the same
   double damping = 0;                         ///< g = damping ė, unless `of_rate` is given
   const Function* of_rate = nullptr;          ///< g
+  /// Elongations and rates at which f and g are not smooth (Function::corners), for dynamics to place ends of steps there.
+  std::vector<double> corners, corners_of_rate;
 
   /// Spring and damper together.
   template <class T>
@@ -35,6 +41,11 @@ struct SpringLaw {
     const Expression::Law y = of_both(value_of(stretch), value_of(rate), time);
     return compose(stretch, y.value, y.by_elongation, 0) + compose(rate, 0, y.by_rate, 0) + viscous(rate);
   }
+  /// A switch for each corner, `before` before its words.
+  void name_switches(std::vector<SwitchNames>& names, const std::string& before) const;
+  /// Their values at an elongation with two derivatives; `size` is that of the terms which it is the difference of. Tells how
+  /// many there are.
+  std::size_t switches(const Taylor& stretch, double size, std::span<Switch> values) const;
   /// Energy stored and power lost.
   Energies energies(double stretch, double rate, double time) const;
 

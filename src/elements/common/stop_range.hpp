@@ -2,14 +2,13 @@
 // Limits of one coordinate: what STOP and the stops of joints have in common.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "elements/common/along_motion.hpp"
 #include "elements/common/building.hpp"
 #include "elements/common/stop_law.hpp"
-#include "model/templated_element.hpp"
 
 namespace engrane::elements {
 
@@ -70,8 +69,5 @@ struct StopRange {
 bool set_stop_damping(const deck::Tagged& damping, const BuildContext& context, const std::string& keyword, StopLaw& law);
 /// Its options.
 void add_stop_damping(deck::FieldBuilder field);
-
-/// Two nodes along the motion in `state`, to second order in time.
-std::array<Motion<Taylor, 2>::Node, 2> along_motion(const State& state);
 
 }  // namespace engrane::elements

@@ -305,6 +305,7 @@ Joint::Joint(int id, JointParts parts) : TemplatedElement(id), parts_(std::move(
     has_rates_ = has_rates_ || c.sprung() || c.stop.given();
     whole_b_ = whole_b_ || (acts && looks_across_b(c.measure));
     c.stop.name_switches(layout.switches, c.names.value + ": ");
+    c.law.name_switches(layout.switches, c.names.value + ": ");
   }
   for (const JointFriction& f : parts_.friction)
     if (f.radius > 0 && f.kind != Rubbing::guide && f.kind != Rubbing::ball) count(f.turn);
@@ -382,9 +383,10 @@ void Joint::switches(const State& state, std::span<Switch> values) const {
   const auto nodes = along_motion(state);
   const JointPose<Taylor> pose(parts_.frame, nodes[0], nodes[1]);
   for (const JointCoordinate& c : parts_.coordinates) {
-    if (!c.stop.given()) continue;
+    if (!c.stop.given() && c.law.corners.empty() && c.law.corners_of_rate.empty()) continue;
     const Taylor q = measured(c.measure, pose, state).value;
     values = values.subspan(c.stop.switches(q.value, q.d1, q.d2, values));
+    values = values.subspan(c.law.switches(q - c.relaxed, std::abs(q.value) + std::abs(c.relaxed), values));
   }
   grip_switches(*this, state, values);
 }

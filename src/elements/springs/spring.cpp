@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "elements/common/along_motion.hpp"
 #include "elements/common/line.hpp"
 #include "model/templated_block.hpp"
 
@@ -63,12 +64,18 @@ class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
     Layout layout;
     layout.nodes.assign(spring.ends.nodes.begin(), spring.ends.nodes.end());
     layout.needs = spring.ends.needs();
+    spring.law.name_switches(layout.switches, "");
     set_layout(std::move(layout));
   }
 
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     spring_.evaluate(motion, state, balance);
+  }
+  void switches(const State& state, std::span<Switch> values) const override {
+    if (values.empty()) return;
+    const Taylor length = spring_.ends.reach<Taylor>(along_motion(state)).length;
+    spring_.law.switches(length - spring_.natural, length.value + spring_.natural, values);
   }
   Energies energies(const State& state) const override { return spring_.energies(state); }
   const std::vector<Channel>& channels() const override { return spring_.channels(); }

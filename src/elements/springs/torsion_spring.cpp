@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "elements/common/along_motion.hpp"
 #include "elements/common/axis_angle.hpp"
 #include "elements/common/building.hpp"
 #include "model/templated_element.hpp"
@@ -20,6 +21,7 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
     layout.nodes.assign(nodes.begin(), nodes.end());
     layout.needs = {NodeNeed::rotation, NodeNeed::rotation};
     layout.history = turn_count::history;
+    law.name_switches(layout.switches, "");
     set_layout(std::move(layout));
   }
 
@@ -38,6 +40,13 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
 
   void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
     turn_count::commit(turn(state).angle, state.history, history);
+  }
+
+  void switches(const State& state, std::span<Switch> values) const override {
+    if (values.empty()) return;
+    const auto nodes = along_motion(state);
+    const Taylor turned = turn_count::total(axis_angle(triad_, nodes[0].R, nodes[1].R).angle, state.history);
+    law_.switches(turned - angle0_, std::abs(turned.value) + std::abs(angle0_), values);
   }
 
   Energies energies(const State& state) const override { return law_.energies(angle(state) - angle0_, speed(state), state.time); }

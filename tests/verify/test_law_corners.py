@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Laws of springs and dampers with corners, against closed forms: dynamics ends steps there."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from runs import run
+
+LAW = "I 1 TABLE -1.1 -50  -0.1 0  0.1 0  1.1 50"
+MODELS = {
+    "spring": (
+        ".NOE\n I 1 X 3 0 0",
+        "SPRING N 0 1 LAW TABLE 1 AT 1 0 0",
+        "M 2",
+        "FIX NOEUD 1 C 2 3",
+        1,
+        "node/1/UX",
+    ),
+    "torsion spring": (
+        ".NOE\n I 1 X 0 0 0",
+        "TSPRING N 0 1 AXIS 0 0 1 LAW TABLE 1",
+        "M 1 J 1 1 2",
+        "FIX NOEUD 1 C 1 2 3 4 5",
+        6,
+        "element/1/ANGLE",
+    ),
+    "hinge": (
+        ".NOE\n I 1 X 0 0 0",
+        "HINGE N 0 1 AXIS 0 0 1 LAW TABLE 1",
+        "M 1 J 1 1 2",
+        "",
+        6,
+        "element/1/ANGLE",
+    ),
+}
+
+
+def loose(t: np.ndarray) -> np.ndarray:
+    """An oscillator of 2 on a spring of 50 that is loose over 0.1 either way, thrown from the middle at 1."""
+    half = np.pi / 5
+    t = np.mod(t, 2 * (0.2 + half))
+    back = np.where(t > 0.1 + 0.1 + half, -1.0, 1.0)
+    t = np.where(back < 0, t - 0.2 - half, t)
+    swing = np.where(t < 0.1 + half, 0.1 + 0.2 * np.sin(5 * (t - 0.1)), 0.2 + half - t)
+    return back * np.where(t < 0.1, t, swing)
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize(
+    ("sam", "sub", "most"),
+    [
+        ("SCHEME RADAU", "H 0.1 TOL 1E-6", 1e-6),  # 2.2e-4 with steps across the corners
+        ("SCHEME CHUNG RHO 1", "H 0.1 TOL 1E-5", 1e-3),
+        ("SCHEME CHUNG RHO 1", "H 0.001", 5e-4),
+    ],
+)
+def test_a_spring_with_play(tmp_path, model, sam, sub, most):
+    nodes, spring, mass, support, component, channel = MODELS[model]
+    text = f"""{nodes}
+.MCE
+ I 1 {spring}
+ I 2 INERTIA N 1 {mass}
+.CLM
+ {support}
+.FCT
+ {LAW}
+.INI
+ VIT NOEUD 1 C {component} V 1
+.SAM TYPE DYNAMIC {sam}
+.SUB TF 8 {sub}
+.FIN 1
+"""
+    result = run(text, tmp_path)
+    assert np.max(np.abs(result[channel] - loose(result.t))) <= most * 0.3
+    listing = result.file.with_suffix(".lst").read_text()
+    assert "passes its corner at 0.1 upwards" in listing
+    assert "passes its corner at -0.1 downwards" in listing
+
+
+@pytest.mark.parametrize("element", ["SPRING N 0 1 CLAW 1", "PRISMATIC N 0 1 AXIS 1 0 0 CLAW 1"])
+def test_a_damper_that_yields(tmp_path, element):
+    """v' = -g(v), g = 10 v up to 1 and 10 + 2 (v - 1) beyond: from 3 it is 7 exp(-2 t) - 4 down to 1, then
+    exp(-10 (t - t1))."""
+    text = f""".NOE
+ I 1 X 3 0 0
+.MCE
+ I 1 {element}
+ I 2 INERTIA N 1 M 1 J 1 1 1
+.CLM
+ FIX NOEUD 1 C 2 3 4 5 6
+.FCT
+ I 1 TABLE -6 -20  -1 -10  1 10  6 20
+.INI
+ VIT NOEUD 1 C 1 V 3
+.SAM TYPE DYNAMIC SCHEME RADAU
+.SUB TF 1 H 0.05 TOL 1E-6
+.FIN 1
+"""
+    if element.startswith("PRISMATIC"):
+        text = text.replace(" FIX NOEUD 1 C 2 3 4 5 6\n", "")
+    result = run(text, tmp_path)
+    corner = np.log(7 / 5) / 2
+    speed = np.where(result.t < corner, 7 * np.exp(-2 * result.t) - 4, np.exp(-10 * (result.t - corner)))
+    assert np.max(np.abs(result["node/1/VX"] - speed)) <= 1e-5
+    assert "CLAW passes its corner at 1 downwards" in result.file.with_suffix(".lst").read_text()
+
+
+def test_a_measured_curve_has_no_corners(tmp_path):
+    """More than 20: a smooth curve in many pieces. A curve that repeats has none either."""
+    points = " ".join(f"{x:.2f} {50 * x**3:.6f}" for x in np.linspace(-1.1, 1.1, 30))
+    for table in (f"I 1 TABLE {points}", "I 1 TABLE 0 -5  0.2 5  0.4 -5 PERIOD 0.4"):
+        text = f""".NOE
+ I 1 X 3 0 0
+.MCE
+ I 1 SPRING N 0 1 LAW TABLE 1 AT 1 0 0
+ I 2 INERTIA N 1 M 2
+.CLM
+ FIX NOEUD 1 C 2 3
+.FCT
+ {table}
+.INI
+ VIT NOEUD 1 C 1 V 1
+.SAM TYPE DYNAMIC SCHEME RADAU
+.SUB TF 1 H 0.1 TOL 1E-4
+.FIN 1
+"""
+        assert "corner" not in run(text, tmp_path).file.with_suffix(".lst").read_text()
