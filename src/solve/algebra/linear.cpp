@@ -10,7 +10,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// Up to so many rows, one rank solves what several share: measured in docs/performance.md, "Small systems of several ranks".
+/// Up to so many rows, one rank solves what several share (docs/decisions/0037-small-systems-on-one-rank.md).
 constexpr PetscInt most_gathered = 3000;
 
 bool worth_gathering(Mat matrix, const std::string& wanted) {
