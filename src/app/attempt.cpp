@@ -36,11 +36,7 @@ std::string first_text(std::string text, MPI_Comm comm, int rank, int ranks) {
   int teller = text.empty() ? ranks : rank;
   MPI_Allreduce(MPI_IN_PLACE, &teller, 1, MPI_INT, MPI_MIN, comm);
   if (teller == ranks) return {};
-  int size = static_cast<int>(text.size());
-  MPI_Bcast(&size, 1, MPI_INT, teller, comm);
-  text.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(text.data(), size, MPI_CHAR, teller, comm);
-  return text;
+  return text_of_rank(teller, std::move(text), comm);
 }
 
 /// The failure with what user routines and formulas, on whichever rank, complained of last. Collective.

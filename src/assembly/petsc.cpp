@@ -27,6 +27,14 @@ void check_petsc(PetscErrorCode code) {
   throw PetscFailure("PETSc error " + std::to_string(static_cast<int>(code)) + ": " + last_message);
 }
 
+std::string text_of_rank(int rank, std::string text, MPI_Comm comm) {
+  int size = static_cast<int>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT, rank, comm);
+  text.resize(static_cast<std::size_t>(size));
+  MPI_Bcast(text.data(), size, MPI_CHAR, rank, comm);
+  return text;
+}
+
 PetscLogEvent log_event(const char* name) {
   PetscLogEvent event = -1;
   check_petsc(PetscLogEventRegister(name, PETSC_OBJECT_CLASSID, &event));

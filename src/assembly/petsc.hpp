@@ -4,6 +4,7 @@
 #include <petscsnes.h>
 
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace engrane {
@@ -15,6 +16,9 @@ struct PetscFailure : std::runtime_error {
 
 /// Throws PetscFailure with PETSc's own words when a call failed.
 void check_petsc(PetscErrorCode code);
+
+/// The text that one rank has, on all. Collective.
+std::string text_of_rank(int rank, std::string text, MPI_Comm comm);
 
 /// Owns a PETSc object: `Owned<Mat> A; check_petsc(MatCreate(comm, A.out()));`
 template <class Handle>

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "elements/common/along_motion.hpp"
 #include "elements/common/building.hpp"
 
 namespace engrane::elements::cams {
@@ -58,16 +59,7 @@ void Cam::switches(const State& state, std::span<Switch> values) const {
   if (!parts_.law) return;
   const Nodes<double> node = motion<double>(state).node;
   const Contact<double> c = contact<double>(node, state.history);
-  Nodes<Taylor> along;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const NodeState& s = state.nodes[i];
-    const Mat3 W = skew(s.W), first = s.R * W, second = s.R * (skew(s.A) + W * W);
-    for (int k = 0; k < 3; ++k) {
-      along[i].x[k] = {s.x[k], s.v[k], s.a[k]};
-      for (int l = 0; l < 3; ++l) along[i].R(k, l) = {s.R(k, l), first(k, l), second(k, l)};
-    }
-  }
-  const Taylor gap = contact<Taylor>(along, state.history, &c.foot).gap;
+  const Taylor gap = contact<Taylor>(along_motion(state), state.history, &c.foot).gap;
   const double pressed = -c.gap, rate = -gap.d1, growth = -gap.d2;
   values[0] = {pressed, rate, c.foot.p.norm() + parts_.radius + parts_.profile->inset()};
   if (!parts_.law->damped()) return;

@@ -41,6 +41,7 @@ struct SpringLaw {
     const Expression::Law y = of_both(value_of(stretch), value_of(rate), time);
     return compose(stretch, y.value, y.by_elongation, 0) + compose(rate, 0, y.by_rate, 0) + viscous(rate);
   }
+  bool has_corners() const { return !corners.empty() || !corners_of_rate.empty(); }
   /// A switch for each corner, `before` before its words.
   void name_switches(std::vector<SwitchNames>& names, const std::string& before) const;
   /// Their values at an elongation with two derivatives; `size` is that of the terms which it is the difference of. Tells how

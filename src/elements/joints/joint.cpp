@@ -383,7 +383,7 @@ void Joint::switches(const State& state, std::span<Switch> values) const {
   const auto nodes = along_motion(state);
   const JointPose<Taylor> pose(parts_.frame, nodes[0], nodes[1]);
   for (const JointCoordinate& c : parts_.coordinates) {
-    if (!c.stop.given() && c.law.corners.empty() && c.law.corners_of_rate.empty()) continue;
+    if (!c.stop.given() && !c.law.has_corners()) continue;
     const Taylor q = measured(c.measure, pose, state).value;
     values = values.subspan(c.stop.switches(q.value, q.d1, q.d2, values));
     values = values.subspan(c.law.switches(q - c.relaxed, std::abs(q.value) + std::abs(c.relaxed), values));

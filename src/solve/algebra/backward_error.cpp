@@ -48,8 +48,7 @@ std::vector<unsigned char> kinds_of_rows(const Numbering& numbering) {
   return kinds;
 }
 
-BackwardError::BackwardError(Mat matrix, const std::vector<unsigned char>& kinds) : matrix_(matrix) {
-  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm_));
+BackwardError::BackwardError(Mat matrix, const std::vector<unsigned char>& kinds) : matrix_(matrix), comm_(comm_of(matrix)) {
   check_petsc(MatCreateVecs(matrix, nullptr, residual_.out()));
   PetscInt first = 0, end = 0;
   check_petsc(MatGetOwnershipRange(matrix, &first, &end));

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "solve/algebra/rows.hpp"
+
 namespace engrane::solve {
 
 namespace {
@@ -15,9 +17,7 @@ constexpr PetscInt most_iterations = 1000;
 }  // namespace
 
 ConjugateGradients::ConjugateGradients(Mat matrix) : matrix_(matrix), symmetry_(matrix) {
-  MPI_Comm comm = PETSC_COMM_SELF;
-  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
-  check_petsc(KSPCreate(comm, ksp_.out()));
+  check_petsc(KSPCreate(comm_of(matrix), ksp_.out()));
   check_petsc(KSPSetOptionsPrefix(ksp_, "cg_"));
   check_petsc(KSPSetType(ksp_, KSPCG));
   check_petsc(KSPSetNormType(ksp_, KSP_NORM_UNPRECONDITIONED));

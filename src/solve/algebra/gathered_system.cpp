@@ -29,8 +29,7 @@ std::vector<int> starts(const std::vector<int>& sizes) {
 
 }  // namespace
 
-GatheredSystem::GatheredSystem(Mat shared) : shared_(shared) {
-  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(shared), &comm_));
+GatheredSystem::GatheredSystem(Mat shared) : shared_(shared), comm_(comm_of(shared)) {
   MPI_Comm_rank(comm_, &rank_);
   PetscInt first = 0, end = 0;
   check_petsc(MatGetOwnershipRange(shared, &first, &end));
@@ -109,9 +108,6 @@ void GatheredSystem::fetch_matrix() {
   check_petsc(MatSeqAIJGetArrayWrite(matrix_, &values));
   for (std::size_t k = 0; k < place_.size(); ++k) values[place_[k]] = arrived_[k];
   check_petsc(MatSeqAIJRestoreArrayWrite(matrix_, &values));
-  // PETSc notes that the matrix is another
-  check_petsc(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
-  check_petsc(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
 }
 
 void GatheredSystem::fetch(Vec right) {

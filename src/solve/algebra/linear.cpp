@@ -14,30 +14,13 @@ namespace {
 constexpr PetscInt most_gathered = 3000;
 
 bool worth_gathering(Mat matrix, const std::string& wanted) {
-  PetscInt rows = 0;
-  check_petsc(MatGetSize(matrix, &rows, nullptr));
-  return !is_sequential(matrix) && wanted != "CG" && rows <= most_gathered;
-}
-
-MPI_Comm comm_of(Mat matrix) {
-  MPI_Comm comm = PETSC_COMM_SELF;
-  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
-  return comm;
+  return !is_sequential(matrix) && wanted != "CG" && rows_of(matrix) <= most_gathered;
 }
 
 int ranks_of(Mat matrix) {
   int ranks = 1;
   MPI_Comm_size(comm_of(matrix), &ranks);
   return ranks;
-}
-
-/// The first rank's text, on all.
-std::string spread(std::string text, MPI_Comm comm) {
-  auto size = static_cast<int>(text.size());
-  MPI_Bcast(&size, 1, MPI_INT, 0, comm);
-  text.resize(static_cast<std::size_t>(size));
-  MPI_Bcast(text.data(), size, MPI_CHAR, 0, comm);
-  return text;
 }
 
 }  // namespace
@@ -47,7 +30,7 @@ LinearSolver::LinearSolver(Mat matrix, const std::string& package, const std::ve
   const MPI_Comm comm = comm_of(matrix);
   const bool here = !gathered_ || gathered_->here();
   if (here) package_ = choose_package(factored(), package);
-  if (gathered_) package_ = spread(package_, comm);
+  if (gathered_) package_ = text_of_rank(0, package_, comm);
   if (here) factors_ = std::make_unique<JudgedFactors>(factored(), package_, kinds);
   check_petsc(PetscLogEventGetId("MatLUFactorNum", &factoring_));
   check_petsc(PetscLogEventGetId("MatSolve", &solving_));
@@ -111,8 +94,8 @@ bool LinearSolver::agree(const Act& act) {
   MPI_Bcast(told, 3, MPI_DOUBLE, 0, comm);
   outcome = static_cast<Outcome>(static_cast<int>(told[0]));
   work_ = {told[1], told[2]};
-  if (outcome == Outcome::short_of_memory) throw MemoryShortage(spread(trouble, comm));
-  if (outcome == Outcome::failed) throw PetscFailure(spread(trouble, comm));
+  if (outcome == Outcome::short_of_memory) throw MemoryShortage(text_of_rank(0, trouble, comm));
+  if (outcome == Outcome::failed) throw PetscFailure(text_of_rank(0, trouble, comm));
   return outcome == Outcome::regular;
 }
 

@@ -26,18 +26,6 @@ double infog(Mat factors, PetscInt index) {
 /// Counts that may be negative: in millions.
 double count(double value) { return value < 0 ? -1e6 * value : value; }
 
-PetscInt rows_of(Mat matrix) {
-  PetscInt rows = 0;
-  check_petsc(MatGetSize(matrix, &rows, nullptr));
-  return rows;
-}
-
-MPI_Comm comm_of(Mat matrix) {
-  MPI_Comm comm = PETSC_COMM_SELF;
-  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
-  return comm;
-}
-
 }  // namespace
 
 void Mumps::become(Form form) {

@@ -66,9 +66,7 @@ void PackageFactors::load(const Snapshot& snapshot) {
 
 SolverWork PackageFactors::work() const {
   if (!factors_) return {};
-  PetscInt rows = 0;
-  check_petsc(MatGetSize(matrix_, &rows, nullptr));
-  const auto n = static_cast<double>(rows);
+  const auto n = static_cast<double>(rows_of(matrix_));
   return package_ == "UMFPACK" ? SolverWork{11300 * n, 420 * n} : SolverWork{7500 * n, 530 * n};
 }
 

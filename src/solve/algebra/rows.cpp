@@ -6,6 +6,18 @@
 
 namespace engrane::solve {
 
+MPI_Comm comm_of(Mat matrix) {
+  MPI_Comm comm = PETSC_COMM_SELF;
+  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
+  return comm;
+}
+
+PetscInt rows_of(Mat matrix) {
+  PetscInt rows = 0;
+  check_petsc(MatGetSize(matrix, &rows, nullptr));
+  return rows;
+}
+
 bool is_sequential(Mat matrix) {
   PetscBool sequential = PETSC_FALSE;
   check_petsc(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(matrix), &sequential, MATSEQAIJ, MATSEQSBAIJ, ""));

@@ -8,6 +8,10 @@
 
 namespace engrane::solve {
 
+/// The ranks that share a matrix, and its rows on all of them.
+MPI_Comm comm_of(Mat matrix);
+PetscInt rows_of(Mat matrix);
+
 /// Whether a matrix is that of one rank, whose rows Rows shows.
 bool is_sequential(Mat matrix);
 /// Whether it is a symmetric one of which only the diagonal and what is above it are kept (Scatter).

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solve/algebra/probe.hpp"
+#include "solve/algebra/rows.hpp"
 
 namespace engrane::solve {
 
@@ -17,10 +18,8 @@ PetscInt local_size(Vec vector) {
 
 /// Whether all ranks say yes.
 bool everywhere(bool yes, Mat matrix) {
-  MPI_Comm comm = PETSC_COMM_SELF;
-  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(matrix), &comm));
   int all = yes ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_LAND, comm);
+  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_LAND, comm_of(matrix));
   return all != 0;
 }
 
