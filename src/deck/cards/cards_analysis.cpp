@@ -69,10 +69,10 @@ Schema analysis_card() {
       .at_least(0)
       .at_most(1);
   card.add("ALPHA", &AnalysisCard::alpha, "HHT and BOSSAK: numerical damping; 0 damps nothing").at_least(0).at_most(1.0 / 3.0);
-  card.add("SOLVER", &AnalysisCard::solver,
-           "solver of the linear systems. Of several processes one solves systems of up to 3000 equations, with any of these; "
-           "larger "
-           "ones all solve together, with MUMPS or CG")
+  card.add(
+          "SOLVER", &AnalysisCard::solver,
+          "solver of the linear systems. With several processes, one of them solves systems of up to 3000 equations, with any of "
+          "these; all together solve larger ones, with MUMPS or CG")
       .synonyms({"SOLVEUR"})
       .option({"MUMPS", {}, "multifrontal"})
       .option(
