@@ -1,37 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Andrews' squeezing mechanism and a spatial slider-crank by SUNDIALS IDA, with the errors of
-tests/bench/accuracy.py.
+"""Andrews' squeezing mechanism and a spatial slider-crank in as few coordinates as they allow, for codes that
+solve differential-algebraic equations, and the same mechanisms as decks of this program; with their truth
+and the errors of tests/bench/accuracy.py. Used by dae_codes.py.
 
-    python -m venv /tmp/ida && /tmp/ida/bin/pip install scikit-sundae numba numpy scipy h5py
-    /tmp/ida/bin/python tests/bench/ida.py build/bin/engrane [--models andrews crank] [--runs 3]
-
-IDA solves Andrews' mechanism in its seven angles with the data of tests/verify/oracles/andrews.py, and
-the slider-crank of tests/bench/accuracy.py, with a flywheel, in the angle and the slide, its massless rod
-a distance; stabilised after C. W. Gear, B. Leimkuhler and G. K. Gupta, J. Comput. Appl. Math. 12 (1985)
-77-90:
-
-    q' = v - G(q)^T mu,   M(q) v' = f(q, v) - G(q)^T lambda,   0 = g(q),   0 = G(q) v
-
-(index 2, Andrews: 26 equations; lambda and mu are left out of IDA's error test, as index 2 demands) and
-with accelerations determined, index 1 (20 equations: 0 = G v' + G' v in place of 0 = g, constraints
-drift). Residuals and Jacobians are machine code (numba), the Jacobian is exact but for the curvature
-terms of q, which central differences give; linear solver: dense. What is left of Python is one call per
-residual, which `calls` counts. This program solves the decks: bodies of six coordinates each.
+Terms of M(q) v' = f(q, v) - G(q)^T lambda, 0 = g(q), in machine code (numba). Andrews' mechanism: its seven
+angles, with the data of tests/verify/oracles/andrews.py. The slider-crank of tests/bench/accuracy.py, with a
+flywheel: the angle and the slide, its massless rod is a distance.
 
 Error: root of the mean square over the instants over the range, the worst of some coordinates and their
-speeds. Truth: the ordinary differential equation in one coordinate by DOP853, 1e-12 or less. Processor
-time of the integration only, the least of --runs, in turn.
+speeds. Truth: the ordinary differential equation in one coordinate by DOP853, 1e-12 or less.
 """
 
-import argparse
 import math
 import os
 import re
 import resource
 import subprocess
 import sys
-import tempfile
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -239,99 +224,6 @@ MECHANISMS = {
 }
 
 
-class Peer:
-    """One mechanism in IDA's form, index 2 or 1."""
-
-    def __init__(self, mechanism: Mechanism, index: int) -> None:
-        self.mechanism, self.index = mechanism, index
-        n, m, terms = len(mechanism.place), mechanism.constraints, mechanism.terms
-
-        @numba.njit
-        def residual(y, yp, out):
-            mass, jacobian = np.empty((n, n)), np.empty((m, n))
-            force, closure, curvature = np.empty(n), np.empty(m), np.empty(m)
-            v = y[n : 2 * n]
-            terms(y[:n], v, mass, force, jacobian, closure, curvature)
-            out[:n] = yp[:n] - v
-            out[n : 2 * n] = mass @ yp[n : 2 * n] - force + jacobian.T @ y[2 * n : 2 * n + m]
-            if index == 2:
-                out[:n] += jacobian.T @ y[2 * n + m :]
-                out[2 * n : 2 * n + m] = closure
-                out[2 * n + m :] = jacobian @ v
-            else:
-                out[2 * n :] = jacobian @ yp[n : 2 * n] + curvature
-
-        @numba.njit
-        def tangent(y, yp, out, cj):
-            """d residual/dy + cj d residual/dy'; by differences in q and v, exact in the rest."""
-            high, low = np.empty(y.size), np.empty(y.size)
-            out[:] = 0.0
-            for j in range(2 * n):
-                size = 1e-6 if j < n else 1e-6 * (1.0 + abs(y[j]))
-                moved = y.copy()
-                moved[j] = y[j] + size
-                residual(moved, yp, high)
-                moved[j] = y[j] - size
-                residual(moved, yp, low)
-                out[:, j] = (high - low) / (2 * size)
-            mass, jacobian = np.empty((n, n)), np.empty((m, n))
-            force, closure, curvature = np.empty(n), np.empty(m), np.empty(m)
-            terms(y[:n], y[n : 2 * n], mass, force, jacobian, closure, curvature)
-            out[n : 2 * n, 2 * n : 2 * n + m] = jacobian.T
-            for i in range(n):
-                out[i, i] += cj
-            out[n : 2 * n, n : 2 * n] += cj * mass
-            if index == 2:
-                out[:n, 2 * n + m :] = jacobian.T
-            else:
-                out[2 * n :, n : 2 * n] += cj * jacobian
-
-        self.residual, self.tangent = residual, tangent
-        mass, jacobian = np.empty((n, n)), np.empty((m, n))
-        force, closure, curvature = np.empty(n), np.empty(m), np.empty(m)
-        terms(mechanism.place, mechanism.speed, mass, force, jacobian, closure, curvature)
-        whole = np.block([[mass, jacobian.T], [jacobian, np.zeros((m, m))]])
-        solution = np.linalg.solve(whole, np.r_[force, -curvature])
-        more = np.zeros(m if index == 2 else 0)
-        self.start = np.r_[mechanism.place, mechanism.speed, solution[n:], more]
-        self.rates = np.r_[mechanism.speed, solution[:n], np.zeros(m), more]
-
-    def run(self, tolerance: float, times: np.ndarray) -> dict:
-        from sksundae.ida import IDA
-
-        calls = [0, 0]
-
-        def res(_t, y, yp, out):
-            calls[0] += 1
-            self.residual(y, yp, out)
-
-        def jac(_t, y, yp, _res, cj, out):
-            calls[1] += 1
-            self.tangent(y, yp, out, cj)
-
-        n, size = len(self.mechanism.place), self.start.size
-        # multipliers: no error test
-        absolute = np.r_[
-            np.full(n, tolerance), np.full(n, self.mechanism.scale * tolerance), np.full(size - 2 * n, 1e20)
-        ]
-        solver = IDA(
-            res,
-            rtol=tolerance,
-            atol=absolute,
-            jacfn=jac,
-            linsolver="dense",
-            max_num_steps=1000000,
-            algebraic_idx=list(range(2 * n, size)),
-            first_step=1e-7 if self.index == 2 else 0,
-        )
-        before = time.process_time()
-        found = solver.solve(times, self.start, self.rates)
-        seconds = time.process_time() - before
-        if not found.success:
-            raise RuntimeError(found.message)
-        return {"seconds": seconds, "values": np.asarray(found.y)[:, : 2 * n], "calls": calls}
-
-
 def run_engrane(
     binary: Path, folder: Path, mechanism: Mechanism, analysis: str, more: str = "", end: float = 0
 ) -> dict:
@@ -365,64 +257,11 @@ def run_engrane(
             times, history = results.history(name)
             places = times / interval
             values[:, column] = history[np.abs(places - np.round(places)) < 1e-3] + zero
-    return {"seconds": seconds, "values": values}
+    effort = re.search(r"(\d+) steps?, (\d+) Newton", path.with_suffix(".lst").read_text(encoding="utf-8"))
+    return {"seconds": seconds, "values": values, "work": [effort[1], 3 * int(effort[2]), ""]}
 
 
 def error(values: np.ndarray, true: np.ndarray, mechanism: Mechanism) -> float:
     columns = [column for column, _ in mechanism.channels.values()]
     off = np.sqrt(np.mean((values - true)[:, columns] ** 2, axis=0))
     return float((off / np.ptp(true[:, columns], axis=0)).max())
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("binary", type=Path)
-    parser.add_argument("--models", nargs="+", choices=MECHANISMS, default=list(MECHANISMS))
-    parser.add_argument("--runs", type=int, default=3)
-    a = parser.parse_args()
-    settings = [("", "")] + [(f"ACCURACY {rung}", "") for rung in ("FAST", "NORMAL", "FINE", "REFERENCE")]
-    settings += [("SCHEME RADAU SOLVER KLU", f" TOL {t}") for t in ("1e-3", "1e-4", "1e-5", "1e-6", "1e-7")]
-    for model in a.models:
-        mechanism = MECHANISMS[model]()
-        times = np.linspace(0, mechanism.end, mechanism.instants + 1)
-        true = mechanism.truth(times)
-        peers = [Peer(mechanism, index) for index in (2, 1)]
-        for peer in peers:
-            peer.run(1e-3, times)  # compiles
-        rows: dict[str, list[dict]] = {}
-        with tempfile.TemporaryDirectory() as name:
-            binary, folder = a.binary.resolve(), Path(name)
-            starts = [
-                run_engrane(binary, folder, mechanism, "SOLVER KLU", "", mechanism.step) for _ in range(5)
-            ]
-            begin = min(start["seconds"] for start in starts)
-            for _ in range(a.runs):
-                for analysis, more in settings:
-                    found = run_engrane(binary, folder, mechanism, analysis, more)
-                    found["seconds"] -= begin
-                    rows.setdefault(f"this program, {analysis + more or 'as it is'}", []).append(found)
-                for peer in peers:
-                    for tolerance in (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10):
-                        form = "stabilised index 2" if peer.index == 2 else "index 1"
-                        title = f"IDA, {form}, rtol {tolerance:g}"
-                        try:
-                            rows.setdefault(title, []).append(peer.run(tolerance, times))
-                        except RuntimeError as failure:
-                            rows.setdefault(title, []).append({"failure": str(failure)[:80]})
-        print(f"\n{model}\n\n| program | s | error | calls of residual | of tangent |\n" + "|---" * 5 + "|")
-        for title, runs in rows.items():
-            if "failure" in runs[0]:
-                print(f"| {title} | failed: {runs[0]['failure']} |")
-                continue
-            calls = runs[0].get("calls", ("", ""))
-            seconds = min(r["seconds"] for r in runs)
-            print(
-                f"| {title} | {seconds:.3f} | {error(runs[0]['values'], true, mechanism):.1e} "
-                f"| {calls[0]} | {calls[1]} |"
-            )
-
-
-if __name__ == "__main__":
-    main()
