@@ -90,6 +90,7 @@ void Writer::resumed(const Resumption& from) {
   cuts_ = static_cast<long>(counts.at(2));
   locating_ = static_cast<long>(counts.at(3));
   event_count_ = static_cast<long>(counts.at(4));
+  if (counts.size() > 5) coupled_ = static_cast<long>(counts[5]);  // files of earlier versions lack it
   const std::vector<double>&energies = memory.array("writer/energies"), &ground = memory.array("writer/ground");
   for (std::size_t i = 0; i + 6 <= energies.size(); i += 6)
     energies_.push_back({energies[i], energies[i + 1], energies[i + 2], energies[i + 3], energies[i + 4], energies[i + 5]});
@@ -117,7 +118,7 @@ void Writer::remember(const Configuration& c, const Runner& runner, bool kept, b
   checks_.save(memory);
   peaks_.save(memory);
   memory.put("writer/counts", {static_cast<double>(steps_), static_cast<double>(iterations_), static_cast<double>(cuts_),
-                               static_cast<double>(locating_), static_cast<double>(event_count_)});
+                               static_cast<double>(locating_), static_cast<double>(event_count_), static_cast<double>(coupled_)});
   std::vector<double> energies, ground;
   for (const EnergyRow& e : energies_)
     energies.insert(energies.end(), {e.time, e.kinetic, e.potential, e.external_work, e.dissipated, e.error});
@@ -163,6 +164,7 @@ void Writer::step(const Configuration& c, const StepReport& step, const Schedule
   note_events(c, step);
   if (step.newton) {
     iterations_ += step.newton->iterations;
+    coupled_ += step.newton->coupled;
     if (reading_.model.commands.archive.newton) write_newton(c, step, numbering);
   }
   if (step.course && step.course->critical) note_critical(*step.course->critical);
@@ -287,6 +289,9 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
                                iterations_, static_cast<double>(iterations_) / static_cast<double>(steps_ - 1), cuts_));
   else
     listing_.write("  no steps\n");
+  if (coupled_ > 0)
+    listing_.write(fmt::format("  {} solved with a tangent for each stage: one tangent for all stages did not converge\n",
+                               coupled_ == 1 ? "1 step was" : fmt::format("{} steps were", coupled_)));
   listing_.write(listing_times(times));
   results_.modes(std::move(modes_));
   results_.finish(status);

@@ -94,7 +94,7 @@ class Writer {
   std::string events_, critical_, buckling_, remarks_, accuracy_;
   bool frame_between_ = false;  ///< a frame was due within the step
   std::size_t marked_ = 0;      ///< channels marked as not unique so far
-  long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0;
+  long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0, coupled_ = 0;
 };
 
 }  // namespace engrane::app

@@ -42,7 +42,7 @@ Mat3 rotation_tangent(const Vec3& y) {
   return Mat3::Identity() - 0.5 * c * c * Y + third * Y * Y;
 }
 
-Vec3 rotation_tangent_rate(const Vec3& y, const Vec3& rate) {
+Vec3 rotation_tangent_rate(const Vec3& y, const Vec3& rate, const Vec3& w) {
   // T = 1 − b Y + c Y² with b = (1 − cos a)/a² and c = (a − sin a)/a³; their slopes over a cancel below a half: series there
   const double a = y.norm(), a2 = a * a;
   const bool small = a < 0.5;
@@ -52,8 +52,11 @@ Vec3 rotation_tangent_rate(const Vec3& y, const Vec3& rate) {
                                : (a * std::sin(a) - 2 * (1 - std::cos(a))) / (a2 * a2);
   const double slope_c = small ? -1.0 / 60 + a2 * (1.0 / 1260 - a2 * (1.0 / 60480 - a2 * (1.0 / 4989600 - a2 / 622702080)))
                                : (3 * std::sin(a) - 2 * a - a * std::cos(a)) / (a2 * a2 * a);
-  const Vec3 once = y.cross(rate);
-  return y.dot(rate) * (slope_c * y.cross(once) - slope_b * once) + third * rate.cross(once);
+  const double half = std::sin(a / 2);
+  const double second = a2 > 0 ? 2 * half * half / a2 : 0.5;
+  const Vec3 once = y.cross(w), changed = rate.cross(w);
+  return y.dot(rate) * (slope_c * y.cross(once) - slope_b * once) + third * (rate.cross(once) + y.cross(changed)) -
+         second * changed;
 }
 
 Mat3 orthonormalized(const Mat3& R) {

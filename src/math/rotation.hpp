@@ -17,8 +17,8 @@ Vec3 rotation_log(const Mat3& R);
 /// Tangent operator: exp(y + dy) = exp(y) exp(T(y) dy) to first order (material, or right, increments).
 Mat3 rotation_tangent(const Vec3& y);
 
-/// Ṫ(y) ẏ, with the `rate` ẏ: what the material angular acceleration T(y) ÿ + Ṫ(y) ẏ has beside its first term.
-Vec3 rotation_tangent_rate(const Vec3& y, const Vec3& rate);
+/// Ṫ(y) w with the `rate` ẏ; with w = ẏ what the material angular acceleration T(y) ÿ + Ṫ(y) ẏ has beside its first term.
+Vec3 rotation_tangent_rate(const Vec3& y, const Vec3& rate, const Vec3& w);
 
 /// The rotation nearest to a matrix that rounding has left nearly orthogonal.
 Mat3 orthonormalized(const Mat3& R);

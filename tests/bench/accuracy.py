@@ -33,11 +33,11 @@ from pathlib import Path
 import numpy as np
 from schemes import BEVEL
 from schemes import MODELS as OTHERS
-from scipy.integrate import solve_ivp
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "post")]
+sys.path[:0] = [str(ROOT / "post"), str(ROOT / "tests" / "verify")]
 from engrane_post import Results  # noqa: E402
+from oracles import four_bars  # noqa: E402
 
 ENVIRONMENT = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 SETTINGS = {"FAST": 1e-2, "NORMAL": 1e-3, "FINE": 1e-5, "REFERENCE": 1e-8}
@@ -94,22 +94,6 @@ def free_crank(text: str) -> str:
         "VIT NOEUD 1 C 6 V 10", "VIT NOEUD 1 C 6 V 10 IMPOSED"
     )
     return text.replace(" I 5 INERTIA N 3 M 3\n", " I 5 INERTIA N 3 M 3\n I 6 INERTIA N 1 J 0 0 0.1\n")
-
-
-def bars_in_line(times: np.ndarray) -> np.ndarray:
-    """UX, UY, VX, VY of B0 in A02 with N = 2: three arms of 1 m, 1 kg turn alike and two bars keep their
-    direction, a pendulum of one angle from the vertical: (3/3 + 2) a'' = g (3/2 + 2) sin a."""
-    pull = 9.81 * (3 / 2 + 2) / (3 / 3 + 2)
-    angle, speed = solve_ivp(
-        lambda _, y: (y[1], pull * math.sin(y[0])),
-        (0, times[-1]),
-        (0, 1),
-        "DOP853",
-        times,
-        rtol=1e-13,
-        atol=1e-13,
-    ).y
-    return np.array([np.sin(angle), np.cos(angle) - 1, speed * np.cos(angle), -speed * np.sin(angle)]).T
 
 
 def deck_text(path: str) -> str:
@@ -218,7 +202,7 @@ def models() -> dict[str, Model]:
                 (),  # without bound where all bars lie in one line
             ),
             (1e-2, 5e-3, 2.5e-3, 1.25e-3),
-            bars_in_line,
+            four_bars.first_bar,
             schemes=("", " SCHEME CHUNG"),
         ),
         "andrews": like("andrews", "Andrews", 0.03, 2e-4, (2e-4, 1e-4, 5e-5, 2.5e-5)),

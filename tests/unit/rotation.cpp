@@ -57,6 +57,17 @@ TEST(Rotation, TangentHasNoSeamWhereTheSeriesEnds) {
   EXPECT_LT((below - above).cwiseAbs().maxCoeff(), 1e-14);
 }
 
+TEST(Rotation, RateOfTheTangentIsItsDerivative) {
+  const Vec3 rate(0.3, 1.2, -0.5), w(-0.7, 0.2, 0.9);
+  for (const double angle : {0.0, 1e-3, 0.3, 0.499, 0.501, 2.0, 6.0}) {
+    const Vec3 y = angle * direction;
+    const double h = 1e-5;
+    const Mat3 difference = (rotation_tangent(y + h * rate) - rotation_tangent(y - h * rate)) / (2 * h);
+    EXPECT_LT((rotation_tangent_rate(y, rate, w) - difference * w).norm(), 1e-9) << angle;
+    EXPECT_LT((rotation_tangent_rate(y, rate, rate) - difference * rate).norm(), 1e-9) << angle;
+  }
+}
+
 TEST(Rotation, OrthonormalizedTakesRoundingAway) {
   Mat3 R = rotation_exp(2.0 * direction);
   R(0, 1) += 1e-9;

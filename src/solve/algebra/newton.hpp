@@ -27,6 +27,7 @@ struct NewtonReport {
   bool converged = false;
   bool singular = false;
   bool conflict = false;  ///< constraints could not be met that the solver took for consequences of the others
+  bool coupled = false;   ///< all stages of a step, each with its own tangents (CoupledStages)
   int iterations = 0;
   std::string reason;  ///< why it did not converge, in words
   std::vector<NewtonRow> rows;

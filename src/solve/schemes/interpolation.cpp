@@ -29,7 +29,7 @@ Interpolation::Interpolation(const MotionSlots& motion, const Configuration& fro
     const auto tangent = rotation_tangent(turned).partialPivLu();
     const Vec3 turning = tangent.solve(b.W);
     rotation(rate, i) = turning;
-    rotation(second, i) = tangent.solve(b.A - rotation_tangent_rate(turned, turning));
+    rotation(second, i) = tangent.solve(b.A - rotation_tangent_rate(turned, turning, turning));
   }
   for (std::size_t i = 0; i < from.scalars.size(); ++i) end[scalars + i] = ended[i] - from.scalars[i];
   first_ = motion.velocities(from);
@@ -70,7 +70,7 @@ void Interpolation::place(double time, const Motion& m, Configuration& c) const 
   for (std::size_t i = 1; i < c.nodes.size(); ++i) {
     const Vec3 turned(Eigen::Map<const Vec3>(&m.y[6 * i + 3])), turning = rotation(v, i), second = rotation(a, i);
     rotation(v, i) = c.nodes[i].T * turning;
-    rotation(a, i) = c.nodes[i].T * second + rotation_tangent_rate(turned, turning);
+    rotation(a, i) = c.nodes[i].T * second + rotation_tangent_rate(turned, turning, turning);
     c.nodes[i].T.setIdentity();  // this is no end of a step that has unknowns
   }
   motion_.set_velocities(v, c);

@@ -22,6 +22,10 @@ constexpr double slow = 0.3, growing_slow = 0.1;
 /// So many corrections that shrink by less than this end a controlled step.
 constexpr double no_contraction = 1;
 constexpr int most_idle = 3;
+/// With exact tangents corrections shrink by at least this from the third on, or lead nowhere.
+constexpr double no_newton = 0.5;
+/// Larger models have shorter steps instead: factors of three times the equations would cost more.
+constexpr int most_coupled = 10'000;
 /// Guesses go through this many ends of steps, and no farther than so many times the distance of two of them.
 constexpr std::size_t points_of_guess = 4;
 /// Iterations may leave so much of the tolerance of a step.
@@ -215,13 +219,14 @@ double Radau::increment() const {
   return largest;
 }
 
-NewtonReport Radau::iterate(const Configuration& from, double h) {
+NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* exact) {
   NewtonReport report;
+  report.coupled = exact != nullptr;
   const std::vector<double> remembered = references_.memory();
   const double precision = context_.options.precision;
   references_.begin(from);
   fresh_ = false;
-  bool renew = (!(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale()) && !recall(h);
+  bool renew = !exact && (!(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale()) && !recall(h);
   Correction last;
   double contraction = 0, slowest = 0;
   bool evaluated = false;  // in this step
@@ -278,7 +283,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
       uses = 0;
     }
     renew = false;
-    if (!solver_.solve(residuals_, changes_)) {
+    if (!(exact ? exact->solve(configurations_, now_.y, h, residuals_, changes_) : solver_.solve(residuals_, changes_))) {
       report.singular = true;
       report.reason = "the tangent matrix is singular";
       break;
@@ -289,9 +294,11 @@ NewtonReport Radau::iterate(const Configuration& from, double h) {
     // the first correction after matrices have changed says nothing of them; what is left of rounding says nothing of new ones
     if (++uses < 2 || (evaluated && last.motion <= negligible_correction)) continue;
     slowest = std::max(slowest, contraction);
-    renew = contraction > slow;
+    renew = !exact && contraction > slow;
     // across an event corrections go from one law to the other and back: a shorter step costs less than to wait for them
-    if (error_.wanted() && contraction > no_contraction && ++idle == most_idle) {
+    const bool astray =
+        exact ? k > 1 && contraction > no_newton : error_.wanted() && contraction > no_contraction && ++idle == most_idle;
+    if (astray) {
       report.iterations = k + 1;
       report.reason = "the iteration does not converge";
       break;
@@ -334,6 +341,11 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
 
   predict(from, h);
   NewtonReport report = iterate(from, h);
+  if (!report.converged && context_.numbering.equations() <= most_coupled) {
+    CoupledStages exact(context_.assembler, collocation_, context_.solver.package());
+    predict(from, h);
+    report = iterate(from, h, &exact);
+  }
   to = outside_of_steps(configurations_.back());
   refuse_half_turns(now_.y.back(), report);
   if (!report.converged) return {std::move(report), {}};

@@ -3,6 +3,7 @@
 
 #include "math/extrapolation.hpp"
 #include "solve/algebra/references.hpp"
+#include "solve/schemes/coupled_stages.hpp"
 #include "solve/schemes/dynamics.hpp"
 #include "solve/schemes/kept_matrices.hpp"
 #include "solve/schemes/stage_solver.hpp"
@@ -68,8 +69,8 @@ class Radau final : public Dynamics {
   void keep(const Configuration& c, double h);
   /// The systems of steps of h from matrices that are kept; false when there are none.
   bool recall(double h);
-  /// Simplified Newton iteration from the stages in now_.
-  NewtonReport iterate(const Configuration& from, double h);
+  /// Newton's iteration from the stages in now_: simplified, with the matrices that are kept, or with the tangents of each stage.
+  NewtonReport iterate(const Configuration& from, double h, CoupledStages* exact = nullptr);
   /// Velocities, accelerations and multipliers that fit at the end of a step whose positions fit; false when there are none.
   bool complete(Configuration& c);
   /// The first of these, and the others.

@@ -4,32 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "solve/algebra/rows.hpp"
+#include "solve/schemes/interleaved.hpp"
 #include "solve/schemes/snapshot_part.hpp"
 
 namespace engrane::solve {
 
 namespace {
-
-/// Numbers of a vector on this rank, for as long as this lives.
-class Local {
- public:
-  explicit Local(Vec vector) : vector_(vector) {
-    check_petsc(VecGetArray(vector, &values_));
-    check_petsc(VecGetLocalSize(vector, &size_));
-  }
-  ~Local() { (void)VecRestoreArray(vector_, &values_); }
-  Local(const Local&) = delete;
-  Local& operator=(const Local&) = delete;
-  double& operator[](PetscInt i) const { return values_[i]; }
-  PetscInt size() const { return size_; }
-
- private:
-  Vec vector_;
-  PetscScalar* values_ = nullptr;
-  PetscInt size_ = 0;
-};
 
 /// `sum` = Σ factors(j) vectors[j].
 void add_up(const Eigen::VectorXd& factors, const std::vector<Owned<Vec>>& vectors, Vec sum) {
@@ -54,7 +37,7 @@ StageSolver::StageSolver(Assembler& assembler, const Collocation& collocation, c
     System& system = systems_.emplace_back();
     system.block = block;
     if (block.complex()) {
-      *system.whole.out() = new_double_matrix();
+      *system.whole.out() = new_interleaved_matrix(assembler.matrix(), 2);
       check_petsc(MatCreateVecs(system.whole, system.solution.out(), system.right.out()));
     } else {
       *system.whole.out() = assembler.new_matrix();
@@ -69,41 +52,12 @@ StageSolver::StageSolver(Assembler& assembler, const Collocation& collocation, c
 
 Weights StageSolver::weights(double h) const { return weights_of(systems_.front().block, h); }
 
-Mat StageSolver::new_double_matrix() const {
-  const Mat one = assembler_.matrix();
-  PetscInt first = 0, end = 0, all = 0;
-  check_petsc(MatGetOwnershipRange(one, &first, &end));
-  check_petsc(MatGetSize(one, &all, nullptr));
-  std::vector<PetscInt> begin{0}, columns;
-  for (PetscInt row = first; row < end; ++row) {
-    PetscInt count = 0;
-    const PetscInt* from = nullptr;
-    check_petsc(MatGetRow(one, row, &count, &from, nullptr));
-    for (int part = 0; part < 2; ++part) {
-      for (PetscInt k = 0; k < count; ++k) columns.insert(columns.end(), {2 * from[k], 2 * from[k] + 1});
-      begin.push_back(static_cast<PetscInt>(columns.size()));
-    }
-    check_petsc(MatRestoreRow(one, row, &count, &from, nullptr));
-  }
-  Mat matrix = nullptr;
-  check_petsc(MatCreate(assembler_.comm(), &matrix));
-  check_petsc(MatSetSizes(matrix, 2 * (end - first), 2 * (end - first), 2 * all, 2 * all));
-  check_petsc(MatSetType(matrix, MATAIJ));
-  // of the two the one that is not of the matrix's type does nothing
-  check_petsc(MatSeqAIJSetPreallocationCSR(matrix, begin.data(), columns.data(), nullptr));
-  check_petsc(MatMPIAIJSetPreallocationCSR(matrix, begin.data(), columns.data(), nullptr));
-  return matrix;
-}
-
-void StageSolver::interleave(const Matrices& matrices, double h, const System& system) const {
+void StageSolver::combine_pair(const Matrices& matrices, double h, const System& system) const {
   const Numbering& numbering = assembler_.numbering();
   const Weights real = weights_of(system.block, h), imaginary = imaginary_weights_of(system.block, h);
   PetscInt first = 0, end = 0;
   check_petsc(MatGetOwnershipRange(matrices.stiffness, &first, &end));
-  const bool sequential = is_sequential(system.whole);
-  PetscScalar* values = nullptr;
-  if (sequential) check_petsc(MatSeqAIJGetArray(system.whole, &values));
-  std::vector<PetscInt> columns;
+  InterleavedRows rows(system.whole, 2);
   std::vector<double> pair[2];
   for (PetscInt row = first; row < end; ++row) {
     PetscInt count = 0;
@@ -122,26 +76,13 @@ void StageSolver::interleave(const Matrices& matrices, double h, const System& s
       pair[0][at + 1] = -im;
       pair[1][at] = im;
     }
-    if (sequential) {
-      for (const auto& values_of_row : pair) values = std::copy(values_of_row.begin(), values_of_row.end(), values);
-    } else {
-      columns.clear();
-      for (PetscInt i = 0; i < count; ++i) columns.insert(columns.end(), {2 * from[i], 2 * from[i] + 1});
-      for (PetscInt i = 0; i < 2; ++i) {
-        const PetscInt into = 2 * row + i;
-        check_petsc(MatSetValues(system.whole, 1, &into, 2 * count, columns.data(), pair[i].data(), INSERT_VALUES));
-      }
-    }
+    for (int part_of_row = 0; part_of_row < 2; ++part_of_row)
+      rows.write(row, part_of_row, {from, static_cast<std::size_t>(count)}, pair[part_of_row]);
     check_petsc(MatRestoreRow(matrices.mass, row, nullptr, nullptr, &m));
     check_petsc(MatRestoreRow(matrices.damping, row, nullptr, nullptr, &c));
     check_petsc(MatRestoreRow(matrices.stiffness, row, &count, &from, &k));
   }
-  if (sequential) {
-    values = nullptr;
-    check_petsc(MatSeqAIJRestoreArray(system.whole, &values));
-  }
-  check_petsc(MatAssemblyBegin(system.whole, MAT_FINAL_ASSEMBLY));
-  check_petsc(MatAssemblyEnd(system.whole, MAT_FINAL_ASSEMBLY));
+  rows.finish();
 }
 
 StageSolver::Matrices StageSolver::new_matrices() const {
@@ -159,7 +100,7 @@ void StageSolver::evaluate(const Configuration& c, const Matrices& matrices) {
 void StageSolver::combine(const Matrices& matrices, double h) {
   for (System& system : systems_) {
     if (system.block.complex()) {
-      interleave(matrices, h, system);
+      combine_pair(matrices, h, system);
       continue;
     }
     const Weights weights = weights_of(system.block, h);
@@ -178,19 +119,9 @@ bool StageSolver::solve(const std::vector<Owned<Vec>>& residuals, const std::vec
       if (!system.solver->solve(transformed_[k], solved_[k])) return false;
       continue;
     }
-    {
-      const Local right(system.right), one(transformed_[k]), two(transformed_[k + 1]);
-      for (PetscInt i = 0; i < one.size(); ++i) {
-        right[2 * i] = one[i];
-        right[2 * i + 1] = two[i];
-      }
-    }
+    interleave(std::array<Vec, 2>{transformed_[k], transformed_[k + 1]}, system.right);
     if (!system.solver->solve(system.right, system.solution)) return false;
-    const Local solution(system.solution), one(solved_[k]), two(solved_[k + 1]);
-    for (PetscInt i = 0; i < one.size(); ++i) {
-      one[i] = solution[2 * i];
-      two[i] = solution[2 * i + 1];
-    }
+    separate(system.solution, std::array<Vec, 2>{solved_[k], solved_[k + 1]});
   }
   for (std::size_t i = 0; i < changes.size(); ++i)
     add_up(collocation_.transform.row(static_cast<Eigen::Index>(i)).transpose(), solved_, changes[i]);

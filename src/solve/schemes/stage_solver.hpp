@@ -52,9 +52,8 @@ class StageSolver {
   };
   /// That of the real eigenvalue: collocation with an odd number of stages has one.
   const System& real() const;
-  Mat new_double_matrix() const;
   /// [Re −Im; Im Re] with rows and columns 2i and 2i + 1 for the two parts of unknown i.
-  void interleave(const Matrices& matrices, double h, const System& system) const;
+  void combine_pair(const Matrices& matrices, double h, const System& system) const;
 
   Assembler& assembler_;
   const Collocation& collocation_;

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/schemes/coupled_stages.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "math/rotation.hpp"
+#include "solve/algebra/rows.hpp"
+#include "solve/schemes/interleaved.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+constexpr int components = 6;  // of a node, the last three of its rotation
+constexpr int turns = 3;
+
+std::vector<Vec> all_of(const std::vector<Owned<Vec>>& vectors) { return {vectors.begin(), vectors.end()}; }
+
+/// A row of a stage's K, C and M, for as long as this lives.
+class RowOfStage {
+ public:
+  RowOfStage(std::array<Mat, 3> matrices, PetscInt row) : matrices_(matrices), row_(row) {
+    for (std::size_t k = 0; k < values_.size(); ++k)
+      check_petsc(MatGetRow(matrices_[k], row, &count_, k == 0 ? &columns_ : nullptr, &values_[k]));
+  }
+  ~RowOfStage() {
+    for (std::size_t k = 0; k < values_.size(); ++k)
+      (void)MatRestoreRow(matrices_[k], row_, nullptr, k == 0 ? &columns_ : nullptr, &values_[k]);
+  }
+  RowOfStage(const RowOfStage&) = delete;
+  RowOfStage& operator=(const RowOfStage&) = delete;
+
+  std::span<const PetscInt> columns() const { return {columns_, static_cast<std::size_t>(count_)}; }
+  double stiffness(std::size_t k) const { return values_[0][k]; }
+  double damping(std::size_t k) const { return values_[1][k]; }
+  double mass(std::size_t k) const { return values_[2][k]; }
+
+ private:
+  std::array<Mat, 3> matrices_;
+  PetscInt row_, count_ = 0;
+  const PetscInt* columns_ = nullptr;
+  std::array<const PetscScalar*, 3> values_{};
+};
+
+}  // namespace
+
+CoupledStages::CoupledStages(Assembler& assembler, const Collocation& collocation, const std::string& package)
+    : assembler_(assembler), collocation_(collocation) {
+  const auto stages = static_cast<std::size_t>(collocation.stages());
+  for (std::size_t k = 0; k < 3 * stages; ++k) *parts_.emplace_back().out() = assembler.new_matrix();
+  *whole_.out() = new_interleaved_matrix(assembler.matrix(), static_cast<int>(stages));
+  check_petsc(MatCreateVecs(whole_, solution_.out(), right_.out()));
+  std::vector<unsigned char> kinds;
+  for (const unsigned char kind : kinds_of_rows(assembler.numbering())) kinds.insert(kinds.end(), stages, kind);
+  solver_ = std::make_unique<LinearSolver>(whole_, package, kinds);
+}
+
+std::vector<CoupledStages::Rates> CoupledStages::rates_of_rotations(const std::vector<std::vector<double>>& increments,
+                                                                    double h) const {
+  const Eigen::MatrixXd inverse = collocation_.inverse / h;
+  const Eigen::Index stages = inverse.rows();
+  const auto at = [stages](Eigen::Index i, Eigen::Index j) { return static_cast<std::size_t>(i * stages + j); };
+  std::vector<Rates> all(assembler_.model().nodes.size());
+  for (std::size_t n = 1; n < all.size(); ++n) {
+    std::vector<Vec3> y;
+    for (const auto& slots : increments) y.emplace_back(slots.data() + components * n + turns);
+    Rates& rates = all[n];
+    rates.velocity.assign(at(stages, 0), Mat3::Zero());
+    rates.acceleration = rates.velocity;
+    for (Eigen::Index i = 0; i < stages; ++i) {
+      Vec3 rate = Vec3::Zero();
+      const Vec3& here = y[static_cast<std::size_t>(i)];
+      for (Eigen::Index j = 0; j < stages; ++j) rate += inverse(i, j) * y[static_cast<std::size_t>(j)];
+      const Mat3 tangent = rotation_tangent(here);
+      for (Eigen::Index j = 0; j < stages; ++j) rates.velocity[at(i, j)] = inverse(i, j) * tangent;
+      for (int c = 0; c < turns; ++c) rates.velocity[at(i, i)].col(c) += rotation_tangent_rate(here, Vec3::Unit(c), rate);
+    }
+    for (Eigen::Index i = 0; i < stages; ++i)
+      for (Eigen::Index j = 0; j < stages; ++j)
+        for (Eigen::Index k = 0; k < stages; ++k) rates.acceleration[at(i, k)] += inverse(i, j) * rates.velocity[at(j, k)];
+  }
+  return all;
+}
+
+void CoupledStages::assemble(const std::vector<Configuration>& places, const std::vector<Rates>& rotations, double h) {
+  constexpr std::array<Weights, 3> weights = {Weights{1, 0, 0}, Weights{0, 1, 0, 0}, Weights{0, 0, 1, 0}};
+  const auto stages = static_cast<Eigen::Index>(places.size());
+  for (Eigen::Index i = 0; i < stages; ++i)
+    for (Eigen::Index k = 0; k < 3; ++k)
+      assembler_.tangent(places[static_cast<std::size_t>(i)], weights[static_cast<std::size_t>(k)], part(i, k));
+
+  const Eigen::MatrixXd first = collocation_.inverse / h, second = first * first;
+  const Numbering& numbering = assembler_.numbering();
+  InterleavedRows rows(whole_, static_cast<int>(stages));
+  PetscInt begin = 0, end = 0;
+  check_petsc(MatGetOwnershipRange(part(0, 0), &begin, &end));
+  std::vector<double> values;
+  for (PetscInt row = begin; row < end; ++row) {
+    const bool constraint = numbering.unknown(static_cast<int>(row)).multiplier;  // it is of positions of one stage
+    for (Eigen::Index i = 0; i < stages; ++i) {
+      const RowOfStage from({part(i, 0), part(i, 1), part(i, 2)}, row);
+      const auto columns = from.columns();
+      values.clear();
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        const Unknown& u = numbering.unknown(static_cast<int>(columns[k]));
+        const bool turn = u.node > 0 && !u.multiplier && u.item >= turns;
+        for (Eigen::Index j = 0; j < stages; ++j) {
+          double value = i == j ? from.stiffness(k) : 0;
+          if (!constraint && !turn) value += first(i, j) * from.damping(k) + second(i, j) * from.mass(k);
+          if (!constraint && turn) {
+            const Rates& rates = rotations[static_cast<std::size_t>(u.node)];
+            const auto block = static_cast<std::size_t>(i * stages + j);
+            for (int c = 0; c < turns; ++c) {  // along the material axes, as far as these have equations
+              const int equation = numbering.equation(components * u.node + turns + c);
+              const auto place = std::lower_bound(columns.begin(), columns.end(), static_cast<PetscInt>(equation));
+              if (equation < 0 || place == columns.end() || *place != equation) continue;
+              const auto axis = static_cast<std::size_t>(place - columns.begin());
+              value += from.damping(axis) * rates.velocity[block](c, u.item - turns) +
+                       from.mass(axis) * rates.acceleration[block](c, u.item - turns);
+            }
+          }
+          values.push_back(value);
+        }
+      }
+      rows.write(row, static_cast<int>(i), columns, values);
+    }
+  }
+  rows.finish();
+}
+
+bool CoupledStages::solve(const std::vector<Configuration>& places, const std::vector<std::vector<double>>& increments, double h,
+                          const std::vector<Owned<Vec>>& residuals, const std::vector<Owned<Vec>>& changes) {
+  assemble(places, rates_of_rotations(increments, h), h);
+  interleave(all_of(residuals), right_);
+  check_petsc(VecScale(right_, -1));
+  if (!solver_->solve(right_, solution_)) return false;
+  separate(solution_, all_of(changes));
+  return true;
+}
+
+}  // namespace engrane::solve

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "assembly/assembler.hpp"
+#include "math/vector.hpp"
+#include "solve/algebra/linear.hpp"
+#include "solve/schemes/collocation.hpp"
+
+namespace engrane::solve {
+
+/// The linear systems of Newton's iteration on all stages of a collocation step, each stage with the tangents of its own place
+/// (Hairer and Wanner, Solving Ordinary Differential Equations II, 1996, IV.8). With increments y_i, velocities
+/// v_i = T(y_i) Σ_j (A⁻¹)_ij y_j/h and accelerations a_i = Σ_j (A⁻¹)_ij (v_j − v_0)/h the change of y_j enters the balance of
+/// stage i by δ_ij K_i + C_i ∂v_i/∂y_j + M_i ∂a_i/∂y_j: convergence is quadratic. It costs several times what StageSolver does
+/// and is asked where that does not converge: where tangents differ much along a step, and where constraints lose their rank
+/// within it, which are then closed by corrections of the other sign than before.
+class CoupledStages {
+ public:
+  CoupledStages(Assembler& assembler, const Collocation& collocation, const std::string& package);
+
+  /// Changes of all stages' unknowns that bring the residuals to zero, one vector for each stage, for a step of h with stages at
+  /// `places`, `increments` (by motion slot) from its beginning; false when singular. Residuals are overwritten.
+  bool solve(const std::vector<Configuration>& places, const std::vector<std::vector<double>>& increments, double h,
+             const std::vector<Owned<Vec>>& residuals, const std::vector<Owned<Vec>>& changes);
+
+ private:
+  /// ∂v_i/∂y_j and ∂a_i/∂y_j of a node's rotation, at i · stages + j.
+  struct Rates {
+    std::vector<Mat3> velocity, acceleration;
+  };
+  std::vector<Rates> rates_of_rotations(const std::vector<std::vector<double>>& increments, double h) const;
+  void assemble(const std::vector<Configuration>& places, const std::vector<Rates>& rotations, double h);
+  /// K, C or M of a stage.
+  Mat part(Eigen::Index stage, Eigen::Index which) const { return parts_[static_cast<std::size_t>(3 * stage + which)]; }
+
+  Assembler& assembler_;
+  const Collocation& collocation_;
+  std::vector<Owned<Mat>> parts_;  ///< K, C and M of the first stage, and so on
+  Owned<Mat> whole_;
+  std::unique_ptr<LinearSolver> solver_;
+  Owned<Vec> right_, solution_;
+};
+
+}  // namespace engrane::solve
