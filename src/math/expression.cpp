@@ -387,6 +387,7 @@ Expression::Parsed Expression::parse(std::string_view text, bool variable_allowe
   parsed.fault = parser.run();
   if (parsed.good()) {
     parsed.expression.program_ = parser.take_program();
+    parsed.expression.name_decisions();
     parsed.expression.uses_time_ = parser.uses_time();
     if (parser.uses_time()) parsed.expression.variable_ = parser.variable();
     parsed.expression.uses_law_ = parser.uses_law();

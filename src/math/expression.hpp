@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "math/jet.hpp"
+#include "math/taylor.hpp"
 
 namespace engrane {
 
@@ -44,6 +46,17 @@ class Expression {
   /// before, which is where the formula may jump or have a corner; to the last digit. Looked for at a thousand places: what comes
   /// and goes between two of them is not seen. None where there are more than `most`.
   std::vector<double> corners(double from, double to, std::size_t most) const;
+  /// A difference whose sign a comparison, sign, abs, min or max goes by: the formula may jump or have a corner where it is zero.
+  struct Decision {
+    double value = 0;
+    double rate = 0;  ///< its time derivative
+    double size = 0;  ///< of the terms that `value` is the difference of
+  };
+  /// Their operations in words: `max`, `abs (2)` for the second of two. Those of `==` and `/=` say nothing of a side.
+  const std::vector<std::string>& decisions() const { return decisions_; }
+  /// Their values along a motion of the variable, or of D with the rate V; `size` is that of the terms which x is the difference
+  /// of.
+  void decide(const Taylor& x, double time, double size, std::span<Decision> found) const;
   /// How far rounding may have taken value(time), or a law's value there, where its variables are exact.
   double rounding(double time, double elongation = 0, double rate = 0) const;
   /// Does the text not use the variable?
@@ -105,7 +118,10 @@ class Expression {
   };
 
  private:
+  void name_decisions();
+
   std::vector<Instruction> program_;
+  std::vector<std::string> decisions_;
   bool constant_ = true, uses_law_ = false, uses_time_ = false;
   char variable_ = 'T';
 };

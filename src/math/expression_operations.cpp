@@ -276,10 +276,12 @@ bool decides(Code code) {
 }
 
 signed char decision(Code code, const Series* operands) {
-  const double sign = operand_count(code) == 1      ? sign_on_the_right(operands[0])
-                      : code == Code::transfer_sign ? sign_on_the_right(operands[1])
-                                                    : difference_on_the_right(operands[0], operands[1]);
-  return static_cast<signed char>(std::isnan(sign) ? 2 : sign);
+  const auto side = [](double sign) { return std::isnan(sign) ? 2 : static_cast<int>(sign); };
+  const int first =
+      side(operand_count(code) == 1 || code == Code::transfer_sign ? sign_on_the_right(operands[0])
+                                                                   : difference_on_the_right(operands[0], operands[1]));
+  const int second = code == Code::transfer_sign ? side(sign_on_the_right(operands[1])) : 0;
+  return static_cast<signed char>(first + 8 * second);
 }
 
 double apply(Code code, double a, double b, double c) {

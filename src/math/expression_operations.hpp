@@ -29,7 +29,8 @@ Series apply(Expression::Instruction::Code code, const Series& a, const Series& 
 
 /// Is it a comparison, sign or choice of the larger, where a formula of smooth parts may jump or have a corner?
 bool decides(Expression::Instruction::Code code);
-/// Which way it decides just right of here: -1, 0 or 1, or 2 where it is not a number. `operands`: as many as it takes.
+/// Which way it decides just right of here: -1, 0 or 1, or 2 where it is not a number; of a sign that is transferred eight times
+/// the same of the second operand more, since the first is taken without its own. `operands`: as many as it takes.
 signed char decision(Expression::Instruction::Code code, const Series* operands);
 
 /// Runs a program on doubles or series; variables in the order of Instruction::number. The parser has checked that the stack

@@ -29,6 +29,8 @@ class Curve {
   Jet at(double x) const;
   /// ∫ from 0 to x, exact for the curve.
   double integral(double x) const { return from_start(x) - from_start_to_zero_; }
+  /// 0: it does not repeat.
+  double period() const { return period_.value_or(0); }
   /// Where it jumps or has a corner between two abscissas, in increasing order; none where there are more than `most`, nor
   /// between infinite ones where it repeats.
   std::vector<double> corners(double from, double to, std::size_t most) const;

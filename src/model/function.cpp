@@ -25,6 +25,7 @@ class CurveFunction final : public Function {
   Jet at(double x) const override { return curve_.at(x); }
   double integral(double x) const override { return curve_.integral(x); }
   std::vector<double> corners(double from, double to, std::size_t most) const override { return curve_.corners(from, to, most); }
+  double period() const override { return curve_.period(); }
 
  private:
   Curve curve_;
@@ -122,6 +123,7 @@ class FormulaFunction final : public Function {
     }
     return area;
   }
+  const Expression* formula() const override { return &formula_; }
   const Expression* law() const override { return formula_.is_law() ? &formula_ : nullptr; }
   std::vector<double> corners(double from, double to, std::size_t most) const override {
     return formula_.is_law() || !std::isfinite(to - from) ? std::vector<double>() : formula_.corners(from, to, most);

@@ -32,6 +32,10 @@ class Function {
   /// change. None where there are more than `most` of them: a measured curve. Those of user routines are not known, nor between
   /// infinite values those of formulas and of what repeats.
   virtual std::vector<double> corners(double /*from*/, double /*to*/, std::size_t /*most*/) const { return {}; }
+  /// With which it repeats; 0: it does not, or nobody knows.
+  virtual double period() const { return 0; }
+  /// The formula, if this is one.
+  virtual const Expression* formula() const { return nullptr; }
   /// The formula of a law, if this is one and no function of one variable.
   virtual const Expression* law() const { return nullptr; }
 };

@@ -253,6 +253,29 @@ TEST(Expression, LawsOfElongationRateAndTime) {
   EXPECT_FALSE(fault("2*D", false).message.empty());
 }
 
+TEST(Expression, DecisionsAlongAMotion) {
+  const Expression damper = formula("100*D + IF(V > 0, 4*V, V) + MAX(D, 0.1*T) - SIGN(D, V - 1) + ABS(D - 1)*ABS(V)");
+  EXPECT_EQ(damper.decisions(), (std::vector<std::string>{">", "max", "sign", "sign (2)", "abs", "abs (2)"}));
+  const Taylor x(0.3, -2, 5);
+  const double time = 4, size = 7;
+  std::vector<Expression::Decision> found(damper.decisions().size());
+  damper.decide(x, time, size, found);
+  const double values[] = {-2, 0.3 - 0.4, 0.3, -3, -0.7, -2}, rates[] = {5, -2 - 0.1, -2, 5, -2, 5};
+  // each with its terms, and with the rounding of D and V as far as it depends on them
+  const double sizes[] = {2 + 2, 0.7 + 7, 0.3 + 7, 3 + 2, 0.7 + 7, 2 + 2};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_NEAR(found[i].value, values[i], 1e-15) << damper.decisions()[i];
+    EXPECT_NEAR(found[i].rate, rates[i], 1e-14) << damper.decisions()[i];
+    EXPECT_NEAR(found[i].size, sizes[i], 1e-14) << damper.decisions()[i];
+  }
+
+  const Expression play = formula("max(0, X**2 - 4)");
+  play.decide({3, 0.5, 0}, time, 1, found);
+  EXPECT_NEAR(found[0].value, -5, 1e-14) << "0 less x² − 4";
+  EXPECT_NEAR(found[0].rate, -3, 1e-14);
+  EXPECT_TRUE(formula("SIN(X) == 2*X").decisions().empty());
+}
+
 TEST(Expression, CornersAndJumpsToTheLastDigit) {
   using Places = std::vector<double>;
   const auto corners = [](std::string_view text, std::size_t most = 100) { return formula(text).corners(0, 2, most); };
@@ -261,6 +284,7 @@ TEST(Expression, CornersAndJumpsToTheLastDigit) {
   EXPECT_EQ(corners("if(T >= 0.25 .AND. T < 1.75, 3, 0)*T"), (Places{0.25, 1.75}));
   EXPECT_EQ(corners("max(0, T - 0.3) + sign(T - 0.3001)"), (Places{0.3, 0.3001}));  // between two looks
   EXPECT_EQ(corners("min(T, 0.5, 2)"), Places{0.5});
+  EXPECT_EQ(corners("sign(T - 0.5, T - 1.5)"), (Places{0.5, 1.5}));
   const Places folds = corners("abs(sin(PI*T*2))");
   ASSERT_EQ(folds.size(), 3u);
   for (std::size_t k = 0; k < folds.size(); ++k) EXPECT_NEAR(folds[k], 0.5 * static_cast<double>(k + 1), 4e-16);

@@ -6,8 +6,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from runs import run
+from scipy.integrate import solve_ivp
 
-LAW = "I 1 TABLE -1.1 -50  -0.1 0  0.1 0  1.1 50"
+TABLE = "I 1 TABLE -1.1 -50  -0.1 0  0.1 0  1.1 50"
+FORMULA = 'I 1 EXPR "50*(max(0, X - 0.1) + min(0, X + 0.1))"'
 MODELS = {
     "spring": (
         ".NOE\n I 1 X 3 0 0",
@@ -48,6 +50,15 @@ def loose(t: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize(
+    ("law", "says"),
+    [
+        (TABLE, ("LAW passes its corner at 0.1 upwards", "LAW passes its corner at -0.1 downwards")),
+        (FORMULA, ("LAW passes the corner of max downwards", "LAW passes the corner of min upwards")),
+        (FORMULA.replace("X ", "D "), ("LAW passes the corner of max downwards",)),
+    ],
+    ids=["table", "formula", "law"],
+)
+@pytest.mark.parametrize(
     ("sam", "sub", "most"),
     [
         ("SCHEME RADAU", "H 0.1 TOL 1E-6", 1e-6),  # 2.2e-4 with steps across the corners
@@ -55,8 +66,10 @@ def loose(t: np.ndarray) -> np.ndarray:
         ("SCHEME CHUNG RHO 1", "H 0.001", 5e-4),
     ],
 )
-def test_a_spring_with_play(tmp_path, model, sam, sub, most):
+def test_a_spring_with_play(tmp_path, model, law, says, sam, sub, most):
     nodes, spring, mass, support, component, channel = MODELS[model]
+    if " D " in law:
+        spring = spring.replace("TABLE", "EXPR")
     text = f"""{nodes}
 .MCE
  I 1 {spring}
@@ -64,7 +77,7 @@ def test_a_spring_with_play(tmp_path, model, sam, sub, most):
 .CLM
  {support}
 .FCT
- {LAW}
+ {law}
 .INI
  VIT NOEUD 1 C {component} V 1
 .SAM TYPE DYNAMIC {sam}
@@ -74,8 +87,7 @@ def test_a_spring_with_play(tmp_path, model, sam, sub, most):
     result = run(text, tmp_path)
     assert np.max(np.abs(result[channel] - loose(result.t))) <= most * 0.3
     listing = result.file.with_suffix(".lst").read_text()
-    assert "passes its corner at 0.1 upwards" in listing
-    assert "passes its corner at -0.1 downwards" in listing
+    assert all(words in listing for words in says)
 
 
 @pytest.mark.parametrize("element", ["SPRING N 0 1 CLAW 1", "PRISMATIC N 0 1 AXIS 1 0 0 CLAW 1"])
@@ -106,10 +118,86 @@ def test_a_damper_that_yields(tmp_path, element):
     assert "CLAW passes its corner at 1 downwards" in result.file.with_suffix(".lst").read_text()
 
 
+def by_phases(slope, corner, start, times: np.ndarray) -> np.ndarray:
+    """y' = slope(y, side), where `side` of corner(y) changes at its zeros: one phase after another."""
+    y, t, rows = np.array(start, dtype=float), 0.0, []
+    ahead = corner(y + 1e-9 * slope(y, np.sign(corner(y))))
+    side = np.sign(ahead)
+    while True:
+        stop = lambda _t, y: corner(y)  # noqa: E731
+        stop.terminal, stop.direction = True, -side
+        found = solve_ivp(
+            lambda _t, y, side=side: slope(y, side), (t, times[-1]), y, "DOP853", dense_output=True,
+            events=stop, rtol=1e-12, atol=1e-14,
+        )  # fmt: skip
+        here = times[(times >= t) & (times <= found.t[-1])]
+        rows += [found.sol(here).T[: len(here) - (found.status == 1 and here[-1] == found.t[-1])]]
+        if found.status == 0:
+            return np.concatenate(rows)
+        y, t, side = found.y[:, -1], found.t[-1], -side
+
+
+def test_a_rotor_passes_the_teeth_of_a_table_that_repeats(tmp_path):
+    """A torque from -5 to 5 and back in every 0.4 rad, and an inertia of 2."""
+    text = """.NOE
+ I 1 X 0 0 0
+.MCE
+ I 1 TSPRING N 0 1 AXIS 0 0 1 LAW TABLE 1
+ I 2 INERTIA N 1 M 1 J 1 1 2
+.CLM
+ FIX NOEUD 1 C 1 2 3 4 5
+.FCT
+ I 1 TABLE 0 -5  0.2 5  0.4 -5 PERIOD 0.4
+.INI
+ VIT NOEUD 1 C 6 V 1
+.SAM TYPE DYNAMIC SCHEME RADAU
+.SUB TF 3 H 0.05 TOL 1E-6
+.FIN 1
+"""
+    result = run(text, tmp_path)
+
+    def slope(y, side):
+        middle = 0.1 if side > 0 else 0.3  # of a line of the table
+        return np.array([y[1], -side * 50 * (np.remainder(y[0] - middle + 0.2, 0.4) - 0.2) / 2])
+
+    true = by_phases(slope, lambda y: np.sin(np.pi * y[0] / 0.2), [0.0, 1.0], result.t)
+    assert np.max(np.abs(result["element/1/ANGLE"] - true[:, 0])) <= 1e-6 * np.ptp(true[:, 0])
+    listing = result.file.with_suffix(".lst").read_text()
+    assert "LAW passes its corner at 0.2 or periods of 0.4 from it" in listing
+
+
+def test_a_damper_with_two_strokes(tmp_path):
+    """A mass of 1 on a spring of 100, damped by 4 outwards and 1 inwards: sides change where it turns."""
+    text = """.NOE
+ I 1 X 3 0 0
+.MCE
+ I 1 SPRING N 0 1 LAW EXPR 1 AT 1 0 0
+ I 2 INERTIA N 1 M 1
+.CLM
+ FIX NOEUD 1 C 2 3
+.FCT
+ I 1 EXPR "100*D + IF(V > 0, 4*V, V)"
+.INI
+ VIT NOEUD 1 C 1 V 1
+.SAM TYPE DYNAMIC SCHEME RADAU
+.SUB TF 3 H 0.05 TOL 1E-6
+.FIN 1
+"""
+    result = run(text, tmp_path)
+    true = by_phases(
+        lambda y, side: np.array([y[1], -100 * y[0] - (4 if side > 0 else 1) * y[1]]),
+        lambda y: y[1],
+        [0.0, 1.0],
+        result.t,
+    )
+    assert np.max(np.abs(result["node/1/UX"] - true[:, 0])) <= 1e-6 * np.ptp(true[:, 0])
+    assert "LAW passes the corner of > downwards" in result.file.with_suffix(".lst").read_text()
+
+
 def test_a_measured_curve_has_no_corners(tmp_path):
-    """More than 20: a smooth curve in many pieces. A curve that repeats has none either."""
+    """More than 20: a smooth curve in many pieces."""
     points = " ".join(f"{x:.2f} {50 * x**3:.6f}" for x in np.linspace(-1.1, 1.1, 30))
-    for table in (f"I 1 TABLE {points}", "I 1 TABLE 0 -5  0.2 5  0.4 -5 PERIOD 0.4"):
+    for table in (f"I 1 TABLE {points}", f"I 1 TABLE {points} PERIOD 3"):
         text = f""".NOE
  I 1 X 3 0 0
 .MCE

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 
 #include "model/function_failure.hpp"
 #include "model/user_function.hpp"
@@ -12,14 +11,6 @@
 namespace engrane::elements {
 
 namespace {
-
-/// A law with more corners than this is a measured curve.
-constexpr std::size_t most_corners = 20;
-
-std::vector<double> corners_of(const Function& function) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  return function.corners(-infinity, infinity, most_corners);
-}
 
 /// The formula of D and V that a keyword names; nullptr with an error when it is none.
 const Expression* find_formula(const BuildContext& context, const std::string& keyword, int id) {
@@ -64,13 +55,14 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
       law.formula = find_formula(context, "LAW" + suffix, static_cast<int>(id));
       if (!law.formula) return {};
       law.formula_id_ = static_cast<int>(id);
+      law.corners = LawCorners(*law.formula);
       if (!law.formula->uses_time())
         law.of_formula_ = std::make_shared<PanelIntegral>([f = law.formula](double e) { return f->law(e, 0, 0).value; },
                                                           [f = law.formula](double e) { return f->rounding(0, e); });
     } else {
       law.of_stretch = context.function(static_cast<int>(id), "LAW" + suffix);
       if (!law.of_stretch) return {};
-      law.corners = corners_of(*law.of_stretch);
+      law.corners = LawCorners(*law.of_stretch);
     }
   } else if (data.law.is("USER")) {
     std::vector<user::Arguments> samples{{first, 0, 0}};
@@ -88,27 +80,20 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
   if (data.damping_law != 0) {
     law.of_rate = context.function(data.damping_law, "CLAW" + suffix);
     if (!law.of_rate) return {};
-    law.corners_of_rate = corners_of(*law.of_rate);
+    law.corners_of_rate = LawCorners(*law.of_rate);
   }
   return law;
 }
 
 void SpringLaw::name_switches(std::vector<SwitchNames>& names, const std::string& before) const {
-  const auto add = [&](const char* law, double corner) {
-    const std::string what = fmt::format("{}{} passes its corner at {:.6g}", before, law, corner);
-    names.push_back({what + " upwards", what + " downwards"});
-  };
-  for (const double corner : corners) add("LAW", corner);
-  for (const double corner : corners_of_rate) add("CLAW", corner);
+  corners.name(names, before + "LAW");
+  corners_of_rate.name(names, before + "CLAW");
 }
 
-std::size_t SpringLaw::switches(const Taylor& stretch, double size, std::span<Switch> values) const {
-  constexpr double least = std::numeric_limits<double>::min();
-  std::size_t next = 0;
-  for (const double corner : corners) values[next++] = {stretch.value - corner, stretch.d1, std::abs(corner) + size + least};
-  for (const double corner : corners_of_rate)
-    values[next++] = {stretch.d1 - corner, stretch.d2, std::abs(corner) + std::abs(stretch.d1) + least};
-  return next;
+std::size_t SpringLaw::switches(const Taylor& stretch, double time, double size, std::span<Switch> values) const {
+  const std::size_t first = corners.switches(stretch, time, size, values);
+  const Taylor rate(stretch.d1, stretch.d2, 0);
+  return first + corners_of_rate.switches(rate, time, std::abs(rate.value), values.subspan(first));
 }
 
 Expression::Law SpringLaw::of_both(double stretch, double rate, double time) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "elements/common/building.hpp"
+#include "elements/common/law_corners.hpp"
 #include "math/taylor.hpp"
 #include "model/function.hpp"
 #include "model/function_integral.hpp"
@@ -31,8 +32,7 @@ struct SpringLaw {
   std::shared_ptr<const user::Routine> user;  ///< the same
   double damping = 0;                         ///< g = damping ė, unless `of_rate` is given
   const Function* of_rate = nullptr;          ///< g
-  /// Elongations and rates at which f and g are not smooth (Function::corners), for dynamics to place ends of steps there.
-  std::vector<double> corners, corners_of_rate;
+  LawCorners corners, corners_of_rate;        ///< of f and of g
 
   /// Spring and damper together.
   template <class T>
@@ -41,12 +41,12 @@ struct SpringLaw {
     const Expression::Law y = of_both(value_of(stretch), value_of(rate), time);
     return compose(stretch, y.value, y.by_elongation, 0) + compose(rate, 0, y.by_rate, 0) + viscous(rate);
   }
-  bool has_corners() const { return !corners.empty() || !corners_of_rate.empty(); }
+  bool has_corners() const { return corners.count() + corners_of_rate.count() > 0; }
   /// A switch for each corner, `before` before its words.
   void name_switches(std::vector<SwitchNames>& names, const std::string& before) const;
   /// Their values at an elongation with two derivatives; `size` is that of the terms which it is the difference of. Tells how
   /// many there are.
-  std::size_t switches(const Taylor& stretch, double size, std::span<Switch> values) const;
+  std::size_t switches(const Taylor& stretch, double time, double size, std::span<Switch> values) const;
   /// Energy stored and power lost.
   Energies energies(double stretch, double rate, double time) const;
 

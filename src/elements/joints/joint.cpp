@@ -386,7 +386,7 @@ void Joint::switches(const State& state, std::span<Switch> values) const {
     if (!c.stop.given() && !c.law.has_corners()) continue;
     const Taylor q = measured(c.measure, pose, state).value;
     values = values.subspan(c.stop.switches(q.value, q.d1, q.d2, values));
-    values = values.subspan(c.law.switches(q - c.relaxed, std::abs(q.value) + std::abs(c.relaxed), values));
+    values = values.subspan(c.law.switches(q - c.relaxed, state.time, std::abs(q.value) + std::abs(c.relaxed), values));
   }
   grip_switches(*this, state, values);
 }

@@ -75,7 +75,7 @@ class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
   void switches(const State& state, std::span<Switch> values) const override {
     if (values.empty()) return;
     const Taylor length = spring_.ends.reach<Taylor>(along_motion(state)).length;
-    spring_.law.switches(length - spring_.natural, length.value + spring_.natural, values);
+    spring_.law.switches(length - spring_.natural, state.time, length.value + spring_.natural, values);
   }
   Energies energies(const State& state) const override { return spring_.energies(state); }
   const std::vector<Channel>& channels() const override { return spring_.channels(); }

@@ -46,7 +46,7 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
     if (values.empty()) return;
     const auto nodes = along_motion(state);
     const Taylor turned = turn_count::total(axis_angle(triad_, nodes[0].R, nodes[1].R).angle, state.history);
-    law_.switches(turned - angle0_, std::abs(turned.value) + std::abs(angle0_), values);
+    law_.switches(turned - angle0_, state.time, std::abs(turned.value) + std::abs(angle0_), values);
   }
 
   Energies energies(const State& state) const override { return law_.energies(angle(state) - angle0_, speed(state), state.time); }

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "elements/common/law_corners.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace engrane::elements {
+
+namespace {
+
+constexpr std::size_t most_corners = 20;
+constexpr double least = std::numeric_limits<double>::min();
+
+/// Those of one period, in [0, period).
+std::vector<double> corners_of_period(const Function& function, double period) {
+  // the ends of an interval do not count: more than a period, and what comes twice once
+  std::vector<double> found = function.corners(-period / 4, period * 5 / 4, 2 * most_corners);
+  for (double& x : found) x -= period * std::floor(x / period);
+  std::sort(found.begin(), found.end());
+  const auto same = [&](double a, double b) { return b - a < 1e-12 * period; };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());
+  if (found.size() > 1 && same(found.back(), found.front() + period)) found.pop_back();
+  return found;
+}
+
+}  // namespace
+
+LawCorners::LawCorners(const Function& function) : period_(function.period()) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (const Expression* formula = function.formula()) {
+    *this = LawCorners(*formula);
+    return;
+  }
+  places_ = period_ > 0 ? corners_of_period(function, period_) : function.corners(-infinity, infinity, most_corners);
+  if (places_.size() > most_corners) places_.clear();
+}
+
+LawCorners::LawCorners(const Expression& formula) {
+  if (const std::size_t count = formula.decisions().size(); count > 0 && count <= most_corners) formula_ = &formula;
+}
+
+void LawCorners::name(std::vector<SwitchNames>& names, const std::string& law) const {
+  const auto add = [&](const std::string& what) { names.push_back({what + " upwards", what + " downwards"}); };
+  if (formula_) {
+    for (const std::string& decision : formula_->decisions()) add(fmt::format("{} passes the corner of {}", law, decision));
+    return;
+  }
+  const std::string more = period_ > 0 ? fmt::format(" or periods of {:.6g} from it", period_) : "";
+  for (const double place : places_) add(fmt::format("{} passes its corner at {:.6g}{}", law, place, more));
+}
+
+std::size_t LawCorners::switches(const Taylor& x, double time, double size, std::span<Switch> values) const {
+  if (formula_) {
+    std::vector<Expression::Decision> decisions(formula_->decisions().size());
+    formula_->decide(x, time, size, decisions);
+    std::transform(decisions.begin(), decisions.end(), values.begin(), [](const Expression::Decision& d) {
+      return std::isfinite(d.value) ? Switch{d.value, d.rate, d.size + least} : Switch{};
+    });
+    return decisions.size();
+  }
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    Switch& s = values[i];
+    s = {x.value - places_[i], x.d1, std::abs(places_[i]) + size + least};
+    if (period_ > 0) {  // zero at each of them, and as steep there
+      const double wave = std::numbers::pi / period_, angle = wave * std::remainder(s.value, 2 * period_);
+      s.value = std::sin(angle) / wave;
+      s.rate *= std::cos(angle);
+    }
+  }
+  return places_.size();
+}
+
+}  // namespace engrane::elements
