@@ -92,6 +92,25 @@ void CoupledStages::assemble(const std::vector<Configuration>& places, const std
 
   const Eigen::MatrixXd first = collocation_.inverse / h, second = first * first;
   const Numbering& numbering = assembler_.numbering();
+  // C ∂v_i/∂y_j + M ∂a_i/∂y_j of column k
+  const auto part_of_rates = [&](const RowOfStage& from, std::size_t k, Eigen::Index i, Eigen::Index j) {
+    const auto columns = from.columns();
+    const Unknown& u = numbering.unknown(static_cast<int>(columns[k]));
+    if (u.node < 0 || u.item < turns) return first(i, j) * from.damping(k) + second(i, j) * from.mass(k);
+    const Rates& rates = rotations[static_cast<std::size_t>(u.node)];
+    const auto block = static_cast<std::size_t>(i * stages + j);
+    double sum = 0;
+    for (int c = 0; c < turns; ++c) {  // about the material axes, as far as these have equations
+      const int equation = numbering.equation(components * u.node + turns + c);
+      const auto place = std::lower_bound(columns.begin(), columns.end(), static_cast<PetscInt>(equation));
+      if (equation < 0 || place == columns.end() || *place != equation) continue;
+      const auto axis = static_cast<std::size_t>(place - columns.begin());
+      sum += from.damping(axis) * rates.velocity[block](c, u.item - turns) +
+             from.mass(axis) * rates.acceleration[block](c, u.item - turns);
+    }
+    return sum;
+  };
+
   InterleavedRows rows(whole_, static_cast<int>(stages));
   PetscInt begin = 0, end = 0;
   check_petsc(MatGetOwnershipRange(part(0, 0), &begin, &end));
@@ -100,30 +119,11 @@ void CoupledStages::assemble(const std::vector<Configuration>& places, const std
     const bool constraint = numbering.unknown(static_cast<int>(row)).multiplier;  // it is of positions of one stage
     for (Eigen::Index i = 0; i < stages; ++i) {
       const RowOfStage from({part(i, 0), part(i, 1), part(i, 2)}, row);
-      const auto columns = from.columns();
       values.clear();
-      for (std::size_t k = 0; k < columns.size(); ++k) {
-        const Unknown& u = numbering.unknown(static_cast<int>(columns[k]));
-        const bool turn = u.node > 0 && !u.multiplier && u.item >= turns;
-        for (Eigen::Index j = 0; j < stages; ++j) {
-          double value = i == j ? from.stiffness(k) : 0;
-          if (!constraint && !turn) value += first(i, j) * from.damping(k) + second(i, j) * from.mass(k);
-          if (!constraint && turn) {
-            const Rates& rates = rotations[static_cast<std::size_t>(u.node)];
-            const auto block = static_cast<std::size_t>(i * stages + j);
-            for (int c = 0; c < turns; ++c) {  // along the material axes, as far as these have equations
-              const int equation = numbering.equation(components * u.node + turns + c);
-              const auto place = std::lower_bound(columns.begin(), columns.end(), static_cast<PetscInt>(equation));
-              if (equation < 0 || place == columns.end() || *place != equation) continue;
-              const auto axis = static_cast<std::size_t>(place - columns.begin());
-              value += from.damping(axis) * rates.velocity[block](c, u.item - turns) +
-                       from.mass(axis) * rates.acceleration[block](c, u.item - turns);
-            }
-          }
-          values.push_back(value);
-        }
-      }
-      rows.write(row, static_cast<int>(i), columns, values);
+      for (std::size_t k = 0; k < from.columns().size(); ++k)
+        for (Eigen::Index j = 0; j < stages; ++j)
+          values.push_back((i == j ? from.stiffness(k) : 0) + (constraint ? 0 : part_of_rates(from, k, i, j)));
+      rows.write(row, static_cast<int>(i), from.columns(), values);
     }
   }
   rows.finish();
