@@ -236,6 +236,31 @@ def test_the_dial_says_when_it_has_not_met_its_error(tmp_path: Path) -> None:
     assert "more than the 1e-08 asked for" in found["said"]
 
 
+def test_where_radau_cannot_the_dial_goes_on_with_generalised_alpha(tmp_path: Path) -> None:
+    """A node that is turned about one axis and free about another."""
+    deck = """.NOE
+ I 1 X 0 0 0
+.MCE
+ I 1 INERTIA N 1 M 1 J 1 2 3
+ I 2 TSPRING N 0 1 AXIS 1 0 0 K 50
+.FCT
+ I 1 SINUS 0.3 1
+.CLM
+ FIX NOEUD 1 C 1 2 3 5
+ DEP NOEUD 1 C 6 V 1 NF 1
+.INI
+ VIT NOEUD 1 C 4 V 1
+.SAM TYPE DYNAMIC ACCURACY NORMAL
+.SUB TF 2 H 0.01
+.CHK
+ ELEMENT 2 ANGLE V 0 ATOL 1E9
+"""
+    found = dial(deck, tmp_path)
+    assert "SCHEME RADAU fails here, again with CHUNG: SCHEME RADAU cannot turn node 1" in found["said"]
+    assert found["accuracy"]["estimated_error"] < 1e-3
+    assert "DYNAMIC, CHUNG" in (tmp_path / "deck.lst").read_text(encoding="utf-8")
+
+
 def test_a_sharper_run_that_fails_does_not_take_the_results(tmp_path: Path) -> None:
     """Steps are no shorter than H cut twenty times: 4 ms, too long for the sharper run."""
     found = dial(pendulum("ACCURACY REFERENCE CUTS 0", "TOL 1E-2 HMAX 1", h=4e3), tmp_path)
