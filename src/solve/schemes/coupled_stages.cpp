@@ -46,15 +46,15 @@ class RowOfStage {
 }  // namespace
 
 CoupledStages::CoupledStages(Assembler& assembler, const Collocation& collocation, const std::string& package)
-    : assembler_(assembler), collocation_(collocation) {
+    : assembler_(assembler), collocation_(collocation), package_(package) {
   const auto stages = static_cast<std::size_t>(collocation.stages());
   for (std::size_t k = 0; k < 3 * stages; ++k) *parts_.emplace_back().out() = assembler.new_matrix();
   *whole_.out() = new_interleaved_matrix(assembler.matrix(), static_cast<int>(stages));
   check_petsc(MatCreateVecs(whole_, solution_.out(), right_.out()));
-  std::vector<unsigned char> kinds;
-  for (const unsigned char kind : kinds_of_rows(assembler.numbering())) kinds.insert(kinds.end(), stages, kind);
-  solver_ = std::make_unique<LinearSolver>(whole_, package, kinds);
+  for (const unsigned char kind : kinds_of_rows(assembler.numbering())) kinds_.insert(kinds_.end(), stages, kind);
 }
+
+void CoupledStages::begin() { solver_ = std::make_unique<LinearSolver>(whole_, package_, kinds_); }
 
 std::vector<CoupledStages::Rates> CoupledStages::rates_of_rotations(const std::vector<std::vector<double>>& increments,
                                                                     double h) const {

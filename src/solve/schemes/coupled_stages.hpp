@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "assembly/assembler.hpp"
@@ -21,6 +22,8 @@ class CoupledStages {
  public:
   CoupledStages(Assembler& assembler, const Collocation& collocation, const std::string& package);
 
+  /// Before the first solution of a step, which owes nothing to those of other steps: a run that is continued has every bit.
+  void begin();
   /// Changes of all stages' unknowns that bring the residuals to zero, one vector for each stage, for a step of h with stages at
   /// `places`, `increments` (by motion slot) from its beginning; false when singular. Residuals are overwritten.
   bool solve(const std::vector<Configuration>& places, const std::vector<std::vector<double>>& increments, double h,
@@ -38,7 +41,9 @@ class CoupledStages {
 
   Assembler& assembler_;
   const Collocation& collocation_;
-  std::vector<Owned<Mat>> parts_;  ///< K, C and M of the first stage, and so on
+  std::string package_;
+  std::vector<unsigned char> kinds_;  ///< of the rows
+  std::vector<Owned<Mat>> parts_;     ///< K, C and M of the first stage, and so on
   Owned<Mat> whole_;
   std::unique_ptr<LinearSolver> solver_;
   Owned<Vec> right_, solution_;

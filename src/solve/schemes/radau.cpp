@@ -342,9 +342,10 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   predict(from, h);
   NewtonReport report = iterate(from, h);
   if (!report.converged && context_.numbering.equations() <= most_coupled) {
-    CoupledStages exact(context_.assembler, collocation_, context_.solver.package());
+    if (!coupled_) coupled_ = std::make_unique<CoupledStages>(context_.assembler, collocation_, context_.solver.package());
+    coupled_->begin();
     predict(from, h);
-    report = iterate(from, h, &exact);
+    report = iterate(from, h, coupled_.get());
   }
   to = outside_of_steps(configurations_.back());
   refuse_half_turns(now_.y.back(), report);

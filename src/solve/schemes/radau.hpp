@@ -100,8 +100,9 @@ class Radau final : public Dynamics {
   std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;
   std::vector<Owned<Vec>> residuals_, changes_;
   KeptMatrices kept_;
-  double kept_step_ = 0;      ///< that the systems are worth trying for; 0: none
-  double matrices_step_ = 0;  ///< that they were last made for; 0: never
+  std::unique_ptr<CoupledStages> coupled_;  ///< from the first step on that needs it
+  double kept_step_ = 0;                    ///< that the systems are worth trying for; 0: none
+  double matrices_step_ = 0;                ///< that they were last made for; 0: never
   std::vector<double> kept_scale_;
   bool fresh_ = false;  ///< they were evaluated in the last attempt
   bool has_friction_ = false;
