@@ -44,13 +44,21 @@ LawCorners::LawCorners(const Expression& formula) {
 }
 
 void LawCorners::name(std::vector<SwitchNames>& names, const std::string& law) const {
-  const auto add = [&](const std::string& what) { names.push_back({what + " upwards", what + " downwards"}); };
   if (formula_) {
-    for (const std::string& decision : formula_->decisions()) add(fmt::format("{} passes the corner of {}", law, decision));
+    for (const std::string& decision : formula_->decisions()) {
+      const std::string what = fmt::format("{} passes the corner of {}, ", law, decision);
+      if (decision.starts_with("abs") || decision.starts_with("sign"))
+        names.push_back({what + "operand positive", what + "operand negative"});
+      else
+        names.push_back({what + "first operand larger", what + "first operand smaller"});
+    }
     return;
   }
   const std::string more = period_ > 0 ? fmt::format(" or periods of {:.6g} from it", period_) : "";
-  for (const double place : places_) add(fmt::format("{} passes its corner at {:.6g}{}", law, place, more));
+  for (const double place : places_) {
+    const std::string what = fmt::format("{} passes its corner at {:.6g}{}", law, place, more);
+    names.push_back({what + " upwards", what + " downwards"});
+  }
 }
 
 std::size_t LawCorners::switches(const Taylor& x, double time, double size, std::span<Switch> values) const {
