@@ -2,7 +2,6 @@
 #include "solve/schemes/coupled_stages.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "math/rotation.hpp"
 #include "solve/algebra/rows.hpp"
@@ -17,38 +16,12 @@ constexpr int turns = 3;
 
 std::vector<Vec> all_of(const std::vector<Owned<Vec>>& vectors) { return {vectors.begin(), vectors.end()}; }
 
-/// A row of a stage's K, C and M, for as long as this lives.
-class RowOfStage {
- public:
-  RowOfStage(std::array<Mat, 3> matrices, PetscInt row) : matrices_(matrices), row_(row) {
-    for (std::size_t k = 0; k < values_.size(); ++k)
-      check_petsc(MatGetRow(matrices_[k], row, &count_, k == 0 ? &columns_ : nullptr, &values_[k]));
-  }
-  ~RowOfStage() {
-    for (std::size_t k = 0; k < values_.size(); ++k)
-      (void)MatRestoreRow(matrices_[k], row_, nullptr, k == 0 ? &columns_ : nullptr, &values_[k]);
-  }
-  RowOfStage(const RowOfStage&) = delete;
-  RowOfStage& operator=(const RowOfStage&) = delete;
-
-  std::span<const PetscInt> columns() const { return {columns_, static_cast<std::size_t>(count_)}; }
-  double stiffness(std::size_t k) const { return values_[0][k]; }
-  double damping(std::size_t k) const { return values_[1][k]; }
-  double mass(std::size_t k) const { return values_[2][k]; }
-
- private:
-  std::array<Mat, 3> matrices_;
-  PetscInt row_, count_ = 0;
-  const PetscInt* columns_ = nullptr;
-  std::array<const PetscScalar*, 3> values_{};
-};
-
 }  // namespace
 
 CoupledStages::CoupledStages(Assembler& assembler, const Collocation& collocation, const std::string& package)
     : assembler_(assembler), collocation_(collocation), package_(package) {
   const auto stages = static_cast<std::size_t>(collocation.stages());
-  for (std::size_t k = 0; k < 3 * stages; ++k) *parts_.emplace_back().out() = assembler.new_matrix();
+  for (std::size_t i = 0; i < stages; ++i) matrices_.push_back(new_stage_matrices(assembler));
   *whole_.out() = new_interleaved_matrix(assembler.matrix(), static_cast<int>(stages));
   check_petsc(MatCreateVecs(whole_, solution_.out(), right_.out()));
   for (const unsigned char kind : kinds_of_rows(assembler.numbering())) kinds_.insert(kinds_.end(), stages, kind);
@@ -84,11 +57,8 @@ std::vector<CoupledStages::Rates> CoupledStages::rates_of_rotations(const std::v
 }
 
 void CoupledStages::assemble(const std::vector<Configuration>& places, const std::vector<Rates>& rotations, double h) {
-  constexpr std::array<Weights, 3> weights = {Weights{1, 0, 0}, Weights{0, 1, 0, 0}, Weights{0, 0, 1, 0}};
   const auto stages = static_cast<Eigen::Index>(places.size());
-  for (Eigen::Index i = 0; i < stages; ++i)
-    for (Eigen::Index k = 0; k < 3; ++k)
-      assembler_.tangent(places[static_cast<std::size_t>(i)], weights[static_cast<std::size_t>(k)], part(i, k));
+  for (std::size_t i = 0; i < places.size(); ++i) evaluate_at(assembler_, places[i], matrices_[i]);
 
   const Eigen::MatrixXd first = collocation_.inverse / h, second = first * first;
   const Numbering& numbering = assembler_.numbering();
@@ -113,12 +83,12 @@ void CoupledStages::assemble(const std::vector<Configuration>& places, const std
 
   InterleavedRows rows(whole_, static_cast<int>(stages));
   PetscInt begin = 0, end = 0;
-  check_petsc(MatGetOwnershipRange(part(0, 0), &begin, &end));
+  check_petsc(MatGetOwnershipRange(matrices_.front().stiffness, &begin, &end));
   std::vector<double> values;
   for (PetscInt row = begin; row < end; ++row) {
     const bool constraint = numbering.unknown(static_cast<int>(row)).multiplier;  // it is of positions of one stage
     for (Eigen::Index i = 0; i < stages; ++i) {
-      const RowOfStage from({part(i, 0), part(i, 1), part(i, 2)}, row);
+      const RowOfStage from(matrices_[static_cast<std::size_t>(i)], row);
       values.clear();
       for (std::size_t k = 0; k < from.columns().size(); ++k)
         for (Eigen::Index j = 0; j < stages; ++j)

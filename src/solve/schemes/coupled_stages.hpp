@@ -9,6 +9,7 @@
 #include "math/vector.hpp"
 #include "solve/algebra/linear.hpp"
 #include "solve/schemes/collocation.hpp"
+#include "solve/schemes/stage_matrices.hpp"
 
 namespace engrane::solve {
 
@@ -36,14 +37,12 @@ class CoupledStages {
   };
   std::vector<Rates> rates_of_rotations(const std::vector<std::vector<double>>& increments, double h) const;
   void assemble(const std::vector<Configuration>& places, const std::vector<Rates>& rotations, double h);
-  /// K, C or M of a stage.
-  Mat part(Eigen::Index stage, Eigen::Index which) const { return parts_[static_cast<std::size_t>(3 * stage + which)]; }
 
   Assembler& assembler_;
   const Collocation& collocation_;
   std::string package_;
   std::vector<unsigned char> kinds_;  ///< of the rows
-  std::vector<Owned<Mat>> parts_;     ///< K, C and M of the first stage, and so on
+  std::vector<StageMatrices> matrices_;
   Owned<Mat> whole_;
   std::unique_ptr<LinearSolver> solver_;
   Owned<Vec> right_, solution_;

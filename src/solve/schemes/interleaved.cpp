@@ -76,7 +76,10 @@ void InterleavedRows::write(PetscInt row, int part, std::span<const PetscInt> co
 }
 
 void InterleavedRows::finish() {
-  if (next_) check_petsc(MatSeqAIJRestoreArray(whole_, &(next_ = nullptr)));
+  if (next_) {
+    next_ = nullptr;  // PETSc takes back what it has given, whatever stands here
+    check_petsc(MatSeqAIJRestoreArray(whole_, &next_));
+  }
   check_petsc(MatAssemblyBegin(whole_, MAT_FINAL_ASSEMBLY));
   check_petsc(MatAssemblyEnd(whole_, MAT_FINAL_ASSEMBLY));
 }

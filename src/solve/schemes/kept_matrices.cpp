@@ -52,10 +52,10 @@ void KeptMatrices::evaluate(const Configuration& c, double h) {
   if (sets_.size() >= most_ && sets_.find(phase_) == sets_.end()) sets_.clear();
   const auto [place, made] = sets_.try_emplace(phase_);
   Set& set = place->second;
-  if (made) set.matrices = solver_.new_matrices();
+  if (made) set.matrices = new_stage_matrices(assembler_);
   set.at = c;
   set.scale = assembler_.scale();
-  solver_.evaluate(c, set.matrices);
+  evaluate_at(assembler_, c, set.matrices);
   solver_.combine(set.matrices, h);
   current_ = phase_;
 }
@@ -90,8 +90,8 @@ void KeptMatrices::load(const Snapshot& snapshot) {
     set.at = assembler_.numbering().reference_configuration(0);
     load_configuration(one, set.at);
     set.scale = assembler_.scale();
-    set.matrices = solver_.new_matrices();
-    solver_.evaluate(set.at, set.matrices);
+    set.matrices = new_stage_matrices(assembler_);
+    evaluate_at(assembler_, set.at, set.matrices);
   }
 }
 

@@ -42,7 +42,7 @@ class KeptMatrices {
   struct Set {
     Configuration at;
     std::vector<double> scale;
-    StageSolver::Matrices matrices;
+    StageMatrices matrices;
   };
 
   Assembler& assembler_;

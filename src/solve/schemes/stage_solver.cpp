@@ -52,7 +52,7 @@ StageSolver::StageSolver(Assembler& assembler, const Collocation& collocation, c
 
 Weights StageSolver::weights(double h) const { return weights_of(systems_.front().block, h); }
 
-void StageSolver::combine_pair(const Matrices& matrices, double h, const System& system) const {
+void StageSolver::combine_pair(const StageMatrices& matrices, double h, const System& system) const {
   const Numbering& numbering = assembler_.numbering();
   const Weights real = weights_of(system.block, h), imaginary = imaginary_weights_of(system.block, h);
   PetscInt first = 0, end = 0;
@@ -60,44 +60,24 @@ void StageSolver::combine_pair(const Matrices& matrices, double h, const System&
   InterleavedRows rows(system.whole, 2);
   std::vector<double> pair[2];
   for (PetscInt row = first; row < end; ++row) {
-    PetscInt count = 0;
-    const PetscInt* from = nullptr;
-    const PetscScalar *k = nullptr, *c = nullptr, *m = nullptr;
-    check_petsc(MatGetRow(matrices.stiffness, row, &count, &from, &k));
-    check_petsc(MatGetRow(matrices.damping, row, nullptr, nullptr, &c));
-    check_petsc(MatGetRow(matrices.mass, row, nullptr, nullptr, &m));
+    const RowOfStage from(matrices, row);
+    const auto columns = from.columns();
     // constraints have no imaginary part; that of one that is released is but the 1 of its equation
     const double part = numbering.unknown(static_cast<int>(row)).multiplier ? 0 : 1;
-    for (auto& values_of_row : pair) values_of_row.resize(2 * static_cast<std::size_t>(count));
-    for (PetscInt i = 0; i < count; ++i) {
-      const auto at = 2 * static_cast<std::size_t>(i);
-      const double re = k[i] + real.v * c[i] + real.a * m[i], im = part * (imaginary.v * c[i] + imaginary.a * m[i]);
-      pair[0][at] = pair[1][at + 1] = re;
-      pair[0][at + 1] = -im;
-      pair[1][at] = im;
+    for (auto& values_of_row : pair) values_of_row.resize(2 * columns.size());
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const double c = from.damping(i), m = from.mass(i);
+      const double re = from.stiffness(i) + real.v * c + real.a * m, im = part * (imaginary.v * c + imaginary.a * m);
+      pair[0][2 * i] = pair[1][2 * i + 1] = re;
+      pair[0][2 * i + 1] = -im;
+      pair[1][2 * i] = im;
     }
-    for (int part_of_row = 0; part_of_row < 2; ++part_of_row)
-      rows.write(row, part_of_row, {from, static_cast<std::size_t>(count)}, pair[part_of_row]);
-    check_petsc(MatRestoreRow(matrices.mass, row, nullptr, nullptr, &m));
-    check_petsc(MatRestoreRow(matrices.damping, row, nullptr, nullptr, &c));
-    check_petsc(MatRestoreRow(matrices.stiffness, row, &count, &from, &k));
+    for (int of_row = 0; of_row < 2; ++of_row) rows.write(row, of_row, columns, pair[of_row]);
   }
   rows.finish();
 }
 
-StageSolver::Matrices StageSolver::new_matrices() const {
-  Matrices matrices;
-  for (Owned<Mat>* matrix : {&matrices.stiffness, &matrices.damping, &matrices.mass}) *matrix->out() = assembler_.new_matrix();
-  return matrices;
-}
-
-void StageSolver::evaluate(const Configuration& c, const Matrices& matrices) {
-  assembler_.tangent(c, {1, 0, 0}, matrices.stiffness);
-  assembler_.tangent(c, {0, 1, 0, 0}, matrices.damping);
-  assembler_.tangent(c, {0, 0, 1, 0}, matrices.mass);
-}
-
-void StageSolver::combine(const Matrices& matrices, double h) {
+void StageSolver::combine(const StageMatrices& matrices, double h) {
   for (System& system : systems_) {
     if (system.block.complex()) {
       combine_pair(matrices, h, system);

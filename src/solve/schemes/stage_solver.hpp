@@ -7,6 +7,7 @@
 #include "assembly/assembler.hpp"
 #include "solve/algebra/linear.hpp"
 #include "solve/schemes/collocation.hpp"
+#include "solve/schemes/stage_matrices.hpp"
 
 namespace engrane::solve {
 
@@ -16,21 +17,14 @@ namespace engrane::solve {
 /// imaginary parts of an unknown next to each other.
 class StageSolver {
  public:
-  /// K, C and M of one place, scaled as the assembler was then (Assembler).
-  struct Matrices {
-    Owned<Mat> stiffness, damping, mass;
-  };
-
   StageSolver(Assembler& assembler, const Collocation& collocation, const std::string& package);
 
   /// The weights of the real eigenvalue, or of the real part of the complex one where there is no real one.
   Weights weights(double h) const;
   /// γ of the real eigenvalue: increments over γ/h and velocities of its system go together.
   double real_rate() const;
-  Matrices new_matrices() const;
-  void evaluate(const Configuration& c, const Matrices& matrices);
   /// The systems for steps of h with these. No element is evaluated.
-  void combine(const Matrices& matrices, double h);
+  void combine(const StageMatrices& matrices, double h);
   /// Changes of all stages' unknowns that bring the residuals, one vector for each stage, to zero; false when singular. Residuals
   /// are overwritten.
   bool solve(const std::vector<Owned<Vec>>& residuals, const std::vector<Owned<Vec>>& changes);
@@ -53,7 +47,7 @@ class StageSolver {
   /// That of the real eigenvalue: collocation with an odd number of stages has one.
   const System& real() const;
   /// [Re −Im; Im Re] with rows and columns 2i and 2i + 1 for the two parts of unknown i.
-  void combine_pair(const Matrices& matrices, double h, const System& system) const;
+  void combine_pair(const StageMatrices& matrices, double h, const System& system) const;
 
   Assembler& assembler_;
   const Collocation& collocation_;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "assembly/assembler.hpp"
+
+namespace engrane::solve {
+
+/// K, C and M of one place, scaled as the assembler was then (Assembler).
+struct StageMatrices {
+  Owned<Mat> stiffness, damping, mass;
+};
+
+StageMatrices new_stage_matrices(Assembler& assembler);
+/// Evaluates them at `c`.
+void evaluate_at(Assembler& assembler, const Configuration& c, const StageMatrices& matrices);
+
+/// A row of all three, for as long as this lives.
+class RowOfStage {
+ public:
+  RowOfStage(const StageMatrices& matrices, PetscInt row);
+  ~RowOfStage();
+  RowOfStage(const RowOfStage&) = delete;
+  RowOfStage& operator=(const RowOfStage&) = delete;
+
+  std::span<const PetscInt> columns() const { return {columns_, static_cast<std::size_t>(count_)}; }
+  /// Entries in the k-th of the columns.
+  double stiffness(std::size_t k) const { return values_[0][k]; }
+  double damping(std::size_t k) const { return values_[1][k]; }
+  double mass(std::size_t k) const { return values_[2][k]; }
+
+ private:
+  std::array<Mat, 3> matrices_;
+  PetscInt row_, count_ = 0;
+  const PetscInt* columns_ = nullptr;
+  std::array<const PetscScalar*, 3> values_{};
+};
+
+}  // namespace engrane::solve
