@@ -51,24 +51,50 @@ def wishes(deck: Path) -> dict[str, list[str]]:
     return {word: rest.split() for word, rest in lines}
 
 
+def datasets(path: Path):
+    """(name, h5py.h5d.DatasetID, numbers) of every dataset of a file; None for the numbers of one that holds
+    texts. A long run has thousands: h5py's own objects would take twice as long."""
+    with h5py.File(path, "r") as file:
+        names = []
+        h5py.h5o.visit(file.id, names.append)
+        for name in names:
+            data = h5py.h5o.open(file.id, name)
+            if not isinstance(data, h5py.h5d.DatasetID):
+                continue
+            values = None
+            if data.dtype.kind in "fiu":
+                values = np.empty(data.shape, data.dtype)
+                if values.size > 0:
+                    data.read(h5py.h5s.ALL, h5py.h5s.ALL, values)
+            yield name.decode(), data, values
+
+
+def unit_of(data: h5py.h5d.DatasetID) -> str:
+    if not h5py.h5a.exists(data, b"unit"):
+        return ""
+    unit = h5py.Dataset(data).attrs["unit"]
+    return unit.decode() if isinstance(unit, bytes) else str(unit)
+
+
+def text_of(data: h5py.h5d.DatasetID) -> bytes:
+    return repr(h5py.Dataset(data)[()]).encode()
+
+
 def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
     """Dataset or channel -> (unit, values): all numbers of mesh, fields and histories. Under "" stands the
     noise of accelerations, which are differences of positions over the square of the step: Newton's iteration
     ends where corrections are 1e-13 of the lengths (docs/theory.md). Under "POWER" that of powers: of speeds,
     differences of rounded positions over the step, times the largest force."""
-    found = {}
-
-    def keep(name, item):
-        if isinstance(item, h5py.Dataset) and item.dtype.kind in "fiu" and not NOT_COMPARED.match(name):
-            unit = item.attrs.get("unit", "")
-            found[name] = (unit.decode() if isinstance(unit, bytes) else str(unit), item[()])
-
-    with h5py.File(path, "r") as file:
-        file.visititems(keep)
+    found, tables = {}, {}
+    for name, data, values in datasets(path):
+        if name.startswith("history/"):
+            tables[name] = values
+        elif values is not None and not NOT_COMPARED.match(name):
+            found[name] = (unit_of(data), values)
     with Results(path) as results:
         for name, channel in results.channels.items():
             if not NOT_COMPARED.match(name):
-                found[name] = (channel.unit, results.history(channel)[1])
+                found[name] = (channel.unit, tables[f"history/{channel.table}/values"][:, channel.column])
         found["time"] = (results.time_unit, results.times())
         steps = results.history("run/STEP")[1][1:]
         extent = float(np.max(np.abs(results.points), initial=1.0))
@@ -133,15 +159,11 @@ def shortened(arguments, stepping: list[str]) -> Path:
 
 def tables(path: Path) -> dict[str, bytes]:
     """Every dataset of histories and fields, as its bytes."""
-    found = {}
-
-    def keep(name, item):
-        if isinstance(item, h5py.Dataset) and name.startswith(("history/", "fields/")):
-            found[name] = item[()].tobytes() if item.dtype.kind in "fiu" else repr(item[()]).encode()
-
-    with h5py.File(path, "r") as file:
-        file.visititems(keep)
-    return found
+    return {
+        name: values.tobytes() if values is not None else text_of(data)
+        for name, data, values in datasets(path)
+        if name.startswith(("history/", "fields/"))
+    }
 
 
 def interrupted(arguments, deck: Path, whole: Path) -> list[str]:
