@@ -298,7 +298,7 @@ void Assembler::tangent(const Configuration& configuration, Weights weights, Mat
   sum.finish();
 }
 
-void Assembler::projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into) {
+void Assembler::projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into, double give) {
   if (into == matrix()) ++changes_;
   const bool mass = metric != Metric::geometric;
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
@@ -312,7 +312,7 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
     if (mass) {
       of_mass.resize(n * n);
       unused.resize(n);
-      element(part).tangent(view(part, configuration), {0, 0, 1, 0}, unused, of_mass);
+      element(part).tangent(view(part, configuration), {give, 0, 1, 0}, unused, of_mass);
     }
     for (std::size_t i = 0; i < m0; ++i) {
       for (std::size_t j = 0; j < m0; ++j) k[i * n + j] = mass ? of_mass[i * n + j] : 0.0;

@@ -102,8 +102,8 @@ class Assembler {
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held = {}) {
     projection(configuration, metric, held, matrix());
   }
-  /// The same in a matrix of new_matrix().
-  void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into);
+  /// The same in a matrix of new_matrix(), with `give` times the stiffness added to masses.
+  void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into, double give = 0);
   /// Φ and its time derivatives along the motion (unscaled), in the order of the multipliers; zero where idle.
   void constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
                         std::vector<double>& second);

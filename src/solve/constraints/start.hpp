@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -15,6 +17,13 @@
 #include "solve/constraints/start_report.hpp"
 
 namespace engrane::solve {
+
+/// The largest size; not a number where one is not.
+inline double largest(std::span<const double> values) {
+  double most = 0;
+  for (const double x : values) most = std::isnan(x) ? x : std::max(most, std::abs(x));
+  return most;
+}
 
 /// The solution cannot go on; the words are for the user (exit status 2).
 struct SolutionFailure : std::runtime_error {
@@ -36,7 +45,13 @@ class Start {
   /// close to right, few iterations are enough. Fills its phase of a report when there is one. Accelerations of `massless`
   /// motions stay as they are, since no balance of forces gives them.
   void balance_accelerations(Configuration& c, int most_iterations = 12, StartReport* report = nullptr,
-                             const MasslessMotions* massless = nullptr);
+                             const MasslessMotions* massless = nullptr) {
+    balance_accelerations(c, 0, most_iterations, report, massless);
+  }
+  /// Of balanced accelerations: gives what vibrates with a period shorter than h the mean over a step of h, which leads near to
+  /// its equilibrium; with those of an instant it would overshoot that by the square of h over its period. What steps resolve
+  /// has other accelerations by a part of second order. False where nothing vibrates so fast: `c` is as it was.
+  bool soften(Configuration& c, double h, StartReport* report = nullptr, const MasslessMotions* massless = nullptr);
 
   /// The largest motion, over the extent or in radians, by which constraints open by one are closed: about the inverse of the
   /// smallest singular value of their gradient. Infinite where the matrix cannot be factorised.
@@ -67,6 +82,12 @@ class Start {
     int node = 0;
   };
   Distance distance(const Configuration& from, const Configuration& to) const;
+  /// With `give` > 0 forces are those at places that are give · a away: accelerations a of M a + f(q + give a, v, t) = Bᵀ λ.
+  void balance_accelerations(Configuration& c, double give, int most_iterations, StartReport* report,
+                             const MasslessMotions* massless);
+  /// Do the accelerations of `c` lead so far in a step of h that forces change by more than those do that vibrate once in it?
+  bool overshoots(const Configuration& c, double h) const;
+  Configuration moved_along(const Configuration& c, double give) const;
   /// Throws where forces are left that no accelerations balance.
   void verify_balance(const Configuration& c, std::span<const double> unbalanced);
   void note_open(const Configuration& given, StartReport& report);

@@ -45,6 +45,10 @@ std::string positions(const Model& model, const StartReport& report) {
 
 }  // namespace
 
+std::string slot_name(const Model& model, std::size_t slot) {
+  return fmt::format("node {} ({})", model.nodes[slot / 6].id, component_name(static_cast<int>(slot % 6)));
+}
+
 std::string describe_start(const Model& model, const StartReport& report) {
   std::string text = positions(model, report);
   if (report.velocities_fitted) {
@@ -66,6 +70,10 @@ std::string describe_start(const Model& model, const StartReport& report) {
     if (!report.carried_most.empty())
       text += fmt::format("; largest multiplier {:.4g}, {}", report.largest_force, report.carried_most);
     text += '\n';
+    if (report.softened)
+      text +=
+          "     loads that act from here on excite vibrations with periods shorter than a step: these begin near\n"
+          "     their equilibrium; a shorter H would resolve them\n";
   }
   return text;
 }

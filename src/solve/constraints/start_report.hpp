@@ -42,6 +42,7 @@ struct StartReport {
   std::string accelerated_most;     ///< "node 3 (x)"
   double largest_force = 0;         ///< multiplier that is a force, or a moment when there are no forces
   std::string carried_most;         ///< "HINGE 3 (FORCE_1)"
+  bool softened = false;            ///< some parts are stiffer than steps resolve (Start::soften)
 
   int massless = 0;              ///< motions without mass, in equilibrium with springs and dampers
   std::string massless_example;  ///< "node 2 (x)"
@@ -49,6 +50,9 @@ struct StartReport {
   int redundant = 0;     ///< constraints that follow from others
   std::string mobility;  ///< degrees of freedom and redundant constraints, as a paragraph
 };
+
+/// "node 3 (x)" of a motion slot of a node.
+std::string slot_name(const Model& model, std::size_t slot);
 
 /// The paragraphs of the listing and of `engrane check`.
 std::string describe_start(const Model& model, const StartReport& report);

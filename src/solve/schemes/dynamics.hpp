@@ -29,10 +29,10 @@ class Dynamics : public Scheme {
   /// Within::balance().
   virtual bool restore_balance(Configuration& /*c*/) { return false; }
 
-  /// Starts the scheme's memory from `c`, a solution at the start of the run.
-  virtual void start_memory(const Configuration& c, const MasslessMotions* massless) = 0;
-  /// The same after an event.
-  virtual void restart_memory(const Configuration& c) = 0;
+  /// Starts the scheme's memory from `c`, a solution at the start of the run. `softened`: its accelerations are (Start::soften).
+  virtual void start_memory(const Configuration& c, const MasslessMotions* massless, bool softened) = 0;
+  /// The same after an event, with which forces may begin; may change accelerations of `c` as soften() does.
+  virtual void restart_memory(Configuration& c) = 0;
 
   /// `c` moved by h with the accelerations it has; these and the multipliers do not change.
   Configuration glide(const Configuration& c, double h) const;
@@ -45,6 +45,8 @@ class Dynamics : public Scheme {
   std::vector<double> fitting_velocities(const Configuration& c) const;
   /// The motions without mass at `c`, or nullptr where the model has none; valid until the next call.
   const MasslessMotions* massless_at(const Configuration& c);
+  /// Start::soften() for steps that follow no tolerance: others are to find out how short they have to be.
+  bool soften(Configuration& c, double h, const MasslessMotions* massless, StartReport* report = nullptr) const;
   /// Gives `c` the multipliers that balance it at its own instant.
   void refine_grips(Configuration& c);
   /// Chooses the scales k of the multipliers for steps of h with these weights. Only the order of magnitude of k matters: steps

@@ -32,8 +32,13 @@ StartReport Dynamics::start(Configuration& c) {
     settle(c, massless, report);
   else
     context_.start.balance_accelerations(c, 12, &report);
-  start_memory(c, *has_massless_ ? &massless : nullptr);
+  const MasslessMotions* none = *has_massless_ ? &massless : nullptr;
+  start_memory(c, none, soften(c, context_.options.step, none, &report));
   return report;
+}
+
+bool Dynamics::soften(Configuration& c, double h, const MasslessMotions* massless, StartReport* report) const {
+  return !error_.wanted() && context_.start.soften(c, h, report, massless);
 }
 
 Dynamics::Relaxed Dynamics::relax(Configuration& c, MasslessMotions& massless) {

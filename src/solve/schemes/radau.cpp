@@ -91,12 +91,9 @@ StartReport Radau::start(Configuration& c) {
   return Dynamics::start(c);
 }
 
-void Radau::start_memory(const Configuration& c, const MasslessMotions*) { restart_memory(c); }
+void Radau::start_memory(const Configuration&, const MasslessMotions*, bool) { forget(); }
 
-void Radau::restart_memory(const Configuration&) {
-  forget_motion();
-  kept_.clear();
-}
+void Radau::restart_memory(Configuration&) { forget(); }
 
 void Radau::forget_motion() {
   accelerations_.clear();

@@ -31,8 +31,8 @@ class Radau final : public Dynamics {
   /// Moves `c` by the matrices kept until its forces balance, or once where that is the most; false where these do not lead
   /// there.
   bool balance_near(Configuration& c, int most);
-  void start_memory(const Configuration& c, const MasslessMotions* massless) override;
-  void restart_memory(const Configuration& c) override;
+  void start_memory(const Configuration& c, const MasslessMotions* massless, bool softened) override;
+  void restart_memory(Configuration& c) override;
 
   /// The motion of a step, one entry for each stage.
   struct Stages {
@@ -64,6 +64,10 @@ class Radau final : public Dynamics {
   Correction correct();
   /// What is to foretell steps is forgotten.
   void forget_motion();
+  void forget() {
+    forget_motion();
+    kept_.clear();
+  }
   /// Evaluates the matrices at `c` for steps of h; they serve as long as the iteration is quick with them, controlled steps of
   /// other lengths and behind other events too.
   void keep(const Configuration& c, double h);

@@ -53,13 +53,13 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   const double am = scheme_.alpha_m, af = scheme_.alpha_f, beta = scheme_.beta, gamma = scheme_.gamma;
   const Weights weights{1, gamma / (beta * h), (1 - am) / ((1 - af) * beta * h * h)};
   scale_for(from, h, weights);
-  const auto vdot0 = context_.motion.accelerations(from);
+  auto vdot0 = context_.motion.accelerations(from);
   // a run that continues another kind of analysis has no memory: the accelerations of its configuration begin it
   if (algorithmic_.empty()) {
     algorithmic_ = vdot0;
     step_of_algorithmic_ = h;
   }
-  if (h > longest_growth * step_of_algorithmic_) renew_memory(from, h);
+  if (h > longest_growth * step_of_algorithmic_) vdot0 = renew_memory(from, h);
   const std::vector<double> v0 = first_velocities(from, h);
   std::vector<double> a0 = algorithmic_;
   // a_n is v̇ shifted by (α_m − α_f) h: another h, another shift

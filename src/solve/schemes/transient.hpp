@@ -36,18 +36,19 @@ class Transient final : public Dynamics {
  private:
   /// Starts the scheme's memory for steps of h from `c`, whose velocities and accelerations fit; the slope of v̇ is taken over
   /// `span`.
-  void start_memory(const Configuration& c, double h, double span, const MasslessMotions* massless);
-  void start_memory(const Configuration& c, const MasslessMotions* massless) override;
-  void restart_memory(const Configuration& c) override;
-  /// d/dt of v̇ at `c`, from what balance gives over the time `span`.
-  std::vector<double> slope_of_accelerations(const Configuration& c, double span, int iterations,
-                                             const MasslessMotions* massless) const;
+  void start_memory(const Configuration& c, double h, double span, const MasslessMotions* massless, bool softened);
+  void start_memory(const Configuration& c, const MasslessMotions* massless, bool softened) override;
+  void restart_memory(Configuration& c) override;
+  /// d/dt of v̇ at `c`, from what balance gives over the time `span`; of accelerations that are softened for steps of h.
+  std::vector<double> slope_of_accelerations(const Configuration& c, double h, double span, const MasslessMotions* massless,
+                                             bool softened) const;
 
   /// The velocities with which a step of h from `from` begins: those of the scheme, which differ from the ones that fit the
   /// constraints by a part that grows with the square of the step.
   std::vector<double> first_velocities(const Configuration& from, double h);
   /// Starts the memory anew from the end of a step for one that is much longer: differences of the short one are rounding.
-  void renew_memory(const Configuration& from, double h);
+  /// Returns the accelerations that it begins with.
+  std::vector<double> renew_memory(const Configuration& from, double h);
   /// Outcome::error of a converged step of h that began with the scheme's accelerations `a0`.
   std::optional<double> local_error(std::span<const double> a0, double h, const Configuration& to);
   /// Is an increment as large as the model, or a radian?

@@ -14,18 +14,20 @@ constexpr double slope_span = 0.01;
 
 }  // namespace
 
-void Transient::start_memory(const Configuration& c, const MasslessMotions* massless) {
+void Transient::start_memory(const Configuration& c, const MasslessMotions* massless, bool softened) {
   const double h = context_.options.step;
-  start_memory(c, h, h, massless);
+  start_memory(c, h, h, massless, softened);
 }
 
-void Transient::restart_memory(const Configuration& c) {
+void Transient::restart_memory(Configuration& c) {
   const double h = context_.options.step;
-  start_memory(c, h, slope_span * h, massless_at(c));
+  const MasslessMotions* massless = massless_at(c);
+  const bool softened = soften(c, h, massless);
+  start_memory(c, h, slope_span * h, massless, softened);
 }
 
-std::vector<double> Transient::slope_of_accelerations(const Configuration& c, double span, int iterations,
-                                                      const MasslessMotions* massless) const {
+std::vector<double> Transient::slope_of_accelerations(const Configuration& c, double h, double span,
+                                                      const MasslessMotions* massless, bool softened) const {
   // From accelerations half a span and a span ahead, (4 a_½ − 3 a_0 − a_1)/span: of second order, since what glide() leaves out
   // of the velocities, four times as much at the end as halfway, cancels as well. Over a whole step it is also that of models
   // whose forces change much faster than a step is long.
@@ -33,7 +35,8 @@ std::vector<double> Transient::slope_of_accelerations(const Configuration& c, do
   for (double& s : slope) s *= -3;
   for (const auto& [part, weight] : {std::pair{0.5, 4.0}, std::pair{1.0, -1.0}}) {
     Configuration later = glide(c, part * span);
-    context_.start.balance_accelerations(later, iterations, nullptr, massless);
+    context_.start.balance_accelerations(later, span < h ? 1 : 12, nullptr, massless);
+    if (softened) soften(later, h, massless);
     const auto then = context_.motion.accelerations(later);
     for (std::size_t i = 0; i < slope.size(); ++i) slope[i] += weight * then[i];
   }
@@ -41,7 +44,7 @@ std::vector<double> Transient::slope_of_accelerations(const Configuration& c, do
   return slope;
 }
 
-void Transient::start_memory(const Configuration& c, double h, double span, const MasslessMotions* massless) {
+void Transient::start_memory(const Configuration& c, double h, double span, const MasslessMotions* massless, bool softened) {
   algorithmic_ = context_.motion.accelerations(c);
   step_of_algorithmic_ = h;
   offset_.clear();
@@ -50,7 +53,7 @@ void Transient::start_memory(const Configuration& c, double h, double span, cons
   fitting_ = context_.motion.velocities(c);
   const double shift = scheme_.alpha_m - scheme_.alpha_f;
   if (shift == 0 && !constrained()) return;  // nothing follows from the slope
-  std::vector<double> slope = slope_of_accelerations(c, span, span < h ? 1 : 12, massless);
+  std::vector<double> slope = slope_of_accelerations(c, h, span, massless, softened);
   // accelerations are differenced over the span, and found to a few digits less than they have
   constexpr double known = 1e-11;
   if (!counts(slope, h * h * h, algorithmic_, known / span)) std::fill(slope.begin(), slope.end(), 0.0);
@@ -73,12 +76,14 @@ void Transient::start_memory(const Configuration& c, double h, double span, cons
   for (std::size_t i = 0; i < moved.size(); ++i) offset_[i] = moved[i] - offset_[i];
 }
 
-void Transient::renew_memory(const Configuration& from, double h) {
+std::vector<double> Transient::renew_memory(const Configuration& from, double h) {
   Configuration c = from;
   if (constrained()) context_.motion.set_velocities(fitting_velocities(c), c);
   const MasslessMotions* massless = massless_at(c);
   context_.start.balance_accelerations(c, 3, nullptr, massless);
-  start_memory(c, h, slope_span * h, massless);
+  const bool softened = soften(c, h, massless);
+  start_memory(c, h, slope_span * h, massless, softened);
+  return context_.motion.accelerations(softened ? c : from);
 }
 
 std::vector<double> Transient::first_velocities(const Configuration& from, double h) {

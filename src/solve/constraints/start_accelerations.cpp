@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Accelerations and multipliers at a start: of the forces there, and of what is stiffer than a step resolves.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "solve/constraints/constraint_factors.hpp"
+#include "solve/constraints/diagnosis.hpp"
+#include "solve/constraints/start.hpp"
+
+namespace engrane::solve {
+
+namespace {
+
+void note_accelerations(const Assembler& assembler, const Configuration& c, int iterations, StartReport& report) {
+  report.accelerations_found = true;
+  report.acceleration_iterations = iterations;
+  report.largest_acceleration = report.largest_force = 0;
+  std::size_t most = 0;
+  // a node's path says more than its turning, and a force more than a moment; they have no common unit
+  for (const bool turning : {false, true}) {
+    if (report.largest_acceleration > 0) break;
+    for (std::size_t i = 1; i < c.nodes.size(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const double a = std::abs((turning ? c.nodes[i].A : c.nodes[i].a)[k]);
+        if (a <= report.largest_acceleration) continue;
+        report.largest_acceleration = a;
+        most = 6 * i + static_cast<std::size_t>(turning ? 3 + k : k);
+      }
+  }
+  if (report.largest_acceleration > 0) report.accelerated_most = slot_name(assembler.model(), most);
+  int carried = -1;
+  for (const Measure measure : {Measure::length, Measure::angle}) {
+    if (report.largest_force > 0) break;
+    for (std::size_t m = 0; m < c.multipliers.size(); ++m) {
+      const Unknown& u = multiplier_unknown(assembler.numbering(), static_cast<int>(m));
+      if (u.measure != measure || std::abs(c.multipliers[m]) <= report.largest_force) continue;
+      report.largest_force = std::abs(c.multipliers[m]);
+      carried = u.slot;
+    }
+  }
+  if (carried >= 0) report.carried_most = assembler.numbering().describe(assembler.numbering().equation(carried));
+}
+
+/// How far a mean acceleration of a step of h leads what rests, over that acceleration, by the trapezoidal rule.
+double give_of(double h) { return h * h / 4; }
+
+}  // namespace
+
+void Start::verify_balance(const Configuration& c, std::span<const double> unbalanced) {
+  constexpr double enough = 1e-6;
+  const Numbering& numbering = assembler_.numbering();
+  // without friction there always are such accelerations
+  const auto& parts = assembler_.model().parts;
+  if (std::none_of(parts.begin(), parts.end(), [](const Model::Part& part) {
+        return part.element->layout().slides > 0 || !part.element->layout().grips.empty();
+      }))
+    return;
+  assembler_.residual(c, right_);
+  const double extent = assembler_.model().extent();
+  Magnitudes largest;
+  for (int e = 0; e < numbering.equations(); ++e)
+    if (const Unknown& u = numbering.unknown(e); !u.multiplier)
+      largest[u.measure] = std::max(largest[u.measure], assembler_.carried()[static_cast<std::size_t>(e)]);
+  // forces that cancel inside a body are no loads, but what is left of them is their rounding: gyroscopic moments are of the size
+  // of the kinetic energy
+  double kinetic = 0;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    kinetic += parts[p].element->energies(assembler_.view(static_cast<int>(p), c)).kinetic;
+  largest[Measure::moment] = std::max(largest[Measure::moment], kinetic);
+  const Magnitudes own = largest;
+  largest[Measure::force] = std::max(own[Measure::force], own[Measure::moment] / extent);
+  largest[Measure::moment] = std::max(own[Measure::moment], own[Measure::force] * extent);
+  int worst = -1;
+  double most = enough;
+  for (int e = 0; e < numbering.equations(); ++e) {
+    const Unknown& u = numbering.unknown(e);
+    const double part = std::abs(unbalanced[static_cast<std::size_t>(e)]) / largest[u.measure];
+    if (u.multiplier || !(part > most)) continue;
+    most = part;
+    worst = e;
+  }
+  if (worst < 0) return;
+  const double left = std::abs(unbalanced[static_cast<std::size_t>(worst)]), carried = largest[numbering.measure(worst)];
+  throw SolutionFailure(fmt::format(
+      "no accelerations balance the forces at t = {:.6g}: {} is unbalanced by {:.3g} of {:.3g}. The friction jams: it raises the "
+      "contact forces that cause it faster than they can be balanced. Lengthen the guide (LENGTH), apply the load closer to its "
+      "axis, or reduce the friction",
+      c.time, numbering.describe(worst), left, carried));
+}
+
+Configuration Start::moved_along(const Configuration& c, double give) const {
+  std::vector<double> y = motion_.accelerations(c);
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] *= assembler_.numbering().equation(static_cast<int>(i)) < 0 ? 0 : give;
+  Configuration moved = c;
+  motion_.move(c, y, moved);
+  return moved;
+}
+
+bool Start::overshoots(const Configuration& c, double h) const {
+  Configuration still = c;
+  motion_.set_accelerations(std::vector<double>(motion_.size(), 0.0), still);
+  const auto here = assembler_.slot_residual(c), there = assembler_.slot_residual(moved_along(c, give_of(h))),
+             resting = assembler_.slot_residual(still);
+  double change = 0, inertia = 0;
+  for (const Unknown& u : assembler_.numbering().unknowns()) {
+    if (u.multiplier) continue;
+    const auto slot = static_cast<std::size_t>(u.slot);
+    const double size = u.measure == Measure::moment ? assembler_.model().extent() : 1;
+    const double changed = std::abs(there[slot] - here[slot]) / size;
+    if (!std::isfinite(changed)) return true;
+    change = std::max(change, changed);
+    inertia = std::max(inertia, std::abs(resting[slot] - here[slot]) / size);
+  }
+  // along a vibration forces change by ω² h²/4 times M a
+  return change > std::numbers::pi * std::numbers::pi * inertia;
+}
+
+bool Start::soften(Configuration& c, double h, StartReport* report, const MasslessMotions* massless) {
+  if (!overshoots(c, h)) return false;
+  Configuration softer = outside_of_steps(c);
+  motion_.set_accelerations(std::vector<double>(motion_.size(), 0.0), softer);
+  try {
+    balance_accelerations(softer, give_of(h), 12, report, massless);
+  } catch (const SolutionFailure&) {
+    return false;  // a law that ends near here, for example
+  }
+  c = std::move(softer);
+  if (report) report->softened = true;
+  return true;
+}
+
+void Start::balance_accelerations(Configuration& c, double give, int most_iterations, StartReport* report,
+                                  const MasslessMotions* massless) {
+  const Numbering& numbering = assembler_.numbering();
+  std::vector<double> a = motion_.accelerations(c);
+  for (const auto& p : motion_.prescribed(c.time)) a[p.slot] = p.a;
+  motion_.set_accelerations(a, c);
+  std::vector<double> phi, rate, second, change, change_of_motion(a.size(), 0.0);
+  double before = std::numeric_limits<double>::infinity();
+  // linear but for forces that follow the multipliers (|λ| of the separating force), hence a short iteration
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    std::vector<double> r = assembler_.slot_residual(give > 0 ? moved_along(c, give) : c);
+    if (massless) massless->remove_forces(r);
+    assembler_.constraint_rates(c, phi, rate, second);
+    std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
+    for (std::size_t e = 0; e < right.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      const int m = u.slot - numbering.motion_slots();
+      if (!u.multiplier)
+        right[e] = -r[static_cast<std::size_t>(u.slot)];
+      else if (assembler_.released(m))
+        right[e] = assembler_.released_value(m) - c.multipliers[static_cast<std::size_t>(m)];
+      else
+        right[e] = second[static_cast<std::size_t>(m)];
+    }
+    const double size = largest(right);
+    if (report) note_accelerations(assembler_, c, iteration, *report);
+    if (!std::isfinite(size)) throw SolutionFailure("the forces at the start are not finite");
+    if (size == 0 || (iteration > 1 && size >= 0.5 * before)) {
+      if (!redundancy_.share(c)) {
+        if (give == 0) verify_balance(c, right);
+        return;
+      }
+      before = std::numeric_limits<double>::infinity();
+      continue;
+    }
+    before = size;
+    // without multipliers nothing in the matrix follows what is sought
+    if (iteration == 0 || !c.multipliers.empty())
+      assembler_.projection(c, Assembler::Metric::dynamic, {}, assembler_.matrix(), give);
+    if (!solve(right, change))
+      throw SolutionFailure(explain_singular(assembler_, "the accelerations at the start are not determined"));
+    for (std::size_t e = 0; e < right.size(); ++e) {
+      const Unknown& u = numbering.unknown(static_cast<int>(e));
+      if (u.multiplier)
+        c.multipliers[static_cast<std::size_t>(u.slot) - motion_.size()] += change[e];
+      else
+        change_of_motion[static_cast<std::size_t>(u.slot)] = change[e];
+    }
+    if (massless) massless->remove(change_of_motion);
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] += change_of_motion[i];
+    motion_.set_accelerations(a, c);
+  }
+  redundancy_.share(c);
+}
+
+}  // namespace engrane::solve
