@@ -14,6 +14,9 @@ namespace engrane::solve {
 
 namespace {
 
+/// Residuals of stiff meshes in dynamics hold so many times PREC of rounding, or less.
+constexpr double most_rounding = 1000;
+
 /// What forces that an iteration at rest tried on its way count for, where nothing larger stays.
 constexpr double share_of_tried = 1e-3;
 
@@ -325,11 +328,17 @@ bool Newton::judge(int iteration) {
   if (refined_ && iteration == 1 && row_.force + row_.moment > 0 && solver_.direct()) return false;
   if (imbalance_.within(precision_) && std::max(imbalance_.length, imbalance_.angle) <= open_) return true;
   if (one_tangent_ && iteration > 0 && left_to_rounding()) return true;
-  const double changed = changed_ = std::max(row_.correction, forces);
+  const double changed_before = std::exchange(changed_, std::max(row_.correction, forces)), changed = changed_;
   if (iteration > 1 && changed <= no_correction) return true;
   const double left = imbalance_.largest();
   if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;
   if (changed <= negligible_correction) return true;
+  // In dynamics the next correction is foretold by the last two: those with tangents of their own shrink quadratically. Stiff
+  // meshes hold more rounding of positions than PREC allows, which another iteration would only find out. At rest what is soft
+  // beside what is stiff may still move where corrections have become small, and what kept factors leave is no rounding.
+  const double theta = changed / changed_before, next = changed * (uses_ == 1 ? theta * theta : theta);
+  const bool near = weights_.a > 0 && !keep_ && left <= most_rounding * precision_ && sliding_parts_.empty();
+  if (near && theta < 1 && next <= negligible_correction) return true;
   // forces that are small beside stiffness times the rounding of positions follow that rounding and never settle; at rest
   // rounding may be that of an angle of many turns, which its constraint then stays open by
   const NewtonRow& before = rows_[rows_.size() - 2];

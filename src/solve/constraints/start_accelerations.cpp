@@ -108,7 +108,7 @@ bool Start::overshoots(const Configuration& c, double h) const {
              resting = assembler_.slot_residual(still);
   double change = 0, inertia = 0;
   for (const Unknown& u : assembler_.numbering().unknowns()) {
-    if (u.multiplier) continue;
+    if (u.multiplier || u.first_order) continue;
     const auto slot = static_cast<std::size_t>(u.slot);
     const double size = u.measure == Measure::moment ? assembler_.model().extent() : 1;
     const double changed = std::abs(there[slot] - here[slot]) / size;
