@@ -29,8 +29,6 @@ constexpr double order_of_alpha = 2, order_of_radau = 4;
 /// for many more steps, it is for something that neither run resolves, such as waves in a mesh, and both may be off by it: of the
 /// power counts the less the more steps there are, and with so many times the ratio the error may be the whole difference.
 constexpr double smooth_ratio_of_alpha = 3.5, smooth_ratio_of_radau = 2.3, rough = 2.5;
-/// Errors are taken to fall with no less than this power of TOL.
-constexpr double least_order = 0.5;
 /// TOL has chosen the steps where they are shorter than the longest by this, on the average.
 constexpr double well_below = 2;
 /// Ratios of steps nearer to 1 say nothing.
@@ -225,7 +223,6 @@ ErrorEstimate Companion::estimate(long steps) const {
   const double ratio = std::max(static_cast<double>(steps) / static_cast<double>(std::max(steps_, 1L)), least_ratio);
   const double smooth = order_of_steps_ == order_of_radau ? smooth_ratio_of_radau : smooth_ratio_of_alpha;
   const double kept = 1 - std::clamp(std::log(ratio / smooth) / std::log(rough), 0.0, 1.0), order = order_of_steps_ * kept;
-  found.order = std::max(kept * found.order, std::min(found.order, least_order));
   const double gain = std::pow(ratio, order) - 1;  // the difference over the error
   const double share = 1 / (ratio > smooth ? std::max(gain, 1.0) : gain);
   const std::vector<Largest> all = largest_by_dimension();
