@@ -82,7 +82,7 @@ def test_finer_meshes_change_nothing(tmp_path):
 
 def test_other_integrators_agree(tmp_path):
     swings = {}
-    for sam in ("RHO 0.8", "RHO 0.8 TANGENT KEPT", "SCHEME HHT", "SCHEME NEWMARK", "SCHEME RADAU"):
+    for sam in ("RHO 0.8", "RHO 0.8 TANGENT KEPT", "SCHEME NEWMARK", "SCHEME RADAU"):
         (folder := tmp_path / sam.replace(" ", "_")).mkdir()
         swings[sam] = tip((20, 4), 8, sam, folder)[1]
         assert effort(folder)[2] == 0
@@ -92,10 +92,9 @@ def test_other_integrators_agree(tmp_path):
     assert max(off.values()) < 4e-3
 
 
-@pytest.mark.parametrize("boxes", [(8, 1), (10, 2)])
-def test_the_estimate_of_the_dial_sees_waves_that_neither_run_resolves(boxes, tmp_path):
+def test_the_estimate_of_the_dial_sees_waves_that_neither_run_resolves(tmp_path):
     """Of the velocity at the struck end: TOL asks for five times as many steps as its companion has."""
-    mesh, deck, force = cantilever(boxes, 8)
+    mesh, deck, force = cantilever((8, 1), 8)
     end = int(mesh.nodes(lambda u: u[0] == 1 and u[1] == 0)[0]) + 1
     sub, check = f"TF {PERIOD / 2!r} H {PERIOD / 100!r}", [f" NODE {end} VY V 0 ATOL 1E9"]
     velocities = []
@@ -137,7 +136,7 @@ def test_a_mesh_on_a_hinge_turns_as_a_rigid_body(tmp_path):
 def test_a_mesh_that_strikes_a_stop(tmp_path):
     """Half way down: how hard does not depend on the mesh, whose nodes become lighter."""
     peaks = []
-    for i, boxes in enumerate([(10, 2), (20, 4), (40, 8)]):
+    for i, boxes in enumerate([(10, 2), (30, 6)]):
         (folder := tmp_path / str(i)).mkdir()
         mesh, deck, force = cantilever(boxes, 8)
         end = int(mesh.nodes(lambda u: u[0] == 1 and u[1] == 0)[0]) + 1
