@@ -3,10 +3,11 @@
 
 #include <cmath>
 #include <cstring>
-#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "output/hdf5_handle.hpp"
+#include "sample_results.hpp"
 
 namespace engrane::testing {
 
@@ -21,7 +22,8 @@ struct Stored {
 
 /// How an array is stored, after it was read back whole.
 Stored stored(const std::vector<double>& values) {
-  const std::string path = (std::filesystem::temp_directory_path() / "engrane_storage.h5").string();
+  const Scratch folder;  // tests of this file run side by side
+  const std::string path = folder / "storage.h5";
   const hdf5::Handle access = hdf5::file_access(path);
   const hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()));
   const hsize_t shape[1] = {values.size()};
@@ -31,7 +33,6 @@ Stored stored(const std::vector<double>& values) {
   EXPECT_EQ(std::memcmp(found.data(), values.data(), values.size() * sizeof(double)), 0);
   const hdf5::Handle creation(H5Dget_create_plist(set.id()));
   const Stored how{H5Pget_layout(creation.id()), H5Dget_storage_size(set.id())};
-  std::filesystem::remove(path);
   return how;
 }
 
