@@ -124,13 +124,15 @@ bool Start::soften(Configuration& c, double h, StartReport* report, const Massle
   if (!overshoots(c, h)) return false;
   Configuration softer = outside_of_steps(c);
   motion_.set_accelerations(std::vector<double>(motion_.size(), 0.0), softer);
+  StartReport found = report ? *report : StartReport();
   try {
-    balance_accelerations(softer, give_of(h), 12, report, massless);
+    balance_accelerations(softer, give_of(h), 12, report ? &found : nullptr, massless);
   } catch (const SolutionFailure&) {
     return false;  // a law that ends near here, for example
   }
   c = std::move(softer);
-  if (report) report->softened = true;
+  found.softened = true;
+  if (report) *report = std::move(found);
   return true;
 }
 
