@@ -140,7 +140,7 @@ std::string MasslessMotions::explain_unheld(Assembler& assembler, const Configur
       "{} has no inertia, and no joint, spring or damper holds it{}: give it a mass, or a moment of inertia about the axis it "
       "turns about (INERTIA), make it part of a body (RIGID), or hold it by a support, spring or damper{}",
       outside(assembler, rows_, held), count > 1 ? fmt::format(" (one of {} such motions)", count) : "",
-      plane_cells ? "; a machine of the plane of its cells is solved there with .SAM PLANE XY" : "");
+      plane_cells ? "; if all motion is in the plane of the cells, .SAM PLANE XY solves it there" : "");
 }
 
 void MasslessMotions::remove(std::span<double> slots) const {
