@@ -64,3 +64,33 @@ def test_gear_wheel_of_solids(tmp_path: Path) -> None:
         r = low + 1.6
         expected = -gear_meshes.TORQUE / (2 * np.pi * r**2 * gear_meshes.WEB)
         assert round_mean(angle[ring], shear[ring]) == pytest.approx(expected, rel=0.005)
+
+
+def test_a_pinion_swings_on_the_teeth_of_a_wheel_of_solids(tmp_path: Path) -> None:
+    """Its torque acts from the start, and the wheel is a spring beside it: the angle swings between nothing
+    and twice that of equilibrium, with the period of the pinion's inertia on the stiffness of the wheel."""
+    torque, inertia = gear_meshes.TORQUE / 2, 10.0
+    (tmp_path / "static").mkdir()
+    wanted = ".CHK\n ELEMENT 900004 ANGLE V 0 ATOL 1E9\n ELEMENT 900005 NORMAL_FORCE V 0 ATOL 1E9\n"
+    still = run(gear_meshes.deck().replace(".CHK\n", wanted), tmp_path / "static")["900004/ANGLE"][-1]
+    half = float(np.pi * np.sqrt(inertia * still / torque))  # of the period
+    deck = gear_meshes.deck().split(".SAM")[0]
+    deck = deck.replace(".FCT", f" I 900007 INERTIA N 300001 M 1E-3 J {inertia} {inertia} {inertia}\n.FCT")
+    swing = run(
+        deck
+        + f""".SAM TYPE DYNAMIC DISPLACEMENTS LARGE RHO 0.8
+.SUB TF {7 * half / 6!r} H {half / 12!r}
+{wanted}.FIN 1
+""",
+        tmp_path,
+    )
+    angle = swing["900004/ANGLE"]
+    # a polynomial through the four results around the largest
+    at = int(np.argmax(angle)) + np.arange(-2, 2)
+    course = np.polynomial.Polynomial.fit(swing.t[at], angle[at], 3)
+    summits = [t.real for t in course.deriv().roots() if abs(t.imag) < 1e-12 and course.deriv(2)(t.real) < 0]
+    print(summits[0] / half, course(summits[0]) / still)
+    assert course(summits[0]) == pytest.approx(2 * still, rel=0.01)
+    assert summits[0] == pytest.approx(half, rel=0.01)
+    force = swing["900005/NORMAL_FORCE"]
+    assert force.max() == pytest.approx(2 * torque / (20 * np.cos(np.pi / 9)), rel=0.02)

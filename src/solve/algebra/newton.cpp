@@ -330,6 +330,8 @@ bool Newton::judge(int iteration) {
   if (one_tangent_ && iteration > 0 && left_to_rounding()) return true;
   const double changed_before = std::exchange(changed_, std::max(row_.correction, forces)), changed = changed_;
   if (iteration > 1 && changed <= no_correction) return true;
+  // the rounding of positions, of which parts that carry next to nothing hold no less than others
+  if (iteration > 1 && row_.correction <= no_correction && left_to_rounding()) return true;
   const double left = imbalance_.largest();
   if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;
   if (changed <= negligible_correction) return true;

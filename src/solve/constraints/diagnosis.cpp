@@ -221,6 +221,8 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
     r.assign(n, 0);
     k.assign(n * n, 0);
     element.tangent(assembler.view(p, configuration), {1, 0, 0, 0}, r, k);
+    // parts of a mesh that waves have not reached yet carry nothing that anybody asks for
+    const double elsewhere = element.cell_shape() == CellShape::none ? 0 : newton.largest_force();
     for (std::size_t i = 0; i < of_nodes; ++i) {
       const int row = numbering.equation(slots[i]);
       if (row < 0) continue;
@@ -234,7 +236,7 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
       // a machine without loads has no forces that could be known
       if (!(energy > 1e3 * noise * place)) continue;
       const double size = numbering.unknown(row).measure == Measure::moment ? energy : least;
-      const double part = noise / std::max(newton.load(row), size);
+      const double part = noise / std::max({newton.load(row), size, elsewhere});
       if (!(part > worst.part)) continue;
       worst.part = part;
       worst_noise = noise;

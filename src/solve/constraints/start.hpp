@@ -48,7 +48,7 @@ class Start {
                              const MasslessMotions* massless = nullptr) {
     balance_accelerations(c, 0, most_iterations, report, massless);
   }
-  /// Of balanced accelerations: gives what vibrates with a period shorter than h the mean over a step of h, which leads near to
+  /// Of balanced accelerations: gives what vibrates with a period shorter than 2 h the mean over a step of h, which leads near to
   /// its equilibrium; with those of an instant it would overshoot that by the square of h over its period. What steps resolve
   /// has other accelerations by a part of second order. False where nothing vibrates so fast: `c` is as it was.
   bool soften(Configuration& c, double h, StartReport* report = nullptr, const MasslessMotions* massless = nullptr);

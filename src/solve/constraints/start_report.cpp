@@ -72,8 +72,8 @@ std::string describe_start(const Model& model, const StartReport& report) {
     text += '\n';
     if (report.softened)
       text +=
-          "     loads that act from here on excite vibrations with periods shorter than a step: these begin near\n"
-          "     their equilibrium; a shorter H would resolve them\n";
+          "     loads that act from here on excite vibrations with periods shorter than two steps: these begin\n"
+          "     near their equilibrium; a shorter H would resolve them\n";
   }
   return text;
 }
