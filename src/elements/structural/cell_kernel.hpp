@@ -117,10 +117,10 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
   };
 
   /// Resisting forces and, where wanted, their derivative, of nodes and modes for any amplitudes of the modes. Of the derivative,
-  /// which is symmetric, only what stands on the diagonal or above it.
-  void sum(const Law& law, const Moves& moves, Forces& r, Tangent* k) const {
+  /// which is symmetric, only what stands on the diagonal or above it, in the columns from `first` on.
+  void sum(const Law& law, const Moves& moves, Forces& r, Tangent* k, int first = 0) const {
     std::fill_n(r.data(), size, 0);
-    if (k) k->fill(0);
+    if (k) std::fill(k->begin() + size * first, k->end(), 0);
     double b[strains][size];
     for (int i = 0; i < count_; ++i) {
       const Point& p = points_[i];
@@ -141,8 +141,8 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
       for (int n = 0; n < strains; ++n)
         for (int j = 0; j < size; ++j) r.data()[j] += b[n][j] * stress[n];
       if (!k) continue;
-      add_material(b, p.volume * response.moduli, *k);
-      if (!law.linear) add_geometric(p, stress, *k);
+      add_material(b, p.volume * response.moduli, first, *k);
+      if (!law.linear) add_geometric(p, stress, first, *k);
     }
   }
 
@@ -163,34 +163,35 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
       constexpr int most = 25;
       // its square is rounding: the last correction is carried over to the forces to first order
       constexpr double small = 1e-9;
-      const auto norm = [](const double* of_modes) { return Eigen::Map<const Eigen::VectorXd>(of_modes, own).norm(); };
+      const double slope = Eigen::Map<const Eigen::VectorXd>(points_[0].gradient.data() + nodal, own).norm();
       std::fill_n(out.moves.data() + nodal, own, 0);
       Forces r;
       Tangent k;
       double square[own * own], solved[own * (nodal + 1)];  // the last column has the forces of the modes
+      double strain = 1;                                    // by the last correction
       for (int iteration = 0; iteration < most; ++iteration) {
-        sum(law, out.moves, r, &k);
+        // corrections shrink as their squares: only the last tangent is taken of the nodes too, where it is wanted
+        const bool whole = wants_tangent && (law.linear || strain * strain < small);
+        sum(law, out.moves, r, &k, whole ? 0 : nodal);
         for (int m = 0; m < own; ++m) {
           const double* above = k.data() + size * (nodal + m);
-          for (int j = 0; j < nodal; ++j) solved[own * j + m] = above[j];
+          for (int j = 0; whole && j < nodal; ++j) solved[own * j + m] = above[j];
           for (int n = 0; n <= m; ++n) square[own * m + n] = square[own * n + m] = above[nodal + n];
           solved[own * nodal + m] = r.data()[nodal + m];
         }
-        solve_in_place({square, own, own}, {solved, own, nodal + 1});
-        const double* back = solved + own * nodal;  // the change of the modes with the other sign
+        double* back = solved + own * nodal;  // the change of the modes with the other sign
+        if (whole)
+          solve_in_place({square, own, own}, {solved, own, nodal + 1});
+        else
+          solve_in_place({square, own, own}, {back, own, 1});
         for (int m = 0; m < own; ++m) out.moves.data()[nodal + m] -= back[m];
-        if (!law.linear && !(norm(back) * norm(points_[0].gradient.data() + nodal) < small)) continue;
+        strain = Eigen::Map<const Eigen::VectorXd>(back, own).norm() * slope;
+        if (!law.linear && !(strain < small)) continue;
+        if (wants_tangent && !whole) continue;
         std::copy_n(r.data(), nodal, out.forces.data());
         for (int m = 0; m < own; ++m)
           for (int i = 0; i < nodal; ++i) out.forces.data()[i] -= k.data()[size * (nodal + m) + i] * back[m];
-        for (int j = 0; wants_tangent && j < nodal; ++j) {
-          double* to = out.tangent.data() + nodal * j;
-          std::copy_n(k.data() + size * j, j + 1, to);
-          for (int m = 0; m < own; ++m) {
-            const double* above = k.data() + size * (nodal + m);
-            for (int i = 0; i <= j; ++i) to[i] -= above[i] * solved[own * j + m];
-          }
-        }
+        if (wants_tangent) take_tangent(k, solved, out.tangent);
         return;
       }
       entries(out.forces).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -199,6 +200,19 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
   }
 
  private:
+  /// Of the nodes alone: what all unknowns have, less what the modes take. `solved`: columns of their tangent's inverse times
+  /// that of nodes and modes.
+  static void take_tangent(const Tangent& k, const double* solved, NodalTangent& out) {
+    for (int j = 0; j < nodal; ++j) {
+      double* to = out.data() + nodal * j;
+      std::copy_n(k.data() + size * j, j + 1, to);
+      for (int m = 0; m < own; ++m) {
+        const double* above = k.data() + size * (nodal + m);
+        for (int i = 0; i <= j; ++i) to[i] -= above[i] * solved[own * j + m];
+      }
+    }
+  }
+
   /// Ibrahimbegović and Wilson (1991), Commun. Appl. Numer. Methods 7: a constant stress does no work on modes whose gradients
   /// have no mean, whatever the shape of the cell.
   void remove_mean() {
@@ -217,13 +231,14 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     }
   }
 
-  /// Adds bᵀ · moduli · b, on the diagonal and above. Inner loops run along rows of `b` for the vector unit.
-  static void add_material(const double (&b)[strains][size], const Stiffness& moduli, Tangent& k) {
+  /// Adds bᵀ · moduli · b, on the diagonal and above, from column `first` on. Inner loops run along rows of `b` for the vector
+  /// unit.
+  static void add_material(const double (&b)[strains][size], const Stiffness& moduli, int first, Tangent& k) {
     double c[strains][size] = {};
     for (int n = 0; n < strains; ++n)
       for (int m = 0; m < strains; ++m)
-        for (int j = 0; j < size; ++j) c[n][j] += moduli(n, m) * b[m][j];
-    for (int j = 0; j < size; ++j) {
+        for (int j = first; j < size; ++j) c[n][j] += moduli(n, m) * b[m][j];
+    for (int j = first; j < size; ++j) {
       double* to = k.data() + size * j;
       for (int i = 0; i <= j; ++i) {
         double entry = 0;
@@ -234,11 +249,11 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
   }
 
   /// Stress times the second derivative of the strain; `stress` times the volume.
-  static void add_geometric(const Point& p, const Strain& stress, Tangent& k) {
+  static void add_geometric(const Point& p, const Strain& stress, int first, Tangent& k) {
     Square second;
     for (int i = 0; i < D; ++i) second(i, i) = stress[i];
     for (int i = 0; i < shears; ++i) second(i, (i + 1) % D) = second((i + 1) % D, i) = stress[normals + i];
-    for (int j = 0; j < columns; ++j) {
+    for (int j = first / D; j < columns; ++j) {
       const Eigen::Matrix<double, D, 1> across = second * column(p.gradient, j);
       for (int i = 0; i <= j; ++i) {
         const double g = across.dot(column(p.gradient, i));
