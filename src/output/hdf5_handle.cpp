@@ -84,19 +84,20 @@ constexpr std::size_t small = 4096;
 /// Bytes of a chunk of a compressed array.
 constexpr std::size_t most_of_chunk = std::size_t{1} << 20;
 
-/// Of smaller arrays, compressing costs no time that matters.
-constexpr std::size_t worth_a_trial = std::size_t{1} << 20;
+/// Smaller arrays of numbers are compressed whatever is left of them: many of them make a file, not one.
+constexpr std::size_t worth_a_trial = std::size_t{1} << 16;
 /// Arrays of numbers that deflate leaves more of are stored as they are. All digits of a computed stress differ: 0.74 to 0.79
 /// is left of it, displacements in a plane leave 0.58, at 0.1 GB/s both, which is slower than a disk.
 constexpr double most_left = 0.5;
 
 /// Whether shuffle and deflate make an array of numbers so much smaller that it is worth their time, by a few stretches of it.
 bool shrinks(const double* values, std::size_t count) {
-  constexpr std::size_t stretches = 8, length = 4096, width = sizeof(double);
+  constexpr std::size_t length = 2048, width = sizeof(double);
+  const std::size_t stretches = std::clamp<std::size_t>(count / (4 * length), 1, 16);
   std::vector<unsigned char> shuffled(length * width), deflated(compressBound(length * width));
   std::size_t before = 0, after = 0;
   for (std::size_t s = 0; s < stretches; ++s) {
-    const auto* bytes = reinterpret_cast<const unsigned char*>(values + s * (count - length) / (stretches - 1));
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values + (2 * s + 1) * (count - length) / (2 * stretches));
     for (std::size_t i = 0; i < length; ++i)
       for (std::size_t k = 0; k < width; ++k) shuffled[k * length + i] = bytes[i * width + k];
     uLongf size = deflated.size();
