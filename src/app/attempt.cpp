@@ -78,10 +78,11 @@ std::string energy_failure(const SolverContext& context, const observe::Observer
   if (std::abs(balance.error()) <= allowed * unnoticed_energy(context.model, context.options)) return {};
   const std::string unit = context.model.units.label(dimension::energy);
   return fmt::format(
-      "the energy balance is off by {:.4g} {} at t = {:.6g}, more than the {:.4g} {} that were in the machine or passed through "
+      "the energy balance is off by {:.4g} {} at t = {:.6g}, more than {}the {:.4g} {} that were in the machine or passed "
+      "through "
       "it: "
       "the results went wrong some time before this. Take a smaller step H{}; ENERGY 0 in .SAM lets the run continue",
-      balance.error(), unit, c.time, balance.handled(), unit,
+      balance.error(), unit, c.time, allowed == 1 ? "" : fmt::format("{:g} of ", allowed), balance.handled(), unit,
       context.options.family == SolverOptions::Family::newmark || context.options.damping > 0.99
           ? ", or a scheme with damping (RHO below 1): without it, rounding errors in the constraints grow"
           : "");
@@ -113,10 +114,10 @@ Verdict Attempt::make() {
   if (task_.reading.is_one_solution()) task_.reading.forget_mesh();
   announce();
   run();
+  if ((unsolved_ || wrong_) && trial_.settled) return settle(trial_, failure_, rank_);
   if (unsolved_ && trial_.complete) return back(trial_, failure_, rank_);
   if (unsolved_ && trial_.options.scheme_is_free) return another_scheme(task_.reading.model, trial_, failure_, rank_);
-  if (const double tolerance = sharper_tolerance(); tolerance > 0)
-    return {exit_status::fine, Trial{with_tolerance(task_.reading.model, trial_.options, tolerance), true, trial_.options, {}}};
+  if (std::optional<Trial> next = sharper()) return {exit_status::fine, std::move(next)};
   tell_condition();
   return {finish(), {}};
 }
@@ -207,6 +208,7 @@ bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
   if (ranks_ > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, task_.comm);
   if (const std::string wrong = energy_failure(context_, observer_, solved); !wrong.empty() && stop == 0) {
     failure_ = wrong;
+    wrong_ = true;
     stop = 1;
   }
   const bool far_enough = task_.options.until && solved.time >= *task_.options.until && !step.last;
@@ -273,6 +275,15 @@ void Attempt::write(const Write& write) {
   }
 }
 
+std::optional<Trial> Attempt::sharper() {
+  const double tolerance = sharper_tolerance();
+  if (tolerance == 0) return {};
+  const bool kept = companion_->serves(tolerance);
+  if (kept) companion_->succeed(runner_->steps(), tolerance);
+  const SolverOptions next = trial_.settled ? *trial_.settled : with_tolerance(task_.reading.model, trial_.options, tolerance);
+  return Trial{next, true, trial_.options, {}, {}, kept};
+}
+
 double Attempt::sharper_tolerance() {
   if (!companion_ || !complete_) return 0;
   const SolverOptions& wanted = trial_.options;
@@ -281,8 +292,9 @@ double Attempt::sharper_tolerance() {
     const ErrorEstimate estimate = companion_->estimate(runner_->steps());
     if (trial_.may_repeat && estimate.trouble.empty() && estimate.error > wanted.target) {
       tolerance = std::max(estimate.tolerance_for(wanted.target), most_at_once * wanted.tolerance);
-      // what was tried beyond the setting's own TOL goes back to that
-      tolerance = std::min(tolerance, tolerance_of(task_.reading.model.commands.analysis).value_or(tolerance));
+      // what was looser than the setting's own TOL goes on to that
+      if (const AccuracyRung* rung = accuracy_rung(task_.reading.model.commands.analysis))
+        tolerance = trial_.settled ? rung->tolerance : std::min(tolerance, rung->tolerance);
       writer_->note(
           fmt::format("engrane: the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: again, "
                       "with TOL {:.1g}",

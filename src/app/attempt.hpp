@@ -59,7 +59,9 @@ class Attempt {
   template <class Write>
   void write(const Write& write);
 
-  /// The tolerance with which to repeat the run because its error is too large; 0 where it is not. Collective.
+  /// The run to make because the error of this one is too large; none where it is not. Collective.
+  std::optional<Trial> sharper();
+  /// The tolerance of that; 0 for none. Collective.
   double sharper_tolerance();
   void tell_condition();
   /// Ends the results; the exit status. Collective.
@@ -81,6 +83,7 @@ class Attempt {
   std::string failure_;    ///< what stopped the run; empty when nothing did
   bool complete_ = false;  ///< the run came to its end
   bool unsolved_ = false;  ///< no solution was found at some step
+  bool wrong_ = false;     ///< energies say that solutions are none
 };
 
 }  // namespace engrane::app

@@ -22,6 +22,8 @@ namespace {
 /// The companion's tolerance over that of the run: steps are about twice as long, or three times those of generalised-alpha.
 constexpr double looser = 10, loosest = 0.05, longer = 2;
 constexpr double loosest_precision = 2e-5;
+/// A run may be the companion of the next where its tolerance is so much looser.
+constexpr double least_looser = 8, most_looser = 20;
 /// Results are taken to differ by this power of the ratio of steps (docs/accuracy.md, The dial: what fits nine models best).
 /// Radau's own order is 5; less where forces are interpolated, and where teeth and stops make and lose contact.
 constexpr double order_of_alpha = 2, order_of_radau = 4;
@@ -31,6 +33,8 @@ constexpr double order_of_alpha = 2, order_of_radau = 4;
 constexpr double smooth_ratio_of_alpha = 3.5, smooth_ratio_of_radau = 2.3, rough = 2.5;
 /// TOL has chosen the steps where they are shorter than the longest by this, on the average.
 constexpr double well_below = 2;
+/// Part of the run that tells whether they are.
+constexpr double early = 0.2;
 /// Ratios of steps nearer to 1 say nothing.
 constexpr double least_ratio = 1.02;
 /// No more values than this are kept, of no more instants: errors are means over time.
@@ -55,7 +59,7 @@ SolverOptions with_tolerance(const Model& model, const SolverOptions& options, d
   return other;
 }
 
-Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet)
+Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet, Span span)
     : extent_(reading.model.extent()), duration_(options.end - options.begin) {
   const double begun = processor_time();
   const Model& model = reading.model;
@@ -63,6 +67,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
       with_tolerance(model, options, std::min(looser * options.tolerance, std::max(loosest, 2 * options.tolerance)));
   loose.longest *= longer;
   estimate_.tolerance = options.tolerance;
+  estimate_.begins_looser = options.family == SolverOptions::Family::radau;
   estimate_.companion_tolerance = loose.tolerance;
   SolverContext context(model, loose, comm);
   observe::Observer observer(context.assembler, moves(model), select_compared(model));
@@ -96,6 +101,9 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     context.out_of_plane.find(whole);
     return whole;
   };
+  const auto follows = [&](long steps, double time) {
+    return static_cast<double>(steps) * loose.longest >= well_below * (time - options.begin);
+  };
   const solve::Observer seen = [&](const Configuration& c, const StepReport& step) {
     std::optional<Instants> instants;
     if (step.number > 0) instants.emplace(schedule, observer, in_space, last, c, step);
@@ -105,7 +113,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     if (schedule.even(c.time)) take(c.time);
     progress.update(c.time, step.step, step.number);
     last = c.time;
-    return true;
+    return span == Span::whole || c.time < options.begin + early * duration_ || follows(step.number, c.time);
   };
   try {
     runner.run(seen, [](const StartReport&) {});
@@ -115,7 +123,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     estimate_.trouble = failure.what();
   }
   steps_ = runner.steps();
-  follows_tolerance_ = static_cast<double>(steps_) * loose.longest >= well_below * (options.end - options.begin);
+  follows_tolerance_ = follows(steps_, last);
   last_ = -std::numeric_limits<double>::infinity();
   begun_ = processor_time();
   estimate_.companion_seconds = begun_ - begun;
@@ -169,6 +177,7 @@ void Companion::record(double time, const std::vector<double>& values) {
 void Companion::compare(double time, const observe::Observer& observer) {
   const auto row = place(time);
   if (!row || *row >= rows_ || repeats(time)) return;
+  values_run_.resize(values_.size(), std::numeric_limits<double>::quiet_NaN());
   if (!std::exchange(placed_, true))
     for (Column& column : columns_) column.at = static_cast<std::size_t>(observer.channel(column.owner, column.channel));
   const std::vector<double>& values = observer.values();
@@ -176,13 +185,36 @@ void Companion::compare(double time, const observe::Observer& observer) {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     Column& column = columns_[c];
     const double value = values[column.at];
-    double off = value - values_[*row * columns_.size() + c];
+    const std::size_t at = *row * columns_.size() + c;
+    values_run_[at] = value;
+    double off = value - values_[at];
     // components of a rotation vector begin anew after a turn
     if (column.dimension == dimension::angle) off = std::remainder(off, 2 * std::numbers::pi);
     if (!std::isfinite(off)) continue;
     column.squares += off * off;
     column.least = std::min(column.least, value);
     column.largest = std::max(column.largest, value);
+  }
+}
+
+bool Companion::serves(double tolerance) const {
+  const double ratio = estimate_.tolerance / tolerance;
+  return ratio >= least_looser && ratio <= most_looser;
+}
+
+void Companion::succeed(long steps, double tolerance) {
+  const double now = processor_time();
+  estimate_.earlier_seconds += estimate_.companion_seconds;
+  estimate_.companion_seconds = now - std::exchange(begun_, now);
+  estimate_.companion_tolerance = std::exchange(estimate_.tolerance, tolerance);
+  steps_ = steps;
+  values_ = std::exchange(values_run_, {});
+  compared_ = 0;
+  last_ = -std::numeric_limits<double>::infinity();
+  for (Column& column : columns_) {
+    column.squares = 0;
+    column.least = std::numeric_limits<double>::infinity();
+    column.largest = -column.least;
   }
 }
 

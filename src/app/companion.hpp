@@ -22,8 +22,12 @@ SolverOptions with_tolerance(const Model& model, const SolverOptions& options, d
 /// (Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, II.4, for one step; here for whole runs).
 class Companion {
  public:
+  enum class Span : unsigned char {
+    whole,
+    whole_if_it_follows  ///< ends early where its steps do not follow its tolerance
+  };
   /// Runs; collective. `options`: of the run that it goes with. `quiet`: without a word on how far it is.
-  Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet);
+  Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet, Span span = Span::whole);
 
   /// An even instant of the run itself, which its observer has seen last. On rank 0.
   void compare(double time, const observe::Observer& observer);
@@ -31,6 +35,10 @@ class Companion {
   ErrorEstimate estimate(long steps) const;
   /// Why it failed; empty when it did not. On all ranks.
   const std::string& trouble() const { return estimate_.trouble; }
+  /// After the run, of so many steps: may the run itself be the companion of one with this tolerance? On all ranks.
+  bool serves(double tolerance) const;
+  /// It becomes that. On all ranks.
+  void succeed(long steps, double tolerance);
   /// Was it TOL that chose its steps, and not the longest step? On all ranks.
   bool follows_tolerance() const { return follows_tolerance_; }
 
@@ -71,7 +79,8 @@ class Companion {
   long steps_ = 0;
   double order_of_steps_ = 2;
   bool follows_tolerance_ = false;
-  std::vector<double> values_;  ///< row by row; NaN where the instant was not reached
+  std::vector<double> values_;      ///< row by row; NaN where the instant was not reached
+  std::vector<double> values_run_;  ///< the same of the run itself
   ErrorEstimate estimate_;
   double begun_ = 0;  ///< processor time at which the run itself began
 };

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/solver_options.hpp"
-
 namespace engrane::app {
 
 double ErrorEstimate::error_at(double other) const { return error * std::pow(other / tolerance, order); }
@@ -20,17 +18,22 @@ double ErrorEstimate::seconds_at(double other) const {
 
 double ErrorEstimate::tolerance_for(double target) const { return tolerance * std::pow(0.5 * target / error, 1 / order); }
 
+double ErrorEstimate::tolerance_of(const AccuracyRung& rung) const {
+  return begins_looser && error_at(rung.first) <= rung.target ? rung.first : rung.tolerance;
+}
+
 std::string ErrorEstimate::describe(double target) const {
   std::string text =
       fmt::format("  asked for          {:g} of the range of each channel, root of the mean square over time\n", target);
   if (!trouble.empty()) return text + "  estimated error    none: " + trouble + "\n";
   text += fmt::format("  estimated error    {:.2g}, {}; by a second run with TOL {:.2g}, where this one has {:.2g}\n", error,
                       channel, companion_tolerance, tolerance);
-  text += fmt::format("  processor time     {:.2g} s, and {:.2g} s for the estimate\n", seconds, companion_seconds);
+  text +=
+      fmt::format("  processor time     {:.2g} s, and {:.2g} s for the estimate\n", seconds, companion_seconds + earlier_seconds);
   for (const AccuracyRung& rung : accuracy_rungs)
     if (rung.target != target)
-      text += fmt::format("  ACCURACY {:<10}error about {:.1g}, about {:.2g} s\n", rung.name, error_at(rung.tolerance),
-                          seconds_at(rung.tolerance));
+      text += fmt::format("  ACCURACY {:<10}error about {:.1g}, about {:.2g} s\n", rung.name, error_at(tolerance_of(rung)),
+                          seconds_at(tolerance_of(rung)));
   return text;
 }
 

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "model/solver_options.hpp"
+
 namespace engrane::app {
 
 /// What the results are estimated to be off by.
@@ -11,14 +13,18 @@ struct ErrorEstimate {
   std::string channel;  ///< that has it
   double tolerance = 0, companion_tolerance = 0;  ///< TOL of the run and of its companion
   double seconds = 0, companion_seconds = 0;
-  double order = 1;     ///< the power of TOL that errors go with, as far as steps follow it
-  std::string trouble;  ///< why there is no estimate
+  double earlier_seconds = 0;  ///< of runs before the companion
+  double order = 1;            ///< the power of TOL that errors go with, as far as steps follow it
+  bool begins_looser = false;  ///< runs of its kind begin with AccuracyRung::first
+  std::string trouble;         ///< why there is no estimate
 
   /// Error and processor time that another tolerance is expected to have.
   double error_at(double other) const;
   double seconds_at(double other) const;
   /// A tolerance that is expected to give half of an error.
   double tolerance_for(double target) const;
+  /// The one that another setting would end with.
+  double tolerance_of(const AccuracyRung& rung) const;
   /// For the listing, beside the `target` that was asked for.
   std::string describe(double target) const;
 };

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <utility>
 
 #include "app/attempt.hpp"
 #include "app/interruption.hpp"
@@ -25,8 +26,6 @@ namespace {
 
 /// With ACCURACY a run may be repeated so often with another tolerance, or another scheme.
 constexpr int most_repeats = 3;
-/// ACCURACY FAST begins with so much looser steps, where it is TOL that chooses them and the deck does not give it.
-constexpr double bolder = 4;
 
 /// Opens what `.SAM RESTART` names, on every rank. Throws RestartError, also when its model is another than that of `reading`.
 std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Options& options) {
@@ -61,21 +60,19 @@ bool gives_tolerance(const deck::Deck& deck) {
   });
 }
 
-/// Runs the companion that `options` ask for, the first time. FAST then takes longer steps than its own where TOL chooses them:
-/// what those are made for are contacts that vibrate within a few of the longest steps. Collective.
-std::optional<Companion> first_companion(const Reading& reading, SolverOptions& options, MPI_Comm comm, bool quiet) {
-  std::optional<Companion> companion;
-  const bool fast = options.target >= accuracy_rungs.front().target && options.family == SolverOptions::Family::radau;
-  if (fast && !gives_tolerance(reading.deck)) {
-    const SolverOptions bold = with_tolerance(reading.model, options, bolder * options.tolerance);
-    companion.emplace(reading, bold, comm, quiet);
-    if (companion->trouble().empty() && companion->follows_tolerance()) {
-      options = bold;
+/// Runs the companion of the first run, which begins with longer steps than its setting's own where TOL chooses them: what those
+/// are made for are contacts that vibrate within a few of the longest steps. Collective.
+Companion first_companion(const Reading& reading, Trial& trial, MPI_Comm comm, bool quiet) {
+  const AccuracyRung* rung = accuracy_rung(reading.model.commands.analysis);
+  if (rung && trial.options.family == SolverOptions::Family::radau && !gives_tolerance(reading.deck)) {
+    const SolverOptions bold = with_tolerance(reading.model, trial.options, rung->first);
+    Companion companion(reading, bold, comm, quiet, Companion::Span::whole_if_it_follows);
+    if (companion.trouble().empty() && companion.follows_tolerance()) {
+      trial.settled = std::exchange(trial.options, bold);
       return companion;
     }
   }
-  companion.emplace(reading, options, comm, quiet);
-  return companion;
+  return Companion(reading, trial.options, comm, quiet);
 }
 
 /// The mesh of the deck that bears the name of the results; empty when none does.
@@ -120,17 +117,18 @@ int solve_deck(Reading& reading, const Options& options, const std::string& pref
     return exit_status::wrong_deck;
   }
   const Task task{reading, options, prefix, resumption.get(), summary, comm};
-  Trial trial{solver_options(reading.model), true, {}, {}};
+  Trial trial{solver_options(reading.model), true, {}, {}, {}, false};
+  if (resumption) load_choice(resumption->point.memory, trial.options);
   const bool estimates = trial.options.target > 0 && trial.options.tolerance > 0 && !resumption;
   std::optional<Companion> companion;
   for (int repeats = 0;; ++repeats) {
-    if (estimates && repeats == 0) companion = first_companion(reading, trial.options, comm, options.quiet);
+    if (estimates && repeats == 0) companion.emplace(first_companion(reading, trial, comm, options.quiet));
     if (estimates && !companion) companion.emplace(reading, trial.options, comm, options.quiet);
     trial.may_repeat = trial.may_repeat && repeats < most_repeats;
     Verdict verdict = solve_once(task, trial, companion);
     if (!verdict.again) return verdict.status;
-    companion.reset();
     trial = std::move(*verdict.again);
+    if (!trial.keeps_companion) companion.reset();
   }
 }
 

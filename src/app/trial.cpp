@@ -6,11 +6,37 @@
 #include <algorithm>
 #include <iostream>
 #include <utility>
+#include <vector>
 
 #include "app/options.hpp"
 #include "app/terminal.hpp"
 
 namespace engrane::app {
+
+namespace {
+
+std::vector<double> what_is_asked(const SolverOptions& own) {
+  return {own.target, static_cast<double>(own.family), own.damping, own.tolerance, own.precision, own.event_tolerance};
+}
+
+}  // namespace
+
+void save_choice(const Model& model, const SolverOptions& found, Snapshot& snapshot) {
+  if (found.target == 0) return;
+  snapshot.put("dial/asked", what_is_asked(solver_options(model)));
+  snapshot.put("dial/found",
+               {static_cast<double>(found.family), found.damping, found.tolerance, found.precision, found.event_tolerance});
+}
+
+void load_choice(const Snapshot& snapshot, SolverOptions& options) {
+  if (options.target == 0 || !snapshot.has("dial/asked") || snapshot.array("dial/asked") != what_is_asked(options)) return;
+  const std::vector<double>& found = snapshot.array("dial/found");
+  options.family = static_cast<SolverOptions::Family>(found.at(0));
+  options.damping = found.at(1);
+  options.tolerance = found.at(2);
+  options.precision = found.at(3);
+  options.event_tolerance = found.at(4);
+}
 
 Verdict another_scheme(const Model& model, Trial trial, const std::string& why, int rank) {
   if (rank == 0) std::cerr << "engrane: SCHEME RADAU fails here, again with CHUNG: " << terminal_text(why) << '\n';
@@ -25,10 +51,17 @@ Verdict another_scheme(const Model& model, Trial trial, const std::string& why, 
   return {exit_status::fine, std::move(trial)};
 }
 
+Verdict settle(const Trial& failed, const std::string& why, int rank) {
+  if (rank == 0)
+    std::cerr << fmt::format("engrane: with TOL {:.1g} the run fails: {}; again, with TOL {:.1g}\n", failed.options.tolerance,
+                             terminal_text(why), failed.settled->tolerance);
+  return {exit_status::fine, Trial{*failed.settled, true, {}, {}, {}, false}};
+}
+
 Verdict back(const Trial& failed, const std::string& why, int rank) {
   const std::string text = fmt::format("with TOL {:.1g} the run fails: {}", failed.options.tolerance, why);
   if (rank == 0) std::cerr << fmt::format("engrane: {}; back to TOL {:.1g}\n", terminal_text(text), failed.complete->tolerance);
-  return {exit_status::fine, Trial{*failed.complete, false, {}, text}};
+  return {exit_status::fine, Trial{*failed.complete, false, {}, text, {}, false}};
 }
 
 }  // namespace engrane::app

@@ -12,6 +12,7 @@
 #include "app/selection.hpp"
 #include "app/summary.hpp"
 #include "app/terminal.hpp"
+#include "app/trial.hpp"
 #include "app/version.hpp"
 
 namespace engrane::app {
@@ -113,6 +114,7 @@ void Writer::remember(const Configuration& c, const Runner& runner, bool kept, b
   if (reading_.is_one_solution() && (!last || c.time >= reading_.model.commands.stepping.end)) return;
   Snapshot memory;
   runner.save(memory);
+  save_choice(reading_.model, runner.options(), memory);
   observer_.save(memory);
   schedule_.save(memory);
   checks_.save(memory);

@@ -199,7 +199,8 @@ class Builder {
   /// TOL where ACCURACY chooses it.
   void settle_tolerance() {
     Commands& commands = model_.commands;
-    if (!commands.stepping.tolerance) commands.stepping.tolerance = tolerance_of(commands.analysis);
+    const AccuracyRung* rung = accuracy_rung(commands.analysis);
+    if (!commands.stepping.tolerance && rung) commands.stepping.tolerance = rung->tolerance;
     if (!commands.stepping.tolerance || !commands.analysis.type.is("KINEMATIC")) return;
     commands.stepping.tolerance.reset();
     for (const deck::Record& record : deck_.records)

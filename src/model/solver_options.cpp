@@ -13,18 +13,13 @@ constexpr double longest_part = 0.02;
 /// an event's instant is one of velocities, as large a part of what a step changes; that of all forces is the most it can be.
 constexpr double share_of_newton = 0.01, share_of_path = 1e-3, share_of_event = 0.5, event_of_fixed_steps = 1e-6;
 
-const AccuracyRung* rung_of(const deck::AnalysisCard& analysis) {
+}  // namespace
+
+const AccuracyRung* accuracy_rung(const deck::AnalysisCard& analysis) {
+  if (!analysis.type.is("DYNAMIC")) return nullptr;
   for (const AccuracyRung& rung : accuracy_rungs)
     if (analysis.accuracy.is(rung.name)) return &rung;
   return nullptr;
-}
-
-}  // namespace
-
-std::optional<double> tolerance_of(const deck::AnalysisCard& analysis) {
-  const AccuracyRung* rung = rung_of(analysis);
-  if (!rung || !analysis.type.is("DYNAMIC")) return {};
-  return rung->tolerance;
 }
 
 double event_tolerance_for(double tolerance) { return share_of_event * tolerance; }
@@ -59,7 +54,7 @@ SolverOptions solver_options(const Model& model) {
   else if (o.tolerance > 0 && o.analysis == Analysis::statics)
     of_step = std::clamp(share_of_path * o.tolerance, 1e-12, of_step);
   o.precision = analysis.precision.value_or(of_step);
-  if (const AccuracyRung* rung = rung_of(analysis); rung && o.analysis == Analysis::dynamics) {
+  if (const AccuracyRung* rung = accuracy_rung(analysis)) {
     o.target = rung->target;
     o.scheme_is_free = analysis.scheme_is_free;
   }

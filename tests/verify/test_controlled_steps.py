@@ -190,18 +190,71 @@ def test_the_dial_meets_its_error_and_knows_it(rung: str, target: float, tmp_pat
     assert "Accuracy" in listing and f"ACCURACY {'NORMAL' if rung == 'FAST' else 'FAST'}" in listing
 
 
-def test_fast_takes_longer_steps_where_tol_chooses_them(tmp_path: Path) -> None:
+def listing_of(folder: Path) -> str:
+    return (folder / "deck.lst").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("rung", "target", "first", "own"),
+    [
+        ("FAST", 1e-2, "0.02, where this one has 0.002", "0.005, where this one has 0.0005"),
+        ("NORMAL", 1e-3, "0.005, where this one has 0.0005", "0.0005, where this one has 5e-05"),
+    ],
+)
+def test_the_dial_begins_with_longer_steps_where_tol_chooses_them(
+    rung: str, target: float, first: str, own: str, tmp_path: Path
+) -> None:
     text = (ROOT / "decks/paper/spur_transmission_a.dat").read_text(encoding="utf-8")
-    text = re.sub(r"(?m)^\.SAM .*", ".SAM TYPE DYNAMIC START STATIC ACCURACY FAST", text)
+    text = re.sub(r"(?m)^\.SAM .*", f".SAM TYPE DYNAMIC START STATIC ACCURACY {rung}", text)
     text = text.replace("TF 0.03", "TF 0.003")
     text = re.sub(r"WINDOW \S+ \S+ V \S+ RTOL \S+", "V 0 ATOL 1E9", text)
     told = dial(text, tmp_path)["accuracy"]
-    assert told["estimated_error"] < 1e-2
-    listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
-    assert "with TOL 0.02, where this one has 0.002" in listing
+    assert told["estimated_error"] < target
+    assert f"with TOL {first}" in listing_of(tmp_path)
     # a pendulum's steps are limited by HMAX: the setting's own TOL costs no more there
-    dial(pendulum("ACCURACY FAST", "", end=0.5), tmp_path)
-    assert "with TOL 0.005, where this one has 0.0005" in (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    dial(pendulum(f"ACCURACY {rung}", "", end=0.5), tmp_path)
+    assert f"with TOL {own}" in listing_of(tmp_path)
+
+
+def oscillator(sam: str) -> str:
+    """A hundred periods of a mass on a spring, whose errors add up: sin(ωt)/ω with ω² = 1000."""
+    return f""".NOE
+ I 1 X 1 0 0
+.MCE
+ I 1 INERTIA N 1 M 1 J 1 1 1
+ I 2 SPRING N 0 1 K 1000 C 0 L0 1
+.CLM
+ FIX NOEUD 1 C 2 3 4 5 6
+.INI
+ VIT NOEUD 1 C 1 V 1
+.SAM TYPE DYNAMIC {sam}
+.SUB TF 20 H 0.01
+.CHK
+ NODE 1 UX V 0 ATOL 1E9
+"""
+
+
+def test_a_run_that_is_not_good_enough_is_the_companion_of_the_next(tmp_path: Path) -> None:
+    found = dial(oscillator("ACCURACY NORMAL"), tmp_path)
+    assert "more than the 0.001 asked for: again, with TOL 5e-05" in found["said"]
+    assert "with TOL 0.0005, where this one has 5e-05" in listing_of(tmp_path)
+    told = found["accuracy"]["estimated_error"]
+    result = Run(tmp_path / "deck.h5")
+    w = np.sqrt(1000)
+    error = np.sqrt(np.mean((result["node/1/UX"] - np.sin(w * result.t) / w) ** 2)) / (2 / w)
+    assert error < 1e-3
+    assert error / 3 < told < 10 * error
+    # the same as with a companion of its own
+    again = dial(oscillator("ACCURACY NORMAL").replace("H 0.01", "H 0.01 TOL 5E-5"), tmp_path)
+    assert told == pytest.approx(again["accuracy"]["estimated_error"], rel=0.2)
+
+
+def test_a_first_run_that_loses_energy_gives_way_to_the_settings_own(tmp_path: Path) -> None:
+    found = dial(oscillator("ACCURACY NORMAL ENERGY 1E-3"), tmp_path)
+    assert "with TOL 0.0005 the run fails: the energy balance is off" in found["said"]
+    assert "again, with TOL 5e-05" in found["said"]
+    assert found["accuracy"]["estimated_error"] < 1e-3
+    assert Run(tmp_path / "deck.h5").t[-1] == 20
 
 
 def test_most_events_are_met_by_the_first_attempt(tmp_path: Path) -> None:

@@ -45,6 +45,7 @@ class Runner {
   /// after run() has returned or thrown.
   void save(Snapshot& snapshot) const;
   const Configuration& now() const { return now_; }
+  const SolverOptions& options() const { return options_; }
   long steps() const { return step_.number; }
   bool started() const { return started_; }  ///< now() is an accepted configuration
 
