@@ -26,6 +26,10 @@ constexpr int most_idle = 3;
 constexpr double no_newton = 0.5;
 /// Larger models have shorter steps instead: factors of three times the equations would cost more.
 constexpr int most_coupled = 10'000;
+/// A step that needed tangents for each stage tells nothing of one that is shorter than so many times it.
+constexpr double no_shorter = 0.8;
+/// So many steps begin with them, at most, before the other matrices are tried again.
+constexpr int most_untried = 16;
 /// Guesses go through this many ends of steps, and no farther than so many times the distance of two of them.
 constexpr std::size_t points_of_guess = 4;
 /// Iterations may leave so much of the tolerance of a step.
@@ -100,6 +104,7 @@ void Radau::forget_motion() {
   multipliers_.clear();
   open_ = 0;
   kept_step_ = 0;
+  coupled_ = {};
 }
 
 void Radau::enter(const std::vector<int>& sides) {
@@ -323,6 +328,28 @@ bool Radau::recall(double h) {
   return true;
 }
 
+NewtonReport Radau::find_stages(const Configuration& from, double h) {
+  const bool tries = coupled_.left == 0 || h < no_shorter * coupled_.step;
+  if (tries) {
+    predict(from, h);
+    NewtonReport report = iterate(from, h);
+    if (report.converged) coupled_ = {};
+    if (report.converged || context_.numbering.equations() > most_coupled) return report;
+  }
+  if (!coupled_stages_)
+    coupled_stages_ = std::make_unique<CoupledStages>(context_.assembler, collocation_, context_.solver.package());
+  coupled_stages_->begin();
+  predict(from, h);
+  NewtonReport report = iterate(from, h, coupled_stages_.get());
+  if (!report.converged)
+    coupled_ = {};
+  else if (tries)
+    coupled_ = {h, coupled_.tries + 1, coupled_.tries > 0 ? std::min(2 * coupled_.tries - 1, most_untried) : 0};
+  else
+    --coupled_.left;
+  return report;
+}
+
 Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   scale_for(from, h, solver_.weights(h));
   for (std::size_t i = 0; i < configurations_.size(); ++i) {
@@ -336,14 +363,7 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   to = configurations_.back();
   if (!foreseen.converged) return {std::move(foreseen), {}};
 
-  predict(from, h);
-  NewtonReport report = iterate(from, h);
-  if (!report.converged && context_.numbering.equations() <= most_coupled) {
-    if (!coupled_) coupled_ = std::make_unique<CoupledStages>(context_.assembler, collocation_, context_.solver.package());
-    coupled_->begin();
-    predict(from, h);
-    report = iterate(from, h, coupled_.get());
-  }
+  NewtonReport report = find_stages(from, h);
   to = outside_of_steps(configurations_.back());
   refuse_half_turns(now_.y.back(), report);
   if (!report.converged) return {std::move(report), {}};
@@ -454,6 +474,7 @@ void Radau::save(Snapshot& snapshot) const {
   solver_.save(snapshot);
   snapshot.put("radau/kept_step", kept_step_);
   snapshot.put("radau/open", open_);
+  snapshot.put("radau/coupled", {coupled_.step, static_cast<double>(coupled_.tries), static_cast<double>(coupled_.left)});
   save_part(kept_, "radau/kept/", snapshot);
   save_part(references_, "radau/", snapshot);
   save_part(balance_, "radau/", snapshot);
@@ -474,6 +495,10 @@ void Radau::load(const Snapshot& snapshot) {
   balance_kept_ = balance_.load_factors(part_of(snapshot, "radau/balance/"));
   solver_.load(snapshot);
   if (snapshot.has("radau/open")) open_ = snapshot.number("radau/open");  // files of earlier versions lack it
+  if (snapshot.has("radau/coupled")) {
+    const std::vector<double>& coupled = snapshot.array("radau/coupled");
+    coupled_ = {coupled.at(0), static_cast<int>(coupled.at(1)), static_cast<int>(coupled.at(2))};
+  }
   kept_.load(part_of(snapshot, "radau/kept/"));
   kept_step_ = 0;
   if (const double h = snapshot.number("radau/kept_step"); h > 0 && kept_.restore(h)) {

@@ -45,6 +45,13 @@ class Radau final : public Dynamics {
     std::vector<double> a, multipliers;
     double open = 0;  ///< the largest part of a length, or of a radian, that constraints are open by
   };
+  /// What steps have told of the tangents of each stage: where others failed several times in a row, more and more steps begin
+  /// with these.
+  struct Coupled {
+    double step = 0;  ///< the last that needed them
+    int tries = 0;    ///< that have failed since others served
+    int left = 0;     ///< steps to begin with them
+  };
   /// A first guess of the stages of a step.
   void predict(const Configuration& from, double h);
   /// Velocities and accelerations of the stages from y, with what is prescribed.
@@ -75,6 +82,8 @@ class Radau final : public Dynamics {
   bool recall(double h);
   /// Newton's iteration from the stages in now_: simplified, with the matrices that are kept, or with the tangents of each stage.
   NewtonReport iterate(const Configuration& from, double h, CoupledStages* exact = nullptr);
+  /// The stages of a step, in now_: by the matrices that are kept, or by the tangents of each stage where those lead nowhere.
+  NewtonReport find_stages(const Configuration& from, double h);
   /// Velocities, accelerations and multipliers that fit at the end of a step whose positions fit; false when there are none.
   bool complete(Configuration& c);
   /// The first of these, and the others.
@@ -104,9 +113,10 @@ class Radau final : public Dynamics {
   std::vector<std::vector<MotionSlots::Prescribed>> prescribed_;
   std::vector<Owned<Vec>> residuals_, changes_;
   KeptMatrices kept_;
-  std::unique_ptr<CoupledStages> coupled_;  ///< from the first step on that needs it
-  double kept_step_ = 0;                    ///< that the systems are worth trying for; 0: none
-  double matrices_step_ = 0;                ///< that they were last made for; 0: never
+  std::unique_ptr<CoupledStages> coupled_stages_;  ///< from the first step on that needs it
+  Coupled coupled_;
+  double kept_step_ = 0;      ///< that the systems are worth trying for; 0: none
+  double matrices_step_ = 0;  ///< that they were last made for; 0: never
   std::vector<double> kept_scale_;
   bool fresh_ = false;  ///< they were evaluated in the last attempt
   bool has_friction_ = false;
