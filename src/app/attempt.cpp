@@ -79,9 +79,7 @@ std::string energy_failure(const SolverContext& context, const observe::Observer
   const std::string unit = context.model.units.label(dimension::energy);
   return fmt::format(
       "the energy balance is off by {:.4g} {} at t = {:.6g}, more than {}the {:.4g} {} that were in the machine or passed "
-      "through "
-      "it: "
-      "the results went wrong some time before this. Take a smaller step H{}; ENERGY 0 in .SAM lets the run continue",
+      "through it: the results went wrong some time before this. Take a smaller step H{}; ENERGY 0 in .SAM lets the run continue",
       balance.error(), unit, c.time, allowed == 1 ? "" : fmt::format("{:g} of ", allowed), balance.handled(), unit,
       context.options.family == SolverOptions::Family::newmark || context.options.damping > 0.99
           ? ", or a scheme with damping (RHO below 1): without it, rounding errors in the constraints grow"
@@ -214,6 +212,7 @@ bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
   const bool far_enough = task_.options.until && solved.time >= *task_.options.until && !step.last;
   if (were_interrupted(task_.comm, ranks_) || far_enough) {
     failure_ = fmt::format("interrupted at t = {:.6g}", solved.time);
+    wrong_ = false;  // no other run is wanted
     stop = 1;
   }
   return stop == 0;
@@ -281,7 +280,7 @@ std::optional<Trial> Attempt::sharper() {
   const bool kept = companion_->serves(tolerance);
   if (kept) companion_->succeed(runner_->steps(), tolerance);
   const SolverOptions next = trial_.settled ? *trial_.settled : with_tolerance(task_.reading.model, trial_.options, tolerance);
-  return Trial{next, true, trial_.options, {}, {}, kept};
+  return Trial{.options = next, .complete = trial_.options, .keeps_companion = kept};
 }
 
 double Attempt::sharper_tolerance() {

@@ -117,7 +117,7 @@ int solve_deck(Reading& reading, const Options& options, const std::string& pref
     return exit_status::wrong_deck;
   }
   const Task task{reading, options, prefix, resumption.get(), summary, comm};
-  Trial trial{solver_options(reading.model), true, {}, {}, {}, false};
+  Trial trial{.options = solver_options(reading.model)};
   if (resumption) load_choice(resumption->point.memory, trial.options);
   const bool estimates = trial.options.target > 0 && trial.options.tolerance > 0 && !resumption;
   std::optional<Companion> companion;

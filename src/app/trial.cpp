@@ -55,13 +55,13 @@ Verdict settle(const Trial& failed, const std::string& why, int rank) {
   if (rank == 0)
     std::cerr << fmt::format("engrane: with TOL {:.1g} the run fails: {}; again, with TOL {:.1g}\n", failed.options.tolerance,
                              terminal_text(why), failed.settled->tolerance);
-  return {exit_status::fine, Trial{*failed.settled, true, {}, {}, {}, false}};
+  return {exit_status::fine, Trial{.options = *failed.settled}};
 }
 
 Verdict back(const Trial& failed, const std::string& why, int rank) {
   const std::string text = fmt::format("with TOL {:.1g} the run fails: {}", failed.options.tolerance, why);
   if (rank == 0) std::cerr << fmt::format("engrane: {}; back to TOL {:.1g}\n", terminal_text(text), failed.complete->tolerance);
-  return {exit_status::fine, Trial{*failed.complete, false, {}, text, {}, false}};
+  return {exit_status::fine, Trial{.options = *failed.complete, .may_repeat = false, .sharper_failed = text}};
 }
 
 }  // namespace engrane::app

@@ -13,11 +13,11 @@ namespace engrane::app {
 /// A run to make, and what those before it have told.
 struct Trial {
   SolverOptions options;
-  bool may_repeat = true;                 ///< when the error is too large
-  std::optional<SolverOptions> complete;  ///< of a run that came to its end, but with too large an error
-  std::string sharper_failed;             ///< how one with a sharper tolerance than this failed
-  std::optional<SolverOptions> settled;   ///< the setting's own, where `options` begin with a looser tolerance
-  bool keeps_companion = false;           ///< that of the run before tells the error of this one too
+  bool may_repeat = true;                      ///< when the error is too large
+  std::optional<SolverOptions> complete = {};  ///< of a run that came to its end, but with too large an error
+  std::string sharper_failed = {};             ///< how one with a sharper tolerance than this failed
+  std::optional<SolverOptions> settled = {};   ///< the setting's own, where `options` begin with a looser tolerance
+  bool keeps_companion = false;                ///< that of the run before tells the error of this one too
 };
 
 /// What came of a run: its exit status, or what to try instead.
