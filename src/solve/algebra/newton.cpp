@@ -327,11 +327,11 @@ bool Newton::judge(int iteration) {
   rows_.push_back(row_);
   if (refined_ && iteration == 1 && row_.force + row_.moment > 0 && solver_.direct()) return false;
   if (imbalance_.within(precision_) && std::max(imbalance_.length, imbalance_.angle) <= open_) return true;
-  if (one_tangent_ && iteration > 0 && left_to_rounding()) return true;
   const double changed_before = std::exchange(changed_, std::max(row_.correction, forces)), changed = changed_;
   if (iteration > 1 && changed <= no_correction) return true;
   // the rounding of positions, of which parts that carry next to nothing hold no less than others
-  if (iteration > 1 && row_.correction <= no_correction && left_to_rounding()) return true;
+  const bool rests = iteration > 1 && row_.correction <= no_correction;
+  if (iteration > 0 && (one_tangent_ || rests) && left_to_rounding()) return true;
   const double left = imbalance_.largest();
   if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;
   if (changed <= negligible_correction) return true;
