@@ -252,7 +252,8 @@ ErrorEstimate Companion::estimate(long steps) const {
   ErrorEstimate found = estimate_;
   found.seconds = processor_time() - begun_;
   if (!found.trouble.empty()) return found;
-  const double ratio = std::max(static_cast<double>(steps) / static_cast<double>(std::max(steps_, 1L)), least_ratio);
+  found.ratio_of_steps = static_cast<double>(steps) / static_cast<double>(std::max(steps_, 1L));
+  const double ratio = std::max(found.ratio_of_steps, least_ratio);
   const double smooth = order_of_steps_ == order_of_radau ? smooth_ratio_of_radau : smooth_ratio_of_alpha;
   const double kept = 1 - std::clamp(std::log(ratio / smooth) / std::log(rough), 0.0, 1.0), order = order_of_steps_ * kept;
   const double gain = std::pow(ratio, order) - 1;  // the difference over the error

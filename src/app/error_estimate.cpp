@@ -11,8 +11,8 @@ namespace engrane::app {
 double ErrorEstimate::error_at(double other) const { return error * std::pow(other / tolerance, order); }
 
 double ErrorEstimate::seconds_at(double other) const {
-  const double ratio = std::max(seconds, 1e-3) / std::max(companion_seconds, 1e-3);
-  const double slope = std::clamp(std::log(ratio) / std::log(companion_tolerance / tolerance), 0.0, 1.0);
+  // by numbers of steps: times of short runs hold much that is not steps
+  const double slope = std::clamp(std::log(ratio_of_steps) / std::log(companion_tolerance / tolerance), 0.0, 1.0);
   return seconds * std::pow(tolerance / other, slope);
 }
 

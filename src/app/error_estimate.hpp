@@ -14,6 +14,7 @@ struct ErrorEstimate {
   double tolerance = 0, companion_tolerance = 0;  ///< TOL of the run and of its companion
   double seconds = 0, companion_seconds = 0;
   double earlier_seconds = 0;  ///< of runs before the companion
+  double ratio_of_steps = 1;   ///< how many times the companion's the run has
   double order = 1;            ///< the power of TOL that errors go with, as far as steps follow it
   bool begins_looser = false;  ///< runs of its kind begin with AccuracyRung::first
   std::string trouble;         ///< why there is no estimate

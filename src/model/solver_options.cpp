@@ -12,6 +12,9 @@ constexpr double longest_part = 0.02;
 /// Of the tolerance of a step: what iterations leave of forces, and how sharply events are met. Where a force jumps the error of
 /// an event's instant is one of velocities, as large a part of what a step changes; that of all forces is the most it can be.
 constexpr double share_of_newton = 0.01, share_of_path = 1e-3, share_of_event = 0.5, event_of_fixed_steps = 1e-6;
+/// Events are met within this part of a step however loose its tolerance is: a drift to one is a hundredth of a step at most, and
+/// is to be certain to end before it for its error to be known.
+constexpr double bluntest_event = 1e-3;
 
 }  // namespace
 
@@ -22,7 +25,7 @@ const AccuracyRung* accuracy_rung(const deck::AnalysisCard& analysis) {
   return nullptr;
 }
 
-double event_tolerance_for(double tolerance) { return share_of_event * tolerance; }
+double event_tolerance_for(double tolerance) { return std::min(share_of_event * tolerance, bluntest_event); }
 
 SolverOptions solver_options(const Model& model) {
   const deck::AnalysisCard& analysis = model.commands.analysis;
