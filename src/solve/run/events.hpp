@@ -93,6 +93,7 @@ class EventLocator {
       none,   ///< no event in the step just tried: it stands
       land,   ///< `to` ends a little before the event; then drift
       drift,  ///< the event is too near for a step: drift at once
+      pass,   ///< the step passes over the event
       failed  ///< an attempt did not converge
     } kind = Kind::none;
     double step = 0;   ///< of the last attempt

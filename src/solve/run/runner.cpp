@@ -181,6 +181,20 @@ bool Runner::reach(double target) {
     step_.locating += found.attempts;
     size = found.step;
     if (found.outcome) outcome = std::move(*found.outcome);
+    if (found.kind == Kind::drift) {
+      if (const double way = before_event(found.drift); way > 0 && scheme_.drift_error(now_, way) > 1) {
+        // it moves otherwise than when the step was chosen, as after a jump of a force: a shorter step gets there
+        if (control_.active()) {
+          ++step_.cuts;
+          h_ = found.drift;
+          continue;
+        }
+        // what is stiff does not bear a drift: a step as short as steps can be passes over the event
+        size = locator_.shortest();
+        outcome = scheme_.attempt(now_, size, next_);
+        if (outcome.converged()) found.kind = Kind::pass;
+      }
+    }
     const NewtonReport& report = outcome.newton;
     if (!report.converged && found.kind != Kind::drift) {
       // other constraints may depend on the rest here than did at the start
@@ -209,13 +223,9 @@ bool Runner::reach(double target) {
       h_ = control_.active() ? control_.after(size, error, h_, landing) : std::min(options_.step, 2 * h_);
       step_.newton = &report;
       if (control_.active() && found.kind == Kind::none) locator_.new_target();
-      pending_drift_ = found.kind != Kind::none && now_.time < target ? found.drift : 0;
+      pending_drift_ = found.kind == Kind::land && now_.time < target ? found.drift : 0;
       if (!accepted(size, found.kind == Kind::none || now_.time == target, true)) return false;
       if (pending_drift_ > 0 && !drift(std::exchange(pending_drift_, 0), target)) return false;
-    } else if (const double way = before_event(found.drift); way > 0 && scheme_.drift_error(now_, way) > 1) {
-      // it moves otherwise than when the step was chosen, as after a jump of a force: a shorter step gets there
-      ++step_.cuts;
-      h_ = found.drift;
     } else if (!drift(found.drift, target)) {
       return false;
     }

@@ -58,6 +58,8 @@ class Dynamics : public Scheme {
 
  private:
   class Inside;
+  /// drift_error() between fixed steps.
+  double stiff_drift(const Configuration& c, double h);
   /// What balance asks of motions without mass at one instant.
   struct Relaxed {
     std::vector<double> jump;   ///< of springs: to where their forces balance; one entry per motion slot

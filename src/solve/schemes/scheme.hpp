@@ -73,7 +73,8 @@ class Scheme {
   /// Moves an accepted configuration over a stretch much shorter than a step, past an event; what the scheme
   /// remembers of earlier steps is forgotten.
   virtual void drift(Configuration&, double /*h*/) {}
-  /// The local error that drift() would have, over the tolerance of a controlled step.
+  /// The local error that drift() would have, over the tolerance of a controlled step. Between fixed steps: by how much something
+  /// stiff would change a velocity on the way, over the most that is borne.
   virtual double drift_error(const Configuration&, double /*h*/) { return 0; }
   /// After a controlled step or a drift the switches of elements are on other sides.
   virtual void enter(const std::vector<int>& /*sides*/) {}
