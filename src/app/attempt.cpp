@@ -67,15 +67,24 @@ double unnoticed_energy(const Model& model, const SolverOptions& options) {
   return 0.5 * (all.mass + all.inertia.trace() / (extent * extent)) * speed * speed;
 }
 
+/// Whether an energy is more than a part of what its balance is of, and more than what iterations and rounding leave.
+bool counts(double energy, double part, const SolverContext& context, const observe::EnergyBalance& balance) {
+  // what Newton's iteration leaves of forces in a machine at rest does work too
+  const double rounding = 1e-6 * context.newton.largest_force() * context.model.extent();
+  return energy > part * std::max(balance.handled(), rounding) &&
+         energy > part * unnoticed_energy(context.model, context.options);
+}
+
+/// Does the deck let the energies of its run be judged?
+bool judges_energies(const SolverOptions& options) {
+  return options.analysis == SolverOptions::Analysis::dynamics && options.energy_error > 0;
+}
+
 /// Why the run must end when its energies say that it is wrong; empty when they do not.
 std::string energy_failure(const SolverContext& context, const observe::Observer& observer, const Configuration& c) {
   const double allowed = context.options.energy_error;
-  if (context.options.analysis != SolverOptions::Analysis::dynamics || allowed == 0) return {};
   const observe::EnergyBalance& balance = observer.energies();
-  // what Newton's iteration leaves of forces in a machine at rest does work too
-  const double rounding = 1e-6 * context.newton.largest_force() * context.model.extent();
-  if (std::abs(balance.error()) <= allowed * std::max(balance.handled(), rounding)) return {};
-  if (std::abs(balance.error()) <= allowed * unnoticed_energy(context.model, context.options)) return {};
+  if (!judges_energies(context.options) || !counts(std::abs(balance.error()), allowed, context, balance)) return {};
   const std::string unit = context.model.units.label(dimension::energy);
   return fmt::format(
       "the energy balance is off by {:.4g} {} at t = {:.6g}, more than {}the {:.4g} {} that were in the machine or passed "
@@ -84,6 +93,20 @@ std::string energy_failure(const SolverContext& context, const observe::Observer
       context.options.family == SolverOptions::Family::newmark || context.options.damping > 0.99
           ? ", or a scheme with damping (RHO below 1): without it, rounding errors in the constraints grow"
           : "");
+}
+
+/// A warning where a run that has come to its end has lost or won more energy than results should; empty where it has not.
+std::string energy_remark(const SolverContext& context, const observe::Observer& observer) {
+  constexpr double much = 0.05;
+  const observe::EnergyBalance& balance = observer.energies();
+  const double off = balance.largest_error;
+  if (!judges_energies(context.options) || !counts(off, much, context, balance)) return {};
+  const std::string unit = context.model.units.label(dimension::energy);
+  return fmt::format(
+      "the energy balance was off by up to {:.3g} {}, {:.0f} % of what was in the machine or passed through it: results may be "
+      "as "
+      "wrong. A smaller {} would tell",
+      off, unit, 100 * off / balance.handled(), context.options.tolerance > 0 ? "TOL" : "step H");
 }
 
 /// Those of user routines and formulas that have been said, or that belong to attempts which were cut.
@@ -322,9 +345,11 @@ int Attempt::finish() {
   std::string unresolved;
   if (complete_)
     unresolved = explain_unresolved(context_.assembler, context_.newton, runner_->now(), observer_.energies().handled());
+  const std::string energies = complete_ ? energy_remark(context_, observer_) : "";
   if (rank_ == 0) {
     try {
-      if (!unresolved.empty()) writer_->warn(unresolved);
+      for (const std::string& warning : {unresolved, energies})
+        if (!warning.empty()) writer_->warn(warning);
       if (const std::string remark = context_.solver.remark(); !remark.empty()) writer_->warn(remark);
       if (runner_->started()) writer_->remember(runner_->now(), *runner_, false, true);
       status = writer_->finish(complete_ ? RunStatus::complete : RunStatus::failed, failure_, times_.split(context_.solver));

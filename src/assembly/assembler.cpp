@@ -233,9 +233,19 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
     }
   });
   MPI_Allreduce(MPI_IN_PLACE, k.data(), static_cast<int>(k.size()), MPI_DOUBLE, MPI_MAX, comm_);
-  // constraints between things without mass and stiffness borrow the largest scale of the others
-  const double largest = k.empty() ? 1.0 : *std::max_element(k.begin(), k.end());
-  for (std::size_t i = 0; i < k.size(); ++i) scale_[i] = k[i] > 0 ? k[i] : largest > 0 ? largest : 1.0;
+  // Constraints between things without mass and stiffness borrow the largest scale of the others. Rounding leaves some of them a
+  // little: this part of the stiffest, moments taken with levers as long as the model. Machines have ratios to 1e-27 or so.
+  constexpr double nothing = 1e-30;
+  const double square = model_.extent() * model_.extent();
+  const auto stiffness = [&](std::size_t i) {
+    return k[i] / (numbering_.multiplier(static_cast<int>(i)).measure == Measure::angle ? square : 1);
+  };
+  double largest = 0, stiffest = 0;
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    largest = std::max(largest, k[i]);
+    stiffest = std::max(stiffest, stiffness(i));
+  }
+  for (std::size_t i = 0; i < k.size(); ++i) scale_[i] = stiffness(i) > nothing * stiffest ? k[i] : largest > 0 ? largest : 1.0;
 }
 
 void Assembler::residual(const Configuration& configuration, Vec r) {
