@@ -233,19 +233,17 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
     }
   });
   MPI_Allreduce(MPI_IN_PLACE, k.data(), static_cast<int>(k.size()), MPI_DOUBLE, MPI_MAX, comm_);
-  // Constraints between things without mass and stiffness borrow the largest scale of the others. Rounding leaves some of them a
-  // little: this part of the stiffest, moments taken with levers as long as the model. Machines have ratios to 1e-27 or so.
+  // Constraints between things without mass and stiffness borrow from the stiffest of the others, moments taken with levers as
+  // long as the model. Rounding leaves some of them a little: this part of it; machines have ratios to 1e-27 or so.
   constexpr double nothing = 1e-30;
   const double square = model_.extent() * model_.extent();
-  const auto stiffness = [&](std::size_t i) {
-    return k[i] / (numbering_.multiplier(static_cast<int>(i)).measure == Measure::angle ? square : 1);
+  const auto lever = [&](std::size_t i) {
+    return numbering_.multiplier(static_cast<int>(i)).measure == Measure::angle ? square : 1;
   };
-  double largest = 0, stiffest = 0;
-  for (std::size_t i = 0; i < k.size(); ++i) {
-    largest = std::max(largest, k[i]);
-    stiffest = std::max(stiffest, stiffness(i));
-  }
-  for (std::size_t i = 0; i < k.size(); ++i) scale_[i] = stiffness(i) > nothing * stiffest ? k[i] : largest > 0 ? largest : 1.0;
+  double stiffest = 0;
+  for (std::size_t i = 0; i < k.size(); ++i) stiffest = std::max(stiffest, k[i] / lever(i));
+  for (std::size_t i = 0; i < k.size(); ++i)
+    scale_[i] = k[i] > nothing * stiffest * lever(i) ? k[i] : stiffest > 0 ? stiffest * lever(i) : 1.0;
 }
 
 void Assembler::residual(const Configuration& configuration, Vec r) {
