@@ -67,12 +67,10 @@ double unnoticed_energy(const Model& model, const SolverOptions& options) {
   return 0.5 * (all.mass + all.inertia.trace() / (extent * extent)) * speed * speed;
 }
 
-/// Whether an energy is more than a part of what its balance is of, and more than what iterations and rounding leave.
-bool counts(double energy, double part, const SolverContext& context, const observe::EnergyBalance& balance) {
-  // what Newton's iteration leaves of forces in a machine at rest does work too
+/// Energy that is as good as none: see above, and what the forces that iterations leave in a machine at rest do as work.
+double no_energy(const SolverContext& context) {
   const double rounding = 1e-6 * context.newton.largest_force() * context.model.extent();
-  return energy > part * std::max(balance.handled(), rounding) &&
-         energy > part * unnoticed_energy(context.model, context.options);
+  return std::max(rounding, unnoticed_energy(context.model, context.options));
 }
 
 /// Does the deck let the energies of its run be judged?
@@ -84,7 +82,8 @@ bool judges_energies(const SolverOptions& options) {
 std::string energy_failure(const SolverContext& context, const observe::Observer& observer, const Configuration& c) {
   const double allowed = context.options.energy_error;
   const observe::EnergyBalance& balance = observer.energies();
-  if (!judges_energies(context.options) || !counts(std::abs(balance.error()), allowed, context, balance)) return {};
+  const double off = std::abs(balance.error());
+  if (!judges_energies(context.options) || off <= allowed * balance.handled() || off <= allowed * no_energy(context)) return {};
   const std::string unit = context.model.units.label(dimension::energy);
   return fmt::format(
       "the energy balance is off by {:.4g} {} at t = {:.6g}, more than {}the {:.4g} {} that were in the machine or passed "
@@ -100,13 +99,12 @@ std::string energy_remark(const SolverContext& context, const observe::Observer&
   constexpr double much = 0.05;
   const observe::EnergyBalance& balance = observer.energies();
   const double off = balance.largest_error;
-  if (!judges_energies(context.options) || !counts(off, much, context, balance)) return {};
-  const std::string unit = context.model.units.label(dimension::energy);
+  if (!judges_energies(context.options) || off <= much * balance.handled() || off <= no_energy(context)) return {};
   return fmt::format(
-      "the energy balance was off by up to {:.3g} {}, {:.0f} % of what was in the machine or passed through it: results may be "
-      "as "
-      "wrong. A smaller {} would tell",
-      off, unit, 100 * off / balance.handled(), context.options.tolerance > 0 ? "TOL" : "step H");
+      "the energy balance was off by up to {:.3g} {}, {:.0f} % of what was in the machine or passed through it: "
+      "results may be as wrong. A smaller {} would tell",
+      off, context.model.units.label(dimension::energy), 100 * off / balance.handled(),
+      context.options.tolerance > 0 ? "TOL" : "step H");
 }
 
 /// Those of user routines and formulas that have been said, or that belong to attempts which were cut.
