@@ -59,18 +59,16 @@ std::vector<double> times_of(const std::vector<deck::CheckCard>& checks) {
   return times;
 }
 
-/// Energy that is as good as none: of a billionth of the extent, covered by all masses in the time of the analysis.
-double unnoticed_energy(const Model& model, const SolverOptions& options) {
+/// Is an energy as good as none: the work of what iterations leave of forces in a machine at rest, or that of a billionth of the
+/// extent, covered by all masses in the time of the analysis?
+bool counts_as_none(double energy, const SolverContext& context) {
+  const Model& model = context.model;
+  const double extent = model.extent();
+  if (energy <= 1e-6 * context.newton.largest_force() * extent) return true;
   MassProperties all;
   for (const Model::Part& part : model.parts) all.add(mass_properties(model, part));
-  const double extent = model.extent(), speed = 1e-9 * extent / (options.end - options.begin);
-  return 0.5 * (all.mass + all.inertia.trace() / (extent * extent)) * speed * speed;
-}
-
-/// Energy that is as good as none: see above, and what the forces that iterations leave in a machine at rest do as work.
-double no_energy(const SolverContext& context) {
-  const double rounding = 1e-6 * context.newton.largest_force() * context.model.extent();
-  return std::max(rounding, unnoticed_energy(context.model, context.options));
+  const double speed = 1e-9 * extent / (context.options.end - context.options.begin);
+  return energy <= 0.5 * (all.mass + all.inertia.trace() / (extent * extent)) * speed * speed;
 }
 
 /// Does the deck let the energies of its run be judged?
@@ -83,7 +81,8 @@ std::string energy_failure(const SolverContext& context, const observe::Observer
   const double allowed = context.options.energy_error;
   const observe::EnergyBalance& balance = observer.energies();
   const double off = std::abs(balance.error());
-  if (!judges_energies(context.options) || off <= allowed * balance.handled() || off <= allowed * no_energy(context)) return {};
+  if (!judges_energies(context.options) || off <= allowed * balance.handled() || counts_as_none(off / allowed, context))
+    return {};
   const std::string unit = context.model.units.label(dimension::energy);
   return fmt::format(
       "the energy balance is off by {:.4g} {} at t = {:.6g}, more than {}the {:.4g} {} that were in the machine or passed "
@@ -99,7 +98,7 @@ std::string energy_remark(const SolverContext& context, const observe::Observer&
   constexpr double much = 0.05;
   const observe::EnergyBalance& balance = observer.energies();
   const double off = balance.largest_error;
-  if (!judges_energies(context.options) || off <= much * balance.handled() || off <= no_energy(context)) return {};
+  if (!judges_energies(context.options) || off <= much * balance.handled() || counts_as_none(off, context)) return {};
   return fmt::format(
       "the energy balance was off by up to {:.3g} {}, {:.0f} % of what was in the machine or passed through it: "
       "results may be as wrong. A smaller {} would tell",
@@ -343,11 +342,10 @@ int Attempt::finish() {
   std::string unresolved;
   if (complete_)
     unresolved = explain_unresolved(context_.assembler, context_.newton, runner_->now(), observer_.energies().handled());
-  const std::string energies = complete_ ? energy_remark(context_, observer_) : "";
   if (rank_ == 0) {
     try {
-      for (const std::string& warning : {unresolved, energies})
-        if (!warning.empty()) writer_->warn(warning);
+      if (!unresolved.empty()) writer_->warn(unresolved);
+      if (const std::string remark = energy_remark(context_, observer_); complete_ && !remark.empty()) writer_->warn(remark);
       if (const std::string remark = context_.solver.remark(); !remark.empty()) writer_->warn(remark);
       if (runner_->started()) writer_->remember(runner_->now(), *runner_, false, true);
       status = writer_->finish(complete_ ? RunStatus::complete : RunStatus::failed, failure_, times_.split(context_.solver));

@@ -135,8 +135,7 @@ Schema analysis_card() {
   card.add(
           "ENERGY", &AnalysisCard::energy,
           "a DYNAMIC analysis ends with an error when its energy balance is off by more than this part of the energy that was in "
-          "the machine at the start or has passed through it since, and with a warning when that was more than 5 per cent; 0: "
-          "neither")
+          "the machine at the start or has passed through it since, and warns above 5 per cent of that energy; 0: neither")
       .synonyms({"ENERGIE"})
       .at_least(0);
   card.add("SCALE", &AnalysisCard::scale, "scale factor of the constraint equations; automatic when not given")
