@@ -256,7 +256,7 @@ def test_what_steps_resolve_is_not_touched(tmp_path):
     assert found["node/2/VX"][0] == 0
 
 
-@pytest.mark.parametrize("step", [1.5e-3, 1e-3, 7e-4, 6e-4])
+@pytest.mark.parametrize("step", [5e-3, 2e-3, 1.5e-3, 1e-3, 6e-4])
 def test_teeth_that_bounce_do_not_shake_what_is_stiff(step: float, tmp_path: Path) -> None:
     """A gearbox whose bearings and shafts vibrate hundreds of times in a step, and whose teeth meet two or
     three events within a hundredth of one. With accelerations taken for constant from each to the next it
@@ -265,4 +265,6 @@ def test_teeth_that_bounce_do_not_shake_what_is_stiff(step: float, tmp_path: Pat
     cards = dynamics("SCHEME CHUNG RHO 0.8 SOLVER KLU", f"TF 0.05 H {step}", [])
     cards.remove(".CHK")
     done = run(text + "\n".join(cards), tmp_path)
-    assert done["node/1/WZ"][-1] == pytest.approx(148.9998, rel=0.05)
+    assert done["run/ENERGY_ERROR"].max() < 0.2  # N·m, of 80 that pass through it: none is won
+    if step < 2e-3:
+        assert done["node/1/WZ"][-1] == pytest.approx(148.9998, rel=0.02)

@@ -53,12 +53,19 @@ def test_what_rounding_leaves_of_stiffness_is_no_scale_of_a_constraint(step: str
     assert done.t[-1] == pytest.approx(0.012)
 
 
-def test_a_run_that_wins_energy_says_so(tmp_path: Path) -> None:
-    """With steps much longer than the periods of the contacts, 14 per cent."""
-    run(long_steps("1.8e-4"), tmp_path)
-    said = "the energy balance was off by up to 1.39"
+@pytest.mark.parametrize("step", ["1.6e-4", "1.8e-4", "2e-4", "2.5e-4", "3e-4", "3.5e-4"])
+def test_contacts_that_steps_do_not_resolve_win_no_energy(step: str, tmp_path: Path) -> None:
+    """The contacts vibrate once in 1.8e-4 s. Behind the loss of one, accelerations were those of places where
+    it had closed again, found by an iteration that had not converged: the machine won 12 to 35 per cent of
+    its energy, and with 3e-4 the run ended with status 2."""
+    done = run(long_steps(step), tmp_path)
+    assert abs(done["run/ENERGY_ERROR"]).max() < 0.015 * 9.9  # of what passes through the machine at 1.8e-4
+
+
+def test_a_run_whose_energy_is_off_says_so(tmp_path: Path) -> None:
+    """Steps of 60 times the time in which a damper slows the worm down: what it takes is summed coarsely."""
+    text = (DECK.parents[1] / "gears" / "worm_hold.dat").read_text()
+    text = text.split(".CHK")[0].replace("H 0.01", "H 0.03").replace("RHO 0.9 ", "") + ".FIN 1\n"
+    run(text, tmp_path)
+    said = "the energy balance was off by up to 251 N·m, 22 % of"
     assert said in (tmp_path / "deck.lst").read_text(encoding="utf-8")
-    run(long_steps("2e-5"), tmp_path)
-    assert "the energy balance was off" not in (tmp_path / "deck.lst").read_text(encoding="utf-8")
-    run(long_steps("1.8e-4", " ENERGY 0"), tmp_path)
-    assert said not in (tmp_path / "deck.lst").read_text(encoding="utf-8")

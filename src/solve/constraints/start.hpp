@@ -45,9 +45,7 @@ class Start {
   /// close to right, few iterations are enough. Fills its phase of a report when there is one. Accelerations of `massless`
   /// motions stay as they are, since no balance of forces gives them.
   void balance_accelerations(Configuration& c, int most_iterations = 12, StartReport* report = nullptr,
-                             const MasslessMotions* massless = nullptr) {
-    balance_accelerations(c, 0, most_iterations, report, massless);
-  }
+                             const MasslessMotions* massless = nullptr);
   /// Of balanced accelerations: gives what vibrates with a period shorter than 2 h the mean over a step of h, which leads near to
   /// its equilibrium; with those of an instant it would overshoot that by the square of h over its period. What steps resolve
   /// has other accelerations by a part of second order. False where nothing vibrates so fast: `c` is as it was.
@@ -82,9 +80,13 @@ class Start {
     int node = 0;
   };
   Distance distance(const Configuration& from, const Configuration& to) const;
-  /// With `give` > 0 forces are those at places that are give · a away: accelerations a of M a + f(q + give a, v, t) = Bᵀ λ.
-  void balance_accelerations(Configuration& c, double give, int most_iterations, StartReport* report,
-                             const MasslessMotions* massless);
+  /// Accelerations a of (M + give K) a + f(q, v, t) = Bᵀ λ, as if forces were those at places that are give · a away. A law may
+  /// end on the way there: behind the loss of a contact it would close again. So K is that at `c`. False where no end is found.
+  bool balance_softly(Configuration& c, double give, StartReport* report, const MasslessMotions* massless);
+  /// What the equations of motion lack, by equation, and the second derivatives of constraints.
+  std::vector<double> out_of_balance(const Configuration& c, const MasslessMotions* massless);
+  /// Solves for it with the matrix: returns changes of accelerations, and adds those of multipliers to `c`.
+  std::vector<double> solve_balance(std::vector<double>& right, Configuration& c, const MasslessMotions* massless);
   /// Do the accelerations of `c` lead so far in a step of h that forces change by more than those do that vibrate once in it?
   bool overshoots(const Configuration& c, double h) const;
   Configuration moved_along(const Configuration& c, double give) const;

@@ -125,10 +125,9 @@ bool Start::overshoots(const Configuration& c, double h) const {
 bool Start::soften(Configuration& c, double h, StartReport* report, const MasslessMotions* massless) {
   if (!overshoots(c, h)) return false;
   Configuration softer = outside_of_steps(c);
-  motion_.set_accelerations(std::vector<double>(motion_.size(), 0.0), softer);
   StartReport found = report ? *report : StartReport();
   try {
-    balance_accelerations(softer, give_of(h), 12, report ? &found : nullptr, massless);
+    if (!balance_softly(softer, give_of(h), report ? &found : nullptr, massless)) return false;
   } catch (const SolutionFailure&) {
     return false;  // a law that ends near here, for example
   }
@@ -138,36 +137,85 @@ bool Start::soften(Configuration& c, double h, StartReport* report, const Massle
   return true;
 }
 
-void Start::balance_accelerations(Configuration& c, double give, int most_iterations, StartReport* report,
-                                  const MasslessMotions* massless) {
+std::vector<double> Start::out_of_balance(const Configuration& c, const MasslessMotions* massless) {
   const Numbering& numbering = assembler_.numbering();
+  std::vector<double> r = assembler_.slot_residual(c), phi, rate, second;
+  if (massless) massless->remove_forces(r);
+  assembler_.constraint_rates(c, phi, rate, second);
+  std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
+  for (std::size_t e = 0; e < right.size(); ++e) {
+    const Unknown& u = numbering.unknown(static_cast<int>(e));
+    const int m = u.slot - numbering.motion_slots();
+    if (!u.multiplier)
+      right[e] = -r[static_cast<std::size_t>(u.slot)];
+    else if (assembler_.released(m))
+      right[e] = assembler_.released_value(m) - c.multipliers[static_cast<std::size_t>(m)];
+    else
+      right[e] = second[static_cast<std::size_t>(m)];
+  }
+  return right;
+}
+
+std::vector<double> Start::solve_balance(std::vector<double>& right, Configuration& c, const MasslessMotions* massless) {
+  std::vector<double> change, motion(motion_.size(), 0.0);
+  if (!solve(right, change))
+    throw SolutionFailure(explain_singular(assembler_, "the accelerations at the start are not determined"));
+  for (std::size_t e = 0; e < right.size(); ++e) {
+    const Unknown& u = assembler_.numbering().unknown(static_cast<int>(e));
+    if (u.multiplier)
+      c.multipliers[static_cast<std::size_t>(u.slot) - motion_.size()] += change[e];
+    else
+      motion[static_cast<std::size_t>(u.slot)] = change[e];
+  }
+  if (massless) massless->remove(motion);
+  return motion;
+}
+
+bool Start::balance_softly(Configuration& c, double give, StartReport* report, const MasslessMotions* massless) {
+  constexpr int most_iterations = 12;
+  constexpr double settled = 1e-6;
+  std::vector<double> a(motion_.size(), 0.0);
+  for (const auto& p : motion_.prescribed(c.time)) a[p.slot] = p.a;
+  Configuration still = c;
+  motion_.set_accelerations(a, still);
+  std::vector<double> last;
+  double change = std::numeric_limits<double>::infinity();
+  // once more where forces follow the multipliers, as in balance_accelerations
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    // all of the accelerations is sought each time: forces follow them by the stiffness in the matrix alone
+    std::vector<double> right = out_of_balance(still, massless);
+    if (!std::isfinite(largest(right))) throw SolutionFailure("the forces at the start are not finite");
+    assembler_.projection(still, Assembler::Metric::dynamic, {}, assembler_.matrix(), give);
+    std::vector<double> found = solve_balance(right, still, massless);
+    for (std::size_t i = 0; i < a.size(); ++i) found[i] += a[i];
+    c.multipliers = still.multipliers;
+    motion_.set_accelerations(found, c);
+    if (report) note_accelerations(assembler_, c, iteration, *report);
+    if (c.multipliers.empty()) return true;
+    const double before = change;
+    if (!last.empty()) change = 0;
+    for (std::size_t i = 0; i < last.size(); ++i) change = std::max(change, std::abs(found[i] - last[i]));
+    if (change == 0 || (iteration > 1 && change >= 0.5 * before)) break;
+    last = std::move(found);
+  }
+  redundancy_.share(c);
+  return change <= settled * largest(last);
+}
+
+void Start::balance_accelerations(Configuration& c, int most_iterations, StartReport* report, const MasslessMotions* massless) {
   std::vector<double> a = motion_.accelerations(c);
   for (const auto& p : motion_.prescribed(c.time)) a[p.slot] = p.a;
   motion_.set_accelerations(a, c);
-  std::vector<double> phi, rate, second, change, change_of_motion(a.size(), 0.0);
   double before = std::numeric_limits<double>::infinity();
   // linear but for forces that follow the multipliers (|λ| of the separating force), hence a short iteration
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    std::vector<double> r = assembler_.slot_residual(give > 0 ? moved_along(c, give) : c);
-    if (massless) massless->remove_forces(r);
-    assembler_.constraint_rates(c, phi, rate, second);
-    std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
-    for (std::size_t e = 0; e < right.size(); ++e) {
-      const Unknown& u = numbering.unknown(static_cast<int>(e));
-      const int m = u.slot - numbering.motion_slots();
-      if (!u.multiplier)
-        right[e] = -r[static_cast<std::size_t>(u.slot)];
-      else if (assembler_.released(m))
-        right[e] = assembler_.released_value(m) - c.multipliers[static_cast<std::size_t>(m)];
-      else
-        right[e] = second[static_cast<std::size_t>(m)];
-    }
+    std::vector<double> right = out_of_balance(c, massless);
     const double size = largest(right);
     if (report) note_accelerations(assembler_, c, iteration, *report);
     if (!std::isfinite(size)) throw SolutionFailure("the forces at the start are not finite");
     if (size == 0 || (iteration > 1 && size >= 0.5 * before)) {
       if (!redundancy_.share(c)) {
-        if (give == 0) verify_balance(c, right);
+        verify_balance(c, right);
         return;
       }
       before = std::numeric_limits<double>::infinity();
@@ -175,19 +223,9 @@ void Start::balance_accelerations(Configuration& c, double give, int most_iterat
     }
     before = size;
     // without multipliers nothing in the matrix follows what is sought
-    if (iteration == 0 || !c.multipliers.empty())
-      assembler_.projection(c, Assembler::Metric::dynamic, {}, assembler_.matrix(), give);
-    if (!solve(right, change))
-      throw SolutionFailure(explain_singular(assembler_, "the accelerations at the start are not determined"));
-    for (std::size_t e = 0; e < right.size(); ++e) {
-      const Unknown& u = numbering.unknown(static_cast<int>(e));
-      if (u.multiplier)
-        c.multipliers[static_cast<std::size_t>(u.slot) - motion_.size()] += change[e];
-      else
-        change_of_motion[static_cast<std::size_t>(u.slot)] = change[e];
-    }
-    if (massless) massless->remove(change_of_motion);
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] += change_of_motion[i];
+    if (iteration == 0 || !c.multipliers.empty()) assembler_.projection(c, Assembler::Metric::dynamic, {}, assembler_.matrix());
+    const std::vector<double> change = solve_balance(right, c, massless);
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] += change[i];
     motion_.set_accelerations(a, c);
   }
   redundancy_.share(c);
