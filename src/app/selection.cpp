@@ -42,18 +42,31 @@ std::string joined(const std::vector<std::string>& names) {
   return list;
 }
 
-/// Reports a channel that its owner, in words, does not have.
-void report_channel(const Location& where, const std::string& owner, const std::string& wanted,
+/// Reports a channel that its owner, in words, does not have. `declared_by`: the command that may be at fault,
+/// Diagnostics::missing.
+void report_channel(std::string_view declared_by, const Location& where, const std::string& owner, const std::string& wanted,
                     const std::vector<std::string>& names, Diagnostics& diagnostics) {
   const std::string near = nearest(wanted, names), list = joined(names);
-  diagnostics.error(where, fmt::format("{} has no output {}", owner, wanted),
-                    near.empty() ? "it has " + list : fmt::format("did you mean {}? It has {}", near, list));
+  diagnostics.missing(declared_by, where, fmt::format("{} has no output {}", owner, wanted),
+                      near.empty() ? "it has " + list : fmt::format("did you mean {}? It has {}", near, list));
 }
 
 std::vector<std::string> names_of(const std::vector<Channel>& channels) {
   std::vector<std::string> names;
   for (const Channel& channel : channels) names.push_back(channel.name);
   return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The command without which a node or the run lacks a channel: analyses have their own, and supported nodes.
+std::string_view declares(const std::string& channel, const Model& model) {
+  if (contains(names_of(observe::run_channels(model, true)), channel)) return ".SAM";
+  if (contains(names_of(observe::node_channels(true, false)), channel)) return ".SAM";
+  if (contains(names_of(observe::node_channels(true, true)), channel)) return ".CLM";
+  return {};
 }
 
 bool is_supported(const Model& model, int node) {
@@ -63,6 +76,7 @@ bool is_supported(const Model& model, int node) {
 void check_check(const deck::Record& record, const deck::CheckCard& check, const deck::Deck& deck, const Model& model,
                  const std::map<int, int>& parts, Diagnostics& diagnostics) {
   std::string owner = "the run";
+  std::string_view declared_by = declares(check.quantity, model);
   std::vector<std::string> names = names_of(observe::run_channels(model, moves(model)));
   if (check.element) {
     const auto found = parts.find(*check.element);
@@ -73,6 +87,7 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
     }
     const Model::Part& part = model.parts[static_cast<std::size_t>(found->second)];
     owner = fmt::format("{} {}", part.type, *check.element);
+    declared_by = {};
     names = names_of(part.element->channels());
   } else if (check.node) {
     const int node = model.node_index(*check.node);
@@ -83,8 +98,8 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
     owner = fmt::format("node {}", *check.node);
     names = names_of(observe::node_channels(moves(model), is_supported(model, node)));
   }
-  if (std::find(names.begin(), names.end(), check.quantity) == names.end())
-    report_channel(record.where("QUANTITY"), owner, check.quantity, names, diagnostics);
+  if (!contains(names, check.quantity))
+    report_channel(declared_by, record.where("QUANTITY"), owner, check.quantity, names, diagnostics);
 }
 
 /// Elements that records of `.SAI` name but the deck does not have, each told once: by number, then those of groups.
@@ -106,28 +121,33 @@ void check_archived_elements(const deck::Deck& deck, const Model& model, const s
 void check_archive(const deck::Record& record, const deck::ArchiveCard& archive, const Model& model, Diagnostics& diagnostics) {
   std::vector<std::string> types;
   for (const Model::Part& part : model.parts)
-    if (std::find(types.begin(), types.end(), part.type) == types.end()) types.push_back(part.type);
+    if (!contains(types, part.type)) types.push_back(part.type);
   for (const std::string& kind : archive.kinds)
-    if (std::find(types.begin(), types.end(), kind) == types.end()) {
+    if (!contains(types, kind)) {
       const std::string near = nearest(kind, types);
-      diagnostics.error(record.where("TYPE"), fmt::format("no element is a {}", kind),
-                        near.empty() ? "there are " + joined(types) : fmt::format("did you mean {}?", near));
+      diagnostics.missing(".MCE", record.where("TYPE"), fmt::format("no element is a {}", kind),
+                          near.empty() ? "there are " + joined(types) : fmt::format("did you mean {}?", near));
     }
   // a channel that none of the selected has
   const observe::Selection selection = select_histories(model);
   std::vector<std::string> names;
   const auto add = [&names](const std::vector<Channel>& channels) {
     for (const Named& channel : channels)
-      if (std::find(names.begin(), names.end(), channel.name) == names.end()) names.push_back(channel.name);
+      if (!contains(names, channel.name)) names.push_back(channel.name);
   };
   for (std::size_t p = 0; p < model.parts.size() && !archive.channels.empty(); ++p)
     if (selection.all_parts || selection.parts.contains(static_cast<int>(p))) add(model.parts[p].element->channels());
   for (std::size_t n = 1; n < model.nodes.size() && !archive.channels.empty(); ++n)
     if (selection.all_nodes || selection.nodes.contains(static_cast<int>(n)))
       add(observe::node_channels(moves(model), is_supported(model, static_cast<int>(n))));
+  // an element of a record that is wrong would perhaps have it
+  const auto declared_by = [&](const std::string& channel) {
+    const std::string_view of_nodes = declares(channel, model);
+    return of_nodes.empty() ? std::string_view(".MCE") : of_nodes;
+  };
   for (const std::string& channel : archive.channels)
-    if (std::find(names.begin(), names.end(), channel) == names.end())
-      report_channel(record.where("CHANNEL"), "what is selected", channel, names, diagnostics);
+    if (!contains(names, channel))
+      report_channel(declared_by(channel), record.where("CHANNEL"), "what is selected", channel, names, diagnostics);
 }
 
 /// `.PATH` and `.BUCKLING` belong to statics, and steps of a path have another measure than TOL.
