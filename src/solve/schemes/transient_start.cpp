@@ -11,6 +11,7 @@ namespace {
 
 /// After an event the slope of v̇ is taken over this part of a step, so as not to reach the next event.
 constexpr double slope_span = 0.01;
+constexpr double unlike = 0.5;
 
 }  // namespace
 
@@ -31,16 +32,21 @@ std::vector<double> Transient::slope_of_accelerations(const Configuration& c, do
   // From accelerations half a span and a span ahead, (4 a_½ − 3 a_0 − a_1)/span: of second order, since what glide() leaves out
   // of the velocities, four times as much at the end as halfway, cancels as well. Over a whole step it is also that of models
   // whose forces change much faster than a step is long.
-  std::vector<double> slope = context_.motion.accelerations(c);
-  for (double& s : slope) s *= -3;
-  for (const auto& [part, weight] : {std::pair{0.5, 4.0}, std::pair{1.0, -1.0}}) {
-    Configuration later = glide(c, part * span);
+  const auto after = [&](double time) {
+    Configuration later = glide(c, time);
     context_.start.balance_accelerations(later, span < h ? 1 : 12, nullptr, massless);
     if (softened) soften(later, h, massless);
-    const auto then = context_.motion.accelerations(later);
-    for (std::size_t i = 0; i < slope.size(); ++i) slope[i] += weight * then[i];
+    return context_.motion.accelerations(later);
+  };
+  std::vector<double> slope = context_.motion.accelerations(c);
+  const std::vector<double> middle = after(0.5 * span), end = after(span);
+  for (std::size_t i = 0; i < slope.size(); ++i) {
+    const double first = 2 * (middle[i] - slope[i]) / span, second = 2 * (end[i] - middle[i]) / span;
+    slope[i] = 1.5 * first - 0.5 * second;
+    // in so small a part of a step both halves are alike, or a force jumps in one of them
+    const bool jumps = span < h && std::abs(first - second) > unlike * std::max(std::abs(first), std::abs(second));
+    if (jumps) slope[i] = std::abs(first) < std::abs(second) ? first : second;
   }
-  for (double& s : slope) s /= span;
   return slope;
 }
 
