@@ -240,6 +240,7 @@ void Newton::load(const Snapshot& snapshot) {
   const std::vector<double>& weights = snapshot.array("newton/weights");
   weights_of_factors_ = {weights.at(0), weights.at(1), weights.at(2)};
   matrix_of_factors_ = assembler_.changes();
+  fresh_ = false;  // they are turned with the nodes from the first solution on
 }
 
 std::vector<Vec3> Newton::sliding() const {
