@@ -7,10 +7,12 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "app/instants.hpp"
 #include "app/selection.hpp"
+#include "app/writer.hpp"
 #include "output/progress.hpp"
 
 namespace engrane::app {
@@ -59,7 +61,8 @@ SolverOptions with_tolerance(const Model& model, const SolverOptions& options, d
   return other;
 }
 
-Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet, Span span)
+Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet,
+                     const Resumption* resumption, Span span)
     : extent_(reading.model.extent()), duration_(options.end - options.begin) {
   const double begun = processor_time();
   const Model& model = reading.model;
@@ -90,7 +93,9 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   order_of_steps_ = options.family == SolverOptions::Family::radau ? order_of_radau : order_of_alpha;
   estimate_.order = order_of_steps_ / scheme->order_of_error();
   Runner runner(context, *scheme);
-  double last = options.begin;
+  const double from = resumption ? resumption->point.time : options.begin;
+  if (resumption) estimate_.since = from;
+  double last = from;
   Configuration whole;
   const auto take = [&](double time) {
     if (context.assembler.rank() == 0) record(time, observer.values());
@@ -102,7 +107,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     return whole;
   };
   const auto follows = [&](long steps, double time) {
-    return static_cast<double>(steps) * loose.longest >= well_below * (time - options.begin);
+    return static_cast<double>(steps) * loose.longest >= well_below * (time - from);
   };
   const solve::Observer seen = [&](const Configuration& c, const StepReport& step) {
     std::optional<Instants> instants;
@@ -113,14 +118,22 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     if (schedule.even(c.time)) take(c.time);
     progress.update(c.time, step.step, step.number);
     last = c.time;
-    return span == Span::whole || c.time < options.begin + early * duration_ || follows(step.number, c.time);
+    return span == Span::whole || c.time < from + early * duration_ || follows(runner.steps(), c.time);
   };
   try {
-    runner.run(seen, [](const StartReport&) {});
+    if (resumption) {
+      observer.load(resumption->point.memory);
+      runner.resume(resumption->point.memory, seen);
+    } else {
+      runner.run(seen, [](const StartReport&) {});
+    }
   } catch (const SolutionFailure& failure) {
     estimate_.trouble = failure.what();
   } catch (const MemoryShortage& failure) {
     estimate_.trouble = failure.what();
+  } catch (const std::out_of_range& failure) {
+    if (!resumption) throw;
+    estimate_.trouble = failure.what();  // the run itself tells why it cannot go on
   }
   steps_ = runner.steps();
   follows_tolerance_ = follows(steps_, last);

@@ -15,6 +15,8 @@
 
 namespace engrane::app {
 
+struct Resumption;
+
 /// The options with another TOL, and with it what follows from TOL: how far iterations go, and how sharply events are met.
 SolverOptions with_tolerance(const Model& model, const SolverOptions& options, double tolerance);
 
@@ -26,8 +28,10 @@ class Companion {
     whole,
     whole_if_it_follows  ///< ends early where its steps do not follow its tolerance
   };
-  /// Runs; collective. `options`: of the run that it goes with. `quiet`: without a word on how far it is.
-  Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet, Span span = Span::whole);
+  /// Runs; collective. `options`: of the run that it goes with. `quiet`: without a word on how far it is. `resumption`: where
+  /// both go on from; nullptr: they start.
+  Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet, const Resumption* resumption,
+            Span span = Span::whole);
 
   /// An even instant of the run itself, which its observer has seen last. On rank 0.
   void compare(double time, const observe::Observer& observer);

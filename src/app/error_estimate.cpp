@@ -28,6 +28,7 @@ std::string ErrorEstimate::describe(double target) const {
   if (!trouble.empty()) return text + "  estimated error    none: " + trouble + "\n";
   text += fmt::format("  estimated error    {:.2g}, {}; by a second run with TOL {:.2g}, where this one has {:.2g}\n", error,
                       channel, companion_tolerance, tolerance);
+  if (since) text += fmt::format("  estimated from     t = {:.6g} on, where the run was continued\n", *since);
   text +=
       fmt::format("  processor time     {:.2g} s, and {:.2g} s for the estimate\n", seconds, companion_seconds + earlier_seconds);
   for (const AccuracyRung& rung : accuracy_rungs)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "model/solver_options.hpp"
@@ -13,11 +14,12 @@ struct ErrorEstimate {
   std::string channel;  ///< that has it
   double tolerance = 0, companion_tolerance = 0;  ///< TOL of the run and of its companion
   double seconds = 0, companion_seconds = 0;
-  double earlier_seconds = 0;  ///< of runs before the companion
-  double ratio_of_steps = 1;   ///< how many times the companion's the run has
-  double order = 1;            ///< the power of TOL that errors go with, as far as steps follow it
-  bool begins_looser = false;  ///< runs of its kind begin with AccuracyRung::first
-  std::string trouble;         ///< why there is no estimate
+  double earlier_seconds = 0;   ///< of runs before the companion
+  double ratio_of_steps = 1;    ///< how many times the companion's the run has
+  double order = 1;             ///< the power of TOL that errors go with, as far as steps follow it
+  bool begins_looser = false;   ///< runs of its kind begin with AccuracyRung::first
+  std::optional<double> since;  ///< where both runs went on from an earlier one, of which the estimate knows nothing
+  std::string trouble;          ///< why there is no estimate
 
   /// Error and processor time that another tolerance is expected to have.
   double error_at(double other) const;

@@ -66,13 +66,13 @@ Companion first_companion(const Reading& reading, Trial& trial, MPI_Comm comm, b
   const AccuracyRung* rung = accuracy_rung(reading.model.commands.analysis);
   if (rung && trial.options.family == SolverOptions::Family::radau && !gives_tolerance(reading.deck)) {
     const SolverOptions bold = with_tolerance(reading.model, trial.options, rung->first);
-    Companion companion(reading, bold, comm, quiet, Companion::Span::whole_if_it_follows);
+    Companion companion(reading, bold, comm, quiet, nullptr, Companion::Span::whole_if_it_follows);
     if (companion.trouble().empty() && companion.follows_tolerance()) {
       trial.settled = std::exchange(trial.options, bold);
       return companion;
     }
   }
-  return Companion(reading, trial.options, comm, quiet);
+  return Companion(reading, trial.options, comm, quiet, nullptr);
 }
 
 /// The mesh of the deck that bears the name of the results; empty when none does.
@@ -119,11 +119,11 @@ int solve_deck(Reading& reading, const Options& options, const std::string& pref
   const Task task{reading, options, prefix, resumption.get(), summary, comm};
   Trial trial{.options = solver_options(reading.model)};
   if (resumption) load_choice(resumption->point.memory, trial.options);
-  const bool estimates = trial.options.target > 0 && trial.options.tolerance > 0 && !resumption;
+  const bool estimates = trial.options.target > 0 && trial.options.tolerance > 0;
   std::optional<Companion> companion;
   for (int repeats = 0;; ++repeats) {
-    if (estimates && repeats == 0) companion.emplace(first_companion(reading, trial, comm, options.quiet));
-    if (estimates && !companion) companion.emplace(reading, trial.options, comm, options.quiet);
+    if (estimates && repeats == 0 && !resumption) companion.emplace(first_companion(reading, trial, comm, options.quiet));
+    if (estimates && !companion) companion.emplace(reading, trial.options, comm, options.quiet, resumption.get());
     trial.may_repeat = trial.may_repeat && repeats < most_repeats;
     Verdict verdict = solve_once(task, trial, companion);
     if (!verdict.again) return verdict.status;

@@ -337,3 +337,14 @@ def test_what_the_deck_says_wins(tmp_path: Path) -> None:
     listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
     assert "CHUNG rho 0.9" in listing
     assert "steps of local error" in listing
+
+
+def test_what_is_left_of_an_interrupted_run_meets_its_error(tmp_path: Path) -> None:
+    """Interrupted before the cam lifts, in a run with a looser TOL than the deck needs: what came after had
+    that TOL too, with 40 times the error that is asked for, no estimate and no word about it."""
+    text = (ROOT / "decks/mechanisms/valve_train_accuracy.dat").read_text(encoding="utf-8")
+    run(text, tmp_path, options=("--until", "0.0032"), status=2)
+    run(text, tmp_path, options=("--restart", "deck"))  # all checks pass
+    listing = (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    assert float(re.search(r"estimated error +(\S+),", listing)[1]) < 1e-5
+    assert re.search(r"estimated from +t = 0.0032\d+ on, where the run was continued", listing)

@@ -81,7 +81,7 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   scheme_.take_over(now_);
   control_.load(snapshot, locator_.switches().sides().size());
   h_ = std::min(snapshot.number("runner/h"), control_.active() ? options_.longest : options_.step);
-  step_.number = static_cast<int>(snapshot.number("runner/number"));
+  step_.number = resumed_at_ = static_cast<int>(snapshot.number("runner/number"));
   renewed_ = snapshot.number("runner/renewed") != 0;
   pending_drift_ = snapshot.number("runner/pending_drift");
   if (snapshot.number("runner/corner") != 0) scheme_.pass_corner(now_);

@@ -46,7 +46,8 @@ class Runner {
   void save(Snapshot& snapshot) const;
   const Configuration& now() const { return now_; }
   const SolverOptions& options() const { return options_; }
-  long steps() const { return step_.number; }
+  /// Accepted since it started or was resumed.
+  long steps() const { return step_.number - resumed_at_; }
   bool started() const { return started_; }  ///< now() is an accepted configuration
 
  private:
@@ -77,6 +78,7 @@ class Runner {
   std::vector<double> ended_;  ///< scalars of now_ before whole turns were counted
   double h_;
   bool started_ = false;
+  int resumed_at_ = 0;            ///< number of the step after which it was
   bool renewed_ = false;          ///< constraints have been analysed anew on the way to the present target
   std::optional<double> corner_;  ///< of a function of time, that is being approached
   double pending_drift_ = 0;      ///< time to drift over the event that the last step has landed before
