@@ -326,6 +326,15 @@ double Attempt::sharper_tolerance() {
   return tolerance;
 }
 
+std::string Attempt::looser_before() const {
+  if (!task_.resumption || !trial_.complete) return {};
+  return fmt::format(
+      "what was before t = {:.6g} was solved with a TOL that proved too loose after it: its error may be larger than the one "
+      "asked "
+      "for. Start anew where that part matters",
+      task_.resumption->point.time);
+}
+
 void Attempt::tell_condition() {
   if (!task_.options.condition) return;
   const std::optional<double> condition = context_.solver.condition();
@@ -346,6 +355,7 @@ int Attempt::finish() {
     try {
       if (!unresolved.empty()) writer_->warn(unresolved);
       if (const std::string remark = energy_remark(context_, observer_); complete_ && !remark.empty()) writer_->warn(remark);
+      if (const std::string remark = looser_before(); complete_ && !remark.empty()) writer_->warn(remark);
       if (const std::string remark = context_.solver.remark(); !remark.empty()) writer_->warn(remark);
       if (runner_->started()) writer_->remember(runner_->now(), *runner_, false, true);
       status = writer_->finish(complete_ ? RunStatus::complete : RunStatus::failed, failure_, times_.split(context_.solver));

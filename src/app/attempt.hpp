@@ -63,6 +63,8 @@ class Attempt {
   std::optional<Trial> sharper();
   /// The tolerance of that; 0 for none. Collective.
   double sharper_tolerance();
+  /// A warning on the part of a continued run that came before, where the rest was repeated.
+  std::string looser_before() const;
   void tell_condition();
   /// Ends the results; the exit status. Collective.
   int finish();

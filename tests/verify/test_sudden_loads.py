@@ -271,9 +271,9 @@ def test_teeth_that_bounce_do_not_shake_what_is_stiff(step: float, tmp_path: Pat
 
 
 def test_a_jump_of_a_force_behind_an_event_is_no_slope(tmp_path: Path) -> None:
-    """The pin of a Geneva wheel in the mouth of a slot pushes now one flank, now the other. Where that fell into
-    the hundredth of a step from which the scheme has its slope of accelerations, the wheel shot away: it won
-    7.8e-4 of energy, where the machine had 4.4e-4, and the run ended with status 2."""
+    """The pin of a Geneva wheel in the mouth of a slot pushes now one flank, now the other. Where that fell
+    into the hundredth of a step from which the scheme has its slope of accelerations, the wheel shot away:
+    it won 7.8e-4 of energy, where the machine had 4.4e-4, and the run ended with status 2."""
     text = (ROOT / "decks/mechanisms/geneva_index.dat").read_text(encoding="utf-8").split(".SAM")[0]
     done = run(text + ".SAM TYPE DYNAMIC SCHEME HHT ALPHA 0.1\n.SUB TF 0.012 H 1e-4\n.FIN 1\n", tmp_path)
     assert abs(done["run/ENERGY_ERROR"]).max() < 5e-5  # 2.2e-5
