@@ -131,9 +131,8 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     estimate_.trouble = failure.what();
   } catch (const MemoryShortage& failure) {
     estimate_.trouble = failure.what();
-  } catch (const std::out_of_range& failure) {
-    if (!resumption) throw;
-    estimate_.trouble = failure.what();  // the run itself tells why it cannot go on
+  } catch (const std::out_of_range&) {
+    if (!resumption) throw;  // else the run itself tells why it cannot go on
   }
   steps_ = runner.steps();
   follows_tolerance_ = follows(steps_, last);

@@ -15,6 +15,7 @@
 #include "app/model_difference.hpp"
 #include "app/terminal.hpp"
 #include "model/function_failure.hpp"
+#include "model/plane.hpp"
 #include "user/routine.hpp"
 
 namespace engrane::app {
@@ -50,6 +51,15 @@ std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Option
         "{} would be continued from t = {:.10g}, but .SUB ends at TF = {:.10g}: give a later TF, or RESTART with an earlier T",
         earlier.path(), point.time, reading.model.commands.stepping.end));
   return std::make_unique<Resumption>(std::move(earlier), std::move(point));
+}
+
+/// Where the deck leaves the plane to the program, a run goes on in the one that it began in, or in space.
+void keep_plane(Model& model, const Snapshot& memory) {
+  if (!model.commands.analysis.plane.is("AUTO") || !memory.has("plane")) return;
+  const int before = static_cast<int>(memory.number("plane"));
+  PlaneModel plane;
+  if (before >= 0 && !examine_plane(model, before, 1, plane).empty()) return;  // other loads: the difference is told later
+  model.plane = std::move(plane);
 }
 
 /// `.SUB` says TOL.
@@ -116,6 +126,7 @@ int solve_deck(Reading& reading, const Options& options, const std::string& pref
     if (rank == 0) std::cerr << "engrane: " << terminal_text(e.what()) << '\n';
     return exit_status::wrong_deck;
   }
+  if (resumption) keep_plane(reading.model, resumption->point.memory);
   const Task task{reading, options, prefix, resumption.get(), summary, comm};
   Trial trial{.options = solver_options(reading.model)};
   if (resumption) load_choice(resumption->point.memory, trial.options);

@@ -142,6 +142,20 @@ def test_motion_from_an_equilibrium(tmp_path):
         assert np.allclose(result.history("node/1/UX")[1][-20:], 0.05, atol=1e-9)
 
 
+def test_the_dial_goes_on_from_an_equilibrium_in_space(tmp_path):
+    """ACCURACY solves in the plane that the motion stays in; what it continues was solved in space."""
+    text = deck(tmp_path, "rest").read_text(encoding="utf-8").replace("V 3 NF 1", "V 3")
+    text = text.replace("N 0 1  AXIS 0 0 1", "N 0 1  AXIS 0 0 1 K 100 C 0.1")
+    rest = text.replace("TYPE DYNAMIC", "TYPE STATIC").replace("H 0.001", "H 0.5")
+    moves = text.replace("TYPE DYNAMIC", 'TYPE DYNAMIC ACCURACY FAST RESTART "rest"')
+    (tmp_path / "rest.dat").write_text(rest, encoding="utf-8")
+    (tmp_path / "moves.dat").write_text(moves.replace("TF 1.0", "TF 3"), encoding="utf-8")
+    run(tmp_path, "rest.dat")
+    assert "fails" not in run(tmp_path, "moves.dat")
+    listing = " ".join((tmp_path / "moves.lst").read_text(encoding="utf-8").split())
+    assert "solved in space" in listing and "estimated from t = 1 on" in listing
+
+
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
