@@ -329,8 +329,8 @@ double Attempt::sharper_tolerance() {
 std::string Attempt::looser_before() const {
   if (!task_.resumption || !trial_.complete) return {};
   return fmt::format(
-      "what was before t = {:.6g} was solved with a TOL that proved too loose after it: its error may be larger than what was "
-      "asked for. Start anew where that part matters",
+      "the part before t = {:.6g} was solved with a TOL that proved too loose for the rest: its error may be larger than asked "
+      "for. Run it again from the start if that part matters",
       task_.resumption->point.time);
 }
 

@@ -76,7 +76,6 @@ bool is_supported(const Model& model, int node) {
 void check_check(const deck::Record& record, const deck::CheckCard& check, const deck::Deck& deck, const Model& model,
                  const std::map<int, int>& parts, Diagnostics& diagnostics) {
   std::string owner = "the run";
-  std::string_view declared_by = declares(check.quantity, model);
   std::vector<std::string> names = names_of(observe::run_channels(model, moves(model)));
   if (check.element) {
     const auto found = parts.find(*check.element);
@@ -87,7 +86,6 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
     }
     const Model::Part& part = model.parts[static_cast<std::size_t>(found->second)];
     owner = fmt::format("{} {}", part.type, *check.element);
-    declared_by = {};
     names = names_of(part.element->channels());
   } else if (check.node) {
     const int node = model.node_index(*check.node);
@@ -99,7 +97,8 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
     names = names_of(observe::node_channels(moves(model), is_supported(model, node)));
   }
   if (!contains(names, check.quantity))
-    report_channel(declared_by, record.where("QUANTITY"), owner, check.quantity, names, diagnostics);
+    report_channel(check.element ? std::string_view() : declares(check.quantity, model), record.where("QUANTITY"), owner,
+                   check.quantity, names, diagnostics);
 }
 
 /// Elements that records of `.SAI` name but the deck does not have, each told once: by number, then those of groups.
@@ -183,8 +182,7 @@ observe::Selection select_histories(const Model& model) {
   for (const int id : archive.elements)
     if (const auto found = parts.find(id); found != parts.end()) selection.parts.insert(found->second);
   for (std::size_t p = 0; p < model.parts.size(); ++p)
-    if (std::find(archive.kinds.begin(), archive.kinds.end(), model.parts[p].type) != archive.kinds.end())
-      selection.parts.insert(static_cast<int>(p));
+    if (contains(archive.kinds, model.parts[p].type)) selection.parts.insert(static_cast<int>(p));
   for (const int id : archive.nodes) selection.nodes.insert(model.node_index(id));
   selection.channels.insert(archive.channels.begin(), archive.channels.end());
   for (const deck::CheckCard& check : model.commands.checks) {

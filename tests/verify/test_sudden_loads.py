@@ -256,7 +256,7 @@ def test_what_steps_resolve_is_not_touched(tmp_path):
     assert found["node/2/VX"][0] == 0
 
 
-@pytest.mark.parametrize("step", [5e-3, 2e-3, 1.5e-3, 1e-3, 6e-4])
+@pytest.mark.parametrize("step", [5e-3, 2e-3, 1.5e-3, 1e-3, 7e-4, 6e-4])
 def test_teeth_that_bounce_do_not_shake_what_is_stiff(step: float, tmp_path: Path) -> None:
     """A gearbox whose bearings and shafts vibrate hundreds of times in a step, and whose teeth meet two or
     three events within a hundredth of one. With accelerations taken for constant from each to the next it

@@ -46,6 +46,9 @@ class Start {
   /// motions stay as they are, since no balance of forces gives them.
   void balance_accelerations(Configuration& c, int most_iterations = 12, StartReport* report = nullptr,
                              const MasslessMotions* massless = nullptr);
+  /// What the equations of motion lack, by equation, without forces on `massless` motions; for a multiplier the second derivative
+  /// of its constraint, or what it lacks where it is released.
+  std::vector<double> out_of_balance(const Configuration& c, const MasslessMotions* massless);
   /// Of balanced accelerations: gives what vibrates with a period shorter than 2 h the mean over a step of h, which leads near to
   /// its equilibrium; with those of an instant it would overshoot that by the square of h over its period. What steps resolve
   /// has other accelerations by a part of second order. False where nothing vibrates so fast: `c` is as it was.
@@ -83,8 +86,6 @@ class Start {
   /// Accelerations a of (M + give K) a + f(q, v, t) = Bᵀ λ, as if forces were those at places that are give · a away. A law may
   /// end on the way there: behind the loss of a contact it would close again. So K is that at `c`. False where no end is found.
   bool balance_softly(Configuration& c, double give, StartReport* report, const MasslessMotions* massless);
-  /// What the equations of motion lack, by equation, and the second derivatives of constraints.
-  std::vector<double> out_of_balance(const Configuration& c, const MasslessMotions* massless);
   /// Solves for it with the matrix: returns changes of accelerations, and adds those of multipliers to `c`.
   std::vector<double> solve_balance(std::vector<double>& right, Configuration& c, const MasslessMotions* massless);
   /// Do the accelerations of `c` lead so far in a step of h that forces change by more than those do that vibrate once in it?

@@ -142,18 +142,18 @@ std::vector<double> Start::out_of_balance(const Configuration& c, const Massless
   std::vector<double> r = assembler_.slot_residual(c), phi, rate, second;
   if (massless) massless->remove_forces(r);
   assembler_.constraint_rates(c, phi, rate, second);
-  std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
-  for (std::size_t e = 0; e < right.size(); ++e) {
+  std::vector<double> lack(static_cast<std::size_t>(numbering.equations()));
+  for (std::size_t e = 0; e < lack.size(); ++e) {
     const Unknown& u = numbering.unknown(static_cast<int>(e));
     const int m = u.slot - numbering.motion_slots();
     if (!u.multiplier)
-      right[e] = -r[static_cast<std::size_t>(u.slot)];
+      lack[e] = -r[static_cast<std::size_t>(u.slot)];
     else if (assembler_.released(m))
-      right[e] = assembler_.released_value(m) - c.multipliers[static_cast<std::size_t>(m)];
+      lack[e] = assembler_.released_value(m) - c.multipliers[static_cast<std::size_t>(m)];
     else
-      right[e] = second[static_cast<std::size_t>(m)];
+      lack[e] = second[static_cast<std::size_t>(m)];
   }
-  return right;
+  return lack;
 }
 
 std::vector<double> Start::solve_balance(std::vector<double>& right, Configuration& c, const MasslessMotions* massless) {

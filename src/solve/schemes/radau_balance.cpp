@@ -88,10 +88,9 @@ bool Radau::fit_velocities(Configuration& c) {
 }
 
 bool Radau::fit_accelerations(Configuration& c) {
-  Assembler& assembler = context_.assembler;
   const Numbering& numbering = context_.numbering;
   const MasslessMotions* massless = massless_at(c);
-  std::vector<double> phi, rate, second, change;
+  std::vector<double> change;
   std::span<const double> found;
   auto a = context_.motion.accelerations(c);
   // once where forces are linear in these
@@ -100,22 +99,8 @@ bool Radau::fit_accelerations(Configuration& c) {
   for (int k = 0; k < most_corrections; ++k) {
     if (settled && !context_.redundancy.share(c)) break;
     settled = false;
-    std::vector<double> r = assembler.slot_residual(c);
-    if (massless) massless->remove_forces(r);
-    assembler.constraint_rates(c, phi, rate, second);
-    right_side_.assign(static_cast<std::size_t>(numbering.equations()), 0.0);
-    double size = 0;
-    for (std::size_t e = 0; e < right_side_.size(); ++e) {
-      const Unknown& u = numbering.unknown(static_cast<int>(e));
-      const auto m = static_cast<std::size_t>(u.slot) - context_.motion.size();
-      if (!u.multiplier)
-        right_side_[e] = -r[static_cast<std::size_t>(u.slot)];
-      else if (assembler.released(static_cast<int>(m)))
-        right_side_[e] = assembler.released_value(static_cast<int>(m)) - c.multipliers[m];
-      else
-        right_side_[e] = second[m];
-      size = std::max(size, std::abs(right_side_[e]));
-    }
+    right_side_ = context_.start.out_of_balance(c, massless);
+    const double size = largest(right_side_);
     if (!std::isfinite(size)) return false;
     if (k == 0) first = size;
     const bool balanced = size <= left_open * first;

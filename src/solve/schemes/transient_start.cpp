@@ -11,6 +11,7 @@ namespace {
 
 /// After an event the slope of v̇ is taken over this part of a step, so as not to reach the next event.
 constexpr double slope_span = 0.01;
+/// Slopes of its two halves that differ by more than this part of the larger are no slopes: a force jumps in one of them.
 constexpr double unlike = 0.5;
 
 }  // namespace
@@ -43,7 +44,6 @@ std::vector<double> Transient::slope_of_accelerations(const Configuration& c, do
   for (std::size_t i = 0; i < slope.size(); ++i) {
     const double first = 2 * (middle[i] - slope[i]) / span, second = 2 * (end[i] - middle[i]) / span;
     slope[i] = 1.5 * first - 0.5 * second;
-    // in so small a part of a step both halves are alike, or a force jumps in one of them
     const bool jumps = span < h && std::abs(first - second) > unlike * std::max(std::abs(first), std::abs(second));
     if (jumps) slope[i] = std::abs(first) < std::abs(second) ? first : second;
   }
