@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
+#include <Eigen/Core>
 #include <optional>
 #include <span>
 
@@ -12,28 +11,10 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 /// The symmetric matrix of 6 values, its diagonal, or of 21, its upper triangle row by row; nothing of another number.
-inline std::optional<Mat6> symmetric_6(std::span<const double> values) {
-  Mat6 m = Mat6::Zero();
-  if (values.size() == 6) {
-    for (Eigen::Index i = 0; i < 6; ++i) m(i, i) = values[static_cast<std::size_t>(i)];
-  } else if (values.size() == 21) {
-    std::size_t next = 0;
-    for (Eigen::Index i = 0; i < 6; ++i)
-      for (Eigen::Index j = i; j < 6; ++j) m(i, j) = m(j, i) = values[next++];
-  } else {
-    return {};
-  }
-  return m;
-}
+std::optional<Mat6> symmetric_6(std::span<const double> values);
 
 /// The smallest eigenvalue of a symmetric matrix over the largest in size, scaled to a diagonal of ones since its rows have
 /// different units.
-inline double definiteness(const Mat6& m) {
-  Vec6 scale = m.diagonal();
-  for (Eigen::Index i = 0; i < 6; ++i) scale[i] = scale[i] > 0 ? 1 / std::sqrt(scale[i]) : 1;
-  const Mat6 scaled = scale.asDiagonal() * m * scale.asDiagonal();
-  const Vec6 values = Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
-  return values[0] / values.cwiseAbs().maxCoeff();
-}
+double definiteness(const Mat6& m);
 
 }  // namespace engrane

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <span>
@@ -31,13 +30,6 @@ inline double von_mises(std::span<const double> s) {
 }
 
 /// Principal stresses. Of four components: the two in the plane, the larger first, and zz; of six: the largest first.
-inline std::array<double, 3> principal_stresses(std::span<const double> s) {
-  if (s.size() == 4) {
-    const double middle = (s[0] + s[1]) / 2, radius = std::hypot((s[0] - s[1]) / 2, s[3]);
-    return {middle + radius, middle - radius, s[2]};
-  }
-  const Vec3 values = Eigen::SelfAdjointEigenSolver<Mat3>(symmetric_tensor(s), Eigen::EigenvaluesOnly).eigenvalues();
-  return {values[2], values[1], values[0]};
-}
+std::array<double, 3> principal_stresses(std::span<const double> s);
 
 }  // namespace engrane

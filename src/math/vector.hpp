@@ -47,11 +47,6 @@ inline Mat3 skew(const Vec3& a) {
 }
 
 /// Any unit vector perpendicular to the unit vector `a`, chosen from the axes so that equal input gives equal output.
-inline Vec3 perpendicular(const Vec3& a) {
-  int least = 0;
-  for (int i = 1; i < 3; ++i)
-    if (std::abs(a[i]) < std::abs(a[least])) least = i;
-  return cross(a, Vec3(Vec3::Unit(least))).normalized();
-}
+Vec3 perpendicular(const Vec3& a);
 
 }  // namespace engrane

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "deck/cards/cards.hpp"
-#include "deck/schema/schema.hpp"
+#include "deck/schema/card.hpp"
 #include "model/block.hpp"
 #include "model/element.hpp"
 #include "model/function.hpp"

@@ -118,6 +118,11 @@ class Balance {
   double multiplier_weight_ = 0;
 };
 
+/// Of each node of a layout the first slots of translations and rotations, −1 where it has none, and its number of translations;
+/// in `lane_slots` the slots that a tangent has columns for. The number of slots comes back.
+std::size_t plan_sweep(const Layout& layout, std::span<int> translation, std::span<int> rotation, std::span<int> directions,
+                       std::vector<std::size_t>& lane_slots);
+
 /// A layout, and how one residual written for numbers of any type is swept for residual, exact tangent and constraint rates.
 /// `evaluate(const Motion<T, Nodes>&, Balance<T, Nodes>&)` is that residual; the tangent is one sweep of dual numbers, each lane
 /// moving one unknown with displacement, velocity and acceleration in the proportion cq : cv : ca. `Lanes` is the largest
@@ -127,22 +132,10 @@ class Sweep {
  public:
   Sweep() = default;
   explicit Sweep(Layout layout) : layout_(std::move(layout)) {
-    for (std::size_t i = 0; i < layout_.nodes.size(); ++i) {
-      const bool in_plane = layout_.needs[i] == NodeNeed::in_plane;
-      directions_[i] = in_plane ? 2 : 3;
-      translation_[i] = layout_.node_slot(i, in_plane ? NodeNeed::in_plane : NodeNeed::translation);
-      rotation_[i] = layout_.node_slot(i, NodeNeed::rotation);
-      if (layout_.nodes[i] == 0) continue;
-      for (int c = 0; c < directions_[i] && translation_[i] >= 0; ++c)
-        lane_slots_.push_back(static_cast<std::size_t>(translation_[i] + c));
-      for (int c = 0; c < 3 && rotation_[i] >= 0; ++c) lane_slots_.push_back(static_cast<std::size_t>(rotation_[i] + c));
-    }
+    slots_ = plan_sweep(layout_, translation_, rotation_, directions_, lane_slots_);
     first_scalar_ = static_cast<std::size_t>(layout_.node_slots());
     first_multiplier_ = first_scalar_ + layout_.scalars.size();
-    slots_ = static_cast<std::size_t>(layout_.slots());
-    for (std::size_t slot = first_scalar_; slot < slots_; ++slot) lane_slots_.push_back(slot);
     assert(lane_slots_.size() <= static_cast<std::size_t>(Lanes) && "Lanes is too small for this element");
-    assert(layout_.scalars.size() <= 8 && layout_.multipliers.size() <= 16);
   }
 
   const Layout& layout() const { return layout_; }

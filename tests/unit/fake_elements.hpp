@@ -8,6 +8,7 @@
 
 #include "deck/cards/cards.hpp"
 #include "deck/read/reader.hpp"
+#include "deck/schema/card.hpp"
 
 namespace engrane::deck {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "deck/cards/card_chapters.hpp"
+#include "deck/schema/card.hpp"
 
 namespace engrane::deck {
 
@@ -101,7 +102,7 @@ Schema group_card() {
   card.add("TOUT", &GroupCard::all, "all of them").synonyms({"ALL"});
   card.add("UNION", &GroupCard::united, "other groups whose members belong to this one")
       .refers(Reference::group)
-      .values(1, detail::any_number);
+      .values(1, any_number);
   card.add("BOITE", &GroupCard::box, "nodes in the box xmin xmax ymin ymax zmin zmax")
       .synonyms({"BOX"})
       .unit(dimension::length)

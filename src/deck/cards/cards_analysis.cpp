@@ -8,6 +8,7 @@
 
 #include "deck/cards/card_chapters.hpp"
 #include "deck/cards/cards.hpp"
+#include "deck/schema/card.hpp"
 
 namespace engrane::deck {
 

@@ -7,6 +7,7 @@
 
 #include "deck/cards/card_chapters.hpp"
 #include "deck/cards/profile_card.hpp"
+#include "deck/schema/card.hpp"
 #include "math/matrix6.hpp"
 
 namespace engrane::deck {

@@ -12,6 +12,7 @@
 #include "deck/cards/cards.hpp"
 #include "deck/cards/initial_motion.hpp"
 #include "deck/cards/mesh_cards.hpp"
+#include "deck/schema/card.hpp"
 
 namespace engrane::deck {
 
@@ -35,10 +36,7 @@ void add_target(Card<Data>& card) {
       .at_least(1)
       .positional()
       .leads();
-  card.add("GROUP", &Data::groups, "groups of nodes: names or numbers")
-      .refers(Reference::group)
-      .values(1, detail::any_number)
-      .leads();
+  card.add("GROUP", &Data::groups, "groups of nodes: names or numbers").refers(Reference::group).values(1, any_number).leads();
 }
 
 template <class Data>
@@ -152,7 +150,7 @@ Schema rotation_card() {
       "holds.");
   card.add("GROUP", &RotationCard::groups, "groups of cells: names or numbers")
       .refers(Reference::group)
-      .values(1, detail::any_number)
+      .values(1, any_number)
       .required()
       .leads();
   card.add("VAL", &RotationCard::speed, "speed, radians per unit of time")
@@ -178,8 +176,7 @@ Schema function_card() {
       "A function has one shape. Before the first and behind the last point of a TABLE the end values hold, unless it has a "
       "PERIOD.");
   card.add("NOM", &FunctionCard::name, "name").synonyms({"NAME"});
-  card.add("TABLE", &FunctionCard::table, "abscissa and ordinate in turn, joined by straight lines")
-      .values(4, detail::any_number);
+  card.add("TABLE", &FunctionCard::table, "abscissa and ordinate in turn, joined by straight lines").values(4, any_number);
   card.add("SPLINE", &FunctionCard::spline, "join the TABLE by a cubic spline with continuous curvature");
   card.add("PERIOD", &FunctionCard::period, "the TABLE repeats with this period").synonyms({"PERIODE"}).positive();
   card.add("SINUS", &FunctionCard::sinus, "amplitude, frequency (per unit of time), phase (degrees), mean")
@@ -237,13 +234,13 @@ void check_initial(const InitialMotionCard& data, const Record& record, Diagnost
   if (data.values.size() > 1) diagnostics.error(record.where("V"), fmt::format("{} takes one value V", one));
 }
 
-Schema initial_card(const char* name, std::vector<std::string> synonyms, const char* summary, const char* tag,
-                    const char* values) {
+Schema initial_card(const char* name, Words synonyms, const char* summary, const char* tag, const char* values) {
   const bool velocity = std::string_view(tag) == "VELOCITY";
-  Card<InitialMotionCard> card(name, std::move(synonyms), summary);
+  Card<InitialMotionCard> card(name, synonyms, summary);
   InitialMotionCard data;
   data.kind.tag = tag;
-  card.chapter(chapter).initial(data);
+  card.initial(data);
+  card.chapter(chapter);
   card.describe(
       std::string("Values of nodes are a starting guess: where joints or drives do not allow them, the nearest state that they "
                   "allow is taken. With IMPOSED this is an error. The value of a joint (ELEMENT) always holds exactly, or is an "

@@ -2,6 +2,7 @@
 #include "deck/cards/card_chapters.hpp"
 #include "deck/cards/cards.hpp"
 #include "deck/cards/mesh_cards.hpp"
+#include "deck/schema/card.hpp"
 
 namespace engrane::deck {
 
@@ -25,7 +26,7 @@ Schema hypothesis_card() {
   card.add("VARIANT", &HypothesisCard::variant, "BIDIM behind MEMBRANE of the plane, PLANE behind the others").positional();
   card.add("GROUP", &HypothesisCard::groups, "groups of cells: names or numbers; none: all cells")
       .refers(Reference::group)
-      .values(1, detail::any_number);
+      .values(1, any_number);
   card.example(".HYP BEAM GROUP \"frame\"");
   card.add("TENSION", &HypothesisCard::tension, "of membranes: stress in all directions in the reference configuration")
       .unit(dimension::pressure);
@@ -43,7 +44,7 @@ Schema property_card() {
   card.chapter(chapter);
   card.add("GROUP", &PropertyCard::groups, "groups of cells: names or numbers")
       .refers(Reference::group)
-      .values(1, detail::any_number)
+      .values(1, any_number)
       .required()
       .leads();
   card.add("THICK", &PropertyCard::thickness, "thickness; plane strain without it has 1")
@@ -62,7 +63,7 @@ Schema assignment_card() {
   card.add("I", &AssignmentCard::cells, "cells: one, or a range `I 1 J 72 K 1`").refers(Reference::element).at_least(1).leads();
   card.add("GROUP", &AssignmentCard::groups, "groups of cells: names or numbers")
       .refers(Reference::group)
-      .values(1, detail::any_number)
+      .values(1, any_number)
       .leads();
   card.add("MAT", &AssignmentCard::material, "number of the `.MAT`").synonyms({"MATERIAL", "MATERIAU"}).at_least(1);
   card.add("THETA", &AssignmentCard::theta,

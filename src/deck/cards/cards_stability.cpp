@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/cards/card_chapters.hpp"
 #include "deck/cards/cards.hpp"
+#include "deck/schema/card.hpp"
 
 namespace engrane::deck {
 

@@ -68,7 +68,7 @@ std::string property(const Schema& schema, const Field& field) {
     members.push_back(member("items", item(field)));
     // an array shorter than the struct's is filled up when it is read, so records show it full
     members.push_back(member("minItems", std::to_string(field.required ? field.min_values : 0)));
-    if (field.max_values < detail::any_number) members.push_back(member("maxItems", std::to_string(field.max_values)));
+    if (field.max_values < any_number) members.push_back(member("maxItems", std::to_string(field.max_values)));
   }
   return object(members);
 }

@@ -174,7 +174,7 @@ void RecordReader::read_field(Reading& reading, const Field& field, const Token*
 /// `NOEUD 3 C 1 A 2. NOEUD 4 C 1 A -1.` in a numbered record: term after term, each list goes on.
 bool RecordReader::appends(const Reading& reading, const Field& field) const {
   const auto leads = [](const Field& other) { return other.leads; };
-  return reading.schema.numbered && field.max_values == detail::any_number && given(field) &&
+  return reading.schema.numbered && field.max_values == any_number && given(field) &&
          std::any_of(reading.schema.fields.begin(), reading.schema.fields.end(), leads);
 }
 

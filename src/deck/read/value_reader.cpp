@@ -70,7 +70,7 @@ bool at_boundary(TokenStream& tokens, const RecordKeys& keys) {
 }
 
 std::string expected_count(int least, int most) {
-  if (most >= detail::any_number) return "at least " + counted(static_cast<std::size_t>(least), "value");
+  if (most >= any_number) return "at least " + counted(static_cast<std::size_t>(least), "value");
   if (least == most) return counted(static_cast<std::size_t>(least), "value");
   return std::to_string(least) + " to " + counted(static_cast<std::size_t>(most), "value");
 }
@@ -210,7 +210,7 @@ void ValueReader::append(Work& work, double value, int count, const Location& wh
     repeated_ = most_produced;
     return error(work, where, "the repeat counts and ranges of this deck make too many values");
   }
-  const int most = work.field.type == FieldType::choice ? detail::any_number : work.field.max_values;
+  const int most = work.field.type == FieldType::choice ? any_number : work.field.max_values;
   if (!work.surplus.known() && numbers.size() + static_cast<std::size_t>(count) > static_cast<std::size_t>(most))
     work.surplus = where;
   numbers.insert(numbers.end(), static_cast<std::size_t>(count), value);

@@ -65,7 +65,7 @@ std::string value_kind(const Field& field) {
   if (field.type == FieldType::choice) return "a word";
   const std::string name = noun(field);
   if (field.max_values == 1) return name == "text" ? name : (name == "element" ? "an " : "a ") + name;
-  if (field.max_values >= detail::any_number) {
+  if (field.max_values >= any_number) {
     const std::string ids = field.reference == Reference::node || field.reference == Reference::element ? ", ranges" : "";
     return (field.min_values > 1 ? std::to_string(field.min_values) + " or more " : "") + name + "s" + ids;
   }

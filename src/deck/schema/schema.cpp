@@ -28,6 +28,20 @@ const std::array<std::pair<std::string_view, std::vector<std::string>>, 7>& comm
 
 }  // namespace
 
+Field::Field() = default;
+Field::Field(const Field&) = default;
+Field::Field(Field&&) noexcept = default;
+Field& Field::operator=(const Field&) = default;
+Field& Field::operator=(Field&&) noexcept = default;
+Field::~Field() = default;
+
+Schema::Schema() = default;
+Schema::Schema(const Schema&) = default;
+Schema::Schema(Schema&&) noexcept = default;
+Schema& Schema::operator=(const Schema&) = default;
+Schema& Schema::operator=(Schema&&) noexcept = default;
+Schema::~Schema() = default;
+
 const Field* Schema::find(std::string_view keyword) const {
   const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.keyword == keyword; });
   return found == fields.end() ? nullptr : &*found;

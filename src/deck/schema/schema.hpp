@@ -6,9 +6,10 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "base/diagnostics.hpp"
@@ -49,8 +50,25 @@ struct Code {
   std::string meaning;
 };
 
+/// Number of values a list may take when the declaration does not say.
+inline constexpr int any_number = 1 << 20;
+
+/// A member of a card's struct that a keyword sets; the spans are arrays.
+using Member =
+    std::variant<std::monostate, bool*, int*, double*, std::string*, Tagged*, std::optional<int>*, std::optional<double>*,
+                 std::vector<int>*, std::vector<double>*, std::vector<std::string>*, std::span<int>, std::span<double>,
+                 std::optional<std::array<double, 2>>*, std::optional<std::array<double, 3>>*>;
+
 /// One keyword of a card: everything that reading, help, template, manual and JSON schema need to know.
 struct Field {
+  // Compiled once: what declares cards would else have them anew in each source. So it is with Schema.
+  Field();
+  Field(const Field&);
+  Field(Field&&) noexcept;
+  Field& operator=(const Field&);
+  Field& operator=(Field&&) noexcept;
+  ~Field();
+
   std::string keyword;
   std::vector<std::string> synonyms;
   std::vector<std::string> spellings;  ///< keyword, synonyms and those that BACON gives the keyword everywhere; by the Card
@@ -83,12 +101,21 @@ struct Field {
     std::string tag;
     bool present = false;
   };
-  std::function<void(std::any&, const Values&)> store;  ///< writes the values into the card's struct
-  std::function<Values(const std::any&)> load;          ///< reads them back: defaults, canonical deck, JSON
+  std::function<Member(std::any&)> bind;  ///< the member of the card's struct; none for a name that stands for records
+
+  void store(std::any& data, const Values& values) const;  ///< writes the values into the card's struct
+  Values load(const std::any& data) const;                 ///< reads them back: defaults, canonical deck, JSON
 };
 
 /// A card without its struct's type: what reader, help and manual work with.
 struct Schema {
+  Schema();
+  Schema(const Schema&);
+  Schema(Schema&&) noexcept;
+  Schema& operator=(const Schema&);
+  Schema& operator=(Schema&&) noexcept;
+  ~Schema();
+
   std::string name;                   ///< `GEAR`, or `.CLM FIX`, `.SAM`
   std::vector<std::string> synonyms;  ///< `ENGRENAGE`
   std::string summary;                ///< one sentence
@@ -123,171 +150,6 @@ std::vector<std::string> schema_faults(const Schema& schema);
 /// The unit a number has in a deck: as UnitSystem::label, but angles are in degrees.
 std::string deck_unit(Dimension dimension);
 
-/// Refines the field just added to a Card.
-class FieldBuilder {
- public:
-  FieldBuilder(Schema& schema, std::size_t index) : schema_(schema), index_(index) {}
-  FieldBuilder& synonyms(std::vector<std::string> words) {
-    field().synonyms = std::move(words);
-    field().spellings = collect_spellings(field());
-    return *this;
-  }
-  FieldBuilder& unit(Dimension d) {
-    field().dimension = d;
-    return *this;
-  }
-  FieldBuilder& refers(Reference r) {
-    field().reference = r;
-    return *this;
-  }
-  FieldBuilder& required() {
-    field().required = true;
-    return *this;
-  }
-  FieldBuilder& positional() {
-    field().positional = true;
-    return *this;
-  }
-  FieldBuilder& values(int least, int most) {
-    field().min_values = least;
-    field().max_values = most;
-    return *this;
-  }
-  FieldBuilder& positive() {
-    field().lower = 0;
-    field().lower_open = true;
-    return *this;
-  }
-  FieldBuilder& at_least(double bound) {
-    field().lower = bound;
-    return *this;
-  }
-  FieldBuilder& at_most(double bound) {
-    field().upper = bound;
-    return *this;
-  }
-  FieldBuilder& below(double bound) {
-    field().upper = bound;
-    field().upper_open = true;
-    return *this;
-  }
-  FieldBuilder& above(double bound) {
-    field().lower = bound;
-    field().lower_open = true;
-    return *this;
-  }
-  FieldBuilder& leads() {
-    field().leads = true;
-    return *this;
-  }
-  FieldBuilder& repeats() {
-    field().repeats = true;
-    return *this;
-  }
-  FieldBuilder& heading() {
-    field().heading = true;
-    return *this;
-  }
-  FieldBuilder& filler(std::vector<std::string> words) {
-    field().fillers = std::move(words);
-    return *this;
-  }
-  FieldBuilder& codes(std::vector<Code> known) {
-    field().codes = std::move(known);
-    return *this;
-  }
-  FieldBuilder& option(Option o) {
-    field().options.push_back(std::move(o));
-    return *this;
-  }
-
- private:
-  Field& field() { return schema_.fields[index_]; }
-  Schema& schema_;
-  std::size_t index_;
-};
-
-/// Declares a card once and binds every keyword to a member of `Data`.
-///
-///     Card<SpringData> card("SPRING", {"RESSORT"}, "Spring and damper between two nodes");
-///     card.add("K", &SpringData::stiffness, "stiffness").unit(dimension::stiffness).at_least(0);
-///
-/// The member's type fixes the field's type: bool flag; int, std::vector<int>, std::array<int, N> integers;
-/// double, std::optional<double>, std::vector<double>, std::array<double, N> reals; std::string text; Tagged choice.
-/// The defaults shown to the user are those of a default-constructed `Data`.
-template <class Data>
-class Card {
- public:
-  Card(std::string name, std::vector<std::string> synonyms, std::string summary) {
-    schema_.name = std::move(name);
-    schema_.synonyms = std::move(synonyms);
-    schema_.summary = std::move(summary);
-    schema_.make = [] { return std::any(Data{}); };
-  }
-
-  /// `Owner` is Data or a base of it.
-  template <class Member, class Owner>
-  FieldBuilder add(std::string keyword, Member Owner::*member, std::string help);
-
-  /// A keyword for one entry of an array that another keyword sets as a whole: `Y` for entry 1 of `X`.
-  template <class Member>
-  FieldBuilder add_part(std::string keyword, std::string whole, int part, Member Data::*member, std::string help);
-
-  /// A keyword before the first record that names a file of a mesh (Catalogue::read_mesh).
-  FieldBuilder add_mesh_file(std::string keyword, std::string help);
-
-  Card& chapter(std::string title) {
-    schema_.chapter = std::move(title);
-    return *this;
-  }
-  Card& describe(std::string text) {
-    schema_.description = std::move(text);
-    return *this;
-  }
-  Card& example(std::string lines) {
-    schema_.examples.push_back(std::move(lines));
-    return *this;
-  }
-  Card& numbered() {
-    schema_.numbered = true;
-    return *this;
-  }
-  Card& key(std::string word) {
-    schema_.numbered = true;
-    schema_.record_key = std::move(word);
-    return *this;
-  }
-  Card& repeated_ids() {
-    schema_.repeated_ids = true;
-    return *this;
-  }
-  Card& rows() {
-    schema_.rows = true;
-    return *this;
-  }
-  Card& once() {
-    schema_.once = true;
-    return *this;
-  }
-  Card& redefines() {
-    schema_.redefines = true;
-    return *this;
-  }
-  /// The struct a record starts from, where it is not Data's own default.
-  Card& initial(Data data) {
-    schema_.make = [data] { return std::any(data); };
-    return *this;
-  }
-  /// `check(Data&, Record&, Diagnostics&)` runs once a record is read without a fault.
-  template <class Check>
-  Card& finish(Check check);
-
-  const Schema& schema() const { return schema_; }
-
- private:
-  Schema schema_;
-};
-
 /// Where a keyword's values stand.
 struct FieldLocation {
   const Field* field = nullptr;
@@ -319,5 +181,3 @@ struct Record {
 };
 
 }  // namespace engrane::deck
-
-#include "deck/schema/schema_binding.hpp"

@@ -195,7 +195,7 @@ ElementType beam_type() {
       .synonyms({"NODES", "NOEUDS"})
       .refers(deck::Reference::node)
       .at_least(1)
-      .values(2, deck::detail::any_number)
+      .values(2, deck::any_number)
       .required();
   card.add("BPR", &BeamData::profile, "number of the section in `.BPR`").synonyms({"SECTION"}).at_least(1).required();
   card.add("BPR_END", &BeamData::profile_end,

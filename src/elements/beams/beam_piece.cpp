@@ -5,6 +5,9 @@
 
 #include "elements/common/building.hpp"
 
+template class engrane::TemplatedBlock<engrane::elements::beams::BeamPiece<2>, 2, 15>;
+template class engrane::TemplatedBlock<engrane::elements::beams::BeamPiece<3>, 3, 24>;
+
 namespace engrane::elements::beams {
 
 namespace {
@@ -45,7 +48,7 @@ std::pair<double, double> normal_stress(const BeamSection& section, const Vec6& 
 
 template <int Nodes, bool Held>
 Beams<Nodes, Held>::Beams(bool inextensible, bool unshearable)
-    : BeamSweep<Nodes, Held>(piece_layout<Nodes>(inextensible, unshearable)) {}
+    : BeamSweep<Nodes>(piece_layout<Nodes>(inextensible, unshearable)) {}
 
 template <int Nodes, bool Held>
 Beams<Nodes, Held>::~Beams() = default;
@@ -59,7 +62,7 @@ void Beams<Nodes, Held>::tangent(std::size_t first, std::span<const State> state
     if (const BeamPiece<Nodes>& piece = this->data(first + i); piece.has_tangent())
       piece.tangent(states[i], weights, own_r, own_k);
     else
-      BeamSweep<Nodes, Held>::tangent(first + i, states.subspan(i, 1), weights, own_r, own_k);
+      BeamSweep<Nodes>::tangent(first + i, states.subspan(i, 1), weights, own_r, own_k);
   }
 }
 

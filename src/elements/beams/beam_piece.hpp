@@ -341,15 +341,16 @@ struct BeamPiece {
   }
 };
 
-template <int Nodes, bool Held>
-using BeamSweep = TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes + (Held ? 3 * (Nodes - 1) : 0)>;
+/// With room for the multipliers of pieces that hold strains: of the others only the small ones are swept, once a run.
+template <int Nodes>
+using BeamSweep = TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes + 3 * (Nodes - 1)>;
 
 /// All pieces of a model with so many nodes that hold the same strains. `Held`: whether they hold any.
 template <int Nodes, bool Held>
-class Beams final : public BeamSweep<Nodes, Held> {
+class Beams final : public BeamSweep<Nodes> {
  public:
   Beams(bool inextensible, bool unshearable);
-  ~Beams() override;  // not in the class: whoever compiles it compiles the sweeps of dual numbers too
+  ~Beams() override;
 
   void tangent(std::size_t first, std::span<const State> states, Weights weights, std::span<double> r,
                std::span<double> k) const override;
@@ -375,3 +376,7 @@ extern template class Beams<2, true>;
 extern template class Beams<3, true>;
 
 }  // namespace engrane::elements::beams
+
+// Sweeps of dual numbers take long to compile: once.
+extern template class engrane::TemplatedBlock<engrane::elements::beams::BeamPiece<2>, 2, 15>;
+extern template class engrane::TemplatedBlock<engrane::elements::beams::BeamPiece<3>, 3, 24>;

@@ -134,7 +134,7 @@ ElementType line_load_type() {
       .synonyms({"NODES", "NOEUDS"})
       .refers(deck::Reference::node)
       .at_least(1)
-      .values(2, deck::detail::any_number)
+      .values(2, deck::any_number)
       .required();
   card.add("V", &LineLoadData::load, "force per length, global axes; with FOLLOW as in the reference configuration")
       .synonyms({"VAL"})

@@ -349,7 +349,7 @@ ElementType shaft_type() {
       .synonyms({"NODES", "NOEUDS"})
       .refers(deck::Reference::node)
       .at_least(1)
-      .values(2, deck::detail::any_number)
+      .values(2, deck::any_number)
       .required();
   card.add("MAT", &ShaftData::material, "number of the material in `.MAT`")
       .synonyms({"MATERIAL", "MATERIAU"})

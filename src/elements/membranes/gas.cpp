@@ -323,7 +323,7 @@ ElementType gas_type() {
       .example("I 9 GAS GROUP \"cushion\"  MASS 0.02 NF 1 R 287. TEMP 293.  AMBIENT 101325.  CUT 1 0 0  0 1 0  AT 0 0 0");
   card.add("GROUP", &GasData::groups, "groups of membranes: names or numbers")
       .refers(deck::Reference::group)
-      .values(1, deck::detail::any_number)
+      .values(1, deck::any_number)
       .required();
   card.add("P", &GasData::pressure, "absolute pressure in the reference configuration")
       .synonyms({"PRESSURE", "PRESSION"})
@@ -339,7 +339,7 @@ ElementType gas_type() {
   card.add("AMBIENT", &GasData::ambient, "pressure of the atmosphere").unit(dimension::pressure).at_least(0);
   card.add("CUT", &GasData::cuts,
            "normals of planes that close the surface, three numbers each; an edge is in the first that holds it")
-      .values(3, deck::detail::any_number);
+      .values(3, deck::any_number);
   card.add("AT", &GasData::at, "a point of all these planes").unit(dimension::length);
   return element_type(card, build);
 }

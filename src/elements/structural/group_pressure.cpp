@@ -62,7 +62,7 @@ ElementType group_pressure_type() {
       .example(".CLM\n GROUP \"flank\" PRE V 5.\n PRE GROUP \"bore\" V 2. NF 1");
   card.add("GROUP", &GroupPressureData::groups, "groups of faces, or of membranes: names or numbers")
       .refers(deck::Reference::group)
-      .values(1, deck::detail::any_number)
+      .values(1, deck::any_number)
       .required()
       .leads();
   card.add("V", &GroupPressureData::pressure, "pressure, positive into the cells")

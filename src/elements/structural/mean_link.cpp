@@ -151,7 +151,7 @@ ElementType mean_link_type() {
       .example("I 8 MEAN_LINK N 101 MEMBERS 1 2 3  W 1. 4. 1.");
   add_link_nodes(card);
   card.add("W", &MeanLinkData::weights, "weights of the nodes in the order of their numbers; none: all the same")
-      .values(1, deck::detail::any_number)
+      .values(1, deck::any_number)
       .positive();
   return element_type(card, build);
 }

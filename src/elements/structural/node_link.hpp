@@ -92,11 +92,11 @@ void add_link_nodes(deck::Card<Data>& card) {
       .required();
   card.add("GROUP", &Data::groups, "groups of nodes: names or numbers")
       .refers(deck::Reference::group)
-      .values(1, deck::detail::any_number);
+      .values(1, deck::any_number);
   card.add("MEMBERS", &Data::nodes, "nodes of the group, beside those of GROUP")
       .refers(deck::Reference::node)
       .at_least(1)
-      .values(1, deck::detail::any_number);
+      .values(1, deck::any_number);
 }
 
 }  // namespace engrane::elements::structural

@@ -153,7 +153,7 @@ void expect_closed_form(const std::vector<int>& ids, const deck::ProfileCard& pr
   std::vector<double> r(n), k(n * n), dual_r(n), dual_k(n * n);
   const Weights weights{0.7, 3.0, 11.0, 1.0};
   block.tangent(member.index(), {&view, 1}, weights, r, k);
-  block.BeamSweep<Nodes, false>::tangent(member.index(), {&view, 1}, weights, dual_r, dual_k);
+  block.BeamSweep<Nodes>::tangent(member.index(), {&view, 1}, weights, dual_r, dual_k);
   const auto largest = [](const std::vector<double>& of) {
     return std::abs(*std::max_element(of.begin(), of.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   };
