@@ -6,8 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline, PchipInterpolator, make_interp_spline
-from scipy.signal import get_window
+import scipy
 
 from .errors import UserError
 from .spectra import Spectrum, spectrum
@@ -69,18 +68,17 @@ def over_angle(t: np.ndarray, y: np.ndarray, angle: np.ndarray) -> OverAngle:
     most = min(MOST_SAMPLES, 16 * len(when))
     count = int(min(most, max(FEWEST, np.ceil(turns[-1] / steps.min()))))
     even = np.linspace(0, turns[-1], count + 1)
-    at = PchipInterpolator(turns, when)(even)
+    at = scipy.interpolate.PchipInterpolator(turns, when)(even)
     # The monotone interpolant is a start; where the wheel moves, the spline of its turn is nearer to the
     # motion.
-    smooth = CubicSpline(when, turns)
+    smooth = scipy.interpolate.CubicSpline(when, turns)
     for _ in range(2):
         speed = smooth(at, 1)
         moving = speed > 0.1 * turns[-1] / (when[-1] - when[0])
         at[moving] -= (smooth(at[moving]) - even[moving]) / speed[moving]
     at = np.clip(np.maximum.accumulate(at), when[0], when[-1])
-    values = make_interp_spline(t, y, k=5)(
-        at
-    )  # a cubic one loses 1.5 % of a wave with four samples in a period
+    # a cubic one loses 1.5 % of a wave with four samples in a period
+    values = scipy.interpolate.make_interp_spline(t, y, k=5)(at)
     return OverAngle(even, at, values, float(0.25 / steps.max()))
 
 
@@ -102,7 +100,7 @@ def order_map(
             f"and {FEWEST} samples are {FEWEST * step:.3g} turns."
         )
     starts = np.arange(0, len(samples.turns) - n + 1, max(1, round(n * (1 - overlap))))
-    w = np.ones(n) if window == "none" else get_window(window, n, fftbins=True)
+    w = np.ones(n) if window == "none" else scipy.signal.get_window(window, n, fftbins=True)
     length = 4 * n
     order = np.fft.rfftfreq(length, step)
     shown = order <= highest

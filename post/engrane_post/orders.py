@@ -8,7 +8,7 @@ import csv
 from pathlib import Path
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from . import options
 from .errors import UserError
@@ -130,7 +130,7 @@ def _resampled(result: Results, channel: Channel, wheel: Channel, args: argparse
         raise UserError(f"{channel.name} has {len(t)} samples in this span; orders need 8.")
     if "/" in wheel.unit:  # a speed
         rising = np.r_[np.diff(t) > 0, True]
-        angle = CubicSpline(t[rising], angle[rising]).antiderivative()(t)
+        angle = scipy.interpolate.CubicSpline(t[rising], angle[rising]).antiderivative()(t)
     return over_angle(t, y, angle)
 
 

@@ -6,9 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
-from scipy.optimize import minimize_scalar
-from scipy.signal import get_window
+import scipy  # whose parts load where they are used: they take half a second, and most commands use none
 
 WINDOWS = ("hann", "none", "blackman")
 
@@ -47,7 +45,7 @@ class Spectrum:
         inner = inner[np.argsort(-a[inner])][:count]
         out = []
         for i in inner:
-            best = minimize_scalar(
+            best = scipy.optimize.minimize_scalar(
                 lambda f: -self.at(f),
                 bounds=(hz[i - 1], hz[i + 1]),
                 method="bounded",
@@ -68,7 +66,7 @@ def uniform(t: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, bool]
         return t, y, False
     count = int(np.floor((t[-1] - t[0]) / step + 1e-9)) + 1
     even = t[0] + step * np.arange(count)
-    return even, CubicSpline(t, y)(even), True
+    return even, scipy.interpolate.CubicSpline(t, y)(even), True
 
 
 def spectrum(t: np.ndarray, y: np.ndarray, window: str = "hann", padding: int = 4) -> Spectrum:
@@ -77,7 +75,7 @@ def spectrum(t: np.ndarray, y: np.ndarray, window: str = "hann", padding: int = 
     even, values, resampled = uniform(np.asarray(t, float), np.asarray(y, float))
     n = len(values)
     step = float((even[-1] - even[0]) / (n - 1))
-    w = np.ones(n) if window == "none" else get_window(window, n, fftbins=True)
+    w = np.ones(n) if window == "none" else scipy.signal.get_window(window, n, fftbins=True)
     mean = float(np.average(values, weights=w))
     samples = values - mean
     length = n * padding if n * padding < 2**24 else n

@@ -253,7 +253,9 @@ def test_animation(two: Path, command, tmp_path: Path) -> None:
     with Image.open(gif) as image:
         assert image.n_frames == 3
     assert command("animate", two, "--every", "8", "--size", "100x80", "-o", tmp_path / "s_%02d.png")[0] == 0
-    assert sorted(p.name for p in tmp_path.glob("s_*.png")) == ["s_00.png", "s_01.png"]
+    series = sorted(tmp_path.glob("s_*.png"))
+    assert [p.name for p in series] == ["s_00.png", "s_01.png"]
+    assert series[0].read_bytes() != series[1].read_bytes(), "each is a picture of its own time"
 
 
 @pytest.mark.parametrize(
