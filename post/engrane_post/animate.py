@@ -4,18 +4,21 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
 from . import options
 from .errors import UserError
-from .picture import pixels, view_arguments
-from .results import Results
+from .picture import BAR, check_view, enlarged, pixels, view_arguments
+from .results import Frame, Results
 
 EXAMPLES = """  engrane animate run                              run.gif, at most 120 frames
   engrane animate run --from 0 --to 0.002 --fps 20
   engrane animate run --every 5 -o run_%04d.png    a series of pictures
+  engrane animate run --field VON_MISES            stresses of a mesh, one scale of colours for all pictures
+  engrane animate run --deformed 50                its displacements 50 times as large
 
 Frames are those the deck archives (.SAI). A wheel that turns more than half a tooth between two frames seems
 to turn wrongly; archive more often, or show a shorter span."""
@@ -66,8 +69,7 @@ def run(args: argparse.Namespace) -> None:
     """Draws all frames."""
     if not 0.1 <= args.fps <= 100:
         raise UserError("--fps must lie between 0.1 and 100.")
-    if not args.zoom > 0:
-        raise UserError("--zoom must be above 0.")
+    check_view(args)
     with Results(args.result) as result:
         path = options.check_output(
             args.output or options.default_output(result, [], ".gif"), (".gif", ".png")
@@ -84,6 +86,8 @@ def run(args: argparse.Namespace) -> None:
                 ) from error
         result.frame(0)  # no frames: say so before drawing anything
         numbers = frame_numbers(result.frame_times, args.start, args.end, args.every)
+        if args.field:
+            result.cell_field(args.field, numbers[0])  # says what there is when it is not
         draw(result, numbers, path, series, args)
 
 
@@ -95,19 +99,22 @@ def draw(result: Results, numbers: list[int], path: str, series: bool, args: arg
 
     scene = Scene(result)
     plotter = pv.Plotter(off_screen=True, window_size=pixels(args.size, (900, 660)))
-    stage = Stage(scene, plotter)
+
+    def frames(every: int = 1) -> Iterator[Frame]:  # one after the other: all those of a mesh are too many
+        return (enlarged(result.frame(i), args.deformed) for i in numbers[::every])
+
+    stage = Stage(scene, plotter, field=args.field, limits=scene.limits(args.field, frames()))
     title = args.title if args.title is not None else (result.title or result.name)
-    sample = [result.frame(i) for i in numbers[:: max(1, len(numbers) // 40)]]
-    view.aim(plotter, scene, sample, args.view, args.zoom, args.up)
+    sample = list(frames(max(1, len(numbers) // 40)))
+    view.aim(plotter, scene, sample, args.view, args.zoom, args.up, BAR if args.field else 0.0)
     plotter.enable_anti_aliasing("ssaa")
     images = []
-    for k, number in enumerate(numbers):
-        frame = result.frame(number)
+    for k, frame in enumerate(frames()):
         stage.show(frame)
         if k == 0:
             view.dress(plotter, title, view.caption(result, frame))
         else:
-            view.write(plotter, view.caption(result, frame), (0.78, 0.03), "caption")
+            view.write_caption(plotter, view.caption(result, frame))
         plotter.render()
         if series:
             plotter.screenshot(str(Path(path).with_name(Path(path).name % k)))
@@ -120,12 +127,18 @@ def draw(result: Results, numbers: list[int], path: str, series: bool, args: arg
 
 
 def write_gif(path: str, images: list[np.ndarray], fps: float) -> None:
-    """One palette for all pictures, chosen from some of them: a third of the time and of the file, and what
-    rests does not flicker."""
+    """Writes the pictures as one file, with one palette that some of them choose: what does not move does not
+    flicker, and takes no room."""
     from PIL import Image
 
-    some = np.concatenate(images[:: max(1, len(images) // 8)])
-    palette = Image.fromarray(some).quantize()
+    # Roots of the numbers of pixels: the background would take most of the palette, and leave a few steps for
+    # a bar of colours; with each colour once it would have steps itself.
+    some = np.concatenate([image.reshape(-1, 3) for image in images[:: max(1, len(images) // 8)]])
+    colours, counts = np.unique(some @ np.array([1 << 16, 1 << 8, 1]), return_counts=True)
+    weighed = np.repeat(colours, np.sqrt(counts).astype(int))
+    palette = Image.fromarray(
+        np.stack([weighed >> 16, weighed >> 8, weighed], -1).astype(np.uint8)[None]
+    ).quantize()
     first, *others = (
         Image.fromarray(image).quantize(palette=palette, dither=Image.Dither.NONE) for image in images
     )

@@ -44,16 +44,6 @@ def add(commands: argparse._SubParsersAction) -> None:
     p.add_argument(
         "--both", action="store_true", help="reference and frame side by side, seen from the same place"
     )
-    p.add_argument(
-        "--field",
-        default="",
-        metavar="NAME[:XX]",
-        help="colour the cells of a mesh by a field, VON_MISES, STRESS:XX: averaged at nodes where it is "
-        "known there, else its means over the cells",
-    )
-    p.add_argument(
-        "--deformed", type=float, default=1.0, metavar="f", help="show displacements f times as large"
-    )
     p.add_argument("-o", "--output", metavar="file", help="picture to write (.png .jpg)")
     p.set_defaults(run=run)
 
@@ -71,6 +61,24 @@ def view_arguments(p: argparse.ArgumentParser) -> None:
     p.add_argument("--zoom", type=float, default=1.0, help="above 1 comes nearer")
     p.add_argument("--size", default=None, metavar="WxH", help="pixels, such as 1600x1000")
     p.add_argument("--title", help="text above (default: the deck's title)")
+    p.add_argument(
+        "--field",
+        default="",
+        metavar="NAME[:XX]",
+        help="colour the cells of a mesh by a field, VON_MISES, STRESS:XX: averaged at nodes where it is "
+        "known there, else its means over the cells",
+    )
+    p.add_argument(
+        "--deformed", type=float, default=1.0, metavar="f", help="show displacements f times as large"
+    )
+
+
+def check_view(args: argparse.Namespace) -> None:
+    """Refuses what no picture can show."""
+    if not args.zoom > 0:
+        raise UserError("--zoom must be above 0.")
+    if not np.isfinite(args.deformed):
+        raise UserError("--deformed must be a number.")
 
 
 def pixels(text: str | None, default: tuple[int, int]) -> tuple[int, int]:
@@ -103,10 +111,7 @@ def enlarged(frame: Frame, factor: float) -> Frame:
 
 def run(args: argparse.Namespace) -> None:
     """Draws one picture."""
-    if not args.zoom > 0:
-        raise UserError("--zoom must be above 0.")
-    if not np.isfinite(args.deformed):
-        raise UserError("--deformed must be a number.")
+    check_view(args)
     with Results(args.result) as result:
         path = options.check_output(
             args.output or options.default_output(result, ["picture"], ".png"), (".png", ".jpg", ".jpeg")
@@ -145,15 +150,10 @@ def picture(
     """Draws the frames side by side; `bare` leaves the time out and the background white."""
     from . import view
     from .graphics import pv
-    from .scene import Scene, Stage, colours, limits_of
+    from .scene import Scene, Stage
 
     scene = Scene(result)
-    limits = None
-    if field:  # views beside each other share the bar of the first
-        drawn = [item for item in scene.items if item.cells is not None]
-        limits = limits_of(
-            [np.zeros(0), *(colours(result, field, f, item)[1] for f in frames for item in drawn)]
-        )
+    limits = scene.limits(field, frames)  # views beside each other share the bar of the first
     pixel_size = pixels(size, (1800, 900) if len(frames) > 1 else (1400, 1000))
     plotter = pv.Plotter(off_screen=True, shape=(1, len(frames)), window_size=pixel_size, border=False)
     stages = []

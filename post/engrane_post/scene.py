@@ -4,7 +4,7 @@ between two nodes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -104,6 +104,19 @@ class Scene:
                 t = self.transform(node, f)
                 out.append(points @ t[:3, :3].T + t[:3, 3])
         return np.concatenate(out) if out else np.zeros((1, 3))
+
+    def limits(self, field: str, frames: Iterable[Frame]) -> tuple[float, float] | None:
+        """Of the colours of a field, what all the frames share; nothing without a field."""
+        if not field:
+            return None
+        drawn = [item for item in self.items if item.cells is not None]
+        ends = [np.zeros(0)]
+        for frame in frames:
+            for item in drawn:
+                seen = colours(self.result, field, frame, item)[1]
+                seen = seen[np.isfinite(seen)]
+                ends.append(np.array([seen.min(), seen.max()]) if len(seen) else seen)
+        return limits_of(ends)
 
     def _outlines(self) -> Iterator[tuple[int, np.ndarray]]:
         """(node, reference points) of everything that moves with a node."""

@@ -140,7 +140,7 @@ def dress(plotter: pv.Plotter, title: str, caption: str) -> None:
     if title:
         write(plotter, title, (0.02, 0.945), "title")
     if caption:
-        write(plotter, caption, (min(0.78, 1 - 0.0125 * len(caption)), 0.03), "caption")
+        write_caption(plotter, caption)
 
 
 def write(plotter: pv.Plotter, text: str, place: tuple[float, float], name: str) -> None:
@@ -148,6 +148,11 @@ def write(plotter: pv.Plotter, text: str, place: tuple[float, float], name: str)
     plotter.add_text(
         text, position=place, viewport=True, font_size=11, color="#222222", name=name, render=False
     )
+
+
+def write_caption(plotter: pv.Plotter, text: str) -> None:
+    """Below on the right, instead of the one before."""
+    write(plotter, text, (min(0.78, 1 - 0.0125 * len(text)), 0.03), "caption")
 
 
 def caption(result: Results, frame: Frame) -> str:

@@ -231,6 +231,40 @@ def test_colour_before(command, tmp_path: Path) -> None:
     assert min(share(slice(490, 800), c) for c in (least, most)) > 0.05
 
 
+def test_colours_of_an_animation(command, tmp_path: Path) -> None:
+    """All pictures share a scale: the middle of the stresses of the second is green in the first."""
+    from PIL import Image
+
+    path = models.write(
+        tmp_path / "m.h5",
+        {i + 1: tuple(x) for i, x in enumerate(2 * meshes.SQUARE)} | {5: (8, 0, 0), 6: (8, 2, 0)},
+        [],
+        np.array([0.0, 1.0]),
+        np.stack([np.zeros((6, 3)), np.tile([0, 0.3, 0], (6, 1))]),
+        cells=[(5, [0, 1, 2, 3], 1), (5, [1, 4, 5, 2], 2)],
+    )
+    with h5py.File(path, "a") as f:
+        group = f.create_group("fields/S")
+        group.attrs.update(center="Cell", unit="Pa")
+        group["000000"] = np.array([[0.0], [0.0]])
+        group["000001"] = np.array([[-100.0], [100.0]])
+    words = ("--field", "S", "--deformed", "10", "--title", "", "--size", "400x300")
+    assert command("animate", path, *words, "-o", tmp_path / "m_%d.png")[0] == 0
+    images = [np.asarray(Image.open(tmp_path / f"m_{k}.png").convert("RGB")).astype(int) for k in (0, 1)]
+
+    def rows_of(image: np.ndarray, color: tuple[int, int, int]) -> np.ndarray:
+        return np.flatnonzero((np.abs(image[:, 90:] - color).max(axis=2) < 12).sum(axis=1) > 20)
+
+    middle, least, most = (33, 145, 140), (68, 1, 84), (253, 231, 37)  # of viridis
+    assert len(rows_of(images[0], middle)) > 20 and len(rows_of(images[0], most)) == 0
+    assert len(rows_of(images[1], middle)) == 0
+    before = rows_of(images[0], middle)
+    for color in (least, most):  # 3 upwards, of a height of 2
+        assert len(rows_of(images[1], color)) > 20
+        assert rows_of(images[1], color).max() < before.min()
+    assert "has no field NONE over its cells" in command("animate", path, "--field", "NONE")[2]
+
+
 def test_deformed(command, tmp_path: Path) -> None:
     from engrane_post.picture import enlarged
     from engrane_post.scene import Scene
