@@ -341,7 +341,8 @@ struct BeamPiece {
   }
 };
 
-/// With room for the multipliers of pieces that hold strains: of the others only the small ones are swept, once a run.
+/// With room for the multipliers of pieces that hold strains. The others have no use for it, but would need sweeps of their own:
+/// twice as much to compile, for small pieces only.
 template <int Nodes>
 using BeamSweep = TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes + 3 * (Nodes - 1)>;
 
