@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reactions are of second order from the first step on, and from the first after an event: of a drive, of a
-pendulum that swings at the start, of a spinning top (theory.md, "Generalised-α")."""
+pendulum that swings at the start, of a spinning top (theory.md, Time, First velocities)."""
 
 from __future__ import annotations
 

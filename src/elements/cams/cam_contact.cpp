@@ -19,12 +19,15 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
   layout.needs = {NodeNeed::both, parts_.flat || !parts_.point.isZero(0) ? NodeNeed::both : NodeNeed::translation};
   layout.history = 2;
   if (parts_.law) {
-    layout.switches.push_back({"follower touches", "follower parts"});
-    if (parts_.law->damped()) layout.switches.push_back({"follower presses again", "follower presses no more"});
+    for (std::size_t k = 0; k < places(); ++k) {
+      const std::string where = k == 0 ? "" : k == 1 ? " at a second place" : " at a third place";
+      layout.switches.push_back({"follower touches" + where, "follower parts" + where});
+      if (parts_.law->damped()) layout.switches.push_back({"follower presses again" + where, "follower presses no more" + where});
+    }
   } else {
     layout.multipliers.push_back({"NORMAL_FORCE", dimension::length, "normal force of the cam on the follower"});
   }
-  layout.slides = parts_.friction ? 1 : 0;
+  layout.slides = parts_.friction ? static_cast<int>(places()) : 0;
   set_layout(std::move(layout));
   const bool roller = !parts_.flat && parts_.radius > 0;
   channels_ = {
@@ -48,44 +51,64 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
   if (parts_.friction) channels_.push_back({"FRICTION_FORCE", dimension::force, "size of the friction"});
   if (parts_.law) channels_.push_back({"SPRING_ENERGY", dimension::energy, "energy stored in the contact"});
   if (parts_.law || parts_.friction) channels_.push_back({"POWER_LOST", dimension::power, "by damping and friction"});
+  if (parts_.several) {
+    channels_[0].help = "of the cam on the follower, where it touches deepest; positive pushes it away";
+    channels_.push_back({"NORMAL_FORCE_2", dimension::force, "the same where it touches second deepest"});
+    channels_.push_back({"NORMAL_FORCE_3", dimension::force, "the same at a third place"});
+  }
 }
 
 void Cam::count_turns(const State& state, std::span<double>, std::span<double> history) const {
-  history[0] = contact<double>(motion<double>(state).node, state.history).foot.s;
+  const Place<double> here = place<double>(motion<double>(state).node);
+  history[0] = feet(here, state.history).begin()->s;
   history[1] = 1;
 }
 
 void Cam::switches(const State& state, std::span<Switch> values) const {
   if (!parts_.law) return;
-  const Nodes<double> node = motion<double>(state).node;
-  const Contact<double> c = contact<double>(node, state.history);
-  const Taylor gap = contact<Taylor>(along_motion(state), state.history, &c.foot).gap;
-  const double pressed = -c.gap, rate = -gap.d1, growth = -gap.d2;
-  values[0] = {pressed, rate, c.foot.p.norm() + parts_.radius + parts_.profile->inset()};
-  if (!parts_.law->damped()) return;
-  values[1] = pressed > 0 ? Switch{parts_.law->pressure(pressed, rate), parts_.law->pressure_rate(pressed, rate, growth),
-                                   parts_.law->pressure_size(pressed, rate)}
-                          : Switch{};
+  const CamFeet touched = feet(place<double>(motion<double>(state).node), state.history);
+  const Place<Taylor> moving = place<Taylor>(along_motion(state));
+  const std::size_t each = parts_.law->damped() ? 2 : 1;
+  for (std::size_t k = 0; k < places(); ++k) {
+    Switch& touches = values[k * each];
+    Switch* presses = each == 2 ? &values[k * each + 1] : nullptr;
+    if (presses) *presses = {};
+    if (k >= touched.count) {
+      // open, by how much is not known
+      const double size = touched.begin()->p.norm() + parts_.radius;
+      touches = {-size, 0, size};
+      continue;
+    }
+    const CamFoot& foot = touched.begin()[k];
+    const Taylor gap = contact(moving, foot).gap;
+    const double pressed = -gap.value, rate = -gap.d1, growth = -gap.d2;
+    touches = {pressed, rate, foot.p.norm() + parts_.radius + parts_.profile->inset()};
+    if (presses && pressed > 0)
+      *presses = {parts_.law->pressure(pressed, rate), parts_.law->pressure_rate(pressed, rate, growth),
+                  parts_.law->pressure_size(pressed, rate)};
+  }
 }
 
 void Cam::sliding(const State& state, std::span<Vec3> speeds) const {
   if (speeds.empty()) return;
   const Nodes<double> node = motion<double>(state).node;
-  speeds[0] = sliding(contact<double>(node, state.history), node) / parts_.friction->width;
+  const Place<double> here = place<double>(node);
+  std::size_t k = 0;
+  for (const CamFoot& foot : feet(here, state.history)) speeds[k++] = sliding(contact(here, foot), node) / parts_.friction->width;
 }
 
 Energies Cam::energies(const State& state) const {
   const Nodes<double> node = motion<double>(state).node;
-  const Contact<double> c = contact<double>(node, state.history);
-  const double rate = gap_rate(c, node), force = load(c, state, rate);
+  const Place<double> here = place<double>(node);
   Energies e;
-  if (parts_.law && c.gap < 0) {
-    e.potential = parts_.law->stored(-c.gap);
-    e.dissipated = (parts_.law->force(-c.gap, -rate, 0) - parts_.law->elastic(-c.gap)) * -rate;
-  }
-  if (parts_.friction) {
-    const double square = sliding(c, node).squaredNorm();
-    e.dissipated += parts_.friction->over_speed(square, std::abs(force)) * std::abs(force) * square;
+  for (const CamFoot& foot : feet(here, state.history)) {
+    const Contact<double> c = contact(here, foot);
+    const double rate = gap_rate(c, node), force = load(c, state, rate);
+    if (parts_.law && c.gap < 0) {
+      e.potential += parts_.law->stored(-c.gap);
+      e.dissipated += (parts_.law->force(-c.gap, -rate, 0) - parts_.law->elastic(-c.gap)) * -rate;
+    }
+    if (parts_.friction) e.dissipated += friction(c, node, force) * sliding(c, node).norm();
   }
   return e;
 }
@@ -94,8 +117,18 @@ double Cam::pressure_angle(const Vec3& normal, const Vec3& way) { return std::at
 
 void Cam::observe(const State& state, std::span<double> values) const {
   const Nodes<double> node = motion<double>(state).node;
-  const Contact<double> c = contact<double>(node, state.history);
-  const double rate = gap_rate(c, node), force = load(c, state, rate);
+  const Place<double> here = place<double>(node);
+  const CamFeet touched = feet(here, state.history);
+  std::array<double, CamFeet::most> forces{};
+  double drag = 0;
+  std::size_t at = 0;
+  for (const CamFoot& foot : touched) {
+    const Contact<double> c = contact(here, foot);
+    forces[at] = load(c, state, gap_rate(c, node));
+    if (parts_.friction) drag += friction(c, node, forces[at]);
+    ++at;
+  }
+  const Contact<double> c = contact(here, *touched.begin());
   std::array<double, 13> r{};
   residual(state, std::span(r).first(sweep().slots()));
   const auto on_b = [&](int slot) {
@@ -106,7 +139,7 @@ void Cam::observe(const State& state, std::span<double> values) const {
 
   std::size_t i = 0;
   const auto put = [&](double value) { values[i++] = value; };
-  put(force);
+  put(forces[0]);
   for (Eigen::Index k = 0; k < 3; ++k) put(force_b[k]);
   put(c.gap);
   const CamProfile& profile = *parts_.profile;
@@ -132,13 +165,11 @@ void Cam::observe(const State& state, std::span<double> values) const {
   } else {
     put(slip.norm());
   }
-  if (parts_.friction) {
-    const double square = slip.squaredNorm();
-    put(parts_.friction->over_speed(square, std::abs(force)) * std::abs(force) * std::sqrt(square));
-  }
+  if (parts_.friction) put(drag);
   const Energies e = energies(state);
   if (parts_.law) put(e.potential);
   if (parts_.law || parts_.friction) put(e.dissipated);
+  for (std::size_t k = 1; k < places(); ++k) put(forces[k]);
 }
 
 Drawing Cam::drawing() const {

@@ -33,6 +33,7 @@ struct CamParts {
   double radius = 0;    ///< of a roller; 0 a knife edge
   std::shared_ptr<const CamProfile> profile;
   std::optional<StopLaw> law;  ///< none: the follower is held to the profile
+  bool several = false;        ///< it may touch at several places
   std::optional<FrictionLaw> friction;
   CamGuide guide;
   std::vector<Derived> derived;
@@ -46,8 +47,20 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
   template <class T>
   using Nodes = std::array<typename Motion<T, 2>::Node, 2>;
 
-  /// The contact in a configuration. Its gap is right to the second derivative, all else to the first. `known`: the foot, where
-  /// it has been found for the same configuration.
+  /// The follower as the cam sees it.
+  template <class T>
+  struct Place {
+    Vec3T<T> u, v, axis, center;  ///< axes of the cam, and from A to its centre
+    Vec3T<T> reach, arm;          ///< to the follower's point, from A and from B
+    T along, x, y;                ///< of that point, from the centre: along the axis and in the plane
+    Vec3T<T> face;                ///< normal of a flat face
+    T fx, fy, square;             ///< its components in the plane, and their square
+    T mx, my;                     ///< its unit vector there
+  };
+  template <class T>
+  Place<T> place(const Nodes<T>& node) const;
+
+  /// A contact in a configuration. Its gap is right to the second derivative, all else to the first.
   template <class T>
   struct Contact {
     T gap;
@@ -58,34 +71,18 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
     Vec3T<T> touch;       ///< from A to the contact point; of a knife edge its place
     CamFoot foot;
   };
+  /// That at a foot, which belongs to the values of the place.
   template <class T>
-  Contact<T> contact(const Nodes<T>& node, std::span<const double> history, const CamFoot* known = nullptr) const;
+  Contact<T> contact(const Place<T>& place, const CamFoot& foot) const;
+
+  /// Where the follower touches the profile, or would touch it first; the deepest place first.
+  template <class T>
+  CamFeet feet(const Place<T>& place, std::span<const double> history) const;
 
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
-    const Contact<T> c = contact<T>(motion.node, state.history);
-    const T load = parts_.law ? parts_.law->force(T(-c.gap), T(-gap_rate(c, motion.node)), balance.contact_homotopy())
-                              : balance.constraint(0, c.gap);
-    const Vec3T<T> force = c.normal * load;
-    balance.force(0, force);
-    balance.force(1, Vec3T<T>(-force));
-    Vec3T<T> moment_a = cross(c.reach, force), moment_b = -cross(c.arm, force);
-    if (parts_.flat) {
-      const Vec3T<T> couple = c.turn * T(c.lever * load);
-      moment_a += couple;
-      moment_b -= couple;
-    }
-    if (parts_.friction) {
-      using std::abs;
-      const Vec3T<T> slip = sliding(c, motion.node);
-      const Vec3T<T> drag = slip * T(parts_.friction->over_speed(T(dot(slip, slip)), T(abs(load))) * abs(load));
-      balance.force(0, Vec3T<T>(-drag));
-      balance.force(1, drag);
-      moment_a -= cross(c.touch, drag);
-      moment_b += cross(touch_from_b(c), drag);
-    }
-    balance.moment(0, rotate_back(motion.node[0].R, moment_a));
-    balance.moment(1, rotate_back(motion.node[1].R, moment_b));
+    const Place<T> here = place<T>(motion.node);
+    for (const CamFoot& foot : feet(here, state.history)) press(contact(here, foot), motion.node, balance);
   }
 
   void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
@@ -101,6 +98,36 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
   static double pressure_angle(const Vec3& normal, const Vec3& way);
 
  private:
+  /// Adds the forces of a contact.
+  template <class T>
+  void press(const Contact<T>& c, const Nodes<T>& node, Balance<T, 2>& balance) const {
+    const T load = parts_.law ? parts_.law->force(T(-c.gap), T(-gap_rate(c, node)), balance.contact_homotopy())
+                              : balance.constraint(0, c.gap);
+    const Vec3T<T> force = c.normal * load;
+    balance.force(0, force);
+    balance.force(1, Vec3T<T>(-force));
+    Vec3T<T> moment_a = cross(c.reach, force), moment_b = -cross(c.arm, force);
+    if (parts_.flat) {
+      const Vec3T<T> couple = c.turn * T(c.lever * load);
+      moment_a += couple;
+      moment_b -= couple;
+    }
+    if (parts_.friction) {
+      using std::abs;
+      const Vec3T<T> slip = sliding(c, node);
+      const Vec3T<T> drag = slip * T(parts_.friction->over_speed(T(dot(slip, slip)), T(abs(load))) * abs(load));
+      balance.force(0, Vec3T<T>(-drag));
+      balance.force(1, drag);
+      moment_a -= cross(c.touch, drag);
+      moment_b += cross(touch_from_b(c), drag);
+    }
+    balance.moment(0, rotate_back(node[0].R, moment_a));
+    balance.moment(1, rotate_back(node[1].R, moment_b));
+  }
+
+  /// How many places at most it touches at.
+  std::size_t places() const { return parts_.several ? CamFeet::most : 1; }
+
   template <class T>
   Vec3T<T> touch_from_b(const Contact<T>& c) const {
     return c.touch - c.reach + c.arm;
@@ -128,6 +155,12 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
     return v - c.normal * dot(c.normal, v);
   }
 
+  /// Size of the friction at a contact.
+  double friction(const Contact<double>& c, const Nodes<double>& node, double force) const {
+    const double square = sliding(c, node).squaredNorm();
+    return parts_.friction->over_speed(square, std::abs(force)) * std::abs(force) * std::sqrt(square);
+  }
+
   double load(const Contact<double>& c, const State& state, double rate) const {
     return parts_.law ? parts_.law->force(-c.gap, -rate, 0) : state.multipliers[0] - state.penalty * c.gap;
   }
@@ -137,50 +170,78 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
 };
 
 template <class T>
-Cam::Contact<T> Cam::contact(const Nodes<T>& node, std::span<const double> history, const CamFoot* known) const {
+Cam::Place<T> Cam::place(const Nodes<T>& node) const {
   const auto& [a, b] = node;
+  Place<T> p;
+  p.u = rotate(a.R, Vec3(parts_.axes.col(0)));
+  p.v = rotate(a.R, Vec3(parts_.axes.col(1)));
+  p.axis = rotate(a.R, Vec3(parts_.axes.col(2)));
+  p.center = rotate(a.R, parts_.center);
+  p.arm = rotate(b.R, parts_.point);
+  p.reach = b.x + p.arm - a.x;
+  const Vec3T<T> from_center = p.reach - p.center;
+  p.along = dot(from_center, p.axis);
+  p.x = dot(from_center, p.u);
+  p.y = dot(from_center, p.v);
+  if (!parts_.flat) return p;
+  p.face = rotate(b.R, parts_.face);
+  p.fx = dot(p.face, p.u);
+  p.fy = dot(p.face, p.v);
+  p.square = p.fx * p.fx + p.fy * p.fy;
+  using std::sqrt;
+  const T scale = T(1) / sqrt(p.square);
+  p.mx = p.fx * scale;
+  p.my = p.fy * scale;
+  return p;
+}
+
+template <class T>
+CamFeet Cam::feet(const Place<T>& place, std::span<const double> history) const {
   const CamProfile& profile = *parts_.profile;
-  const Vec3T<T> u = rotate(a.R, Vec3(parts_.axes.col(0))), v = rotate(a.R, Vec3(parts_.axes.col(1))),
-                 axis = rotate(a.R, Vec3(parts_.axes.col(2))), center = rotate(a.R, parts_.center);
-  Contact<T> c;
-  c.arm = rotate(b.R, parts_.point);
-  c.reach = b.x + c.arm - a.x;
-  const Vec3T<T> place = c.reach - center;
-  const T x = dot(place, u), y = dot(place, v);
-  // on smooth curves distance and support are functions of two and of one variable with known second derivatives: their
-  // polynomials give what dual and Taylor numbers need, with no derivative of the search
+  const Vec2 q{value_of(place.x), value_of(place.y)};
   if (parts_.flat) {
-    const Vec3T<T> face = rotate(b.R, parts_.face);
-    const T fx = dot(face, u), fy = dot(face, v), square = fx * fx + fy * fy;
-    using std::sqrt;
-    const T scale = T(1) / sqrt(square), mx = fx * scale, my = fy * scale;
-    const CamFoot foot = known ? *known : profile.farthest({value_of(mx), value_of(my)});
+    const Vec2 m{value_of(place.mx), value_of(place.my)};
+    return parts_.several ? profile.under_face(m, q.dot(m)) : CamFeet{{profile.farthest(m)}, 1};
+  }
+  if (parts_.several) return profile.under_roller(q, parts_.radius);
+  std::optional<double> last;
+  if (!parts_.law && history[1] != 0) last = history[0];
+  return {{profile.nearest(q, last)}, 1};
+}
+
+// On smooth curves distance and support are functions of two and of one variable with known second derivatives: their
+// polynomials give what dual and Taylor numbers need, with no derivative of the search.
+template <class T>
+Cam::Contact<T> Cam::contact(const Place<T>& place, const CamFoot& foot) const {
+  const CamProfile& profile = *parts_.profile;
+  Contact<T> c;
+  c.reach = place.reach;
+  c.arm = place.arm;
+  c.foot = foot;
+  const T &x = place.x, &y = place.y;
+  if (parts_.flat) {
+    const T &mx = place.mx, &my = place.my;
     const Vec2 n{value_of(mx), value_of(my)}, t = turned_left(n);
     const T angle = t[0] * mx + t[1] * my;  // from the value, to second order
     const double reach = foot.p.dot(n), aside = foot.p.dot(t), radius = 1 / foot.curvature;
     c.gap = x * mx + y * my - (reach + aside * angle + (0.5 * (radius - reach)) * angle * angle) + profile.inset();
     c.lever = y * mx - x * my - (aside + (radius - reach) * angle);
-    c.normal = u * mx + v * my;
-    c.turn = (cross(face, v) * fx - cross(face, u) * fy) * T(T(1) / square);
+    c.normal = place.u * mx + place.v * my;
+    c.turn = (cross(place.face, place.v) * place.fx - cross(place.face, place.u) * place.fy) * T(T(1) / place.square);
     const T px = foot.p[0] + (radius * t[0]) * angle - profile.inset() * mx,
             py = foot.p[1] + (radius * t[1]) * angle - profile.inset() * my;
-    c.touch = center + axis * dot(place, axis) + u * px + v * py;
-    c.foot = foot;
+    c.touch = place.center + place.axis * place.along + place.u * px + place.v * py;
     return c;
   }
-  std::optional<double> last;
-  if (!parts_.law && history[1] != 0) last = history[0];
   const Vec2 q{value_of(x), value_of(y)};
-  const CamFoot foot = known ? *known : profile.nearest(q, last);
   const double distance = (q - foot.p).dot(foot.n), bend = foot.curvature / (1 + foot.curvature * distance);
   const T dx = x - q[0], dy = y - q[1];
   const T along = foot.t[0] * dx + foot.t[1] * dy;
   c.gap = distance + foot.n[0] * dx + foot.n[1] * dy + (0.5 * bend) * along * along - (parts_.radius - profile.inset());
   const T nx = foot.n[0] + (bend * foot.t[0]) * along, ny = foot.n[1] + (bend * foot.t[1]) * along;
-  c.normal = u * nx + v * ny;
+  c.normal = place.u * nx + place.v * ny;
   c.touch = c.reach - c.normal * parts_.radius;
   c.lever = T(0);
-  c.foot = foot;
   return c;
 }
 

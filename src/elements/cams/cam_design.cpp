@@ -83,13 +83,9 @@ bool check_face(const BuildContext& context, const CamPlan& plan, const char* ke
                   fmt::format("a flat face needs BASE above {:.6g}", plan.base - radius));
     return false;
   }
-  if (hollow.curvature > 0) return true;
+  if (hollow.curvature > 0 || parts.law) return true;
   const std::string what = fmt::format("the profile is hollow or straight at ({}, {}), where a flat face does not reach",
                                        number(hollow.p[0]), number(hollow.p[1]));
-  if (parts.law) {
-    context.diagnostics.warning(context.record.where(keyword), what, "the face will rest on either side of it in turn");
-    return true;
-  }
   context.error(keyword, what,
                 "a face that is held to the profile needs one that is convex everywhere; or give K: it then rests on it");
   return false;
@@ -105,15 +101,10 @@ bool check_roller(const BuildContext& context, const char* keyword, const CamFoo
                                             "one of {:.6g} at cam angle {:.4g}",
                                             number(parts.radius), 1 / sharp.curvature, std::fmod(sharp.s / degree + 720, 360)),
                                 "a larger BASE, a wider segment or a smaller roller; the path is followed all the same");
-  if (!(hollow.curvature < 0) || !(-1 / hollow.curvature <= out)) return true;
+  if (parts.law || !(hollow.curvature < 0) || !(-1 / hollow.curvature <= out)) return true;
   const std::string what = fmt::format("a roller of radius {} does not fit into the hollow of radius {:.6g} at ({}, {})",
                                        number(parts.radius), -1 / hollow.curvature, number(hollow.p[0]), number(hollow.p[1]));
-  if (parts.law) {
-    context.diagnostics.warning(context.record.where(keyword), what,
-                                "it will touch on one side of it or on the other, where it should touch on both");
-    return true;
-  }
-  context.error(keyword, what, "a smaller roller, or a profile with wider hollows");
+  context.error(keyword, what, "a smaller roller, or a profile with wider hollows; or give K: it then touches both sides");
   return false;
 }
 
@@ -139,6 +130,8 @@ bool check_design(const BuildContext& context, const CamPlan& plan, CamParts& pa
     return false;
   }
   if (!parts.flat && !check_roller(context, keyword, sharp, hollow, parts)) return false;
+
+  parts.several = parts.law && hollow.curvature < 0 && !profile.curve().motion() && (parts.flat || parts.radius > 0);
 
   const auto radius = [&](const CamFoot& f) { return (f.p - profile.inset() * f.n).norm(); };
   tell("base circle", radius(profile.least(radius)));

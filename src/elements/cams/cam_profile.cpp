@@ -12,8 +12,24 @@ namespace {
 
 constexpr double whole_turn = 2 * std::numbers::pi;
 
+/// Two contacts of a roller that are nearer to each other than this part of its radius are one.
+constexpr double one_contact = 0.1;
+/// What a roller misses by less than this part of its radius, and a face by less than this part of the curve's greatest radius,
+/// is seen: statics that looks for contacts (State::contact_homotopy) and the location of events are told how far it is.
+constexpr double seen_by_roller = 0.1, seen_by_face = 0.02;
+
 /// From −π to π.
 double difference(double a, double b) { return std::remainder(a - b, whole_turn); }
+
+/// Adds a foot behind the first, which stays, in the order of `depth`. Where there is no room the least deep is left out.
+template <class Depth>
+void insert(CamFeet& all, const CamFoot& foot, Depth depth) {
+  const bool full = all.count == CamFeet::most;
+  if (full && depth(all.feet.back()) >= depth(foot)) return;
+  std::size_t at = full ? all.count - 1 : all.count++;
+  for (; at > 1 && depth(all.feet[at - 1]) < depth(foot); --at) all.feet[at] = all.feet[at - 1];
+  all.feet[at] = foot;
+}
 
 }  // namespace
 
@@ -27,6 +43,7 @@ CamProfile::CamProfile(std::unique_ptr<CamCurve> curve, double inset, bool insid
   sense_ = (area > 0) == inside ? -1 : 1;
 
   constexpr std::size_t in_group = 16;
+  for (const Vec2& p : samples_) greatest_ = std::max(greatest_, p.norm());
   for (std::size_t k = 0; k < n; ++k) longest_ = std::max(longest_, (samples_[(k + 1) % n] - samples_[k]).norm());
   for (std::size_t begin = 0; begin < n; begin += in_group) {
     Group group{begin, std::min(begin + in_group, n), Vec2::Zero(), 0};
@@ -47,6 +64,17 @@ CamFoot CamProfile::at(double s) const {
   foot.n = -turned_left(foot.t);
   foot.curvature = sense_ * plane_cross(c.d1, c.d2) / (speed * speed * speed);
   return foot;
+}
+
+std::pair<double, double> CamProfile::slope_of_distance(double s, const Vec2& q) const {
+  const CamCurve::Point c = curve_->at(s);
+  const Vec2 away = c.p - q;
+  return {away.dot(c.d1), c.d1.squaredNorm() + away.dot(c.d2)};
+}
+
+std::pair<double, double> CamProfile::slope_of_height(double s, const Vec2& m) const {
+  const CamCurve::Point c = curve_->at(s);
+  return {-c.d1.dot(m), -c.d2.dot(m)};
 }
 
 template <class F>
@@ -92,11 +120,7 @@ CamFoot CamProfile::nearest(const Vec2& q, std::optional<double> last) const {
   }
 
   // between samples the curve may come nearer by less than their spacing: every valley as deep as that is a candidate
-  const auto slope = [&](double s) {
-    const CamCurve::Point c = curve_->at(s);
-    const Vec2 away = c.p - q;
-    return std::pair(away.dot(c.d1), c.d1.squaredNorm() + away.dot(c.d2));
-  };
+  const auto slope = [&](double s) { return slope_of_distance(s, q); };
   CamFoot foot;
   double least = std::numeric_limits<double>::infinity();
   const double nearest = std::sqrt(best);
@@ -134,10 +158,51 @@ CamFoot CamProfile::farthest(const Vec2& m) const {
         best = k;
       }
   }
-  return at(settle(best, [&](double s) {
-    const CamCurve::Point c = curve_->at(s);
-    return std::pair(-c.d1.dot(m), -c.d2.dot(m));
-  }));
+  return at(settle(best, [&](double s) { return slope_of_height(s, m); }));
+}
+
+CamFeet CamProfile::under_roller(const Vec2& q, double radius) const {
+  CamFeet all;
+  all.feet[all.count++] = nearest(q);
+  const double reach = (1 + seen_by_roller) * radius;
+  const auto depth = [&](const CamFoot& foot) { return reach - (q - foot.p).norm(); };
+  const std::size_t n = samples_.size();
+  const auto square = [&](std::size_t k) { return (samples_[k] - q).squaredNorm(); };
+  for (const Group& group : groups_) {
+    if ((group.center - q).norm() - group.radius > reach + longest_) continue;
+    for (std::size_t k = group.begin; k < group.end; ++k) {
+      const double here = square(k);
+      if (here > square((k + n - 1) % n) || here >= square((k + 1) % n)) continue;
+      if (std::sqrt(here) > reach + longest_) continue;
+      const CamFoot foot = at(settle(k, [&](double s) { return slope_of_distance(s, q); }));
+      const double distance = (q - foot.p).dot(foot.n);  // negative: of the far side of a wall
+      if (!(distance > 0 && distance < reach && 1 + foot.curvature * distance > 0)) continue;
+      const auto same = [&](const CamFoot& other) { return (other.p - foot.p).norm() < one_contact * radius; };
+      if (std::none_of(all.begin(), all.end(), same)) insert(all, foot, depth);
+    }
+  }
+  return all;
+}
+
+CamFeet CamProfile::under_face(const Vec2& m, double distance) const {
+  CamFeet all;
+  all.feet[all.count++] = farthest(m);
+  const double least = distance - seen_by_face * greatest_;
+  const auto height = [&](const CamFoot& foot) { return foot.p.dot(m); };
+  const std::size_t n = samples_.size();
+  const auto sample = [&](std::size_t k) { return samples_[k].dot(m); };
+  for (const Group& group : groups_) {
+    if (group.center.dot(m) + group.radius + longest_ < least) continue;
+    for (std::size_t k = group.begin; k < group.end; ++k) {
+      const double here = sample(k);
+      if (here < sample((k + n - 1) % n) || here <= sample((k + 1) % n) || here + longest_ < least) continue;
+      const CamFoot foot = at(settle(k, [&](double s) { return slope_of_height(s, m); }));
+      if (!(height(foot) > least && foot.n.dot(m) > 0 && foot.curvature > 0)) continue;
+      const auto same = [&](const CamFoot& other) { return std::abs(difference(other.s, foot.s)) < step_; };
+      if (std::none_of(all.begin(), all.end(), same)) insert(all, foot, height);
+    }
+  }
+  return all;
 }
 
 std::optional<Vec2> CamProfile::crossing() const {

@@ -2,8 +2,10 @@
 // Where a follower touches the profile of a cam.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "elements/cams/cam_curve.hpp"
 
@@ -15,6 +17,16 @@ struct CamFoot {
   Vec2 p = Vec2::Zero(), n = Vec2::Zero();
   Vec2 t = Vec2::Zero();  ///< n turned by 90 degrees, anticlockwise
   double curvature = 0;   ///< positive where the curve is convex towards the follower
+};
+
+/// Where a follower touches the curve, or all but touches it; the deepest place first.
+struct CamFeet {
+  static constexpr std::size_t most = 3;
+  std::array<CamFoot, most> feet;
+  std::size_t count = 0;
+
+  const CamFoot* begin() const { return feet.data(); }
+  const CamFoot* end() const { return feet.data() + count; }
 };
 
 /// The profile: a curve, or one parallel to it by `inset`, away from the follower. A profile made for a roller is parallel to the
@@ -30,6 +42,14 @@ class CamProfile {
 
   /// The point of the curve farthest in the direction of the unit vector m: where a flat face rests on it.
   CamFoot farthest(const Vec2& m) const;
+
+  /// nearest(q), and every other place where a roller about q, of this radius, reaches into the curve. A roller that is wider
+  /// than a hollow touches both sides of it.
+  CamFeet under_roller(const Vec2& q, double radius) const;
+
+  /// farthest(m), and every other hill of the curve that touches a flat face at this distance from the origin, or all but touches
+  /// it.
+  CamFeet under_face(const Vec2& m, double distance) const;
 
   CamFoot at(double s) const;
   const CamCurve& curve() const { return *curve_; }
@@ -66,6 +86,10 @@ class CamProfile {
   /// Zero of the slope of a function along the curve that is least near sample k. `slope` gives the first and second derivative.
   template <class F>
   double settle(std::size_t k, F slope) const;
+  /// Half of the derivative of the squared distance from q, and its derivative.
+  std::pair<double, double> slope_of_distance(double s, const Vec2& q) const;
+  /// Derivatives of −p·m.
+  std::pair<double, double> slope_of_height(double s, const Vec2& m) const;
 
   std::unique_ptr<CamCurve> curve_;
   double inset_;
@@ -80,7 +104,8 @@ class CamProfile {
     double radius;
   };
   std::vector<Group> groups_;
-  double longest_ = 0;  ///< distance of neighbouring samples
+  double longest_ = 0;   ///< distance of neighbouring samples
+  double greatest_ = 0;  ///< distance of a sample from the origin
 };
 
 }  // namespace engrane::elements::cams
