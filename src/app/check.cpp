@@ -42,7 +42,7 @@ int print_model(const Reading& reading, std::ostream& out) {
     context.start.assemble(c, report);
     const bool moves = !model.commands.analysis.type.is("STATIC");
     if (moves) apply_initial_velocities(context, c);
-    // drives may agree on the place and not on the speed; supports move nodes only where there is motion
+    // drives may agree on positions but not on velocities; supports move nodes only if there is motion
     context.start.fit_velocities(c, Assembler::Metric::geometric, report, moves);
     if (!moves) report.velocities_fitted = false;
     if (context.options.analysis == SolverOptions::Analysis::kinematics)

@@ -7,9 +7,9 @@
 
 namespace engrane::app {
 
-/// `engrane check`: what would be built (nodes, unknowns by kind, equations by element, derived geometry), the
-/// degrees of freedom, and which constraints repeat one another. Returns the exit status: a mechanism that does not close is
-/// a solution that fails.
+/// `engrane check`: prints what would be built (nodes, unknowns by kind, equations by element, derived geometry), the degrees
+/// of freedom, the redundant constraints and the expected cost. Returns the exit status. A mechanism that cannot be assembled
+/// counts as a failed solution.
 int print_model(const Reading& reading, std::ostream& out);
 
 }  // namespace engrane::app

@@ -8,8 +8,8 @@ namespace engrane::app {
 
 namespace {
 
-/// Parts of a step: with its ends the points of Lobatto's rule. Second derivatives of the motion are off by h⁴ times the sixth
-/// between them, but not there.
+/// Inner points of Lobatto quadrature, as fractions of the step. The error of the second derivatives of the motion is h⁴ times
+/// its sixth derivative in general, but not at these points.
 constexpr std::array points{0.2763932022500210, 0.7236067977499790};
 
 }  // namespace
@@ -42,7 +42,7 @@ Schedule::Due Instants::show(const std::function<void(double, const Schedule::Du
   for (const double time : times_) {
     if (within_) {
       within_->at(time, c_);
-    } else {  // a drift is so short that nothing changes in it
+    } else {  // a drift is so short that nothing changes during it
       c_ = end_;
       c_.time = time;
     }

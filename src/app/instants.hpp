@@ -10,21 +10,21 @@
 
 namespace engrane::app {
 
-/// The even instants within one controlled step: a few instants in balance before its end is observed, and what is due between
-/// its ends after that.
+/// The output instants within one controlled step: observes a few instants in equilibrium before the end of the step is
+/// observed, and afterwards produces what is due between its ends.
 class Instants {
  public:
-  /// A configuration as it is looked at: with its forces out of the plane where the model is a plane one.
+  /// Returns the configuration to be observed: in a plane model, with its out-of-plane forces added.
   using InSpace = std::function<const Configuration&(const Configuration&)>;
 
-  /// `from`: the end of the step before. The ends must live as long.
+  /// `from`: the end of the previous step. `end` and `step` must outlive this object.
   Instants(Schedule& schedule, observe::Observer& observer, InSpace in_space, double from, const Configuration& end,
            const solve::StepReport& step);
 
-  /// Observes two instants in balance, where something is due in the step.
+  /// Observes two instants in equilibrium, if the step contains output instants.
   void observe_inside();
-  /// Hands on the even instants at which something is due, and returns what is due at the end; a restart point that was due on
-  /// the way is due there. The observer has the histories of each, and its fields where a frame is due.
+  /// Calls `take` for every output instant within the step: the observer then has its histories, and its fields if a frame is
+  /// due. Returns what is due at the end of the step; a restart point due within the step is moved to its end.
   Schedule::Due show(const std::function<void(double, const Schedule::Due&)>& take);
 
  private:

@@ -5,16 +5,16 @@
 
 namespace engrane::app {
 
-/// From now on SIGINT and SIGTERM are requests to stop after the step that is being made.
+/// Installs handlers for SIGINT and SIGTERM: from now on they request a stop after the current step.
 void heed_interruptions();
 
-/// Whether such a signal ends the process at once: before the first step, which may take long (the rank of the constraints is
-/// found in one piece), nothing is lost by that as long as the results are in no open file.
+/// Whether such a signal ends the process immediately. Before the first step nothing is lost by that, as long as the results
+/// are in no open file, and waiting could take long: the rank of the constraints is found without a chance to stop.
 void leave_at_once(bool nothing_to_lose);
 
-/// Has a signal asked the program to end?
+/// Whether a signal has requested a stop.
 bool was_interrupted();
-/// Has any rank been asked to? Collective, so that all stop at the same step.
+/// Whether any rank has been requested to stop. Collective, so that all ranks stop at the same step.
 bool were_interrupted(MPI_Comm comm, int ranks);
 
 }  // namespace engrane::app

@@ -10,7 +10,7 @@ namespace engrane::app {
 
 namespace {
 
-/// Whether something stands for the part in the mesh: all nodes but the ground are points of it.
+/// Whether the mesh has a cell for the part; its points are all nodes of the part except the ground.
 bool has_cell(const Model::Part& part) {
   return part.element->in_mesh() && std::any_of(part.nodes.begin(), part.nodes.end(), [](int node) { return node > 0; });
 }

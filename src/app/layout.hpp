@@ -7,10 +7,10 @@
 
 namespace engrane::app {
 
-/// What a result file says before the first step.
+/// Everything about a result file that is known before the first step.
 output::ResultsLayout results_layout(const Reading& reading, const observe::Observer& observer, std::size_t expected_samples);
 
-/// The observer's fields as the results take them; the spans live until it observes again.
+/// Returns copies of the observer's current fields in the layout of the results.
 output::FrameValues frame_values(const Model& model, const observe::Observer& observer);
 
 }  // namespace engrane::app

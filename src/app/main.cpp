@@ -24,7 +24,7 @@ namespace engrane::app {
 
 namespace {
 
-/// The tasks that need no mechanism.
+/// Tasks that need no model.
 int print_about_cards(const Options& options) {
   const deck::Catalogue all = catalogue(element_types());
   if (options.task == Options::Task::manual) {
@@ -67,7 +67,7 @@ int print_about_cards(const Options& options) {
   return exit_status::fine;
 }
 
-/// Makes the folder that the results are to stand in, as far as it is missing; whoever writes there says what is wrong.
+/// Creates the missing part of the folder for the results. Errors are reported by whoever writes there.
 void make_folder(const std::string& prefix) {
   std::error_code error;
   if (const auto folder = std::filesystem::path(prefix).parent_path(); !folder.empty())
@@ -84,7 +84,7 @@ int perform(const std::string& deck, const Options& options, bool talk, RunSumma
     if (d.location.known() && reading.sources.foreign(d.location.file)) d.message = without_quotes(d.message);
   for (int file = 0; file < reading.sources.size(); ++file) run.sources.push_back(reading.sources.path(file));
   if (!reading.good()) return exit_status::wrong_deck;
-  if (run.diagnostics.empty()) reading.sources = {};  // nobody will ask for a line of the deck
+  if (run.diagnostics.empty()) reading.sources = {};  // no more lines of the deck will be shown
   run.time = reading.model.commands.stepping.start;
   run.end = reading.model.commands.stepping.end;
   if (options.task == Options::Task::check) return talk ? print_model(reading, std::cout) : exit_status::fine;
@@ -123,8 +123,7 @@ int main(int argc, char** argv) {
   using namespace engrane::app;
   int status = exit_status::our_error;
   try {
-    // words about cards and the command line need neither MPI nor PETSc, which take a while to start; decks are checked with the
-    // solver's means
+    // help and the like need neither MPI nor PETSc, which take a while to start; checking a deck needs the solver
     {
       const char* of_several = std::getenv("OMPI_COMM_WORLD_RANK");
       const bool first = !of_several || std::string_view(of_several) == "0";
@@ -140,7 +139,7 @@ int main(int argc, char** argv) {
     try {
       if (const auto options = parse_command_line(argc, argv, rank == 0, status)) status = perform(*options, rank == 0);
     } catch (const std::exception& e) {
-      // one rank's fault must not leave the others waiting
+      // a fault of one rank must not leave the others waiting
       std::fprintf(stderr, "engrane: internal error: %s\n", e.what());
       int size = 1;
       MPI_Comm_size(PETSC_COMM_WORLD, &size);

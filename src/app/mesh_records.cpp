@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* ending = ".mesh.h5";
 
-/// A record as if its keywords stood where the file is named.
+/// Makes a record as if its keywords were at the location where the mesh file is named.
 template <class Data>
 deck::Record record_of(const deck::Schema& schema, int id, Data data, const Location& where,
                        std::initializer_list<const char*> keywords) {

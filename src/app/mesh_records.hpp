@@ -5,8 +5,8 @@
 
 namespace engrane::app {
 
-/// The records of `.NOE`, `.MAI` and `.SEL` that stand for a file of a mesh: what deck::Catalogue::read_mesh is to be. A file of
-/// another program is refused with the command that converts it.
+/// Implements deck::Catalogue::read_mesh: returns the records of `.NOE`, `.MAI` and `.SEL` that a mesh file stands for. For a
+/// file of another program, the error names the command that converts it.
 std::vector<deck::Record> mesh_records(const std::filesystem::path& file, const deck::Catalogue& catalogue, const Location& where,
                                        Diagnostics& diagnostics);
 

@@ -14,17 +14,17 @@ namespace engrane::app {
 
 namespace {
 
-/// Cards that may differ: what is done with a model.
+/// Cards that may differ: they say what is done with a model.
 bool free_to_change(const deck::Schema& card) {
   static constexpr std::array names{".SAM", ".SUB",     ".SAI",      ".CHK",     ".TITRE",    ".UNIT",
                                     ".FCT", ".CLM CHA", ".CLM STRU", ".CLM ROT", ".CLM TEMP", ".INI"};
   return std::any_of(names.begin(), names.end(), [&](std::string_view name) { return card.name.starts_with(name); });
 }
 
-/// Elements that are loads: their numbers may differ, not their being there.
+/// Elements that are loads: their values may differ, but not which of them exist.
 bool is_load(const deck::Schema& card) { return card.name == "FORCE" || card.name == "TORQUE"; }
 
-/// How large a pressure is may differ, not where it acts.
+/// The size of a pressure may differ, but not where it acts.
 bool is_size_of_pressure(const deck::Schema& card, const deck::Field& field) {
   return (card.name == ".CLM ARETE" || card.name == ".CLM PRE") &&
          (field.keyword == "PRE" || field.keyword == "V" || field.keyword == "NF");
@@ -34,7 +34,7 @@ std::string name_of(const deck::Record& record) {
   return record.id > 0 ? fmt::format("{} {}", record.schema->name, record.id) : record.schema->name;
 }
 
-/// The records that make the model, by card and number; several of one card without number in their order.
+/// The records that define the model, by card and number; records without a number keep their order.
 std::multimap<std::pair<std::string_view, int>, const deck::Record*> model_records(const deck::Deck& deck) {
   std::multimap<std::pair<std::string_view, int>, const deck::Record*> all;
   for (const deck::Record& record : deck.records)
@@ -42,7 +42,7 @@ std::multimap<std::pair<std::string_view, int>, const deck::Record*> model_recor
   return all;
 }
 
-/// "KM was 1e8 and is 2e8 now", of the first keyword that differs; empty when none does.
+/// Text such as "KM was 1e8 and is 2e8 now" for the first keyword that differs; empty if none does.
 std::string keyword_difference(const deck::Record& before, const deck::Record& now) {
   for (const deck::Field& field : now.schema->fields) {
     if (is_size_of_pressure(*now.schema, field)) continue;

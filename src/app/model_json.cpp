@@ -17,7 +17,8 @@ std::string model_json(const Model& model) {
   bool first = true;
   const Model::Part* before = nullptr;
   for (const Model::Part& part : model.parts) {
-    // what a card says of many parts, such as the weights of a link, is said with the first; of a cell it says the nodes again
+    // parameters of a card with many parts (such as the weights of a link) go with its first part; those of a cell are only its
+    // nodes
     const bool goes_on = before && before->record == part.record && before->element->id() == part.element->id();
     const bool says_more = !goes_on && part.element->cell_shape() == CellShape::none;
     before = &part;

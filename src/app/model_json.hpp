@@ -7,10 +7,11 @@
 
 namespace engrane::app {
 
-/// The model as the results file keeps it (docs/format.md, `/model`): elements with parameters and the shapes that draw them.
+/// The model as stored in the results file (docs/format.md, `/model`): elements with their parameters and the shapes that draw
+/// them.
 std::string model_json(const Model& model);
 
-/// Names and versions of the libraries below, in one line.
+/// Names and versions of the libraries used, in one line.
 std::string library_versions();
 
 }  // namespace engrane::app

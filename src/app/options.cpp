@@ -22,7 +22,7 @@ bool is_petsc_option(std::string_view word) {
   return std::any_of(petsc_prefixes.begin(), petsc_prefixes.end(), [&](std::string_view p) { return word.starts_with(p); });
 }
 
-/// The command line without PETSc's options and their values, last word first as CLI11 wants it.
+/// The command line without PETSc's options and their values, in reverse order as CLI11 requires.
 std::vector<std::string> own_words(int argc, char** argv) {
   std::vector<std::string> words;
   for (int i = 1; i < argc; ++i) {
@@ -31,7 +31,7 @@ std::vector<std::string> own_words(int argc, char** argv) {
       words.emplace_back(word);
       continue;
     }
-    // what follows is the option's value, unless it is another option or plainly a deck
+    // the next word is the option's value, unless it is another option or clearly a deck
     if (i + 1 == argc) continue;
     const std::string_view next = argv[i + 1];
     const bool number =
@@ -42,7 +42,7 @@ std::vector<std::string> own_words(int argc, char** argv) {
   return words;
 }
 
-/// NAME=VALUE, with or without the slash of ABRE.
+/// Adds NAME=VALUE, with or without the slash of ABRE.
 void add_definition(Options& options, const std::string& text) {
   const std::size_t sign = text.find('=');
   const bool slash = text.starts_with('/');
@@ -52,7 +52,7 @@ void add_definition(Options& options, const std::string& text) {
   options.wishes.overrides.definitions[(slash ? "" : "/") + text.substr(0, sign)] = text.substr(sign + 1);
 }
 
-/// Several decks must not write the same files.
+/// Reports decks that would write the same files.
 void check_prefixes(const Options& options) {
   if (options.decks.size() < 2) return;
   if (!options.restart.empty()) throw CLI::ValidationError("--restart", "continues one run, not several decks");
@@ -142,7 +142,7 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
   auto* man = app.add_subcommand("man", "print the manual page: engrane man > engrane.1");
   app.require_subcommand(0, 1);
 
-  const std::string usage = app.help();  // afterwards it is that of the subcommand
+  const std::string usage = app.help();  // later it would be the help of the subcommand
   try {
     app.parse(own_words(argc, argv));
     if (check->parsed()) options.task = Options::Task::check;
@@ -157,7 +157,7 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
     if (completion->parsed()) {
       options.task = Options::Task::completion;
       for (const CLI::App* task : app.get_subcommands({})) options.tasks.push_back(task->get_name());
-      // the launcher's own
+      // tasks of the launcher script
       for (const char* task : {"plot", "spectrum", "orders", "picture", "animate", "export", "import", "sweep", "study",
                                "inertia", "figures", "gallery", "demo", "test"})
         options.tasks.emplace_back(task);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double earth = 9.81;  // m/s²
 
-/// A body whose radius of gyration has nothing to do with the size of the mechanism.
+/// Warns about bodies whose radius of gyration does not fit the size of the mechanism.
 void look_at_bodies(const Model& model, double extent, Diagnostics& diagnostics) {
   constexpr double too_large = 50, too_small = 2000;
   if (model.nodes.size() < 3) return;  // a single point has no size
@@ -39,16 +39,16 @@ void look_at_bodies(const Model& model, double extent, Diagnostics& diagnostics)
   }
 }
 
-/// A node and how far it is from the middle of all.
+/// A node and its distance from the centre of all nodes.
 struct Away {
   double distance = 0;
   std::size_t node = 0;
 };
 
-/// The two nodes that are farthest from the middle, the farthest first. There are two nodes at least, the ground aside.
+/// The two nodes farthest from the centre, the farthest first. Requires at least two nodes besides the ground.
 std::array<Away, 2> farthest_nodes(const Model& model) {
   const std::size_t count = model.nodes.size() - 1;
-  // the median does not follow a stray
+  // the median is not affected by an outlier
   Vec3 middle;
   std::vector<double> x(count);
   for (int k = 0; k < 3; ++k) {
@@ -67,7 +67,7 @@ std::array<Away, 2> farthest_nodes(const Model& model) {
   return two;
 }
 
-/// Warns of a node that lies 300 times as far away as all others are apart; returns the size of the mechanism without it.
+/// Warns about a node at least 300 times as far from the centre as all others. Returns the size of the mechanism without it.
 double look_at_nodes(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   constexpr double far = 300;
   if (model.nodes.size() < 4) return model.extent();
@@ -84,7 +84,7 @@ double look_at_nodes(const deck::Deck& deck, const Model& model, Diagnostics& di
   return 2 * others;
 }
 
-/// Gravity of 9.81 in a model in millimetres, or of 9810 in one in metres.
+/// Warns about gravity of 9.81 in a model in millimetres, or of 9810 in one in metres.
 void look_at_gravity(const deck::Deck& deck, const Model& model, double extent, Diagnostics& diagnostics) {
   constexpr double tolerance = 0.03, large = 300, small = 1;
   const auto is = [](double value, double expected) { return std::abs(value - expected) < tolerance * expected; };

@@ -7,8 +7,8 @@
 
 namespace engrane::app {
 
-/// Warns of numbers that are right by themselves and wrong together: what a slip of a unit by 1000 leaves behind. Looks at
-/// the size of bodies against that of the mechanism, at single nodes far away from all others, and at gravity.
+/// Warns about values that are plausible individually but not together, as after a unit error by a factor of 1000. Checks the
+/// size of bodies against that of the mechanism, single nodes far away from all others, and gravity.
 void warn_of_unit_slips(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 }  // namespace engrane::app

@@ -19,14 +19,14 @@ namespace engrane::app {
 
 namespace {
 
-/// Of the processor, which others may be using too.
+/// Processor time, because other programs may be using the processor too.
 double seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The shortest time of `work`, called for about four milliseconds, once where that takes longer.
+/// Shortest time of `work`, which is called repeatedly for about four milliseconds, at most 20 times and at least once.
 template <class Work>
 double shortest(const Work& work) {
   double least = std::numeric_limits<double>::infinity();
@@ -39,8 +39,8 @@ double shortest(const Work& work) {
   return least;
 }
 
-/// Factors of more operations are not made, only foreseen: five seconds at this speed, which one core of a machine of 2020
-/// reaches.
+/// Factorisations with more operations are only estimated, not performed. The limit is five seconds at this speed, which one
+/// core of a machine of 2020 reaches.
 constexpr double operations_per_second = 1e10, most_operations = 5 * operations_per_second;
 
 std::string time_text(double time) {
@@ -61,7 +61,7 @@ std::string size_text(double bytes) {
 
 double expected_result_bytes(std::size_t channels, std::size_t samples, std::size_t nodes, std::size_t frames) {
   constexpr std::size_t components = 6;  // displacement and rotation of a node
-  constexpr double description = 1.5e5;  // the deck, the model, names and what a restart needs
+  constexpr double description = 1.5e5;  // the deck, the model, names and restart data
   return description + 8.0 * (static_cast<double>(channels + 1) * static_cast<double>(samples) +
                               static_cast<double>(components * nodes) * static_cast<double>(frames));
 }
@@ -82,7 +82,7 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   double elements = 0;
   std::vector<double> r, k;
   for (const auto& [kind, parts] : kinds) {
-    // a hundred of a kind stand for all of them
+    // a hundred elements of a kind are representative
     const std::size_t count = std::min<std::size_t>(parts.size(), 100);
     const double time = shortest([&] {
       for (std::size_t i = 0; i < count; ++i) {

@@ -8,16 +8,17 @@
 
 namespace engrane::app {
 
-/// What a run of a deck costs, as known before it: the share of each kind of element, the times of an iteration, a step and the
-/// run, the sizes of matrix, factors and result file.
+/// Describes the expected cost of running a deck: the share of each kind of element, the times of an iteration, a step and the
+/// run, and the sizes of the matrix, its factors and the result file.
 ///
-/// Times are measured on the spot: the tangents of each kind of element, one factorisation and solution, each repeated for a few
-/// milliseconds of processor time, the shortest taken. A step is taken to need two iterations (one tangent, factorisation,
-/// solution and residual each), and a fifth more for the scheme, histories and files. Cuts, events and contact cost more.
+/// Times are measured on the spot: the tangents of each kind of element, one factorisation and one solution. Each is repeated
+/// for a few milliseconds of processor time, and the shortest time is taken. A step is assumed to need two iterations (one
+/// tangent, factorisation, solution and residual each), plus a fifth for the scheme, histories and files. Rejected steps,
+/// events and contact cost more.
 std::string describe_price(const Reading& reading, solve::SolverContext& context, const Configuration& c);
 
-/// How many bytes the result file has, to a factor of two: channels by samples, fields of nodes by frames, and what describes the
-/// model.
+/// Size of the result file in bytes, to a factor of two: channels times samples, fields of nodes times frames, and the
+/// description of the model.
 double expected_result_bytes(std::size_t channels, std::size_t samples, std::size_t nodes, std::size_t frames);
 
 }  // namespace engrane::app

@@ -14,8 +14,8 @@ namespace engrane::app {
 
 namespace {
 
-/// Constraints at index 3 need some damping at high frequency: without, rounding grows with the square of the number of
-/// steps (Cardona and Géradin 1989).
+/// Warns about constraints at index 3 without numerical damping at high frequency: rounding errors then grow with the square of
+/// the number of steps (Cardona and Géradin 1989).
 void warn_of_undamped_constraints(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   bool constrained = false;
   for (const Model::Part& part : model.parts) constrained = constrained || !part.element->layout().multipliers.empty();
@@ -31,8 +31,8 @@ void warn_of_undamped_constraints(const deck::Deck& deck, const Model& model, Di
                           "RHO 0.9 or less costs almost no accuracy at the frequencies that the step resolves");
 }
 
-/// Waves from piece to piece of a beam that steps do not follow are damped by the scheme, in the run as in the one that its error
-/// is estimated from (docs/accuracy.md, Beams).
+/// Warns about undamped beams: the scheme damps waves along them that are too fast for the steps, in the run as well as in the
+/// one used to estimate its error (docs/accuracy.md, Beams).
 void warn_of_undamped_beams(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   const deck::AnalysisCard& a = model.commands.analysis;
   if (!a.accuracy.given() || !a.type.is("DYNAMIC")) return;
@@ -46,12 +46,12 @@ void warn_of_undamped_beams(const deck::Deck& deck, const Model& model, Diagnost
   }
 }
 
-/// Adds what `--result` asks for to the checks of the model. Faults are shown in a text that bears the option's name.
+/// Adds what `--result` asks for to the checks of the model. Errors refer to a source named after the option.
 void add_wanted(Reading& reading, const std::vector<std::string>& results, Diagnostics& diagnostics) {
   for (const std::string& text : results) {
     const bool one_line = text.find_first_of("\r\n") == std::string::npos;
     const int errors = reading.diagnostics.errors();
-    // a value and a tolerance make it a record of .CHK; nobody compares with them
+    // a value and a tolerance make it a valid record of .CHK; they are never used
     deck::Deck deck = deck::read_text("--result", ".CHK " + (one_line ? text : "") + " V 0 ATOL 0", catalogue(element_types()),
                                       reading.sources, reading.diagnostics);
     if (reading.diagnostics.errors() > errors) continue;
@@ -67,7 +67,7 @@ void add_wanted(Reading& reading, const std::vector<std::string>& results, Diagn
   }
 }
 
-/// A record that could not be read leaves a hole: that something refers to it is no fault of its own.
+/// Whether a diagnostic is only a consequence of a record that could not be read.
 bool is_echo(const Diagnostic& diagnostic, const deck::Deck& deck) {
   if (diagnostic.missing_from.empty()) return false;
   return deck.incomplete.contains(".*") || deck.incomplete.contains(diagnostic.missing_from);
@@ -95,8 +95,7 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
     warn_of_undamped_beams(reading.deck, reading.model, building);
   }
   if (syntax_good && !building.has_errors()) warn_of_unit_slips(reading.deck, reading.model, building);
-  // a record that could not be read leaves a hole: what the model then misses is an echo, not a fault of its own. But
-  // what is wrong with records that were read is wrong all the same
+  // errors that only result from unreadable records are dropped; errors in records that were read are still reported
   for (const Diagnostic& d : building.all())
     if (!is_echo(d, reading.deck)) reading.diagnostics.add(d);
   return reading;
@@ -110,8 +109,8 @@ void Reading::forget_mesh() {
   };
   std::erase_if(deck.records, is_of_mesh);
   deck.records.shrink_to_fit();
-  for (Model::Part& part : model.parts) part.record = nullptr;  // they have moved
-  malloc_trim(0);                                               // what was freed lies between what stays
+  for (Model::Part& part : model.parts) part.record = nullptr;  // the records have moved
+  malloc_trim(0);                                               // the freed memory is fragmented
 }
 
 std::string Reading::assumptions() const {

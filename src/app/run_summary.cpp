@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no NaN: what could not be computed is null.
+/// JSON has no NaN or infinity: they become null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// JSON is UTF-8; decks may be Latin-1.

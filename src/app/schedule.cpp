@@ -9,7 +9,7 @@ namespace engrane::app {
 
 namespace {
 
-/// Part of the time between even instants that counts as nothing.
+/// Tolerance on even instants, as a fraction of their interval.
 constexpr double on_time = 1e-6;
 
 }  // namespace
@@ -37,7 +37,7 @@ bool Schedule::Interval::due(double time, double start) {
   if (length <= 0) return true;
   if (time < next) return false;
   next = start + (std::floor((time - start) / length) + 1) * length;
-  // an interval below the resolution of time is over at once
+  // an interval below the resolution of time is due only once per instant
   if (next <= time) next = std::nextafter(time, INFINITY);
   return true;
 }
@@ -45,7 +45,7 @@ bool Schedule::Interval::due(double time, double start) {
 Schedule::Due Schedule::at(double time, double step, bool regular, bool last) {
   Due due{last, last, false};
   if (!regular) return due;
-  // half a step early is on time: sums of steps do not meet sums of intervals to the last digit
+  // up to half a step early is on time: sums of steps differ from sums of intervals by rounding errors
   const double early = time + 0.5 * step;
   asked_ = early;
   due.sample = sample_.due(early, start_) || last;
@@ -75,7 +75,7 @@ std::vector<double> Schedule::between(double from, double to) const {
 }
 
 std::size_t Schedule::expected_samples() const {
-  if (end_ == start_) return 1;  // one equilibrium
+  if (end_ == start_) return 1;  // a single equilibrium
   return static_cast<std::size_t>(std::min(1e9, (end_ - start_) / std::max(controlled_ ? even_ : step_, sample_.length))) + 2;
 }
 

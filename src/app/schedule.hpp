@@ -9,50 +9,50 @@
 
 namespace engrane::app {
 
-/// When samples, frames and kept restart points are due.
+/// Determines when samples, frames and kept restart points are due.
 class Schedule {
  public:
   Schedule(const deck::SteppingCard& stepping, const deck::ArchiveCard& archive);
-  /// Instants within controlled steps at which values are asked for, beside the even ones: nothing else is due there.
+  /// Sets instants within controlled steps at which values are needed in addition to the even ones; nothing else is due there.
   void ask(std::vector<double> times);
 
   struct Due {
     bool sample = false, frame = false, restart = false;
   };
-  /// What is due at an accepted step, the start included. `regular` false: an instant between the steps, close to others; spectra
-  /// want samples at equal intervals, so what lies between multiples of H for an event is for energies and checks only.
+  /// What is due at an accepted step, including the start. `regular` false: an instant between regular steps, such as an event.
+  /// Spectra need samples at equal intervals, so only energies and checks use it.
   Due at(double time, double step, bool regular, bool last);
 
-  /// The instants between two ends of controlled steps at which something may be due: the even ones, none where histories are of
-  /// every step; and those of ask().
+  /// Output instants between the two ends of a controlled step, ascending: those of ask(), and the even ones unless histories
+  /// are kept of every step.
   std::vector<double> between(double from, double to) const;
-  /// Is this such an instant, or the end?
+  /// Whether the time is an even instant or the end of the run.
   bool even(double time) const;
-  /// Is it one of ask(), and no even one?
+  /// Whether the time is one of ask() but not an even instant.
   bool beside_even(double time) const;
-  /// The time between even ones, or a `step` where ends of steps serve.
+  /// The interval between even instants, or `step` if results are kept at the ends of steps.
   double even_step(double step) const { return even_ > 0 ? even_ : step; }
-  /// Steps are controlled by their error (`.SUB TOL`).
+  /// Whether steps are controlled by their error (`.SUB TOL`).
   bool controlled() const { return controlled_; }
 
-  /// About how many samples a run to the end has.
+  /// Approximate number of samples of a complete run.
   std::size_t expected_samples() const;
 
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
 
  private:
-  /// Something that is due at even intervals from the start.
+  /// Something due at equal intervals from the start.
   struct Interval {
-    double length = 0;  ///< 0: always
+    double length = 0;  ///< 0: always due
     double next = 0;
     bool due(double time, double start);
   };
   double start_, end_, step_;
   bool controlled_;
-  std::vector<double> wanted_;  ///< of ask(), ascending
-  double even_ = 0;             ///< time between even instants; 0: the ends of steps serve
-  double asked_ = 0;            ///< the last regular time that was asked about, with what counts as early
+  std::vector<double> wanted_;  ///< instants of ask(), ascending
+  double even_ = 0;             ///< interval between even instants; 0: results at the ends of steps
+  double asked_ = 0;            ///< last regular time passed to at(), including the margin for early times
   Interval sample_, frame_;
   std::optional<Interval> restart_;
 };

@@ -13,7 +13,7 @@ namespace engrane::app {
 
 namespace {
 
-/// Is an element of this number in the deck? One that is wrong was not built, and was reported.
+/// Whether the deck has an element with this number. Faulty elements count: they were not built, but already reported.
 bool is_in_deck(const deck::Deck& deck, int id) {
   for (const auto* records : {&deck.records, &deck.faulty})
     for (const deck::Record& record : *records)
@@ -21,8 +21,7 @@ bool is_in_deck(const deck::Deck& deck, int id) {
   return false;
 }
 
-/// Index of the element with this id, of several parts the first. Nodal loads stand among the parts without a number of their
-/// own.
+/// Index of the first part of the element with each id. Nodal loads are left out: they are parts without a number of their own.
 std::map<int, int> parts_by_id(const Model& model) {
   std::map<int, int> parts;
   for (std::size_t p = 0; p < model.parts.size(); ++p)
@@ -42,7 +41,7 @@ std::string joined(const std::vector<std::string>& names) {
   return list;
 }
 
-/// Reports a channel that its owner, in words, does not have. `declared_by`: the command that may be at fault,
+/// Reports a channel that `owner` (described in words) does not have. `declared_by`: the command that may be at fault, see
 /// Diagnostics::missing.
 void report_channel(std::string_view declared_by, const Location& where, const std::string& owner, const std::string& wanted,
                     const std::vector<std::string>& names, Diagnostics& diagnostics) {
@@ -61,7 +60,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The command without which a node or the run lacks a channel: analyses have their own, and supported nodes.
+/// The command whose absence explains why a node or the run lacks a channel: some channels depend on the analysis, others on
+/// supports.
 std::string_view declares(const std::string& channel, const Model& model) {
   if (contains(names_of(observe::run_channels(model, true)), channel)) return ".SAM";
   if (contains(names_of(observe::node_channels(true, false)), channel)) return ".SAM";
@@ -101,7 +101,8 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
                    check.quantity, names, diagnostics);
 }
 
-/// Elements that records of `.SAI` name but the deck does not have, each told once: by number, then those of groups.
+/// Reports elements that `.SAI` records name but the deck does not have, each only once: first those named by number, then
+/// those of groups.
 void check_archived_elements(const deck::Deck& deck, const Model& model, const std::map<int, int>& parts,
                              Diagnostics& diagnostics) {
   std::set<int> told;
@@ -114,7 +115,7 @@ void check_archived_elements(const deck::Deck& deck, const Model& model, const s
     if (const auto* said = record.get<deck::ArchiveCard>()) check(record.where("ELEMENT"), said->elements);
   for (const deck::Record& record : deck.records)
     if (record.get<deck::ArchiveCard>() && record.given("GROUP"))
-      check(record.where("GROUP"), model.commands.archive.elements);  // with the members of groups
+      check(record.where("GROUP"), model.commands.archive.elements);  // includes the members of groups
 }
 
 void check_archive(const deck::Record& record, const deck::ArchiveCard& archive, const Model& model, Diagnostics& diagnostics) {
@@ -127,7 +128,7 @@ void check_archive(const deck::Record& record, const deck::ArchiveCard& archive,
       diagnostics.missing(".MCE", record.where("TYPE"), fmt::format("no element is a {}", kind),
                           near.empty() ? "there are " + joined(types) : fmt::format("did you mean {}?", near));
     }
-  // a channel that none of the selected has
+  // channels that none of the selected elements and nodes has
   const observe::Selection selection = select_histories(model);
   std::vector<std::string> names;
   const auto add = [&names](const std::vector<Channel>& channels) {
@@ -139,7 +140,7 @@ void check_archive(const deck::Record& record, const deck::ArchiveCard& archive,
   for (std::size_t n = 1; n < model.nodes.size() && !archive.channels.empty(); ++n)
     if (selection.all_nodes || selection.nodes.contains(static_cast<int>(n)))
       add(observe::node_channels(moves(model), is_supported(model, static_cast<int>(n))));
-  // an element of a record that is wrong would perhaps have it
+  // an element with a faulty record might have had it
   const auto declared_by = [&](const std::string& channel) {
     const std::string_view of_nodes = declares(channel, model);
     return of_nodes.empty() ? std::string_view(".MCE") : of_nodes;
@@ -149,7 +150,8 @@ void check_archive(const deck::Record& record, const deck::ArchiveCard& archive,
       report_channel(declared_by(channel), record.where("CHANNEL"), "what is selected", channel, names, diagnostics);
 }
 
-/// `.PATH` and `.BUCKLING` belong to statics, and steps of a path have another measure than TOL.
+/// Checks that `.PATH` and `.BUCKLING` are used in statics with large displacements, and `.PATH` without TOL, since it controls
+/// its steps differently.
 void check_stability(const deck::Record& record, const Model& model, Diagnostics& diagnostics) {
   const auto* path = record.get<deck::PathCard>();
   if (!path && !record.get<deck::BucklingCard>()) return;

@@ -8,25 +8,27 @@
 
 namespace engrane::app {
 
-/// Models with no more elements and nodes than this keep all histories where the deck selects none.
+/// Models with at most this many elements and nodes keep all histories if the deck selects none.
 constexpr std::size_t most_with_all_histories = 300;
 
-/// Whether velocities, accelerations and energies of motion exist.
+/// Whether the analysis has velocities, accelerations and kinetic energy.
 bool moves(const Model& model);
 
-/// Whose histories are kept: what `.SAI` says, and always what `.CHK` compares.
+/// The histories to keep: those that `.SAI` selects, and always those that `.CHK` needs.
 observe::Selection select_histories(const Model& model);
 
-/// The histories that an estimate of the error compares: what `.SAI` names, else what `.CHK` compares, else all.
+/// The histories compared by an error estimate: those that `.SAI` names, otherwise those that `.CHK` needs, otherwise all that
+/// are kept.
 observe::Selection select_compared(const Model& model);
 
-/// The place of what a row of `.CHK` compares among the observer's values; -1 where there is no such channel.
+/// Index of the channel of a `.CHK` record in the observer's values; -1 if there is no such channel.
 int checked_channel(const observe::Observer& observer, const deck::CheckCard& check);
 
-/// A sentence about histories that are left out because the model is large; empty when none are.
+/// A sentence about histories that are not kept because the model is large; empty if none are left out.
 std::string left_out_histories(const Model& model);
 
-/// Reports rows of `.CHK` and keywords of `.SAI` that name elements, types, nodes or channels that do not exist.
+/// Reports `.CHK` records and `.SAI` keywords that refer to elements, types, nodes or channels that do not exist, and wrong
+/// uses of `.PATH` and `.BUCKLING`.
 void check_targets(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 }  // namespace engrane::app

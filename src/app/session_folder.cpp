@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* beginning = "engrane-run-";
 
-/// Has something started this process as one of several, or told Open MPI where its folders are?
+/// Whether this process was started as one of several, or the user told Open MPI where to put its folders.
 bool is_placed() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "SLURM_PROCID",
                            "OMPI_MCA_orte_tmpdir_base"})
@@ -28,8 +28,8 @@ bool is_placed() {
   return false;
 }
 
-/// Opens a folder and locks it; -1 when a living process has locked it. The lock ends with the process, however it ends, and
-/// tells the dead from the living in other containers too, where process numbers mean others.
+/// Opens and locks a folder; returns -1 if a running process holds the lock. The lock is released however the process ends. It
+/// also identifies running processes in other containers, where process numbers are different.
 int lock_folder(const std::string& path) {
   const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (folder < 0 || flock(folder, LOCK_EX | LOCK_NB) == 0) return folder;
@@ -37,9 +37,9 @@ int lock_folder(const std::string& path) {
   return -1;
 }
 
-/// Takes away what killed runs of this user have left.
+/// Removes folders left by killed runs of this user.
 void remove_abandoned(const fs::path& where) {
-  constexpr std::time_t making = 10;  // seconds in which a folder that was just made gets its lock
+  constexpr std::time_t making = 10;  // seconds that a new folder may take to get its lock
   std::error_code error;
   std::vector<std::string> found;
   for (fs::directory_iterator it(where, fs::directory_options::skip_permission_denied, error), end; !error && it != end;
@@ -60,7 +60,7 @@ void remove_abandoned(const fs::path& where) {
 
 SessionFolder::SessionFolder() {
   if (is_placed()) return;
-  // sockets stand in it, whose paths may have about a hundred characters: a long TMPDIR does not do
+  // the folder holds sockets, whose paths are limited to about a hundred characters, so TMPDIR must not be long
   const char* wanted = std::getenv("TMPDIR");
   const std::string where = wanted && *wanted && std::string(wanted).size() < 40 ? wanted : "/tmp";
   remove_abandoned(where);
@@ -69,11 +69,11 @@ SessionFolder::SessionFolder() {
   path_ = path;
   lock_ = lock_folder(path_);
   setenv("OMPI_MCA_orte_tmpdir_base", path_.c_str(), 1);
-  // a run by itself needs no daemon beside it and no network to speak over, which take longer to start than all the rest
+  // a single process needs neither a daemon nor a network, which would take longer to start than everything else
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   setenv("OMPI_MCA_pml", "ob1", 0);
   setenv("OMPI_MCA_btl", "self", 0);
-  // nor collective operations for several: their plugins are loaded one by one
+  // nor collective operations for several processes, whose plugins are loaded one by one
   setenv("OMPI_MCA_coll", "basic,self,libnbc", 0);
 }
 

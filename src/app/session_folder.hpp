@@ -5,12 +5,12 @@
 
 namespace engrane::app {
 
-/// A folder of this process's own for what Open MPI keeps beside a run, made before MPI starts and removed at the end.
+/// A private folder for the session files of Open MPI, created before MPI starts and removed at the end.
 ///
-/// Open MPI puts it into one folder for all runs of a user on a machine, and each run removes that folder when it thinks it is
-/// the last: of many that start and end together one now and then finds it gone, and MPI_Init fails. A process that mpiexec or a
-/// batch system started shares its folder with the others of its run and gets none. What the user has set stays. Folders of
-/// runs that were killed are removed by the next one that comes by.
+/// Open MPI normally puts them in one folder for all runs of a user on a machine. Each run removes that folder when it believes
+/// it is the last. If many runs start and end together, one occasionally finds the folder gone, and MPI_Init fails. A process
+/// started by mpiexec or a batch system shares its folder with the other processes of its run, and gets none here. Settings of
+/// the user are respected. Folders left by killed runs are removed by the next run.
 class SessionFolder {
  public:
   SessionFolder();
@@ -19,8 +19,8 @@ class SessionFolder {
   SessionFolder& operator=(const SessionFolder&) = delete;
 
  private:
-  std::string path_;  ///< empty: there is none
-  int lock_ = -1;     ///< descriptor of the folder, locked as long as the process lives
+  std::string path_;  ///< empty if there is none
+  int lock_ = -1;     ///< descriptor of the folder, which is locked during the lifetime of the process
 };
 
 }  // namespace engrane::app

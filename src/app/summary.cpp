@@ -17,9 +17,10 @@ using namespace output;
 
 namespace {
 
-/// The plane that a model is solved in, or what one would save; empty when there is none and none was asked for.
+/// The plane that a model is solved in, or the plane that would save unknowns; empty if there is none and the deck did not ask
+/// for one.
 std::string describe_plane(const Model& model) {
-  if (has_cells(model) && !model.plane.active()) return "";  // cells have no unknowns out of their plane
+  if (has_cells(model) && !model.plane.active()) return "";  // cells have no out-of-plane unknowns
   if (model.plane.active()) return fmt::format("the plane {}", plane_name(model.plane.normal));
   const bool asked = model.commands.analysis.plane.is("AUTO");
   const PlaneModel plane = asked ? PlaneModel{} : find_plane(model);
@@ -36,7 +37,7 @@ std::string describe_plane(const Model& model) {
 BuiltSummary summarize(const Model& model, const Numbering& numbering) {
   BuiltSummary summary;
   std::map<std::string, BuiltSummary::ElementCount> counts;
-  std::size_t held_by_friction = 0;  // no constraints while their surfaces slide
+  std::size_t held_by_friction = 0;  // not constraints while their surfaces slide
   const PlaneModel& plane = model.plane;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Layout& layout = model.parts[p].element->layout();
@@ -68,13 +69,13 @@ BuiltSummary summarize(const Model& model, const Numbering& numbering) {
     else
       ++summary.rotations;
   }
-  // supports take unknowns away only where some element needs them
+  // supports remove unknowns only where some element needs them
   std::vector<bool> needed(6 * model.nodes.size(), false);
   for (const Model::Part& part : model.parts)
     for (std::size_t i = 0; i < part.nodes.size(); ++i)
       for (int c = 0; c < 6; ++c)
         if (part.element->layout().has(i, c)) needed[static_cast<std::size_t>(6 * part.nodes[i] + c)] = true;
-  for (const Support& s : model.supports) {  // each component of a node once
+  for (const Support& s : model.supports) {  // each component of a node only once
     if (!needed[static_cast<std::size_t>(6 * s.node + s.component)] || plane.leaves_out(s.component)) continue;
     ++(s.component < 3 ? summary.translations : summary.rotations);
     ++summary.prescribed;
@@ -134,10 +135,10 @@ std::string describe_geometry(const Model& model) {
     if (derived.empty()) continue;
     values.clear();
     for (const Derived& d : derived) {
-      // angles are radians inside and degrees wherever a person reads or writes a deck
+      // angles are in radians internally and in degrees wherever users read or write them
       const bool angle = d.dimension == dimension::angle;
       const double shown = angle ? d.value / degree : d.value;
-      const double value = std::abs(shown) < 1e-14 ? 0.0 : shown;  // rounding, and no minus zero
+      const double value = std::abs(shown) < 1e-14 ? 0.0 : shown;  // rounding errors, and no negative zero
       values += fmt::format("    {:<42}{:>16.9g} {}\n", d.name, value,
                             angle                            ? "deg"
                             : d.dimension == dimension::none ? ""

@@ -7,16 +7,16 @@
 
 namespace engrane::app {
 
-/// Counts of what the deck built, for the listing and `engrane check`.
+/// Counts of what was built from the deck, for the listing and `engrane check`.
 output::BuiltSummary summarize(const Model& model, const Numbering& numbering);
 
 /// "DYNAMIC, CHUNG rho 0.8, t = 0 to 0.03, 15000 steps of 2e-06, MUMPS"
 std::string describe_analysis(const solve::SolverContext& context);
 
-/// Table of the derived geometry of each element that has any; neighbours that are alike are told once.
+/// Table of the derived geometry of each element that has any. Consecutive equal elements are listed once.
 std::string describe_geometry(const Model& model);
 
-/// Table of masses, centres and inertias of at most `most` bodies, and of all together; empty when nothing has mass.
+/// Table of masses, centres and inertias of at most `most` bodies, and of the whole model; empty if nothing has mass.
 std::string describe_masses(const Model& model, std::size_t most);
 
 }  // namespace engrane::app

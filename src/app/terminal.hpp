@@ -6,8 +6,8 @@
 
 namespace engrane::app {
 
-/// Lines as they may go to a terminal: what a deck says (titles, references, formulas) must not steer it. Control characters
-/// but the ends of lines become `?`.
+/// Makes text safe for a terminal, so that titles, references and formulas of a deck cannot send control sequences. Control
+/// characters other than line ends become `?`.
 std::string terminal_text(std::string_view text);
 
 }  // namespace engrane::app

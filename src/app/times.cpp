@@ -24,7 +24,8 @@ PetscEventPerfInfo event(const char* name) {
   return info;
 }
 
-/// Parts of a run's time: less saved is not worth a word. The second counts instructions, which are not quite times.
+/// Limits for advice. The first is the smallest fraction of the run's time worth saving. The second is the largest ratio of the
+/// other solver's operation count to this one's; times are only roughly proportional to it.
 constexpr double worth_saying = 0.25;
 constexpr double clearly_less = 0.7;
 
@@ -32,12 +33,12 @@ constexpr double clearly_less = 0.7;
 
 Times::Times() {
   check_petsc(PetscLogDefaultBegin());
-  // PETSc times all that it does: of a small mechanism that is a sixth of a step, and nobody reads it. What is told are its two
-  // events of solvers and this program's own, which belong to no class of PETSc.
+  // PETSc times everything it does, which in a small mechanism takes a sixth of a step, and nobody reads it. Only its two
+  // solver events are needed, and those of this program, which belong to no class of PETSc.
   PetscBool viewed = PETSC_FALSE;
   check_petsc(PetscOptionsHasName(nullptr, nullptr, "-log_view", &viewed));
   if (viewed) return;
-  // events have no numbers before
+  // events have no numbers before these calls
   for (const auto initialise :
        {VecInitializePackage, MatInitializePackage, KSPInitializePackage, PCInitializePackage, SNESInitializePackage})
     check_petsc(initialise());
@@ -55,7 +56,7 @@ TimeSplit Times::split(const LinearSolver& solver) const {
   split.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
   split.parts = {{"element residuals", event("Residual").time},
                  {"element tangents and assembly", event("Tangent").time},
-                 {"factorisation (" + solver.package() + ")", event("MatLUFactorNum").time},  // with the analysis
+                 {"factorisation (" + solver.package() + ")", event("MatLUFactorNum").time},  // includes the symbolic analysis
                  {"solution (" + solver.package() + ")", event("MatSolve").time},
                  {"output", output_}};
   double known = 0;

@@ -9,7 +9,7 @@
 
 namespace engrane::app {
 
-/// Where a run's time goes: PETSc's own event log for elements and factorisation, a stopwatch for the output.
+/// Breakdown of a run's time: PETSc's event log for elements and factorisation, a stopwatch for output.
 class Times {
  public:
   Times();
@@ -30,7 +30,7 @@ class Times {
   Watch output() { return Watch(output_); }
 
   output::TimeSplit split(const solve::LinearSolver& solver) const;
-  /// What the user could gain by another solver; empty when nothing worth a word.
+  /// Suggests another solver if it would save time; empty if the gain is not worth mentioning.
   std::string advice(const solve::LinearSolver& solver, int ranks) const;
 
  private:

@@ -10,36 +10,36 @@
 
 namespace engrane::app {
 
-/// A run to make, and what those before it have told.
+/// A run to make, and what is known from earlier attempts.
 struct Trial {
   SolverOptions options;
-  bool may_repeat = true;                      ///< when the error is too large
-  std::optional<SolverOptions> complete = {};  ///< of a run that came to its end, but with too large an error
-  std::string sharper_failed = {};             ///< how one with a sharper tolerance than this failed
-  std::optional<SolverOptions> settled = {};   ///< the setting's own, where `options` begin with a looser tolerance
-  bool keeps_companion = false;                ///< that of the run before tells the error of this one too
+  bool may_repeat = true;                      ///< if the estimated error is too large
+  std::optional<SolverOptions> complete = {};  ///< of a completed run whose error was too large
+  std::string sharper_failed = {};             ///< how a run with a sharper tolerance than this one failed
+  std::optional<SolverOptions> settled = {};   ///< with the ACCURACY setting's own TOL, if `options` start with a looser one
+  bool keeps_companion = false;                ///< reuse the companion of the previous run
 };
 
-/// What came of a run: its exit status, or what to try instead.
+/// Outcome of a run: its exit status, or what to try instead.
 struct Verdict {
   int status = 0;
   std::optional<Trial> again;
 };
 
-/// Puts what ACCURACY of a deck has come to into a restart point, so that the run can be continued to the bit.
+/// Saves the options that ACCURACY has led to in a restart point, so that a continued run is identical bit for bit.
 void save_choice(const Model& model, const SolverOptions& found, Snapshot& snapshot);
-/// Takes it back into the options of a deck that asks for the same.
+/// Restores these options if the deck asks for the same ones.
 void load_choice(const Snapshot& snapshot, SolverOptions& options);
 
-/// Generalised-alpha where Radau fails: at positions in which the rank of the constraints falls, for one. It begins with the
-/// setting's own TOL.
+/// Switches to generalised-alpha where Radau fails, for instance at positions where the constraints lose rank. Starts with at
+/// most the setting's own TOL.
 Verdict another_scheme(const Model& model, Trial trial, const std::string& why, int rank);
 
-/// On to the setting's own tolerance, where a run that began with a looser one does not get to its end.
+/// Continues with the setting's own tolerance if a run that started with a looser one fails.
 Verdict settle(const Trial& failed, const std::string& why, int rank);
 
-/// Back to the last run that came to its end, where one with a sharper tolerance fails: a result that is less accurate than was
-/// asked for is better than half of one.
+/// Goes back to the options of the last completed run if one with a sharper tolerance fails: a complete result with a larger
+/// error than requested is better than an incomplete one.
 Verdict back(const Trial& failed, const std::string& why, int rank);
 
 }  // namespace engrane::app

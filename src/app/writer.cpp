@@ -22,7 +22,7 @@ using namespace solve;
 
 namespace {
 
-/// Checks of the deck, each tied to its channel. The reader has made sure that the channels exist.
+/// Checks of the deck with their channels. The reader has verified that the channels exist.
 Checks resolve_checks(const Model& model, const observe::Observer& observer) {
   std::vector<Checks::Resolved> all;
   for (const deck::CheckCard& card : model.commands.checks)
@@ -35,7 +35,7 @@ Results make_results(const std::string& prefix, ResultsLayout layout, const Resu
   return {prefix, std::move(layout)};
 }
 
-/// More of these are counted only.
+/// Further events are only counted.
 constexpr long most_listed_events = 100;
 constexpr std::size_t most_listed_bodies = 100, most_listed_peaks = 400;
 
@@ -91,7 +91,7 @@ void Writer::resumed(const Resumption& from) {
   cuts_ = static_cast<long>(counts.at(2));
   locating_ = static_cast<long>(counts.at(3));
   event_count_ = static_cast<long>(counts.at(4));
-  if (counts.size() > 5) coupled_ = static_cast<long>(counts[5]);  // files of earlier versions lack it
+  if (counts.size() > 5) coupled_ = static_cast<long>(counts[5]);  // missing in files of earlier versions
   const std::vector<double>&energies = memory.array("writer/energies"), &ground = memory.array("writer/ground");
   for (std::size_t i = 0; i + 6 <= energies.size(); i += 6)
     energies_.push_back({energies[i], energies[i + 1], energies[i + 2], energies[i + 3], energies[i + 4], energies[i + 5]});
@@ -315,7 +315,7 @@ std::string Writer::closing_lines() const {
   const std::string prefix = stem();
   std::string text = fmt::format("results in {}, {} and {}\n", files[0], files[1], files[2]);
   const std::string picture = fmt::format("engrane picture {0} --both -o {0}.png", prefix);
-  // of an element, and not what a load is known to be
+  // prefer a table of elements other than loads, whose values are known
   const auto tells = [](const HistoryTable& one) { return !one.type.empty() && one.type != "CHA"; };
   const HistoryTable* table = nullptr;
   for (const HistoryTable& one : results_.layout().history)

@@ -24,7 +24,7 @@
 
 namespace engrane::app {
 
-/// An earlier run, and the point of it that this run continues from.
+/// An earlier run, and the restart point from which this run continues it.
 struct Resumption {
   output::RestartFile earlier;
   output::RestartPoint point;
@@ -33,42 +33,42 @@ struct Resumption {
 /// Everything that rank 0 writes during a run.
 class Writer {
  public:
-  /// `resumed`: what this run continues from, or nullptr.
+  /// `resumed`: what this run continues, or nullptr.
   Writer(const Reading& reading, const observe::Observer& observer, const Schedule& schedule, const Options& options,
          const std::string& prefix, const Resumption* resumed, RunSummary& summary);
 
   void begin(const solve::SolverContext& context, int ranks);
   void resumed(const Resumption& from);
-  /// Gives the results what the run could be restarted from: with a batch, where the deck asks for it, and at the end.
+  /// Adds a restart point to the results: with each batch, where the deck asks for one, and at the end.
   void remember(const Configuration& c, const solve::Runner& runner, bool kept, bool last);
   void started(const solve::StartReport& start);
   void step(const Configuration& c, const solve::StepReport& step, const Schedule::Due& due, const Numbering& numbering);
-  /// An instant within the step that the next call of step() is about.
+  /// Writes an instant within the step that the next call of step() reports.
   void between(double time, const Schedule::Due& due);
   /// For the listing and the summary.
   void conditioning(const Conditioning& found) { summary_.conditioning = found; }
-  /// What the results are estimated to be off by, for the listing; `target` is what ACCURACY asks for, `sharper_failed` how a
-  /// run with a sharper tolerance failed, if one did.
+  /// The estimated error of the results, for the listing and the summary. `target` is the error that ACCURACY asks for;
+  /// `sharper_failed` tells how a run with a sharper tolerance failed, if one did.
   void accuracy(const ErrorEstimate& estimate, double target, const std::string& sharper_failed);
-  /// Ends listing and results; returns the exit status.
+  /// Completes the listing and the results; returns the exit status.
   int finish(output::RunStatus status, const std::string& failure, const output::TimeSplit& times);
 
   const std::string& path() const { return results_.path(); }
-  /// Results, their index and the listing, as they are called now.
+  /// Current names of the results, their index and the listing.
   std::vector<std::string> paths() const;
-  /// What was written, and the commands that show it.
+  /// The files written, and commands that show them.
   std::string closing_lines() const;
   void note(const std::string& text) { progress_.note(text); }
   /// Modes of linearised buckling at an equilibrium.
   void buckling(const std::vector<solve::BucklingMode>& modes, const Configuration& equilibrium);
-  /// A warning for the terminal and the listing's remarks.
+  /// A warning for the terminal and for the remarks of the listing.
   void warn(const std::string& text);
 
  private:
-  /// path() without its ending.
+  /// path() without its extension.
   std::string stem() const;
   std::string wanted_table() const;
-  /// The sums of what the ground exerts, and the peaks.
+  /// Updates the resultants of the ground forces, and the peaks.
   void follow(double time);
   output::GroundRow ground(double time) const;
   void show(double time, bool regular, const Schedule::Due& due);
@@ -88,12 +88,12 @@ class Writer {
   output::Checks checks_;
   output::Progress progress_;
   output::Peaks peaks_;
-  std::vector<output::GroundRow> ground_;  ///< the last, the one with the largest force, that with the largest moment
+  std::vector<output::GroundRow> ground_;  ///< the last, that with the largest force, and that with the largest moment
   std::vector<output::EnergyRow> energies_;
   std::vector<output::ModeShape> modes_;
   std::string events_, critical_, buckling_, remarks_, accuracy_;
   bool frame_between_ = false;  ///< a frame was due within the step
-  std::size_t marked_ = 0;      ///< channels marked as not unique so far
+  std::size_t marked_ = 0;      ///< number of channels marked as not unique so far
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0, coupled_ = 0;
 };
 

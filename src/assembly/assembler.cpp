@@ -41,7 +41,7 @@ Assembler::Assembler(const Model& model, const Numbering& numbering, MPI_Comm co
 }
 
 void Assembler::find_batches() {
-  constexpr std::size_t most = 64, most_numbers = 4096;  // what stays in the cache
+  constexpr std::size_t most = 64, most_numbers = 4096;  // a batch should stay in the cache
   std::size_t widest_r = 0, widest_k = 0, longest = 0;
   for (std::size_t i = 0; i < numbering_.evaluated().size(); ++i) {
     const int p = evaluated(i);
@@ -224,7 +224,7 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
       for (std::size_t j = 0; j < n; ++j) {
         const auto slot = static_cast<std::size_t>(slots[j]);
         const double b = std::abs(local[i * n + j]) / std::max(std::abs(weights.q), 1e-300);
-        // a slot that the constraint hardly touches says nothing about the size of its forces
+        // a slot that the constraint hardly affects says nothing about the size of the constraint force
         if (slot < motion && numbering_.equation(slots[j]) >= 0 && b > 1e-6 * steepest)
           size = std::max(size, std::abs(diagonal[slot]) / b);
       }
@@ -233,8 +233,8 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
     }
   });
   MPI_Allreduce(MPI_IN_PLACE, k.data(), static_cast<int>(k.size()), MPI_DOUBLE, MPI_MAX, comm_);
-  // Constraints between things without mass and stiffness borrow from the stiffest of the others, moments taken with levers as
-  // long as the model. Rounding leaves some of them a little: this part of it; machines have ratios to 1e-27 or so.
+  // Constraints between parts without mass and stiffness take the largest scale of all others, multiplied by extent² for
+  // moments. Rounding may leave a tiny value, hence the threshold; real machines have ratios down to about 1e-27.
   constexpr double nothing = 1e-30;
   const double square = model_.extent() * model_.extent();
   const auto lever = [&](std::size_t i) {
@@ -267,7 +267,7 @@ void Assembler::residual(const Configuration& configuration, Vec r) {
       const int row = numbering_.equation(slots[i]);
       if (row < 0) continue;
       const auto m = static_cast<std::size_t>(slots[i] - motion);
-      // what stands for the whole constraint is written once
+      // a value that stands for the whole constraint must be added only once, not by each element that shares it
       if (shares && (released_[m] || stated.has(m))) continue;
       const double open = stated.has(m) ? -stated.value[m] : local[i];
       const double value = released_[m] ? released_values_[m] - configuration.multipliers[m] : open * scale_[m];
@@ -325,7 +325,7 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
     for (std::size_t i = 0; i < m0; ++i) {
       for (std::size_t j = 0; j < m0; ++j) k[i * n + j] = mass ? of_mass[i * n + j] : 0.0;
       if (!is_ghost(at)) inertia[static_cast<std::size_t>(slots[i])] += k[i * n + i];
-      // a multiplier's column may hold more than −Bᵀ (the separating force of gears): a projection wants −Bᵀ alone
+      // a multiplier's column may hold more than −Bᵀ (e.g. the separating force of gears), but a projection needs −Bᵀ alone
       if (metric == Metric::dynamic) continue;
       for (std::size_t j = m0; j < n; ++j) k[i * n + j] = k[j * n + i];
     }
@@ -334,7 +334,7 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
     sum.add(at, k);
   });
   MPI_Allreduce(MPI_IN_PLACE, inertia.data(), static_cast<int>(motion), MPI_DOUBLE, MPI_SUM, comm_);
-  // masses and moments of inertia are of different units, and neither may be compared with a number of ours
+  // masses and moments of inertia have different units, so each is compared only with the largest of its own kind
   double largest = 0;
   Magnitudes heaviest;
   for (int e = 0; e < numbering_.equations(); ++e) {
@@ -367,7 +367,7 @@ void Assembler::constraint_rates(const Configuration& configuration, std::span<c
                                  std::vector<double>& rate, std::vector<double>& second) {
   phi.assign(scale_.size(), 0);
   rate = second = phi;
-  // every rank does all, which saves a reduction
+  // every rank evaluates all elements, which saves a reduction
   std::array<std::vector<double>, 3> share;
   for (const int part : parts) {
     const std::size_t count = element(part).layout().multipliers.size();

@@ -14,117 +14,122 @@
 
 namespace engrane {
 
-/// A number for each Measure.
+/// One value per Measure.
 struct Magnitudes {
   double of[4] = {0, 0, 0, 0};
   double& operator[](Measure m) { return of[static_cast<int>(m)]; }
   double operator[](Measure m) const { return of[static_cast<int>(m)]; }
 };
 
-/// Sums the elements of a model into PETSc. Each rank evaluates its own elements and their neighbours (Numbering::evaluated), and
-/// has its equations whole without a message; every rank holds the whole Configuration.
+/// Assembles the element contributions of a model into PETSc matrices and vectors. Each rank evaluates its own elements and its
+/// ghost elements (Numbering::evaluated), so its rows are complete without communication. Every rank holds the whole
+/// Configuration.
 ///
-/// The assembled system is scaled: rows and columns of multiplier i carry k_i (paper, eq. 2), so that the unknown is λ
-/// and the row is −kΦ, of the size of the forces.
+/// The assembled system is scaled: the row and column of multiplier i are multiplied by k_i (paper, eq. 2). The unknown is then
+/// λ, and the constraint row is −kΦ, of the same magnitude as the forces.
 class Assembler {
  public:
-  /// `half`: as Scatter has it, for a tangent that is symmetric in every state.
+  /// `half`: store the upper triangle only (see Scatter), for a tangent that is symmetric in every state.
   Assembler(const Model& model, const Numbering& numbering, MPI_Comm comm, bool half = false);
 
   MPI_Comm comm() const { return comm_; }
   const Model& model() const { return model_; }
   const Numbering& numbering() const { return numbering_; }
   int rank() const { return rank_; }
-  /// This rank's elements, by index into Model::parts, ascending.
+  /// Elements owned by this rank: indices into Model::parts, ascending.
   const std::vector<int>& own_parts() const { return numbering_.partition().own(); }
   bool owns(int part) const { return numbering_.partition().owner(part) == rank_; }
   Mat matrix() const { return scatter_.matrix(); }
-  /// Whether matrix() has only its diagonal and what is above it.
+  /// Whether matrix() stores only the diagonal and the upper triangle.
   bool half() const { return scatter_.half(); }
   Vec new_vector() const { return scatter_.new_vector(); }
-  /// A matrix like matrix(), of the caller's.
+  /// Returns a new matrix with the structure of matrix(). The caller owns it.
   Mat new_matrix() const { return scatter_.new_matrix(); }
 
-  /// Scale k of each multiplier, in the order of Configuration::multipliers.
+  /// Scale factor k of each multiplier, in the order of Configuration::multipliers.
   const std::vector<double>& scale() const { return scale_; }
-  double penalty = 0;           ///< p of the augmented Lagrangian
-  double contact_homotopy = 0;  ///< of contacts, State::contact_homotopy
+  double penalty = 0;           ///< penalty factor p of the augmented Lagrangian
+  double contact_homotopy = 0;  ///< see State::contact_homotopy
 
-  /// Chooses k so that constraint rows are as large as the rows they act on (Bottasso, Dopico and Trainelli 2008: the
-  /// condition number then does not grow as h → 0). A positive `fixed` is used for all instead.
+  /// Chooses k so that the constraint rows are of the same magnitude as the rows they act on (Bottasso, Dopico and Trainelli
+  /// 2008: the condition number then does not grow as h → 0). If `fixed` is positive, it is used for all multipliers instead.
   void choose_scale(const Configuration& configuration, Weights weights, double fixed);
 
-  /// Replaces the equations of these multipliers (ascending) by kλ = what `values` has for them; of all others as they are.
+  /// Replaces the constraint equations of these multipliers (ascending) by kλ = `values` of the multiplier. Restores the
+  /// equations of all other multipliers that are not idle.
   void release(const std::vector<int>& multipliers, const std::vector<double>& values);
-  /// Constraints that are none at present (ascending): equations kλ = 0, left out of every analysis. At first all grips that hold
-  /// nothing. Constraints without equation (Numbering) are always idle.
+  /// Sets the constraints that are currently inactive (ascending): their equation becomes kλ = 0, and every analysis ignores
+  /// them. Initially these are all grips that are not holding. Constraints without an equation (Numbering) are always idle.
   void set_idle(const std::vector<int>& multipliers);
   bool idle(int multiplier) const { return idle_[static_cast<std::size_t>(multiplier)]; }
   int idle_count() const { return idle_count_; }
-  /// Whether the constraint has no say: given up by release(), or idle.
+  /// Whether the constraint equation is switched off: released by release(), or idle.
   bool released(int multiplier) const { return released_[static_cast<std::size_t>(multiplier)]; }
-  /// What the multiplier of a released constraint is to be.
+  /// Prescribed value kλ of a released multiplier.
   double released_value(int multiplier) const { return released_values_[static_cast<std::size_t>(multiplier)]; }
 
-  /// Scale factors, and which constraints are released with which values, for a restart.
+  /// Scale factors, and the released and idle constraints with their values, for a restart.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
 
-  /// Values of Φ that residual() takes for those of the elements, in the order of the multipliers, where they are known better
-  /// than from positions (NaN: they are not); and what is rounding of them. Both empty: of none.
+  /// Values of Φ that residual() uses instead of those of the elements, where Φ is known more accurately than positions can
+  /// give it, and their rounding errors; in the order of the multipliers. NaN: use the element's value. Both are empty if there
+  /// are none.
   struct StatedConstraints {
     std::vector<double> value, rounding;
     bool has(std::size_t multiplier) const { return !value.empty() && !std::isnan(value[multiplier]); }
   } stated;
 
-  /// The scaled residual.
+  /// Computes the scaled residual.
   void residual(const Configuration& configuration, Vec r);
-  /// The largest that an element contributed to each equation in the last residual, of multipliers 0; on every rank.
+  /// Largest magnitude that any element contributed to each equation in the last residual, on every rank; 0 for multipliers.
   const std::vector<double>& carried() const { return carried_; }
-  /// Counts what makes factors of matrix() useless: every writing into it, other scales, other constraints released or idle.
+  /// Counter of all changes that invalidate factors of matrix(): writing to it, changing scales, or changing the released or
+  /// idle constraints.
   long changes() const { return changes_; }
-  /// The scaled tangent, in matrix().
+  /// Assembles the scaled tangent in matrix().
   void tangent(const Configuration& configuration, Weights weights) { tangent(configuration, weights, matrix()); }
-  /// The same in a matrix of new_matrix().
+  /// As above, into a matrix from new_matrix().
   void tangent(const Configuration& configuration, Weights weights, Mat into);
 
-  /// Of a matrix that is made once: gives back the memory of what another tangent would need, and would find again.
+  /// Frees the memory for entry positions, which the next tangent would have to find again. For matrices that are assembled
+  /// once.
   void forget_places() { scatter_.forget_places(); }
 
-  /// What the projections of the start move with.
+  /// Norm that the projections at the start minimise.
   enum class Metric {
-    geometric,  ///< least movement: translations over the extent, rotations in radians
-    mass,       ///< least kinetic energy
-    dynamic     ///< the mass matrix, and the multipliers' columns with all forces that follow them
+    geometric,  ///< smallest movement: translations divided by the extent, rotations in radians
+    mass,       ///< smallest kinetic energy
+    dynamic     ///< mass matrix; the multiplier columns keep all forces that depend on the multipliers, not only −Bᵀ
   };
-  /// [D −Bᵀ; −B 0] (unscaled) in matrix(), D by metric. Unknowns without mass get a negligible one; the equations in
-  /// `held`, in any order, one so large that everything else moves first.
+  /// Assembles the unscaled projection matrix [D −Bᵀ; −B 0] in matrix(), with D chosen by `metric`. Unknowns without mass get a
+  /// negligible D. The equations in `held` (any order) get one so large that all other unknowns move first.
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held = {}) {
     projection(configuration, metric, held, matrix());
   }
-  /// The same in a matrix of new_matrix(), with `give` times the stiffness added to masses.
+  /// As above, into a matrix from new_matrix(), with `give` times the stiffness added to the mass matrix.
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into, double give = 0);
-  /// Φ and its time derivatives along the motion (unscaled), in the order of the multipliers; zero where idle.
+  /// Unscaled Φ and its first two time derivatives along the motion, in the order of the multipliers; zero for idle ones.
   void constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
                         std::vector<double>& second);
-  /// The same of the constraints of some elements, by index into Model::parts; zero for all others.
+  /// As above, for the constraints of the elements `parts` (indices into Model::parts); zero for all others.
   void constraint_rates(const Configuration& configuration, std::span<const int> parts, std::vector<double>& phi,
                         std::vector<double>& rate, std::vector<double>& second);
 
-  /// Residual of every slot, those without equation included (reactions of supports): unscaled, on every rank.
+  /// Returns the unscaled residual of every slot, including those without an equation (reactions of supports), on every rank.
   std::vector<double> slot_residual(const Configuration& configuration);
 
-  /// All entries of a distributed vector, on every rank. Valid until the next call.
+  /// Returns all entries of a distributed vector, on every rank. Valid until the next call.
   std::span<const double> gather(Vec x);
   /// Fills a distributed vector from values that every rank has.
   void spread(std::span<const double> all, Vec x) const;
 
-  /// State of one element: views the configuration.
+  /// State of one element. Its spans refer to the configuration.
   State view(int part, const Configuration& configuration) const;
 
-  /// Lets every element follow its whole turns, also on the way to a position that is sought.
+  /// Lets every element update its turn counters. Also used during iterations that search for a position.
   void count_turns(Configuration& configuration);
-  /// Lets every element keep what it remembers of an accepted configuration.
+  /// Lets every element update its history from an accepted configuration.
   void commit(Configuration& configuration);
 
  private:
@@ -132,28 +137,28 @@ class Assembler {
   const Vec3& gravity_at(double time) const;
   void write_history(Configuration& configuration,
                      void (Element::*write)(const State&, std::span<double>, std::span<double>) const);
-  /// Elements that are evaluated together: number `first` of Numbering::evaluated() and those after it.
+  /// Elements that are evaluated together: consecutive entries of Numbering::evaluated(), starting at `first`.
   struct Batch {
     std::size_t first;
     ElementRange range;
-    std::size_t slots;  ///< of each
+    std::size_t slots;  ///< number of slots of each element
   };
   void find_batches();
   int evaluated(std::size_t at) const { return numbering_.evaluated()[at]; }
   bool is_ghost(std::size_t at) const { return at >= own_parts().size(); }
-  /// Evaluates residuals, and calls `use(part, r)` for each element that this rank evaluates.
+  /// Evaluates the residuals and calls `use(part, r)` for each element that this rank evaluates.
   template <class Use>
   void for_each_residual(const Configuration& configuration, Use&& use);
-  /// The same with tangents: `use(at, k)` for element evaluated(at); k may be changed.
+  /// As above for tangents: `use(at, k)` for element evaluated(at); `use` may modify k.
   template <class Use>
   void for_each_tangent(const Configuration& configuration, Weights weights, Use&& use);
-  /// States of a batch's elements, in states_.
+  /// Fills states_ with the states of the batch's elements.
   std::span<const State> views(const Batch& batch, const Configuration& configuration);
-  /// Multiplies rows and columns of an element's multipliers by their k, and clears those that are released.
+  /// Multiplies the rows and columns of an element's multipliers by their k, and zeroes the rows of released ones.
   void scale_multipliers(int part, std::span<double> k) const;
   bool numbered(int multiplier) const;
   void note_released();
-  /// Whether an equation is a released constraint's.
+  /// Whether the equation belongs to a released constraint.
   bool released_equation(int equation) const;
 
   const Model& model_;
@@ -171,10 +176,10 @@ class Assembler {
   bool any_released_ = false;
   std::vector<double> gathered_, carried_;
   mutable double gravity_time_ = std::numeric_limits<double>::quiet_NaN();
-  mutable Vec3 gravity_ = Vec3::Zero();  ///< at that time
-  std::vector<int> constrained_parts_;   ///< elements with multipliers, of all ranks
-  std::vector<Batch> batches_;           ///< of Numbering::evaluated(), in its order
-  // one batch's buffers
+  mutable Vec3 gravity_ = Vec3::Zero();  ///< gravity at gravity_time_
+  std::vector<int> constrained_parts_;   ///< elements with multipliers, on all ranks
+  std::vector<Batch> batches_;           ///< partition of Numbering::evaluated(), in order
+  // buffers for one batch
   std::vector<State> states_;
   std::vector<double> local_r_, local_k_;
 };

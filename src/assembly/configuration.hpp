@@ -7,20 +7,20 @@
 
 namespace engrane {
 
-/// The whole mechanism at one instant: every value that moves, on every rank.
+/// State of the whole mechanism at one instant. Every rank holds all of it.
 struct Configuration {
   double time = 0;
-  double lead = 0;               ///< functions of time stand at time + lead: zero but along a path of equilibria
-  double h = 0;                  ///< of the step that ends here; 0 where there is none
+  double lead = 0;               ///< functions of time are evaluated at time + lead; zero except along an equilibrium path
+  double h = 0;                  ///< length of the step that ends here; 0 if there is none
   std::vector<NodeState> nodes;  ///< in the order of Model::nodes; the first is the ground
   std::vector<double> scalars, scalar_rates, scalar_accelerations;
-  /// What rounding left out of positions, rotations (material, in radians) and scalars; one entry per motion slot. Increments
-  /// smaller than the rounding of a position add up here.
+  /// Rounding remainders of positions, rotations (material components, in radians) and scalars; one entry per motion slot. They
+  /// accumulate increments smaller than the rounding error of a position.
   std::vector<double> remainders;
   std::vector<double> multipliers;  ///< kλ: forces and moments
   std::vector<double> history;      ///< of all elements, as last committed
 
-  /// What elements and functions of time take for the time.
+  /// Time at which elements and functions of time are evaluated.
   double load_time() const { return time + lead; }
 };
 

@@ -9,7 +9,7 @@ namespace engrane {
 
 namespace {
 
-/// Calls use(name, array) for every array of numbers that a configuration consists of.
+/// Calls use(name, array) for every numeric array of a configuration.
 template <class C, class Use>
 void for_each_array(C& c, Use&& use) {
   use("remainders", c.remainders);

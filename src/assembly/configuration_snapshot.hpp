@@ -6,11 +6,11 @@
 
 namespace engrane {
 
-/// Writes a configuration, every bit of it, under names that begin with `configuration/`.
+/// Writes a configuration bit for bit, under names that begin with `configuration/`.
 void save_configuration(const Configuration& configuration, Snapshot& snapshot);
 
-/// Takes it back into a configuration of the same model. Throws std::out_of_range when the snapshot was made of a model with
-/// other nodes or unknowns, naming what differs.
+/// Restores it into a configuration of the same model. Throws std::out_of_range if the snapshot belongs to a model with other
+/// nodes or unknowns, naming the array that differs.
 void load_configuration(const Snapshot& snapshot, Configuration& configuration);
 
 }  // namespace engrane

@@ -16,7 +16,7 @@ std::vector<double> difference(const Configuration& to, const Configuration& fro
   for (std::size_t i = 0; i < to.nodes.size(); ++i) {
     const NodeState &a = from.nodes[i], &b = to.nodes[i];
     const Vec3 translation = b.x - a.x;
-    // the logarithm of a product that is the identity but for rounding is not zero
+    // with equal rotations the logarithm would differ from zero by rounding errors
     const Vec3 rotation = a.R == b.R ? Vec3(Vec3::Zero()) : rotation_log(a.R.transpose() * b.R);
     next = std::copy_n(translation.data(), 3, next);
     next = std::copy_n(rotation.data(), 3, next);

@@ -7,9 +7,10 @@
 
 namespace engrane {
 
-/// The motion that leads from `from` to `to`, in the order of the motion slots: six for each node, the ground too (translation,
-/// and the rotation vector that turns the old orientation into the new one, in material components, of length at most π), then
-/// the elements' scalars. A move of `from` by it (solve's MotionSlots::move) is `to`, to rounding. Both are of one model.
+/// Returns the motion from `from` to `to`, in the order of the motion slots: six per node, including the ground (translation,
+/// then the rotation vector from the old to the new orientation, in material components, of length at most π), then the scalars
+/// of the elements. Moving `from` by it (MotionSlots::move in solve) gives `to` up to rounding. Both must belong to the same
+/// model.
 std::vector<double> difference(const Configuration& to, const Configuration& from);
 
 }  // namespace engrane

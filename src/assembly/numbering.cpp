@@ -10,7 +10,7 @@ namespace engrane {
 
 namespace {
 
-/// The measure of a constraint or of the force conjugate to a scalar, from the scalar's dimension.
+/// Measure of a constraint, or of the force conjugate to a scalar, from the dimension of the multiplier or scalar.
 Measure measure_of(const Named& named, bool multiplier) {
   const bool angular = named.dimension.length == 0;
   if (multiplier) return angular ? Measure::angle : Measure::length;
@@ -46,7 +46,7 @@ Numbering::Numbering(const Model& model, Partition partition)
     equation_[static_cast<std::size_t>(u.slot)] = equations();
     unknowns_.push_back(u);
   };
-  // nodes first, then each element's own unknowns: an equation number tells a reader roughly where it is
+  // nodes first, then each element's own unknowns, so that an equation number roughly tells where the equation belongs
   for (std::size_t slot = 0; slot < node_slots; ++slot)
     if (used[slot]) {
       const int c = static_cast<int>(slot % 6);
@@ -55,7 +55,7 @@ Numbering::Numbering(const Model& model, Partition partition)
   int scalar = 0, multiplier = 0;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Layout& layout = model.parts[p].element->layout();
-    // those that are shared are of the last element that brought its own
+    // shared multipliers are those of the last element that has its own
     const int shared = static_cast<int>(layout.multipliers.size() - layout.own_multipliers());
     parts_.push_back({part_slots_.size(), scalar, multiplier - shared, history_});
     for (std::size_t i = 0; i < layout.needs.size(); ++i)

@@ -8,26 +8,26 @@ namespace engrane {
 
 namespace {
 
-/// So many elements a rank are worth a search for a good partition.
+/// Minimum number of elements per rank for which graph partitioning is worthwhile.
 constexpr std::size_t worth_parting = 100;
-/// Weights of elements reach to this: their sums must fit PetscInt.
+/// Largest vertex weight: the sum of all weights must fit in PetscInt.
 constexpr double heaviest = 100;
 
-/// Links between elements: neighbours of element i are to[begin[i]] up to before begin[i + 1], ascending, with the number of
+/// Adjacency of elements: the neighbours of element i are to[begin[i]] … to[begin[i + 1] − 1], ascending, with the number of
 /// nodes that link them.
 struct Graph {
   std::vector<PetscInt> begin, to, nodes;
 };
 
-/// The elements at a node are linked with one another, so that what a cut through the links counts is close to the nodes that the
-/// parts share. Where many meet in one node each is linked with the next few only: a node of ten thousand elements must not make
-/// a hundred million links.
+/// Links the elements at each node with one another, so that the weight of a cut approximates the number of shared nodes. Each
+/// element is linked only with the next few at the node: a node with ten thousand elements must not create a hundred million
+/// links.
 Graph graph_of(const Model& model) {
   constexpr std::size_t next_few = 8;
   std::vector<std::vector<int>> at_node(model.nodes.size());
   for (std::size_t p = 0; p < model.parts.size(); ++p)
     for (const int node : model.parts[p].nodes)
-      if (node > 0) at_node[static_cast<std::size_t>(node)].push_back(static_cast<int>(p));  // the ground joins nothing
+      if (node > 0) at_node[static_cast<std::size_t>(node)].push_back(static_cast<int>(p));  // the ground links nothing
   std::vector<std::pair<int, int>> links;
   for (const std::vector<int>& parts : at_node)
     for (std::size_t i = 0; i < parts.size(); ++i)
@@ -52,7 +52,7 @@ Graph graph_of(const Model& model) {
   return graph;
 }
 
-/// What an element costs: the entries of its tangent.
+/// Cost of each element: the number of entries of its tangent.
 std::vector<double> costs_of(const Model& model) {
   std::vector<double> costs;
   costs.reserve(model.parts.size());
@@ -63,7 +63,7 @@ std::vector<double> costs_of(const Model& model) {
   return costs;
 }
 
-/// PETSc frees it.
+/// Copy that PETSc will free.
 PetscInt* petsc_copy(const std::vector<PetscInt>& values) {
   PetscInt* copy = nullptr;
   check_petsc(PetscMalloc1(values.size(), &copy));
@@ -87,7 +87,8 @@ Partition::Partition(const Model& model, MPI_Comm comm) {
   if (model.parts.size() < worth_parting * static_cast<std::size_t>(ranks_)) {
     deal_out(parts);
   } else {
-    // one rank finds it for all: in parallel Scotch may find another in each run, and a run could not be repeated to the bit
+    // only rank 0 partitions: parallel Scotch may find a different partition in each run, and runs must be reproducible bit for
+    // bit
     if (rank_ == 0) part_graph(model);
     MPI_Bcast(owners_.data(), parts, MPI_INT, 0, comm);
   }

@@ -8,20 +8,21 @@
 
 namespace engrane {
 
-/// Which rank has which element. Few elements are dealt out in the order of the deck, in equal shares; many are parted along few
-/// shared nodes, so that few are evaluated twice (Numbering::evaluated) and ranks have little to tell each other.
+/// Assigns elements to ranks. Small models are divided into equal shares in the order of the deck. Larger ones are partitioned
+/// so that the parts share few nodes: fewer elements are then evaluated twice (Numbering::evaluated), and the ranks communicate
+/// less.
 class Partition {
  public:
-  /// One rank has all.
+  /// Assigns all elements to one rank.
   explicit Partition(const Model& model);
-  /// Collective; the same on every rank and in every run.
+  /// Collective. The result is the same on every rank and in every run.
   Partition(const Model& model, MPI_Comm comm);
 
   int rank() const { return rank_; }
   int ranks() const { return ranks_; }
-  /// By index into Model::parts.
+  /// `part`: index into Model::parts.
   int owner(int part) const { return owners_.empty() ? 0 : owners_[static_cast<std::size_t>(part)]; }
-  /// The elements of this rank, ascending.
+  /// Elements of this rank, ascending.
   const std::vector<int>& own() const { return own_; }
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 std::string last_message;
 
-/// Keeps the first words of an error; PETSc calls again, with PETSC_ERROR_REPEAT, on the way up.
+/// Keeps the message of the original error. PETSc calls again with PETSC_ERROR_REPEAT while it unwinds.
 PetscErrorCode keep_message(MPI_Comm, int line, const char* function, const char* file, PetscErrorCode code, PetscErrorType type,
                             const char* message, void*) {
   if (type == PETSC_ERROR_INITIAL) {
@@ -44,7 +44,7 @@ PetscLogEvent log_event(const char* name) {
 PetscSession::PetscSession(int& argc, char**& argv) {
   check_petsc(PetscInitialize(&argc, &argv, nullptr, nullptr));
   check_petsc(PetscPushErrorHandler(keep_message, nullptr));
-  check_petsc(PetscPopSignalHandler());  // a signal is ours to handle: results are closed first
+  check_petsc(PetscPopSignalHandler());  // this program handles signals itself: it closes the results first
 }
 
 PetscSession::~PetscSession() {

@@ -9,15 +9,15 @@
 
 namespace engrane {
 
-/// PETSc, MUMPS or MPI said no where nothing the user did should make them: a fault of ours or of the machine.
+/// A call to PETSc, MUMPS or MPI failed for a reason that is not the user's: a bug in this program or a fault of the machine.
 struct PetscFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws PetscFailure with PETSc's own words when a call failed.
+/// Throws PetscFailure with PETSc's message if a call failed.
 void check_petsc(PetscErrorCode code);
 
-/// The text that one rank has, on all. Collective.
+/// Collective: returns the text of the given rank on all ranks.
 std::string text_of_rank(int rank, std::string text, MPI_Comm comm);
 
 /// Owns a PETSc object: `Owned<Mat> A; check_petsc(MatCreate(comm, A.out()));`
@@ -48,10 +48,10 @@ class Owned {
   Handle handle_ = nullptr;
 };
 
-/// A new event of PETSc's log.
+/// Registers a new event in PETSc's log.
 PetscLogEvent log_event(const char* name);
 
-/// Its time is counted as that of an event, for as long as this lives.
+/// Attributes the time of its own lifetime to an event.
 class LoggedTime {
  public:
   explicit LoggedTime(PetscLogEvent event) : event_(event) { (void)PetscLogEventBegin(event_, 0, 0, 0, 0); }
@@ -63,7 +63,7 @@ class LoggedTime {
   PetscLogEvent event_;
 };
 
-/// Starts PETSc and MPI, and ends them. PETSc's errors are kept for check_petsc() instead of printed.
+/// Initialises PETSc and MPI, and finalises them. PETSc's error messages are kept for check_petsc() instead of being printed.
 class PetscSession {
  public:
   PetscSession(int& argc, char**& argv);

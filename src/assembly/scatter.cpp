@@ -13,7 +13,7 @@ Scatter::Pieces pieces_of(Mat matrix, bool parallel) {
   return pieces;
 }
 
-/// Where the columns of a sequential matrix stand.
+/// Finds positions of entries in a sequential matrix.
 class Places {
  public:
   explicit Places(Mat matrix) : matrix_(matrix) {
@@ -51,7 +51,7 @@ void Scatter::find_pattern() {
   check_petsc(MatSetSizes(matrix_, own_rows, own_rows, n, n));
   check_petsc(MatSetType(matrix_, half_ ? MATSEQSBAIJ : MATAIJ));
   if (!half_) check_petsc(MatSetFromOptions(matrix_));
-  // the elements of each row
+  // the elements that contribute to each row
   const auto rows = static_cast<std::size_t>(own_rows);
   std::vector<std::size_t> begin(rows + 1, 0);
   const auto for_each_row = [&](auto&& use) {
@@ -68,13 +68,13 @@ void Scatter::find_pattern() {
   std::vector<PetscInt> row_begin{0}, columns, seen(static_cast<std::size_t>(n), -1);
   row_begin.reserve(rows + 1);
   if (half_) {
-    // no more than if elements shared no pair of equations; memory that is never written is never taken
+    // upper bound, as if no two elements shared a pair of equations; memory that is never written is never allocated
     std::size_t most = rows;
     for (const int p : numbering_.evaluated())
       most += numbering_.part_slots(p).size() * (numbering_.part_slots(p).size() + 1) / 2;
     columns.reserve(most);
   }
-  // rows of a node have the same elements, and so the same columns
+  // rows of the same node have the same elements and therefore the same columns
   const auto as_before = [&](std::size_t row) {
     return row > 0 && begin[row] > begin[row - 1] &&
            std::equal(parts.begin() + static_cast<std::ptrdiff_t>(begin[row]),
@@ -85,7 +85,7 @@ void Scatter::find_pattern() {
   for (std::size_t row = 0; row < rows; ++row) {
     const PetscInt own = first_row + static_cast<PetscInt>(row);
     if (as_before(row)) {
-      // of a half but for the diagonal of the row before
+      // the upper triangle loses the diagonal entry of the previous row
       const auto last = static_cast<std::size_t>(row_begin[row - 1]) + (half_ ? 1 : 0), count = columns.size() - last;
       columns.resize(columns.size() + count);
       std::copy_n(columns.begin() + static_cast<std::ptrdiff_t>(last), count, columns.end() - static_cast<std::ptrdiff_t>(count));
@@ -111,7 +111,7 @@ void Scatter::preallocate(const std::vector<PetscInt>& row_begin, std::vector<Pe
   if (size_ > 1) {
     check_petsc(MatMPIAIJSetPreallocationCSR(matrix_, row_begin.data(), columns.data(), nullptr));
   } else {
-    // the same without a search for the place of each entry
+    // as above, but without searching for the position of each entry
     std::vector<PetscInt> widths(row_begin.size() - 1);
     for (std::size_t row = 0; row < widths.size(); ++row) widths[row] = row_begin[row + 1] - row_begin[row];
     if (half_) {
@@ -148,7 +148,7 @@ void Scatter::find_runs(int part) {
 }
 
 void Scatter::forget_places() {
-  // assigning nothing would keep the memory
+  // clear() would keep the memory
   std::vector<Begin>().swap(begin_);
   std::vector<Run>().swap(runs_);
   std::vector<PetscInt>().swap(places_);
@@ -176,7 +176,7 @@ void Scatter::find_places() {
       if (!numbering_.is_own(equation(runs_[r].first))) continue;
       for (int i = runs_[r].first; i < runs_[r].first + runs_[r].length; ++i)
         for (std::size_t c = first; c < end; ++c) {
-          // of a half: the diagonal and the runs behind it
+          // upper triangle: only the diagonal and the runs after it
           if (half_ && equation(runs_[c].first) < equation(runs_[r].first)) continue;
           places_.push_back(place_of(equation(i), half_ && c == r ? equation(i) : equation(runs_[c].first)));
         }
@@ -283,7 +283,7 @@ Scatter::VectorSum::VectorSum(const Scatter& scatter, Vec vector) : numbering_(s
 }
 
 Scatter::VectorSum::~VectorSum() {
-  // also where this rank has no rows, and so no array: PETSc must learn on every rank that its norm is another
+  // needed even if this rank has no rows, and thus no array: PETSc must invalidate the cached norm on every rank
   (void)VecRestoreArray(vector_, &values_);
 }
 

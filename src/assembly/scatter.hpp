@@ -9,30 +9,33 @@
 
 namespace engrane {
 
-/// Where the entries of each element's tangent and residual go: straight into the arrays of matrix and vector. The columns of an
-/// element are runs of consecutive equations, so that a position for each row and run is all that is kept (56 bytes for a
-/// spring). Rows of other ranks are left out: these evaluate the element too (Numbering::evaluated), so that nothing is sent.
+/// Positions of each element's tangent entries in the global matrix. Entries are added directly to the arrays of PETSc's
+/// matrices and vectors. The columns of an element form runs of consecutive equations, so only one position per row and run is
+/// stored (56 bytes for a spring). Rows of other ranks are skipped: those ranks evaluate the element too
+/// (Numbering::evaluated), so nothing is communicated.
 class Scatter {
  public:
-  /// For the elements of Numbering::evaluated(); collective. `half`, on one rank: of a matrix that is symmetric whatever the
-  /// state, only the diagonal and what is above it are kept (MATSEQSBAIJ).
+  /// For the elements of Numbering::evaluated(). Collective. `half`, on one rank only: the matrix is symmetric in every state,
+  /// and only the diagonal and the upper triangle are stored (MATSEQSBAIJ).
   Scatter(const Numbering& numbering, MPI_Comm comm, bool half = false);
 
-  /// Columns of this rank's equations, and of all others; with one rank all are its own. `global` numbers the others' columns.
+  /// Diagonal block (`own`, columns of this rank's equations) and off-diagonal block (`others`) of a parallel matrix. On one
+  /// rank, `own` is the whole matrix. `global` gives the global column numbers of `others`.
   struct Pieces {
     Mat own = nullptr, others = nullptr;
     const PetscInt* global = nullptr;
   };
 
-  /// A matrix with a place for every pair of equations that share an element, and for every diagonal entry: factorisations
-  /// expect those, projections write them.
+  /// Matrix with an entry for every pair of equations that share an element, and for the whole diagonal, which factorisations
+  /// expect and projections write.
   Mat matrix() const { return matrix_; }
-  /// Another one like it. The caller owns it.
+  /// Returns a new matrix with the same structure. The caller owns it.
   Mat new_matrix() const;
   Vec new_vector() const;
   bool half() const { return half_; }
 
-  /// Sums into matrix() or a matrix of new_matrix(), from zero; finish() (collective) must be called once all is added.
+  /// Assembles into matrix() or a matrix from new_matrix(), starting from zero. Call finish() (collective) when everything is
+  /// added.
   class MatrixSum {
    public:
     MatrixSum(Scatter& scatter, Mat matrix);
@@ -40,9 +43,10 @@ class Scatter {
     MatrixSum(const MatrixSum&) = delete;
     MatrixSum& operator=(const MatrixSum&) = delete;
 
-    /// Adds the tangent of an element, number `at` of Numbering::evaluated(): row-major, as wide as its slots.
+    /// Adds the tangent of the element at index `at` of Numbering::evaluated(): row-major, with as many columns as the element
+    /// has slots.
     void add(std::size_t at, std::span<const double> k);
-    /// Adds to a diagonal entry of this rank; after the elements.
+    /// Adds to a diagonal entry of this rank. Call only after all elements have been added.
     void add_diagonal(PetscInt row, double value);
     void finish();
 
@@ -52,11 +56,11 @@ class Scatter {
     const Scatter& scatter_;
     Mat matrix_;
     Pieces pieces_;
-    PetscScalar *own_ = nullptr, *others_ = nullptr;  ///< values of the pieces, while elements are added
+    PetscScalar *own_ = nullptr, *others_ = nullptr;  ///< arrays of the two blocks while elements are added
     bool left_ = false;
   };
 
-  /// The same for a vector of new_vector(), without finish().
+  /// Assembles a vector from new_vector(). Needs no finish().
   class VectorSum {
    public:
     VectorSum(const Scatter& scatter, Vec vector);
@@ -74,19 +78,19 @@ class Scatter {
     PetscScalar* values_ = nullptr;
   };
 
-  /// Forgets where entries go until they are summed again, which finds it anew: for matrices that are made once.
+  /// Frees the entry positions; the next assembly finds them again. For matrices that are assembled once.
   void forget_places();
 
-  /// Bytes that this keeps for the elements.
+  /// Memory used for the element tables, in bytes.
   std::size_t bytes() const;
 
  private:
   struct Run {
-    int first, length;  ///< local slots with consecutive equations, all of this rank or none
+    int first, length;  ///< local slots with consecutive equations, all owned by this rank or none
   };
   struct Begin {
     std::size_t run, place;
-    bool whole;  ///< no row is of another rank
+    bool whole;  ///< this rank owns all rows
   };
   void find_pattern();
   void preallocate(const std::vector<PetscInt>& row_begin, std::vector<PetscInt>& columns);
@@ -100,7 +104,7 @@ class Scatter {
   Owned<Mat> matrix_;
   std::vector<Begin> begin_;
   std::vector<Run> runs_;
-  std::vector<PetscInt> places_;  ///< in the values of the own columns, or −1 less than that in those of the others
+  std::vector<PetscInt> places_;  ///< index p ≥ 0 into the values of the own block, or −1 − p for the other block
 };
 
 }  // namespace engrane

@@ -61,13 +61,13 @@ void Diagnostics::add(Diagnostic diagnostic) {
 
 namespace {
 
-/// How many errors, and how many warnings, one print shows; a wrong unit of a whole mesh must not scroll all away.
+/// Limit on the errors, and on the warnings, that one print shows: a wrong unit in a large mesh must not flood the terminal.
 constexpr int most_shown = 100;
 
-/// Characters of a line that an excerpt shows.
+/// Number of characters of a source line shown in an excerpt.
 constexpr std::size_t excerpt_width = 160;
 
-/// Line and column of every INPUT from the main file down to the place: sorting by it gives deck order.
+/// Line and column of each INPUT from the main file down to this position; sorting by them gives deck order.
 std::vector<std::pair<int, int>> deck_position(const SourceMap& sources, const Location& where) {
   std::vector<std::pair<int, int>> position;
   for (Location at = where; at.known(); at = sources.included_from(at.file)) position.emplace_back(at.line, at.column);
@@ -75,7 +75,7 @@ std::vector<std::pair<int, int>> deck_position(const SourceMap& sources, const L
   return position;
 }
 
-/// The offending line with a caret below. A line too long for the screen is shown around the caret.
+/// Prints the offending line with a caret below. Of a line too long for the screen, the part around the caret is shown.
 void print_excerpt(std::ostream& out, const SourceMap& sources, const Location& where) {
   const std::string_view line = sources.line(where.file, where.line);
   if (line.empty()) return;
@@ -83,7 +83,7 @@ void print_excerpt(std::ostream& out, const SourceMap& sources, const Location& 
   const std::size_t end = std::min(start + static_cast<std::size_t>(std::max(where.length, 1)), line.size());
   const std::size_t before = character_count(line.substr(0, start));
   std::size_t first = 0;
-  if (before > excerpt_width - 40) {  // characters to leave out at the left, so that the caret stays in sight
+  if (before > excerpt_width - 40) {  // skip characters at the left, so that the caret stays visible
     std::size_t leave_out = before - (excerpt_width - 80);
     for (; leave_out > 0; --leave_out) first += character_size(line, first);
   }
@@ -148,7 +148,7 @@ void Diagnostics::print(std::ostream& out, const SourceMap& sources) const {
   std::vector<std::pair<Key, const Diagnostic*>> ordered;
   for (const Diagnostic& diagnostic : all_) ordered.emplace_back(deck_position(sources, diagnostic.location), &diagnostic);
   std::stable_sort(ordered.begin(), ordered.end(), [](const auto& a, const auto& b) {
-    // what concerns no place in particular comes last: it often follows from the errors that have one
+    // diagnostics without a position come last: they often follow from those that have one
     if (a.first.empty() != b.first.empty()) return b.first.empty();
     return a.first < b.first;
   });
@@ -167,7 +167,7 @@ void Diagnostics::print(std::ostream& out, const SourceMap& sources) const {
 
 namespace {
 
-/// Edit distance that counts a swap of neighbours as one slip, the commonest one of typists.
+/// Edit distance that counts a transposition of neighbours as one error, the most common typing error.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
@@ -200,7 +200,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     }
   }
   if (!best.empty()) return best;
-  for (const std::string& candidate : candidates)  // too long a spelling, or a word with a tail: FIXED, GEARS
+  for (const std::string& candidate : candidates)  // a longer spelling of a keyword, such as FIXED or GEARS
     if (candidate.size() >= 3 && begins_with_word(word, candidate)) return candidate;
   return {};
 }

@@ -24,7 +24,7 @@ constexpr std::array<NamedUnit, 6> mass_units{
 constexpr std::array<NamedUnit, 4> time_units{{{"s", 1}, {"ms", 1e-3}, {"min", 60}, {"h", 3600}}};
 constexpr std::array<NamedUnit, 5> force_units{{{"N", 1}, {"kN", 1e3}, {"MN", 1e6}, {"mN", 1e-3}, {"lbf", 4.4482216152605}}};
 
-/// The name of a unit of this size; decks give factors with few digits, hence the tolerance.
+/// Name of the unit with this factor. The tolerance allows for factors given with few digits.
 template <std::size_t N>
 std::string unit_name(const std::array<NamedUnit, N>& units, double factor) {
   for (const NamedUnit& unit : units)
@@ -45,7 +45,7 @@ std::string superscript(int exponent) {
   return result;
 }
 
-/// `N·m·s/rad`: what multiplies, then what divides.
+/// `N·m·s/rad`: positive exponents first, then negative ones as divisors.
 std::string product(const std::vector<Factor>& factors) {
   std::string above;
   std::string below;
@@ -86,7 +86,7 @@ std::string UnitSystem::label(Dimension d) const {
                      (as_force || !mass_name.empty() || d.mass == 0) && (!time_name.empty() || d.time == (as_force ? -2 : 0));
   if (!named) return format_number(to_si(d)) + " SI";
   if (as_force) {
-    if (d.length == -1 && d.time == -2 && d.angle == 0 && force_name == "N") {  // a pressure has names of its own
+    if (d.length == -1 && d.time == -2 && d.angle == 0 && force_name == "N") {  // pressure units have names of their own
       if (length_name == "m") return "Pa";
       if (length_name == "mm") return "MPa";
     }

@@ -15,11 +15,11 @@ struct Dimension {
   friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 
-/// The dimensions that decks, elements and results use, by name.
+/// Named dimensions used by decks, elements and results.
 namespace dimension {
 inline constexpr Dimension none{};
 inline constexpr Dimension length{1, 0, 0, 0};
-inline constexpr Dimension angle{0, 0, 0, 1};  ///< radians inside; degrees in the deck
+inline constexpr Dimension angle{0, 0, 0, 1};  ///< radians internally; degrees in the deck
 inline constexpr Dimension mass{0, 1, 0, 0};
 inline constexpr Dimension time{0, 0, 1, 0};
 inline constexpr Dimension velocity{1, 0, -1, 0};
@@ -38,16 +38,16 @@ inline constexpr Dimension torsional_stiffness{2, 1, -2, -1};  ///< moment per r
 inline constexpr Dimension torsional_damping{2, 1, -1, -1};    ///< moment per radian per second
 }  // namespace dimension
 
-/// Factors from the deck's units to SI (`.UNIT`). Metadata only: numbers are never rescaled.
+/// Factors from the deck's units to SI (`.UNIT`). Used for labels only: numbers are never rescaled.
 struct UnitSystem {
   bool given = false;  ///< without `.UNIT` the deck's units are consistent but unnamed
   double length = 1;
   double mass = 1;
   double time = 1;
 
-  /// Factor that turns a number of this dimension into SI.
+  /// Factor that converts a number of this dimension to SI.
   double to_si(Dimension d) const;
-  /// Name of the unit: "N", "lbf", "mm/s", "rad"; a name of the dimension in brackets, "[force]", when no units were given.
+  /// Name of the unit: "N", "lbf", "mm/s", "rad"; if no units were given, the name of the dimension in brackets, "[force]".
   std::string label(Dimension d) const;
 };
 

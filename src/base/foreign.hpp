@@ -6,7 +6,7 @@
 
 namespace engrane {
 
-/// A message about a foreign file (SourceMap::foreign) without what it quotes of it: "`...` is not a keyword".
+/// Returns a message about a foreign file (SourceMap::foreign) with its quoted text removed: "`...` is not a keyword".
 std::string without_quotes(std::string_view message);
 
 }  // namespace engrane

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The number that a file holds; infinite where there is no such file or it holds a word, such as "max".
+/// The number in a file; infinite if there is no such file or it holds a word, such as "max".
 double number_in(const char* file) {
   std::ifstream in(file);
   double value = 0;
@@ -27,7 +27,7 @@ double free_on_machine() {
   return unlimited;
 }
 
-/// What the user allows, in GB.
+/// Limit set by the user, in bytes.
 double allowed() {
   const char* text = std::getenv("ENGRANE_MEMORY");
   char* end = nullptr;

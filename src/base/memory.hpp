@@ -3,8 +3,8 @@
 
 namespace engrane {
 
-/// Bytes that this machine can give to further memory without paging, within the limit of the control group that the process runs
-/// in (a container, a job of a cluster) and of ENGRANE_MEMORY (GB) in the environment; infinite where nothing is told.
+/// Bytes of memory that can still be allocated without paging, within the limit of the process's control group (a container, a
+/// cluster job) and of the environment variable ENGRANE_MEMORY (GB). Infinite if none of these is known.
 double available_memory();
 
 }  // namespace engrane

@@ -71,7 +71,7 @@ std::size_t character_size(std::string_view text, std::size_t i) {
   if (i + size > text.size()) return 1;
   for (std::size_t k = 1; k < size; ++k)
     if ((byte_at(text, i + k) & 0xc0) != 0x80) return 1;
-  if (size > 2) {  // overlong forms, surrogates and code points past U+10FFFF are no characters
+  if (size > 2) {  // overlong forms, surrogates and code points past U+10FFFF are not characters
     const unsigned char second = byte_at(text, i + 1);
     if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) || (lead == 0xf0 && second < 0x90) ||
         (lead == 0xf4 && second > 0x8f))
@@ -92,7 +92,7 @@ std::string printable(std::string_view text) {
     const std::size_t size = character_size(text, i);
     const unsigned char c = byte_at(text, i);
     if (c == 0xc2 && size == 2 && byte_at(text, i + 1) < 0xa0) {
-      result += '?';  // C1 codes steer terminals as well
+      result += '?';  // C1 codes control terminals as well
     } else if (size > 1) {
       result += text.substr(i, size);
     } else if (c == '\t') {

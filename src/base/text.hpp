@@ -11,10 +11,10 @@ namespace engrane {
 /// ASCII upper case; other bytes are left alone, so that Latin-1 and UTF-8 both survive.
 std::string upper(std::string_view text);
 
-/// Do two words differ in nothing but ASCII case?
+/// Whether two words are equal apart from ASCII case.
 bool same_word(std::string_view a, std::string_view b);
 
-/// Is `start` the beginning of `word`, whatever the case?
+/// Whether `word` begins with `start`, ignoring ASCII case.
 bool begins_with_word(std::string_view word, std::string_view start);
 
 /// `a, b and c`; `last` joins the final two.
@@ -27,16 +27,16 @@ void append_number(std::string& text, double value);
 /// `1 value`, `3 values`.
 std::string counted(std::size_t count, std::string_view noun);
 
-/// Bytes of the character that starts at `text[i]`: 1 to 4 for valid UTF-8, 1 for any other byte.
+/// Number of bytes of the character that starts at `text[i]`: 1 to 4 for valid UTF-8, 1 for any other byte.
 std::size_t character_size(std::string_view text, std::size_t i);
 
-/// Number of characters as a terminal shows them: UTF-8 sequences count once, other bytes one each.
+/// Number of characters as a terminal shows them: each UTF-8 sequence and each other byte counts as one.
 std::size_t character_count(std::string_view text);
 
-/// Valid, printable UTF-8: stray bytes are taken as Latin-1, control characters become `?`, tabs become blanks.
+/// Converts to valid, printable UTF-8: stray bytes are read as Latin-1, control characters become `?`, tabs become blanks.
 std::string printable(std::string_view text);
 
-/// A JSON string with its quotes.
+/// Returns the text as a JSON string, including the quotes.
 std::string json_string(std::string_view text);
 
 /// Text broken at blanks into lines of at most `width` characters (a longer word keeps a line to itself).

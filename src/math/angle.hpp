@@ -5,7 +5,7 @@
 
 namespace engrane {
 
-/// In radians: angles are in degrees where a person reads or writes them, in radians inside.
+/// One degree in radians. Angles are in degrees in decks and output, in radians internally.
 inline constexpr double degree = std::numbers::pi / 180;
 
 }  // namespace engrane

@@ -14,8 +14,8 @@ inline constexpr bool is_dual = false;
 template <int N>
 inline constexpr bool is_dual<Dual<N>> = true;
 
-/// y = f(x) for few numbers x. Where these have more derivatives than there are numbers, f is differentiated by the numbers
-/// themselves, and the chain rule takes the derivatives through it: cheaper than f with all of them.
+/// Evaluates y = f(x) for a few variables x. If T carries more derivative lanes than there are variables, f is differentiated
+/// with respect to x only and the chain rule maps the result to all lanes. That is cheaper than evaluating f in T.
 template <std::size_t Out, class T, std::size_t In, class F>
 std::array<T, Out> through_few(const std::array<T, In>& x, const F& f) {
   if constexpr (!is_dual<T>) {

@@ -7,7 +7,8 @@
 
 namespace engrane {
 
-/// A number with its derivatives along N directions: one sweep of an element's residual in duals is its exact tangent.
+/// Forward-mode dual number: a value with its derivatives along N directions. Evaluating an element's residual once in duals
+/// yields its exact tangent.
 template <int N>
 struct Dual {
   double value = 0;
@@ -94,14 +95,14 @@ struct Dual {
   }
 };
 
-/// The plain value under any scalar that elements are evaluated with.
+/// The plain value of any scalar type that elements are evaluated with.
 inline double value_of(double x) { return x; }
 template <int N>
 double value_of(const Dual<N>& x) {
   return x.value;
 }
 
-/// f(x) for a function given by value and derivatives at x, in the scalar's own arithmetic.
+/// f(x) in the arithmetic of x, given the value and first two derivatives of f at x.
 inline double compose(double, double f, double, double) { return f; }
 template <int N>
 Dual<N> compose(const Dual<N>& x, double f, double df, double) {

@@ -18,7 +18,7 @@ namespace {
 
 using Code = Expression::Instruction::Code;
 
-/// Parentheses, powers and arguments may nest this deep: more than anyone writes, and little enough for any stack.
+/// Limit on the nesting of parentheses, powers and arguments: more than anyone writes, and safe for any stack.
 constexpr int deepest = 100;
 
 struct Named {
@@ -51,7 +51,7 @@ struct Operator {
   std::string_view sign;
   Code code;
 };
-/// Fortran 90's comparisons and those of its elders; the longer of two that begin alike stands first.
+/// Comparisons of Fortran 90 and FORTRAN 77. Of two that begin alike, the longer comes first.
 constexpr std::array<Operator, 12> comparisons{{{"<=", Code::less_or_equal},
                                                 {"<", Code::less},
                                                 {">=", Code::greater_or_equal},
@@ -65,7 +65,7 @@ constexpr std::array<Operator, 12> comparisons{{{"<=", Code::less_or_equal},
                                                 {".EQ.", Code::equal},
                                                 {".NE.", Code::not_equal}}};
 
-/// What someone who thinks in another language may have written, and what it is called here.
+/// Operators of other languages, with hints for what to write instead.
 constexpr std::array<std::array<std::string_view, 2>, 6> foreign{{{"^", "a power is written **"},
                                                                   {"=", "equality is written =="},
                                                                   {"!=", "inequality is written /="},
@@ -73,7 +73,7 @@ constexpr std::array<std::array<std::string_view, 2>, 6> foreign{{{"^", "a power
                                                                   {"|", "write .OR."},
                                                                   {"?", "write if(condition, a, b)"}}};
 
-/// Does the text at `at` go on with a dotted operator such as `.LT.`? Then the dot does not belong to the number before it.
+/// Whether a dotted operator such as `.LT.` starts at `at`. Then the dot does not belong to the number before it.
 bool dotted_operator_at(std::string_view text, std::size_t at) {
   for (const std::string_view word : {".LE.", ".LT.", ".GE.", ".GT.", ".EQ.", ".NE.", ".AND.", ".OR.", ".NOT."})
     if (same_word(text.substr(at, word.size()), word)) return true;
@@ -83,7 +83,8 @@ bool dotted_operator_at(std::string_view text, std::size_t at) {
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Recursive descent that emits postfix code. After a fault it runs to the end without complaining again.
+/// Recursive-descent parser that emits postfix code. After the first fault it skips to the end of the text and reports nothing
+/// more.
 class Parser {
  public:
   Parser(std::string_view text, bool variable_allowed) : text_(text), variable_allowed_(variable_allowed) {}
@@ -134,7 +135,7 @@ class Parser {
   }
   void too_deep() { fault("the expression nests too deeply", "split it into simpler parts", at_ > 0 ? at_ - 1 : 0, 1); }
 
-  /// Appends an operation, or works it out when its operands are numbers. `at` and `length` name it in a fault.
+  /// Appends an operation, or folds it if its operands are constants. `at` and `length` locate it in a fault.
   void operation(Code code, std::size_t at, std::size_t length) {
     if (!good()) return;
     const std::size_t operands = operand_count(code);
@@ -238,7 +239,7 @@ class Parser {
     }
   }
 
-  /// A sign binds less than a power: -2**2 is -4.
+  /// A sign binds less tightly than a power: -2**2 is -4.
   void signed_power() {
     bool negative = false;
     skip_blanks();
@@ -276,7 +277,7 @@ class Parser {
       alternative();
       if (good() && !accept(")")) {
         if (next_is(",")) return fault("a comma belongs between the arguments of a function", "", at_, 1);
-        if (at_ < text_.size()) return;  // the caller says what is odd about it
+        if (at_ < text_.size()) return;  // the caller reports what is wrong with it
         fault("this `(` is never closed", "", at, 1);
       }
       return;
@@ -350,7 +351,7 @@ class Parser {
     const std::size_t open = at_;
     accept("(");
     std::size_t count = 0;
-    const bool fold = function.most == any_number;  // in pairs
+    const bool fold = function.most == any_number;  // reduced pairwise
     do {
       alternative();
       if (++count > function.most) break;

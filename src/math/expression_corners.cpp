@@ -27,7 +27,7 @@ Decisions all_decisions(const std::vector<Expression::Instruction>& program, dou
   return found;
 }
 
-/// Of an operation that goes by a side: calls `see` with each pair of operands whose difference it goes by.
+/// Calls `see` with each pair of operands whose difference decides an operation by its sign.
 template <class See>
 void see_differences(Expression::Instruction::Code code, const Series* operands, See&& see) {
   using Code = Expression::Instruction::Code;
@@ -87,7 +87,7 @@ void Expression::decide(const Taylor& x, double time, double size, std::span<Dec
   evaluate({uses_law_ ? Series{time, 1, 0, 0} : along, along, rate}, [](Decision& d, const Series& a, const Series& b) {
     d = {a.c0 - b.c0, a.c1 - b.c1, std::abs(a.c0) + std::abs(b.c0)};
   });
-  // what rounding of the variables makes of them
+  // rounding error propagated from the variables
   const auto add_part = [&](const std::array<Series, 3>& variables, double of) {
     evaluate(variables, [of](Decision& d, const Series& a, const Series& b) { d.size += std::abs(a.c1 - b.c1) * of; });
   };
@@ -105,7 +105,7 @@ std::vector<double> Expression::corners(double from, double to, std::size_t most
     const double right = from + (to - from) * k / looks;
     const Decisions on_right = all_decisions(program_, right);
     while (on_left != on_right) {
-      double corner = right;  // the first number with other decisions than on the left
+      double corner = right;  // the leftmost number with decisions that differ from those on the left
       Decisions there = on_right;
       while (true) {
         const double middle = left + 0.5 * (corner - left);

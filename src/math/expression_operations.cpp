@@ -12,7 +12,7 @@ using Code = Expression::Instruction::Code;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Comparisons and logic give 1 where they hold and 0 where not; anything but 0 holds. `difference` is the sign of a - b.
+/// Comparisons and logic give 1 if true and 0 if false; anything but 0 is true. `difference` is the sign of a - b.
 double compare(Code code, double difference) {
   if (std::isnan(difference)) return difference;
   switch (code) {
@@ -38,7 +38,7 @@ double logic(Code code, double a, double b) {
 
 /// f of a series, from the derivatives of f at its value (Faà di Bruno).
 Series chain(const Series& a, double f, double f1, double f2, double f3) {
-  // a constant inside has no derivatives, even where those of f are infinite
+  // a constant argument has zero derivatives, even where those of f are infinite
   if (a.constant()) return {f, 0, 0, 0};
   return {f, f1 * a.c1, f1 * a.c2 + f2 / 2 * a.c1 * a.c1, f1 * a.c3 + f2 * a.c1 * a.c2 + f3 / 6 * a.c1 * a.c1 * a.c1};
 }
@@ -59,15 +59,14 @@ Series operator/(const Series& a, const Series& b) {
   return q;
 }
 
-/// The sign of the function just right of here: of the first coefficient that is not zero. Not a number where the function is
-/// none.
+/// Sign just to the right of the current point: that of the first non-zero coefficient. NaN where the function is NaN.
 double sign_on_the_right(const Series& a) {
   for (const double c : {a.c0, a.c1, a.c2, a.c3})
     if (c != 0) return c > 0 ? 1 : c < 0 ? -1 : not_a_number;
   return 0;
 }
 
-/// The sign of a - b there; infinite values are compared without a difference.
+/// Sign of a - b just to the right; infinite values are compared without forming the difference.
 double difference_on_the_right(const Series& a, const Series& b) {
   if (a.c0 < b.c0) return -1;
   if (a.c0 > b.c0) return 1;
@@ -91,7 +90,7 @@ Series power(const Series& a, const Series& b) {
     r.c0 = std::pow(a.c0, b.c0);
     return r;
   }
-  // p (p-1) … x^(p-k): a factor that is exactly zero ends the chain, so that x**2 at 0 has no 0·∞
+  // p (p-1) … x^(p-k): a factor of exactly zero ends the sequence, so that x**2 at 0 gives no 0·∞
   const double p = b.c0;
   const std::array factors{p, p * (p - 1), p * (p - 1) * (p - 2)};
   std::array<double, 3> d{};

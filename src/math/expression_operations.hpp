@@ -9,32 +9,33 @@
 
 namespace engrane {
 
-/// A Taylor series in one variable, cut after the third power: value c0 and c1 = f′, c2 = f″/2, c3 = f‴/6.
+/// A Taylor series in one variable, truncated after the third power: c0 = f, c1 = f′, c2 = f″/2, c3 = f‴/6.
 struct Series {
   double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
 
   bool constant() const { return c1 == 0 && c2 == 0 && c3 == 0; }
 };
 
-/// Operands that may wait on the stack of an evaluation.
+/// Capacity of the operand stack of an evaluation.
 inline constexpr std::size_t most_waiting_operands = 64;
 
-/// How many operands an operation takes from the stack, 1 to 3.
+/// Number of operands an operation takes from the stack, 1 to 3.
 std::size_t operand_count(Expression::Instruction::Code code);
 
-/// The result of one operation; operands that it does not take are not read.
+/// Result of one operation; operands beyond operand_count() are ignored.
 double apply(Expression::Instruction::Code code, double a, double b = 0, double c = 0);
-/// The same on series: at corners and jumps those on the right.
+/// The same on series; at corners and jumps, right-hand limits.
 Series apply(Expression::Instruction::Code code, const Series& a, const Series& b = {}, const Series& c = {});
 
-/// Is it a comparison, sign or choice of the larger, where a formula of smooth parts may jump or have a corner?
+/// Whether an operation is a comparison, abs, sign, min or max, at which a formula of smooth parts may jump or have a corner.
 bool decides(Expression::Instruction::Code code);
-/// Which way it decides just right of here: -1, 0 or 1, or 2 where it is not a number; of a sign that is transferred eight times
-/// the same of the second operand more, since the first is taken without its own. `operands`: as many as it takes.
+/// Outcome of such an operation just to the right of the current point: -1, 0 or 1, or 2 if it is NaN. For the sign transfer,
+/// the outcome of the first operand plus eight times that of the second, as abs is applied to the first. `operands` must hold
+/// operand_count() entries.
 signed char decision(Expression::Instruction::Code code, const Series* operands);
 
-/// Runs a program on doubles or series; variables in the order of Instruction::number. The parser has checked that the stack
-/// suffices. `see` is called before each operation, with it and its operands.
+/// Runs a program on doubles or series. `variables` are in the order of Instruction::number. The parser has checked that the
+/// stack suffices. `see` is called before each operation with its code and operands.
 template <class T, class See>
 T evaluate_program(const std::vector<Expression::Instruction>& program, const std::array<T, 3>& variables, See&& see) {
   using Code = Expression::Instruction::Code;

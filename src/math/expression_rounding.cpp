@@ -9,13 +9,13 @@ namespace engrane {
 
 namespace {
 
-/// A number, and how far rounding may have taken it from what exact arithmetic gives.
+/// A number with a bound on its accumulated rounding error.
 struct Rounded {
   double value = 0, error = 0;
 };
 
-/// Running error analysis (Higham 2002, Accuracy and Stability of Numerical Algorithms, 3.3): errors of the operands times the
-/// slopes, and the rounding of the result.
+/// Running error analysis (Higham 2002, Accuracy and Stability of Numerical Algorithms, 3.3): operand errors times the partial
+/// derivatives, plus the rounding error of the result.
 Rounded apply(Expression::Instruction::Code code, const Rounded& a, const Rounded& b = {}, const Rounded& c = {}) {
   Rounded result{apply(code, a.value, b.value, c.value), 0};
   result.error = std::numeric_limits<double>::epsilon() * std::abs(result.value);

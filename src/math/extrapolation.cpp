@@ -20,7 +20,7 @@ std::size_t Extrapolation::reach(double h) const {
 }
 
 double Extrapolation::share(double time, double h) const {
-  // the same derivative times the product of the distances from the points, in both
+  // both errors are the same derivative times a product of distances from the points
   const std::size_t points = reach(h);
   const auto distances = [&](double from, std::size_t count) {
     double product = 1;
@@ -37,7 +37,7 @@ double Extrapolation::share(double time, double h) const {
 }
 
 std::vector<double> Extrapolation::weights(double time, double h) const {
-  std::vector<double> all(reach(h), 1.0);  // Lagrange's
+  std::vector<double> all(reach(h), 1.0);  // Lagrange weights
   for (std::size_t p = 0; p < all.size(); ++p)
     for (std::size_t q = 0; q < all.size(); ++q)
       if (q != p) all[p] *= (time - points_[q].time) / (points_[p].time - points_[q].time);

@@ -10,35 +10,36 @@
 
 namespace engrane {
 
-/// The polynomial through the latest values of some quantities: continued by a step, where Newton's iteration begins; between the
-/// last two of them, what results at even times are.
+/// Polynomial through the latest values of a set of quantities. Extrapolated over a time step, it predicts the start of the
+/// Newton iteration. Between the last two points, it interpolates results at equidistant output times.
 class Extrapolation {
  public:
-  /// Through at most `most` values, as far back as a step is no longer than `longest` times the time from one to the next: the
-  /// difference of closer ones tells more of their errors than of what follows.
+  /// Uses at most `most` points, going back only while the step is no longer than `longest` times the spacing of consecutive
+  /// points: differences of closer points would show their errors rather than the trend.
   Extrapolation(std::size_t most, double longest) : points_(most), longest_(longest) {}
 
   void clear() { count_ = 0; }
   bool empty() const { return count_ == 0; }
   std::size_t points() const { return count_; }
-  /// Values at a time after the others.
+  /// Appends a point; `time` must be later than all others.
   void add(double time, std::span<const double> values);
-  /// Writes what the polynomial for a step of h has at `time`, within this step.
+  /// Evaluates the polynomial for a step of length h at `time`, within this step.
   void at(double time, double h, std::span<double> values) const;
-  /// The weights of the points in it, the latest first, and their values.
+  /// Lagrange weights of the points used, latest first.
   std::vector<double> weights(double time, double h) const;
   std::span<const double> values(std::size_t point) const { return points_[point].values; }
-  /// The latest values at both sides of a time; part 0 stands for those before it, 1 for those after it.
+  /// The two stored points around a time; `part` is the interpolation weight, 0 at `before` and 1 at `after`.
   struct Around {
     std::span<const double> before, after;
     double part;
   };
   Around around(double time) const;
-  /// How far the polynomial through a new value at `time` and the latest ones departs from the truth since the last of them, over
-  /// how far at() was from the new value; as many points in both, for a step of h.
+  /// Ratio of two errors for a step of length h: the largest interpolation error between the latest point and `time` of the
+  /// polynomial through a new value at `time` and the latest points, over the prediction error of at() at `time`. Both
+  /// polynomials use the same number of points.
   double share(double time, double h) const;
 
-  /// Under `name`.
+  /// Saves and restores the points under `name`.
   void save(Snapshot& snapshot, const std::string& name) const;
   void load(const Snapshot& snapshot, const std::string& name);
 
@@ -47,10 +48,10 @@ class Extrapolation {
     double time = 0;
     std::vector<double> values;
   };
-  /// So many points serve for a step of h.
+  /// Number of points used for a step of length h.
   std::size_t reach(double h) const;
-  std::vector<Point> points_;  ///< the latest first
-  std::size_t count_ = 0;      ///< of them in use
+  std::vector<Point> points_;  ///< latest first
+  std::size_t count_ = 0;      ///< number in use
   double longest_;
 };
 

@@ -3,7 +3,7 @@
 
 namespace engrane {
 
-/// Value and first three derivatives of a function of one variable at one place.
+/// Value and first three derivatives of a function of one variable at one point.
 struct Jet {
   double f = 0;
   double d1 = 0;
@@ -11,7 +11,7 @@ struct Jet {
   double d3 = 0;
 };
 
-/// A function of rate·x, from its jet at that place.
+/// Jet of x ↦ f(rate·x), given the jet of f at rate·x.
 inline Jet stretched(const Jet& j, double rate) { return {j.f, rate * j.d1, rate * rate * j.d2, rate * rate * rate * j.d3}; }
 
 }  // namespace engrane

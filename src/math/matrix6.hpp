@@ -10,11 +10,11 @@ namespace engrane {
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-/// The symmetric matrix of 6 values, its diagonal, or of 21, its upper triangle row by row; nothing of another number.
+/// Builds a symmetric matrix from 6 values (its diagonal) or 21 (its upper triangle, row by row). Empty for any other number.
 std::optional<Mat6> symmetric_6(std::span<const double> values);
 
-/// The smallest eigenvalue of a symmetric matrix over the largest in size, scaled to a diagonal of ones since its rows have
-/// different units.
+/// Smallest eigenvalue of a symmetric matrix over the largest magnitude of one. The matrix is first scaled to a unit diagonal,
+/// as its rows have different units.
 double definiteness(const Mat6& m);
 
 }  // namespace engrane

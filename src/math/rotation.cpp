@@ -18,9 +18,9 @@ Mat3 rotation_change(const Vec3& y) {
 Mat3 rotation_exp(const Vec3& y) { return Mat3::Identity() + rotation_change(y); }
 
 Vec3 rotation_log(const Mat3& R) {
-  // through the quaternion: its vector part keeps full precision near 0 and near π alike
+  // via the quaternion: its vector part keeps full precision both near 0 and near π
   Eigen::Quaterniond q(R);
-  // of half a turn both senses are right, and rounding must not choose
+  // at half a turn both senses are valid, and rounding must not choose between them
   constexpr double half_turn = 1e-9;
   Eigen::Index largest = 0;
   q.vec().cwiseAbs().maxCoeff(&largest);
@@ -34,7 +34,7 @@ Mat3 rotation_tangent(const Vec3& y) {
   const double a = y.norm();
   const double half = 0.5 * a;
   const double c = half < 1e-8 ? 1 - half * half / 6 : std::sin(half) / half;
-  // (a - sin a)/a³ cancels below a few tenths: its series there
+  // (a - sin a)/a³ suffers cancellation below a few tenths: use its series there
   const double a2 = a * a;
   const double third = a < 0.3 ? 1.0 / 6 - a2 / 120 * (1 - a2 / 42 * (1 - a2 / 72 * (1 - a2 / 110 * (1 - a2 / 156))))
                                : (a - std::sin(a)) / (a2 * a);
@@ -43,7 +43,8 @@ Mat3 rotation_tangent(const Vec3& y) {
 }
 
 Vec3 rotation_tangent_rate(const Vec3& y, const Vec3& rate, const Vec3& w) {
-  // T = 1 − b Y + c Y² with b = (1 − cos a)/a² and c = (a − sin a)/a³; their slopes over a cancel below a half: series there
+  // T = 1 − b Y + c Y² with b = (1 − cos a)/a² and c = (a − sin a)/a³; b′/a and c′/a suffer cancellation below 0.5: series
+  // there
   const double a = y.norm(), a2 = a * a;
   const bool small = a < 0.5;
   const double third =
@@ -60,7 +61,7 @@ Vec3 rotation_tangent_rate(const Vec3& y, const Vec3& rate, const Vec3& w) {
 }
 
 Mat3 orthonormalized(const Mat3& R) {
-  // one Newton step of the polar decomposition: quadratic, and the input is orthogonal to rounding already
+  // one Newton step of the polar decomposition suffices: convergence is quadratic, and R is orthogonal up to rounding
   return 0.5 * R * (3 * Mat3::Identity() - R.transpose() * R);
 }
 

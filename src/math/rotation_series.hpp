@@ -9,11 +9,11 @@
 
 namespace engrane {
 
-/// The functions of the square u = a² of an angle that rotations are made of,
+/// Functions of the square u = a² of a rotation angle,
 ///
 ///     φ_n(u) = Σ_k (−u)^k/(2k + n)!:   φ_1 = sin a/a,   φ_2 = (1 − cos a)/a²,   φ_3 = (a − sin a)/a³
 ///
-/// and their derivatives by u, by number n. Accurate to rounding for angles up to about 3, zero among them.
+/// and their derivatives with respect to u, indexed by n. Accurate to rounding for angles up to about 3, including zero.
 struct RotationSeriesDerivatives {
   std::array<double, 10> phi{};
   std::array<double, 8> first{};
@@ -27,7 +27,7 @@ struct RotationSeriesDerivatives {
       for (std::size_t n = 1; n < count; ++n) all[n] = all[n - 1] / static_cast<double>(n);
       return all;
     }();
-    static constexpr auto shrink = [] {  // 1/(m (m − 1)) of term k, m = 2k + n, of the last two n
+    static constexpr auto shrink = [] {  // 1/(m (m − 1)) for term k, m = 2k + n, of the two largest n
       std::array<std::array<double, terms + 1>, 2> all{};
       for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t k = 1; k <= terms; ++k) {
@@ -36,7 +36,7 @@ struct RotationSeriesDerivatives {
         }
       return all;
     }();
-    // the last two by their series, the others from these: φ_n = 1/n! − u φ_{n+2}
+    // the two largest n by their series, the others by the recurrence φ_n = 1/n! − u φ_{n+2}
     for (std::size_t i = 0; i < 2; ++i) {
       double sum = 1;
       for (std::size_t k = terms; k > 0; --k) sum = 1 - u * shrink[i][k] * sum;
@@ -53,7 +53,7 @@ struct RotationSeriesDerivatives {
   }
 };
 
-/// φ_1, φ_2, φ_3 and slopes dφ_2/du, dφ_3/du in numbers that elements differentiate.
+/// φ_1, φ_2, φ_3 and the slopes dφ_2/du, dφ_3/du in the scalar type of the element.
 template <class T>
 struct RotationSeries {
   T f1, f2, f3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the calls of SuiteSparse's QR share.
+// Shared wrappers for SuiteSparse's QR factorization.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -9,7 +9,7 @@
 
 namespace engrane {
 
-/// CHOLMOD's settings and memory.
+/// Owns CHOLMOD's settings and workspace.
 class Cholmod {
  public:
   Cholmod() {
@@ -25,14 +25,14 @@ class Cholmod {
   cholmod_common common_{};
 };
 
-/// A sparse matrix as CHOLMOD takes it, built column by column.
+/// A sparse matrix in CHOLMOD's compressed-column format, built column by column.
 class CompressedColumns {
  public:
   explicit CompressedColumns(std::size_t rows) { view_.nrow = rows; }
   CompressedColumns(const CompressedColumns&) = delete;
   CompressedColumns& operator=(const CompressedColumns&) = delete;
 
-  /// Rows ascend.
+  /// Appends an entry to the current column; rows must ascend.
   void put(Eigen::Index row, double value) {
     at_.push_back(row);
     entry_.push_back(value);
@@ -59,8 +59,8 @@ class CompressedColumns {
   cholmod_sparse view_{};
 };
 
-/// Number of independent columns of `a`, compressed. A column of which less than `tolerance` is left beside the others counts as
-/// dependent.
+/// Numerical rank of the compressed matrix `a`. A column counts as dependent if its norm, orthogonalised against the other
+/// columns, is below `tolerance`.
 Eigen::Index rank_of(const Eigen::SparseMatrix<double>& a, double tolerance);
 
 }  // namespace engrane

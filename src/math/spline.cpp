@@ -9,10 +9,11 @@ namespace engrane {
 
 namespace {
 
-/// Does the gap between the last abscissa and one period after the first count as none?
+/// Whether the gap between the last abscissa and one period after the first is zero up to rounding.
 bool closes(double gap, double period) { return gap <= 1e-12 * period; }
 
-/// Solves a symmetric, diagonally dominant tridiagonal system in place: d the diagonal, e beside it, b the right side.
+/// Solves a symmetric, diagonally dominant tridiagonal system in place: d the diagonal, e the off-diagonal, b the right-hand
+/// side.
 void solve_tridiagonal(std::vector<double> d, const std::vector<double>& e, std::vector<double>& b) {
   const std::size_t n = d.size();
   for (std::size_t i = 1; i < n; ++i) {
@@ -23,7 +24,7 @@ void solve_tridiagonal(std::vector<double> d, const std::vector<double>& e, std:
   for (std::size_t i = n; i-- > 0;) b[i] = (b[i] - (i + 1 < n ? e[i] * b[i + 1] : 0)) / d[i];
 }
 
-/// The cyclic system of a periodic spline: the same with a corner entry e[n-1], by Sherman and Morrison.
+/// Solves the cyclic system of a periodic spline, tridiagonal with a corner entry e[n-1], by the Sherman–Morrison formula.
 void solve_cyclic(std::vector<double> d, const std::vector<double>& e, std::vector<double>& b) {
   const std::size_t n = d.size();
   const double corner = e[n - 1];
@@ -85,7 +86,7 @@ Curve Curve::natural_spline(std::span<const double> x, std::span<const double> y
   assert(!x.empty() && x.size() == y.size());
   const std::size_t n = x.size();
   if (n == 1) return lines(x, y);
-  // unknown slopes; rows scaled by 1/h are symmetric
+  // the unknowns are slopes; scaling the rows by 1/h makes the system symmetric
   std::vector<double> d(n), e(n), m(n);
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double w = 1 / (x[i + 1] - x[i]);
@@ -127,7 +128,7 @@ Curve Curve::periodic_spline(std::span<const double> x, std::span<const double> 
     m[next] += load;
   }
   if (n == 2) {
-    // both neighbours of a point are the other one, so its two entries beside the diagonal meet in one place
+    // with two points, each is both neighbours of the other, so the two off-diagonal entries coincide and add up
     const double beside = e[0] + e[1], determinant = d[0] * d[1] - beside * beside;
     m = {(m[0] * d[1] - m[1] * beside) / determinant, (m[1] * d[0] - m[0] * beside) / determinant};
   } else {
@@ -146,7 +147,7 @@ Curve::Place Curve::find(double x) const {
     const double from_first = x - pieces_.front().x0;
     place.turns = std::floor(from_first / *period_);
     double local = std::fma(-place.turns, *period_, from_first);
-    // the quotient rounds: a hair before a whole turn may count as after it
+    // rounding of the quotient may put a point just before a whole turn after it
     if (local < 0) {
       place.turns -= 1;
       local += *period_;
@@ -176,7 +177,7 @@ std::vector<double> Curve::corners(double from, double to, std::size_t most) con
   struct Side {
     double value, slope;
   };
-  std::vector<Side> ends(n);  // of each piece at the next one
+  std::vector<Side> ends(n);  // limits of each piece at the start of the next one
   double height = 0, steepest = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Piece& p = pieces_[i];
@@ -189,7 +190,7 @@ std::vector<double> Curve::corners(double from, double to, std::size_t most) con
   for (std::size_t i = 0; i < n; ++i) {
     const Piece& p = pieces_[i];
     const Side before = i > 0 ? ends[i - 1] : period_ ? ends[n - 1] : Side{p.c0, 0};
-    // smaller differences are those of rounding
+    // smaller differences are rounding errors
     if (std::abs(p.c0 - before.value) > 1e-12 * height || std::abs(p.c1 - before.slope) > 1e-9 * steepest)
       corners.push_back(p.x0);
   }

@@ -9,30 +9,30 @@
 
 namespace engrane {
 
-/// A curve through given points: straight lines, or a cubic spline (C²).
+/// A curve through given points: piecewise linear, or a cubic spline (C²).
 ///
-/// Outside its points a curve keeps its first and last ordinate, unless it is periodic: it is bounded, and continuous. At
-/// corners and jumps the derivatives (and the value) are those on the right.
+/// Outside its points a non-periodic curve keeps its first and last ordinate, so it is bounded and continuous. At corners and
+/// jumps, value and derivatives are right-hand limits.
 class Curve {
  public:
-  /// Straight lines. Abscissas strictly increasing, at least one point, as many ordinates. With a period, no shorter than
-  /// the points reach: when they reach less, a line closes the gap; when they reach just as far and the last ordinate
-  /// differs from the first, the curve jumps.
+  /// Piecewise linear. Abscissas must be strictly increasing, at least one, with one ordinate each. A period must be no shorter
+  /// than the range of the points. If the range is shorter than the period, a line closes the gap. If it equals the period and
+  /// the last ordinate differs from the first, the curve jumps there.
   static Curve lines(std::span<const double> x, std::span<const double> y, std::optional<double> period = {});
 
-  /// Natural cubic spline: second derivative zero at both ends. One point is a constant, two are a line.
+  /// Natural cubic spline: zero second derivative at both ends. One point gives a constant, two give a line.
   static Curve natural_spline(std::span<const double> x, std::span<const double> y);
 
-  /// Periodic cubic spline. When the points reach over the whole period, the last must repeat the first ordinate.
+  /// Periodic cubic spline. If the points span the whole period, the last ordinate must repeat the first.
   static Curve periodic_spline(std::span<const double> x, std::span<const double> y, double period);
 
   Jet at(double x) const;
-  /// ∫ from 0 to x, exact for the curve.
+  /// ∫ from 0 to x, exact up to rounding.
   double integral(double x) const { return from_start(x) - from_start_to_zero_; }
-  /// 0: it does not repeat.
+  /// 0 if not periodic.
   double period() const { return period_.value_or(0); }
-  /// Where it jumps or has a corner between two abscissas, in increasing order; none where there are more than `most`, nor
-  /// between infinite ones where it repeats.
+  /// Abscissas of jumps and corners in (from, to), ascending. Empty if there are more than `most`, or if the curve is periodic
+  /// and the interval infinite.
   std::vector<double> corners(double from, double to, std::size_t most) const;
 
  private:
@@ -42,7 +42,7 @@ class Curve {
     double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
     double area = 0;  ///< integral from the curve's first abscissa to x0
   };
-  /// A piece and the place in it; `turns` whole periods before it.
+  /// A piece and the position s in it, after `turns` whole periods.
   struct Place {
     const Piece* piece = nullptr;
     double s = 0;
@@ -54,7 +54,7 @@ class Curve {
   double from_start(double x) const;
   void sum_areas(double end);
 
-  std::vector<Piece> pieces_;  ///< the first and last reach to infinity unless the curve is periodic
+  std::vector<Piece> pieces_;  ///< the first and last extend to infinity unless the curve is periodic
   std::optional<double> period_;
   double area_of_period_ = 0;
   double from_start_to_zero_ = 0;

@@ -6,8 +6,8 @@
 
 namespace engrane {
 
-/// A number along a motion with its first and second time derivative: constraints evaluated in these give
-/// their velocity- and acceleration-level forms exactly.
+/// A quantity along a motion with its first and second time derivatives. Constraints evaluated in this type give their exact
+/// velocity- and acceleration-level forms.
 struct Taylor {
   double value = 0;
   double d1 = 0;

@@ -13,7 +13,7 @@ using Mat3T = Eigen::Matrix<T, 3, 3>;
 using Vec3 = Vec3T<double>;
 using Mat3 = Mat3T<double>;
 
-/// Written out rather than left to Eigen: plain loops over few products are what dual numbers optimise best to.
+/// Written out instead of using Eigen's: compilers optimise short plain loops over dual numbers best.
 template <class A, class B>
 auto cross(const Vec3T<A>& a, const Vec3T<B>& b) {
   using T = decltype(a[0] * b[0]);
@@ -23,7 +23,7 @@ template <class A, class B>
 auto dot(const Vec3T<A>& a, const Vec3T<B>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-/// R b and Rᵀ b, where either may be of plain or of differentiated numbers.
+/// R b and Rᵀ b; either operand may be of plain or of dual numbers.
 template <class A, class B>
 auto rotate(const Mat3T<A>& R, const Vec3T<B>& b) {
   using T = decltype(R(0, 0) * b[0]);
@@ -46,7 +46,7 @@ inline Mat3 skew(const Vec3& a) {
   return m;
 }
 
-/// Any unit vector perpendicular to the unit vector `a`, chosen from the axes so that equal input gives equal output.
+/// A unit vector perpendicular to the unit vector `a`, chosen deterministically from the coordinate axes.
 Vec3 perpendicular(const Vec3& a);
 
 }  // namespace engrane

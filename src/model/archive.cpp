@@ -37,7 +37,7 @@ void add_archive(deck::ArchiveCard& all, const deck::Record& record, Diagnostics
       diagnostics.error(record.where("KEEP"), ".SAI gives KEEP in two ways", "records of .SAI add up: leave one of them out");
     all.keep = card.keep;
   }
-  // of one record alone the reader has told
+  // within one record, the reader has already checked this
   const bool selects =
       !all.elements.empty() || !all.kinds.empty() || !all.groups.empty() || !all.nodes.empty() || !card.nodes.empty();
   if (all.keep.given() && selects)

@@ -7,8 +7,8 @@
 
 namespace engrane {
 
-/// Adds what a record of `.SAI` says to what those before it have said, but for its nodes, which are not looked up yet. Settings
-/// that contradict each other are errors.
+/// Merges a record of `.SAI` into the settings of those before it, except for its nodes, which are not resolved yet.
+/// Contradictory settings are errors.
 void add_archive(deck::ArchiveCard& all, const deck::Record& record, Diagnostics& diagnostics);
 
 }  // namespace engrane

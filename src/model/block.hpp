@@ -11,11 +11,11 @@
 
 namespace engrane {
 
-/// Many elements of one kind with the same options. What they share (layout, names) is held once; what differs (nodes, data)
-/// stands in arrays of the block. Everybody but the assembly sees an element of a block as an Element (BlockMember); the
-/// assembly asks for consecutive elements at a time.
+/// Many elements of one kind with the same options. Common data (layout, names) is stored once; individual data (nodes,
+/// parameters) is in arrays of the block. The assembly evaluates ranges of consecutive elements; all other code sees each
+/// element as an Element (BlockMember).
 ///
-/// `first` and `e` number the elements of the block from 0. See Element for what the functions do.
+/// `first` and `e` number the elements of the block from 0. See Element for the meaning of the functions.
 class Block {
  public:
   Block() = default;
@@ -24,11 +24,11 @@ class Block {
   Block& operator=(const Block&) = delete;
 
   virtual std::size_t size() const = 0;
-  /// Of every element. Its `nodes` are 0 for the ground and −1 for any other.
+  /// Common to all elements. Its `nodes` are 0 for the ground and −1 for any other node.
   virtual const Layout& layout() const = 0;
   virtual std::span<const int> node_ids(std::size_t e) const = 0;
 
-  /// Residuals, and tangents, of as many elements as there are states, one after the other.
+  /// Residuals, and tangents, of states.size() consecutive elements, one after the other.
   virtual void residual(std::size_t first, std::span<const State> states, std::span<double> r) const = 0;
   virtual void tangent(std::size_t first, std::span<const State> states, Weights weights, std::span<double> r,
                        std::span<double> k) const = 0;
@@ -113,7 +113,7 @@ class BlockMember final : public Element {
   std::size_t index_;
 };
 
-/// Consecutive elements of a block, or one element that stands alone: what is evaluated at a time.
+/// A range of consecutive elements of a block, or a single element: the unit of evaluation.
 class ElementRange {
  public:
   explicit ElementRange(const Element& element) : element_(&element) {
@@ -123,7 +123,7 @@ class ElementRange {
     }
   }
 
-  /// Takes `element` in when it is the next of the block; false when it is not.
+  /// Appends `element` if it is the next one of the block; otherwise returns false.
   bool extend(const Element& element) {
     const ElementRange next(element);
     if (!block_ || next.block_ != block_ || next.first_ != first_ + count_) return false;
@@ -151,11 +151,11 @@ class ElementRange {
   std::size_t first_ = 0, count_ = 1;
 };
 
-/// The blocks of a model while it is built.
+/// The blocks of a model under construction.
 class BlockStore {
  public:
-  /// The block of type B for these options, made of `arguments` when it is the first time that they are asked for. The options
-  /// tell blocks of one type apart that must not be one.
+  /// Returns the block of type B with these options, constructed from `arguments` on first use. Elements of one type belong to
+  /// different blocks if their `options` differ.
   template <class B, class... Arguments>
   std::shared_ptr<B> block(const std::string& options, Arguments&&... arguments) {
     std::shared_ptr<Block>& found = blocks_[{std::type_index(typeid(B)), options}];

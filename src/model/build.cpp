@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the records of a deck to a Model.
+// Builds a Model from the records of a deck.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace engrane {
 
 namespace {
 
-/// Carries what the passes over the records share.
+/// Holds the data shared by the passes over the records.
 class Builder {
  public:
   Builder(const deck::Deck& deck, const std::vector<ElementType>& types, std::set<int> fixed, Diagnostics& diagnostics)
@@ -39,7 +39,7 @@ class Builder {
       has_mesh_ = has_mesh_ || record.schema->name == cell_card;
       names_material_ = names_material_ || (record.schema->command() == ".MCE" && record.given("MAT"));
     }
-    // linear statics: the equilibrium at the end, without a way there
+    // linear statics: only the equilibrium at the end, in one step
     if (has_mesh_ && !deck::says_analysis(deck_.records)) {
       deck::SteppingCard& stepping = model_.commands.stepping;
       stepping.start = stepping.step = stepping.end;
@@ -81,7 +81,7 @@ class Builder {
     const ElementType* type;
   };
 
-  /// The element type of a record; nullptr when it is of another card.
+  /// Element type of a record; nullptr if it belongs to another card.
   const ElementType* type_of(const deck::Record& record) {
     const auto [entry, fresh] = types_by_schema_.try_emplace(record.schema, nullptr);
     if (fresh) {
@@ -120,7 +120,7 @@ class Builder {
     if (auto function = make_function(record, diagnostics_, setting))
       model_.functions[record.id] = std::move(function);
     else
-      model_.functions[record.id] = nullptr;  // known but wrong: its users are not to blame
+      model_.functions[record.id] = nullptr;  // known but faulty: records that use it are not in error
   }
 
   void add_command(const deck::Record& record) {
@@ -161,13 +161,13 @@ class Builder {
     }
     if (const auto* initial = record.get<deck::InitialMotionCard>()) {
       if (initial->element)
-        initial_elements_.push_back(&record);  // once they are there
+        initial_elements_.push_back(&record);  // after all elements are built
       else
         add_initial(record, *initial);
     }
   }
 
-  /// Puts the members of the card's groups to its nodes and elements.
+  /// Merges a record of `.SAI`, and adds the members of its groups to the archived nodes and elements.
   void add_archive(const deck::Record& record, const deck::ArchiveCard& card) {
     deck::ArchiveCard& archive = model_.commands.archive;
     engrane::add_archive(archive, record, diagnostics_);
@@ -196,7 +196,7 @@ class Builder {
     model_.commands.stepping = card;
   }
 
-  /// TOL where ACCURACY chooses it.
+  /// Sets TOL if ACCURACY determines it, and removes it where it has no effect.
   void settle_tolerance() {
     Commands& commands = model_.commands;
     const AccuracyRung* rung = accuracy_rung(commands.analysis);
@@ -208,7 +208,7 @@ class Builder {
         diagnostics_.warning(record.where("TOL"), "TOL has no effect on a " + commands.analysis.type.tag + " analysis");
   }
 
-  /// The function of an NF keyword; nullptr for 0 (constant) and, with an error, for one that does not exist.
+  /// The function of an NF keyword. nullptr for 0 (constant) and, with an error, for one that does not exist.
   const Function* function(const deck::Record& record, int id) {
     if (id == 0) return nullptr;
     const auto it = model_.functions.find(id);
@@ -222,8 +222,8 @@ class Builder {
     return nullptr;
   }
 
-  /// Checks that components are 1 to 6 and that there is one value for all or one for each; returns the values, one
-  /// per component, rotations turned from degrees to radians when `degrees`.
+  /// Checks that components are 1 to 6 and that there is one value for all or one for each. Returns one value per component;
+  /// with `degrees`, rotations are converted from degrees to radians.
   std::vector<double> values_of(const deck::Record& record, const std::vector<int>& components, const std::vector<double>& values,
                                 bool degrees) {
     for (const int c : components)
@@ -250,7 +250,7 @@ class Builder {
     if (support_of_.empty()) support_of_.assign(nodes_.by_number().size(), {none, none, none, none, none, none});
     for (const int id : groups_.resolve(record, target))
       for (std::size_t i = 0; i < components.size(); ++i) {
-        if (components[i] < 1 || components[i] > 6) continue;  // as values_of() has said
+        if (components[i] < 1 || components[i] > 6) continue;  // reported by values_of()
         const Support support{nodes_.index(id), components[i] - 1, each[i], f};
         int& index = support_of_[static_cast<std::size_t>(support.node)][static_cast<std::size_t>(support.component)];
         if (index == none) {
@@ -265,7 +265,7 @@ class Builder {
       }
   }
 
-  /// Rotations of a node may be held all three, or two of them (it then turns about the third axis). Held alone, one
+  /// All three rotations of a node may be prescribed, or two of them (it then turns about the third axis). Prescribing a single
   /// component of a finite rotation has no meaning.
   void check_rotation_supports() {
     std::vector<unsigned> asked(model_.nodes.size(), 0);
@@ -304,7 +304,7 @@ class Builder {
     }
   }
 
-  /// Makes the model one of a plane where `.SAM PLANE` asks for it.
+  /// Makes the model plane if `.SAM PLANE` requests it.
   void settle_plane() {
     constexpr std::size_t most_faults = 8;
     const deck::Tagged& wish = model_.commands.analysis.plane;
@@ -390,7 +390,7 @@ class Builder {
     }
     const auto part =
         std::find_if(model_.parts.begin(), model_.parts.end(), [id](const Model::Part& p) { return p.element->id() == id; });
-    if (part == model_.parts.end()) return;  // it has faults of its own
+    if (part == model_.parts.end()) return;  // its own faults have been reported
     const auto* owner = dynamic_cast<const CoordinateChannels*>(part->element.get());
     const int count = owner ? owner->coordinate_count() : 0;
     if (count == 0) {
@@ -422,7 +422,7 @@ class Builder {
                                           card.values.front() * (degrees ? degree : 1), velocity, record.location});
   }
 
-  /// How many elements came of the record.
+  /// Returns the number of elements built from the record.
   int add_element(const ElementRecord& element, int number) {
     const deck::Record& record = *element.record;
     if (!check_references(record, diagnostics_)) return 0;
@@ -483,11 +483,11 @@ class Builder {
             &temperatures_};
   }
 
-  /// Lets an element put a node where it needs it: one after another in the order of the deck.
+  /// Lets an element position a node. Elements are processed in deck order.
   void place_node(const ElementRecord& element) {
     if (!element.type->place) return;
     const deck::Record& record = *element.record;
-    Diagnostics unheard;  // the element says it again when it is built
+    Diagnostics unheard;  // reported again when the element is built
     if (!check_references(record, unheard)) return;
     const auto placed = element.type->place(context_of(record, unheard));
     if (!placed) return;
@@ -558,18 +558,18 @@ class Builder {
   const deck::Deck& deck_;
   const std::vector<ElementType>& types_;
   Diagnostics& diagnostics_;
-  std::set<int> fixed_;  ///< nodes from which others were placed already
+  std::set<int> fixed_;  ///< nodes whose positions expanded short forms depend on
   NodePositions nodes_;
   std::unordered_map<const deck::Schema*, const ElementType*> types_by_schema_;
   std::vector<ElementRecord> elements_;                     ///< in the order of the deck
-  std::unordered_map<int, BuildContext::Found> mechanism_;  ///< of .MCE by number, once asked for
+  std::unordered_map<int, BuildContext::Found> mechanism_;  ///< records of .MCE by number; filled on first use
   bool knows_mechanism_ = false;
   bool has_mesh_ = false;                                       ///< some record is a cell
-  bool names_material_ = false;                                 ///< some element of .MCE is made of a .MAT
+  bool names_material_ = false;                                 ///< some element of .MCE refers to a .MAT
   bool others_are_asked_for_ = false;                           ///< some element is of stage 1
-  std::unordered_map<int, const deck::Record*> placed_by_;      ///< which element placed a node
-  std::unordered_map<int, std::vector<int>> placed_from_;       ///< nodes placed from a node, in the order of the deck
-  std::unordered_map<int, std::vector<std::size_t>> parts_at_;  ///< elements at a node, of the first `indexed_`
+  std::unordered_map<int, const deck::Record*> placed_by_;      ///< element that positioned a node
+  std::unordered_map<int, std::vector<int>> placed_from_;       ///< nodes positioned from a node, in deck order
+  std::unordered_map<int, std::vector<std::size_t>> parts_at_;  ///< elements at a node, among the first `indexed_`
   std::size_t indexed_ = 0;
   const deck::SteppingCard* stepping_ = nullptr;  ///< the last
   BuildNotes notes_;
@@ -578,8 +578,8 @@ class Builder {
   BlockStore blocks_;
   Temperatures temperatures_;
   std::vector<Load> loads_;
-  std::vector<const deck::Record*> initial_elements_;  ///< of `.INI`, that speak of elements
-  std::vector<std::array<int, 6>> support_of_;         ///< by node and component: which of the supports, or none
+  std::vector<const deck::Record*> initial_elements_;  ///< of `.INI`, for coordinates of elements
+  std::vector<std::array<int, 6>> support_of_;         ///< by node and component: index of its support, or none
   std::vector<Location> support_locations_;
   Model model_;
 };

@@ -3,11 +3,11 @@
 
 namespace engrane {
 
-/// An element that measures coordinates between its nodes: an angle, a slide, a distance. Its channels begin with them, each
-/// followed by its rate, and no rate depends on anything but positions and, linearly, on velocities.
+/// An element that measures relative coordinates between its nodes: an angle, a displacement, a distance. Its channels start
+/// with these coordinates, each followed by its rate. The rates depend on positions and, linearly, on velocities only.
 class CoordinateChannels {
  public:
-  /// How many there are: coordinate i is channel 2i, and its rate channel 2i + 1.
+  /// Number of coordinates: coordinate i is channel 2i, its rate channel 2i + 1.
   virtual int coordinate_count() const = 0;
 
  protected:

@@ -7,8 +7,7 @@
 
 namespace engrane {
 
-/// One element of a model in the reference configuration, for looks at it before anything is assembled. Change what is to be
-/// different before view().
+/// One element of a model in the reference configuration, for evaluation before assembly. Modify members before calling view().
 struct ElementAtRest {
   ElementAtRest(const Model& model, const Model::Part& part)
       : nodes(part.nodes.size()),
@@ -20,7 +19,7 @@ struct ElementAtRest {
     part.element->start(scalars, history);
   }
 
-  /// Views this object.
+  /// A state that views this object.
   State view() const {
     State state;
     state.nodes = nodes;

@@ -59,7 +59,7 @@ std::optional<Mat3> Frames::axes_at(int frame, const Vec3& place) const {
   const double theta = std::atan2(local[1], local[0]);
   const Mat3 about = Eigen::AngleAxisd(theta, Vec3::UnitZ()).toRotationMatrix();
   if (f.kind == Kind::cylindrical) return Mat3(f.axes * about);
-  // the elevation φ turns the radial axis towards the third one
+  // the elevation φ turns the radial axis towards the third axis
   const double phi = std::atan2(local[2], std::hypot(local[0], local[1]));
   return Mat3(f.axes * about * Eigen::AngleAxisd(-phi, Vec3::UnitY()).toRotationMatrix());
 }

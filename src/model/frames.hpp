@@ -9,7 +9,7 @@
 
 namespace engrane {
 
-/// The local frames of `.FRAME`, in which nodes may be given.
+/// The local frames of `.FRAME`, in which node coordinates may be given.
 class Frames {
  public:
   void add(const deck::Record& record, const deck::FrameCard& card, Diagnostics& diagnostics);
@@ -17,10 +17,10 @@ class Frames {
   /// Global position of a node given in its frame (Cartesian, cylindrical r θ z or spherical r θ φ, degrees).
   Vec3 to_global(const deck::Record& record, const deck::NodeCard& node, Diagnostics& diagnostics) const;
 
-  /// Axes of a frame at a place, as columns: of a cylindrical one the radial, the circumferential and the third axis, of a
-  /// spherical one the radial, that of growing θ and that of growing φ. Nothing when there is no such frame.
+  /// Axes of a frame at a point, as columns: cartesian axes; radial, circumferential and third axis of a cylindrical frame;
+  /// directions of increasing r, θ and φ of a spherical one. Empty if there is no such frame.
   std::optional<Mat3> axes_at(int frame, const Vec3& place) const;
-  /// Whether they differ from place to place.
+  /// Whether the axes vary from point to point.
   bool is_curved(int frame) const;
 
  private:

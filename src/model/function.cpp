@@ -44,7 +44,7 @@ class SinusFunction final : public Function {
     return {mean_ + s, omega_ * c, -omega_ * omega_ * s, -omega_ * omega_ * omega_ * c};
   }
   double integral(double x) const override {
-    // cos φ - cos(ωx + φ) = 2 sin(ωx/2) sin(ωx/2 + φ): nothing cancels for small ωx
+    // cos φ - cos(ωx + φ) = 2 sin(ωx/2) sin(ωx/2 + φ): avoids cancellation for small ωx
     const double half = omega_ * x / 2;
     const double width = half == 0 ? x : x * std::sin(half) / half;
     return mean_ * x + amplitude_ * width * std::sin(half + phase_);
@@ -138,7 +138,7 @@ class FormulaFunction final : public Function {
 
   Expression formula_;
   std::string name_, text_;
-  std::optional<double> constant_;  ///< where the formula does not use its variable
+  std::optional<double> constant_;  ///< if the formula does not use its variable
   PanelIntegral integral_;
 };
 
@@ -240,7 +240,7 @@ class Builder {
     const Expression::Fault& fault = parsed.fault;
     Location where = record_.where("EXPR");
     std::string message = fault.message;
-    // The caret can point into the text only where the deck holds it as it is, between its quotes.
+    // The caret can point into the text only if the deck contains it literally.
     const auto size = static_cast<int>(card_.expression.size());
     if (where.known() && (where.length == size + 2 || where.length == size)) {
       where.column += static_cast<int>(fault.at) + (where.length == size + 2 ? 1 : 0);

@@ -5,12 +5,13 @@
 
 namespace engrane {
 
-/// Remembers that a formula gave something that is no finite number: `text` says which, what and where. `order` is 0 for its
-/// value, 1 for its first derivative, …; a lower order is remembered instead of a higher, and a later failure instead of an
-/// earlier. The solver asks for it when it cannot go on; a formula that fails where nobody needs it does no harm.
+/// Records that a formula gave a non-finite number; `text` names the formula, the value and the point. `order` is 0 for the
+/// value, 1 for the first derivative, and so on. A lower order replaces a higher one; at equal order, the later failure
+/// replaces the earlier. The solver reports the record when it cannot proceed; failures at points that are not needed do no
+/// harm.
 void note_function_failure(int order, std::string text);
 
-/// What was noted last since forget_function_failures(); empty when nothing was.
+/// The recorded failure; empty if none since forget_function_failures().
 std::string last_function_failure();
 void forget_function_failures();
 

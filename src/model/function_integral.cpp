@@ -10,8 +10,8 @@ namespace engrane {
 
 namespace {
 
-constexpr double narrowest = 1e-14;  ///< panels this small, against their distance from 0, are taken as they are
-constexpr double widest = 0.05;      ///< panels may be this large against their distance from 0
+constexpr double narrowest = 1e-14;  ///< narrowest panel relative to its distance from 0; accepted without a further check
+constexpr double widest = 0.05;      ///< widest panel relative to its distance from 0
 constexpr std::size_t most_panels = 1'000'000;
 
 struct Rule {
@@ -20,7 +20,7 @@ struct Rule {
   double magnitude = 0;  ///< of |f|
 };
 
-/// The 15-point Kronrod rule with its Gauss rule on [a, b] (Piessens et al., QUADPACK, 1983).
+/// 15-point Kronrod rule with the embedded Gauss rule on [a, b] (Piessens et al., QUADPACK, 1983).
 Rule kronrod(const std::function<double(double)>& f, double a, double b) {
   constexpr std::array<double, 8> nodes{0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
                                         0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
@@ -55,18 +55,18 @@ void PanelIntegral::extend(Side& side, double sign) const {
   double width = side.width;
   for (;;) {
     const double end = start + sign * width;
-    // An uneven cut: on halves, an oscillation that cancels over the whole would cancel again.
+    // An uneven cut: on halves, an oscillation that cancels over the whole panel would cancel again.
     const double cut = start + sign * 0.382 * width;
     const Rule whole = kronrod(f_, start, end), near = kronrod(f_, start, cut), far = kronrod(f_, cut, end);
     const double magnitude = near.magnitude + far.magnitude;
-    // Places are rounded, so that areas are uncertain by that rounding times the rise of the function.
+    // Abscissas are rounded, which makes areas uncertain by that rounding times the rise of the function.
     const double blur = 1e-15 * std::abs(end) * (std::abs(f_(end) - f_(cut)) + std::abs(f_(cut) - f_(start)));
     const auto agree = [&](double tolerance) {
       return std::abs(whole.area - near.area - far.area) <= tolerance &&
              std::abs(near.area - near.gauss) + std::abs(far.area - far.gauss) <= 1e-6 * magnitude + tolerance;
     };
     const double tolerance = 1e-13 * magnitude + 1e-16 * side.magnitude + blur;
-    // near 0 a difference may be no more than rounding of its parts: 1 - cos(T) is
+    // near 0, a difference may be mere rounding of its terms, as in 1 - cos(T)
     const auto rounding = [&] { return rounding_ ? width * (rounding_(start) + rounding_(cut) + rounding_(end)) : 0; };
     const bool last_resort = width <= narrowest * std::max(std::abs(start), first_);
     if (agree(tolerance) || last_resort || agree(tolerance + rounding())) {

@@ -7,7 +7,7 @@ namespace engrane {
 
 namespace {
 
-/// Where the history of a grip begins.
+/// Start of a grip's state in the history.
 std::size_t place(const Layout& layout, std::size_t history, std::size_t grip) {
   for (std::size_t i = grip; i < layout.grips.size(); ++i)
     history -= static_cast<std::size_t>(GripState::history(layout.grips[i]));
@@ -105,7 +105,7 @@ void grip_switches(const Element& element, const State& state, std::span<Switch>
     const bool slides = grip.state.mode == GripState::sliding, holds = grip.state.mode == GripState::holding;
     const Vec3& along = grip.state.direction;
     values[2 * i] = slides ? Switch{along.dot(grip.speed), along.dot(grip.acceleration), grip.speeds + least} : Switch{};
-    // no element knows the rate of a multiplier
+    // elements do not know the rates of multipliers
     values[2 * i + 1] = holds ? Switch{grip.spare(), unknown, grip.limit + grip.force.norm() + least} : Switch{};
   }
 }

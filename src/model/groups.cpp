@@ -19,7 +19,7 @@ void sort_and_unite(std::vector<int>& ids) {
 }  // namespace
 
 void NodeGroups::add(const deck::Record& record, const deck::GroupCard& card) {
-  if (!card.kind.is("NODES")) {  // those who refer to groups of elements and faces find them by themselves
+  if (!card.kind.is("NODES")) {  // references to groups of elements and faces are resolved elsewhere
     const char* what = card.kind.is("FACES") ? "faces" : "elements";
     if (card.number != 0) of_others_[std::to_string(card.number)] = what;
     if (!card.name.empty()) of_others_[card.name] = what;
@@ -53,7 +53,7 @@ void NodeGroups::add(const deck::Record& record, const deck::GroupCard& card) {
   if (!card.name.empty()) declared_[card.name] = index;
 }
 
-/// Nodes in a box, its faces included; the ground is in none.
+/// Nodes in a box, including its faces and excluding the ground.
 std::vector<int> NodeGroups::nodes_in(const std::vector<double>& box) {
   const auto& nodes = nodes_.by_number();
   const auto at = [&](int i) -> const NodePositions::Node& { return nodes[static_cast<std::size_t>(i)]; };
@@ -92,7 +92,7 @@ std::vector<int> NodeGroups::resolve(const deck::Record& record, const deck::Nod
   return ids;
 }
 
-/// Appends the nodes of a group and of those it unites, of each group once in a search.
+/// Appends the nodes of a group and of its unions, visiting each group once per search.
 void NodeGroups::append(std::size_t group, std::vector<int>& ids) {
   std::vector<std::size_t> open{group};
   while (!open.empty()) {
@@ -121,7 +121,7 @@ void NodeGroups::report_unknown_group(const deck::Record& record, std::string_vi
   }
   std::vector<std::string> known;
   for (const auto& [key, group] : declared_) known.push_back(key);
-  std::sort(known.begin(), known.end());  // of several as near the first is named
+  std::sort(known.begin(), known.end());  // for a deterministic choice among equally near names
   const std::string near = nearest(name, known);
   diagnostics_.missing(".SEL", record.where(keyword), fmt::format("there is no group \"{}\" above this line", name),
                        near.empty() ? "declare it with .SEL GROUP" : fmt::format("did you mean \"{}\"?", near));

@@ -13,23 +13,23 @@
 
 namespace engrane {
 
-/// The named sets of nodes that `.SEL` declares, and which nodes a record speaks of. A group of groups refers to them and holds
-/// no nodes of theirs: unions of unions cost what they say, not what they contain.
+/// The named node sets of `.SEL`, and the resolution of node targets. A union refers to its groups and does not copy their
+/// nodes: nested unions cost as much as their declarations, not their contents.
 class NodeGroups {
  public:
   NodeGroups(const NodePositions& nodes, Diagnostics& diagnostics) : nodes_(nodes), diagnostics_(diagnostics) {}
 
   void add(const deck::Record& record, const deck::GroupCard& card);
 
-  /// Node ids of a target, ascending, without repetition; unknown nodes and groups are errors at the record's keywords.
+  /// Returns the node ids of a target, ascending and unique. Unknown nodes and groups are errors at the record's keywords.
   std::vector<int> resolve(const deck::Record& record, const deck::NodeTarget& target);
 
  private:
   struct Group {
     std::vector<int> nodes;           ///< of its own
-    std::vector<std::size_t> united;  ///< groups declared before it
+    std::vector<std::size_t> united;  ///< groups declared earlier
     bool all = false;                 ///< every node but the ground
-    int search = 0;                   ///< the last one that came by
+    int search = 0;                   ///< number of the last search that visited it
 
     bool empty() const { return nodes.empty() && united.empty() && !all; }
   };
@@ -42,10 +42,10 @@ class NodeGroups {
   const NodePositions& nodes_;
   Diagnostics& diagnostics_;
   std::vector<Group> groups_;                               ///< in the order of the deck
-  std::unordered_map<std::string, std::size_t> declared_;   ///< by number and by name; the last of a name counts
-  std::unordered_map<std::string, const char*> of_others_;  ///< groups of elements and faces: what they hold
-  std::vector<int> by_x_;                                   ///< indices of the nodes by first coordinate, once asked for
-  int searches_ = 0;                                        ///< how many targets were resolved
+  std::unordered_map<std::string, std::size_t> declared_;   ///< by number and by name; the last declaration of a name counts
+  std::unordered_map<std::string, const char*> of_others_;  ///< groups of elements and faces: what they contain
+  std::vector<int> by_x_;                                   ///< node indices sorted by first coordinate; built on first use
+  int searches_ = 0;                                        ///< number of targets resolved
 };
 
 }  // namespace engrane

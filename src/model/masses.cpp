@@ -9,10 +9,10 @@ namespace engrane {
 
 namespace {
 
-/// I about a point that lies `away` from the centre of the mass.
+/// Inertia of a point mass about a point at the distance `away` (parallel-axis term).
 Mat3 steiner(double mass, const Vec3& away) { return mass * (away.squaredNorm() * Mat3::Identity() - away * away.transpose()); }
 
-/// Resultant of an element's resistance, its moment about the first node.
+/// Resultant force of an element's residual, and moment about the first node.
 struct Resistance {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
 };
@@ -32,7 +32,7 @@ class Shaken {
   Resistance under(const Vec3& acceleration, const Vec3& turning) {
     for (NodeState& node : body_.nodes) {
       node.a = acceleration + turning.cross(Vec3(node.x - origin()));
-      node.A = turning;  // nothing has turned yet
+      node.A = turning;  // no rotation has occurred yet
     }
     element_.residual(body_.view(), moved_);
     Resistance sum;
@@ -56,19 +56,19 @@ class Shaken {
   std::vector<double> still_, moved_;
 };
 
-/// Of a cell whose nodes move along x and y only, with the same mass along both. Accelerations 1, x and y of all nodes give its
-/// mass matrix times these, and hence all moments of its mass in the plane; across it all mass is at the height of the nodes.
-/// `mass_alone`: no more is found than that.
+/// Mass properties of a cell whose nodes move along x and y only, with equal mass in both directions. Nodal accelerations 1, x
+/// and y give its mass matrix times these vectors, and hence all in-plane moments of its mass. Out of plane, the mass is at the
+/// height of the nodes. `mass_alone`: computes the mass only.
 MassProperties plane_mass_properties(const Model& model, const Model::Part& part, bool mass_alone) {
   ElementAtRest body(model, part);
   const std::size_t count = body.nodes.size();
   std::vector<double> still(2 * count), moved(2 * count);
   part.element->residual(body.view(), still);
   MassProperties found;
-  Eigen::Matrix3d moments;  // of 1, x and y with one another
+  Eigen::Matrix3d moments;  // of the functions 1, x and y with one another
   const Vec3 origin = body.nodes.front().x;
   const auto function = [&](std::size_t i, Eigen::Index of) { return of == 0 ? 1 : body.nodes[i].x[of - 1] - origin[of - 1]; };
-  /// Forces along a direction times `row`, as resistance to the acceleration last given.
+  /// Inertia forces for the last acceleration along a direction, times the function `row`.
   const auto moment = [&](Eigen::Index row, std::size_t direction) {
     double sum = 0;
     for (std::size_t i = 0; i < count; ++i) sum += function(i, row) * (moved[2 * i + direction] - still[2 * i + direction]);
@@ -108,10 +108,10 @@ MassProperties mass_properties(const Model& model, const Model::Part& part) {
     return plane_mass_properties(model, part, false);
   }
   Shaken shaken(model, part);
-  // most elements of a large model have no mass: one look at them is enough
+  // most elements of a large model have no mass: one evaluation shows this
   const Resistance any = shaken.under(Vec3(0.83, -0.51, 0.22), Vec3(-0.37, 0.61, 0.7));
   if (any.force.isZero(0) && any.moment.isZero(0)) return found;
-  Vec3 first = Vec3::Zero();  // mass times centre, from the first node
+  Vec3 first = Vec3::Zero();  // mass times position of the centre relative to the first node
   Mat3 about;
   for (int k = 0; k < 3; ++k) {
     const Vec3 e = Vec3::Unit(k);
@@ -123,7 +123,7 @@ MassProperties mass_properties(const Model& model, const Model::Part& part) {
   const Vec3 from = found.mass != 0 ? Vec3(first / found.mass) : Vec3(Vec3::Zero());
   found.centre = shaken.origin() + from;
   found.inertia = about - steiner(found.mass, from);
-  // what is left of large terms that cancel is not inertia
+  // residues of cancelling large terms are not inertia
   const double rounding = 1e-13 * (about.cwiseAbs().maxCoeff() + std::abs(found.mass) * from.squaredNorm());
   found.inertia = found.inertia.unaryExpr([rounding](double x) { return std::abs(x) <= rounding ? 0.0 : x; });
   return found;

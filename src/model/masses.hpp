@@ -5,20 +5,20 @@
 
 namespace engrane {
 
-/// How a body resists rigid accelerations. Global axes, in the reference configuration.
+/// Rigid-body mass properties of a body. Global axes, in the reference configuration.
 struct MassProperties {
   double mass = 0;
   Vec3 centre = Vec3::Zero();
-  Mat3 inertia = Mat3::Zero();  ///< about the centre
+  Mat3 inertia = Mat3::Zero();  ///< about the centre of mass
 
   bool any() const { return mass != 0 || !inertia.isZero(0); }
-  /// Both together, by the theorem of parallel axes.
+  /// Combines both bodies, by the parallel-axis theorem.
   void add(const MassProperties& other);
 };
 
-/// Of one element: the forces and moments with which its residual resists accelerations of all its nodes as one rigid body.
+/// Mass properties of one element: its inertia forces and moments for rigid-body accelerations of all its nodes.
 MassProperties mass_properties(const Model& model, const Model::Part& part);
-/// The mass alone, the same number: of a plane cell half of the work.
+/// The same mass only; for a plane cell at half the cost.
 double mass_of(const Model& model, const Model::Part& part);
 
 }  // namespace engrane

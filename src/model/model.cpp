@@ -24,11 +24,11 @@ Vec3 Model::gravity_at(double time) const {
 
 namespace {
 
-/// Nodes nearer to one another than this part of their distance from the origin are in one place: coordinates that were
-/// computed differ in their last digits.
+/// Nodes closer than this fraction of their distance from the origin coincide: computed coordinates differ in their last
+/// digits.
 constexpr double rounding = 1e-12;
 
-/// Diagonal of the box around the nodes that elements use, the ground aside; 0 where that is rounding.
+/// Diagonal of the bounding box of the nodes that elements use, excluding the ground; 0 if it is only rounding.
 double size_of_nodes(const Model& model) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Model::Part& part : model.parts)
@@ -43,7 +43,7 @@ double size_of_nodes(const Model& model) {
   return std::isfinite(size) && size > rounding * away ? size : 0;
 }
 
-/// Radius of gyration of a body about its first node; 0 when the element has no mass there.
+/// Radius of gyration of a body about its first node; 0 if the element has no mass there.
 double radius_of_gyration(const Model& model, const Model::Part& part) {
   if (part.nodes.empty() || part.nodes.front() <= 0) return 0;
   const Mat3 inertia = part.element->inertia_at(model.nodes[static_cast<std::size_t>(part.nodes.front())].id);
@@ -52,7 +52,7 @@ double radius_of_gyration(const Model& model, const Model::Part& part) {
   return mass > 0 ? std::sqrt(moment / mass) : 0;
 }
 
-/// The largest length that an element knows; 0 when none knows any.
+/// The largest length known to an element; 0 if there is none.
 double largest_length(const Model& model) {
   double largest = 0;
   for (const Model::Part& part : model.parts) {
@@ -66,7 +66,7 @@ double largest_length(const Model& model) {
 }  // namespace
 
 std::vector<double> Model::corners(double from, double to) const {
-  constexpr std::size_t most = 100;  // a function with more is a measured curve: what is between them is no smoother
+  constexpr std::size_t most = 100;  // a function with more is a measured curve, not smoother between its corners
   std::set<double> all;
   for (const Function* function : of_time)
     for (const double x : function->corners(from, to, most)) all.insert(x);
@@ -123,7 +123,7 @@ std::string parameters_json(const Model::Part& part) {
 deck::Catalogue catalogue(const std::vector<ElementType>& types) {
   deck::Catalogue all;
   for (const deck::Schema& command : deck::general_commands()) all.commands.push_back(&command);
-  // an element whose name is a command has records of its own, outside .MCE
+  // an element whose name is a command has its own records, outside .MCE
   for (const ElementType& type : types) (type.schema.name.front() == '.' ? all.commands : all.elements).push_back(&type.schema);
   return all;
 }

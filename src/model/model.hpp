@@ -28,25 +28,25 @@ struct Support {
   const Function* function = nullptr;  ///< nullptr: constant
 };
 
-/// An initial displacement or velocity of a node's component.
+/// An initial displacement or velocity component of a node.
 struct InitialValue {
   int node = 0;
   int component = 0;
   double value = 0;
   bool velocity = false;
-  bool imposed = false;  ///< must hold; otherwise a wish that the constraints may change
+  bool imposed = false;  ///< must hold exactly; otherwise a desired value that the constraints may change
 };
 
-/// What a coordinate of an element, or its rate, is at the start: it holds exactly, and the nodes follow.
+/// Initial value of an element's coordinate or its rate. It holds exactly, and the nodes follow.
 struct InitialCoordinate {
   int part = 0;     ///< index into Model::parts
-  int channel = 0;  ///< of the element: the coordinate; its rate is the next one
+  int channel = 0;  ///< index of the coordinate's channel; its rate is the next one
   double value = 0;
   bool velocity = false;
   Location location;
 };
 
-/// A node that at the start moves and turns with a rigid body that spins: v = ω × (x − p), angular velocity ω.
+/// Initial rigid rotation of a node: v = ω × (x − p), angular velocity ω.
 struct InitialSpin {
   int node = 0;               ///< index into Model::nodes
   Vec3 omega = Vec3::Zero();  ///< global components
@@ -59,7 +59,7 @@ struct Gravity {
   const Function* function = nullptr;
 };
 
-/// What to run and how, each with the place it was said.
+/// What to run and how.
 struct Commands {
   deck::AnalysisCard analysis;
   deck::SteppingCard stepping;
@@ -70,21 +70,21 @@ struct Commands {
   std::vector<Location> check_locations;
 };
 
-/// The mechanism as the deck describes it: constant while it is solved.
+/// The mechanism described by the deck; constant during the solution.
 struct Model {
   using Node = NodePositions::Node;
   struct Part {
     std::unique_ptr<Element> element;
     std::string type;  ///< card name, such as `GEAR`; `CHA` for a nodal load
-    /// Of the deck that the model was built from, which lives as long, or of `written_out`; nullptr once the records of a mesh
-    /// are forgotten.
+    /// In the deck the model was built from, which outlives the model, or in `written_out`; nullptr once the records of a mesh
+    /// are discarded.
     const deck::Record* record = nullptr;
     Location location;
     std::vector<int> nodes;  ///< indices of the element's nodes
   };
 
   std::string title;
-  std::shared_ptr<const deck::Deck> written_out;  ///< the deck with what its short forms stand for; nullptr: it has none
+  std::shared_ptr<const deck::Deck> written_out;  ///< the deck with its short forms expanded; nullptr if it has none
   UnitSystem units;
   std::vector<Node> nodes;  ///< the ground first (id 0), then by id
   std::map<int, std::unique_ptr<Function>> functions;
@@ -100,15 +100,15 @@ struct Model {
 
   int node_index(int id) const;  ///< -1 when there is no such node
   Vec3 gravity_at(double time) const;
-  /// Instants between two others at which a function of time has a corner (Function::corners), in increasing order.
+  /// Instants in (from, to), ascending, at which a function of time has a corner (Function::corners).
   std::vector<double> corners(double from, double to) const;
-  /// Does one of them jump there, from the number before `time` to `time` itself?
+  /// Whether any function of time jumps from the number before `time` to `time` itself.
   bool jumps_at(double time) const;
-  /// The length that tolerances are measured with: the diagonal of the box around the nodes that elements use. Where all of
-  /// them are in one place, but for rounding, the largest length that an element knows (radius of gyration, pitch radius,
-  /// natural length); 1 where no length exists at all.
+  /// Reference length for tolerances: diagonal of the bounding box of the nodes that elements use. If all of them coincide up
+  /// to rounding, the largest length known to an element (radius of gyration, pitch radius, natural length); 1 if there is no
+  /// length at all.
   double extent() const { return extent_; }
-  /// Finds the extent. build_model() has done so.
+  /// Computes the extent; build_model() calls it.
   void measure();
 
  private:
@@ -118,16 +118,16 @@ struct Model {
 /// Whether the deck has a mesh.
 bool has_cells(const Model& model);
 
-/// Mass that an element gives to the translation of its first node, from its residual under a unit acceleration.
+/// Translational mass that an element contributes to its first node, from its residual under unit acceleration.
 double mass_at_first_node(const Model& model, const Model::Part& part);
 
-/// The record of an element as JSON, for the results file. That of a load on several nodes speaks of the one it is on.
+/// The record of an element as JSON, for the results file. For a load on several nodes, only the node of this element is given.
 std::string parameters_json(const Model::Part& part);
 
 /// All cards of the language: general commands and registered elements.
 deck::Catalogue catalogue(const std::vector<ElementType>& types);
 
-/// Builds the model of a deck, to whose records it points. Faults go to `diagnostics`; the result is to be used only when there
+/// Builds the model of a deck; the model refers to the deck's records. Faults go to `diagnostics`; use the result only if there
 /// are none.
 Model build_model(const deck::Deck& deck, const std::vector<ElementType>& types, Diagnostics& diagnostics);
 

@@ -12,7 +12,7 @@ namespace engrane {
 
 namespace {
 
-/// The channels of all loads of a kind: there may be very many loads.
+/// Channels of a kind of load, shared because there may be very many loads.
 const std::vector<Channel>& named(bool force, bool moment) {
   static const auto list = [](bool pushes, bool turns) {
     std::vector<Channel> all;
@@ -42,7 +42,8 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
   void evaluate(const Motion<T, 1>& motion, const State&, Balance<T, 1>& balance) const {
     const T factor = function_ ? engrane::evaluate(*function_, motion.time) : T(1);
     balance.force(0, Vec3T<T>(force_.template cast<T>() * (-factor)));
-    // a moment fixed in space seen from the turning node: its tangent is not symmetric, and the dual numbers carry it
+    // a moment fixed in space, in components of the rotating node: its tangent is not symmetric, and the dual numbers provide
+    // it
     balance.moment(0, Vec3T<T>(rotate_back(motion.node[0].R, Vec3T<T>(moment_.template cast<T>() * (-factor)))));
   }
 
@@ -89,13 +90,13 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
   const Function* function_;
 };
 
-/// A force alone, which depends on nothing but time.
+/// A force without a moment, which depends on time only.
 class NodeForce final : public Element {
  public:
   NodeForce(int id, int node, const Vec3& at, const Vec3& force, const Function* function)
       : Element(id), at_(at), force_(force), function_(function) {
     layout_.nodes = {node};
-    // in the plane XY it does not ask for what the nodes of plane cells do not have
+    // a force in the plane XY needs no z translation, which nodes of plane cells do not have
     layout_.needs = {force[2] == 0 ? NodeNeed::in_plane : NodeNeed::translation};
   }
 

@@ -8,9 +8,9 @@
 
 namespace engrane {
 
-/// Force and moment on a node, fixed in space (global components), times an optional function of time (`.CLM CHA`).
-/// Asks for translations or rotations of the node only where there is something to load.
-/// `at`: the node's reference position, for pictures.
+/// Force and moment on a node, fixed in space (global components), times an optional function of time (`.CLM CHA`). Needs
+/// translations or rotations of the node only if there is a force or moment on them. `at`: reference position of the node, for
+/// pictures.
 std::unique_ptr<Element> make_node_load(int id, int node, const Vec3& at, const Vec3& force, const Vec3& moment,
                                         const Function* function);
 

@@ -18,7 +18,7 @@ NodePositions::NodePositions(const std::map<int, Vec3>& nodes) {
 NodePositions::NodePositions(std::vector<Node> nodes) : nodes_(std::move(nodes)) {
   const auto before = [](const Node& a, const Node& b) { return a.id < b.id; };
   if (!std::is_sorted(nodes_.begin(), nodes_.end(), before)) std::stable_sort(nodes_.begin(), nodes_.end(), before);
-  // from the back, for the last of equals is to stay
+  // from the back, so that the last of equals remains
   const auto same = [](const Node& a, const Node& b) { return a.id == b.id; };
   nodes_.erase(nodes_.begin(), std::unique(nodes_.rbegin(), nodes_.rend(), same).base());
 }

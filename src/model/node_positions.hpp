@@ -9,7 +9,7 @@
 
 namespace engrane {
 
-/// Where the nodes of a deck are, by number. The ground, node 0, is one of them.
+/// Positions of the nodes of a deck by number. Node 0 is the ground.
 class NodePositions {
  public:
   struct Node {
@@ -18,21 +18,21 @@ class NodePositions {
   };
 
   NodePositions() = default;
-  /// Implicit, so that a few nodes can be given by a table.
+  /// Implicit, so that a few nodes can be given as a table.
   NodePositions(const std::map<int, Vec3>& nodes);
-  /// In any order; of a number given again the last position counts.
+  /// In any order; the last of several positions for one number counts.
   explicit NodePositions(std::vector<Node> nodes);
 
   bool contains(int id) const { return index(id) >= 0; }
-  /// Place among the nodes by ascending number; -1 when there is no such node.
+  /// Index among the nodes in ascending order of number; -1 if there is no such node.
   int index(int id) const;
   /// Throws std::out_of_range when there is no such node.
   const Vec3& at(int id) const;
-  /// Puts a node that exists elsewhere.
+  /// Changes the position of an existing node.
   void move(int id, const Vec3& x);
 
   const std::vector<Node>& by_number() const { return nodes_; }
-  /// Gives the nodes away.
+  /// Moves the nodes out.
   std::vector<Node> release() { return std::move(nodes_); }
 
  private:

@@ -15,29 +15,29 @@ namespace engrane {
 
 namespace {
 
-/// The time in which a machine moves; that of one step where it stands in one equilibrium.
+/// Duration of the run; the step for a single equilibrium.
 double span_of(const deck::SteppingCard& stepping) {
   return stepping.end > stepping.start ? stepping.end - stepping.start : stepping.step;
 }
 
-/// What is left of terms that cancel is rounding below this part of them.
+/// Residues of cancelling terms below this fraction of them are rounding errors.
 constexpr double rounding = 1e-12;
 
-/// A configuration of the plane: every node moved in it by an arbitrary amount, at an arbitrary speed.
+/// A configuration in the plane: every node displaced within it by a random amount, with a random velocity.
 struct Probe {
   std::vector<NodeState> nodes;
   double time = 0;
   double homotopy = 0;
 };
 
-/// Configurations as different as a run may meet: the reference with open gaps and with all contacts carrying, one near to it,
-/// and two far away.
+/// Configurations as different as in a run: the reference with open gaps and with all contacts closed, one near it, and two far
+/// away.
 std::vector<Probe> probes(const Model& model, int normal) {
   struct Shape {
     double move, turn, homotopy;
   };
   constexpr std::array shapes{Shape{0, 0, 0}, Shape{0, 0, 1}, Shape{1e-3, 0.02, 0}, Shape{0.1, 0.7, 1}, Shape{0.2, 3, 0}};
-  std::mt19937 generator(5);  // the same in every run
+  std::mt19937 generator(5);  // fixed seed: the same in every run
   std::uniform_real_distribution<double> any(-1, 1);
   const deck::SteppingCard& stepping = model.commands.stepping;
   const double span = span_of(stepping), extent = model.extent(), rate = 10 / span;
@@ -67,11 +67,11 @@ std::vector<Probe> probes(const Model& model, int normal) {
   return all;
 }
 
-/// Sizes of what is found in the plane and out of it: the largest over all probes.
+/// Largest in-plane and out-of-plane magnitudes over all probes.
 struct Parts {
   double in = 0, out = 0;
   void add(bool leaves, double size) {
-    if (!std::isfinite(size)) return;  // a probe outside of what the element is defined for
+    if (!std::isfinite(size)) return;  // the probe is outside the domain of the element
     double& largest = leaves ? out : in;
     largest = std::max(largest, std::abs(size));
   }
@@ -79,7 +79,7 @@ struct Parts {
   bool acts_out() const { return out > rounding * in; }
 };
 
-/// Looks at one element after another.
+/// Examines one element after another.
 class Examination {
  public:
   Examination(const Model& model, int normal) : model_(model), normal_(normal), probes_(probes(model, normal)) {
@@ -88,7 +88,7 @@ class Examination {
 
   std::vector<PlaneFault> run(std::size_t most) {
     look_at_conditions();
-    // without constraints nothing carries what pushes out of the plane
+    // without constraints nothing balances out-of-plane forces
     const bool carried = std::any_of(model_.parts.begin(), model_.parts.end(),
                                      [](const Model::Part& part) { return !part.element->layout().multipliers.empty(); });
     for (const Model::Part& part : model_.parts) {
@@ -111,7 +111,7 @@ class Examination {
   std::string node_name(int node) const { return fmt::format("node {}", model_.nodes[static_cast<std::size_t>(node)].id); }
   bool leaves(int component) const { return plane_.leaves_out(component); }
 
-  /// Supports, initial values and gravity.
+  /// Checks supports, initial values and gravity.
   void look_at_conditions() {
     for (const Support& s : model_.supports)
       if (leaves(s.component) && s.value != 0)
@@ -163,7 +163,7 @@ class Examination {
       rates_[i] = size * std::cos(2.0 + static_cast<double>(i));
       accelerations_[i] = size * std::cos(3.0 + static_cast<double>(i));
     }
-    // component of each slot of a node; −1: the ground's, or no node's
+    // component of each node slot; −1: of the ground, or not of a node
     components_.assign(static_cast<std::size_t>(layout.slots()), -1);
     nodes_.assign(components_.size(), 0);
     std::size_t slot = 0;
@@ -189,8 +189,8 @@ class Examination {
     look_at_forces(part, begin);
   }
 
-  /// Which constraints act in the plane, by their gradients, and whether the others are closed. False with a fault. Those that
-  /// act in it and out of it at once are constraints of the plane that push out of it.
+  /// Finds the constraints that act in the plane, from their gradients, and checks that all others are satisfied; returns false
+  /// with a fault. A constraint that acts both in and out of plane counts as in-plane and exerts out-of-plane forces.
   bool look_at_constraints(const Model::Part& part, std::size_t begin) {
     const Layout& layout = part.element->layout();
     const std::size_t n = components_.size(), count = layout.multipliers.size(), first = n - count;
@@ -233,12 +233,12 @@ class Examination {
     return true;
   }
 
-  /// A multiplier's size in a probe: of the element's own forces, where it has any.
+  /// Trial value of a multiplier: the magnitude of the element's own forces, if any.
   double multiplier_size(const Multiplier& multiplier, double forces) const {
     return (forces > 0 ? forces : 1) / (multiplier.dimension.length == 0 ? 1 : model_.extent());
   }
 
-  /// Whether forces and moments stay in the plane, whatever the constraints of the plane carry.
+  /// Checks whether forces and moments stay in the plane, whatever the multipliers of the in-plane constraints.
   void look_at_forces(const Model::Part& part, std::size_t begin) {
     const Layout& layout = part.element->layout();
     const double extent = model_.extent();
@@ -271,13 +271,13 @@ class Examination {
           fmt::format("{} {} is not of the plane {}: it {} {} {} {}", part.type, part.element->id(), name(),
                       c < 3 ? "pushes" : "turns", node_name(nodes_[worst]), c < 3 ? "along" : "about", "xyz"[c % 3]),
           hint_for(part)};
-      // what the deck itself says of forces out of the plane is no matter of joints
+      // joints cannot justify loads given out of plane
       (is_load(part) ? faults_ : pushed_).push_back(std::move(pushes));
     }
     look_at_friction(part, begin, forces.in);
   }
 
-  /// Forces in the plane must not follow from what is carried out of it, which the equations of the plane do not know.
+  /// In-plane forces must not depend on out-of-plane reactions, which are unknown in the plane problem.
   void look_at_friction(const Model::Part& part, std::size_t begin, double forces) {
     const Layout& layout = part.element->layout();
     if (layout.slides == 0 && layout.grips.empty()) return;
@@ -306,7 +306,7 @@ class Examination {
            "leave out its friction, or remove what pushes out of the plane"});
   }
 
-  /// With elements that push out of the plane: whether constraints that act only out of it hold all nodes there.
+  /// If elements exert out-of-plane forces: checks whether constraints that act only out of plane restrain all nodes there.
   void look_at_what_carries() {
     faults_ = rubbed_;
     const std::vector<int> slots = slots_out_of_plane(model_, plane_);
@@ -350,11 +350,10 @@ class Examination {
   std::vector<Probe> probes_;
   PlaneModel plane_;
   std::vector<PlaneFault> faults_;
-  std::vector<PlaneFault> pushed_, rubbed_;  ///< faults unless joints carry, and if they must
-  std::vector<Eigen::Triplet<double>>
-      gradient_;                  ///< of the constraints, by slot and multiplier: entries that lead out of the plane
-  std::vector<Parts> gradients_;  ///< of the multipliers brought last, over all elements that share them
-  // of the element that is looked at
+  std::vector<PlaneFault> pushed_, rubbed_;       ///< faults unless joints carry the forces, and faults if they must
+  std::vector<Eigen::Triplet<double>> gradient_;  ///< out-of-plane entries of the constraint Jacobian, by slot and multiplier
+  std::vector<Parts> gradients_;                  ///< of the current own multipliers, over all elements that share them
+  // of the current element
   std::vector<double> scalars_, rates_, accelerations_, multipliers_, history_, r_;
   std::vector<int> components_, nodes_;
 };

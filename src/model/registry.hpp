@@ -20,11 +20,10 @@
 
 namespace engrane {
 
-/// What elements find out about all of their kind, such as the trains that gear pairs make: found once while a model is built
-/// and shared by all of them.
+/// Data shared by all elements of a kind, such as the trains formed by gear pairs: computed once per model.
 class BuildNotes {
  public:
-  /// The note of a type; `make` gives it to whoever asks first.
+  /// Returns the data of type Note; `make` computes it on first use.
   template <class Note, class Make>
   const Note& get(const Make& make) {
     std::shared_ptr<void>& note = notes_[typeid(Note)];
@@ -36,51 +35,51 @@ class BuildNotes {
   std::map<std::type_index, std::shared_ptr<void>> notes_;
 };
 
-/// What an element may look up while it is built from its record. Faults of the deck go to `diagnostics`, at the
-/// location of the keyword that is wrong (`record.where("MN")`); an element that cannot be built is nullptr.
+/// What an element may look up while it is built from its record. Faults of the deck go to `diagnostics`, at the location of
+/// the wrong keyword (`record.where("MN")`). An element that cannot be built is nullptr.
 struct BuildContext {
   const NodePositions& nodes;  ///< in the reference configuration; the ground, node 0, is at the origin
   const std::map<int, std::unique_ptr<Function>>& functions;
   Diagnostics& diagnostics;
   const deck::Record& record;
-  /// Moment of inertia that the elements of the deck give to a node about a unit axis; 0 when none does.
+  /// Moment of inertia about a unit axis that the elements of the deck contribute to a node; 0 if none does.
   std::function<double(int node, const Vec3& axis)> wheel_inertia;
-  /// All records of the deck, for elements that depend on others of their kind; nullptr: this one stands alone.
+  /// All records of the deck, for elements that depend on others of their kind; nullptr: this record stands alone.
   const std::vector<deck::Record>* records = nullptr;
-  /// An element of `.MCE` by its number, for elements of stage 1. No record: there is none of that number.
+  /// Result of looking up an element of `.MCE` by number, for elements of stage 1. Without a record, the number is unknown.
   struct Found {
     const deck::Record* record = nullptr;
-    const Element* element = nullptr;  ///< those of stage 0
-    bool faulty = false;               ///< of stage 0, and could not be built
+    const Element* element = nullptr;  ///< set for elements of stage 0
+    bool faulty = false;               ///< of stage 0, but could not be built
   };
   std::function<Found(int id)> find_element = nullptr;
-  /// Where elements of a kind meet in blocks; nullptr: each is alone in its own.
+  /// Where elements of a kind share blocks; nullptr: each element gets its own.
   BlockStore* blocks = nullptr;
-  BuildNotes* notes = nullptr;  ///< of this model; nullptr: everyone finds out alone
-  /// Of the element: that of its record or, where the card has none, one after those of all others.
+  BuildNotes* notes = nullptr;  ///< of this model; nullptr: every element computes its own
+  /// Number of the element: that of its record or, if the card has none, one following all others.
   int number = 0;
-  std::set<const Function*>* of_time = nullptr;  ///< functions of time that elements use; nullptr: nobody asks
+  std::set<const Function*>* of_time = nullptr;  ///< collects functions of time that elements use; nullptr: not collected
   const Temperatures* temperatures = nullptr;    ///< of nodes (`.CLM TEMP`); nullptr: there are none
-  /// What a record makes beyond the element that it gives back: of one without a number numbered on from `number`, else the parts
-  /// of the one element, which have its number.
+  /// Receives the elements that a record makes besides the returned one. If the record has no number, they are numbered
+  /// consecutively from `number`. Otherwise they are parts of one element and share its number.
   std::vector<std::unique_ptr<Element>>* more = nullptr;
-  /// Node ids of a target of this record, ascending, each once; what does not exist is reported. No function: there are no
-  /// groups.
+  /// Resolves a target of this record to node ids, ascending and unique; unknown nodes and groups are reported. Empty if there
+  /// are no groups.
   std::function<std::vector<int>(const deck::NodeTarget&)> nodes_of = nullptr;
 
-  /// The function a keyword names, or nullptr with an error when it does not exist.
+  /// The function a keyword names; nullptr with an error if it does not exist.
   const Function* function(int id, std::string_view keyword) const;
-  /// The same of a function of time: steps that follow their error end at its corners.
+  /// The same for a function of time: error-controlled steps end at its corners.
   const Function* function_of_time(int id, std::string_view keyword) const;
   void error(std::string_view keyword, std::string message, std::string hint = {}) const {
     diagnostics.error(record.where(keyword), std::move(message), std::move(hint));
   }
 };
 
-/// A node that an element puts where it needs it, before anything else looks at the nodes.
+/// A node positioned by an element, before anything else uses the nodes.
 struct NodePlacement {
   int node = 0;
-  int from = 0;  ///< the node from which its place was found
+  int from = 0;  ///< node from which the position was derived
   Vec3 x = Vec3::Zero();
 };
 
@@ -90,19 +89,19 @@ class ShortForm;
 struct ElementType {
   deck::Schema schema;
   std::function<std::unique_ptr<Element>(BuildContext&)> build;
-  int stage = 0;  ///< elements of stage 1 are built last and may ask what the others give (`wheel_inertia`)
-  /// May place a node. Faults that hinder it are left to `build`: diagnostics of this call are thrown away.
+  int stage = 0;  ///< elements of stage 1 are built last and may query the others (`wheel_inertia`)
+  /// May position a node. Diagnostics of this call are discarded: `build` must report any fault.
   std::function<std::optional<NodePlacement>(const BuildContext&)> place = nullptr;
-  /// Of a short form: puts the records that stand for the card's; such a card is never built.
+  /// Short forms: writes the records that replace this one; such a card is never built.
   std::function<void(ShortForm&)> expand = nullptr;
-  /// Of a card that is a short form with some keywords only: whether this record is. None: always.
+  /// For a card that is a short form only with certain keywords: whether this record is one. Empty: always.
   std::function<bool(const deck::Record&)> is_short = nullptr;
 };
 
-/// All elements, in the order of the manual; written by CMake's add_element().
+/// All elements, in the order of the manual; generated by CMake's add_element().
 const std::vector<ElementType>& element_types();
 
-/// Ties a card to the function that builds its element: the body of every `x_type()`.
+/// Connects a card with the function that builds its element: the body of every `x_type()`.
 template <class Data>
 ElementType element_type(const deck::Card<Data>& card, std::unique_ptr<Element> (*build)(const Data&, BuildContext&),
                          int stage = 0, std::optional<NodePlacement> (*place)(const Data&, const BuildContext&) = nullptr) {

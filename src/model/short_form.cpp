@@ -14,7 +14,7 @@ namespace engrane {
 
 namespace {
 
-/// Where the nodes of a deck are. Faults are left to who builds the model.
+/// Positions of the nodes of a deck. Faults are reported when the model is built.
 NodePositions positions_of(const deck::Deck& deck) {
   Diagnostics unheard;
   Frames frames;
@@ -27,7 +27,7 @@ NodePositions positions_of(const deck::Deck& deck) {
   return NodePositions(std::move(nodes));
 }
 
-/// Whether the nodes that a record names exist, which are put to `named`; else with errors.
+/// Whether the nodes that a record names exist; if not, reports errors. All of them are added to `named`.
 bool has_nodes(const deck::Record& record, const NodePositions& nodes, std::set<int>& named, Diagnostics& diagnostics) {
   bool good = true;
   for (const deck::Field& field : record.schema->fields) {
@@ -75,7 +75,7 @@ bool ShortForm::has_numbers(int count) const {
 
 std::shared_ptr<const deck::Deck> write_out(const deck::Deck& deck, const std::vector<ElementType>& types, std::set<int>& named,
                                             Diagnostics& diagnostics) {
-  std::map<const deck::Schema*, const ElementType*> forms;  // of the schemas met: the type if it is a short form
+  std::map<const deck::Schema*, const ElementType*> forms;  // by schema: its type if it is a short form
   const auto form_of = [&](const deck::Record& record) {
     const auto [entry, fresh] = forms.try_emplace(record.schema, nullptr);
     for (const ElementType& type : types)

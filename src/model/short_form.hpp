@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cards that stand for several records of others.
+// Cards that expand to several records of other cards.
 #pragma once
 
 #include <any>
@@ -14,10 +14,10 @@
 
 namespace engrane {
 
-/// A record of a short form while the records that it stands for are written in its place.
+/// A record of a short form during its expansion.
 class ShortForm {
  public:
-  /// The next numbers that no record of the deck has.
+  /// The lowest numbers above all those used in the deck.
   struct FreeNumbers {
     int node = 1, profile = 1;
   };
@@ -31,11 +31,11 @@ class ShortForm {
   Diagnostics& diagnostics;
 
   const std::vector<deck::Record>& records() const { return deck_.records; }
-  /// Adds a record of a card, `.NOE` or `BEAM`. Keywords that both cards have keep their places in the deck.
+  /// Adds a record of a card, such as `.NOE` or `BEAM`. Keywords that both cards have keep their locations in the deck.
   void add(std::string_view card, int id, std::any data);
   int new_node() { return free_.node++; }
   int new_profile() { return free_.profile++; }
-  /// Whether elements may have the numbers from that of the record on; else with an error.
+  /// Whether `count` element numbers from that of the record on are free; otherwise reports an error.
   bool has_numbers(int count) const;
   void error(std::string_view keyword, std::string message, std::string hint = {}) const {
     diagnostics.error(record.where(keyword), std::move(message), std::move(hint));
@@ -48,12 +48,12 @@ class ShortForm {
   std::vector<deck::Record>& made_;
 };
 
-/// The deck with the records that its short forms stand for in their places; nullptr where it has none. `nodes` get those that
-/// short forms name: what is written out from them holds only where they are.
+/// Returns the deck with its short forms expanded in place; nullptr if it has none. `nodes` receives the nodes that short forms
+/// name: they must not be moved, as the expansion depends on their positions.
 std::shared_ptr<const deck::Deck> write_out(const deck::Deck& deck, const std::vector<ElementType>& types, std::set<int>& nodes,
                                             Diagnostics& diagnostics);
 
-/// Ties a card to the function that writes it out: the body of `x_type()` of a short form.
+/// Connects a card with the function that expands it: the body of `x_type()` of a short form.
 template <class Data>
 ElementType short_form(const deck::Card<Data>& card, void (*expand)(const Data&, ShortForm&)) {
   ElementType type{card.schema(), nullptr, 0, nullptr, nullptr};
@@ -61,7 +61,7 @@ ElementType short_form(const deck::Card<Data>& card, void (*expand)(const Data&,
   return type;
 }
 
-/// Lets the card of an element be a short form where `applies` says so.
+/// Makes the card of an element a short form where `applies` is true.
 template <class Data>
 void short_where(ElementType& type, bool (*applies)(const Data&), void (*expand)(const Data&, ShortForm&)) {
   type.is_short = [applies](const deck::Record& record) { return applies(*record.get<Data>()); };

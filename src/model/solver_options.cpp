@@ -7,13 +7,14 @@ namespace engrane {
 
 namespace {
 
-/// With error control no step is longer than this part of the run, unless the deck says so.
+/// Default maximum step with error control, as a fraction of the run.
 constexpr double longest_part = 0.02;
-/// Of the tolerance of a step: what iterations leave of forces, and how sharply events are met. Where a force jumps the error of
-/// an event's instant is one of velocities, as large a part of what a step changes; that of all forces is the most it can be.
+/// Fractions of the step tolerance: force residual of the Newton iteration with Radau IIA and in statics, and localisation of
+/// events. If a force jumps, an error in the instant of the event is a velocity error of the same fraction of the step's
+/// velocity change. It is largest if all forces jump.
 constexpr double share_of_newton = 0.01, share_of_path = 1e-3, share_of_event = 0.5, event_of_fixed_steps = 1e-6;
-/// Events are met within this part of a step however loose its tolerance is: a drift to one is a hundredth of a step at most, and
-/// is to be certain to end before it for its error to be known.
+/// Upper limit of the event tolerance, as a fraction of the step, however loose TOL is. The drift step to an event is at most a
+/// hundredth of a step, and must certainly end before the event for its error to be known.
 constexpr double bluntest_event = 1e-3;
 
 }  // namespace
@@ -50,7 +51,8 @@ SolverOptions solver_options(const Model& model) {
   o.longest = stepping.longest.value_or(longest_part * (o.end - o.begin));
   o.cuts = analysis.cuts;
   o.package = analysis.solver.tag;
-  // iterations with kept factors need not be better than their step; those with exact tangents are, by the last of them
+  // with kept factors, iterations need only match the error of the step; with exact tangents, the last iteration exceeds it
+  // anyway
   double of_step = 1e-9;
   if (o.tolerance > 0 && o.analysis == Analysis::dynamics && o.family == Family::radau)
     of_step = std::clamp(share_of_newton * o.tolerance, 1e-12, 1e-5);

@@ -13,7 +13,7 @@
 
 namespace engrane {
 
-/// Up to N numbers, of which only as many are made as are asked for: numbers with derivatives are long.
+/// Up to N numbers, of which only `count` are constructed: numbers with derivatives are large.
 template <class T, std::size_t N>
 class UpTo {
  public:
@@ -30,8 +30,8 @@ class UpTo {
   alignas(T) std::byte raw_[N * sizeof(T)];
 };
 
-/// State of an element's nodes and unknowns in numbers of type T (double, Dual<N> or Taylor); `time` and the unknowns' values
-/// as in the state, without derivatives.
+/// Motion of an element's nodes and unknowns in numbers of type T (double, Dual<N> or Taylor). All values, including `time`,
+/// are copied from the state without derivatives.
 template <class T, int Nodes>
 struct Motion {
   explicit Motion(const State& state)
@@ -69,7 +69,7 @@ struct Motion {
   T time;
 };
 
-/// Collects a residual in numbers of type T.
+/// Accumulates a residual in numbers of type T.
 template <class T, int Nodes>
 class Balance {
  public:
@@ -79,15 +79,15 @@ class Balance {
     moment_.fill(Vec3T<T>(T(0), T(0), T(0)));
   }
 
-  /// Adds a force with which the element resists at a node (global components).
+  /// Adds a resisting force of the element at a node (global components).
   void force(int node, const Vec3T<T>& f) { force_[static_cast<std::size_t>(node)] += f; }
-  /// Adds a moment with which the element resists at a node (material components of the node).
+  /// Adds a resisting moment of the element at a node (material components of the node).
   void moment(int node, const Vec3T<T>& m) { moment_[static_cast<std::size_t>(node)] += m; }
-  /// Adds to the row of an own unknown.
+  /// Adds to the row of an internal unknown.
   void scalar(int i, const T& f) { scalar_[static_cast<std::size_t>(i)] += f; }
 
-  /// States that constraint i has the value phi and returns the force kλ − pΦ along its gradient (paper, eq. 2); the
-  /// caller then subtracts that force times ∂Φ/∂q by force(), moment() and scalar().
+  /// Sets constraint i to the value phi and returns the force kλ − pΦ along its gradient (paper, eq. 2). The caller then
+  /// subtracts that force times ∂Φ/∂q by force(), moment() and scalar().
   T constraint(int i, const T& phi) {
     constraint_[static_cast<std::size_t>(i)] = phi;
     T force(state_.multipliers[static_cast<std::size_t>(i)]);
@@ -103,7 +103,7 @@ class Balance {
   const T& scalar_at(int i) const { return scalar_[static_cast<std::size_t>(i)]; }
   const T& constraint_at(int i) const { return constraint_[static_cast<std::size_t>(i)]; }
 
-  /// From now on multiplier i moves along lane `first` + i.
+  /// Seeds the derivative of multiplier i in lane `first` + i from now on.
   void differentiate_multipliers(int first, double weight) {
     multiplier_lane_ = first;
     multiplier_weight_ = weight;
@@ -118,15 +118,15 @@ class Balance {
   double multiplier_weight_ = 0;
 };
 
-/// Of each node of a layout the first slots of translations and rotations, −1 where it has none, and its number of translations;
-/// in `lane_slots` the slots that a tangent has columns for. The number of slots comes back.
+/// For each node of a layout: first slots of its translations and rotations (−1 if none), and number of translations.
+/// `lane_slots` receives the slots that have a tangent column. Returns the number of slots.
 std::size_t plan_sweep(const Layout& layout, std::span<int> translation, std::span<int> rotation, std::span<int> directions,
                        std::vector<std::size_t>& lane_slots);
 
-/// A layout, and how one residual written for numbers of any type is swept for residual, exact tangent and constraint rates.
-/// `evaluate(const Motion<T, Nodes>&, Balance<T, Nodes>&)` is that residual; the tangent is one sweep of dual numbers, each lane
-/// moving one unknown with displacement, velocity and acceleration in the proportion cq : cv : ca. `Lanes` is the largest
-/// number of unknowns there can be (those of ground nodes excluded).
+/// A layout, and the evaluation of a residual templated on its number type as residual, exact tangent and constraint rates.
+/// `evaluate(const Motion<T, Nodes>&, Balance<T, Nodes>&)` is that residual. The tangent is one evaluation in dual numbers:
+/// each lane varies displacement, velocity and acceleration of one unknown in the proportion cq : cv : ca. `Lanes` is the
+/// maximum number of unknowns (those of ground nodes excluded).
 template <int Nodes, int Lanes>
 class Sweep {
  public:
@@ -209,7 +209,7 @@ class Sweep {
     }
   }
 
-  /// Lanes `lane` to `lane` + 2 move the node along the global axes, or turn it about its own.
+  /// Seeds lanes `lane` to `lane` + 2 with translations along the global axes, or rotations about the axes of the node.
   template <class Node>
   static void seed_translation(Node& node, Weights w, std::size_t lane, int directions = 3) {
     for (int c = 0; c < directions; ++c, ++lane) {
@@ -229,7 +229,7 @@ class Sweep {
     }
   }
 
-  /// Hands every row with a slot to `write(row, value)`.
+  /// Calls `write(row, value)` for every row that has a slot.
   template <class T, class Write>
   void each_row(const Balance<T, Nodes>& balance, Write&& write) const {
     for (std::size_t i = 0; i < layout_.nodes.size(); ++i)
@@ -244,7 +244,7 @@ class Sweep {
   }
 
  private:
-  /// Is there no force or moment on what the layout does not ask for? Where it is zero, or nobody's number.
+  /// Whether unknowns outside the layout have no force or moment. Zeros and NaNs are ignored.
   bool nothing_else(const Balance<double, Nodes>& balance) const {
     for (std::size_t i = 0; i < layout_.nodes.size(); ++i)
       for (int c = 0; c < 3; ++c)

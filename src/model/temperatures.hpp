@@ -7,16 +7,16 @@
 
 namespace engrane {
 
-/// How much warmer a node is than in the reference configuration, in which bodies are free of stress.
+/// Temperature rise of a node above the reference configuration, in which bodies are free of stress.
 struct Warmth {
   double rise = 0;
-  const Function* function = nullptr;  ///< of time, a factor
+  const Function* function = nullptr;  ///< factor as a function of time
 
   double at(double time) const { return rise * (function ? function->at(time).f : 1); }
   double rate(double time) const { return function ? rise * function->at(time).d1 : 0; }
 };
 
-/// By the number of the node; the others are as warm as in the reference configuration.
+/// By node number; other nodes are at reference temperature.
 using Temperatures = std::unordered_map<int, Warmth>;
 
 }  // namespace engrane

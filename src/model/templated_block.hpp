@@ -11,12 +11,11 @@
 
 namespace engrane {
 
-/// Block of elements that write one templated residual, as those of TemplatedElement do. `Data` is what one element has of its
-/// own, with
+/// Block of elements with one templated residual, as in TemplatedElement. `Data` holds the data of one element and has
 ///
 ///     template <class T> void evaluate(const Motion<T, Nodes>&, const State&, Balance<T, Nodes>&) const;
 ///
-/// A derived block adds what else its elements tell, from data(e).
+/// A derived block adds the other results of its elements, from data(e).
 template <class Data, int Nodes, int Lanes>
 class TemplatedBlock : public Block {
  public:
@@ -31,7 +30,7 @@ class TemplatedBlock : public Block {
     return std::make_unique<BlockMember>(id, block, block->data_.size() - 1);
   }
 
-  /// Room for so many elements, where it is known how many come.
+  /// Reserves memory for a known number of elements.
   void reserve(std::size_t count) {
     nodes_.reserve(count);
     data_.reserve(count);

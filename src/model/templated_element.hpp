@@ -7,12 +7,12 @@
 
 namespace engrane {
 
-/// Base of elements that write one templated residual
+/// Base of elements that implement one templated residual
 ///
 ///     template <class T> void evaluate(const Motion<T, Nodes>&, const State&, Balance<T, Nodes>&) const;
 ///
-/// and get residual, exact tangent and constraint rates from it (Sweep). `Lanes` is the largest number of unknowns the
-/// element can have (ground nodes and unneeded unknowns excluded).
+/// and obtain residual, exact tangent and constraint rates from it (Sweep). `Lanes` is the maximum number of unknowns of the
+/// element (ground nodes and unneeded unknowns excluded).
 template <class Derived, int Nodes, int Lanes>
 class TemplatedElement : public Element {
  public:
@@ -31,7 +31,7 @@ class TemplatedElement : public Element {
   }
 
  protected:
-  /// To be called once in the derived constructor.
+  /// Call once in the derived constructor.
   void set_layout(Layout layout) { sweep_ = Sweep<Nodes, Lanes>(std::move(layout)); }
   const Sweep<Nodes, Lanes>& sweep() const { return sweep_; }
 

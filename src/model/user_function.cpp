@@ -11,7 +11,7 @@ namespace engrane {
 
 namespace {
 
-/// What happens in time is resolved by the steps: half of a hundred of them is a scale on which it changes.
+/// Time functions are resolved by the steps: a duration of this many steps is taken as the scale of change.
 constexpr double steps_per_scale = 50;
 
 }  // namespace
@@ -80,7 +80,7 @@ std::shared_ptr<const user::Routine> user_routine(const BuildContext& context, s
                                 "declare the routine with .FCT I f USER \"library\" \"routine\"");
     return nullptr;
   }
-  if (!it->second) return nullptr;  // what is wrong with it was said already
+  if (!it->second) return nullptr;  // already reported
   const auto* function = dynamic_cast<const UserFunction*>(it->second.get());
   if (!function) {
     context.error(keyword, "function " + known + " is no user routine, and USER takes one as a " + user::describe(kind),

@@ -16,8 +16,8 @@ namespace engrane {
 
 struct BuildContext;
 
-/// A routine of the user's (`.FCT I f USER …`): a function of one variable where a function is asked for, and by
-/// `user_routine()` a law of more than one.
+/// A user routine (`.FCT I f USER …`): a function of one variable where a function is expected, or by `user_routine()` a law of
+/// several variables.
 class UserFunction final : public Function {
  public:
   UserFunction(std::shared_ptr<const user::Source> source, const FunctionSetting& setting);
@@ -26,7 +26,8 @@ class UserFunction final : public Function {
   double integral(double x) const override { return integral_(x); }
 
   const std::shared_ptr<const user::Source>& source() const { return source_; }
-  /// Tries it as a function of one variable, from the start of the run to its end; an error at `where` and false when it is none.
+  /// Tests it as a function of one variable between the start and the end of the run. If it fails, reports an error at `where`
+  /// and returns false.
   bool check(Location where, Diagnostics& diagnostics) const;
 
  private:
@@ -36,16 +37,16 @@ class UserFunction final : public Function {
   PanelIntegral integral_;
 };
 
-/// The function of a USER record; faults go to `diagnostics` and yield nullptr.
+/// Builds the function of a USER record. Faults go to `diagnostics`, and the result is nullptr.
 std::unique_ptr<Function> make_user_function(const deck::Record& record, const FunctionSetting& setting,
                                              Diagnostics& diagnostics);
 
-/// Is a function that a keyword names fit to be one of one variable? False, with an error at `where`, when it is a routine of
-/// another kind or a law. nullptr is fit: what is wrong with it was said already.
+/// Whether a function that a keyword names can be used as one of one variable. If it is a law or a routine of another kind,
+/// reports an error at `where` and returns false. True for nullptr, whose fault was already reported.
 bool is_function_of_one_variable(const Function* function, Location where, Diagnostics& diagnostics);
 
-/// The routine of a `.FCT USER` that a keyword names, used as a law of some kind: `scale` and `samples` as
-/// user::Routine takes them. An error at the keyword, and nullptr, when there is none or it does not pass its check.
+/// The routine of a `.FCT USER` that a keyword names, used as a law of the given kind; `scale` and `samples` as for
+/// user::Routine. If there is none or its check fails, reports an error at the keyword and returns nullptr.
 std::shared_ptr<const user::Routine> user_routine(const BuildContext& context, std::string_view keyword, double id,
                                                   user::Kind kind, const user::Arguments& scale,
                                                   const std::vector<user::Arguments>& samples);

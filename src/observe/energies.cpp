@@ -14,13 +14,14 @@ namespace engrane::observe {
 namespace {
 
 constexpr std::size_t points_of_powers = 4;
-/// A step that is longer than the one before by more than this comes after a force has jumped, say: a polynomial would lead over
-/// that, with slopes that such short steps make of rounding. Control goes from a first step to the longest by less.
+/// A step more than this many times as long as the previous one follows a jump of a force, for instance. A polynomial would
+/// extrapolate across it with slopes that, from such short steps, are mostly rounding errors. Step control from the first step
+/// to the longest one grows by less.
 constexpr double longest_beside = 100;
-/// Part of a step's length along a path for which the loads' time is taken to pass where it stands still.
+/// Where load time stands still along an equilibrium path, it is assumed to advance by this fraction of the step length.
 constexpr double stand_still = 1e-9;
 
-/// Sum of `energies` of this rank's elements.
+/// Sum of the energies of this rank's elements.
 Energies own_energies(Assembler& assembler, const Configuration& c) {
   Energies sum;
   for (const int p : assembler.own_parts()) {
@@ -45,27 +46,27 @@ Energies total_energies(Assembler& assembler, const Configuration& c) {
 
 double static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to) {
   if (!(to.time > from.time)) return 0;
-  // along a path of equilibria the loads' own time may go back or stand still, the drives with it
+  // along an equilibrium path, load time may decrease or stand still, and the drives follow it
   const double loads = to.load_time() - from.load_time(), least = stand_still * (to.time - from.time);
   const double time = std::abs(loads) > least ? loads : least;
-  // configurations of large meshes are large: the one between stands where the first was
+  // saves a copy: configurations of large meshes take much memory
   Configuration& c = from;
   const auto half_the_work = [&](const std::vector<Reaction>& reactions) {
     double power = total_energies(assembler, c).external;
     for (const Reaction& reaction : reactions) power += reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]);
     return 0.5 * time * power;
   };
-  // reactions are those of the equilibrium, which has no dampers
+  // reactions of the equilibria themselves: with the velocities set below, dampers would contribute
   const std::vector<Reaction> first = supports.at(from), last = supports.at(to);
   for (std::size_t i = 0; i < c.nodes.size(); ++i) {
     const Vec3 v = (to.nodes[i].x - from.nodes[i].x) / time;
-    // the rotation vector between the two is the same in the axes of either
+    // the rotation vector between the two orientations has the same components in either
     const Vec3 W = rotation_log(from.nodes[i].R.transpose() * to.nodes[i].R) / time;
     c.nodes[i].v = v;
     c.nodes[i].W = W;
   }
   for (std::size_t i = 0; i < c.scalars.size(); ++i) c.scalar_rates[i] = (to.scalars[i] - from.scalars[i]) / time;
-  // a function of time may have a corner where the step ends: its slope is that of the step
+  // evaluate functions of time just inside the step: they may have a corner at its ends
   c.lead += 1e-8 * time;
   double work = half_the_work(first);
 
@@ -104,10 +105,10 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
     balance_.external_work += static_work(assembler_, supports_, before_.unpacked(), c);
   } else {
     const double step = c.time - last_time_, half = 0.5 * step;
-    // nothing leads over an event: a force that jumps has no slope there
+    // do not interpolate across an event: a force that jumps has no slope there
     const bool continues = !powers_.empty();
     if (smooth_) powers_.add(c.time, std::array{sum.external, sum.dissipated});
-    if (continues) {  // Gauss's two points: exact for cubics
+    if (continues) {  // two-point Gauss quadrature, exact for cubics
       for (const double side : {-1.0, 1.0}) {
         std::array<double, 2> power{};
         powers_.at(last_time_ + half * (1 + side / std::numbers::sqrt3), step, power);

@@ -13,10 +13,10 @@ namespace engrane::observe {
 
 namespace {
 
-/// A kind of field over the nodes. To have another, add a row to the table.
+/// A kind of nodal field. To add one, add a row to the table.
 struct NodalKind {
   Named named;
-  bool of_motion;  ///< for analyses in which something moves
+  bool of_motion;  ///< only for analyses with motion
   Vec3 (*value)(const Vec3& reference, const NodeState& node, const Reaction& reaction);
 };
 
@@ -46,7 +46,7 @@ const std::vector<NodalKind>& nodal_kinds() {
 
 constexpr const char* stress = "STRESS";
 
-/// A field of elements that, at nodes, is that of the averaged stress.
+/// Element field that is computed from the averaged stress when it is given at nodes.
 struct DerivedKind {
   const char* name;
   void (*value)(std::span<const double> stress, double* out);
@@ -65,7 +65,7 @@ const std::vector<DerivedKind>& derived_kinds() {
 ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler), points_(assembler.model()), averages_(points_) {
   const Model& model = assembler.model();
   std::map<std::string, std::size_t> known;
-  // elements of a block declare their fields in one place
+  // elements of a block share one vector of fields, so its address identifies the declarations
   std::map<std::pair<const std::vector<Field>*, std::size_t>, int> kinds;
   kind_of_part_.reserve(model.parts.size());
   for (const Model::Part& part : model.parts) {
@@ -79,7 +79,7 @@ ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler), poin
           field.averaged && width == fields_[known.at(field.name)].width())
         averages_.declare(field, part);
   }
-  // one value in each part needs no second list
+  // fields with one value per part need no second list
   for (std::size_t f = 0; f < fields_.size(); ++f)
     if (std::none_of(kinds_.begin(), kinds_.end(), [f](const Kind& kind) {
           return std::any_of(kind.uses.begin(), kind.uses.end(),
@@ -131,7 +131,7 @@ bool ElementFields::has(std::size_t field, std::size_t part) const {
 void ElementFields::evaluate_own(const Configuration& c) {
   const Model& model = assembler_.model();
   std::vector<double> values;
-  std::vector<std::size_t> next(fields_.size(), 0);  // of the next part's rows among the places of each field
+  std::vector<std::size_t> next(fields_.size(), 0);  // first row of the next part among the places of each field
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Model::Part& part = model.parts[p];
     const Kind& kind = kinds_[static_cast<std::size_t>(kind_of_part_[p])];
@@ -177,7 +177,7 @@ std::optional<StressError> ElementFields::stress_error() const {
 
 void ElementFields::evaluate(const Configuration& c) {
   const Model& model = assembler_.model();
-  // parts that other ranks evaluate are zero, and so is the sum until it is known who has the field
+  // zero, so that summing over ranks collects the values; parts without the field become NaN below
   for (ElementField& field : fields_) {
     field.rows.assign(model.parts.size() * field.width(), 0.0);
     field.places.assign(field.place_count * field.width(), 0.0);

@@ -16,7 +16,7 @@ void add_vector(std::vector<Channel>& channels, const char* prefix, Dimension d,
   for (const char axis : {'X', 'Y', 'Z'}) channels.push_back({fmt::format("{}{}", prefix, axis), d, help});
 }
 
-/// Places of the selected channels of one owner.
+/// Indices of the selected channels of one owner.
 std::vector<int> selected_places(const Selection& selection, bool of_part, int index, const std::vector<Channel>& channels) {
   const bool chosen =
       of_part ? selection.all_parts || selection.parts.contains(index) : selection.all_nodes || selection.nodes.contains(index);
@@ -30,7 +30,7 @@ std::vector<int> selected_places(const Selection& selection, bool of_part, int i
   return places;
 }
 
-/// Two channels with the same signature may share a column's heading.
+/// Text that is equal for channels that may share a column heading.
 std::string signature(int place, const Named& c) {
   const Dimension& d = c.dimension;
   return fmt::format("{} {} {} {} {} {} {}\n", place, c.name, c.help, d.length, d.mass, d.time, d.angle);
@@ -67,7 +67,7 @@ Histories::Histories(Assembler& assembler, const Reactions& reactions, bool move
 
 void Histories::add_parts(const Selection& selection) {
   const Model& model = assembler_.model();
-  // owners with the same channels stand in one table; most elements of a type have the same
+  // owners with the same channels share a table, as most elements of a type do
   std::map<std::string, std::map<std::string, Table>> kinds;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Model::Part& part = model.parts[p];
@@ -120,7 +120,7 @@ void Histories::plan_gathering() {
   int ranks = 1;
   MPI_Comm_size(assembler_.comm(), &ranks);
   if (assembler_.rank() != 0) return;
-  // each rank sends its owners' columns table by table
+  // each rank sends the columns of its owners, table by table
   const Partition& partition = assembler_.numbering().partition();
   for (int r = 0; r < ranks; ++r) {
     displacements_.push_back(static_cast<int>(destination_.size()));

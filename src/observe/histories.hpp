@@ -11,12 +11,12 @@
 
 namespace engrane::observe {
 
-/// Whose histories are wanted, and which.
+/// Which elements, nodes and channels to keep histories of.
 struct Selection {
   bool all_parts = true, all_nodes = true;
-  std::set<int> parts, nodes;      ///< beside these; indices into Model::parts and Model::nodes
-  std::set<std::string> channels;  ///< of those; all when empty
-  /// One channel of one part or node, selected whatever the rest says.
+  std::set<int> parts, nodes;      ///< in addition; indices into Model::parts and Model::nodes
+  std::set<std::string> channels;  ///< of the selected parts and nodes; empty for all
+  /// One channel of one part or node, selected regardless of everything else.
   struct Single {
     bool of_part = true;
     int index = 0;
@@ -26,24 +26,23 @@ struct Selection {
   std::set<Single> singles;
 };
 
-/// Histories of parts or nodes that have the same channels. Its columns are the channels of the first owner, then those of the
-/// next, and so on.
+/// Histories of parts or nodes with the same channels. The columns are the channels of the first owner, then those of the next,
+/// and so on.
 struct Table {
   std::string path;         ///< `element/GEAR`, `element/GEAR_2`, `node/NODE`
-  std::string type;         ///< of elements: the card's name
-  std::vector<int> ids;     ///< of the owners in the deck
+  std::string type;         ///< name of the card, for elements
+  std::vector<int> ids;     ///< ids of the owners in the deck
   std::vector<int> owners;  ///< their indices into Model::parts or Model::nodes
   std::vector<Channel> channels;
-  std::vector<int> places;  ///< of the channels among all that an owner has
+  std::vector<int> places;  ///< indices of these channels among all channels of an owner
 
   std::size_t columns() const { return owners.size() * channels.size(); }
 };
 
-/// Channels of a node: position and rotation, in motion their rates, on a support the reactions.
+/// Channels of a node: displacement and rotation, with `moves` their rates, with `supported` the reactions.
 std::vector<Channel> node_channels(bool moves, bool supported);
 
-/// The histories of elements and nodes that a run keeps: what they are, and their values. Each rank evaluates the elements
-/// that it owns.
+/// Descriptions and values of the histories that a run keeps. Each rank evaluates its own elements.
 class Histories {
  public:
   /// Collective. `moves`: the analysis has velocities.
@@ -51,15 +50,15 @@ class Histories {
 
   /// Tables of elements, then of nodes.
   const std::vector<Table>& tables() const { return tables_; }
-  /// Columns of all tables together.
+  /// Number of columns of all tables.
   std::size_t columns() const { return columns_; }
 
-  /// Values in the order of the columns, on rank 0; nothing on the others. Collective.
+  /// Returns the values in the order of the columns, on rank 0; empty on the others. Collective.
   const std::vector<double>& evaluate(const Configuration& c, const std::vector<Reaction>& reactions);
-  /// The columns of nodes, from node_columns() on, without reactions; those of elements are as before. On rank 0.
+  /// Updates only the columns of nodes, from node_columns() on, with zero reactions. Returns all columns, on rank 0.
   const std::vector<double>& evaluate_nodes(const Configuration& c);
   std::size_t node_columns() const { return destination_.size(); }
-  /// So many of the tables are of elements.
+  /// Number of tables of elements.
   std::size_t part_tables() const { return part_tables_; }
 
  private:
@@ -76,8 +75,8 @@ class Histories {
   std::size_t columns_ = 0;
   std::vector<double> values_;
   std::vector<double> own_, element_;        ///< this rank's columns; all channels of one element
-  std::vector<int> counts_, displacements_;  ///< rank 0: columns that come from each rank
-  std::vector<std::size_t> destination_;     ///< rank 0: where the gathered numbers belong
+  std::vector<int> counts_, displacements_;  ///< rank 0: columns received from each rank
+  std::vector<std::size_t> destination_;     ///< rank 0: column of each gathered value
   std::vector<double> gathered_;
 };
 

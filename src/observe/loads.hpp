@@ -5,12 +5,12 @@
 
 namespace engrane::observe {
 
-/// Where a force on a node acts; small displacements do not move it.
+/// Point of application of a force on a node. With small displacements this is the reference position.
 Vec3 place_of_force(const Model& model, const Configuration& c, int node);
 
-/// The sum of loads on nodes, of pressures and of the weight of cells, global components, the moment about the origin, and their
-/// work on the displacements from the reference configuration: u·F, twice the strain energy where all is linear and no support
-/// moves.
+/// Sum of the nodal loads, pressures and weight of the cells, in global components, and their moment about the origin. `work`
+/// is the work u·F on the displacements from the reference configuration. It is twice the strain energy if everything is linear
+/// and no support moves.
 struct LoadSum {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double work = 0;

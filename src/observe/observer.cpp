@@ -17,10 +17,11 @@ namespace engrane::observe {
 
 namespace {
 
-/// Values between two instants lie on a polynomial through at most so many.
+/// Maximum number of interpolation points for values between two instants.
 constexpr std::size_t most_ends = 6;
 
-/// Angles may begin anew after a turn, and speeds are as good as the motion. What is long may be the difference of much longer.
+/// Angles may jump by a turn, and velocities are as accurate as the motion itself. Lengths are left out: they may be small
+/// differences of large ones, such as coordinates.
 bool of_motion(const Dimension& d) {
   return d == dimension::angle || d == dimension::angular_velocity || d == dimension::velocity;
 }
@@ -108,7 +109,7 @@ int Observer::channel(const std::string& owner, const std::string& name) const {
 
 void Observer::observe(const Configuration& c, const Step& step, bool histories, bool fields) {
   last_reactions_ = supports_.at(c);
-  // what comes after an event continues nothing: a drift across it ends where the points of the next step begin
+  // nothing continues across an event; if it was a drift, the interpolation points of the next step begin at its end
   const bool begins = step.events > 0 && !inside_;
   if (step.events > 0) {
     if (inside_)
@@ -148,7 +149,7 @@ void Observer::keep(double time) {
   if (!end_.empty())
     for (std::size_t i = 0; i < angles_.size(); ++i)
       if (angles_[i] != 0 && std::abs(values_[i] - end_[i]) > std::numbers::pi) jump = 1;
-  MPI_Bcast(&jump, 1, MPI_INT, 0, assembler_.comm());  // values are known on rank 0
+  MPI_Bcast(&jump, 1, MPI_INT, 0, assembler_.comm());  // only rank 0 has the values
   steady_ = jump != 0 ? 0 : steady_ + 1;
   end_ = values_;
   end_time_ = time;
@@ -195,7 +196,7 @@ void Observer::keep_ends() {
 }
 
 void Observer::between(const Configuration& c) {
-  // all points that a polynomial goes through stand close together, and no angle begins anew between them
+  // all interpolation points are close together, and no angle jumps between them
   const bool smooth = steady_ >= most_ends;
   const std::vector<double>* moved = nullptr;
   if (!smooth)
@@ -310,7 +311,7 @@ void Observer::load(const Snapshot& snapshot) {
   if (snapshot.has("observe/buckling_times") && snapshot.array("observe/buckling_times").size() == buckling_times_.size())
     buckling_times_ = snapshot.array("observe/buckling_times");
   not_unique_.clear();
-  // with other histories than before the columns mean others: they are found again
+  // with other histories the columns have another meaning; non-unique ones will be found again
   if (snapshot.number("observe/columns") != static_cast<double>(values_.size())) return;
   for (const double column : snapshot.array("observe/not_unique")) not_unique_.push_back(static_cast<int>(column));
   if (!snapshot.has("observe/points") || snapshot.array("observe/end").size() != ways_.size()) return;

@@ -8,8 +8,8 @@
 
 namespace engrane::observe {
 
-/// A configuration that is kept and seldom read. Nodes that neither turn nor move, which in statics of a mesh are all, take the
-/// bytes of a position, a tenth of a NodeState. Nothing is lost.
+/// Compact, lossless copy of a configuration that is rarely read. A node that neither rotates nor moves, as all nodes in
+/// statics of a mesh, takes only the memory of its position, about a tenth of a NodeState.
 class PackedConfiguration {
  public:
   PackedConfiguration() = default;
@@ -17,9 +17,9 @@ class PackedConfiguration {
   Configuration unpacked() const;
 
  private:
-  Configuration rest_;                             ///< all but its nodes
+  Configuration rest_;                             ///< everything except the nodes
   std::vector<Vec3> positions_;                    ///< of all nodes
-  std::vector<std::pair<int, NodeState>> others_;  ///< nodes of which more than the position is to be remembered
+  std::vector<std::pair<int, NodeState>> others_;  ///< nodes with more than a position
 };
 
 }  // namespace engrane::observe

@@ -61,7 +61,7 @@ Resultant Reactions::resultant(const Configuration& c, const std::vector<Reactio
     const std::span<const int> slots = assembler_.numbering().part_slots(part);
     r.resize(slots.size());
     assembler_.model().parts[static_cast<std::size_t>(part)].element->residual(assembler_.view(part, c), r);
-    // the ground stands at the origin and does not turn: its slots are forces and moments about the origin
+    // the ground is at the origin and does not rotate, so its slots are forces and moments about the origin
     for (std::size_t i = 0; i < slots.size(); ++i)
       if (slots[i] < 6) sum[static_cast<std::size_t>(slots[i])] += r[i];
   }

@@ -12,16 +12,16 @@ struct Reaction {
   int node = 0;  ///< index into Model::nodes
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
 
-  /// Power that it feeds into the model.
+  /// Power that the reaction feeds into the model.
   double power(const NodeState& state) const { return force.dot(state.v) + torque.dot(state.R * state.W); }
 };
 
-/// The sum of all that the ground exerts on the model, global components; the moment about the origin.
+/// Resultant of everything that the ground exerts on the model, in global components; the moment is about the origin.
 struct Resultant {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
 };
 
-/// What supports carry: the residual in the components that they hold, summed over the elements at the supported nodes.
+/// Reactions of supports: the residual of the supported components, summed over the elements at each supported node.
 class Reactions {
  public:
   explicit Reactions(Assembler& assembler);
@@ -29,17 +29,17 @@ class Reactions {
   /// Indices of the supported nodes, ascending.
   const std::vector<int>& nodes() const { return nodes_; }
   bool supported(int node) const;
-  /// One per supported node, on every rank; each rank evaluates its own elements. Collective.
+  /// One reaction per supported node, on every rank; each rank evaluates its own elements. Collective.
   std::vector<Reaction> at(const Configuration& c);
-  /// Of these reactions, and of what the elements on node 0 exert on it. On every rank. Collective.
+  /// Resultant of these reactions and of the forces of node 0 on the elements attached to it. On every rank. Collective.
   Resultant resultant(const Configuration& c, const std::vector<Reaction>& reactions);
 
  private:
   Assembler& assembler_;
   std::vector<int> nodes_;
-  std::vector<int> parts_;     ///< of this rank, that touch a supported node
-  std::vector<int> grounded_;  ///< of this rank, that stand on node 0
-  std::vector<int> place_;     ///< of a node in nodes_, or -1
+  std::vector<int> parts_;     ///< parts of this rank with a supported node
+  std::vector<int> grounded_;  ///< parts of this rank attached to node 0
+  std::vector<int> place_;     ///< index of each node in nodes_, or -1
 };
 
 }  // namespace engrane::observe

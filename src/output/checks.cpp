@@ -16,7 +16,7 @@ constexpr double default_tolerance = 1e-6;
 
 bool is_value(const deck::CheckCard& card) { return card.measure.is("VALUE") || !card.measure.given(); }
 
-/// Value at `time` of the polynomial through the samples (Neville).
+/// Value at `time` of the polynomial through the samples (Neville's algorithm).
 template <class Samples>
 double interpolated(const Samples& samples, double time) {
   std::vector<double> p;
@@ -54,7 +54,7 @@ double Checks::slack(double time) const {
 }
 
 void Checks::observe(double time, std::span<const double> values, bool regular) {
-  // a time said twice: the first word of it has gone into measures already, and only a jump there makes them differ
+  // a repeated time must not change the step length
   const bool repeated = started_ && time <= last_time_;
   if (started_ && !repeated) last_step_ = time - last_time_;
   for (Measured& m : checks_) {
@@ -74,7 +74,7 @@ void Checks::observe(double time, std::span<const double> values, bool regular) 
 }
 
 void Checks::observe_value(Measured& m, Sample sample) const {
-  if (!m.resolved.card.time) return;  // the last sample is kept for all
+  if (!m.resolved.card.time) return;  // the last sample is kept for every check
   const double wanted = *m.resolved.card.time;
   const auto put = [&sample](std::vector<Sample>& samples) {
     if (!samples.empty() && sample.time <= samples.back().time) samples.pop_back();
@@ -140,7 +140,7 @@ double Checks::value(const Measured& m, std::string& remark) const {
   if (is_value(card)) {
     if (!card.time) return m.last_value;
     if (too_late(*card.time) || too_early(*card.time)) return nothing;
-    // two on either side, or more of one side near the ends of the run
+    // two samples on either side, or more on one side near the ends of the run
     if (m.exact) return m.before.front().value;
     const std::size_t before = std::min(m.before.size(), 4 - std::min<std::size_t>(m.after.size(), 2));
     const std::size_t after = std::min(m.after.size(), 4 - before);
@@ -166,7 +166,7 @@ CheckResult Checks::result(const Measured& m) const {
   const double relative = card.relative ? *card.relative : card.absolute ? 0 : default_tolerance;
   r.tolerance = std::max(card.absolute.value_or(0), relative * std::abs(card.value));
   r.value = value(m, r.remark);
-  // written so that what is not a number fails
+  // written so that NaN fails
   r.passed = std::abs(r.value - r.expected) <= r.tolerance;
   if (!std::isfinite(r.value) && r.remark.empty()) r.remark = "the value is not a finite number";
   return r;

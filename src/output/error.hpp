@@ -6,8 +6,8 @@
 
 namespace engrane::output {
 
-/// A result file that cannot be written: disk full, no permission, taken by another run. The text is a sentence that names
-/// the file and the reason.
+/// A result file cannot be written: disk full, no permission, or in use by another run. The text is a sentence that names the
+/// file and the reason.
 class OutputError : public std::runtime_error {
  public:
   OutputError(const std::string& path, const std::string& reason)

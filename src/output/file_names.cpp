@@ -35,18 +35,18 @@ OutputName::OutputName(std::string prefix) : prefix_(std::move(prefix)), partial
 
 namespace {
 
-/// Takes the lock of an open file; false when another process has it. Where the file system has no locks it is taken.
+/// Locks an open file; returns false if another process holds the lock. Succeeds if the file system has no locks.
 bool take(int descriptor) {
   struct flock lock {};
   lock.l_type = F_WRLCK;
   lock.l_whence = SEEK_SET;
-  // a byte far outside: HDF5 readers lock their files too, and are welcome
+  // lock a byte far beyond the end: HDF5 readers lock their files too, and may read meanwhile
   lock.l_start = off_t{1} << 60;
   lock.l_len = 1;
   return fcntl(descriptor, F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
 }
 
-/// Whether the open file still bears the name.
+/// Whether the open file still has this name.
 bool is_called(int descriptor, const std::string& path) {
   struct stat open {
   }, named{};
@@ -68,7 +68,7 @@ FileLock FileLock::create(const std::string& path, const std::string& shown_as) 
     lock.descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (lock.descriptor_ < 0) fail(shown_as);
     if (!take(lock.descriptor_)) throw OutputError(shown_as, "another run is writing it");
-    // between opening and locking another run may have given the file another name, or none
+    // between opening and locking, another run may have renamed or removed the file
     if (is_called(lock.descriptor_, path)) return lock;
   }
 }
@@ -88,7 +88,7 @@ FileLock& FileLock::operator=(FileLock&& other) noexcept {
 
 namespace {
 
-/// All of a block: a disk that is nearly full takes a part of it first.
+/// Writes a whole block. A nearly full disk may first accept only part of it.
 bool write_all(int file, const char* data, std::size_t size) {
   while (size > 0) {
     const ssize_t written = write(file, data, size);
@@ -121,12 +121,12 @@ void rename_over(const std::string& from, const std::string& to) {
 }
 
 void exchange_names(const std::string& a, const std::string& b) {
-  // some network file systems do not know this call
+  // some network file systems do not support this call
   if (renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) != 0) exchange_names_by_links(a, b);
 }
 
 void exchange_names_by_links(const std::string& a, const std::string& b) {
-  // with a second name for `a`, `b` can take its place without a gap
+  // with a second link to `a`, `b` can take its name without a gap
   const std::string second = b + "~";
   unlink(second.c_str());
   if (link(a.c_str(), second.c_str()) != 0 && rename(a.c_str(), second.c_str()) != 0) fail(a);

@@ -6,11 +6,11 @@
 
 namespace engrane::output {
 
-/// The names of a run's files. A complete result of that name is never replaced by a partial one: while it is there, the
-/// run's files are called `prefix.partial.*`, and they take the name over when the run is complete.
+/// Names of a run's files. A complete result is never replaced by a partial one. If a complete result with the same name
+/// exists, the files of this run are called `prefix.partial.*` until the run is complete; then they take over the name.
 class OutputName {
  public:
-  /// Looks at `prefix.h5`, and decides.
+  /// Chooses the names according to what is at `prefix.h5`.
   explicit OutputName(std::string prefix);
 
   std::string path(std::string_view extension) const { return stem() + std::string(extension); }
@@ -23,42 +23,44 @@ class OutputName {
   bool partial_ = false;
 };
 
-/// Must what is at `path` be kept until something complete replaces it? True for a complete result, and for a file that is
-/// none of ours; false for a partial result, and when nothing is there.
+/// Whether the file at `path` must be kept until a complete result replaces it. True for a complete result and for a file not
+/// written by this program; false for a partial result, an empty file, and if there is no file.
 bool worth_keeping(const std::string& path);
 
-/// Keeps a second run from writing the same files: holds an advisory lock on a file as long as it lives.
+/// Prevents a second run from writing the same files: holds an advisory lock on a file during its lifetime.
 class FileLock {
  public:
   FileLock() = default;
-  /// Throws OutputError when another process holds it. Where the file system has no locks, or no such file, it locks nothing.
+  /// Throws OutputError if another process holds the lock. Locks nothing if the file system has no locks or there is no such
+  /// file.
   explicit FileLock(const std::string& path);
-  /// Opens a file, or makes an empty one, and locks it before anything else is done with it. Throws OutputError, which calls
-  /// the file `shown_as`.
+  /// Opens or creates a file and locks it before anything else is done with it. Throws OutputError, which calls the file
+  /// `shown_as`.
   static FileLock create(const std::string& path, const std::string& shown_as);
   ~FileLock();
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
 
-  /// Waits until what was written to the file is on the disk. Throws OutputError, which calls it `path`.
+  /// Waits until everything written to the file is on the disk. Throws OutputError, which calls the file `path`.
   void sync(const std::string& path) const;
 
  private:
   int descriptor_ = -1;
 };
 
-/// Makes the contents of one file those of another, which exists. Throws OutputError, which calls it `shown_as`.
+/// Copies the contents of one file to another, which must exist. Throws OutputError, which calls the file `shown_as`.
 void copy_contents(const std::string& from, const std::string& to, const std::string& shown_as);
 
-/// Gives `from` the name `to`, over any file of that name, in one step. Throws OutputError.
+/// Atomically renames `from` to `to`, replacing any file of that name. Throws OutputError.
 void rename_over(const std::string& from, const std::string& to);
 
-/// Lets two files change names, in one step where the system can. Throws OutputError.
+/// Exchanges the names of two files, atomically if the system supports it. Throws OutputError.
 void exchange_names(const std::string& a, const std::string& b);
-/// The same where the system cannot: at every moment one of the files is called `a`, unless there are no links either.
+/// As above, for systems without such a call. A file with the name `a` exists at every moment, unless the system has no hard
+/// links either.
 void exchange_names_by_links(const std::string& a, const std::string& b);
 
-/// Replaces a text file in one step, so that no reader ever sees half of it. Throws OutputError.
+/// Atomically replaces a text file, so that no reader sees a partial one. Throws OutputError.
 void replace_text(const std::string& path, std::string_view text);
 
 }  // namespace engrane::output

@@ -14,8 +14,8 @@
 namespace engrane::output::hdf5 {
 
 void prepare() {
-  // At exit the library closes what is still open, and crashes on a file that a full disk kept it from closing. We close
-  // our files ourselves.
+  // At exit, the library would close what is still open, and crash on a file that it could not close because the disk was full.
+  // We close our files ourselves.
   H5dont_atexit();
   H5open();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -31,16 +31,16 @@ Handle open_for_reading(const std::string& path) {
 Handle file_access(const std::string& path) {
   prepare();
   Handle access(check(H5Pcreate(H5P_FILE_ACCESS), path));
-  // the oldest format: every reader knows it, and it has no mark "open for writing" that a killed run would leave
+  // the oldest format: every reader knows it, and a killed run leaves no "open for writing" flag in it
   check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V18), path);
-  check(H5Pset_file_locking(access.id(), false, true), path);  // readers may look while the run goes on
+  check(H5Pset_file_locking(access.id(), false, true), path);  // readers may look during the run
   check(H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG), path);
   return access;
 }
 
 std::string reason_of_failure() {
   std::string reason;
-  // from the call that the user of the library made down to the one that failed: the last one knows most
+  // walk from the outermost call to the one that failed: the last message is the most specific
   H5Ewalk2(
       H5E_DEFAULT, H5E_WALK_DOWNWARD,
       [](unsigned, const H5E_error2_t* entry, void* data) -> herr_t {
@@ -79,18 +79,19 @@ void write_attribute(const Place& place, const char* name, hid_t type, const voi
   check(H5Awrite(attribute.id(), type, value), place.file);
 }
 
-/// Smaller arrays stand in the header of their object, larger ones are compressed.
+/// Arrays up to this size in bytes are stored in the header of their object, larger ones may be compressed.
 constexpr std::size_t small = 4096;
-/// Bytes of a chunk of a compressed array.
+/// Chunk size of a compressed array, in bytes.
 constexpr std::size_t most_of_chunk = std::size_t{1} << 20;
 
-/// Smaller arrays of numbers are compressed whatever is left of them: many of them make a file, not one.
+/// Arrays of numbers below this size in bytes are always compressed: a file has many of them.
 constexpr std::size_t worth_a_trial = std::size_t{1} << 16;
-/// Arrays of numbers that deflate leaves more of are stored as they are. All digits of a computed stress differ: 0.74 to 0.79
-/// is left of it, displacements in a plane leave 0.58, at 0.1 GB/s both, which is slower than a disk.
+/// Arrays of numbers are stored uncompressed if deflate would leave more than this fraction. All digits of computed stresses
+/// differ: deflate leaves 0.74 to 0.79 of them, and 0.58 of displacements in a plane, both at 0.1 GB/s, which is slower than a
+/// disk.
 constexpr double most_left = 0.5;
 
-/// Whether shuffle and deflate make an array of numbers so much smaller that it is worth their time, by a few stretches of it.
+/// Whether shuffle and deflate reduce an array of numbers enough to be worth their time, judged by a few samples of it.
 bool shrinks(const double* values, std::size_t count) {
   constexpr std::size_t length = 2048, width = sizeof(double);
   const std::size_t stretches = std::clamp<std::size_t>(count / (4 * length), 1, 16);
@@ -108,7 +109,7 @@ bool shrinks(const double* values, std::size_t count) {
   return static_cast<double>(after) <= most_left * static_cast<double>(before);
 }
 
-/// How an array is stored: `size` is of one element.
+/// Creation properties of a dataset. `size` is the size of one value in bytes.
 Handle storage(const Place& place, std::span<const hsize_t> shape, std::size_t size, bool compressed) {
   Handle creation(check(H5Pcreate(H5P_DATASET_CREATE), place.file));
   check(H5Pset_obj_track_times(creation.id(), false), place.file);
@@ -127,15 +128,15 @@ Handle storage(const Place& place, std::span<const hsize_t> shape, std::size_t s
   return creation;
 }
 
-/// How the values of an array come to stand in the file.
+/// How the values of an array are stored.
 enum class Keep : unsigned char {
   deflated,
   plain,
-  nothing  ///< all are zero, which HDF5 takes for what was never written
+  nothing  ///< all are zero, which HDF5 assumes for values never written
 };
 
 bool all_zero(const double* values, std::size_t count) {
-  // a negative zero has a bit that is not
+  // compare bits: a negative zero must be written
   return std::all_of(values, values + count, [](double value) { return std::bit_cast<std::uint64_t>(value) == 0; });
 }
 
@@ -188,7 +189,7 @@ Handle fixed_text_type(std::size_t width, const std::string& file) {
 Handle Place::text(const std::string& name, const std::string& content) const {
   const Handle type = fixed_text_type(content.size(), file);
   const hsize_t shape[1] = {1};
-  return write_array(*this, name, type.id(), content.c_str(), shape);  // an empty text has one byte, that of its end
+  return write_array(*this, name, type.id(), content.c_str(), shape);  // an empty text has one byte, its null terminator
 }
 
 Handle Place::texts(const std::string& name, std::span<const std::string> contents) const {

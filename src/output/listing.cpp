@@ -31,7 +31,7 @@ std::string entry(const std::string& name, const std::string& text) {
   return text.empty() ? "" : fmt::format("  {:<10}{}\n", name, text);
 }
 
-/// Residuals and the like: two figures tell enough, zero is exact.
+/// Formats residuals and the like with three significant digits, and an exact zero as 0.
 std::string magnitude(double value) {
   if (std::isnan(value)) return "-";
   return value == 0 ? "0" : fmt::format("{:.2e}", value);
@@ -95,7 +95,7 @@ std::string listing_newton(std::span<const IterationRow> rows, bool with_heading
                      {"angles"},
                      {"correction"},
                      {"largest residual", Align::left}});
-  // fixed widths, because the rows come a step at a time
+  // fixed widths, because rows are printed step by step
   const std::vector<std::size_t> widths{6, 12, 3, 9, 9, 9, 9, 10, 24};
   std::string out = with_heading ? table.heading(widths) : "";
   for (const IterationRow& r : rows)
@@ -111,7 +111,7 @@ std::string listing_energies(std::span<const EnergyRow> rows, const UnitSystem& 
   for (const EnergyRow& r : rows)
     table.row({shown(r.time, 8), shown(r.kinetic), shown(r.potential), shown(r.external_work), shown(r.dissipated),
                magnitude(r.error)});
-  // deck units without names make long labels: said once
+  // labels of units without names are long, so they are given only once
   return "  time in " + units.label(dimension::time) + ", energies in " + units.label(dimension::energy) + "\n\n" + table.text();
 }
 
@@ -207,7 +207,7 @@ std::string listing_checks(std::span<const CheckResult> checks) {
   std::size_t passed = 0;
   for (const CheckResult& c : checks) {
     passed += c.passed ? 1 : 0;
-    // with few digits a value could look like the one expected although it fails
+    // show enough digits: a failing value must not look like the expected one
     const std::string reference = printable(c.reference);
     table.row({printable(c.text), shown(c.value, 10), shown(c.expected, 10), magnitude(std::abs(c.value - c.expected)),
                magnitude(c.tolerance), c.passed ? "PASS" : "FAIL",

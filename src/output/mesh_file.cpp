@@ -20,7 +20,7 @@ constexpr std::int32_t largest_number = 999'999'999;
   throw MeshFileError(fmt::format("its `{}` {}", set, why));
 }
 
-/// Whole numbers of a set that must have them, in a shape of `extents` dimensions.
+/// Reads a required dataset of integers with `extents` dimensions.
 std::vector<std::int32_t> integers(hid_t file, const std::string& set, std::size_t extents) {
   if (hdf5::read_shape(file, set).size() != extents)
     refuse(set, extents == 1 ? "is not there, or no list of whole numbers" : "is not there, or no table of whole numbers");

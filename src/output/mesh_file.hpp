@@ -9,30 +9,31 @@
 
 namespace engrane::output {
 
-/// A mesh as `engrane import` writes it (docs/format.md, Meshes).
+/// A mesh as written by `engrane import` (docs/format.md, Meshes).
 struct MeshFile {
-  /// Cells of one kind: a number and a row of `width` entries for each, as they stand behind N of `.MAI`.
+  /// Cells of one kind: a number and a row of `width` entries per cell, in the order of N of `.MAI`.
   struct Cells {
     std::vector<std::int32_t> numbers, rows;
     std::size_t width = 0;
   };
   struct Group {
     std::string name, kind;             ///< kind: NODES, ELEMENTS or FACES
-    std::vector<std::int32_t> members;  ///< numbers; of faces pairs of a cell and its face
+    std::vector<std::int32_t> members;  ///< numbers; for faces, pairs of cell and face
   };
 
   std::vector<std::int32_t> numbers;          ///< of the nodes
-  std::vector<std::array<double, 3>> places;  ///< in the unit of the deck
+  std::vector<std::array<double, 3>> places;  ///< coordinates, in the unit of the deck
   std::vector<Cells> cells;
   std::vector<Group> groups;  ///< the n-th is `.SEL GROUP` n
 };
 
-/// A file that is no such mesh, or whose arrays do not fit together; the text says what is wrong.
+/// The file is not such a mesh, or its arrays do not fit together. The text says what is wrong.
 class MeshFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws MeshFileError. Numbers are as the file has them: whether they are given twice, or nodes exist, is not asked.
+/// Throws MeshFileError. Numbers are returned as they are in the file: duplicates and references to missing nodes are not
+/// checked.
 MeshFile read_mesh_file(const std::string& path);
 
 }  // namespace engrane::output

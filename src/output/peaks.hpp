@@ -11,10 +11,10 @@
 
 namespace engrane::output {
 
-/// The largest size that each channel has had, and when.
+/// Largest magnitude of each channel so far, and its time.
 class Peaks {
  public:
-  /// The value itself, with its sign.
+  /// The value with its sign.
   struct Peak {
     double value = 0;
     double time = 0;
@@ -25,7 +25,7 @@ class Peaks {
   const Peak& of(std::size_t channel) const { return peaks_[channel]; }
 
   void save(Snapshot& snapshot) const;
-  /// Peaks of a run with other channels are left: false.
+  /// Returns false and changes nothing if the snapshot does not match the number of channels.
   bool load(const Snapshot& snapshot);
 
  private:
@@ -33,8 +33,8 @@ class Peaks {
   bool started_ = false;
 };
 
-/// The table of the listing: of all elements and of the run, channel by channel; what was always zero is left out, and of a large
-/// model what comes behind the first `most` rows.
+/// Table of peaks for the listing: channels of all elements and of the run. Channels that were always zero are left out; rows
+/// after the first `most` are only counted.
 std::string listing_peaks(const std::vector<HistoryTable>& tables, const Peaks& peaks, const UnitSystem& units, std::size_t most);
 
 }  // namespace engrane::output

@@ -45,7 +45,7 @@ std::string Progress::line(double time, double step, long steps, double now) con
   const double elapsed = now - began_;
   const double rate = rate_ > 0 ? rate_ : elapsed > 0 ? static_cast<double>(steps) / elapsed : 0;
   if (rate > 0) text += fmt::format("  {:.{}f} steps/s", rate, rate < 10 ? 1 : 0);
-  // too early a guess only annoys
+  // no estimate too early: it would be useless
   if (part > 0.001 && elapsed > 1 && part < 1) text += "  " + duration_text(elapsed * (1 - part) / part) + " left";
   return text;
 }

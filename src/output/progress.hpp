@@ -8,9 +8,9 @@
 
 namespace engrane::output {
 
-/// Tells a waiting user how far a run is: on a terminal one line that is written over, elsewhere a line every tenth of the
-/// run or every half minute, whichever comes first (but no sooner than a second after the last). To standard error, so that
-/// standard output stays clean.
+/// Shows the progress of a run on standard error, so that standard output stays clean. On a terminal it is one line that is
+/// overwritten. Otherwise a line is printed every tenth of the run or every half minute, whichever comes first, but at least a
+/// second after the last one.
 class Progress {
  public:
   enum class Style : unsigned char { terminal, lines, silent };
@@ -25,13 +25,13 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// What stands before each line, where it is not the run itself.
+  /// Sets a prefix for each line, for a run other than the main one.
   void label(std::string text) { label_ = std::move(text); }
-  /// After each accepted step: the time reached, the step's length and how many steps there have been.
+  /// Call after each accepted step: the time reached, the step length and the number of steps so far.
   void update(double time, double step, long steps);
   /// Prints whole lines of text without mixing them with the progress line.
   void note(const std::string& text);
-  /// Ends the progress line. The destructor does it too.
+  /// Removes the progress line. The destructor does so too.
   void finish();
 
  private:
@@ -46,10 +46,10 @@ class Progress {
   double began_;
   double last_shown_;
   int last_tenth_ = 0;
-  double rate_since_ = 0;  ///< steps per second are those of the last seconds, not of the whole run
+  double rate_since_ = 0;  ///< the rate is measured over the last seconds, not the whole run
   long rate_steps_ = 0;
   double rate_ = 0;
-  std::size_t width_ = 0;  ///< of the line on the terminal; 0 when there is none
+  std::size_t width_ = 0;  ///< of the line on the terminal; 0 if there is none
 };
 
 /// `3 s`, `4 min 05 s`, `2 h 13 min`.

@@ -19,7 +19,7 @@ std::string find_result(const std::string& prefix) {
   throw RestartError(fmt::format("Cannot restart from {}: there is no file {}.h5.", prefix, prefix));
 }
 
-/// A restart point without its memory, and where it stands.
+/// Name and time of a restart point.
 struct Entry {
   std::string name;
   double time = 0;
@@ -38,7 +38,7 @@ std::vector<Entry> entries(hid_t file) {
   return found;
 }
 
-/// Times as a list that fits a sentence: the first and the last few of many.
+/// Times as a list that fits in a sentence: the first and last few if there are many.
 std::string list_of(const std::vector<Entry>& points) {
   constexpr std::size_t shown = 4;
   std::string list;
@@ -82,7 +82,7 @@ std::vector<double> RestartFile::times() const {
 RestartPoint RestartFile::load(std::optional<double> time) const {
   const std::vector<Entry> points = entries(file_.id());
   if (points.empty()) throw RestartError(fmt::format("Cannot restart from {}: it holds no restart point.", path_));
-  // times are sums of steps: one that is written with fewer digits means the point all the same
+  // a time given with fewer digits means the same restart point, as times are sums of steps
   const auto after = [&](double t) { return t > *time + 1e-9 * std::max(std::abs(t), std::abs(*time)); };
   const Entry* chosen = nullptr;
   for (const Entry& point : points)

@@ -11,26 +11,27 @@
 
 namespace engrane::output {
 
-/// A result that a run cannot be restarted from. The text is a sentence that names the file and the reason.
+/// A run cannot be restarted from a result. The text is a sentence that names the file and the reason.
 class RestartError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The result of an earlier run, as a place to restart from (docs/format.md, /restart).
+/// The result of an earlier run, used for a restart (docs/format.md, /restart).
 class RestartFile {
  public:
-  /// Opens `prefix.h5` or, when there is none, `prefix.partial.h5`; `prefix` may also be the name of a file. Throws RestartError
-  /// when there is neither, and when it is no result of this format version.
+  /// Opens `prefix.h5` or, if there is none, `prefix.partial.h5`; `prefix` may also be the name of a file. Throws RestartError
+  /// if no file is found, or if it is not a result of this format version.
   explicit RestartFile(const std::string& prefix);
 
   const std::string& path() const { return path_; }
-  /// The deck as it was run, every default filled in.
+  /// The deck as run, with all defaults filled in.
   std::string deck_text() const;
   std::string model_json() const;
-  /// Of all restart points, ascending.
+  /// Times of all restart points, ascending.
   std::vector<double> times() const;
-  /// The last point not after `time`, or the last of all. Throws RestartError, naming the times there are, when there is none.
+  /// Returns the last restart point not after `time`, or the last of all. Throws RestartError if there is none, naming the
+  /// available times.
   RestartPoint load(std::optional<double> time = {}) const;
 
   hid_t id() const { return file_.id(); }

@@ -15,7 +15,7 @@ using hdf5::Handle;
 
 namespace {
 
-/// Rows that are copied at a time.
+/// Number of rows that are copied at a time.
 constexpr std::size_t block_rows = 1024;
 
 /// A table of the earlier file.
@@ -25,7 +25,7 @@ struct Source {
   std::vector<double> block;
 };
 
-/// Where a channel stands in the earlier file.
+/// Position of a channel in the earlier file.
 struct Origin {
   std::size_t table = 0, column = 0;
   bool unique = true;
@@ -33,7 +33,7 @@ struct Origin {
 
 struct Sources {
   std::vector<Source> tables;
-  std::map<std::string, Origin> channels;  ///< by `element/7/NORMAL_FORCE`
+  std::map<std::string, Origin> channels;  ///< key: `element/7/NORMAL_FORCE`
 
   void add(hid_t file, const std::string& path) {
     const std::string place = "history/" + path;
@@ -57,7 +57,7 @@ struct Sources {
   }
 };
 
-/// Paths below /history of all tables.
+/// Paths of all tables, relative to /history.
 std::vector<std::string> table_paths(hid_t file) {
   std::vector<std::string> paths;
   const Handle history(H5Gopen2(file, "history", H5P_DEFAULT));
@@ -121,7 +121,7 @@ std::vector<double> ResultFile::copy_from(hid_t earlier, std::size_t samples, st
 
   std::vector<double> times = hdf5::read_numbers(earlier, "fields/time");
   times.resize(std::min(times.size(), frames));
-  // a field that the earlier run did not have: zero on nodes, not a number elsewhere
+  // a field that the earlier run did not have: zero at nodes, NaN elsewhere
   const auto bring = [&](const std::string& name, hsize_t rows, hsize_t columns, double missing) {
     const hsize_t shape[2] = {rows, columns};
     const std::vector<hsize_t> found = hdf5::read_shape(earlier, name);

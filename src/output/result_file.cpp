@@ -15,12 +15,12 @@ using hdf5::Handle;
 
 namespace {
 
-/// Bytes of a chunk of a table.
+/// Maximum chunk size of a table, in bytes.
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
-/// Rows of a chunk: so many samples of one channel are read in one piece.
+/// Maximum number of rows per chunk: this many samples of one channel are read at once.
 constexpr hsize_t most_chunk_rows = 1024;
 
-/// Sizes of equal pieces, each at most `most`: chunks are stored whole, and a last one that is nearly empty is waste.
+/// Size of equal pieces of at most `most`. Chunks are stored whole, so a nearly empty last one would waste space.
 hsize_t even_pieces(hsize_t total, hsize_t most) {
   const hsize_t pieces = (total + most - 1) / most;
   return pieces == 0 ? 1 : (total + pieces - 1) / pieces;
@@ -28,7 +28,7 @@ hsize_t even_pieces(hsize_t total, hsize_t most) {
 
 std::string table_place(const HistoryTable& table) { return "history/" + table.path; }
 
-/// Of XDMF 3. Cells that are none of a mesh are lines.
+/// Type code in XDMF 3. Elements that are not cells of a mesh are polylines.
 std::int32_t xdmf_code(CellShape shape) {
   // in the order of CellShape
   static constexpr std::array<std::int32_t, 11> codes{2, 4, 36, 5, 37, 6, 38, 8, 40, 9, 48};
@@ -52,7 +52,7 @@ std::size_t Batch::bytes() const {
 MixedTopology mixed_topology(const ResultsLayout& layout) {
   const std::int32_t polyline = xdmf_code(CellShape::none);
   MixedTopology topology;
-  // A vertex has no type code that all readers take the same way, and some take no polyline of more than two points.
+  // Readers disagree on the type code of a vertex, and some do not accept polylines of more than two points.
   const auto line = [&](int a, int b, int element) {
     topology.data.insert(topology.data.end(), {polyline, 2, a, b});
     topology.elements.push_back(element);
@@ -71,7 +71,7 @@ MixedTopology mixed_topology(const ResultsLayout& layout) {
     }
     topology.cells.resize(topology.elements.size(), c);
   }
-  // readers refuse a mesh without cells
+  // readers reject a mesh without cells
   if (topology.elements.empty())
     for (int i = 0; i < static_cast<int>(layout.points.size()); ++i) line(i, i, 0);
   return topology;
@@ -201,7 +201,7 @@ void ResultFile::create_growing(hid_t group, const std::string& name, std::optio
 }
 
 ResultFile::Growing ResultFile::open_growing(const std::string& name) const {
-  // rows are written once and whole: a cache would only copy them
+  // rows are written once and completely, so a cache would only copy them
   const Handle access(check(H5Pcreate(H5P_DATASET_ACCESS), path_));
   check(H5Pset_chunk_cache(access.id(), 1, 0, 1), path_);
   Growing growing;
@@ -325,7 +325,7 @@ void ResultFile::write_restart(const std::string& name, const RestartPoint& poin
 }
 
 void ResultFile::write_latest(const RestartPoint& point, bool last) {
-  // what is written over every second must not change its size, or the file grows with every batch
+  // keep the size of what is overwritten every second, or the file would grow with every batch
   const Handle before(
       H5Lexists(file_.id(), "restart/latest", H5P_DEFAULT) > 0 ? H5Gopen2(file_.id(), "restart/latest", H5P_DEFAULT) : -1);
   bool fits = before.id() >= 0 && !last;

@@ -12,66 +12,66 @@
 
 namespace engrane::output {
 
-/// What a run is restarted from: everything that it remembers at an accepted step, and how much of the results belong to it.
+/// Everything needed to restart a run from an accepted step, and how many results precede it.
 struct RestartPoint {
   double time = 0;
-  std::size_t samples = 0, frames = 0;  ///< written up to there
+  std::size_t samples = 0, frames = 0;  ///< written up to this point
   Snapshot memory;
 };
 
-/// What waits to be written.
+/// Results waiting to be written.
 struct Batch {
   struct Frame {
     double time = 0;
     FrameValues values;
-    bool written = false;  ///< another file holds the values, which are gone
+    bool written = false;  ///< `values` are gone; another file holds them
   };
   std::vector<double> times;
   std::vector<double> values;  ///< a row of channel_count() per sample
   std::vector<Frame> frames;
-  std::vector<RestartPoint> restarts;  ///< that are kept
+  std::vector<RestartPoint> restarts;  ///< those to be kept
 
   bool empty() const { return times.empty() && frames.empty() && restarts.empty(); }
   std::size_t bytes() const;
 };
 
-/// The mesh as XDMF reads it: a mixed topology, and the element of each of its cells.
+/// The mesh in XDMF form: a mixed topology, and the element of each of its cells.
 struct MixedTopology {
   std::vector<std::int32_t> data;
   std::vector<std::int32_t> elements;
-  std::vector<std::size_t> cells;  ///< the place in ResultsLayout::cells that each of its cells stands for
+  std::vector<std::size_t> cells;  ///< index into ResultsLayout::cells for each of its cells
 };
 MixedTopology mixed_topology(const ResultsLayout& layout);
 
-/// The version of the layout of docs/format.md; files of another are not read.
+/// Version of the layout in docs/format.md. Files of other versions are not read.
 constexpr int format_version = 2;
 
-/// One open HDF5 file with the layout of docs/format.md. Knows nothing of names that change or of spares; see Results.
-/// Everything throws OutputError, which calls the file `shown_as`.
+/// One open HDF5 file with the layout of docs/format.md. It handles neither changing file names nor the second file; see
+/// Results. All members throw OutputError on failure, which calls the file `shown_as`.
 class ResultFile {
  public:
   enum class Mode : unsigned char { create, append };
-  /// Creates the file, over any that is there, with everything but steps; or opens it to add steps. The layout must outlive it.
+  /// Creates the file with everything except steps, replacing any existing one; or opens it to append steps. The layout must
+  /// outlive this object.
   ResultFile(const std::string& path, const ResultsLayout& layout, std::string shown_as, Mode mode);
-  /// Closes without caring whether that succeeds.
+  /// Closes the file and ignores errors.
   ~ResultFile();
   ResultFile(const ResultFile&) = delete;
   ResultFile& operator=(const ResultFile&) = delete;
 
-  /// Adds samples, frames and kept restart points. Frames that are `written` are copied from `other`, as they stand there.
+  /// Appends samples, frames and kept restart points. Frames marked `written` are copied from `other`.
   void append(const Batch& batch, hid_t other = H5I_INVALID_HID);
-  /// Brings over what an earlier run's file holds up to a restart point: its histories as far as this layout has them (other
-  /// columns are not a number), its frames (fields that it lacks are zero) and its kept restart points. Returns the frames'
-  /// times.
+  /// Copies the results of an earlier run up to a restart point: histories, frames and kept restart points. Columns that the
+  /// earlier file lacks become NaN. Missing fields become zero at nodes and NaN elsewhere. Returns the times of the frames.
   std::vector<double> copy_from(hid_t earlier, std::size_t samples, std::size_t frames);
-  /// Writes the restart point `latest` over the one before. The last one of a run is compressed.
+  /// Overwrites the restart point `latest`. The last one of a run is compressed.
   void write_latest(const RestartPoint& point, bool last);
   /// Sets `unique` to 0 for these columns, counted over all tables.
   void mark_not_unique(std::span<const int> columns);
   void write_modes(std::span<const ModeShape> modes);
   void write_checks(std::span<const CheckResult> checks);
   void set_status(const std::string& status);
-  /// Hands everything to the operating system and closes: the file opens with all that was appended.
+  /// Flushes everything to the operating system and closes. The file can then be opened with all that was appended.
   void close();
 
  private:
@@ -79,7 +79,7 @@ class ResultFile {
     hdf5::Handle set;
     hsize_t rows = 0, columns = 1;
   };
-  /// A dataset of rows that can be added to; without `columns` a plain list of numbers.
+  /// Creates an extensible dataset of rows; without `columns` a plain list of numbers.
   void create_growing(hid_t group, const std::string& name, std::optional<hsize_t> columns, hsize_t chunk_rows,
                       const std::string& unit, const std::string& label) const;
   Growing open_growing(const std::string& name) const;
@@ -90,7 +90,7 @@ class ResultFile {
   void create_fields();
   void append_samples(const Batch& batch);
   void append_frame(const Batch::Frame& frame, const std::string& name);
-  /// Copies the fields of a frame of a file with the same layout: compressed blocks as they are.
+  /// Copies the fields of a frame from a file with the same layout. Compressed chunks are copied as they are.
   void copy_frame(hid_t other, const std::string& name);
   void append_cell_fields(const Batch::Frame& frame, const std::string& name);
   void append_point_fields(const Batch::Frame& frame, const std::string& name);

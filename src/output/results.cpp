@@ -16,7 +16,7 @@ namespace engrane::output {
 
 namespace {
 
-/// The part of a run's time that writing may take: a batch waits so many times as long as the last one took.
+/// Limits the share of run time spent on writing: the next batch waits at least this many times as long as the last one took.
 constexpr int share_of_time = 20;
 
 }  // namespace
@@ -40,7 +40,7 @@ Results::Results(const std::string& prefix, ResultsLayout layout, const RestartF
 }
 
 void Results::create(const RestartFile* earlier, const RestartPoint* from) {
-  // another run that writes these files holds a lock on the one that bears the name; ours is taken before anything is written
+  // A run that writes the file with this name holds a lock on it. Take our own lock before writing anything.
   { const FileLock nobody_else(path_); }
   shown_lock_ = FileLock::create(spare_path(), path_);
   try {
@@ -53,14 +53,14 @@ void Results::create(const RestartFile* earlier, const RestartPoint* from) {
       file.write_latest(*from, false);
     }
     file.close();
-    if (earlier) shown_lock_.sync(path_);  // it may take the place of what it was copied from
+    if (earlier) shown_lock_.sync(path_);  // it may replace the file it was copied from
     unlink(name_.path(".xdmf").c_str());
     rename_over(spare_path(), path_);
   } catch (...) {
     unlink(spare_path().c_str());
     throw;
   }
-  // known to the file from now on, and large: assigning an empty text would keep the memory
+  // large, and in the file from now on; assigning an empty string would keep the memory
   std::string().swap(layout_.deck_text);
   std::string().swap(layout_.model_json);
   for (PointField& field : layout_.point_fields) field.forget();
@@ -77,7 +77,7 @@ Results::~Results() {
   try {
     write_batch();
   } catch (const OutputError&) {
-    // whoever destroys an unfinished run has an error of his own to tell
+    // the caller that abandons an unfinished run reports its own error
   }
   if (has_spare_) unlink(spare_path().c_str());
 }
@@ -118,7 +118,7 @@ void Results::flush() {
     if (frame_times_.size() > indexed_frames_ && start >= index_due_) {
       const Clock::time_point index_start = Clock::now();
       write_index(path_, name_.path(".xdmf"));
-      // the index of a long run is large and always written whole: give it a small share of the time
+      // the index of a long run is large and always rewritten completely: limit its share of the time
       index_due_ = Clock::now() + 50 * (Clock::now() - index_start);
     }
   } catch (...) {
@@ -142,7 +142,7 @@ void Results::write_spare(const char* status) {
     marked_spare_ = marked_shown_;
   }
   ResultFile file(spare_path(), layout_, path_, ResultFile::Mode::append);
-  // frames are kept by the file that bears the name, not in memory
+  // written frames are kept only in the shown file, not in memory
   const bool shown_has_frames = !last_->frames.empty();
   const hdf5::Handle shown = shown_has_frames ? hdf5::open_for_reading(path_) : hdf5::Handle();
   if (shown_has_frames && shown.id() < 0) hdf5::fail(path_);
@@ -199,7 +199,7 @@ void Results::finish(RunStatus status) {
       unlink(index_before.c_str());
     }
     path_ = after;
-    // an index of what was here before would point at frames that may not exist
+    // an index from an earlier run would refer to frames that may not exist
     if (frame_times_.empty()) unlink(index_after.c_str());
     write_index(after, index_after);
   } catch (...) {

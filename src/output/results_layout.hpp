@@ -10,11 +10,11 @@
 
 namespace engrane::output {
 
-/// Histories of elements or nodes that have the same channels: a group below /history with one table, a row for each sample and
-/// a column for each channel of each owner. The channels of one owner stand side by side.
+/// Histories of elements or nodes with the same channels: a group below /history with one table. It has a row per sample and a
+/// column per channel of each owner; the channels of one owner are adjacent.
 struct HistoryTable {
   std::string path;      ///< `element/GEAR`, `node/NODE` or `run`
-  std::string type;      ///< of elements: the card's name
+  std::string type;      ///< name of the card, for elements
   std::vector<int> ids;  ///< of the owners; empty for `run`, which is one owner
   std::vector<Channel> channels;
 
@@ -26,31 +26,31 @@ struct HistoryTable {
   }
 };
 
-/// What stands for (a part of) an element in the mesh: a point, a polyline, or a cell.
+/// Representation of an element, or of a part of one, in the mesh: a point, a polyline or a cell.
 struct Cell {
-  std::vector<int> points;            ///< 0-based places in ResultsLayout::points
+  std::vector<int> points;            ///< 0-based indices into ResultsLayout::points
   int element = 0;                    ///< id
-  CellShape shape = CellShape::none;  ///< of a cell of a mesh; none: the points stand on a line
+  CellShape shape = CellShape::none;  ///< for cells of a mesh; none: the points form a polyline
 };
 
-/// A field with any components, beside those over the nodes with three global ones: over the cells, or over the points.
+/// A field over the cells or the points with any number of components (nodal fields have three global ones).
 struct CellField {
   Named named;
-  std::vector<std::string> components;  ///< none: a scalar
+  std::vector<std::string> components;  ///< empty for a scalar
 
   std::size_t width() const { return components.empty() ? 1 : components.size(); }
 };
 
-/// A field with several values in an element, one at each of its nodes or integration points. Beside it stands the CellField of
-/// the same name, with their mean.
+/// A field with several values per element, one at each of its nodes or integration points. The CellField of the same name
+/// holds their mean.
 struct PointField {
   CellField field;
-  std::vector<int> elements;  ///< id of the element that each value belongs to
-  std::vector<int> points;    ///< and its number in that element, from 0
-  std::size_t count = 0;      ///< of values, where the two lists are forgotten
+  std::vector<int> elements;  ///< element id of each value
+  std::vector<int> points;    ///< number of each value within its element, from 0
+  std::size_t count = 0;      ///< number of values, once the two lists have been freed
 
   std::size_t rows() const { return elements.empty() ? count : elements.size(); }
-  /// Once a file has the two lists they need not be kept.
+  /// Frees the two lists, which are not needed once they are in a file.
   void forget() {
     count = rows();
     std::vector<int>().swap(elements);
@@ -62,23 +62,23 @@ struct PointField {
 struct ResultsLayout {
   std::string title;
   std::string analysis;   ///< STATIC, KINEMATIC or DYNAMIC
-  std::string deck_text;  ///< canonical, defaults filled in
+  std::string deck_text;  ///< canonical, with defaults filled in
   std::string model_json;
   std::string version;    ///< of the program: `0.1.0`
   std::string libraries;  ///< names and versions in one line
   UnitSystem units;
-  /// Ids of all nodes, then those of nodes that are points once more because several sections of cells meet there.
+  /// Ids of all nodes, then those of the copies of nodes where several sections of cells meet.
   std::vector<int> node_ids;
   std::vector<Vec3> points;  ///< reference positions of all of these
   std::vector<Cell> cells;
   std::vector<Named> node_fields;  ///< three global components each
   std::vector<CellField> cell_fields;
   std::vector<PointField> point_fields;
-  std::vector<CellField> averages;  ///< at `points`, averaged over the cells there
+  std::vector<CellField> averages;  ///< at `points`, averaged over the adjacent cells
   std::vector<HistoryTable> history;
-  std::size_t expected_samples = 1024;  ///< about how many there will be: tables are laid out for so many rows at a time
+  std::size_t expected_samples = 1024;  ///< approximate; determines the chunk size of the tables
 
-  /// Columns of all tables together: how many values a sample has.
+  /// Number of values per sample: columns of all tables.
   std::size_t channel_count() const {
     std::size_t n = 0;
     for (const HistoryTable& table : history) n += table.columns();
@@ -88,32 +88,32 @@ struct ResultsLayout {
 
 /// The fields of a frame.
 struct FrameValues {
-  /// Those of ResultsLayout::node_fields: a row of three global components for each of ResultsLayout::points.
+  /// For each of ResultsLayout::node_fields: a row of three global components per entry of ResultsLayout::points.
   std::vector<std::vector<double>> nodes;
-  /// Those of ResultsLayout::cell_fields: a row of CellField::width() for each of ResultsLayout::cells.
+  /// For each of ResultsLayout::cell_fields: a row of CellField::width() per entry of ResultsLayout::cells.
   std::vector<std::vector<double>> cells = {};
-  /// Those of ResultsLayout::point_fields: a row of CellField::width() for each of PointField::elements.
+  /// For each of ResultsLayout::point_fields: a row of CellField::width() per entry of PointField::elements.
   std::vector<std::vector<double>> points = {};
-  /// Those of ResultsLayout::averages: a row of CellField::width() for each of ResultsLayout::points.
+  /// For each of ResultsLayout::averages: a row of CellField::width() per entry of ResultsLayout::points.
   std::vector<std::vector<double>> averages = {};
 };
 
 /// A mode of linearised buckling.
 struct ModeShape {
   double load_time = 0;
-  /// A row of three global components for each of ResultsLayout::points.
+  /// A row of three global components per entry of ResultsLayout::points.
   std::vector<double> displacement, rotation;
 };
 
-/// A line of `/checks` and of the listing: a `.CHK` and what came of it.
+/// A line of `/checks` and of the listing: a `.CHK` record and its outcome.
 struct CheckResult {
-  std::string text;  ///< what was checked: `ELEMENT 1 NORMAL_FORCE at 1`
-  double value = 0;  ///< computed; not a number when the run never got there
+  std::string text;  ///< title of the check: `ELEMENT 1 NORMAL_FORCE at 1`
+  double value = 0;  ///< computed; NaN if the run never got there
   double expected = 0;
   double tolerance = 0;  ///< largest allowed |value - expected|
   bool passed = false;
-  std::string reference;  ///< where `expected` comes from
-  std::string remark;     ///< why it failed when no value says so: "the run ended at t = 0.4"
+  std::string reference;  ///< source of `expected`
+  std::string remark;     ///< reason for a failure that the value does not show: "the run ended at t = 0.4"
 };
 
 }  // namespace engrane::output

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t gap = 2;
 
 std::string padded(const std::string& text, std::size_t width, Table::Align align) {
-  const std::size_t count = character_count(text);  // bytes would misplace °, ψ and the like
+  const std::size_t count = character_count(text);  // counting bytes would misalign °, ψ and the like
   const std::string blanks(width > count ? width - count : 0, ' ');
   return align == Table::Align::right ? blanks + text : text + blanks;
 }

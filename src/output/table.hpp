@@ -6,8 +6,7 @@
 
 namespace engrane::output {
 
-/// A number as listings show it: at most `digits` significant digits, exponents only where they save space, `-` when it is
-/// not a number.
+/// Formats a number for listings: at most `digits` significant digits, an exponent only where it is shorter, `-` for NaN.
 std::string shown(double value, int digits = 6);
 
 /// A table of text in aligned columns under a ruled heading.
@@ -24,16 +23,17 @@ class Table {
   };
   explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-  /// One line; as many cells as columns.
+  /// Adds a row, with as many cells as columns.
   void row(std::vector<std::string> cells);
-  /// A line that separates rows.
+  /// Adds a rule between rows.
   void rule();
   bool empty() const { return rows_.empty(); }
 
-  /// The whole table, each line indented by two blanks. Ends with a newline.
+  /// The whole table, each line indented by two spaces. Ends with a newline.
   std::string text() const;
 
-  /// Heading and rows apart, for tables that grow while they are printed: the widths are those given, or of the titles.
+  /// Heading and rows separately, for tables that are printed as they grow. Columns are at least as wide as `widths`, their
+  /// titles and all rows added.
   std::string heading(const std::vector<std::size_t>& widths = {}) const;
   std::string line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths = {}) const;
 

@@ -39,7 +39,7 @@ std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, 
   const MixedTopology topology = mixed_topology(layout);
   const std::string file = escaped(h5_name);
   const std::size_t points = layout.points.size();
-  // the same in every grid; meshio reads them in the first only
+  // repeated in every grid; meshio reads it from the first one only
   const std::string mesh = fmt::format(
       "<Topology TopologyType=\"Mixed\" NumberOfElements=\"{0}\">"
       "<DataItem Dimensions=\"{1}\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">{3}:/mesh/topology</DataItem></Topology>\n"

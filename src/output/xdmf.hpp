@@ -8,9 +8,9 @@
 
 namespace engrane::output {
 
-/// The XDMF index of a result file: a temporal collection of uniform grids over one mixed topology, a dataset per frame
-/// and field, which ParaView, VTK and meshio all read. `h5_name` is the file's name without folders; each grid refers to so many
-/// modes of `/modes`.
+/// Returns the XDMF index of a result file, in a form that ParaView, VTK and meshio all read: a temporal collection of uniform
+/// grids over one mixed topology, with a dataset per frame and field. `h5_name` is the file name without folders. Each grid
+/// also refers to the first `modes` modes of `/modes`.
 std::string xdmf_index(const ResultsLayout& layout, const std::string& h5_name, std::span<const double> frame_times,
                        std::size_t modes = 0);
 

@@ -30,7 +30,7 @@ void crashed(int signal) {
   }
   for (std::size_t i = 0; i < 4; ++i)
     if (watched[i] == signal) sigaction(signal, &before[i], nullptr);
-  // the instruction is tried again, and whoever handled the signal before handles it now
+  // returning repeats the faulting instruction, and the previous handler takes over
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 
 namespace engrane::user {
 
-/// What runs on this thread; nullptr: nothing of the user's. Volatile, for the handler of a signal reads them.
+/// User routine running on this thread; nullptr if none. Volatile, since a signal handler reads them.
 inline constinit thread_local const char* volatile current_routine = nullptr;
 inline constinit thread_local const char* volatile current_library = nullptr;
 
-/// Says while it lives which routine is running, so that a crash inside it can be told from one of ours.
+/// Marks a user routine as running during its lifetime, so that a crash in it can be told from one in engrane.
 class Running {
  public:
   Running(const char* routine, const char* library) noexcept {
@@ -19,7 +19,7 @@ class Running {
   Running& operator=(const Running&) = delete;
 };
 
-/// From now on a crash inside a routine is reported with its name before whoever handled such signals so far handles it.
+/// Installs signal handlers that report a crash inside a user routine by name and then restore the previous handlers.
 void watch_for_crashes();
 
 }  // namespace engrane::user

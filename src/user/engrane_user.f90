@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-!> What a user routine is for engrane: the numbers of engrane_user.h, and the shape of the subroutine. docs/user_routines.md
-!> teaches it. Compile it together with the routine: gfortran -shared -fPIC engrane_user.f90 mine.f90 -o libmine.so
+!> Interface of user routines: the constants of engrane_user.h and the signature of the subroutine. See docs/user_routines.md.
+!> Compile it together with the routine: gfortran -shared -fPIC engrane_user.f90 mine.f90 -o libmine.so
 module engrane_user
   use, intrinsic :: iso_c_binding, only: c_int, c_double
   implicit none
@@ -10,17 +10,17 @@ module engrane_user
 
   !> Kinds. x: variable; y: value and three derivatives
   integer(c_int), parameter :: engrane_function = 1
-  !> x: elongation or angle, rate, time; y: force, its derivatives by elongation and by rate, energy stored
+  !> x: elongation or angle, rate, time; y: force, its derivatives with respect to elongation and to rate, stored energy
   integer(c_int), parameter :: engrane_force = 2
-  !> x: place in the tooth pitch (0 to 1), deflection; y: factor on KM, its first and second derivative by the place, its
-  !> derivative by the deflection
+  !> x: position in the tooth pitch (0 to 1), deflection; y: factor on KM, its first and second derivative with respect to the
+  !> position, its derivative with respect to the deflection
   integer(c_int), parameter :: engrane_mesh = 3
-  !> x: sliding speed, normal force; y: coefficient, its derivatives by speed and by force
+  !> x: sliding speed, normal force; y: coefficient, its derivatives with respect to speed and to force
   integer(c_int), parameter :: engrane_friction = 4
 
   integer(c_int), parameter :: engrane_fine = 0, engrane_wrong_kind = -1, engrane_wrong_parameters = -2, engrane_outside = -3
 
-  !> What y holds before the call; a derivative left so is replaced by differences.
+  !> Value of every y before the call. A derivative left unset is replaced by finite differences.
   real(c_double), parameter :: engrane_not_given = -huge(1.0_c_double)
 
   abstract interface

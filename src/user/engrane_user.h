@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause
- * What a user routine is for engrane: one subroutine of one shape, whatever it computes. docs/user_routines.md teaches it,
+ * Interface of user routines: one subroutine with one signature for every kind. See docs/user_routines.md;
  * engrane_user.f90 is the same for Fortran. */
 #ifndef ENGRANE_USER_H
 #define ENGRANE_USER_H
@@ -10,10 +10,10 @@
 extern "C" {
 #endif
 
-/* Version of all that stands here. A later version adds kinds and further entries of x and y; what is here stays. */
+/* Version of this interface. A later version adds kinds and further entries of x and y; existing ones stay. */
 #define ENGRANE_USER_VERSION 1
 
-/* What a routine is asked for. Entries of x and y count from 0 here, from 1 in Fortran. */
+/* What a routine computes. Entries of x and y count from 0 here, from 1 in Fortran. */
 enum {
   ENGRANE_FUNCTION = 1, /* x: variable (the time, for drives and loads)
                            y: value, first, second and third derivative */
@@ -25,8 +25,8 @@ enum {
                            y: coefficient, its derivatives by speed and by force */
 };
 
-/* What *status may be set to. It is 0 when the routine is called; any other number is an error of the user's own, which engrane
- * reports with that number. */
+/* Values of *status. It is 0 when the routine is called; any other number is an error code of the user's own, which engrane
+ * reports. */
 enum {
   ENGRANE_FINE = 0,
   ENGRANE_WRONG_KIND = -1,       /* the routine does not compute this kind */
@@ -34,17 +34,17 @@ enum {
   ENGRANE_OUTSIDE = -3           /* x is outside what the routine is good for; a smaller step may cure it */
 };
 
-/* Every y holds this when the routine is called. A derivative left so is replaced by differences. */
+/* Every y holds this when the routine is called. A derivative left unset is replaced by finite differences. */
 #define ENGRANE_NOT_GIVEN (-DBL_MAX)
 
-/* All by reference, as old Fortran passes arguments:
- *   version  ENGRANE_USER_VERSION of the program that calls
+/* All arguments are passed by reference, as in Fortran 77:
+ *   version  ENGRANE_USER_VERSION of the calling program
  *   kind     one of the kinds above
- *   x        where: the arguments of this kind
- *   p, n_p   the numbers behind PARAM in the deck, and how many there are
- *   y        to be set: the value first, then its derivatives
- *   status   to be set when something is wrong
- * The result must follow from x and p alone: a step is tried several times, backwards too, and on several ranks. */
+ *   x        input: the arguments of this kind
+ *   p, n_p   input: the numbers given by PARAM in the deck, and their count
+ *   y        output: the value, then its derivatives
+ *   status   output: set it if something is wrong
+ * The result must depend on x and p only: a step may be tried several times, also backwards, and on several ranks. */
 typedef void engrane_routine(const int* version, const int* kind, const double* x, const double* p, const int* n_p, double* y,
                              int* status);
 

@@ -40,7 +40,8 @@ std::vector<fs::path> folders(const std::string& deck_folder) {
 bool only_neighbours = false;
 std::vector<std::string> loaded_files;
 
-/// Is the file, wherever links lead, in the folder or one below it? An absolute path was looked for in no folder.
+/// Whether the file, with symbolic links resolved, is in the folder or below it. False for an empty folder, which stands for an
+/// absolute path.
 bool lies_below(const fs::path& file, const fs::path& folder) {
   if (folder.empty()) return false;
   std::error_code error;
@@ -48,7 +49,7 @@ bool lies_below(const fs::path& file, const fs::path& folder) {
   return !error && !relative.empty() && !relative.starts_with("..");
 }
 
-/// Number of entries of the symbol table: no section says so at run time, but the GNU hash table reaches the last of them.
+/// Number of entries of the symbol table. No dynamic entry gives it, but the GNU hash table indexes the last symbol.
 std::size_t symbol_count(const std::uint32_t* hash) {
   const std::uint32_t buckets = hash[0], first = hash[1], bloom = hash[2];
   const auto* bucket = reinterpret_cast<const std::uint32_t*>(reinterpret_cast<const ElfW(Addr)*>(hash + 4) + bloom);
@@ -73,7 +74,7 @@ std::shared_ptr<const Library> Library::open(const std::string& name, const std:
   }
   const fs::path wanted(name);
   const std::vector<fs::path> bases = wanted.is_absolute() ? std::vector<fs::path>{""} : folders(folder);
-  fs::path found_in;  // the folder that the first of `places` was looked for in
+  fs::path found_in;  // base folder in which the first of `places` was found
   for (const fs::path& base : bases)
     for (const char* prefix : {"", "lib"})
       for (const char* suffix : {"", ".so"}) {
@@ -95,7 +96,7 @@ std::shared_ptr<const Library> Library::open(const std::string& name, const std:
         "ENGRANE_USER_PATH";
     return nullptr;
   }
-  // without its folder dlopen() would search the linker's
+  // without a folder, dlopen() would search the linker's path
   const fs::path file = fs::absolute(places.front());
   if (only_neighbours && !lies_below(file, found_in)) {
     fault = {"the library " + file.string() + " lies neither beside the deck nor in a folder of ENGRANE_USER_PATH",
@@ -111,7 +112,7 @@ std::shared_ptr<const Library> Library::open(const std::string& name, const std:
   }
   const char* why = dlerror();
   std::string reason = why ? why : "";
-  // it starts with the whole path, which says less than the name
+  // it starts with the full path, which is less helpful than the name
   if (reason.rfind(file.string() + ": ", 0) == 0) reason = reason.substr(file.string().size() + 2);
   fault.message = "\"" + name + "\" is no shared library that can be loaded: " + reason;
   fault.hint = "compile it with -shared -fPIC, and link it with whatever it calls";

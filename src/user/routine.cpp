@@ -20,7 +20,7 @@ constexpr double not_given = ENGRANE_NOT_GIVEN;
 
 }  // namespace
 
-/// One entry of y behind the value: a derivative of another entry by an argument, or not a derivative at all.
+/// Entry of y: the value, a derivative of another entry with respect to an argument (`of` ≥ 0), or any other result.
 struct Entry {
   const char* name;
   int of = -1;
@@ -31,7 +31,7 @@ struct Signature {
   const char* name;
   std::vector<const char*> arguments;
   std::vector<Entry> results;
-  bool chain;  ///< entries 1, 2, … as far as they are by argument 0 and each of the one before are part of the answer
+  bool chain;  ///< the successive derivatives with respect to argument 0 (entries 1, 2, …) are part of the result
 };
 
 namespace {
@@ -119,7 +119,7 @@ Routine::Routine(std::shared_ptr<const Source> source, Kind kind, Arguments scal
 int Routine::call(const Arguments& x, Results& y) const noexcept {
   constexpr int version = ENGRANE_USER_VERSION;
   const int kind = static_cast<int>(kind_), count = static_cast<int>(source_->parameters.size());
-  static constexpr double none = 0;  // an address to pass where there are no parameters
+  static constexpr double none = 0;  // valid address to pass when there are no parameters
   int status = ENGRANE_FINE;
   y.fill(not_given);
   const Running running(source_->name.c_str(), source_->library->file().c_str());
@@ -148,7 +148,7 @@ bool Routine::complete(const Arguments& x, Results& y) const noexcept {
       const double a = value(-2 * h), b = value(-h), c = value(h), d = value(2 * h);
       double next[3] = {(a - 8 * b + 8 * c - d) / (12 * h), (-a + 16 * b - 30 * y[base] + 16 * c - d) / (12 * h * h),
                         (-a + 2 * b - 2 * c + d) / (2 * h * h * h)};
-      // all that follow in the chain come from the same five values
+      // the successive derivatives all come from the same five values
       for (std::size_t k = 0; i < results.size() && results[i].by == 0 && k < 3; ++k, ++i)
         if (y[i] == not_given) y[i] = next[k];
       --i;
@@ -176,7 +176,7 @@ Results Routine::at(const Arguments& x) const noexcept {
   try {
     remember(fmt::format("{} {} (at {})", source_->label(), status != ENGRANE_FINE ? status_words(status) : what,
                          words((*signature_), x)));
-  } catch (...) {  // without memory for the words the numbers still say that something is wrong
+  } catch (...) {  // without memory for the message, the NaNs still signal the failure
   }
   y.fill(nan);
   return y;
@@ -199,7 +199,7 @@ Fault Routine::check(const std::vector<Arguments>& samples) const {
       return {fmt::format("{} of {} says that it is no {} (kind {})", source_->name, file, s.name, static_cast<int>(kind_)),
               "name another routine, or use it for what it computes"};
     if (status != ENGRANE_FINE) {
-      if (i > 0) continue;  // a law need not be good for all that is tried
+      if (i > 0) continue;  // a law need not be defined at every sample
       return {
           fmt::format("{} {} ({})", source_->label(), status_words(status), place),
           fmt::format("it was called with {}; see its source",
@@ -226,7 +226,7 @@ Fault Routine::check_derivatives(const Arguments& x, const Results& y) const {
     std::size_t base = 0, by = s.results[i].by;
     double given = y[i];
     Arguments place = x;
-    if (kind_ == Kind::force && i == 3) {  // the energy: its derivative is the force at rest
+    if (kind_ == Kind::force && i == 3) {  // the energy: its derivative is the force at zero rate
       if (y[3] == not_given) continue;
       Results still;
       place[1] = 0;
@@ -240,8 +240,8 @@ Fault Routine::check_derivatives(const Arguments& x, const Results& y) const {
     }
     Results middle;
     if (call(place, middle) != ENGRANE_FINE) continue;
-    // At a corner any slope between those of its two sides is right; where nothing is known of scales, the best of several
-    // steps counts.
+    // At a corner, any slope between the one-sided slopes is right. As the scales may be unknown, the best agreement of several
+    // step sizes counts.
     double best = std::numeric_limits<double>::infinity(), difference = 0;
     bool known = false;
     for (const double relative : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
@@ -258,7 +258,7 @@ Fault Routine::check_derivatives(const Arguments& x, const Results& y) const {
       const double size = std::max(std::abs(given), std::abs(central));
       const double noise = 1e-15 * std::abs(middle[base]) / h + 1e-6 * std::abs(middle[base]) / scale_[by];
       double gap = std::abs(given - central) - noise;
-      // close to the place the two sides differ by a corner only
+      // with small steps, one-sided slopes differ only at a corner
       const double low_side = std::min(fall, rise), high_side = std::max(fall, rise);
       if (relative <= 1e-4 && given >= low_side - 1e-4 * size && given <= high_side + 1e-4 * size) gap = 0;
       gap = size > 0 ? std::max(gap, 0.0) / size : 0;

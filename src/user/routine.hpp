@@ -10,43 +10,44 @@
 
 namespace engrane::user {
 
-/// What a routine is used as; the numbers of engrane_user.h.
+/// What a routine computes; values of engrane_user.h.
 enum class Kind : int { function = ENGRANE_FUNCTION, force = ENGRANE_FORCE, mesh = ENGRANE_MESH, friction = ENGRANE_FRICTION };
 
 inline constexpr std::size_t most_arguments = 3, most_results = 4;
-using Arguments = std::array<double, most_arguments>;  ///< those a kind does not have are zero
+using Arguments = std::array<double, most_arguments>;  ///< those a kind does not use are zero
 using Results = std::array<double, most_results>;      ///< in the order of engrane_user.h
 
-/// A routine of a library with its parameters, before it is known what it is used as.
+/// A routine of a library with its parameters, not yet bound to a kind.
 struct Source {
   std::shared_ptr<const Library> library;
   std::string name;
   engrane_routine* address = nullptr;
   std::vector<double> parameters;
-  std::vector<double> scale;  ///< of the arguments, as the deck gives it; those missing are chosen by who uses it
+  std::vector<double> scale;  ///< of the arguments, as given in the deck; missing ones are chosen by the caller
 
   std::string label() const { return name + " of " + library->file(); }
 };
 
-struct Signature;  ///< arguments and results of a kind
+struct Signature;  ///< names of the arguments and results of a kind
 
-/// A routine used as one kind. It answers with the value and all derivatives: those the routine leaves alone come from central
-/// differences, of fourth order over ±2e-3 of the scale where derivatives are part of the answer (functions, the course of a
-/// mesh), of second order over 1e-5 of the scale or of the argument where only iterations use them.
+/// A routine bound to one kind. It returns the value and all derivatives. Derivatives that the routine leaves unset come from
+/// central differences. These are of fourth order over ±2e-3 of the scale where derivatives are part of the result (functions,
+/// mesh stiffness along the pitch). They are of second order with a step of 1e-5 of the scale or of the argument, whichever is
+/// larger, where only the Newton iteration uses them.
 class Routine {
  public:
-  /// `scale`: over how much each argument changes before the result does so by as much as itself; positive.
+  /// `scale`: positive; for each argument, the change over which the result changes by as much as its own magnitude.
   Routine(std::shared_ptr<const Source> source, Kind kind, Arguments scale);
 
-  /// Value and derivatives; none of them a number when the routine fails or answers with anything not finite. Why is then what
-  /// last_failure() says. Safe from several threads if the routine is.
+  /// Value and derivatives. All are NaN if the routine fails or returns anything not finite; last_failure() then says why.
+  /// Thread-safe if the routine is.
   Results at(const Arguments& x) const noexcept;
 
-  /// Tries the routine at `samples`, the first of which it must answer: is it of this kind, does it give a value that depends
-  /// on nothing but its arguments, and are its derivatives those of its value?
+  /// Calls the routine at `samples`, of which it must accept the first. Checks that it is of this kind, that its value depends
+  /// on its arguments only, and that its derivatives agree with finite differences of its value.
   Fault check(const std::vector<Arguments>& samples) const;
 
-  /// Does the routine itself give result `i`?
+  /// Whether the routine itself sets result `i`.
   bool gives(std::size_t i, const Arguments& x) const;
   const Source& source() const { return *source_; }
   const Arguments& scale() const { return scale_; }
@@ -62,10 +63,10 @@ class Routine {
   Arguments scale_;
 };
 
-/// What the user calls a kind ("force law") and its arguments.
+/// Name of a kind for messages ("force law").
 std::string describe(Kind kind);
 
-/// What the last failing call of this process complained of; empty when none did since forget_failures().
+/// Message of the latest failed call in this process; empty if none has failed since forget_failures().
 std::string last_failure();
 void forget_failures();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The general commands by chapter; general_commands() puts them together.
+// The general commands by chapter; combined by general_commands().
 #pragma once
 
 #include <vector>

@@ -189,7 +189,7 @@ Schema stepping_card() {
                         "give TOL, or leave HMAX out");
     if ((stepping.end - stepping.start) / stepping.step > 1e9)
       diagnostics.error(record.where("H"), "H makes more than 1e9 steps");
-    // a thousand times what two times differ by: steps are cut and add up
+    // a thousand times the spacing of numbers at that time: steps are cut and accumulate
     const double resolution = std::numeric_limits<double>::epsilon() * std::max(std::abs(stepping.start), std::abs(stepping.end));
     if (stepping.step < 1000 * resolution)
       diagnostics.error(record.where("H"),

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* how = "CIRCLE, TUBE, RECTANGLE, H, U, L, BOX or POLYGON; AREA, INERTIA, TORSION; EA, GA, GJ, EI; or K";
 
-/// Whether the lines from a to b and from c to d cross or touch.
+/// Whether the segments from a to b and from c to d cross or touch.
 bool cross(const double* a, const double* b, const double* c, const double* d) {
   const auto side = [](const double* from, const double* to, const double* point) {
     return (to[0] - from[0]) * (point[1] - from[1]) - (to[1] - from[1]) * (point[0] - from[0]);
@@ -24,7 +24,7 @@ bool cross(const double* a, const double* b, const double* c, const double* d) {
   return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
 }
 
-/// What is wrong with the corners of a polygon and its hole; empty: nothing.
+/// Describes the fault in the corners of a polygon and its hole; empty if there is none.
 std::string fault_of_polygon(const std::vector<double>& outer, const std::vector<double>& hole) {
   struct Side {
     const double *from, *to;
@@ -44,7 +44,7 @@ std::string fault_of_polygon(const std::vector<double>& outer, const std::vector
       if (sides[i].to != sides[j].from && sides[j].to != sides[i].from &&
           cross(sides[i].from, sides[i].to, sides[j].from, sides[j].to))
         return "two of its sides cross or touch";
-  bool within = false;  // a line from the hole's first corner crosses an odd number of sides
+  bool within = false;  // ray casting from the first corner of the hole: an odd number of crossings is inside
   for (std::size_t i = 0; !hole.empty() && i < outer.size() / 2; ++i) {
     const auto [from, to] = sides[i];
     if ((from[1] > hole[1]) != (to[1] > hole[1]) &&
@@ -55,7 +55,7 @@ std::string fault_of_polygon(const std::vector<double>& outer, const std::vector
   return {};
 }
 
-/// What is wrong with the sizes of a shape; empty: nothing.
+/// Describes the fault in the dimensions of a shape; empty if there is none.
 std::string fault_of_shape(const ProfileCard& card) {
   const std::vector<double>& size = card.shape.values;
   if (card.shape.is("POLYGON")) return fault_of_polygon(size, card.hole);
@@ -75,7 +75,7 @@ const char* size_help(const std::string& shape) {
   return shape == "L" || shape == "BOX" ? "h b t: walls thinner than the section" : "sizes are positive";
 }
 
-/// A section is given in one way, and wholly.
+/// Checks that a section is given in exactly one way, and completely.
 void check_profile(ProfileCard& card, Record& record, Diagnostics& diagnostics) {
   const bool by_area = card.area || card.moments || card.torsion;
   const bool by_constants = card.stretching || card.shearing || card.twisting || card.bending;

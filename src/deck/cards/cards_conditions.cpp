@@ -49,7 +49,7 @@ void add_components(Card<Data>& card, std::string what) {
       .required();
 }
 
-/// Somebody whom it concerns, and each component once. What the model must know to judge is checked where it is built.
+/// Checks that a record names nodes or groups, and each component once. Checks that need the model are made when it is built.
 template <class Data>
 void check_target(const Data& data, const Record& record, Diagnostics& diagnostics) {
   if (data.nodes.empty() && data.groups.empty())
@@ -208,7 +208,7 @@ Schema function_card() {
   return card.schema();
 }
 
-/// Nodes with components, nodes that turn about an axis, or the coordinate of an element.
+/// Checks that a record gives nodes with components, nodes with a rotation axis, or the coordinate of an element.
 void check_initial(const InitialMotionCard& data, const Record& record, Diagnostics& diagnostics) {
   const bool nodes = !data.nodes.empty() || !data.groups.empty();
   const char* one = data.element ? "a coordinate of an element" : "a turn about an axis";

@@ -10,12 +10,12 @@ namespace engrane::deck {
 
 namespace {
 
-/// Names that use each other ten deep, each twice, would fill the memory: these bounds turn that into an error.
+/// Texts that use each other can grow exponentially: these limits turn that into an error.
 constexpr std::size_t longest_text = 100'000;
 constexpr std::size_t deepest = 50;
 constexpr int most_replacements = 10'000;
 
-/// Replaces names in texts, depth first.
+/// Expands names in texts, depth first.
 class Expansion {
  public:
   Expansion(const Abbreviations& all, const Location& where, Diagnostics& diagnostics)

@@ -29,15 +29,15 @@ bool ends_word(char c) {
 
 bool is_name_character(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
 
-/// Is there nothing but blanks and a comment?
+/// Whether the rest is only blanks and a comment.
 bool nothing_left(std::string_view rest) {
   const auto first = std::find_if_not(rest.begin(), rest.end(), is_blank);
   return first == rest.end() || *first == '!';
 }
 
-/// A line as it is read: comments gone, abbreviations replaced, continuation lines appended.
+/// A line ready for tokenising: comments removed, abbreviations expanded, continuation lines appended.
 struct LogicalLine {
-  /// Where bytes of the text come from.
+  /// Source position of a byte of the text.
   struct Origin {
     int line;
     int column;
@@ -46,7 +46,7 @@ struct LogicalLine {
   int file = 0;
   int first_line = 1;
   std::string_view text;
-  std::vector<Origin> origins;  ///< of every byte; empty when the text is the beginning of its line in the file
+  std::vector<Origin> origins;  ///< of every byte; empty if the text is the beginning of its line in the file
 
   Origin origin(std::size_t i) const { return origins.empty() ? Origin{first_line, static_cast<int>(i) + 1, 1} : origins[i]; }
 
@@ -55,14 +55,14 @@ struct LogicalLine {
     first = std::min(first, text.size() - 1);
     std::size_t last = std::min(first + std::max<std::size_t>(size, 1), text.size()) - 1;
     const Origin start = origin(first);
-    while (last > first && origin(last).line != start.line) --last;  // a caret marks one line only
+    while (last > first && origin(last).line != start.line) --last;  // a caret marks a single line only
     const Origin stop = origin(last);
     return {file, start.line, start.column, stop.column + stop.length - start.column};
   }
 };
 
-/// The part of a line before its comment, where that is all there is to reading it: no continuation, no abbreviation that could
-/// stand in it, nothing past the last column. npos otherwise.
+/// Size of the part of a line before its comment, if it can be used without processing: no continuation, no possible
+/// abbreviation, nothing past the last column. Otherwise npos.
 std::size_t plain_size(std::string_view source, int columns, const Abbreviations& abbreviations) {
   if (source.size() > static_cast<std::size_t>(columns)) return std::string_view::npos;
   char quote = '\0';
@@ -80,13 +80,13 @@ std::size_t plain_size(std::string_view source, int columns, const Abbreviations
   return source.size();
 }
 
-/// Puts a LogicalLine together from lines of a file.
+/// Assembles a LogicalLine from lines of a file.
 class LineBuilder {
  public:
   LineBuilder(std::string& text, LogicalLine& line, const Abbreviations& abbreviations, Diagnostics& diagnostics)
       : text_(text), line_(line), abbreviations_(abbreviations), diagnostics_(diagnostics) {}
 
-  /// Appends one line of the file; true when a `$` says that the next one continues it.
+  /// Appends one line of the file; returns true if a `$` continues it on the next line.
   bool append(std::string_view source, int number, int columns) {
     char quote = '\0';
     int characters = 0;
@@ -173,7 +173,7 @@ class LineBuilder {
   int parentheses_ = 0;
 };
 
-/// Cuts tokens out of a logical line.
+/// Splits a logical line into tokens.
 class Tokenizer {
  public:
   Tokenizer(const LogicalLine& line, const Abbreviations& abbreviations, std::deque<TokenFault>& faults,
@@ -181,10 +181,10 @@ class Tokenizer {
       : line_(line), text_(line.text), abbreviations_(abbreviations), faults_(faults), tokens_(tokens) {}
 
   void run() {
-    if (begins_with_word(text_, "\xef\xbb\xbf")) at_ = 3;  // the byte order mark that some editors write
+    if (begins_with_word(text_, "\xef\xbb\xbf")) at_ = 3;  // byte order mark, written by some editors
     for (;;) {
       while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
-      if (at_ == text_.size() || text_[at_] == '!') break;  // an abbreviation may bring a comment
+      if (at_ == text_.size() || text_[at_] == '!') break;  // an abbreviation may contain a comment
       next();
     }
     if (!tokens_.empty()) {
@@ -230,7 +230,7 @@ class Tokenizer {
     at_ += size;
   }
 
-  /// Bytes of the parenthesis that opens at `first`, or 0 when nothing closes it.
+  /// Size in bytes of the parenthesis that opens at `first`, or 0 if it is not closed.
   std::size_t parenthesis_size(std::size_t first) const {
     int depth = 0;
     for (std::size_t i = first; i < text_.size() && text_[i] != '"' && text_[i] != '\''; ++i) {
@@ -263,7 +263,7 @@ class Tokenizer {
     const std::size_t first = at_;
     while (at_ < text_.size() && !ends_word(text_[at_])) ++at_;
     const std::string_view word = text_.substr(first, at_ - first);
-    if (word.front() == '#' && at_ < text_.size() && text_[at_] == '(') {  // #INQ(...) of BACON is one word
+    if (word.front() == '#' && at_ < text_.size() && text_[at_] == '(') {  // BACON's #INQ(...) is one word
       const std::size_t size = parenthesis_size(at_);
       at_ = size == 0 ? text_.size() : at_ + size;
       add(Token::Kind::word, first, at_ - first);

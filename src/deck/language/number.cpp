@@ -11,7 +11,7 @@ namespace {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_sign(char c) { return c == '+' || c == '-'; }
 
-/// A cursor over the word that copies what it accepts, in the spelling of from_chars.
+/// A cursor over the word that copies accepted characters in the notation of from_chars.
 class Scanner {
  public:
   explicit Scanner(std::string_view word) : word_(word) {}
@@ -47,22 +47,22 @@ Number malformed(std::string_view word) {
   return fault(word, "is not a number");
 }
 
-/// A number spelled as from_chars spells it: nearly all are. False when it is not, or not in range.
+/// Parses a number in the notation of from_chars, as nearly all are. Returns false if it is not, or is out of range.
 bool parse_usual(std::string_view word, double& value) {
-  if (!looks_like_number(word)) return false;      // from_chars knows inf and nan, decks do not
-  if (word.front() == '+') word.remove_prefix(1);  // from_chars knows no plus sign
+  if (!looks_like_number(word)) return false;      // from_chars accepts inf and nan, decks do not
+  if (word.front() == '+') word.remove_prefix(1);  // from_chars does not accept a plus sign
   const char* const end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   return error == std::errc() && stop == end;
 }
 
-/// The part behind a repeat count.
+/// Parses a number without a repeat count.
 Number parse_plain(std::string_view word) {
   if (double value = 0; parse_usual(word, value)) return {value, 1, {}, {}};
   Scanner scan(word);
   if (is_sign(scan.next())) {
     if (scan.next() == '+')
-      scan.skip();  // from_chars knows no plus sign
+      scan.skip();  // from_chars does not accept a plus sign
     else
       scan.copy();
   }
@@ -74,7 +74,7 @@ Number parse_plain(std::string_view word) {
   if (digits == 0) return malformed(word);
   const char mark = scan.next();
   const bool letter = mark == 'e' || mark == 'E' || mark == 'd' || mark == 'D';
-  bool small = false;  // tells underflow from overflow, which from_chars does not
+  bool small = false;  // distinguishes underflow from overflow, which from_chars does not
   if (letter || is_sign(mark)) {
     if (letter) scan.skip();
     scan.spelling += 'e';

@@ -6,23 +6,23 @@
 
 namespace engrane::deck {
 
-/// Most values that one repeat count or one range of ids may stand for; more is a slip of the pen.
+/// Maximum number of values of one repeat count or one range of ids; more is assumed to be a typing error.
 inline constexpr int most_repeated = 1'000'000;
 
-/// A number as Fortran spells it, with its repeat count: `3`, `.5`, `2.1E+08`, `1.5d-3`, `1.5+3`, `3*0.`.
+/// A number in any Fortran notation, with its repeat count: `3`, `.5`, `2.1E+08`, `1.5d-3`, `1.5+3`, `3*0.`.
 struct Number {
   double value = 0;
   int repeat = 1;
-  std::string fault;  ///< why the word is no number; empty when it is one
+  std::string fault;  ///< why the word is not a number; empty if it is one
   std::string hint;
 
   bool good() const { return fault.empty(); }
 };
 
-/// Does the word start the way numbers do? If so it must be one: no keyword starts with a digit.
+/// Whether the word starts like a number. It must then be one, as no keyword starts with a digit.
 bool looks_like_number(std::string_view word);
 
-/// Reads the whole word. Overflow and underflow are faults, never infinity or a silent zero.
+/// Parses the whole word. Overflow and underflow are faults, never infinity or a silent zero.
 Number parse_number(std::string_view word);
 
 }  // namespace engrane::deck

@@ -16,11 +16,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t deepest_input = 20;
-constexpr int most_files = 1000;  ///< two INPUT lines per file, twenty deep, would be a million
+constexpr int most_files = 1000;  ///< two INPUT lines per file, nested twenty deep, would read a million files
 constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 30;
 constexpr int most_columns = 1'000'000;
 
-/// Reads a plain file; devices, pipes and folders are refused, for they may have no end.
+/// Reads a regular file. Devices, pipes and folders are refused, as they may be endless.
 bool read_plain_file(const fs::path& path, std::string& text, std::string& fault) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -32,7 +32,7 @@ bool read_plain_file(const fs::path& path, std::string& text, std::string& fault
   if (!in) return fault = "cannot be opened", false;
   text.resize(static_cast<std::size_t>(size));
   in.read(text.data(), static_cast<std::streamsize>(size));
-  text.resize(static_cast<std::size_t>(in.gcount()));  // should it have become shorter
+  text.resize(static_cast<std::size_t>(in.gcount()));  // in case it has become shorter
   if (in.bad()) return fault = "cannot be read", false;
   const std::string_view start = std::string_view(text).substr(0, 2);
   if (start == "\xff\xfe" || start == "\xfe\xff")
@@ -41,8 +41,8 @@ bool read_plain_file(const fs::path& path, std::string& text, std::string& fault
   return true;
 }
 
-/// Whether a file that is neither beside the deck nor called .dat reads like a deck: its first line that says something begins
-/// with a command, a word or a number. The lines of others are nobody's business: /etc/passwd, keys, histories of shells.
+/// Whether a file that is neither below the folder of the deck nor called .dat looks like a deck: its first significant line
+/// starts with a command, a word or a number. Other files (/etc/passwd, keys, shell histories) must not be shown in messages.
 bool begins_like_a_deck(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -59,14 +59,14 @@ bool begins_like_a_deck(std::string_view text) {
   return true;
 }
 
-/// Whether a file lies in the folder of the deck or below, or says by its name that it is one.
+/// Whether a file lies in or below the folder of the deck, or has the extension .dat.
 bool belongs_to_deck(const fs::path& identity, const fs::path& deck) {
   if (upper(identity.extension().string()) == ".DAT") return true;
   const fs::path way = identity.lexically_relative(deck.parent_path());
   return !way.empty() && *way.begin() != "..";
 }
 
-/// The file that an INPUT names: relative to the including file, with `.dat` when that is left out.
+/// Path of the file that an INPUT names: relative to the including file; `.dat` is appended if omitted.
 fs::path resolve_input(const std::string& including, const std::string& name) {
   const fs::path path = (fs::path(including).parent_path() / name).lexically_normal();
   std::error_code error;
@@ -93,7 +93,7 @@ bool TokenStream::open_file(const fs::path& path) {
 }
 
 void TokenStream::open_text(std::string name, std::string text) {
-  columns_ = usual_columns;  // whatever MODE LECT said in another file
+  columns_ = usual_columns;  // independent of MODE LECT in other files
   open_.push_back({sources_.add(std::move(name), std::move(text)), 1, {}});
 }
 
@@ -148,7 +148,7 @@ bool TokenStream::mend_command() {
 
 namespace {
 
-/// What begins a comment in other languages.
+/// Whether a token starts a comment in other languages.
 bool begins_foreign_comment(const Token& token) {
   if (!token.is_word() || begins_with_word(token.text, "#INQ")) return false;
   return token.text.front() == '#' || token.text.front() == '%' || token.text.starts_with("//");
@@ -176,7 +176,7 @@ void TokenStream::push(const std::vector<Token>& tokens) {
   }
 }
 
-/// Carries out a line that is an order to the reader itself; false when it is data.
+/// Executes a line of control words for the reader; false if it is data.
 bool TokenStream::control(const std::vector<Token>& tokens) {
   const Token& first = tokens.front();
   if (!first.is_word()) return false;
@@ -278,7 +278,7 @@ void TokenStream::finish(const Token& word) {
   for (; !open_.empty(); open_.pop_back()) warn_of_rest(open_.back(), word);
 }
 
-/// Nothing the deck says is silently ignored, not even what stands behind its end.
+/// Warns of any text after the end of a file or deck: no input may be ignored silently.
 void TokenStream::warn_of_rest(const OpenFile& open, const Token& word) {
   for (int number = open.next_line; number <= sources_.line_count(open.file); ++number) {
     const std::string_view line = sources_.line(open.file, number);

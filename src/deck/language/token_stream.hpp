@@ -13,40 +13,41 @@
 
 namespace engrane::deck {
 
-/// The words of a deck across its files. Carries out what has no dot (INPUT, RETURN, EXIT, ABRE, MODE) and stops at `.FIN`.
+/// The tokens of a deck across its files. Executes the control words without a dot (INPUT, RETURN, EXIT, ABRE, MODE) and stops
+/// at `.FIN`.
 class TokenStream {
  public:
   TokenStream(SourceMap& sources, Diagnostics& diagnostics)
       : sources_(sources), diagnostics_(diagnostics), lexer_(sources, diagnostics) {}
 
-  /// Texts that stand for those of ABRE, before the first token is read.
+  /// Overrides texts of ABRE; call before the first token is read.
   void overrule(Definitions definitions) { abbreviations_.overrule(std::move(definitions)); }
-  /// All names that ABRE has defined so far.
+  /// All names defined by ABRE so far.
   std::vector<std::string> abbreviations() const { return abbreviations_.names(); }
 
-  /// Opens the main file; false (and an error) when it cannot be read.
+  /// Opens the main file; returns false with an error if it cannot be read.
   bool open_file(const std::filesystem::path& path);
   void open_text(std::string name, std::string text);
-  /// A file that is named at a place of the deck: relative to the folder of the file with that place.
+  /// Path of a file named at `where`: relative to the folder of the file that contains `where`.
   std::filesystem::path beside(const Location& where, const std::string& name) const;
 
-  /// The words of all commands, with their dots, for mend_command().
+  /// Sets the words of all commands, with their dots, for mend_command().
   void know_commands(std::vector<std::string> words) { commands_ = std::move(words); }
-  /// Is the next token the first of its line and a command without its dot? Then that is reported and the dot put there.
+  /// If the next token is the first of its line and a command without its dot, reports this, inserts the dot and returns true.
   bool mend_command();
 
-  /// The token `ahead` places on; of kind end behind the last one.
+  /// The token `ahead` positions further; of kind end after the last one.
   const Token& peek(std::size_t ahead = 0);
-  /// Takes the next token and reports its fault if it has one.
+  /// Takes the next token and reports its fault, if any.
   Token take();
-  /// Takes the next token and says nothing.
+  /// Takes the next token without reporting its fault.
   void skip();
 
  private:
   struct OpenFile {
     int file = 0;
     int next_line = 1;
-    std::filesystem::path identity;  ///< to notice a file that includes itself
+    std::filesystem::path identity;  ///< to detect a file that includes itself
   };
 
   bool read_line();
@@ -66,10 +67,10 @@ class TokenStream {
   Lexer lexer_;
   Abbreviations abbreviations_;
   std::vector<OpenFile> open_;
-  std::vector<Token> line_;  ///< of the line being read
+  std::vector<Token> line_;  ///< tokens of the line being read
   std::deque<Token> tokens_;
   std::vector<std::string> commands_;
-  std::deque<std::string> mended_;  ///< texts of tokens that got their dot
+  std::deque<std::string> mended_;  ///< texts of commands with inserted dots
   bool told_of_comment_ = false;
   static constexpr int usual_columns = 256;
   int columns_ = usual_columns;

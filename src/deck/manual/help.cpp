@@ -25,7 +25,7 @@ std::string padded(std::string text, std::size_t width) {
   return text + std::string(size < width ? width - size : 1, ' ');
 }
 
-/// Cards by chapter, chapters in the order in which they first occur.
+/// Appends cards by chapter, chapters in order of first occurrence.
 void append_overview(std::string& out, const std::vector<const Schema*>& schemas) {
   std::vector<std::string> chapters;
   for (const Schema* schema : schemas)
@@ -43,7 +43,7 @@ void append_overview(std::string& out, const std::vector<const Schema*>& schemas
   }
 }
 
-/// How a record starts: `I <id> GEAR …`.
+/// Start of a record: `I <id> GEAR …`.
 std::string record_start(const Schema& schema) {
   if (schema.command() == ".MCE") return " I <id> " + schema.name;
   if (schema.numbered) return " " + schema.record_key + " <id>";
@@ -66,7 +66,7 @@ std::string blank(const Field& field) {
   return "<number>";
 }
 
-/// The keyword with its default, or with blanks to fill in.
+/// The keyword with its default, or with placeholders to fill in.
 std::string filled(const Schema& schema, const Field& field) {
   const std::string known = default_text(schema, field);
   if (!known.empty()) return field.keyword + " " + known;

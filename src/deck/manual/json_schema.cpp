@@ -17,7 +17,7 @@ std::string member(const std::string& name, const std::string& value) { return j
 
 std::string object(const std::vector<std::string>& members) { return "{" + join(members, ", ") + "}"; }
 
-/// The schema of one value of a field.
+/// JSON schema of one value of a field.
 std::string item(const Field& field) {
   std::vector<std::string> members;
   members.push_back(member("type", field.type == FieldType::text      ? "\"string\""
@@ -32,7 +32,7 @@ std::string item(const Field& field) {
   return object(members);
 }
 
-/// A choice is its word, or an object of the word and its numbers.
+/// A choice is its word, or an object with the word and its numbers.
 std::string choice(const Field& field) {
   std::vector<std::string> alternatives;
   for (const Option& option : field.options) {
@@ -66,7 +66,7 @@ std::string property(const Schema& schema, const Field& field) {
   } else {
     members.push_back(member("type", "\"array\""));
     members.push_back(member("items", item(field)));
-    // an array shorter than the struct's is filled up when it is read, so records show it full
+    // a shorter array is padded to the struct's size when read, so records show it in full
     members.push_back(member("minItems", std::to_string(field.required ? field.min_values : 0)));
     if (field.max_values < any_number) members.push_back(member("maxItems", std::to_string(field.max_values)));
   }

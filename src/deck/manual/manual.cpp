@@ -103,7 +103,7 @@ std::string meaning(const Field& field) {
   return text;
 }
 
-/// The range without its unit, which has a column of its own.
+/// The range without its unit, which has its own column.
 std::string bare_range(Field field) {
   field.dimension = {};
   return range_text(field);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `engrane help` for what is no card's name: a search over all texts of the cards.
+// `engrane help` for a text that is not the name of a card: full-text search over the cards.
 #include <algorithm>
 #include <cstddef>
 #include <sstream>
@@ -18,12 +18,12 @@ namespace {
 
 constexpr std::size_t most_cards = 12, most_keywords = 4;
 
-/// What a place in a card is worth. A name says more than a summary, a summary more than a description.
+/// Relevance of a match by its place in a card: a name counts more than a summary, a summary more than a description.
 enum Worth : int { in_description = 1, in_help = 2, in_summary = 4, in_keyword = 5, in_name = 12 };
 
-/// A word that is looked for: beginnings of words that count, and names that its concepts lead to.
+/// A search word: prefixes of matching words, and names that its concepts lead to.
 struct Wanted {
-  std::vector<std::string> beginnings;  ///< as plain_word()
+  std::vector<std::string> beginnings;  ///< normalised by plain_word()
   std::vector<std::string> cards, keywords;
 };
 
@@ -44,7 +44,7 @@ Wanted wanted_for(const std::string& word) {
   return wanted;
 }
 
-/// Does a word of the text begin so?
+/// Whether a word of the text starts with one of these prefixes.
 bool speaks_of(const std::string& text, const std::vector<std::string>& beginnings) {
   const std::string plain = "_" + plain_word(text);
   return std::any_of(beginnings.begin(), beginnings.end(), [&](const std::string& beginning) {
@@ -63,10 +63,10 @@ bool is_among(const std::vector<std::string>& names, const std::string& name) {
 struct Hit {
   const Schema* card = nullptr;
   int worth = 0;
-  std::vector<const Field*> keywords;  ///< that speak of it
+  std::vector<const Field*> keywords;  ///< that match
 };
 
-/// How much a keyword of a card has to do with the word.
+/// Relevance of a keyword of a card to the search word.
 int worth_of(const Field& field, const Wanted& wanted) {
   int worth = 0;
   if (is_among(wanted.keywords, field.keyword) || speaks_of(join(spellings(field), " "), wanted.beginnings)) worth += in_keyword;
@@ -76,7 +76,7 @@ int worth_of(const Field& field, const Wanted& wanted) {
   return speaks_of(help, wanted.beginnings) ? worth + in_help : worth;
 }
 
-/// The card when every word has to do with it.
+/// Searches a card; no hit unless every search word matches.
 Hit look_into(const Schema& card, const std::vector<Wanted>& words) {
   Hit hit{&card, 0, {}};
   for (const Wanted& wanted : words) {
@@ -108,7 +108,7 @@ std::string shortened(const std::string& text, std::size_t size) {
 
 std::string help_search(const Catalogue& catalogue, const std::string& text) {
   std::vector<Wanted> words;
-  // two words may be one name: `pressure angle`
+  // two words may form one name: `pressure angle`
   if (!find_concepts(text).empty()) {
     words.push_back(wanted_for(text));
   } else {
@@ -142,7 +142,7 @@ std::string help_search(const Catalogue& catalogue, const std::string& text) {
 }
 
 std::string help_for(const Catalogue& catalogue, const std::string& text) {
-  std::vector<const Schema*> family;  // of a command: `.CLM`
+  std::vector<const Schema*> family;  // cards of a command such as `.CLM`
   for (const Schema* schema : catalogue.commands)
     if (same_word(schema->command(), text.starts_with('.') ? text : "." + text)) family.push_back(schema);
   if (family.size() > 1) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What shells and `man` want to know, from the declared cards.
+// Shell completion and the manual page, generated from the declared cards.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace engrane::deck {
 
 namespace {
 
-/// The words of a line in roff: a dot or quote at its start, and backslashes and hyphens, mean something there.
+/// Escapes a line for roff: a leading dot or quote, backslashes and hyphens have a special meaning.
 std::string roff(const std::string& text) {
   std::string out;
   for (const char c : text) {

@@ -17,9 +17,9 @@ namespace engrane::deck {
 namespace {
 
 constexpr std::size_t line_width = 100;
-constexpr std::size_t columns_read = 256;  ///< without MODE LECT
+constexpr std::size_t columns_read = 256;  ///< default without MODE LECT
 
-/// Writes words, breaking lines with `$` where they get long.
+/// Writes words, breaking long lines with `$`.
 class Writer {
  public:
   void line(std::string_view first) {
@@ -61,11 +61,11 @@ class Writer {
 
   std::string text_;
   std::string line_;
-  std::size_t width_ = 0;  ///< of the line, in characters
+  std::size_t width_ = 0;  ///< of the current line, in characters
   std::size_t longest_ = 0;
 };
 
-/// The words behind the record key, and those of the defaults that hold because nothing was given.
+/// Writes the words after the record key, and the defaults in effect as a comment.
 void write_fields(Writer& writer, const Record& record, bool ranges_allowed) {
   std::string defaults;
   for (const Field& field : record.schema->fields) {
@@ -89,10 +89,10 @@ void write_fields(Writer& writer, const Record& record, bool ranges_allowed) {
 
 std::string canonical_text(const Deck& deck) {
   Writer writer;
-  std::string open;            // the command under which records stand
-  std::set<std::string> seen;  // commands opened before: those that start afresh need ADD
+  std::string open;            // command of the current records
+  std::set<std::string> seen;  // commands opened before: those that drop earlier records need ADD
   const Schema* last = nullptr;
-  bool ranges_allowed = false;  // of the last schema: a mesh has very many records of few
+  bool ranges_allowed = false;  // for the last schema; cached, as meshes have very many records of few schemas
   for (const Record& record : deck.records) {
     const Schema& schema = *record.schema;
     const std::string command(schema.command());

@@ -18,10 +18,10 @@ namespace engrane::deck {
 
 namespace {
 
-/// Most records that one `I a J b K c` may stand for.
+/// Maximum number of records that `I a J b K c` may stand for.
 constexpr double most_copies = 1'000'000;
 
-/// One dot command: the cards its records may be of.
+/// A dot command and the cards its records may belong to.
 struct Command {
   std::string name;
   std::vector<const Schema*> schemas;
@@ -29,7 +29,7 @@ struct Command {
   bool elements = false;
 
   const Schema& only() const { return *schemas.front(); }
-  /// Whether `--card` may stand in its place: a deck has it once, or its records are as one because they add up.
+  /// Whether `--card` may replace it: it occurs once in a deck, or its records are merged into one.
   bool replaceable() const { return only().once || name == ".SAI"; }
   bool keyed() const { return !keys.keyed.empty(); }
   bool numbered() const { return !keys.number_key.empty(); }
@@ -61,7 +61,7 @@ class CommandTable {
 
   const std::vector<std::string>& words() const { return words_; }
 
-  /// The cards that a deck has once.
+  /// Names of the cards that `--card` may replace.
   std::vector<std::string> replaceable() const {
     std::vector<std::string> names;
     for (const Command& command : commands_)
@@ -102,10 +102,10 @@ class CommandTable {
   std::vector<std::string> words_;
 };
 
-/// In which line each number of a command was given. Ascending numbers, the rule, are kept in order of coming.
+/// The line in which each number of a command was given. Ascending numbers, the usual case, are kept in a sorted vector.
 class NumbersGiven {
  public:
-  /// The line in which the number was given before; nothing when it is new, and then it is noted.
+  /// Returns the line in which the number was given before; if it is new, records it and returns nothing.
   std::optional<int> add(int number, int line) {
     if (ascending_.empty() || number > ascending_.back().number) {
       ascending_.push_back({number, line});
@@ -165,7 +165,7 @@ class Reader {
     }
   }
 
-  /// Reads a card that stands in the place of the deck's. It may use the deck's abbreviations.
+  /// Reads a card that replaces the deck's. It may use the deck's abbreviations.
   void read_instead(const std::string& card) {
     const bool one_line = card.find_first_of("\r\n") == std::string::npos;
     const std::string_view name = std::string_view(card).substr(0, card.find_first_of(" \t"));
@@ -223,7 +223,7 @@ class Reader {
       diagnostics_.error(word.where, "`" + known.name + "` is recognised but not in this version: " + known.meaning, known.cure);
   }
 
-  /// `.DEL.CLM` forgets what `.CLM` gave so far, `.DEL.*` everything.
+  /// `.DEL.CLM` deletes the records of `.CLM` so far, `.DEL.*` all records.
   void delete_records(const Token& word) {
     const std::string_view target = word.text.substr(4);
     const Command* command = target.empty() ? nullptr : commands_.find(target);
@@ -251,7 +251,7 @@ class Reader {
     return static_cast<int>(removed);
   }
 
-  /// `.CLM ADD` adds, `.CLM` alone starts afresh.
+  /// `.CLM ADD` adds to earlier records, `.CLM` alone drops them.
   void open_again(const Command& command, const Token& word) {
     const Token& next = tokens_.peek();
     if (next.is_word() && !next.starts_line && (same_word(next.text, "ADD") || same_word(next.text, "AJOUT")))
@@ -263,7 +263,7 @@ class Reader {
           "`" + command.name + " ADD` adds to them");
   }
 
-  /// Records `I <id> …`, of one card or, in `.MCE`, of the one whose TYPE follows the id.
+  /// Reads records `I <id> …` of one card or, in `.MCE`, of the card whose TYPE follows the id.
   void read_numbered(const Command& command) {
     std::vector<Heading> headings;
     if (command.elements)
@@ -301,7 +301,7 @@ class Reader {
     }
   }
 
-  /// The records of a mesh come in the place where the deck names it. Of numbers given twice only the first of a file is told.
+  /// Inserts the records of a mesh where the deck names it. Of duplicate numbers, only the first in a file is reported.
   void read_mesh(const Heading& heading) {
     const std::filesystem::path path = tokens_.beside(heading.where, heading.values.texts.front());
     const int errors = diagnostics_.errors();
@@ -366,7 +366,7 @@ class Reader {
     return true;
   }
 
-  /// The number of a record, or 0 (and an error) when it is none.
+  /// The number of a record; 0 with an error if it is invalid.
   int id_of(const Token& token) {
     if (token.value >= 1 && token.value <= 999'999'999 && token.value == static_cast<int>(token.value) && token.repeat == 1)
       return static_cast<int>(token.value);
@@ -419,8 +419,8 @@ class Reader {
     if (!good) record.faulty = true;
   }
 
-  /// Records with a key: `NOEUD 1 FIX C 1 2 3`, or `FIX NOEUD 1 C 1 2 3`. A leading keyword given again behind the key starts
-  /// another one: `FIX NOEUD 1 C 1 NOEUD 2 C 3`.
+  /// Reads records with a key: `NOEUD 1 FIX C 1 2 3`, or `FIX NOEUD 1 C 1 2 3`. A leading keyword repeated after the key starts
+  /// another record: `FIX NOEUD 1 C 1 NOEUD 2 C 3`.
   void read_keyed(const Command& command) {
     const Schema* current = nullptr;
     for (;;) {
@@ -454,7 +454,7 @@ class Reader {
     records_.skip_to_line(command.keys);
   }
 
-  /// `NOEUD 4 C 1`: what is to be done with the node?
+  /// Reports an object without a record: `NOEUD 4 C 1` does not say what to do with the node.
   void refuse_object(const Command& command, const Token& object) {
     const Token key = tokens_.peek();
     std::vector<std::string> names;
@@ -490,7 +490,7 @@ class Reader {
     return "its records start with " + join(names, " or ");
   }
 
-  /// A command with one card and no keys: `.SAM` is one record, `.CHK` one for each ELEMENT, NODE or RUN.
+  /// Reads a command with one card and no keys: `.SAM` is one record, `.CHK` one for each ELEMENT, NODE or RUN.
   void read_plain(const Command& command, const Token& word) {
     const Schema& schema = command.only();
     const bool several = std::any_of(schema.fields.begin(), schema.fields.end(), [](const Field& field) { return field.leads; });
@@ -523,7 +523,7 @@ class Reader {
   RecordReader records_;
   Deck deck_;
   std::map<std::string, NumbersGiven> ids_;  ///< by command
-  std::map<const Schema*, Location> once_;   ///< where the cards were given that a deck has but once
+  std::map<const Schema*, Location> once_;   ///< locations of the cards that a deck may have only once
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ const std::vector<Recognised>& recognised_commands() {
 
 namespace {
 
-/// `.CLM` and `PRE` of `.CLM PRE`; the key of a whole command is empty.
+/// Splits `.CLM PRE` into `.CLM` and `PRE`; the key of a whole command is empty.
 std::pair<std::string_view, std::string_view> parts_of(const Recognised& entry) {
   const std::string_view name = entry.name;
   const std::size_t blank = name.find(' ');

@@ -7,27 +7,27 @@
 
 namespace engrane::deck {
 
-/// A command or record of BACON that this version knows but does not carry out.
+/// A command or record of BACON that this version recognises but does not implement.
 struct Recognised {
   std::string name;     ///< `.MAI`, `.CLM PRE`
-  std::string meaning;  ///< what it would do
-  std::string cure;     ///< what to do instead; empty when it is skipped with a warning only
+  std::string meaning;  ///< its function in BACON
+  std::string cure;     ///< what to do instead; empty: skipped with only a warning
 
   bool skipped() const { return cure.empty(); }
 };
 
 const std::vector<Recognised>& recognised_commands();
 
-/// The word that begins such a record within its command: `PRE` of `.CLM PRE`.
+/// The word that starts such a record within its command: `PRE` of `.CLM PRE`.
 using RecognisedKey = std::string_view;
 
-/// Of all records known of a command: `.CLM`.
+/// Keys of all recognised records of a command such as `.CLM`.
 std::vector<RecognisedKey> recognised_keys(std::string_view command);
 
-/// Does a word of a deck, three letters or more, begin with the key?
+/// Whether a word of a deck, of three letters or more, starts with the key.
 bool starts_recognised(std::string_view word, RecognisedKey key);
 
-/// By command word and record key (`.CLM`, `PRE`; the key is empty for a whole command); nullptr when unknown.
+/// Looks up a command word and record key (`.CLM`, `PRE`; empty key for a whole command); nullptr if unknown.
 const Recognised* find_recognised(std::string_view command, std::string_view key = {});
 
 }  // namespace engrane::deck

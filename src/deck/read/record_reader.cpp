@@ -22,12 +22,12 @@ std::string list_of_keywords(const Schema& schema) {
 
 }  // namespace
 
-/// A record half read.
+/// A record during reading.
 struct RecordReader::Reading {
   Record& record;
   const Schema& schema;
   const RecordKeys& keys;
-  bool past_leads = false;  ///< a keyword that does not lead was given
+  bool past_leads = false;  ///< a keyword that does not lead has been given
 };
 
 std::string record_title(const Schema& schema, int id) { return id == 0 ? schema.name : schema.name + " " + std::to_string(id); }
@@ -79,7 +79,7 @@ const RecordReader::Given* RecordReader::given(const Field& field) const {
   return found == given_.end() ? nullptr : &*found;
 }
 
-/// Notes where a keyword's values stand; the last word counts.
+/// Records the location of a keyword's values; the last one counts.
 void RecordReader::locate(const Field& field, const Location& where) {
   for (FieldLocation& known : locations_)
     if (known.field == &field) {
@@ -89,7 +89,7 @@ void RecordReader::locate(const Field& field, const Location& where) {
   locations_.push_back({&field, where});
 }
 
-/// `ARETE I 57 3 PRE V 5.`: the word that begins a record of its own, `GROUP "flank" PRE V 5.`, is a keyword of this one.
+/// `ARETE I 57 3 PRE V 5.`: PRE, which starts a record of its own in `GROUP "flank" PRE V 5.`, is a keyword of this record.
 bool RecordReader::names_field(const Reading& reading) const {
   const Token& token = tokens_.peek();
   if (!keyed_schema(reading.keys, token)) return false;
@@ -97,7 +97,7 @@ bool RecordReader::names_field(const Reading& reading) const {
   return field && !given(*field);
 }
 
-/// `FIX NOEUD 1 C 1 NOEUD 2 C 3`: the second NOEUD begins another FIX.
+/// `FIX NOEUD 1 C 1 NOEUD 2 C 3`: the second NOEUD starts another FIX.
 bool RecordReader::begins_next(const Reading& reading) {
   const Token& token = tokens_.peek();
   if (named_object(reading.keys, token) && !match_field(reading.schema, token.text).entry) return true;
@@ -107,7 +107,7 @@ bool RecordReader::begins_next(const Reading& reading) {
   return std::any_of(given_.begin(), given_.end(), [](const Given& one) { return one.field->leads; });
 }
 
-/// The first positional field that was not given and can take the token.
+/// The first positional field not yet given that accepts the token.
 const Field* RecordReader::positional_field(const Reading& reading, const Token& token) const {
   for (const Field& field : reading.schema.fields) {
     if (!field.positional || (given(field) && !field.repeats)) continue;
@@ -171,14 +171,14 @@ void RecordReader::read_field(Reading& reading, const Field& field, const Token*
     field.store(record.data, result.values);
 }
 
-/// `NOEUD 3 C 1 A 2. NOEUD 4 C 1 A -1.` in a numbered record: term after term, each list goes on.
+/// `NOEUD 3 C 1 A 2. NOEUD 4 C 1 A -1.` in a numbered record: the lists continue term by term.
 bool RecordReader::appends(const Reading& reading, const Field& field) const {
   const auto leads = [](const Field& other) { return other.leads; };
   return reading.schema.numbered && field.max_values == any_number && given(field) &&
          std::any_of(reading.schema.fields.begin(), reading.schema.fields.end(), leads);
 }
 
-/// Also `X 0 1 2 Y 3`, which gives the second coordinate twice.
+/// Also detects `X 0 1 2 Y 3`, which gives the second coordinate twice.
 bool RecordReader::given_twice(Reading& reading, const Field& field, std::size_t count, const Location& where) {
   const Given* clash = given(field);
   for (const Given& other : given_) {
@@ -212,7 +212,7 @@ void RecordReader::unknown_word(Reading& reading, const Token& token) {
     while (!at_boundary(tokens_, reading.keys) && !tokens_.peek().starts_line) tokens_.skip();
     return;
   }
-  if (token.starts_line) {  // rather a record key with a slip than a keyword of the record before it
+  if (token.starts_line) {  // more likely a misspelt record key than a keyword of the previous record
     const std::string key = did_you_mean(token.text, schema_words(reading.keys.keyed));
     if (!key.empty()) {
       diagnostics_.error(token.where, token.quoted() + " starts no record of " + reading.keys.command, key);
@@ -243,7 +243,7 @@ void RecordReader::skip_filler(const Reading& reading) {
       if (next.is_word() && same_word(filler, next.text)) return tokens_.skip();
 }
 
-/// Skips the values of a keyword that is none. Words that cannot be read at all are still reported.
+/// Skips the values of an unknown keyword. Invalid tokens are still reported.
 void RecordReader::skip_values(const Reading& reading) {
   while (!tokens_.peek().is_word() && !at_boundary(tokens_, reading.keys)) tokens_.take();
 }

@@ -12,14 +12,14 @@
 
 namespace engrane::deck {
 
-/// A value given before the first record of a command, which holds for all its records.
+/// A value given before the first record of a command, which applies to all its records.
 struct Heading {
   const Field* field;
   Field::Values values;
   Location where;
 };
 
-/// `GEAR 1`, `.NOE 12`, `.CLM FIX`: how messages name a record.
+/// Name of a record in messages: `GEAR 1`, `.NOE 12`, `.CLM FIX`.
 std::string record_title(const Schema& schema, int id);
 
 /// Reads the fields of one record, up to the next record key, command or end.
@@ -28,24 +28,25 @@ class RecordReader {
   RecordReader(TokenStream& tokens, Diagnostics& diagnostics)
       : tokens_(tokens), diagnostics_(diagnostics), values_(tokens, diagnostics) {}
 
-  /// Reads fields into `record`, whose schema, id, location and default data are set; checks what is missing. `object`: whom it
-  /// speaks of, where that stands before the record's key.
+  /// Reads fields into `record`, whose schema, id, location and default data are set, and checks that none is missing.
+  /// `object`: the objects the record applies to, if given before its key.
   void read(Record& record, const RecordKeys& keys, const std::vector<Heading>& headings,
             const std::vector<Heading>& object = {});
 
-  /// Reads the objects that stand before a record's key: `GROUP "frame"` of `GROUP "frame" FIX C 1`. False: with an error.
+  /// Reads the objects before a record's key: `GROUP "frame"` in `GROUP "frame" FIX C 1`. Returns false if an error was
+  /// reported.
   bool read_object(const RecordKeys& keys, const Schema& schema, std::vector<Heading>& object);
 
-  /// Says what was skipped in all of the deck.
+  /// Reports what was skipped in the whole deck.
   void report_skipped() { values_.report_unknown_codes(); }
 
-  /// Reads the keywords before the first record. What cannot stand there is an error.
+  /// Reads the keywords before the first record. Anything not allowed there is an error.
   std::vector<Heading> read_headings(const Schema& schema, const RecordKeys& keys);
 
-  /// Skips a record whose key is not known: up to the next key, or a word that starts a line and may be meant as one.
+  /// Skips a record with an unknown key: up to the next key, or a word at the start of a line that may be meant as a key.
   void skip_to_line(const RecordKeys& keys);
 
-  /// Skips what belongs to nothing, up to the next record key or command.
+  /// Skips tokens that belong to no record, up to the next record key or command.
   void skip_record(const RecordKeys& keys);
 
  private:
@@ -70,7 +71,7 @@ class RecordReader {
   struct Given {
     const Field* field;
     Location start;     ///< of the keyword
-    std::size_t count;  ///< how many numbers it had
+    std::size_t count;  ///< number of numeric values
   };
 
   const Given* given(const Field& field) const;

@@ -15,29 +15,29 @@ namespace engrane::deck {
 
 namespace {
 
-/// Values that all ranges and repeat counts of a deck may produce together.
+/// Limit on the values produced by all repeat counts of a deck together.
 constexpr int most_produced = 20'000'000;
 
 bool is_integer(double value) { return std::floor(value) == value && std::abs(value) <= std::numeric_limits<int>::max(); }
 
 bool has_exact_field(const Schema& schema, std::string_view word) { return match_field(schema, word).exact; }
 
-/// Node 0 is the ground and number 0 of the others is "none"; below that nothing has a number.
+/// Node 0 is the ground, and number 0 of other objects means "none"; negative numbers do not exist.
 double lower_bound(const Field& field) {
   return field.reference == Reference::nothing ? field.lower : std::max(field.lower, 0.0);
 }
 
 }  // namespace
 
-/// One field being read.
+/// State of the field being read.
 struct ValueReader::Work {
   const Field& field;
   const Schema& schema;
   const RecordKeys& keys;
   Location keyword;
   FieldReading& result;
-  Location surplus{};  ///< the first value too many
-  bool any = false;    ///< a value was taken
+  Location surplus{};  ///< location of the first surplus value
+  bool any = false;    ///< a value has been taken
 };
 
 bool at_number_key(TokenStream& tokens, const RecordKeys& keys) {
@@ -158,7 +158,8 @@ void ValueReader::read_numbers(Work& work) {
   }
 }
 
-/// `751 A 2249`, `I 1 J 5000 K 1` or `I 1`, where a list of ids stands. A keyword of the card that reads the same goes first.
+/// Reads `751 A 2249`, `I 1 J 5000 K 1` or `I 1` in a list of ids. A keyword of the card with the same spelling takes
+/// precedence.
 bool ValueReader::read_range(Work& work) {
   if (work.field.type != FieldType::integer || work.field.reference == Reference::nothing) return false;
   const auto word_then_number = [&](std::size_t at, std::string_view word) {
@@ -232,7 +233,7 @@ void ValueReader::check_number(Work& work, const Token& token) {
           field.keyword + " (" + field.help + ") is " + range_text(field));
 }
 
-/// `option`: the word of a choice that the numbers follow.
+/// `option`: the word of a choice that precedes the numbers.
 void ValueReader::check_count(Work& work, int least, int most, const Option* option) {
   if (work.result.faulty) return;
   const std::size_t count = work.result.values.numbers.size();
@@ -248,7 +249,7 @@ void ValueReader::check_count(Work& work, int least, int most, const Option* opt
   while (at_value_number(work)) take(work);
 }
 
-/// Is the next token, on the same line, something that can only be meant as a value of this field?
+/// Whether the next token is on the same line and can only be meant as a value of this field.
 bool ValueReader::at_stray_value(const Work& work) {
   const Token& next = tokens_.peek();
   if (at_boundary(tokens_, work.keys) || next.starts_line || next.is_number()) return false;
@@ -257,7 +258,8 @@ bool ValueReader::at_stray_value(const Work& work) {
   return !match.entry && !match.ambiguous() && next.text.front() != '.';
 }
 
-/// Texts stand in double quotes; a single bare word is taken too where it cannot be a keyword. Groups may be numbers.
+/// Reads texts in double quotes; a single bare word is also accepted where it cannot be a keyword. Groups may be given by
+/// number.
 void ValueReader::read_texts(Work& work) {
   const Field& field = work.field;
   auto& texts = work.result.values.texts;
@@ -286,7 +288,7 @@ void ValueReader::read_texts(Work& work) {
   if (!number.fault) error(work, number.where, number.quoted() + " is not a text", needs);
 }
 
-/// `.TITRE spur gear pair`: one complaint instead of one for each word.
+/// `.TITRE spur gear pair`: reports one error instead of one for each word.
 void ValueReader::refuse_more_words(Work& work) {
   const auto more = [&] { return tokens_.peek().is_word() && at_stray_value(work); };
   const auto& fields = work.schema.fields;
@@ -338,7 +340,7 @@ void ValueReader::read_choice(Work& work) {
   check_count(work, option->min_values, option->max_values, option);
 }
 
-/// Result codes that translators write and this version does not know are no reason to refuse a deck.
+/// Result codes that translators write but this version does not know must not make a deck invalid.
 void ValueReader::skip_unknown_codes(Work& work) {
   if (work.result.faulty) return;
   auto& numbers = work.result.values.numbers;
@@ -347,7 +349,7 @@ void ValueReader::skip_unknown_codes(Work& work) {
                         [&](const Code& code) { return code.number == static_cast<int>(number); });
   };
   for (double number : numbers)
-    if (number > 0 && unknown(number)) {  // one below zero is not to be archived
+    if (number > 0 && unknown(number)) {  // a negative code means not to archive
       UnknownCodes& all = unknown_codes_.try_emplace(work.field.keyword, UnknownCodes{work.result.where, {}}).first->second;
       all.codes.insert(static_cast<int>(number));
     }

@@ -14,45 +14,45 @@
 
 namespace engrane::deck {
 
-/// What ends a record inside one command: the next record's key.
+/// The tokens that end a record within a command.
 struct RecordKeys {
   std::string command;                   ///< `.CLM`
-  std::string number_key;                ///< `I`, or `GROUP` in `.SEL`; empty when records have no number
-  bool rows = false;                     ///< a number at the start of a line begins a record
+  std::string number_key;                ///< `I`, or `GROUP` in `.SEL`; empty if records are not numbered
+  bool rows = false;                     ///< a number at the start of a line starts a record
   std::vector<const Schema*> keyed;      ///< `FIX`, `DEP`, … of `.CLM`
-  std::vector<const Field*> objects;     ///< `NOEUD`, `GROUP`: whom records speak of, before or behind the record's own key
-  std::vector<RecognisedKey> elsewhere;  ///< `PRE`: records of the command that BACON has and this version has not
+  std::vector<const Field*> objects;     ///< `NOEUD`, `GROUP`: what records apply to, before or after the record key
+  std::vector<RecognisedKey> elsewhere;  ///< `PRE`: records of the command in BACON that this version does not implement
 };
 
-/// Is the next token the key of a numbered record, or the number of a row?
+/// Whether the next token is the key of a numbered record, or the number of a row.
 bool at_number_key(TokenStream& tokens, const RecordKeys& keys);
 
-/// The object that a word names, in full; nullptr when it names none.
+/// The object that a word names by a full spelling; nullptr if there is none.
 const Field* named_object(const RecordKeys& keys, const Token& token);
 
-/// Does the next token begin another record or command, or end the deck?
+/// Whether the next token starts another record or command, or ends the deck.
 bool at_boundary(TokenStream& tokens, const RecordKeys& keys);
 
-/// The card a record key names: a full spelling, or a prefix of at least three letters.
+/// The card named by a record key: a full spelling, or a prefix of at least three letters.
 const Schema* keyed_schema(const RecordKeys& keys, const Token& token);
 
-/// What was read for one field.
+/// The values read for one field.
 struct FieldReading {
   Field::Values values;
-  Location where;       ///< from the first value to the last, or the keyword when there is none
+  Location where;       ///< from the first value to the last, or the keyword if there is none
   bool faulty = false;  ///< an error was reported
 };
 
-/// Reads the values behind a keyword and checks number, kind and range.
+/// Reads the values after a keyword and checks their count, type and range.
 class ValueReader {
  public:
   ValueReader(TokenStream& tokens, Diagnostics& diagnostics) : tokens_(tokens), diagnostics_(diagnostics) {}
 
-  /// `keyword` is where the field's keyword stands (or its first value, for a positional field). What it returns is good
+  /// `keyword` is the location of the field's keyword (or of its first value, for a positional field). The result is valid
   /// until the next call.
   FieldReading& read(const Field& field, const Schema& schema, const RecordKeys& keys, Location keyword);
 
-  /// Warns of all codes that were not known, once for each keyword.
+  /// Warns of all unknown codes, once per keyword.
   void report_unknown_codes();
 
  private:
@@ -73,7 +73,7 @@ class ValueReader {
   void check_count(Work& work, int least, int most, const Option* option = nullptr);
   void skip_unknown_codes(Work& work);
 
-  /// Codes of a keyword that mean nothing here.
+  /// Codes of a keyword that are unknown to this version.
   struct UnknownCodes {
     Location where;
     std::set<int> codes;
@@ -82,14 +82,14 @@ class ValueReader {
   TokenStream& tokens_;
   Diagnostics& diagnostics_;
   std::map<std::string, UnknownCodes> unknown_codes_;  ///< by keyword
-  FieldReading reading_;                               ///< of the field being read; kept for its memory
-  int repeated_ = 0;                                   ///< values that ranges and repeat counts have produced in this deck
+  FieldReading reading_;                               ///< of the field being read; a member to reuse its memory
+  int repeated_ = 0;                                   ///< number of values produced by repeat counts in this deck
 };
 
 /// `3 values`, `1 to 3 values`, `at least 1 value`.
 std::string expected_count(int least, int most);
 
-/// `greater than 0`, `from 0 to 1`, with the unit; empty when any number will do.
+/// `greater than 0`, `from 0 to 1`, with the unit; empty if there is no limit.
 std::string range_text(const Field& field);
 
 }  // namespace engrane::deck

@@ -9,7 +9,7 @@ namespace {
 
 std::vector<std::string> strings(Words words) { return {words.begin(), words.end()}; }
 
-/// Writes the values of a deck into a member.
+/// Stores the values of a deck in a member.
 struct Store {
   const Field::Values& values;
 
@@ -40,7 +40,7 @@ struct Store {
   }
 };
 
-/// Reads a member as the values with which a deck would set it.
+/// Loads a member as the values with which a deck would set it.
 struct Load {
   Field::Values& values;
 
@@ -92,7 +92,7 @@ void Field::store(std::any& data, const Values& values) const {
 
 Field::Values Field::load(const std::any& data) const {
   Values values;
-  // `bind` finds the member, and Load only reads it; of an array the whole is read, not its parts
+  // Load only reads the member, hence the const_cast. An array is loaded as a whole, not by its parts.
   if (bind && whole.empty()) std::visit(Load{values}, bind(const_cast<std::any&>(data)));
   return values;
 }
@@ -231,7 +231,7 @@ Field& CardText::add_field(std::string_view keyword, std::string_view help, Shap
 FieldBuilder CardText::last_field() { return FieldBuilder(schema_, schema_.fields.size() - 1); }
 
 FieldBuilder CardText::add_mesh_file(std::string_view keyword, std::string_view help) {
-  Field& field = add_field(keyword, help, {FieldType::text, 1, 1}, nullptr);  // the records are written out, not the name
+  Field& field = add_field(keyword, help, {FieldType::text, 1, 1}, nullptr);  // canonical decks hold its records instead
   field.heading = field.mesh_file = true;
   return last_field();
 }

@@ -12,7 +12,7 @@
 
 namespace engrane::deck {
 
-/// Words of a declaration: literals, until the schema takes them.
+/// Words of a declaration: literals, copied into the schema.
 using Words = std::initializer_list<std::string_view>;
 
 /// Refines the field just added to a Card.
@@ -43,7 +43,7 @@ class FieldBuilder {
   std::size_t index_;
 };
 
-/// What a card says that does not depend on its struct: compiled once for all of them.
+/// The part of a card that does not depend on its struct, so that it is compiled only once.
 class CardText {
  public:
   CardText& chapter(std::string_view title);
@@ -56,13 +56,13 @@ class CardText {
   CardText& once();
   CardText& redefines();
 
-  /// A keyword before the first record that names a file of a mesh (Catalogue::read_mesh).
+  /// Adds a keyword for a mesh file (Catalogue::read_mesh), allowed only before the first record.
   FieldBuilder add_mesh_file(std::string_view keyword, std::string_view help);
 
   const Schema& schema() const { return schema_; }
 
  protected:
-  /// What a member's type says of its field.
+  /// Field type and number of values derived from a member's type.
   struct Shape {
     FieldType type;
     int least, most;  ///< how many values
@@ -81,14 +81,14 @@ class CardText {
 ///
 /// The member's type fixes the field's type: bool flag; int, std::vector<int>, std::array<int, N> integers;
 /// double, std::optional<double>, std::vector<double>, std::array<double, N> reals; std::string text; Tagged choice.
-/// The defaults shown to the user are those of a default-constructed `Data`.
+/// The defaults shown to the user are those of a default-constructed `Data`, or of the struct given to initial().
 template <class Data>
 class Card : public CardText {
  public:
   Card(std::string_view name, Words synonyms, std::string_view summary)
       : CardText(name, synonyms, summary, [] { return std::any(Data{}); }) {}
 
-  /// `Owner` is Data or a base of it.
+  /// `Owner` is Data or a base class of it.
   template <class M, class Owner>
   FieldBuilder add(std::string_view keyword, M Owner::*member, std::string_view help) {
     static_assert(std::is_base_of_v<Owner, Data>, "a keyword binds to a member of the card's own struct");
@@ -97,7 +97,7 @@ class Card : public CardText {
     return last_field();
   }
 
-  /// A keyword for one entry of an array that another keyword sets as a whole: `Y` for entry 1 of `X`.
+  /// Adds a keyword for one entry of an array that another keyword sets as a whole: `Y` for entry 1 of `X`.
   template <class Value, std::size_t N>
   FieldBuilder add_part(std::string_view keyword, std::string_view whole, std::size_t part, std::array<Value, N> Data::*member,
                         std::string_view help) {
@@ -108,11 +108,11 @@ class Card : public CardText {
     return last_field();
   }
 
-  /// The struct a record starts from, where it is not Data's own default.
+  /// Sets the struct a record starts from, if not a default-constructed Data.
   void initial(const Data& data) {
     schema_.make = [data] { return std::any(data); };
   }
-  /// `check(Data&, Record&, Diagnostics&)` runs once a record is read without a fault.
+  /// Sets `check(Data&, Record&, Diagnostics&)`, which runs after a record has been read without a fault.
   template <class Check>
   void finish(Check check) {
     schema_.finish = [check](Record& record, Diagnostics& diagnostics) {
@@ -125,7 +125,7 @@ class Card : public CardText {
   static constexpr Shape shape(int*) { return {FieldType::integer, 1, 1}; }
   static constexpr Shape shape(double*) { return {FieldType::real, 1, 1}; }
   static constexpr Shape shape(std::string*) { return {FieldType::text, 1, 1}; }
-  static constexpr Shape shape(Tagged*) { return {FieldType::choice, 0, 0}; }  // an option says how many numbers follow it
+  static constexpr Shape shape(Tagged*) { return {FieldType::choice, 0, 0}; }  // each option gives the number of its values
   template <class Value>
   static constexpr Shape shape(std::optional<Value>*) {
     return shape(static_cast<Value*>(nullptr));

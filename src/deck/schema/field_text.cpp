@@ -29,7 +29,7 @@ std::string noun(const Field& field) {
   return field.type == FieldType::integer ? "whole number" : "number";
 }
 
-/// Numbers, with `n*v` for repeated ones and `a A b` for runs of ids.
+/// Writes numbers, with `n*v` for repeated ones and `a A b` for runs of ids.
 void for_each_number(const std::vector<double>& numbers, bool ranges, const std::function<void(std::string_view)>& use) {
   std::string text;
   const auto number = [&](double value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What help, templates, the manual and canonical decks say about a field; one wording for all of them.
+// Texts about a field, shared by help, templates, the manual and canonical decks.
 #pragma once
 
 #include <functional>
@@ -14,17 +14,17 @@ namespace engrane::deck {
 /// `2 whole numbers`, `a node`, `3 numbers`, `text`, `a word`, `no value`.
 std::string value_kind(const Field& field);
 
-/// The words of a field as the deck spells them, keyword first: `ALPHA 20`, `ERR COS 0.004`, `NOM "hub"`.
-/// `ranges` allows `1 A 20` for runs of ids.
+/// The words of a field in deck spelling, keyword first: `ALPHA 20`, `ERR COS 0.004`, `NOM "hub"`. `ranges` allows `1 A 20` for
+/// runs of ids.
 std::vector<std::string> deck_words(const Field& field, const Field::Values& values, bool ranges);
-/// Gives these words to `use`, one after the other.
+/// Calls `use` with each of these words in order.
 void for_each_deck_word(const Field& field, const Field::Values& values, bool ranges,
                         const std::function<void(std::string_view)>& use);
 
-/// The default as the deck would spell it, without the keyword; empty when there is none.
+/// The default in deck spelling, without the keyword; empty if there is none.
 std::string default_text(const Schema& schema, const Field& field);
 
-/// Is the default worth showing? An absent option, an empty list and the reference 0 (none) are not.
+/// Whether there is a default worth showing: not an absent option, an empty list or the reference 0 (none).
 bool has_default(const Field& field, const Field::Values& defaults);
 
 /// Appends the values as JSON: `20`, `[1, 2]`, `"SPEED"`, `{"COS": [0.004]}`, `true`.

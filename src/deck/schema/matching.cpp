@@ -13,9 +13,9 @@ namespace engrane::deck {
 
 namespace {
 
-/// Can the word be a beginning of the spelling? Settles nearly all comparisons by the first letter.
+/// Whether the word can be a prefix of the spelling; the first letter decides nearly all comparisons.
 bool begins_alike(std::string_view spelling, std::string_view word) {
-  constexpr char no_case = '\x20';  // letters differ in nothing else; that other characters meet does no harm
+  constexpr char no_case = '\x20';  // the case bit of ASCII letters; false matches of other characters do no harm
   return !word.empty() && !spelling.empty() && (spelling.front() | no_case) == (word.front() | no_case);
 }
 
@@ -24,7 +24,7 @@ class Comparison {
  public:
   explicit Comparison(std::string_view word) : word_(word) {}
 
-  /// True at a full spelling, which ends the search.
+  /// Returns true at a full spelling, which ends the search.
   bool operator()(std::string_view spelling) {
     if (!begins_alike(spelling, word_) || !begins_with_word(spelling, word_)) return false;
     prefix = true;
@@ -37,8 +37,8 @@ class Comparison {
   std::string_view word_;
 };
 
-/// Full spellings go first, then the only entry of which the word is a prefix. `compare(entry, comparison)` is true at a full
-/// spelling.
+/// A full spelling takes precedence, then a unique entry of which the word is a prefix. `compare(entry, comparison)` returns
+/// true at a full spelling.
 template <class Entry, class Entries, class Compare>
 Match<Entry> match_word(const Entries& entries, std::string_view word, const Compare& compare) {
   Match<Entry> match;

@@ -19,8 +19,8 @@ namespace engrane::deck {
 
 /// A word of a fixed list followed by numbers: `ERR COS 0.004`, `DRIVE SPEED`, `TYPE STATIC`.
 struct Tagged {
-  std::string tag;             ///< canonical (English, upper case) name of the option; empty when not given
-  std::vector<double> values;  ///< the numbers behind it
+  std::string tag;             ///< canonical (English, upper case) name of the option; empty if not given
+  std::vector<double> values;  ///< numbers after it
 
   bool given() const { return !tag.empty(); }
   bool is(std::string_view name) const { return tag == name; }
@@ -28,10 +28,10 @@ struct Tagged {
 
 struct Record;
 
-/// What a keyword's values look like in the deck.
+/// Type of a keyword's values in the deck.
 enum class FieldType { flag, integer, real, text, choice };
 
-/// What the integers of a field point at; the reader leaves the look-up to the model, which knows what exists.
+/// What the integers of a field refer to. The model resolves these references, not the reader.
 enum class Reference { nothing, node, element, function, group, frame };
 
 /// One word of a choice field.
@@ -39,29 +39,29 @@ struct Option {
   std::string name;
   std::vector<std::string> synonyms;
   std::string help;
-  int min_values = 0;  ///< how many numbers must follow the word
-  int max_values = 0;  ///< how many may
+  int min_values = 0;  ///< minimum number of values after the word
+  int max_values = 0;  ///< maximum number
   Dimension dimension{};
 };
 
-/// One meaning of an integer that is a code (`STYP 163`).
+/// Meaning of an integer code (`STYP 163`).
 struct Code {
   int number;
   std::string meaning;
 };
 
-/// Number of values a list may take when the declaration does not say.
+/// Maximum number of values of a list unless declared otherwise.
 inline constexpr int any_number = 1 << 20;
 
-/// A member of a card's struct that a keyword sets; the spans are arrays.
+/// A member of a card's struct that a keyword sets; spans refer to arrays.
 using Member =
     std::variant<std::monostate, bool*, int*, double*, std::string*, Tagged*, std::optional<int>*, std::optional<double>*,
                  std::vector<int>*, std::vector<double>*, std::vector<std::string>*, std::span<int>, std::span<double>,
                  std::optional<std::array<double, 2>>*, std::optional<std::array<double, 3>>*>;
 
-/// One keyword of a card: everything that reading, help, template, manual and JSON schema need to know.
+/// A keyword of a card, with all data needed for reading, help, templates, manual and JSON schema.
 struct Field {
-  // Compiled once: what declares cards would else have them anew in each source. So it is with Schema.
+  // Defined in the .cpp file so that sources that declare cards do not each instantiate them. The same applies to Schema.
   Field();
   Field(const Field&);
   Field(Field&&) noexcept;
@@ -71,7 +71,7 @@ struct Field {
 
   std::string keyword;
   std::vector<std::string> synonyms;
-  std::vector<std::string> spellings;  ///< keyword, synonyms and those that BACON gives the keyword everywhere; by the Card
+  std::vector<std::string> spellings;  ///< keyword, synonyms, and those BACON has for it everywhere; set by Card
   std::string help;
   FieldType type = FieldType::real;
   int min_values = 1;
@@ -79,35 +79,35 @@ struct Field {
   Dimension dimension{};
   Reference reference = Reference::nothing;
   bool required = false;
-  bool positional = false;  ///< its values may come without the keyword: the first field not yet given takes them
-  bool leads = false;       ///< given again it starts the next record (NOEUD, GROUP); in a numbered one the lists go on
-  bool heading = false;     ///< may stand before the first record of the command and then holds for all of them
-  bool repeats = false;     ///< given again in a record, its list goes on
-  bool mesh_file = false;   ///< names a file that stands for records; before the first record only
-  std::string whole;        ///< the keyword whose array this field is one entry of (Y and Z of X); empty otherwise
+  bool positional = false;  ///< its values may be given without the keyword, to the first such field not yet given
+  bool leads = false;       ///< if repeated, starts the next record (NOEUD, GROUP); in a numbered record the lists continue
+  bool heading = false;     ///< may precede the first record of the command and then applies to all of them
+  bool repeats = false;     ///< if repeated in a record, its list continues
+  bool mesh_file = false;   ///< names a file that stands for records; only before the first record
+  std::string whole;        ///< keyword of the array of which this field is one entry (X for Y and Z); otherwise empty
   int part = 0;             ///< which entry, from 0
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   bool lower_open = false;  ///< the bound itself is not allowed
   bool upper_open = false;
-  std::vector<std::string> fillers;  ///< words without meaning that may stand before the values (`ACC VAL …`)
-  std::vector<Code> codes;           ///< the integers that mean something; others are skipped with a warning
-  std::vector<Option> options;       ///< of a choice; the first is taken when the keyword stands alone and needs no value
+  std::vector<std::string> fillers;  ///< words without meaning that may precede the values (`ACC VAL …`)
+  std::vector<Code> codes;           ///< known codes; others are skipped with a warning
+  std::vector<Option> options;       ///< of a choice; the first is taken if the keyword stands alone and it needs no value
 
-  /// Values as the deck gives them; exactly one vector is in use, by type (a choice uses `tag` and `numbers`).
+  /// Values as given in the deck. Depending on the type, only one vector is used (a choice uses `tag` and `numbers`).
   struct Values {
     std::vector<double> numbers;
     std::vector<std::string> texts;
     std::string tag;
     bool present = false;
   };
-  std::function<Member(std::any&)> bind;  ///< the member of the card's struct; none for a name that stands for records
+  std::function<Member(std::any&)> bind;  ///< returns the member of the card's struct; empty for a file that stands for records
 
   void store(std::any& data, const Values& values) const;  ///< writes the values into the card's struct
-  Values load(const std::any& data) const;                 ///< reads them back: defaults, canonical deck, JSON
+  Values load(const std::any& data) const;                 ///< reads them back, for defaults, canonical decks and JSON
 };
 
-/// A card without its struct's type: what reader, help and manual work with.
+/// A card independent of its struct's type, as used by reader, help and manual.
 struct Schema {
   Schema();
   Schema(const Schema&);
@@ -125,55 +125,55 @@ struct Schema {
   std::vector<Field> fields;
   bool numbered = false;           ///< the record starts with `I <id>`
   std::string record_key = "I";    ///< the word before the number (`GROUP` in `.SEL`)
-  bool repeated_ids = false;       ///< `I a J b K c` ranges of ids make sense
-  bool rows = false;               ///< a line that starts with a number is a record: id, then the positional values
+  bool repeated_ids = false;       ///< ranges of ids `I a J b K c` are allowed
+  bool rows = false;               ///< a line that starts with a number is a record: id, then positional values
   bool once = false;               ///< a second record is an error
-  bool redefines = false;          ///< opening the command again without ADD drops its earlier records
-  std::function<std::any()> make;  ///< a default-constructed struct
-  /// Checks across fields and values that follow from others, once the record is read without a fault; may be empty.
+  bool redefines = false;          ///< reopening the command without ADD drops its earlier records
+  std::function<std::any()> make;  ///< creates the struct a record starts from
+  /// Checks across fields and derives values, after the record has been read without a fault; may be empty.
   std::function<void(Record&, Diagnostics&)> finish;
 
   const Field* find(std::string_view keyword) const;  ///< exact canonical keyword
   std::string_view command() const;                   ///< `.CLM` of `.CLM FIX`; `.MCE` for elements
-  std::string_view key() const;                       ///< `FIX` of `.CLM FIX`; empty when the command has one kind of record only
+  std::string_view key() const;                       ///< `FIX` of `.CLM FIX`; empty if the command has only one kind of record
 };
 
-/// Every spelling of a field: keyword, declared synonyms, and those that BACON gives this keyword everywhere (V = VAL).
+/// All spellings of a field: keyword, declared synonyms, and those that BACON accepts for this keyword everywhere (V = VAL).
 inline const std::vector<std::string>& spellings(const Field& field) { return field.spellings; }
 
-/// What Field::spellings is to be.
+/// Computes Field::spellings.
 std::vector<std::string> collect_spellings(const Field& field);
 
-/// What is wrong with a schema itself (reserved or doubled words, missing help, a default out of range): for unit tests.
+/// Faults of a schema itself (reserved or duplicate words, missing help, a default that is not an option), for unit tests.
 std::vector<std::string> schema_faults(const Schema& schema);
 
-/// The unit a number has in a deck: as UnitSystem::label, but angles are in degrees.
+/// Unit of a number in a deck: as UnitSystem::label, but degrees for angles.
 std::string deck_unit(Dimension dimension);
 
-/// Where a keyword's values stand.
+/// Location of a keyword's values.
 struct FieldLocation {
   const Field* field = nullptr;
   Location where;
 };
 
-/// One record of a deck, read, checked against its schema and stored in its struct. Decks have records by the hundred thousand:
-/// what a record holds is counted in bytes.
+/// One record of a deck, read, checked against its schema and stored in its struct. Decks may have hundreds of thousands of
+/// records, so its size matters.
 struct Record {
   const Schema* schema = nullptr;
-  int id = 0;           ///< the number behind `I`; 0 when the card has none
-  bool faulty = false;  ///< an error was reported for it; it is then in Deck::faulty
+  int id = 0;           ///< number after `I`; 0 if the card has none
+  bool faulty = false;  ///< an error was reported for it; it is then moved to Deck::faulty
   Location location;
-  std::vector<FieldLocation> field_locations;  ///< of the keywords given, each once
+  std::vector<FieldLocation> field_locations;  ///< of the given keywords, each once
   std::any data;
 
-  /// The card's struct, or nullptr when the record is of another card.
+  /// The card's struct; nullptr if the record belongs to another card.
   template <class Data>
   const Data* get() const {
     return std::any_cast<Data>(&data);
   }
   bool given(std::string_view keyword) const { return find(keyword) != nullptr; }
   bool given(const Field& field) const;
-  /// Where the keyword's values stand; the record itself when the keyword was not given.
+  /// Location of the keyword's values; of the record if the keyword was not given.
   Location where(std::string_view keyword) const;
 
  private:

@@ -110,7 +110,7 @@ const std::vector<Concept>& concepts() {
       {{"COMPROBACION", "ASSERT", "EXPECT"}, {".CHK"}, {}, {"check"}, {}},
       {{"UNIDADES", "UNITES", "UNITS"}, {".UNIT"}, {}, {"unit"}, {}},
       {{"INITIAL", "INICIAL", "INITIAL_VELOCITY", "VELOCIDAD_INICIAL"}, {".INI VIT", ".INI DEP"}, {}, {"initial"}, {}},
-      // keywords and matters
+      // keywords and topics
       {{"FRICTION", "FRICCION", "ROZAMIENTO", "FROTTEMENT", "FROTTEMENTS", "COULOMB", "MU", "ADHERENCE"},
        {},
        {"FRICTION"},
@@ -132,7 +132,7 @@ const std::vector<Concept>& concepts() {
 }
 
 std::string plain_word(std::string_view word) {
-  // the letters of Latin-1 from À on, without what stands above and below them
+  // the letters of Latin-1 from À on, without diacritics
   static constexpr std::string_view letters = "AAAAAAACEEEEIIIIDNOOOOOxOUUUUYTsaaaaaaaceeeeiiiidnooooo/ouuuuyty";
   std::string plain;
   for (std::size_t i = 0; i < word.size(); ++i) {

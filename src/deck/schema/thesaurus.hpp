@@ -7,21 +7,22 @@
 
 namespace engrane::deck {
 
-/// Words that people look for and no card is called by: those of other programs, and Spanish and French ones.
+/// Search words that are not names of cards: terms of other programs, and Spanish and French terms.
 struct Concept {
   std::vector<std::string_view> words;     ///< upper case, without accents, blanks as `_`
-  std::vector<std::string_view> cards;     ///< `HINGE`, `.CLM FIX`; the likeliest first
-  std::vector<std::string_view> keywords;  ///< of whichever card has them
-  std::vector<std::string_view> terms;     ///< beginnings of the words that texts of cards use for it
-  std::string_view advice;                 ///< one more sentence, where a name alone says too little
+  std::vector<std::string_view> cards;     ///< `HINGE`, `.CLM FIX`; most likely first
+  std::vector<std::string_view> keywords;  ///< of any card
+  std::vector<std::string_view> terms;     ///< prefixes of the corresponding words in the texts of cards
+  std::string_view advice;                 ///< an additional sentence, if a name alone is not enough
 };
 
 const std::vector<Concept>& concepts();
 
-/// Upper case, without the accents of Spanish and French (UTF-8), a tilde or cedilla dropped; a hyphen or blank as `_`.
+/// Converts to upper case and removes the accents, tildes and cedillas of Spanish and French (UTF-8); a hyphen or blank becomes
+/// `_`.
 std::string plain_word(std::string_view word);
 
-/// The concepts that a word stands for, in any case and with or without accents.
+/// The concepts that a word stands for, ignoring case and accents.
 std::vector<const Concept*> find_concepts(std::string_view word);
 
 }  // namespace engrane::deck

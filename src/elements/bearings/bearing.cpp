@@ -17,10 +17,11 @@ namespace engrane::elements::bearings {
 
 namespace {
 
-/// Forces by the place of the shaft's point in the housing's axes: matrices of the speed, and rolling elements.
+/// Forces as functions of the displacement of the shaft's point in the housing's axes: speed-dependent matrices and rolling
+/// elements.
 ///
-/// Coordinates: displacements 1 to 3, and the tilts of the shaft's axis n about 2 and 3, θ₂ = −n₃ and θ₃ = n₂. The fourth, the
-/// spin, has a rate only.
+/// Coordinates: displacements 1 to 3, and the tilts of the shaft's axis n about 2 and 3, θ₂ = −n₃ and θ₃ = n₂. The fourth
+/// coordinate, the spin, has a rate only.
 class Bearing final : public TemplatedElement<Bearing, 2, 12> {
  public:
   struct Parts {
@@ -29,7 +30,7 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
   };
 
   Bearing(int id, const HeldPoint& place, Parts parts) : TemplatedElement(id), place_(place), parts_(std::move(parts)) {
-    // what the first matrix stores is energy; what others add to its force is work done, as damping is
+    // the first matrix stores energy; differences of the other matrices from it do work like damping
     if (!parts_.stiffness.empty()) {
       const Mat6& first = parts_.stiffness.values().front();
       stored_ = 0.5 * (first + first.transpose());
@@ -134,7 +135,7 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
     return load;
   }
 
-  /// The moment about the bearing's axes: n × g of the tilts, with g·δn = m₂ δθ₂ + m₃ δθ₃, and that about axis 1.
+  /// Moment in the bearing's axes: n × g from the tilts, with g·δn = m₂ δθ₂ + m₃ δθ₃, plus the moment about axis 1.
   template <class T>
   static Vec3T<T> moment(const Place<T>& place, const std::array<T, 6>& load) {
     Vec3T<T> m = cross(place.axis, Vec3T<T>(T(0), load[5], -load[4]));
@@ -142,7 +143,7 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
     return m;
   }
 
-  /// Without the spin.
+  /// The coordinates without the spin.
   template <class T>
   static RollingElements::Five<T> five(const std::array<T, 6>& q) {
     return {q[0], q[1], q[2], q[4], q[5]};
@@ -175,7 +176,7 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
 
 constexpr Eigen::Index spin_row = 3;
 
-/// One matrix: of radial directions, a diagonal, an upper triangle, or whole by rows.
+/// One matrix from its radial block, diagonal, upper triangle, or all entries by rows.
 std::optional<Mat6> matrix(std::span<const double> values) {
   if (values.size() == 4) {
     Mat6 m = Mat6::Zero();
@@ -186,7 +187,7 @@ std::optional<Mat6> matrix(std::span<const double> values) {
   return symmetric_6(values);
 }
 
-/// The matrices of a keyword, one for each speed; with an error where they are none.
+/// The matrices of a keyword, one per speed. Returns nothing, with an error, if the values are invalid.
 std::optional<SpeedMatrices> matrices(const BuildContext& context, const char* keyword, const std::vector<double>& values,
                                       const std::vector<double>& speeds, bool drags) {
   if (values.empty()) return SpeedMatrices();
@@ -219,7 +220,7 @@ std::optional<SpeedMatrices> matrices(const BuildContext& context, const char* k
   return SpeedMatrices(speeds, std::move(all));
 }
 
-/// Complains of keywords that are given and mean nothing beside another.
+/// Reports keywords that have no effect beside another; returns true if there are none.
 template <class... Given>
 bool none_of(const BuildContext& context, const char* beside, const Given&... given) {
   bool none = true;
@@ -239,7 +240,7 @@ bool needs(const BuildContext& context, const char* keyword, bool given, const c
   return given;
 }
 
-/// Can the elements be where the card puts them?
+/// Whether the elements fit into the bearing.
 bool fits(const BuildContext& context, const char* who, const RollingData& r) {
   const double gap = r.pitch_diameter * std::sin(std::numbers::pi / r.count) - r.diameter;
   const bool angular = r.contact_angle > 0;
@@ -293,7 +294,7 @@ std::shared_ptr<const RollingElements> rolling(const BearingData& data, const Bu
   r.pitch_diameter = *data.pitch_diameter;
   r.contact_angle = data.contact_angle.value_or(0) * degree;
   r.clearance = data.clearance.value_or(0);
-  // the largest that ISO 281 allows for radial ball bearings
+  // largest values that ISO 281 permits for radial ball bearings
   r.inner_conformity = data.inner_conformity.value_or(0.52);
   r.outer_conformity = data.outer_conformity.value_or(0.53);
   r.length = data.length.value_or(0);

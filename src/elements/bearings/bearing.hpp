@@ -26,7 +26,7 @@ struct BearingData {
   std::optional<int> slices;
 };
 
-/// BEARING (ROULEMENT, PALIER): what holds a shaft in its housing and lets it spin, as an elastic force.
+/// BEARING (ROULEMENT, PALIER): elastic support of a shaft in its housing that leaves its spin free.
 ElementType bearing_type();
 
 }  // namespace engrane::elements::bearings

@@ -9,7 +9,7 @@ namespace engrane::elements::bearings {
 
 namespace {
 
-/// Complete elliptic integrals of an ellipse of contact with a/b = exp(t), e² = 1 − b²/a².
+/// Complete elliptic integrals for a contact ellipse with a/b = exp(t), e² = 1 − b²/a².
 struct Integrals {
   double first, second;  ///< K(e), E(e)
   double square;         ///< e²
@@ -27,7 +27,7 @@ struct Integrals {
 PointContact point_contact(double along, double across, double modulus) {
   const auto [a, b] = std::minmax({along / 2, across / 2});
   using std::numbers::pi;
-  // t grows with the ratio; bisection stands what the differences lose by rounding where the ellipse is nearly a circle
+  // the ratio increases with t; bisection tolerates the cancellation in the differences near a circular contact
   double low = 0, high = 20;
   for (int i = 0; i < 60; ++i) {
     const double t = (low + high) / 2;
@@ -36,11 +36,11 @@ PointContact point_contact(double along, double across, double modulus) {
   const double t = (low + high) / 2;
   const Integrals of(t);
   constexpr double nearly_round = 1e-3;
-  // (K − E)/e², by its series near the circle
+  // (K − E)/e², by series near a circle
   const double e2 = of.square;
   const double share = t < nearly_round ? pi / 4 * (1 + e2 * (3.0 / 8 + e2 * 15.0 / 64)) : (of.first - of.second) / e2;
   // a³ = 3 Q (K − E)/(2π E* e² A) and δ = 3 Q K/(2π E* a), eq. 4.26 with p₀ = 3Q/2πab, eq. 4.27
-  const double half_axis = std::cbrt(3 * share / (2 * pi * modulus * a));  // of Q = 1
+  const double half_axis = std::cbrt(3 * share / (2 * pi * modulus * a));  // for Q = 1
   const double approach = 3 * of.first / (2 * pi * modulus * half_axis);
   return {1 / (approach * std::sqrt(approach)), 3 * std::exp(t) / (2 * pi * half_axis * half_axis)};
 }

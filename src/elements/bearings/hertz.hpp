@@ -3,15 +3,15 @@
 
 namespace engrane::elements::bearings {
 
-/// Contact of two bodies that touch in a point (Johnson, Contact Mechanics, 1985, §4.2): Q = stiffness · δ^(3/2), and the largest
+/// Hertzian point contact of two bodies (Johnson, Contact Mechanics, 1985, §4.2): Q = stiffness · δ^(3/2), with the maximum
 /// pressure p₀ = pressure · Q^(1/3).
 struct PointContact {
   double stiffness = 0;  ///< force / length^(3/2)
   double pressure = 0;
 };
 
-/// Of bodies whose principal curvatures add up to `along` and `across` in two planes, both positive. `modulus` is
-/// E* = 1/((1 − ν₁²)/E₁ + (1 − ν₂²)/E₂).
+/// `along` and `across` are the sums of the bodies' principal curvatures in two perpendicular planes, both positive. `modulus`
+/// is E* = 1/((1 − ν₁²)/E₁ + (1 − ν₂²)/E₂).
 PointContact point_contact(double along, double across, double modulus);
 
 }  // namespace engrane::elements::bearings

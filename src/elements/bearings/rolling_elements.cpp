@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Deflections that rolling bearings work with, over the diameter of an element: where statics begins to look.
+/// Typical deflection of rolling bearings, relative to the element diameter: scale of the stiffness and preload searches.
 constexpr double typical_deflection = 1e-3;
 
 }  // namespace
@@ -20,10 +20,10 @@ constexpr double typical_deflection = 1e-3;
 RollingElements::RollingElements(const RollingData& data)
     : data_(data), sine_(std::sin(data.contact_angle)), cosine_(std::cos(data.contact_angle)) {
   const double D = data.diameter;
-  const double modulus = data.young / (2 * (1 - data.poisson * data.poisson));  // E* of two bodies of one material
+  const double modulus = data.young / (2 * (1 - data.poisson * data.poisson));  // E* of two bodies of the same material
   if (data.balls) {
     distance_ = (data.inner_conformity + data.outer_conformity - 1) * D;
-    // play across the diameter lets the shaft move along its axis too: that is where balls touch at an angle
+    // diametral play also allows axial play: at its end the balls touch at this contact angle
     if (data.clearance > 0) {
       cosine_ = std::max(0.0, 1 - data.clearance / (2 * distance_));
       sine_ = std::sqrt(1 - cosine_ * cosine_);
@@ -33,7 +33,7 @@ RollingElements::RollingElements(const RollingData& data)
     groove_radius_ = data.pitch_diameter / 2 + (data.inner_conformity - 0.5) * D * cosine_;
   }
   const double gamma = D * cosine_ / data.pitch_diameter;
-  // curvature of ball or roller and ring in the plane of rolling
+  // sum of curvatures of element and ring in the plane of rolling
   const double inner = 2 / (D * (1 - gamma)), outer = 2 / (D * (1 + gamma));
   if (data.balls) {
     const PointContact in = point_contact(2 / D - 1 / (data.inner_conformity * D), inner, modulus);
@@ -44,10 +44,11 @@ RollingElements::RollingElements(const RollingData& data)
     outer_pressure_ = out.pressure;
   } else {
     exponent_ = 10.0 / 9;
-    // ISO/TS 16281, spring constant c_L: 35948 N/mm² of steel with E = 206 GPa and ν = 0.3 is 0.3176 E*; both contacts together
+    // ISO/TS 16281, spring constant c_L: 35948 N/mm² for steel with E = 206 GPa and ν = 0.3 is 0.3176 E*; both contacts
+    // together
     constexpr double of_modulus = 35948 * 2 * (1 - 0.3 * 0.3) / 206000;
     stiffness_ = of_modulus * modulus * std::pow(data.length, 8.0 / 9) / data.slices;
-    // p₀² = w E*/(π R) of a force w per length (Johnson, eq. 4.45)
+    // p₀² = w E*/(π R) for a force w per unit length (Johnson, eq. 4.45)
     const double per_length = data.slices / data.length;
     inner_pressure_ = std::sqrt(per_length * modulus * inner / pi);
     outer_pressure_ = std::sqrt(per_length * modulus * outer / pi);
@@ -66,7 +67,7 @@ RollingElements::RollingElements(const RollingData& data)
   if (data.preload > 0) find_preload();
 }
 
-/// ISO/TS 16281, eqs. 42 to 44: how far a roller stands back from its ring.
+/// ISO/TS 16281, eqs. 42 to 44: profile drop of a roller from its ring.
 double RollingElements::profile(double along) const {
   if (data_.balls || !data_.crowned) return 0;
   const double D = data_.diameter, L = data_.length;

@@ -10,27 +10,28 @@
 
 namespace engrane::elements::bearings {
 
-/// A ball or roller bearing as catalogues and drawings give it.
+/// Data of a ball or roller bearing, as in catalogues and drawings.
 struct RollingData {
   bool balls = true;
   int count = 0;
-  double diameter = 0;                                ///< of a ball, or of a roller in its middle
-  double pitch_diameter = 0;                          ///< of the circle of their centres
-  double contact_angle = 0;                           ///< of what touches without load, radians
-  double clearance = 0;                               ///< total play across the diameter; negative: an interference
-  double inner_conformity = 0, outer_conformity = 0;  ///< of balls: groove radius over ball diameter
-  double length = 0;                                  ///< of rollers, that carries
-  bool crowned = true;                                ///< rollers with the profile of ISO/TS 16281
-  int slices = 30;                                    ///< that a roller is cut into
+  double diameter = 0;                                ///< of a ball, or of a roller at mid-length
+  double pitch_diameter = 0;                          ///< of the circle through the element centres
+  double contact_angle = 0;                           ///< when the elements touch without load, radians
+  double clearance = 0;                               ///< diametral play; negative: interference
+  double inner_conformity = 0, outer_conformity = 0;  ///< balls: groove radius over ball diameter
+  double length = 0;                                  ///< rollers: effective length
+  bool crowned = true;                                ///< rollers: profile of ISO/TS 16281
+  int slices = 30;                                    ///< slices per roller
   double young = 0, poisson = 0;
-  double preload = 0;  ///< axial force on the shaft that the reference configuration carries
+  double preload = 0;  ///< axial force on the shaft in the reference configuration
 };
 
-/// The rolling elements of a bearing between its rings: forces by the place of the shaft's ring in the housing's.
+/// The rolling elements of a bearing between its rings: forces as a function of the displacement of the shaft's ring relative
+/// to the housing's.
 ///
-/// Coordinates: displacements along the axis 1 and the radial axes 2 and 3, and the tilts θ₂, θ₃ about these. Balls touch grooves
-/// whose centres of curvature move apart (Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., ch. 7); rollers are cut into
-/// slices (ISO/TS 16281:2008). Elements stand still, the first on axis 2, and have no inertia.
+/// Coordinates: displacements along the axis 1 and the radial axes 2 and 3, and the tilts θ₂, θ₃ about the latter. Balls touch
+/// grooves whose centres of curvature move apart (Harris and Kotzalas, Rolling Bearing Analysis, 5th ed., ch. 7); rollers are
+/// divided into slices (ISO/TS 16281:2008). The elements do not orbit (the first stays on axis 2) and have no inertia.
 class RollingElements {
  public:
   explicit RollingElements(const RollingData& data);
@@ -38,7 +39,7 @@ class RollingElements {
   template <class T>
   using Five = std::array<T, 5>;
 
-  /// Forces and moments with which the elements resist, along the coordinates. `homotopy`: State::contact_homotopy.
+  /// Resisting forces and moments of the elements on the coordinates. `homotopy`: State::contact_homotopy.
   template <class T>
   Five<T> load(const Five<T>& q, double homotopy) const {
     Five<T> load = through_few<5>(q, [&](const auto& own) { return sum(own); });
@@ -51,24 +52,24 @@ class RollingElements {
 
   struct Loads {
     double force = 0;         ///< largest on one element
-    double pressure = 0;      ///< largest of the rings' on an element
-    int loaded = 0;           ///< elements that carry
-    double penetration = 0;   ///< largest; negative: the smallest gap
-    Five<double> gradient{};  ///< of the latter by the coordinates
+    double pressure = 0;      ///< largest of both rings' contacts
+    int loaded = 0;           ///< number of elements that carry load
+    double penetration = 0;   ///< largest; negative: minus the smallest gap
+    Five<double> gradient{};  ///< of the penetration with respect to the coordinates
   };
   Loads loads(const Five<double>& q) const;
 
-  /// Axial displacement that the preload makes in the reference configuration.
+  /// Axial displacement caused by the preload in the reference configuration.
   double preload_approach() const { return shift_; }
   double contact_angle() const { return std::atan2(sine_, cosine_); }
   double size() const { return data_.diameter; }
 
  private:
-  /// One element, or slice of one: where it is around the axis, and along the roller.
+  /// One element, or one slice of a roller: its position around the axis and along the roller.
   struct Spot {
-    double c, s;   ///< of its azimuth from axis 2
-    double along;  ///< from the roller's middle
-    double gap;    ///< of a slice from its ring while nothing is displaced
+    double c, s;   ///< cosine and sine of the azimuth from axis 2
+    double along;  ///< from the middle of the roller
+    double gap;    ///< of a slice from its rings without displacement
   };
   template <class T>
   struct Touch {
@@ -78,7 +79,7 @@ class RollingElements {
 
   template <class T>
   Touch<T> touch(const Spot& spot, const Five<T>& q) const;
-  /// Of a spot that is pressed.
+  /// Contact force of one spot with positive penetration.
   template <class T>
   T force(const T& penetration) const;
   double stored(double penetration) const;
@@ -89,22 +90,22 @@ class RollingElements {
   void find_preload();
 
   RollingData data_;
-  double sine_ = 0, cosine_ = 1;           ///< of the contact angle
-  double distance_ = 0;                    ///< of balls: between the centres of the grooves' radii when they touch without load
-  double axial_ = 0, radial_ = 0;          ///< its components in the reference configuration
-  double groove_radius_ = 0;               ///< of the circle of the inner groove's centres
-  double stiffness_ = 0, exponent_ = 1.5;  ///< of one spot: Q = stiffness δ^exponent
+  double sine_ = 0, cosine_ = 1;                    ///< sine and cosine of the contact angle
+  double distance_ = 0;                             ///< balls: distance of the groove centres when they touch without load
+  double axial_ = 0, radial_ = 0;                   ///< its components in the reference configuration
+  double groove_radius_ = 0;                        ///< radius of the circle of the inner groove's centres
+  double stiffness_ = 0, exponent_ = 1.5;           ///< of one spot: Q = stiffness δ^exponent
   double inner_pressure_ = 0, outer_pressure_ = 0;  ///< p₀ = pressure Q^(1/3) of balls, Q^(1/2) of a slice
-  Five<double> search_{};  ///< stiffness while statics looks for what carries: contacts alone leave motions free
+  Five<double> search_{};  ///< of the contact homotopy in statics: contacts alone leave some motions free
   double shift_ = 0;
-  std::vector<Spot> spots_;  ///< element by element
+  std::vector<Spot> spots_;  ///< grouped by element
 };
 
 template <class T>
 RollingElements::Touch<T> RollingElements::touch(const Spot& spot, const Five<T>& q) const {
   using std::sqrt;
   const double c = spot.c, s = spot.s;
-  const T lean = q[4] * c - q[3] * s;  // of the shaft's axis towards the spot
+  const T lean = q[4] * c - q[3] * s;  // tilt of the shaft's axis towards the spot
   const T out = q[1] * c + q[2] * s, along = q[0] + shift_;
   if (data_.balls) {
     const T a = axial_ + along - lean * groove_radius_, r = radial_ + out;

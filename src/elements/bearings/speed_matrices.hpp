@@ -12,19 +12,19 @@
 
 namespace engrane::elements::bearings {
 
-/// A 6 × 6 matrix that depends on a speed: straight lines between given speeds, the first and last beyond them.
+/// A 6 × 6 matrix as a function of speed: linear between the given speeds, constant below the first and above the last.
 class SpeedMatrices {
  public:
-  /// No matrix: zero.
+  /// Zero matrix.
   SpeedMatrices() = default;
-  /// Speeds strictly increasing, one matrix for each; one matrix needs no speed.
+  /// One matrix per speed; speeds strictly increasing. A single matrix needs no speed.
   SpeedMatrices(std::vector<double> speeds, std::vector<Mat6> values) : speeds_(std::move(speeds)), values_(std::move(values)) {}
 
   bool empty() const { return values_.empty(); }
   bool varies() const { return values_.size() > 1; }
   std::span<const Mat6> values() const { return values_; }
 
-  /// The matrix of a speed, times x.
+  /// The matrix at `speed` times x.
   template <class T>
   std::array<T, 6> times(const std::array<T, 6>& x, const T& speed) const {
     std::array<T, 6> y;

@@ -49,8 +49,8 @@ std::string number_of_parts(std::size_t parts) {
   return parts == 1 ? std::string("one body") : fmt::format("{} parts (as many as M has values)", parts);
 }
 
-/// The tensor of part i from one moment (the same about all axes), three (about the axes) or six entries Jxx Jyy Jzz Jxy Jyz
-/// Jzx (the tensor's: Jxy = −∫xy dm).
+/// Tensor of part i from one moment (for all axes), three (one per axis) or six entries Jxx Jyy Jzz Jxy Jyz Jzx (tensor
+/// components: Jxy = −∫xy dm).
 Mat3 read_tensor(const std::vector<double>& values, std::size_t each, std::size_t i) {
   Mat3 J = Mat3::Zero();
   const auto v = [&](std::size_t k) { return values[i * each + k]; };
@@ -60,7 +60,7 @@ Mat3 read_tensor(const std::vector<double>& values, std::size_t each, std::size_
   return J;
 }
 
-/// Columns: the axes of part i's tensor.
+/// The axes of part i's tensor, as columns.
 std::optional<Mat3> read_axes(const BuildContext& context, const std::vector<double>& values, std::size_t i) {
   if (values.empty()) return Mat3(Mat3::Identity());
   const double* v = values.data() + (values.size() > 6 ? 6 * i : 0);
@@ -76,10 +76,11 @@ std::optional<Mat3> read_axes(const BuildContext& context, const std::vector<dou
   return axes;
 }
 
-/// (c·c) 1 − c cᵀ: what a unit of mass at c adds to the tensor about the origin (Steiner, or parallel axes).
+/// (c·c) 1 − c cᵀ: what a unit mass at c adds to the tensor about the origin (parallel-axis theorem).
 Mat3 steiner(const Vec3& c) { return c.squaredNorm() * Mat3::Identity() - c * c.transpose(); }
 
-/// Is J, about the centre of mass, the tensor of a body? `moved`: J was given about another point.
+/// Whether J, about the centre of mass, is the tensor of a body. `moved` > 0: magnitude of its shift, J was given about another
+/// point.
 bool check_tensor(const BuildContext& context, const Mat3& J, const std::string& of_part, double moved) {
   const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(J, Eigen::EigenvaluesOnly).eigenvalues();
   const double rounding = 1e-12 * std::max(principal.cwiseAbs().maxCoeff(), moved);
@@ -96,8 +97,8 @@ bool check_tensor(const BuildContext& context, const Mat3& J, const std::string&
                     "moments of inertia are positive, and the products Jxy Jyz Jzx of six values small enough to leave them so");
     return false;
   }
-  // ∫(y² + z²) + ∫(z² + x²) ≥ ∫(x² + y²) for any mass; a disc meets it with equality. A rotor given by its polar
-  // moment alone is a usual shortcut, so a single nonzero principal value passes without a word.
+  // ∫(y² + z²) + ∫(z² + x²) ≥ ∫(x² + y²) for any mass, with equality for a disc. Giving a rotor's polar moment alone is a
+  // common shortcut, so a single nonzero principal value is not reported.
   if (principal[0] + principal[1] < principal[2] * (1 - 1e-3) && principal[1] > rounding)
     context.diagnostics.warning(context.record.where("J"),
                                 fmt::format("no body has the principal inertias {}{}", values, of_part),
@@ -105,7 +106,7 @@ bool check_tensor(const BuildContext& context, const Mat3& J, const std::string&
   return true;
 }
 
-/// Has each list as many values as the parts need?
+/// Whether each list has as many values as there are parts.
 bool check_counts(const BuildContext& context, const BodyParts& parts, std::size_t& each) {
   const std::size_t n = parts.mass.size();
   each = parts.tensor.size() / n;

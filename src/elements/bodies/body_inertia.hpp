@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The inertia of a rigid body carried by one node: shared by INERTIA and RIGID.
+// Inertia of a rigid body carried by one node, used by INERTIA and RIGID.
 #pragma once
 
 #include <optional>
@@ -9,25 +9,25 @@
 
 namespace engrane::elements::bodies {
 
-/// Mass, its centre relative to the node, and the inertia tensor about that centre; vectors and tensor in the node's
-/// material axes, which are the global ones in the reference configuration.
+/// Mass, centre of mass relative to the node, and inertia tensor about that centre. Vector and tensor are in the node's
+/// material axes, which coincide with the global axes in the reference configuration.
 struct BodyInertia {
   double mass = 0;
   Vec3 offset = Vec3::Zero();
   Mat3 tensor = Mat3::Zero();
 
-  /// Does the node's rotation matter?
+  /// Whether the inertia forces depend on the node's rotation.
   bool turns() const { return !offset.isZero(0) || !tensor.isZero(0); }
 
   Mat3 about_node() const { return tensor + mass * (offset.squaredNorm() * Mat3::Identity() - offset * offset.transpose()); }
 
-  /// Force (global) and moment about the node (material) with which the body resists its acceleration and gravity.
+  /// Inertia and gravity: resisting force (global) and moment about the node (material).
   template <class T>
   struct Resistance {
     Vec3T<T> force, moment;
   };
 
-  /// Newton's and Euler's equations. The centre of mass has the acceleration a + R(A×s + W×(W×s)), s the offset.
+  /// Newton–Euler equations. The acceleration of the centre of mass is a + R(A×s + W×(W×s)), s the offset.
   template <class T, class Node>
   Resistance<T> resistance(const Node& node, const Vec3& gravity) const {
     const Vec3T<T> none(T(0), T(0), T(0));
@@ -47,21 +47,21 @@ struct BodyInertia {
   Energies energies(const NodeState& node, const Vec3& gravity) const;
 };
 
-/// Names and values of the channels of a body: where its centre is, how it spins, its momenta and kinetic energy.
+/// Channels of a body and their values: position of the centre of mass, angular velocity, momenta and kinetic energy.
 std::vector<Channel> body_channels(const BodyInertia& body);
 void observe_body(const BodyInertia& body, const NodeState& node, std::span<double> values);
 
-/// What a card says of the mass of one body, or of the parts that make up one body: entry i of each list is part i.
+/// Card data of the mass of one body, or of the parts that form one body: entry i of each list belongs to part i.
 struct BodyParts {
   std::vector<double> mass;
-  std::vector<Vec3> centers;   ///< of mass, in the reference configuration
-  std::vector<double> tensor;  ///< 1, 3 or 6 values for each part, as `read_tensor` takes them
-  std::vector<double> axes;    ///< six numbers for each part, or for all: first axis of its tensor, side of the second
-  std::vector<double> about;   ///< three numbers for each part, or for all: the point of its tensor; default: its centre
+  std::vector<Vec3> centers;   ///< centres of mass in the reference configuration
+  std::vector<double> tensor;  ///< 1, 3 or 6 values per part, as in `read_tensor`
+  std::vector<double> axes;    ///< six numbers per part, or once for all: first axis of the tensor, side of the second
+  std::vector<double> about;   ///< three numbers per part, or once for all: reference point of the tensor; default: its centre
 };
 
-/// The parts as one body, its offset counted from `node`: the masses' centre, and each tensor turned into the global axes
-/// and moved to it (Steiner). Empty, with an error at the keyword, when the parts are none.
+/// Combines the parts into one body, with its offset from `node`. Each tensor is rotated to the global axes and moved to the
+/// common centre of mass (parallel-axis theorem). Returns nothing, with an error at the keyword, if the data are invalid.
 std::optional<BodyInertia> one_body(const BuildContext& context, const BodyParts& parts, const Vec3& node);
 
 }  // namespace engrane::elements::bodies

@@ -9,11 +9,11 @@
 
 namespace engrane::elements::bodies {
 
-/// A rigid body's inertia on one node: the whole of INERTIA, and a part of RIGID. Asks for the node's rotation only when
-/// the body has a tensor or an offset.
+/// A rigid body's inertia on one node: all of INERTIA, and a part of RIGID. It needs the node's rotation only if the body has a
+/// tensor or an offset.
 class CarriedBody final : public TemplatedElement<CarriedBody, 1, 6> {
  public:
-  /// `drawing` as in docs/format.md; by itself a ball at the node.
+  /// `drawing`: see docs/format.md; default: a ball at the node.
   CarriedBody(int id, int node, const BodyInertia& body, std::string drawing = {})
       : TemplatedElement(id), body_(body), channels_(body_channels(body)), drawing_(std::move(drawing)) {
     if (drawing_.empty()) drawing_ = R"("shape": "mass", "node": )" + std::to_string(node);

@@ -10,7 +10,8 @@ namespace engrane::elements::bodies {
 
 namespace {
 
-/// The disc of OUTER and WIDTH about the centre of mass, for pictures, or nothing; nullopt with an error.
+/// JSON of the disc of OUTER and WIDTH about the centre of mass, empty if not given. Returns nullopt, with an error, if
+/// invalid.
 std::optional<std::string> disc(const InertiaData& data, const BuildContext& context, const Vec3& center) {
   if (!data.outer) {
     for (const auto& [keyword, given] :
@@ -50,7 +51,7 @@ std::unique_ptr<Element> build(const InertiaData& data, BuildContext& context) {
     context.error("M", "an INERTIA with neither mass nor moment of inertia does nothing", "M mass and J moments of inertia");
     return nullptr;
   }
-  body->offset = data.mass > 0 ? to_vector(data.offset) : Vec3(Vec3::Zero());  // without mass its place makes no difference
+  body->offset = data.mass > 0 ? to_vector(data.offset) : Vec3(Vec3::Zero());  // without mass the offset has no effect
   auto drawing = disc(data, context, node + body->offset);
   if (!drawing) return nullptr;
   return std::make_unique<CarriedBody>(context.record.id, data.node, *body, std::move(*drawing));

@@ -14,11 +14,11 @@ namespace engrane::elements::bodies {
 struct InertiaData {
   int node = 0;
   double mass = 0;
-  std::vector<double> tensor;                 ///< about the centre of mass, or `about`, in global axes, or `axes`
+  std::vector<double> tensor;                 ///< about the centre of mass or `about`, in global axes or `axes`
   std::array<double, 3> offset{0, 0, 0};      ///< from the node to the centre of mass, reference configuration
-  std::vector<double> axes, about;            ///< first axis of the tensor and side of its second; the point of the tensor
-  std::optional<double> outer, width, inner;  ///< the disc that pictures show: diameters and width
-  std::optional<std::array<double, 3>> axis;  ///< of the disc; by itself the first axis of the tensor
+  std::vector<double> axes, about;            ///< first axis of the tensor, side of its second; reference point of the tensor
+  std::optional<double> outer, width, inner;  ///< the disc shown in drawings: diameters and width
+  std::optional<std::array<double, 3>> axis;  ///< of the disc; default: the first axis of the tensor
 };
 
 /// INERTIA (INERTIE): mass and inertia tensor on a node.

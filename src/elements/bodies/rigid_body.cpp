@@ -116,7 +116,7 @@ class RigidBody final : public Element {
     return state;
   }
 
-  /// What one link sees of the state.
+  /// The part of the state that one link sees.
   struct OfLink {
     OfLink(const State& whole, std::size_t link) : nodes{whole.nodes[0], whole.nodes[link + 1]}, state(whole) {
       state.nodes = nodes;
@@ -130,13 +130,13 @@ class RigidBody final : public Element {
   };
 
   std::size_t body_slots() const { return static_cast<std::size_t>(body_->layout().slots()); }
-  /// Slot of the whole for slot i of the inertia, which may leave out the master's translations.
+  /// Slot of the whole element for slot i of the inertia, which may lack the master's translations.
   std::size_t body_slot(std::size_t i) const {
     const auto of = [](const Layout& layout) { return layout.node_slot(0, NodeNeed::translation); };
     return of(layout_) >= 0 && of(body_->layout()) < 0 ? i + 3 : i;
   }
 
-  /// Slot of the whole for slot i of a link; all nodes that links join have six.
+  /// Slot of the whole element for slot i of a link; all nodes joined by links have six.
   std::size_t slot(std::size_t link, std::size_t i) const {
     if (i < 6) return i;
     if (i < 12) return 6 * (link + 1) + i - 6;
@@ -159,7 +159,7 @@ class RigidBody final : public Element {
   std::vector<Channel> channels_;
 };
 
-/// The centre of each part's mass: CG, or the master.
+/// The centre of mass of each part: CG, or the master node.
 std::optional<std::vector<Vec3>> centers(const RigidBodyData& data, std::size_t parts, const BuildContext& context,
                                          const Vec3& origin) {
   std::vector<Vec3> all(parts, origin);

@@ -7,17 +7,17 @@
 
 namespace engrane::elements::bodies {
 
-/// Card of a rigid body. `RIGID N master slave … [M m] [J 1|3|6 values] [CG x y z] [AXES first side] [ABOUT x y z]`; behind
-/// M, J, CG, AXES and ABOUT stand as many bodies as M has values, which are joined to one.
+/// Card of a rigid body. `RIGID N master slave … [M m] [J 1|3|6 values] [CG x y z] [AXES first side] [ABOUT x y z]`. With
+/// several values of M, the keywords J, CG, AXES and ABOUT list as many parts, which are combined into one body.
 struct RigidBodyData {
   std::vector<int> nodes;  ///< the master first
   std::vector<double> mass;
-  std::vector<double> tensor;       ///< about the centre of mass, or `about`, in global axes, or `axes`
-  std::vector<double> centers;      ///< of mass, reference configuration; default: the master node
-  std::vector<double> axes, about;  ///< first axis of the tensor and side of its second; the point of the tensor
+  std::vector<double> tensor;       ///< about the centre of mass or `about`, in global axes or `axes`
+  std::vector<double> centers;      ///< centres of mass, reference configuration; default: the master node
+  std::vector<double> axes, about;  ///< first axis of the tensor and side of its second; reference point of the tensor
 };
 
-/// RIGID (RIGIDE): nodes that move as one body, with its mass and inertia tensor.
+/// RIGID (RIGIDE): nodes that move as one rigid body, with its mass and inertia tensor.
 ElementType rigid_body_type();
 
 }  // namespace engrane::elements::bodies

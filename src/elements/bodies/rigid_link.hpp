@@ -6,10 +6,10 @@
 
 namespace engrane::elements::bodies {
 
-/// Six constraints that hold a slave node rigidly to a master at a fixed offset (in the master's material axes). The
-/// multipliers are the force and moment on the slave, at the slave, in the master's axes.
+/// Six constraints that fix a slave node to a master at a constant offset (in the master's material axes). The multipliers are
+/// the force and moment on the slave, at the slave, in the master's axes.
 ///
-/// Orientation: the rotation vector of R_masterᵀ R_slave, whose only zero is the place itself.
+/// Orientation is constrained by the rotation vector of R_masterᵀ R_slave, whose only zero is coincidence.
 class RigidLink final : public TemplatedElement<RigidLink, 2, 18> {
  public:
   RigidLink(int id, int master, int slave, const Vec3& offset) : TemplatedElement(id), offset_(offset) {
@@ -30,7 +30,7 @@ class RigidLink final : public TemplatedElement<RigidLink, 2, 18> {
     const auto& a = motion.node[0];
     const auto& b = motion.node[1];
     const Vec3T<T> arm = rotate_back(a.R, Vec3T<T>(b.x - a.x));
-    Mat3T<T> relative;  // of the slave, in the master's axes
+    Mat3T<T> relative;  // of the slave relative to the master, in the master's axes
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) relative(i, j) = a.R(0, i) * b.R(0, j) + a.R(1, i) * b.R(1, j) + a.R(2, i) * b.R(2, j);
     const auto turn = RotationVector<T>::of(relative);

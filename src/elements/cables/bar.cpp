@@ -12,16 +12,17 @@ namespace engrane::elements::cables {
 
 namespace {
 
-/// A bar's law: energy EA L φ(s) of the strain s, the prestress in it.
+/// A bar's law: energy EA L φ(s) of the strain s, which includes the prestrain.
 struct BarLaw {
   double length = 0;     ///< unstretched L
   double stiffness = 0;  ///< EA
-  double prestrain = 0;  ///< tension over EA at the length L
-  double width = 0;      ///< w: φ' is s where it is taut, 0 where it is slack, and between them over strains of w; 0: φ' = s
-  double damping = 0;    ///< a time
+  double prestrain = 0;  ///< tension over EA at length L
+  double width = 0;      ///< w: φ' is s when taut and 0 when slack, with a transition over strains of w; 0: φ' = s
+  double damping = 0;    ///< a time constant
   bool logarithmic = false;
 
-  /// Strain of the square of the length, and its derivative by half that square: Green–Lagrange (l² − L²)/2L² or ln(l/L).
+  /// Strain as a function of the squared length, and its derivative with respect to half of it: Green–Lagrange (l² − L²)/2L² or
+  /// ln(l/L).
   template <class T>
   std::pair<T, T> strain(const T& square) const {
     const double over = 1 / (length * length);
@@ -30,13 +31,13 @@ struct BarLaw {
     return {compose(square, 0.5 * std::log(value * over), 0.5 * inverse, -0.5 * inverse * inverse) + T(prestrain), T(1) / square};
   }
 
-  /// φ' and φ'': (s + √(s² + w²))/2 where the bar may become slack.
+  /// φ' and φ'': φ' = (s + √(s² + w²))/2 if the bar can become slack.
   template <class T>
   std::pair<T, T> slope(const T& s) const {
     using std::sqrt;
     if (width == 0) return {s, T(1)};
     const T root = sqrt(s * s + T(width * width));
-    // what is left of a pressed bar, w²/(√ − s)/2, without cancellation
+    // remaining tension in compression, w²/(√ − s)/2, without cancellation
     const T first = value_of(s) < 0 ? T(0.5 * width * width) / (root - s) : (s + root) * T(0.5);
     return {first, first / root};
   }
@@ -67,7 +68,7 @@ class Bar final : public TemplatedElement<Bar, 2, 6> {
     balance.force(0, Vec3T<T>(-pull));
     balance.force(1, pull);
     if (mass_ == 0) return;
-    // accelerations on a line: m/6 [2 1; 1 2]
+    // linear interpolation of accelerations: m/6 [2 1; 1 2]
     const T sixth(mass_ / 6);
     const Vec3T<T> weight = state.gravity.template cast<T>() * T(mass_ / 2);
     balance.force(0, Vec3T<T>((a.a * T(2) + b.a) * sixth - weight));

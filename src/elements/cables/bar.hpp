@@ -12,11 +12,11 @@ namespace engrane::elements::cables {
 struct BarData {
   std::array<int, 2> nodes{};
   double stiffness = 0;  ///< EA
-  double mass = 0;       ///< per length
+  double mass = 0;       ///< per unit length
   std::optional<double> length, tension;
   bool logarithmic = false;
-  std::optional<double> width;  ///< strain over which it becomes slack
-  double damping = 0;           ///< a time
+  std::optional<double> width;  ///< strain range over which it becomes slack
+  double damping = 0;           ///< time constant
 };
 
 /// BAR (BARRE): resists changes of its length only, at any strain, with mass and prestress.

@@ -13,7 +13,8 @@ namespace engrane::elements::cables {
 
 namespace {
 
-/// In each instant the cable is where its weight and the ends leave it; for what accelerates, its mass is at the ends.
+/// At each instant the shape is the static equilibrium under weight and end positions; for inertia its mass is lumped at the
+/// ends.
 class Cable final : public TemplatedElement<Cable, 2, 6> {
  public:
   struct Data {
@@ -50,7 +51,7 @@ class Cable final : public TemplatedElement<Cable, 2, 6> {
     e.kinetic = data_.mass * cable.length / 4 * (state.nodes[0].v.squaredNorm() + state.nodes[1].v.squaredNorm());
     if (start.isZero(0)) return e;
     const Catenary::Shape<double> at = cable.shape(start);
-    // elastic energy and weight: that of the tension's work less the complementary energy, and the weight if it were at b
+    // elastic energy and weight: work of the tension less the complementary energy, and the weight as if it were all at b
     e.potential = start.dot(span) - cable.length * (at.mean + at.square / (2 * data_.stiffness)) -
                   cable.length * cable.weight.dot(state.nodes[1].x);
     if (data_.reel) {
@@ -60,7 +61,7 @@ class Cable final : public TemplatedElement<Cable, 2, 6> {
     return e;
   }
 
-  /// A string without weight begins to pull at its length; one with weight always pulls.
+  /// A weightless string starts to pull at its unstretched length; one with weight always pulls.
   void switches(const State& state, std::span<Switch> values) const override {
     const Catenary cable = catenary(state);
     const Vec3 span = state.nodes[1].x - state.nodes[0].x, rate = state.nodes[1].v - state.nodes[0].v;
@@ -122,7 +123,7 @@ class Cable final : public TemplatedElement<Cable, 2, 6> {
     return {value_of(v[0]), value_of(v[1]), value_of(v[2])};
   }
 
-  /// Where the cable is parallel to the line of its ends it is farthest from it.
+  /// The cable is farthest from the chord where it is parallel to it.
   static double sag(const Catenary& cable, const Vec3& start, const Vec3& span) {
     const double q = cable.weight.norm();
     const Vec3 n = cable.weight / q, across = span - n.dot(span) * n, flat = start - n.dot(start) * n;

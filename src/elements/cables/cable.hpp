@@ -14,10 +14,10 @@ struct CableData {
   double stiffness = 0;  ///< EA
   double mass = 0;       ///< per unstretched length
   std::optional<double> length, tension;
-  int function = 0;  ///< of time, a factor of the length
+  int function = 0;  ///< function of time that multiplies the length
 };
 
-/// CABLE: hangs between two nodes as an elastic catenary, and resists tension only.
+/// CABLE: elastic catenary between two nodes; resists tension only.
 ElementType cable_type();
 
 }  // namespace engrane::elements::cables

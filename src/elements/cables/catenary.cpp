@@ -8,8 +8,8 @@ namespace engrane::elements::cables {
 
 namespace {
 
-/// A tension near that of a span (Jayaraman and Knudson, Comput. Struct. 14 (1981), p. 273, for a cable with sag), with what
-/// stretches a cable that is too short.
+/// Initial guess of the tension for a span (Jayaraman and Knudson, Comput. Struct. 14 (1981), p. 273, for a cable with sag),
+/// plus the elastic tension of a cable that is too short.
 Vec3 guess(const Catenary& cable, const Vec3& span) {
   const double q = cable.weight.norm(), L = cable.length, distance = span.norm();
   const Vec3 n = cable.weight / q;
@@ -35,8 +35,8 @@ Mat3 Catenary::flexibility(const Vec3& start) const {
   return f;
 }
 
-/// The span is the gradient of the complementary energy L (∫|t| + ∫|t|²/2EA), which is strictly convex: Newton's method with
-/// steps that are halved until it falls.
+/// The span is the gradient of the complementary energy L (∫|t| + ∫|t|²/2EA), which is strictly convex: Newton's method, with
+/// the step halved until the energy decreases.
 Vec3 Catenary::start_tension(const Vec3& span) const {
   const auto energy = [&](const Vec3& t, const Shape<double>& at) {
     return length * (at.mean + at.square / (2 * stiffness)) - span.dot(t);
@@ -53,7 +53,7 @@ Vec3 Catenary::start_tension(const Vec3& span) const {
       const Vec3 next = t + part * step;
       const Shape<double> there = shape(next);
       const double now = energy(next, there), rest = (there.span - span).norm();
-      // near the solution the energy is rounded, and the error tells
+      // near the solution the energy difference is lost in rounding, and the error decides
       falls = now < value || rest < error;
       if (!falls) continue;
       t = next;

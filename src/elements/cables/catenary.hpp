@@ -10,13 +10,13 @@
 
 namespace engrane::elements::cables {
 
-/// An elastic cable that hangs under a weight q per unstretched length L: tension t(s) = t₀ − q s, dx/ds = t (1/|t| + 1/EA), in
-/// the unstretched length s from the first end (Irvine, Cable Structures, 1981, ch. 1, as vectors).
+/// An elastic cable hanging under its weight q per unstretched length. With the unstretched length s from the first end, the
+/// tension is t(s) = t₀ − q s and dx/ds = t (1/|t| + 1/EA) (Irvine, Cable Structures, 1981, ch. 1, in vector form).
 struct Catenary {
   double length = 0, stiffness = 0;  ///< L, EA
   Vec3 weight = Vec3::Zero();        ///< q
 
-  /// What follows from the tension at the first end.
+  /// Quantities that follow from the tension at the first end.
   template <class T>
   struct Shape {
     Vec3T<T> end;   ///< tension t₁ = t₀ − q L
@@ -27,18 +27,18 @@ struct Catenary {
   template <class T>
   Shape<T> shape(const Vec3T<T>& start) const;
 
-  /// The tension at the first end for a span between the ends, of a cable with weight.
+  /// The tension at the first end for the given span between the ends; cables with weight only.
   Vec3 start_tension(const Vec3& span) const;
-  /// The same with derivatives, of the tension `start` that start_tension() gives for the span's value.
+  /// The same with derivatives. `start` is the result of start_tension() for the span's value.
   template <class T>
   Vec3T<T> start_tension(const Vec3T<T>& span, const Vec3& start) const;
 
-  /// That of a string without weight, straight or slack; `pressed` is the part of its stiffness that resists pressure.
+  /// Tension of a weightless string, straight or slack. `pressed` is the fraction of its stiffness that acts in compression.
   template <class T>
   Vec3T<T> string_tension(const Vec3T<T>& span, double pressed) const;
 
  private:
-  /// atanh(x)/x of x = q L/(|t₀| + |t₁|), with p the tension across q and v those along it.
+  /// atanh(x)/x at x = q L/(|t₀| + |t₁|), with p the tension component across q and v₀, v₁ those along it.
   template <class T>
   static T stretched_angle(const T& x, const T& first, const T& last, const T& p2, const T& v0, const T& v1);
   Mat3 flexibility(const Vec3& start) const;
@@ -53,8 +53,8 @@ T Catenary::stretched_angle(const T& x, const T& first, const T& last, const T& 
     return one +
            square * (one / 3.0 + square * (one / 5.0 + square * (one / 7.0 + square * (one / 9.0 + square * (one / 11.0)))));
   }
-  // f(x²) = atanh(x)/x has 2 x² f' = 1/(1 − x²) − f. Where the cable hangs in a narrow loop 1 − x² is small: it is
-  // 2 (|t₀||t₁| + v₀v₁ + p²)/(|t₀| + |t₁|)², written without cancellation
+  // f(x²) = atanh(x)/x satisfies 2 x² f' = 1/(1 − x²) − f. In a narrow hanging loop 1 − x² is small; it equals 2 (|t₀||t₁| +
+  // v₀v₁ + p²)/(|t₀| + |t₁|)², evaluated here without cancellation
   const T product = first * last, along = v0 * v1;
   const T added = value_of(along) > 0 ? product + along : p2 * (v0 * v0 + v1 * v1 + p2) / (product - along);
   const T rest = (added + p2) * T(2) / ((first + last) * (first + last));
@@ -73,8 +73,8 @@ Catenary::Shape<T> Catenary::shape(const Vec3T<T>& start) const {
   const T first = sqrt(dot(start, start)), last = sqrt(dot(c.end, c.end)), sum = first + last;
   const Vec3T<T> both = start + c.end;
   const T over = T(2 * length) / sum;  // ∫ds/|t| of a straight cable
-  // along q ∫t/|t| ds is a difference of |t|, L q·(t₀ + t₁)/(|t₀| + |t₁|), and across it t times
-  // ∫ds/|t| = 2/q atanh(q L/(|t₀| + |t₁|)); ∫|t| ds = ½ (v₀|t₀| − v₁|t₁|)/q + ½ p² ∫ds/|t|
+  // along q the integral ∫t/|t| ds is a difference of |t|, L q·(t₀ + t₁)/(|t₀| + |t₁|); across q it is t times ∫ds/|t| = 2/q
+  // atanh(q L/(|t₀| + |t₁|)). ∫|t| ds = ½ (v₀|t₀| − v₁|t₁|)/q + ½ p² ∫ds/|t|
   if (const double size = weight.norm(); size > 0) {
     const Vec3T<T> n = Vec3(weight / size).template cast<T>();
     const T v0 = dot(n, start), v1 = dot(n, c.end), v = v0 + v1;
@@ -104,7 +104,7 @@ Vec3T<T> Catenary::string_tension(const Vec3T<T>& span, double pressed) const {
 
 template <class T>
 Vec3T<T> Catenary::start_tension(const Vec3T<T>& span, const Vec3& start) const {
-  // Newton's step from the solution: its value stays, and its derivatives are exact
+  // one Newton step from the converged solution leaves its value unchanged and yields exact derivatives
   const Mat3 resistance = flexibility(start).inverse();
   const Vec3 found = shape(start).span;
   Vec3T<T> t;

@@ -17,7 +17,7 @@ namespace engrane::elements::cams {
 
 namespace {
 
-/// A direction of the card across the cam's axis, in global components; an error when it is along the axis.
+/// A direction of the card, projected across the cam's axis, in global components. Reports an error if it is along the axis.
 std::optional<Vec3> across(const BuildContext& context, const char* keyword, const std::array<double, 3>& value,
                            const Vec3& axis) {
   const auto direction = unit_vector(context, keyword, value);
@@ -30,7 +30,7 @@ std::optional<Vec3> across(const BuildContext& context, const char* keyword, con
   return Vec3(in_plane.normalized());
 }
 
-/// A keyword that another one leaves without meaning.
+/// Reports a keyword that has no meaning beside another one; returns whether it was given.
 bool meaningless(const BuildContext& context, const char* keyword, const char* where, const char* cure) {
   if (!context.record.given(keyword)) return false;
   context.error(keyword, fmt::format("{} has no meaning {}", keyword, where), cure);
@@ -70,7 +70,7 @@ std::optional<CamMotion> find_motion(const CamData& data, const BuildContext& co
       return wrong("MOTION", fmt::format("the lift at the end of segment {} is {}", k + 1, number(lift)),
                    "lifts count from the base circle and are not negative");
     sum += width;
-    // a periodic motion begins where it ends
+    // a periodic motion starts where it ends
     const double from = segments.empty() ? unit * data.motion.back() : segments.back().to;
     segments.push_back({width * degree, from, unit * lift, laws.size() == 1 ? laws[0] : laws[k]});
   }
@@ -80,8 +80,8 @@ std::optional<CamMotion> find_motion(const CamData& data, const BuildContext& co
   return CamMotion(std::move(segments), data.phase * degree);
 }
 
-/// The curve of a motion for the follower as it stands in the reference configuration. Makes the x axis of the plane the
-/// follower's.
+/// The curve of a motion for the follower as placed in the reference configuration; the follower's direction is the x axis of
+/// the plane.
 std::unique_ptr<CamCurve> design_curve(const CamData& data, const BuildContext& context, const CamMotion& motion,
                                        const CamPlan& plan, const CamParts& parts) {
   const double start = *data.base + parts.radius;
@@ -204,7 +204,7 @@ bool find_friction(const CamData& data, const BuildContext& context, CamParts& p
   return true;
 }
 
-/// One of TABLE, POLAR and MOTION, with what belongs to it.
+/// Checks that exactly one of TABLE, POLAR and MOTION is given, with its own keywords only.
 bool check_words(const CamData& data, const BuildContext& context) {
   const bool motion = !data.motion.empty();
   const int profiles = (data.table.empty() ? 0 : 1) + (data.polar.empty() ? 0 : 1) + (motion ? 1 : 0);
@@ -305,7 +305,7 @@ std::unique_ptr<Element> build(const CamData& data, BuildContext& context) {
     }
   }
   const bool motion = !data.motion.empty();
-  // the curve of a motion is made in the axes of its follower
+  // the curve of a motion is generated in the axes of its follower
   if (motion)
     zero = parts.flat ? face : direction ? direction : across(context, "PIVOT", {to_pivot[0], to_pivot[1], to_pivot[2]}, *axis);
   else

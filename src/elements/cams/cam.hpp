@@ -31,7 +31,7 @@ struct CamData {
   std::optional<double> friction_width;
 };
 
-/// CAM (CAME): a knife edge, a roller or a flat face of body B on the profile of a cam that body A carries.
+/// CAM (CAME): a knife edge, roller or flat face on body B in contact with the profile of a cam on body A.
 ElementType cam_type();
 
 }  // namespace engrane::elements::cams

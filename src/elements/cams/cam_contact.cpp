@@ -15,7 +15,7 @@ namespace engrane::elements::cams {
 Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)) {
   Layout layout;
   layout.nodes.assign(parts_.nodes.begin(), parts_.nodes.end());
-  // the force on an edge or a roller at the node itself turns nothing
+  // the force on an edge or a roller exerts no moment if its point is the node itself
   layout.needs = {NodeNeed::both, parts_.flat || !parts_.point.isZero(0) ? NodeNeed::both : NodeNeed::translation};
   layout.history = 2;
   if (parts_.law) {
@@ -74,7 +74,7 @@ void Cam::switches(const State& state, std::span<Switch> values) const {
     Switch* presses = each == 2 ? &values[k * each + 1] : nullptr;
     if (presses) *presses = {};
     if (k >= touched.count) {
-      // open, by how much is not known
+      // open, by an unknown gap
       const double size = touched.begin()->p.norm() + parts_.radius;
       touches = {-size, 0, size};
       continue;
@@ -153,13 +153,13 @@ void Cam::observe(const State& state, std::span<double> values) const {
   if (const CamMotion* motion = profile.curve().motion()) put(motion->at(c.foot.s).f);
   if (parts_.guide.kind == CamGuide::Kind::slide) put(pressure_angle(c.normal, Vec3(b.R * parts_.guide.direction)));
   if (parts_.guide.kind == CamGuide::Kind::arm) {
-    // where the arm leads the follower's point when it swings away from the cam
+    // direction in which the arm moves the follower's point when it swings away from the cam
     const Vec3 way = cross(Vec3(a.R * parts_.axes.col(2)), Vec3(b.R * Vec3(parts_.point - parts_.guide.pivot)));
     put(pressure_angle(c.normal, Vec3(c.normal.dot(way) < 0 ? -way : way)));
   }
   const Vec3 slip = sliding(c, node);
   if (!parts_.flat && parts_.radius > 0) {
-    // the roller's rim moves with the cam: seen from the follower, about the cam's axis
+    // the roller's rim moves with the cam: its speed relative to the follower, about the cam's axis
     const Vec3 axis = a.R * parts_.axes.col(2);
     put(slip.dot(cross(axis, c.normal)) / parts_.radius);
   } else {

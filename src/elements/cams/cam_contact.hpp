@@ -12,28 +12,28 @@
 
 namespace engrane::elements::cams {
 
-/// How the follower is led, as far as its pressure angle goes; directions in the reference configuration.
+/// How the follower is guided, for its pressure angle; directions in the reference configuration.
 struct CamGuide {
   enum class Kind { none, slide, arm };
   Kind kind = Kind::none;
-  Vec3 direction = Vec3::Zero();  ///< of a slide, carried by B
-  Vec3 pivot = Vec3::Zero();      ///< of an arm: from B to it
+  Vec3 direction = Vec3::Zero();  ///< of a slide; carried by B
+  Vec3 pivot = Vec3::Zero();      ///< of an arm: from B to its pivot
 };
 
-/// What the element is made of.
+/// The parts of the element.
 struct CamParts {
   std::array<int, 2> nodes{};
-  Mat3 axes = Mat3::Identity();                        ///< columns: x and y of the cam's plane, and the cam's axis; held by A
+  Mat3 axes = Mat3::Identity();                        ///< columns: x and y of the cam's plane and the cam's axis; carried by A
   Vec3 center = Vec3::Zero();                          ///< from A to the centre
-  Vec3 place = Vec3::Zero(), follower = Vec3::Zero();  ///< centre and follower's point themselves, for pictures
+  Vec3 place = Vec3::Zero(), follower = Vec3::Zero();  ///< positions of the centre and of the follower's point, for drawings
   Vec3 point = Vec3::Zero();                           ///< from B to the follower's point
   Vec3 face = Vec3::Zero();                            ///< normal of a flat face, away from the cam, carried by B
   bool flat = false;
-  bool inside = false;  ///< the follower is within the profile
-  double radius = 0;    ///< of a roller; 0 a knife edge
+  bool inside = false;  ///< the follower is inside the profile
+  double radius = 0;    ///< of a roller; 0: knife edge
   std::shared_ptr<const CamProfile> profile;
-  std::optional<StopLaw> law;  ///< none: the follower is held to the profile
-  bool several = false;        ///< it may touch at several places
+  std::optional<StopLaw> law;  ///< nullopt: the follower is held to the profile
+  bool several = false;        ///< can touch at several places at once
   std::optional<FrictionLaw> friction;
   CamGuide guide;
   std::vector<Derived> derived;
@@ -47,35 +47,35 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
   template <class T>
   using Nodes = std::array<typename Motion<T, 2>::Node, 2>;
 
-  /// The follower as the cam sees it.
+  /// Position of the follower relative to the cam.
   template <class T>
   struct Place {
     Vec3T<T> u, v, axis, center;  ///< axes of the cam, and from A to its centre
     Vec3T<T> reach, arm;          ///< to the follower's point, from A and from B
     T along, x, y;                ///< of that point, from the centre: along the axis and in the plane
     Vec3T<T> face;                ///< normal of a flat face
-    T fx, fy, square;             ///< its components in the plane, and their square
-    T mx, my;                     ///< its unit vector there
+    T fx, fy, square;             ///< components of the normal in the cam's plane, and their sum of squares
+    T mx, my;                     ///< unit vector along them
   };
   template <class T>
   Place<T> place(const Nodes<T>& node) const;
 
-  /// A contact in a configuration. Its gap is right to the second derivative, all else to the first.
+  /// A contact in a configuration. The gap is exact to the second derivative, all else to the first.
   template <class T>
   struct Contact {
     T gap;
     Vec3T<T> normal;      ///< from the cam to the follower
     Vec3T<T> reach, arm;  ///< to the follower's point, from A and from B
     T lever;              ///< flat face: from the contact point to the follower's point, along the face
-    Vec3T<T> turn;        ///< flat face: gradient of its direction in the cam by the turn of B from A
-    Vec3T<T> touch;       ///< from A to the contact point; of a knife edge its place
+    Vec3T<T> turn;        ///< flat face: gradient of its direction in the cam with respect to the rotation of B relative to A
+    Vec3T<T> touch;       ///< from A to the contact point; for a knife edge to the edge
     CamFoot foot;
   };
-  /// That at a foot, which belongs to the values of the place.
+  /// The contact at a foot that was computed for the values of `place`.
   template <class T>
   Contact<T> contact(const Place<T>& place, const CamFoot& foot) const;
 
-  /// Where the follower touches the profile, or would touch it first; the deepest place first.
+  /// The points of the profile that the follower touches, or would touch first; the deepest one first.
   template <class T>
   CamFeet feet(const Place<T>& place, std::span<const double> history) const;
 
@@ -94,11 +94,11 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
   std::vector<Derived> derived() const override { return parts_.derived; }
   Drawing drawing() const override;
 
-  /// Angle between the contact's normal and the follower's way, both in one set of axes.
+  /// Angle between the contact normal and the follower's direction of motion, both in the same axes.
   static double pressure_angle(const Vec3& normal, const Vec3& way);
 
  private:
-  /// Adds the forces of a contact.
+  /// Adds the forces of one contact.
   template <class T>
   void press(const Contact<T>& c, const Nodes<T>& node, Balance<T, 2>& balance) const {
     const T load = parts_.law ? parts_.law->force(T(-c.gap), T(-gap_rate(c, node)), balance.contact_homotopy())
@@ -125,7 +125,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
     balance.moment(1, rotate_back(node[1].R, moment_b));
   }
 
-  /// How many places at most it touches at.
+  /// Maximum number of simultaneous contacts.
   std::size_t places() const { return parts_.several ? CamFeet::most : 1; }
 
   template <class T>
@@ -133,7 +133,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
     return c.touch - c.reach + c.arm;
   }
 
-  /// Velocity of B's body over A's at a point that is at `from_a` and `from_b`.
+  /// Velocity of B's body relative to A's at the point that is at `from_a` from A and at `from_b` from B.
   template <class T>
   static Vec3T<T> velocity(const Nodes<T>& node, const Vec3T<T>& from_a, const Vec3T<T>& from_b) {
     const auto& [a, b] = node;
@@ -155,7 +155,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
     return v - c.normal * dot(c.normal, v);
   }
 
-  /// Size of the friction at a contact.
+  /// Magnitude of the friction force at a contact.
   double friction(const Contact<double>& c, const Nodes<double>& node, double force) const {
     const double square = sliding(c, node).squaredNorm();
     return parts_.friction->over_speed(square, std::abs(force)) * std::abs(force) * std::sqrt(square);
@@ -209,8 +209,8 @@ CamFeet Cam::feet(const Place<T>& place, std::span<const double> history) const 
   return {{profile.nearest(q, last)}, 1};
 }
 
-// On smooth curves distance and support are functions of two and of one variable with known second derivatives: their
-// polynomials give what dual and Taylor numbers need, with no derivative of the search.
+// On smooth curves distance and support are functions of two and of one variable with known second derivatives. Their Taylor
+// polynomials provide the derivatives for dual and Taylor numbers without differentiating the search.
 template <class T>
 Cam::Contact<T> Cam::contact(const Place<T>& place, const CamFoot& foot) const {
   const CamProfile& profile = *parts_.profile;
@@ -222,7 +222,7 @@ Cam::Contact<T> Cam::contact(const Place<T>& place, const CamFoot& foot) const {
   if (parts_.flat) {
     const T &mx = place.mx, &my = place.my;
     const Vec2 n{value_of(mx), value_of(my)}, t = turned_left(n);
-    const T angle = t[0] * mx + t[1] * my;  // from the value, to second order
+    const T angle = t[0] * mx + t[1] * my;  // increment from its value, to second order
     const double reach = foot.p.dot(n), aside = foot.p.dot(t), radius = 1 / foot.curvature;
     c.gap = x * mx + y * my - (reach + aside * angle + (0.5 * (radius - reach)) * angle * angle) + profile.inset();
     c.lever = y * mx - x * my - (aside + (radius - reach) * angle);

@@ -43,7 +43,7 @@ class Polar final : public CamCurve {
   std::size_t pieces_;
 };
 
-/// A curve that a point of the moving follower, or its face, leaves in the cam: e^(−iθ) times a function of θ.
+/// The curve traced in the cam by a point or a face of the moving follower: e^(−iθ) times a function of θ.
 class Moved : public CamCurve {
  public:
   explicit Moved(const CamMotion& motion) : motion_(motion) {}
@@ -51,7 +51,7 @@ class Moved : public CamCurve {
   std::size_t pieces() const override { return motion_.segments().size(); }
 
  protected:
-  /// From z and its derivatives by θ.
+  /// From z and its derivatives with respect to θ.
   static Point carried(double theta, const Complex& z, const Complex& z1, const Complex& z2) {
     const Complex e = std::polar(1.0, -theta);
     return {plane(e * z), plane(e * (z1 - i * z)), plane(e * (z2 - 2.0 * i * z1 - z))};
@@ -92,10 +92,11 @@ class EnvelopeOfFace final : public Moved {
   Point at(double s) const override {
     const Jet lift = motion_.at(s);
     const double k = slope_;
-    // the face's distance h is the support function of the envelope: p = h m + (dh/dφ) m', φ = −θ; d³h is its d2's
+    // the face's distance h is the support function of the envelope: p = h m + (dh/dφ) m', φ = −θ; the third derivative of h
+    // enters d2
     return carried(s, {height_ + k * lift.f, -k * lift.d1}, {k * lift.d1, -k * lift.d2}, {k * lift.d2, -k * lift.d3});
   }
-  /// The face that made it looked that way when the cam had turned by s; a face that undercuts the profile is refused.
+  /// The generating face had this normal at the cam angle s; a face that undercuts the profile is rejected.
   std::optional<double> facing(const Vec2& m) const override { return -std::atan2(m[1], m[0]); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed plane curves that cams are cut to.
+// Closed plane curves that cam profiles are made from.
 #pragma once
 
 #include <complex>
@@ -23,7 +23,7 @@ inline double plane_cross(const Vec2& a, const Vec2& b) { return a[0] * b[1] - a
 class CamCurve {
  public:
   struct Point {
-    Vec2 p, d1, d2;  ///< place and derivatives by s
+    Vec2 p, d1, d2;  ///< point, and derivatives with respect to s
   };
   CamCurve() = default;
   virtual ~CamCurve() = default;
@@ -31,32 +31,32 @@ class CamCurve {
   CamCurve& operator=(const CamCurve&) = delete;
 
   virtual Point at(double s) const = 0;
-  /// Follower's lift and derivatives where it touches at s; only a curve made from a motion has one.
+  /// The motion that the curve was generated from; nullptr for other curves.
   virtual const CamMotion* motion() const { return nullptr; }
-  /// Where the outward normal of the curve is the unit vector m, if that needs no search.
+  /// The parameter at which the outward normal of the curve is the unit vector m, if it is known without a search.
   virtual std::optional<double> facing(const Vec2& m) const {
     (void)m;
     return {};
   }
-  /// How many pieces it is made of: what a search must look at.
+  /// Number of pieces of the curve, for the resolution of searches.
   virtual std::size_t pieces() const = 0;
 };
 
-/// Through points, by a periodic cubic spline of both coordinates over the length of the chords.
+/// Curve through points: periodic cubic splines of both coordinates over the chord length.
 std::unique_ptr<CamCurve> curve_through(std::span<const Vec2> points);
 
-/// Radius over polar angle (radians, increasing, within one turn), by a periodic cubic spline.
+/// Curve from radii over polar angles (radians, increasing, within one turn), by a periodic cubic spline.
 std::unique_ptr<CamCurve> polar_curve(std::span<const double> angle, std::span<const double> radius);
 
-/// The path of a roller's centre (or a knife's edge) in a cam that turns, s its turn. The follower moves along the x axis:
-/// its place is `height` + lift in x, `offset` in y.
+/// Path of a roller's centre (or a knife edge) relative to a rotating cam; s is the cam's turn. The follower moves along the x
+/// axis: its position is `height` + lift in x and `offset` in y.
 std::unique_ptr<CamCurve> path_of_slide(const CamMotion& motion, double height, double offset);
 
-/// The same of a follower on an arm of length `arm`, whose pivot is on the x axis at `distance` from the cam's centre. Seen from
-/// the pivot the arm stands at `angle` − lift from the x axis, `side` 1: on the side of positive y.
+/// The same for a follower on an arm of length `arm`, whose pivot is on the x axis at `distance` from the cam's centre. At the
+/// pivot the arm makes the angle `angle` − lift with the x axis; `side` is 1 if it is on the side of positive y.
 std::unique_ptr<CamCurve> path_of_arm(const CamMotion& motion, double distance, double arm, double angle, double side);
 
-/// The envelope of a flat face across the x axis at `height` + `slope` times the lift; s is the cam's turn.
+/// Envelope of a flat face perpendicular to the x axis at `height` + `slope` times the lift; s is the cam's turn.
 std::unique_ptr<CamCurve> envelope_of_face(const CamMotion& motion, double height, double slope);
 
 }  // namespace engrane::elements::cams

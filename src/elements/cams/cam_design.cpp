@@ -14,11 +14,12 @@ namespace engrane::elements::cams {
 
 namespace {
 
-/// The way of the follower's point when it is at q in the cam: a unit vector away from the cam, or none when it cannot be there.
+/// Direction of motion of the follower's point when it is at q in the cam: a unit vector away from the cam, or nothing if the
+/// point cannot be there.
 std::optional<Vec2> way_at(const Vec2& q, const CamPlan& plan, const CamParts& parts) {
   const double distance = q.norm();
   if (parts.guide.kind == CamGuide::Kind::slide) {
-    // in the cam the slide turns about the centre, and keeps its offset from it
+    // relative to the cam the slide rotates about the centre, with a constant offset from it
     const double offset = plane_cross(plan.direction, plan.point), square = distance * distance - offset * offset;
     if (!(square > 0)) return {};
     return Vec2((std::sqrt(square) * q - offset * turned_left(q)) / (distance * distance));
@@ -27,7 +28,7 @@ std::optional<Vec2> way_at(const Vec2& q, const CamPlan& plan, const CamParts& p
     const double arm = (plan.point - plan.pivot).norm(), between = plan.pivot.norm();
     const double cosine = (distance * distance + arm * arm - between * between) / (2 * distance * arm);
     if (!(std::abs(cosine) < 1)) return {};
-    // from the line to the centre by the angle of the triangle, on the side where the pivot is
+    // from the line to the centre by the angle of the triangle, on the pivot's side
     const double sine = (plane_cross(plan.pivot, plan.point) > 0 ? 1 : -1) * std::sqrt(1 - cosine * cosine);
     const Vec2 inwards = -q / distance, to_pivot = cosine * inwards + sine * turned_left(inwards);
     const Vec2 way = turned_left(to_pivot);
@@ -38,8 +39,8 @@ std::optional<Vec2> way_at(const Vec2& q, const CamPlan& plan, const CamParts& p
 
 double angle_between(const Vec2& a, const Vec2& b) { return std::atan2(std::abs(plane_cross(a, b)), a.dot(b)); }
 
-/// Least radius of curvature of the envelope of a face that moves by slope times the lift: ρ = base + slope (s + s″)
-/// (Norton, eq. 7.31). Where it is negative the curve turns back on itself.
+/// Smallest radius of curvature of the envelope of a face that moves by slope times the lift: ρ = base + slope (s + s″)
+/// (Norton, eq. 7.31). Where it is negative the envelope has a cusp and turns back.
 double least_face_radius(const CamMotion& motion, double base, double slope) {
   double least = std::numeric_limits<double>::infinity();
   constexpr int samples = 36000;
@@ -50,7 +51,8 @@ double least_face_radius(const CamMotion& motion, double base, double slope) {
   return least;
 }
 
-/// Greatest angle between the contact's normal and the follower's way, or none when the follower does not reach every place.
+/// Largest angle between the contact normal and the follower's direction of motion; nothing if the follower does not reach
+/// every point.
 std::optional<double> greatest_pressure_angle(const CamPlan& plan, const CamParts& parts) {
   if (parts.guide.kind == CamGuide::Kind::none) return {};
   if (parts.flat) {
@@ -91,7 +93,7 @@ bool check_face(const BuildContext& context, const CamPlan& plan, const char* ke
   return false;
 }
 
-/// The hollow that is smaller than the roller, or the profile that the roller's path leaves no room for.
+/// Warns of a profile undercut by the roller, and checks that no hollow is smaller than the roller.
 bool check_roller(const BuildContext& context, const char* keyword, const CamFoot& sharp, const CamFoot& hollow,
                   const CamParts& parts) {
   const double inset = parts.profile->inset(), out = parts.radius - inset;

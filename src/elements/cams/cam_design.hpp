@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a cam's profile and its follower's way make of each other: pressure angles, curvatures, undercut.
+// Checks of a cam's profile against its follower's motion: pressure angles, curvatures, undercut.
 #pragma once
 
 #include "elements/cams/cam_contact.hpp"
@@ -7,7 +7,7 @@
 
 namespace engrane::elements::cams {
 
-/// The follower seen in the plane of the cam, in the reference configuration, from the cam's centre.
+/// The follower in the plane of the cam, relative to the cam's centre, in the reference configuration.
 struct CamPlan {
   Vec2 point = Vec2::Zero();      ///< the follower's point
   Vec2 direction = Vec2::Zero();  ///< of a slide
@@ -16,8 +16,8 @@ struct CamPlan {
   double base = 0;                ///< radius of the base circle of a motion
 };
 
-/// Checks the profile against itself and its follower: errors where it makes none, warnings where a follower would not
-/// fit. Fills parts.derived.
+/// Checks the profile by itself and against its follower. Reports errors if it is no valid profile, and warnings if the
+/// follower would not fit. Fills parts.derived.
 bool check_design(const BuildContext& context, const CamPlan& plan, CamParts& parts);
 
 }  // namespace engrane::elements::cams

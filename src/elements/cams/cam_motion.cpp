@@ -39,7 +39,7 @@ Jet polynomial(double tau, const std::array<double, N>& c, int first) {
   return j;
 }
 
-/// Quarter waves of sine, the middle one three times as long, joined with one acceleration (Norton, eqs. 3.11).
+/// Quarter sine waves, the middle one three times as long, joined with continuous acceleration (Norton, eqs. 3.11).
 Jet modified_sine(double tau) {
   constexpr double scale = 1 / (4 + pi);
   if (tau < 0.125) return line_and_sine(tau, 0, scale * pi, scale / 4, 4 * pi, 0);
@@ -82,7 +82,7 @@ Jet CamMotion::at(double turn) const {
   if (angle < 0) angle += 2 * pi;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Segment& s = segments_[i];
-    // the widths sum to a turn but for rounding
+    // the widths sum to a full turn up to rounding error
     if (angle >= s.width && i + 1 < segments_.size()) {
       angle -= s.width;
       continue;

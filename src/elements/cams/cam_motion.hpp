@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lift of a cam's follower as a function of the cam's turn.
+// The lift of a cam's follower as a function of the cam's angle of rotation.
 #pragma once
 
 #include <optional>
@@ -10,29 +10,29 @@
 
 namespace engrane::elements::cams {
 
-/// How a lift goes from 0 to 1 while the cam turns through a segment (Norton, Cam Design and Manufacturing Handbook, 2nd ed.
+/// Shape of the lift from 0 to 1 over one segment of the cam's turn (Norton, Cam Design and Manufacturing Handbook, 2nd ed.
 /// (2009), ch. 3).
 enum class CamLaw { cycloidal, modified_sine, poly_345, poly_4567, harmonic };
 
 std::optional<CamLaw> cam_law(const std::string& name);
-/// CYCLOIDAL, MODIFIED_SINE, ...
+/// The names, for messages: CYCLOIDAL, MODIFIED_SINE, ...
 std::string cam_law_names();
 
-/// The law at τ in [0, 1], with its derivatives by τ.
+/// The law at τ in [0, 1], with derivatives with respect to τ.
 Jet unit_rise(CamLaw law, double tau);
 
 /// The lift over one turn of the cam, segment by segment.
 class CamMotion {
  public:
   struct Segment {
-    double width = 0;         ///< of cam angle; all of them make 2π
-    double from = 0, to = 0;  ///< lifts; equal: a dwell
+    double width = 0;         ///< cam angle; all widths sum to 2π
+    double from = 0, to = 0;  ///< lifts; equal for a dwell
     CamLaw law = CamLaw::cycloidal;
   };
-  /// `phase`: the turn of the cam at which the first segment begins.
+  /// `phase`: cam angle at which the first segment begins.
   CamMotion(std::vector<Segment> segments, double phase) : segments_(std::move(segments)), phase_(phase) {}
 
-  /// Lift and derivatives by the cam's turn; where segments meet those of the later one.
+  /// Lift and derivatives with respect to the cam angle; at the joint of two segments, those of the later one.
   Jet at(double turn) const;
   const std::vector<Segment>& segments() const { return segments_; }
 

@@ -12,16 +12,17 @@ namespace {
 
 constexpr double whole_turn = 2 * std::numbers::pi;
 
-/// Two contacts of a roller that are nearer to each other than this part of its radius are one.
+/// Contacts of a roller closer together than this fraction of its radius count as one.
 constexpr double one_contact = 0.1;
-/// What a roller misses by less than this part of its radius, and a face by less than this part of the curve's greatest radius,
-/// is seen: statics that looks for contacts (State::contact_homotopy) and the location of events are told how far it is.
+/// Near contacts are included up to a gap of this fraction of the roller's radius or, for a face, of the curve's largest
+/// radius. Their gaps are needed when statics searches for contacts (State::contact_homotopy) and when events are located.
 constexpr double seen_by_roller = 0.1, seen_by_face = 0.02;
 
-/// From −π to π.
+/// Angle difference in [−π, π].
 double difference(double a, double b) { return std::remainder(a - b, whole_turn); }
 
-/// Adds a foot behind the first, which stays, in the order of `depth`. Where there is no room the least deep is left out.
+/// Adds a foot behind the first, which stays first; the others are sorted by `depth`. If there is no room, the shallowest is
+/// dropped.
 template <class Depth>
 void insert(CamFeet& all, const CamFoot& foot, Depth depth) {
   const bool full = all.count == CamFeet::most;
@@ -49,7 +50,7 @@ CamProfile::CamProfile(std::unique_ptr<CamCurve> curve, double inset, bool insid
     Group group{begin, std::min(begin + in_group, n), Vec2::Zero(), 0};
     for (std::size_t k = begin; k < group.end; ++k) group.center += samples_[k] / static_cast<double>(group.end - begin);
     for (std::size_t k = begin; k < group.end; ++k) group.radius = std::max(group.radius, (samples_[k] - group.center).norm());
-    group.radius *= 1 + 1e-6;  // rounding rules nothing out
+    group.radius *= 1 + 1e-6;  // margin for rounding error
     groups_.push_back(group);
   }
 }
@@ -83,7 +84,7 @@ double CamProfile::settle(std::size_t k, F slope) const {
   double a = middle - step_, b = middle + step_;
   for (int i = 0; i < 3 && slope(a).first > 0; ++i) a -= step_;
   for (int i = 0; i < 3 && slope(b).first < 0; ++i) b += step_;
-  // Newton's method, by halves where it would leave the bracket
+  // Newton's method, with bisection when it would leave the bracket
   double s = middle;
   for (int i = 0; i < 100; ++i) {
     const auto [f, df] = slope(s);
@@ -104,7 +105,7 @@ CamFoot CamProfile::nearest(const Vec2& q, std::optional<double> last) const {
     return !last || std::abs(difference(step_ * static_cast<double>(k), *last)) <= whole_turn / 3;
   };
   const auto square = [&](std::size_t k) { return (samples_[k] - q).squaredNorm(); };
-  // the nearest sample, which is no farther than the far side of any group that counts as a whole
+  // upper bound for the nearest sample: the far side of any group that is searched as a whole
   double reach = std::numeric_limits<double>::infinity();
   for (const Group& group : groups_)
     if (counts(group.begin) && counts(group.end - 1)) reach = std::min(reach, (group.center - q).norm() + group.radius);
@@ -119,7 +120,7 @@ CamFoot CamProfile::nearest(const Vec2& q, std::optional<double> last) const {
       }
   }
 
-  // between samples the curve may come nearer by less than their spacing: every valley as deep as that is a candidate
+  // between samples the curve can be nearer by up to their spacing, so every local minimum within it is a candidate
   const auto slope = [&](double s) { return slope_of_distance(s, q); };
   CamFoot foot;
   double least = std::numeric_limits<double>::infinity();
@@ -139,13 +140,13 @@ CamFoot CamProfile::nearest(const Vec2& q, std::optional<double> last) const {
       }
     }
   }
-  // the least is at the edge of the window, or the curve is a circle about q
+  // the minimum is at the edge of the window, or the curve is a circle about q
   return std::isfinite(least) ? foot : at(settle(best_sample, slope));
 }
 
 CamFoot CamProfile::farthest(const Vec2& m) const {
   if (const auto s = curve_->facing(m)) return at(*s);
-  // the farthest sample, which is no nearer than the near side of any group
+  // lower bound for the farthest sample: the near side of any group
   double far = -std::numeric_limits<double>::infinity();
   for (const Group& group : groups_) far = std::max(far, group.center.dot(m) - group.radius);
   std::size_t best = 0;
@@ -175,7 +176,7 @@ CamFeet CamProfile::under_roller(const Vec2& q, double radius) const {
       if (here > square((k + n - 1) % n) || here >= square((k + 1) % n)) continue;
       if (std::sqrt(here) > reach + longest_) continue;
       const CamFoot foot = at(settle(k, [&](double s) { return slope_of_distance(s, q); }));
-      const double distance = (q - foot.p).dot(foot.n);  // negative: of the far side of a wall
+      const double distance = (q - foot.p).dot(foot.n);  // negative on the far side of a wall
       if (!(distance > 0 && distance < reach && 1 + foot.curvature * distance > 0)) continue;
       const auto same = [&](const CamFoot& other) { return (other.p - foot.p).norm() < one_contact * radius; };
       if (std::none_of(all.begin(), all.end(), same)) insert(all, foot, depth);
@@ -206,7 +207,7 @@ CamFeet CamProfile::under_face(const Vec2& m, double distance) const {
 }
 
 std::optional<Vec2> CamProfile::crossing() const {
-  // segments in order of their least x: only those that overlap there are compared
+  // segments sorted by their least x, so that only those that overlap in x are compared
   const std::size_t n = samples_.size();
   struct Segment {
     std::size_t k;

@@ -11,7 +11,7 @@
 
 namespace engrane::elements::cams {
 
-/// A place on the curve, with its normal towards the follower.
+/// A point of the curve, with its normal towards the follower.
 struct CamFoot {
   double s = 0;
   Vec2 p = Vec2::Zero(), n = Vec2::Zero();
@@ -19,7 +19,7 @@ struct CamFoot {
   double curvature = 0;   ///< positive where the curve is convex towards the follower
 };
 
-/// Where a follower touches the curve, or all but touches it; the deepest place first.
+/// Points where a follower touches the curve, or nearly touches it; the deepest one first.
 struct CamFeet {
   static constexpr std::size_t most = 3;
   std::array<CamFoot, most> feet;
@@ -29,33 +29,33 @@ struct CamFeet {
   const CamFoot* end() const { return feet.data() + count; }
 };
 
-/// The profile: a curve, or one parallel to it by `inset`, away from the follower. A profile made for a roller is parallel to the
-/// path of its centre, so that neither roots nor points of the envelope are ever needed.
+/// The profile: a curve, or the parallel curve at the distance `inset`, away from the follower. A profile made for a roller is
+/// parallel to the path of its centre, so that the envelope itself is never computed.
 class CamProfile {
  public:
-  /// `inside`: the follower is within the curve.
+  /// `inside`: the follower is inside the curve.
   CamProfile(std::unique_ptr<CamCurve> curve, double inset, bool inside);
 
-  /// The point of the curve that is nearest to q. With `last`, the s of the last step, only the part of the curve within a third
-  /// of its turn counts: a pin in a groove does not leap to another branch.
+  /// The point of the curve nearest to q. With `last`, the s of the last step, only the part of the curve within a third of a
+  /// turn of it is searched: a pin in a groove must not jump to another branch.
   CamFoot nearest(const Vec2& q, std::optional<double> last = {}) const;
 
-  /// The point of the curve farthest in the direction of the unit vector m: where a flat face rests on it.
+  /// The point of the curve farthest in the direction of the unit vector m, where a flat face rests on it.
   CamFoot farthest(const Vec2& m) const;
 
-  /// nearest(q), and every other place where a roller about q, of this radius, reaches into the curve. A roller that is wider
-  /// than a hollow touches both sides of it.
+  /// nearest(q), and every other point where a roller of this radius centred at q reaches into the curve, or nearly does. A
+  /// roller wider than a hollow touches both sides of it.
   CamFeet under_roller(const Vec2& q, double radius) const;
 
-  /// farthest(m), and every other hill of the curve that touches a flat face at this distance from the origin, or all but touches
-  /// it.
+  /// farthest(m), and every other local maximum of the curve in direction m that touches a flat face at this distance from the
+  /// origin, or nearly does.
   CamFeet under_face(const Vec2& m, double distance) const;
 
   CamFoot at(double s) const;
   const CamCurve& curve() const { return *curve_; }
   double inset() const { return inset_; }
 
-  /// The place on the curve where f is least, to rounding of f; f is given feet.
+  /// The point of the curve at which f is smallest, to rounding error; f takes a CamFoot.
   template <class F>
   CamFoot least(F f) const {
     std::size_t best = 0;
@@ -65,7 +65,7 @@ class CamProfile {
         value = here;
         best = k;
       }
-    // golden section about the best sample; it never returns worse than that
+    // golden-section search about the best sample, which is kept if nothing better is found
     double a = step_ * (static_cast<double>(best) - 1), b = step_ * (static_cast<double>(best) + 1);
     double found = step_ * static_cast<double>(best);
     for (int k = 0; k < 60; ++k) {
@@ -79,33 +79,33 @@ class CamProfile {
     return at(found);
   }
 
-  /// Where two pieces of the curve cross, if they do.
+  /// A point where the sampled curve crosses itself, if any.
   std::optional<Vec2> crossing() const;
 
  private:
-  /// Zero of the slope of a function along the curve that is least near sample k. `slope` gives the first and second derivative.
+  /// Parameter of the local minimum of a function near sample k. `slope` returns its first and second derivatives.
   template <class F>
   double settle(std::size_t k, F slope) const;
-  /// Half of the derivative of the squared distance from q, and its derivative.
+  /// Half the derivative of the squared distance from q, and its derivative.
   std::pair<double, double> slope_of_distance(double s, const Vec2& q) const;
-  /// Derivatives of −p·m.
+  /// First and second derivatives of −p·m.
   std::pair<double, double> slope_of_height(double s, const Vec2& m) const;
 
   std::unique_ptr<CamCurve> curve_;
   double inset_;
-  double sense_;  ///< 1: t runs with s
-  double step_;   ///< of s between samples
+  double sense_;  ///< 1: t points in the direction of increasing s, −1: opposite
+  double step_;   ///< spacing of the samples in s
   std::vector<Vec2> samples_;
-  /// Neighbouring samples and a circle around them: a search looks into those groups only that the circle does not rule out,
-  /// and finds what a look at every sample would find.
+  /// Consecutive samples and a circle around them. Searches skip the groups that their circle rules out, with the same result
+  /// as looking at every sample.
   struct Group {
     std::size_t begin, end;
     Vec2 center;
     double radius;
   };
   std::vector<Group> groups_;
-  double longest_ = 0;   ///< distance of neighbouring samples
-  double greatest_ = 0;  ///< distance of a sample from the origin
+  double longest_ = 0;   ///< between neighbouring samples
+  double greatest_ = 0;  ///< of a sample from the origin
 };
 
 }  // namespace engrane::elements::cams

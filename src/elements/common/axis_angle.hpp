@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The turn of one node relative to another about an axis, counted in turns.
+// Angle of one node relative to another about an axis, with whole turns counted.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ struct AxisAngle {
   Vec3T<T> gradient;
 };
 
-/// Angle in (−π, π] by which B has turned from A about the axis, positive by the right hand. It is the twist of the
-/// relative rotation: exact however large, and defined unless the axes of A and B oppose each other.
+/// Angle in (−π, π] by which B has turned relative to A about the axis, positive by the right-hand rule. It is the twist of the
+/// relative rotation: exact for rotations of any size, and defined unless the axes of A and B are opposite.
 ///
 /// With e_i carried by A and B, θ = atan2(e3A·e2B − e2A·e3B, e2A·e2B + e3A·e3B); its gradient reduces to
 /// (e1A + e1B)/(1 + e1A·e1B).
@@ -45,10 +45,11 @@ AxisAngle<T> axis_angle(const AxisTriad& triad, const Mat3T<T>& R_a, const Mat3T
   return axis_angle(carried(R_a), carried(R_b));
 }
 
-/// The turns of an angle across steps, from two history numbers: whole turns, and the last angle in (−π, π].
+/// Counts the whole turns of an angle from step to step. The history holds two numbers: the whole turns and the last angle in
+/// (−π, π].
 ///
-/// Between two accepted steps the angle may change by less than half a turn; the total is turns and remainder apart, so
-/// the remainder keeps its precision after any number of turns.
+/// Between two accepted steps the angle must change by less than half a turn. Whole turns and remainder are stored separately,
+/// so that the remainder keeps its precision after any number of turns.
 namespace turn_count {
 
 inline constexpr int history = 2;
@@ -61,13 +62,13 @@ inline double turns(double angle, std::span<const double> committed) {
   return committed[0];
 }
 
-/// The total angle in the arithmetic of `angle`.
+/// The total angle, in the number type of `angle`.
 template <class T>
 T total(const T& angle, std::span<const double> committed) {
   return angle + 2 * std::numbers::pi * turns(value_of(angle), committed);
 }
 
-/// Writes what the next step starts from.
+/// Writes the history that the next step starts from.
 inline void commit(double angle, std::span<const double> committed, std::span<double> next) {
   next[0] = turns(angle, committed);
   next[1] = angle;

@@ -10,7 +10,7 @@ namespace engrane::elements {
 
 std::optional<Vec3> unit_vector(const BuildContext& context, std::string_view keyword, const std::array<double, 3>& v) {
   const Vec3 vector = to_vector(v);
-  // scaled by its largest component first, so that no square over- or underflows
+  // scaled by its largest component first, so that the squares neither overflow nor underflow
   const double largest = vector.cwiseAbs().maxCoeff();
   if (!(largest > 0)) {
     context.error(keyword, fmt::format("{} 0 0 0 is not a direction", keyword), "give three components, not all zero");
@@ -20,7 +20,7 @@ std::optional<Vec3> unit_vector(const BuildContext& context, std::string_view ke
 }
 
 bool check_nodes(const BuildContext& context, const std::vector<int>& nodes) {
-  if (nodes.empty()) return false;  // the reader has said what is wrong with them
+  if (nodes.empty()) return false;  // already reported by the reader
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (std::count(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(i), nodes[i]) > 0) {
       context.error("N", fmt::format("node {} is named twice", nodes[i]), "give different nodes; 0 is the ground");

@@ -7,14 +7,14 @@
 
 namespace engrane::elements {
 
-/// Reads CONST, STRIBECK, FCT or USER into a law of which `width` and `rests` are known; false, with an error at FRICTION, when
-/// the numbers make none.
+/// Reads CONST, STRIBECK, FCT or USER into a law whose `width` and `rests` are already set. Returns false, with an error at
+/// FRICTION, if the numbers are invalid.
 bool read_friction(const BuildContext& context, const deck::Tagged& given, FrictionLaw& law);
 
-/// The function that a number of a card names; false, with an error at the keyword, when it does not exist.
+/// Looks up the function with the number given on a card. Returns false, with an error at the keyword, if it does not exist.
 bool named_function(const BuildContext& context, std::string_view keyword, double id, const Function*& function);
 
-/// The options of FRICTION.
+/// Adds the options of FRICTION.
 inline void add_friction_options(deck::FieldBuilder field) {
   field.synonyms({"FROTTEMENT"})
       .option({"CONST", {"COULOMB", "CONSTANT"}, "mu [mu_s]: mu_s at rest, with STICK", 1, 2})

@@ -12,17 +12,17 @@
 
 namespace engrane::elements {
 
-/// Dry friction between two surfaces: force μ(v, F) F against the sliding velocity. Below the speed `width` it falls to zero by
-/// a polynomial in v that keeps value, slope and curvature continuous; above it is Coulomb's law exactly. Its power is never
-/// negative.
+/// Dry friction between two surfaces: the force μ(v, F) F against the sliding velocity v under the normal force F. Below the
+/// speed `width` it falls to zero by a polynomial in v with continuous value, slope and curvature; above it the law is exactly
+/// Coulomb's. Its power is never negative.
 ///
-/// With `rests` the law is Coulomb's at every speed, in the direction of sliding that is known from the history, and there is a
-/// coefficient at rest (GripState).
+/// With `rests` Coulomb's law holds at every speed, with the direction of sliding taken from the history, and there is a
+/// coefficient of static friction (GripState).
 struct FrictionLaw {
   enum class Kind {
     constant,
     stribeck,  ///< μ_k + (μ_s − μ_k) exp(−(v/v_s)²) + c v
-    function   ///< of the sliding speed
+    function   ///< a function of the sliding speed
   };
   Kind kind = Kind::constant;
   double mu = 0;              ///< μ, or μ_s
@@ -30,13 +30,13 @@ struct FrictionLaw {
   double stribeck_speed = 1;  ///< v_s
   double viscous = 0;         ///< c, per unit of speed
   const Function* of_speed = nullptr;
-  const Function* of_load = nullptr;          ///< a factor on μ, of the normal force; none: 1
-  std::shared_ptr<const user::Routine> user;  ///< instead of all the above: μ of speed and normal force
-  double width = 0;                           ///< speed below which it is regularised; 0: nowhere
+  const Function* of_load = nullptr;          ///< factor on μ as a function of the normal force; nullptr: 1
+  std::shared_ptr<const user::Routine> user;  ///< replaces all of the above: μ as a function of speed and normal force
+  double width = 0;                           ///< speed below which the law is regularised; 0: never
   bool rests = false;
-  std::optional<double> at_rest;  ///< μ at rest where it is not that of speed 0
+  std::optional<double> at_rest;  ///< coefficient of static friction if it differs from μ at zero speed
 
-  /// μ at a sliding speed, with derivatives; without the factor of the load.
+  /// μ at a sliding speed, with its derivatives, without the load factor.
   Function::Jet coefficient(double speed) const {
     switch (kind) {
       case Kind::constant:
@@ -52,7 +52,8 @@ struct FrictionLaw {
     return {};
   }
 
-  /// μ at a speed; below zero, where an iteration may pass, formulas go on and functions stay what they are at zero.
+  /// μ at a sliding speed and normal force. Iterates may have negative speeds: there formulas are continued, while functions
+  /// and user routines keep their value at zero.
   template <class T>
   T at(const T& speed, const T& load) const {
     const T v = value_of(speed) < 0 && (user || kind == Kind::function) ? T(0) : speed;
@@ -66,17 +67,17 @@ struct FrictionLaw {
     return factor;
   }
 
-  /// μ of surfaces that do not slide.
+  /// Coefficient of static friction.
   double static_coefficient(double load) const {
     if (!at_rest) return at(0.0, load);
     return *at_rest * (of_load ? of_load->at(load).f : 1);
   }
 
-  /// μ/v, by which the sliding velocity and the normal force are multiplied; finite at rest.
+  /// μ/v, the factor on sliding velocity times normal force; finite at rest if the law is regularised.
   template <class T>
   T over_speed(const T& speed_squared, const T& load) const {
     using std::sqrt;
-    constexpr double least = 1e-8;  // of the width: keeps the root differentiable and changes no digit
+    constexpr double least = 1e-8;  // relative to the width: keeps the square root differentiable at zero and changes no digit
     if (width == 0 && value_of(speed_squared) == 0) return T(0);
     const T speed = sqrt(speed_squared + least * least * width * width);
     const T factor = at(speed, load);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A point that two nodes hold, seen from the first: what bushes and bearings measure their displacement by.
+// A point attached to two nodes, seen from the first one: bushes and bearings measure their displacement at it.
 #pragma once
 
 #include <array>
@@ -10,14 +10,14 @@
 
 namespace engrane::elements {
 
-/// A point that both nodes hold in the reference configuration, and axes that the first one holds.
+/// A point attached to both nodes in the reference configuration, and axes attached to the first node.
 struct HeldPoint {
   std::array<int, 2> nodes{};
   Vec3 point = Vec3::Zero();
-  Vec3 offset_a = Vec3::Zero(), offset_b = Vec3::Zero();  ///< from the nodes to the point, in each node's axes
+  Vec3 offset_a = Vec3::Zero(), offset_b = Vec3::Zero();  ///< from the nodes to the point, in each node's material axes
   Mat3 axes = Mat3::Identity();                           ///< columns, in the reference configuration
 
-  /// Of a card: `at` is the point, by default node b, or node a where b is the ground.
+  /// Builds it from a card: `at` is the point, by default node b, or node a if b is the ground.
   static HeldPoint of(const BuildContext& context, const std::array<int, 2>& nodes,
                       const std::optional<std::array<double, 3>>& at, const Mat3& axes) {
     const Vec3 &a = context.nodes.at(nodes[0]), &b = context.nodes.at(nodes[1]);
@@ -25,13 +25,13 @@ struct HeldPoint {
     return {nodes, point, point - a, point - b, axes};
   }
 
-  /// Where b's point is from a's, and its rate, in the axes as a holds them.
+  /// Displacement of b's point relative to a's point, and its rate, in the axes carried by a.
   template <class T>
   struct Shift {
-    Mat3T<T> axes;               ///< global
+    Mat3T<T> axes;               ///< columns, global components
     Vec3T<T> arm_a, arm_b, gap;  ///< from the nodes to their points, and from a's point to b's, global
-    Vec3T<T> spin;               ///< angular velocity of b from a, global
-    Vec3T<T> value, rate;        ///< in the axes
+    Vec3T<T> spin;               ///< angular velocity of b relative to a, global
+    Vec3T<T> value, rate;        ///< components in the axes
   };
 
   template <class T>
@@ -51,8 +51,8 @@ struct HeldPoint {
     return s;
   }
 
-  /// Adds a resistance to b's point: a force along, and a moment about, the axes. The shift turns with a, so that the opposite
-  /// force acts on a at b's point.
+  /// Adds the resisting force and moment on b's point, both given in the axes. The displacement is measured in axes that turn
+  /// with a, so the opposite force acts on a at b's point.
   template <class T>
   static void resist(const Shift<T>& s, const Vec3T<T>& force, const Vec3T<T>& moment, const Motion<T, 2>& motion,
                      Balance<T, 2>& balance) {
@@ -63,12 +63,12 @@ struct HeldPoint {
     balance.moment(1, rotate_back(motion.node[1].R, Vec3T<T>(m + cross(s.arm_b, f))));
   }
 
-  /// Where it is drawn: an axis along the first one.
+  /// Drawing at the point: an axis along the first of the axes.
   Drawing drawing() const;
 };
 
-/// Right-handed axes as columns: the first along `axis`, the second on the side of `axis_2`, or any perpendicular. An error at
-/// `AXIS` or `AXIS2` where they have no direction.
+/// Right-handed axes as columns: the first along `axis`, the second on the side of `axis_2`, or any perpendicular if not given.
+/// Reports an error at `AXIS` or `AXIS2` if they do not define directions.
 std::optional<Mat3> axes_of(const BuildContext& context, const std::array<double, 3>& axis,
                             const std::optional<std::array<double, 3>>& axis_2);
 

@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t most_corners = 20;
 constexpr double least = std::numeric_limits<double>::min();
 
-/// Those of one period, in [0, period).
+/// Corners within one period, in [0, period).
 std::vector<double> corners_of_period(const Function& function, double period) {
-  // the ends of an interval do not count: more than a period, and what comes twice once
+  // an interval's ends are not included: search more than one period and remove duplicates
   std::vector<double> found = function.corners(-period / 4, period * 5 / 4, 2 * most_corners);
   for (double& x : found) x -= period * std::floor(x / period);
   std::sort(found.begin(), found.end());
@@ -73,7 +73,7 @@ std::size_t LawCorners::switches(const Taylor& x, double time, double size, std:
   for (std::size_t i = 0; i < places_.size(); ++i) {
     Switch& s = values[i];
     s = {x.value - places_[i], x.d1, std::abs(places_[i]) + size + least};
-    if (period_ > 0) {  // zero at each of them, and as steep there
+    if (period_ > 0) {  // zero at every repetition of the corner, with the same slope magnitude
       const double wave = std::numbers::pi / period_, angle = wave * std::remainder(s.value, 2 * period_);
       s.value = std::sin(angle) / wave;
       s.rate *= std::cos(angle);

@@ -13,9 +13,10 @@
 
 namespace engrane::elements {
 
-/// Where the law of a spring or damper is not smooth, as switches, for dynamics to place ends of steps there: at the corners of a
-/// table (Function::corners), in each of its periods where it repeats, and where a comparison, sign, absolute value, minimum or
-/// maximum of a formula decides otherwise. None of a law that has more than twenty of them: a measured curve; nor of a routine.
+/// Switch functions at the corners of a spring or damper law, so that dynamics can end a time step there. Corners are those of
+/// a table (Function::corners), in every period if it is periodic, and the points where a comparison, sign, absolute value,
+/// minimum or maximum in a formula changes branch. Laws with more than twenty corners (measured curves) and user routines have
+/// none.
 class LawCorners {
  public:
   LawCorners() = default;
@@ -23,15 +24,15 @@ class LawCorners {
   explicit LawCorners(const Expression& formula);
 
   std::size_t count() const { return formula_ ? formula_->decisions().size() : places_.size(); }
-  /// A switch for each corner; `law` is the keyword in its words.
+  /// Appends the names of the switches, one per corner; `law` is the keyword used in them.
   void name(std::vector<SwitchNames>& names, const std::string& law) const;
-  /// Their values where the law's variable, or its D, is `x` with two derivatives; `size` is that of the terms which it is the
-  /// difference of. Tells how many there are.
+  /// Writes the switch values for the law's variable (D in a formula) `x`, with two time derivatives. `size` is the magnitude
+  /// of the terms whose difference is `x`, for the rounding error. Returns the number of switches.
   std::size_t switches(const Taylor& x, double time, double size, std::span<Switch> values) const;
 
  private:
   std::vector<double> places_;
-  double period_ = 0;  ///< of the places; 0: none
+  double period_ = 0;  ///< period of the corners; 0: not periodic
   const Expression* formula_ = nullptr;
 };
 

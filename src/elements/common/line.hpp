@@ -11,17 +11,17 @@
 
 namespace engrane::elements {
 
-/// Where the ends of the line are: at the nodes, or, for an end on the ground, at a fixed point.
+/// End points of the line: the nodes, or a fixed point for an end on the ground.
 struct LineEnds {
   std::array<int, 2> nodes{};
-  std::array<Vec3, 2> anchor{Vec3::Zero(), Vec3::Zero()};  ///< from the ground node, which is at the origin, to the end
+  std::array<Vec3, 2> anchor{Vec3::Zero(), Vec3::Zero()};  ///< from the origin (ground node) to the end point; else zero
 
-  /// The ends of a card: `at` is the ground's end (default: the origin). An error when the ends coincide, since a line needs
-  /// a direction, or when `at` is given and neither end is on the ground.
+  /// Builds the ends from a card. `at` is the end point on the ground (default: the origin). Reports an error if the ends
+  /// coincide, since a line needs a direction, or if `at` is given and neither end is on the ground.
   static std::optional<LineEnds> of(const BuildContext& context, const std::array<int, 2>& nodes,
                                     const std::optional<std::array<double, 3>>& at, std::string_view cure);
 
-  /// The ground's end asks for its moment where it is not at the ground's node, so that reactions are whole.
+  /// An end on the ground away from the origin also needs the moment, so that reactions are complete.
   std::vector<NodeNeed> needs() const {
     const auto need = [](const Vec3& arm) { return arm.isZero(0) ? NodeNeed::translation : NodeNeed::both; };
     return {need(anchor[0]), need(anchor[1])};
@@ -31,8 +31,8 @@ struct LineEnds {
     return (context.nodes.at(nodes[1]) + anchor[1] - context.nodes.at(nodes[0]) - anchor[0]).norm();
   }
 
-  /// Length of the line, its rate and its direction from the first end to the second. Coincident ends have no direction:
-  /// then it is zero, and so is every force along it.
+  /// Length of the line, its rate and its unit direction from the first end to the second. If the ends coincide all are zero,
+  /// and so is every force along the line.
   template <class T>
   struct Reach {
     T length, rate;
@@ -55,7 +55,7 @@ struct LineEnds {
   void pull(const Vec3T<T>& tension, Balance<T, 2>& balance) const {
     balance.force(0, Vec3T<T>(-tension));
     balance.force(1, tension);
-    // the ground takes its force at the anchor
+    // the ground carries its force at the anchor
     if (!anchor[0].isZero(0)) balance.moment(0, Vec3T<T>(cross(tension, Vec3T<T>(anchor[0].template cast<T>()))));
     if (!anchor[1].isZero(0)) balance.moment(1, Vec3T<T>(cross(Vec3T<T>(anchor[1].template cast<T>()), tension)));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rotation vector of a rotation, in numbers that elements differentiate.
+// The rotation vector of a rotation, for number types that carry derivatives.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace engrane::elements {
 
-/// θ with R = exp(θ), |θ| < π, and what relates its change to spatial rotations δφ, R → exp(δφ) R:
+/// The rotation vector θ, R = exp(θ), |θ| < π, and its variation under spatial rotations δφ, R → exp(δφ) R:
 ///
 ///     δθ = δφ − ½ θ × δφ + κ θ × (θ × δφ),   κ = (1 − (a/2) cot(a/2)) / a²,   a = |θ|
 ///
@@ -20,19 +20,19 @@ struct RotationVector {
   Vec3T<T> theta;
   T kappa;
 
-  /// Of a rotation other than by half a turn, where the vector changes its sign.
+  /// From a rotation matrix. Not defined at half a turn, where the vector changes sign.
   static RotationVector of(const Mat3T<T>& R);
 
-  /// δθ of a spatial rotation, or the rate of θ of an angular velocity.
+  /// δθ for a spatial rotation δφ, or the rate of θ for an angular velocity.
   Vec3T<T> change(const Vec3T<T>& phi) const {
     return phi - cross(theta, phi) * T(0.5) + cross(theta, Vec3T<T>(cross(theta, phi))) * kappa;
   }
-  /// The moment m with m·δφ = f·δθ.
+  /// The moment m with m·δφ = f·δθ for all δφ.
   Vec3T<T> moment(const Vec3T<T>& f) const {
     return f + cross(theta, f) * T(0.5) + cross(theta, Vec3T<T>(cross(theta, f))) * kappa;
   }
 
-  /// dκ/d(a²) = (1/8 − 3/2 κ + ½ κ² a²)/a², near zero by the series of κ.
+  /// dκ/d(a²) = (1/8 − 3/2 κ + ½ κ² a²)/a², by the series of κ near zero.
   T kappa_slope() const {
     const T u = dot(theta, theta);
     if (value_of(u) < 0.04)
@@ -44,7 +44,7 @@ struct RotationVector {
 template <class T>
 RotationVector<T> RotationVector<T>::of(const Mat3T<T>& R) {
   using std::atan2, std::sqrt;
-  // the quaternion from its largest component (Shepperd, 1978), so that nothing cancels
+  // quaternion from its largest component (Shepperd, 1978), which avoids cancellation
   const double trace = value_of(R(0, 0)) + value_of(R(1, 1)) + value_of(R(2, 2));
   Vec3T<T> v;
   T w;
@@ -72,7 +72,7 @@ RotationVector<T> RotationVector<T>::of(const Mat3T<T>& R) {
   const T square = dot(v, v);  // sin²(a/2)
   RotationVector out;
   if (value_of(square) < 1e-3) {
-    // (a/2)/sin(a/2) by the series of the arc sine, to rounding
+    // (a/2)/sin(a/2) by the series of the arcsine, to rounding error
     const T half =
         T(1) + square * (T(1.0 / 6) +
                          square * (T(3.0 / 40) + square * (T(5.0 / 112) + square * (T(35.0 / 1152) + square * T(63.0 / 2816)))));

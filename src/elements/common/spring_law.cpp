@@ -12,7 +12,7 @@ namespace engrane::elements {
 
 namespace {
 
-/// The formula of D and V that a keyword names; nullptr with an error when it is none.
+/// The formula of D and V that a keyword refers to; nullptr, with an error, if the function is not such a formula.
 const Expression* find_formula(const BuildContext& context, const std::string& keyword, int id) {
   const auto it = context.functions.find(id);
   if (it == context.functions.end()) {
@@ -20,7 +20,7 @@ const Expression* find_formula(const BuildContext& context, const std::string& k
                                 fmt::format("declare it with .FCT I {} EXPR \"...\", a formula of D, V and T", id));
     return nullptr;
   }
-  if (!it->second) return nullptr;  // what is wrong with it was said already
+  if (!it->second) return nullptr;  // its error has been reported already
   if (!it->second->law())
     context.error(keyword, fmt::format("function {} is no formula of D or V", id),
                   "LAW TABLE takes a function of one variable, LAW EXPR a formula such as \"2E4*D*(1 + 0.3*V)\"");

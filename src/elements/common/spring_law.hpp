@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The laws of springs and dampers, of an elongation or of an angle.
+// Laws of springs and dampers, in terms of an elongation or an angle.
 #pragma once
 
 #include <memory>
@@ -16,25 +16,26 @@
 
 namespace engrane::elements {
 
-/// Keywords that SPRING and TSPRING share. Without `LAW` the spring is linear in K, without `CLAW` the damper in C.
+/// Keywords shared by SPRING and TSPRING. Without `LAW` the spring is linear with K, without `CLAW` the damper is linear with
+/// C.
 struct SpringLawData {
   deck::Tagged law;     ///< TABLE f, POLY k1 [k2 [k3]], EXPR f or USER f
   int damping_law = 0;  ///< function of the rate
 };
 
-/// Tension of a spring and damper: f(e) + g(ė), e measured from where the spring is relaxed. The energy is ∫f from 0 to e. Or a
-/// routine of the user's or a formula, f(e, ė, t) + g(ė). A routine's energy is what it says, a formula's ∫f(e, 0) where it does
-/// not depend on time; without energy all the work counts as lost.
+/// Tension of a spring and damper: f(e) + g(ė), with e measured from the unstressed state and the stored energy ∫f from 0 to e.
+/// Alternatively a user routine or a formula f(e, ė, t), plus g(ė). A routine may return its energy; that of a formula is ∫f(e,
+/// 0) if it does not depend on time. Without an energy all the work counts as dissipated.
 struct SpringLaw {
   double k1 = 0, k2 = 0, k3 = 0;              ///< f = k1 e + k2 e² + k3 e³, unless `of_stretch` is given
   const Function* of_stretch = nullptr;       ///< f
-  const Expression* formula = nullptr;        ///< f of the elongation, its rate and the time
-  std::shared_ptr<const user::Routine> user;  ///< the same
+  const Expression* formula = nullptr;        ///< f of the elongation, its rate and time
+  std::shared_ptr<const user::Routine> user;  ///< likewise
   double damping = 0;                         ///< g = damping ė, unless `of_rate` is given
   const Function* of_rate = nullptr;          ///< g
-  LawCorners corners, corners_of_rate;        ///< of f and of g
+  LawCorners corners, corners_of_rate;        ///< corners of f and of g
 
-  /// Spring and damper together.
+  /// Force of spring and damper together.
   template <class T>
   T force(const T& stretch, const T& rate, double time) const {
     if (!formula && !user) return elastic(stretch) + viscous(rate);
@@ -42,24 +43,24 @@ struct SpringLaw {
     return compose(stretch, y.value, y.by_elongation, 0) + compose(rate, 0, y.by_rate, 0) + viscous(rate);
   }
   bool has_corners() const { return corners.count() + corners_of_rate.count() > 0; }
-  /// A switch for each corner, `before` before its words.
+  /// Appends the switch names, one per corner, each prefixed by `before`.
   void name_switches(std::vector<SwitchNames>& names, const std::string& before) const;
-  /// Their values at an elongation with two derivatives; `size` is that of the terms which it is the difference of. Tells how
-  /// many there are.
+  /// Writes the switch values at an elongation with two time derivatives. `size` is the magnitude of the terms whose difference
+  /// is `stretch`. Returns the number of switches.
   std::size_t switches(const Taylor& stretch, double time, double size, std::span<Switch> values) const;
-  /// Energy stored and power lost.
+  /// Stored energy and dissipated power.
   Energies energies(double stretch, double rate, double time) const;
 
   bool acts() const { return user || formula || of_stretch || of_rate || k1 != 0 || k2 != 0 || k3 != 0 || damping != 0; }
 
-  /// The law of a card with one stiffness and one damping; an error, and none, when K and LAW or C and CLAW are both given.
-  /// `first` is the elongation at the start and `scale` over how much of it a law may change, for a USER law; `suffix` stands
-  /// behind the keywords.
+  /// Builds the law from a card with one stiffness and one damping. Returns nothing, with an error, if both K and LAW or both C
+  /// and CLAW are given. For a USER law `first` is the initial elongation and `scale` the elongation over which the law may
+  /// change noticeably. `suffix` is appended to the keywords.
   static std::optional<SpringLaw> of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping,
                                      double first, double scale, const std::string& suffix = {});
 
  private:
-  /// Of a formula or a routine.
+  /// f of a formula or a user routine, with its derivatives.
   Expression::Law of_both(double stretch, double rate, double time) const;
   template <class T>
   T elastic(const T& stretch) const {
@@ -76,13 +77,13 @@ struct SpringLaw {
     return stretch * stretch * (k1 / 2 + stretch * (k2 / 3 + stretch * (k3 / 4)));
   }
 
-  int formula_id_ = 0;                               ///< the function that `formula` is
-  bool user_stores_ = false;                         ///< the routine gives the energy
-  std::shared_ptr<const PanelIntegral> of_formula_;  ///< ∫f(e, 0) of a formula without time
+  int formula_id_ = 0;                               ///< id of the function that holds `formula`
+  bool user_stores_ = false;                         ///< whether the routine returns the energy
+  std::shared_ptr<const PanelIntegral> of_formula_;  ///< ∫f(e, 0) of a formula that does not depend on time
 };
 
-/// Adds LAW and CLAW to a card, `suffix` behind them; `stretch` is the word for e, and `force` for what it makes. `Data` is the
-/// card's struct or a base of it.
+/// Adds LAW and CLAW, with `suffix` appended, to a card. In the help `stretch` is the word for e and `force` the word for the
+/// result. `Data` is the card's struct or one of its bases.
 template <class Data, class Whole>
 void add_spring_law(deck::Card<Whole>& card, const std::string& stretch, const std::string& force, const std::string& suffix) {
   deck::Tagged Data::*law = &SpringLawData::law;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Force of a contact that is pressed together by δ at the rate δ̇.
+// Contact force as a function of the penetration δ and its rate δ̇.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace engrane::elements {
 
-/// F = k δⁿ (1 + d δ̇) (Hunt and Crossley, J. Appl. Mech. 42 (1975), p. 440) or F = k δⁿ + c δ̇; never less than zero, and
-/// zero while the contact is open.
+/// F = k δⁿ (1 + d δ̇) (Hunt and Crossley, J. Appl. Mech. 42 (1975), p. 440) or F = k δⁿ + c δ̇. Never negative, and zero while
+/// the contact is open.
 struct StopLaw {
   double stiffness = 0, exponent = 1;
   double hunt = 0;    ///< d
@@ -19,7 +19,7 @@ struct StopLaw {
 
   bool damped() const { return hunt > 0 || linear > 0; }
 
-  /// k δⁿ, δ > 0.
+  /// k δⁿ for δ > 0.
   template <class T>
   T elastic(const T& pressed) const {
     if (exponent == 1) return stiffness * pressed;
@@ -27,12 +27,12 @@ struct StopLaw {
     return compose(pressed, f, n * f / x, n * (n - 1) * f / (x * x));
   }
 
-  /// `contact_homotopy`: the part of the spring that pulls across an open gap while statics looks for contacts
-  /// (State::contact_homotopy).
+  /// Contact force. `contact_homotopy` is the fraction of the spring that also acts across an open gap while statics searches
+  /// for contacts (State::contact_homotopy).
   template <class T>
   T force(const T& pressed, const T& rate, double contact_homotopy) const {
     if (!(value_of(pressed) > 0)) {
-      // a linear one that just touches has a slope too
+      // a linear contact that just touches still has a slope
       if (contact_homotopy == 0 || (value_of(pressed) == 0 && exponent != 1)) return T(0);
       return -(elastic(T(-pressed)) * contact_homotopy);
     }
@@ -42,24 +42,25 @@ struct StopLaw {
 
   double stored(double pressed) const { return pressed > 0 ? stiffness * std::pow(pressed, exponent + 1) / (exponent + 1) : 0; }
 
-  /// Of the same sign as the force would have if it could pull, without the powers of δ that it vanishes with, and its rate.
+  /// Switch function for the force being clipped at zero in contact: it has the sign of the unclipped force, but not the powers
+  /// of δ that make that vanish at δ = 0.
   double pressure(double pressed, double rate) const { return linear > 0 ? elastic(pressed) + linear * rate : 1 + hunt * rate; }
   double pressure_rate(double pressed, double rate, double second) const {
     return linear > 0 ? exponent * elastic(pressed) / pressed * rate + linear * second : hunt * second;
   }
 
-  /// Size of its terms.
+  /// Magnitude of its terms, for the rounding error.
   double pressure_size(double pressed, double rate) const {
     return linear > 0 ? elastic(pressed) + linear * std::abs(rate) : 1 + hunt * std::abs(rate);
   }
 
-  /// d with which a free body that arrives with speed v leaves with e v, 0 < e ≤ 1; whatever n, k and mass.
+  /// Hunt–Crossley coefficient d for which a free body arriving at speed v rebounds at e v, 0 < e ≤ 1, for any n, k and mass.
   ///
-  /// From m δ̈ = −k δⁿ (1 + d δ̇) the speeds at δ = 0 before and after obey x (1 + e) = ln((1 + x)/(1 − e x)), x = d v: with
-  /// v dv/(1 + d v) = −(k/m) δⁿ dδ both sides integrate to the same.
+  /// With m δ̈ = −k δⁿ (1 + d δ̇) the speeds at δ = 0 before and after satisfy x (1 + e) = ln((1 + x)/(1 − e x)), x = d v,
+  /// since v dv/(1 + d v) = −(k/m) δⁿ dδ has the same integral in compression and in rebound.
   static double hunt_of_restitution(double e, double speed) {
     if (e >= 1) return 0;
-    // negative for small x, infinite at 1/e
+    // `imbalance` is negative for small x and infinite at 1/e
     double lo = 0, hi = 1 / e;
     for (int i = 0; i < 200 && hi - lo > 1e-16 * hi; ++i) {
       const double middle = 0.5 * (lo + hi);
@@ -69,7 +70,7 @@ struct StopLaw {
   }
 
  private:
-  /// ln((1 + x)/(1 − e x)) − x (1 + e); by its series where the logarithms cancel.
+  /// ln((1 + x)/(1 − e x)) − x (1 + e). Where the logarithms cancel, its series divided by x²; only the sign matters.
   static double imbalance(double x, double e) {
     if (x > 0.05) return std::log1p(x) - std::log1p(-e * x) - x * (1 + e);
     double sum = (e * e - 1) / 2, power_x = 1, power_e = e * e, sign = 1;
@@ -79,7 +80,7 @@ struct StopLaw {
       sign = -sign;
       sum += power_x * (power_e - sign) / k;
     }
-    return sum;  // over x²
+    return sum;  // divided by x²
   }
 };
 

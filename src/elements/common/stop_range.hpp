@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Limits of one coordinate: what STOP and the stops of joints have in common.
+// Limits of one coordinate, shared by STOP and the stops of joints.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace engrane::elements {
 
-/// One end of a coordinate's range. `sign` 1: the lower, which pushes the coordinate up.
+/// One end of a coordinate's range. `sign` is 1 for the lower end, which pushes the coordinate up, and −1 for the upper.
 struct StopLimit {
   double place = 0, sign = 1;
   template <class T>
@@ -21,26 +21,26 @@ struct StopLimit {
   }
 };
 
-/// What a card says of a range.
+/// Card data of a range.
 struct StopRangeData {
   std::optional<double> lower, upper;
   double stiffness = 0, exponent = 1;
   deck::Tagged damping;  ///< HUNT d, REST e v or LINEAR c
 };
 
-/// The keywords it says it by, for messages.
+/// The keywords of these data, for messages.
 struct StopWords {
   std::string lower = "MIN", upper = "MAX", damping = "DAMP";
 };
 
-/// A range of a coordinate, with the contact at its ends.
+/// A range of a coordinate, with contacts at its ends.
 struct StopRange {
   std::vector<StopLimit> limits;
   StopLaw law;
 
   bool given() const { return !limits.empty(); }
 
-  /// Generalised force of the contacts on the coordinate. `contact_homotopy`: as StopLaw::force.
+  /// Generalised force of the contacts on the coordinate. `contact_homotopy`: see StopLaw::force.
   template <class T>
   T push(const T& value, const T& rate, double contact_homotopy) const {
     T sum(0);
@@ -49,25 +49,25 @@ struct StopRange {
     return sum;
   }
 
-  /// Way to the nearer limit; negative when pressed.
+  /// Distance to the nearer limit; negative in contact.
   double gap(double value) const;
-  /// Energy stored and power lost in the contacts.
+  /// Stored energy and dissipated power of the contacts.
   double stored(double value) const;
   double lost(double value, double rate) const;
 
-  /// Adds the switches' names, each behind `before`.
+  /// Appends the switch names, each prefixed by `before`.
   void name_switches(std::vector<SwitchNames>& names, const std::string& before) const;
-  /// Writes the switches of a coordinate with its first and second time derivative; returns how many.
+  /// Writes the switches of a coordinate with its first and second time derivatives; returns their number.
   std::size_t switches(double value, double rate, double second, std::span<Switch> values) const;
 
-  /// From a card whose limits are given in units of `unit`; without limits when it has none. An error, and nothing, when they or
-  /// the damping make no sense.
+  /// Builds the range from a card whose limits are in units of `unit`; it is empty if none is given. Returns nothing, with an
+  /// error, if limits or damping are invalid.
   static std::optional<StopRange> of(const BuildContext& context, const StopRangeData& data, const StopWords& words, double unit);
 };
 
-/// The damping of a contact as a card gives it by `keyword`; false, with an error, when it is none.
+/// Reads the damping of a contact given by `keyword`; returns false, with an error, if it is invalid.
 bool set_stop_damping(const deck::Tagged& damping, const BuildContext& context, const std::string& keyword, StopLaw& law);
-/// Its options.
+/// Adds the options of the damping.
 void add_stop_damping(deck::FieldBuilder field);
 
 }  // namespace engrane::elements

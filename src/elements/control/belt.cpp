@@ -16,14 +16,14 @@ namespace engrane::elements::control {
 
 namespace {
 
-/// Sizes that do not change.
+/// Constant dimensions.
 struct BeltShape {
   double r1 = 0, r2 = 0;
-  double side = 1;                                 ///< 1 open, -1 crossed: the sense in which the second pulley turns
-  double reach() const { return r1 - side * r2; }  ///< the free spans leave the line of centres by asin(reach/distance)
+  double side = 1;                                 ///< 1 open, −1 crossed: sense of rotation of the second pulley
+  double reach() const { return r1 - side * r2; }  ///< the free spans are at asin(reach/distance) to the line of centres
 
-  /// Length of belt, but for a constant, that one span and half its wraps take up: L + reach β with L = sqrt(d² − reach²),
-  /// sin β = reach/d. Its derivative by d is cos β.
+  /// Length of belt taken up by one span and half its wraps, up to a constant: L + reach β with L = sqrt(d² − reach²), sin β =
+  /// reach/d. Its derivative with respect to d is cos β.
   template <class T>
   T taken(const T& d) const {
     using std::atan2;
@@ -38,16 +38,16 @@ struct BeltLaw {
   double preload = 0;
   double damping = 0;
   std::optional<double> friction;
-  bool slips = false;  ///< beyond what friction holds
+  bool slips = false;  ///< slips when friction is exceeded
   bool rigid() const { return stiffness == 0; }
 };
 
-/// The spans run along the two tangents t₁,₂ = cos β u ∓ sin β n of the pulleys, u along the line of centres and n = e × u
-/// across it. Stretches of the spans, with the pulleys' turns θ counted from the line of centres:
+/// The spans run along the two tangents t₁,₂ = cos β u ∓ sin β n of the pulleys, with u along the line of centres and n = e × u
+/// across it. With the pulleys' angles θ measured from the line of centres, the span elongations are
 ///
 ///     δ₁,₂ = taken(d) − taken(d₀) ± (r₁ θ_A − s r₂ θ_B)
 ///
-/// and their gradients are the tangents, so that each span pulls with its tension along its own line.
+/// Their gradients are the tangents, so that each span pulls with its tension along its own line.
 class Belt final : public TemplatedElement<Belt, 2, 13> {
  public:
   Belt(int id, const std::array<int, 2>& nodes, const joints::JointFrame& frame, const BeltShape& shape, const BeltLaw& law,
@@ -144,7 +144,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
       write(runs.stretch(1));
     }
     if (law_.friction) {
-      // Euler and Eytelwein: the tight side carries at most exp(mu wrap) times the slack side
+      // Euler–Eytelwein: the tight side carries at most exp(mu wrap) times the slack side
       const double tight = std::max(first, second), most = -std::expm1(-*law_.friction * std::min(wrap_1, wrap_2));
       write(tight > 0 ? (tight - std::max(0.0, std::min(first, second))) / (tight * most) : 0);
     }
@@ -166,15 +166,15 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
   Drawing drawing() const override { return {fmt::format(R"("shape": "line", "points": {})", json(layout().nodes))}; }
 
  private:
-  /// Where the spans run, and how far they are stretched.
+  /// Directions of the spans and their elongations.
   template <class T>
   struct Runs {
     joints::JointPose<T> pose;
     T distance, slack_taken, roll, taken_rate, roll_rate;
     double line_angle, turn_angle;  ///< in (−π, π]
-    T speed_1, speed_2;             ///< of the pulleys, seen from the line of centres
+    T speed_1, speed_2;             ///< of the pulleys, relative to the line of centres
     std::array<Vec3T<T>, 2> tangent;
-    Vec3T<T> turned;  ///< gradient of the turn of B from A
+    Vec3T<T> turned;  ///< gradient of B's angle relative to A
 
     template <class Node>
     Runs(const Belt& belt, const Node& a, const Node& b, const State& state) : pose(belt.frame_, a, b) {
@@ -193,7 +193,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
       turn_angle = value_of(turn.angle);
       const double lines = turn_count::turns(line_angle, state.history.first(2)),
                    turns = turn_count::turns(turn_angle, state.history.subspan(2));
-      // r₁ θ_A − s r₂ θ_B: the line of centres seen from A turns by −θ_A, B from A by θ_B − θ_A
+      // r₁ θ_A − s r₂ θ_B: relative to A the line of centres turns by −θ_A, and B by θ_B − θ_A
       roll = -shape.reach() * line - shape.side * shape.r2 * turn.angle +
              2 * std::numbers::pi * (-shape.reach() * lines - shape.side * shape.r2 * turns);
       slack_taken = shape.taken(distance) - belt.taken_;
@@ -212,18 +212,18 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
   GripState grip_of(const State& state) const {
     return law_.slips ? GripState::of(layout(), state.history, 0) : GripState::holds_at(Vec3::Zero());
   }
-  /// Euler and Eytelwein: tight over slack is at most exp(μ wrap); the difference, with the preload as their mean.
+  /// Largest difference of the tensions with the preload as their mean. Euler–Eytelwein: tight/slack ≤ exp(μ wrap).
   template <class T>
   T most_pull(const Runs<T>& runs) const {
     using std::atan2, std::sqrt;
     const T &d = runs.distance, beta = atan2(T(shape_.reach()), T(sqrt(d * d - shape_.reach() * shape_.reach())));
-    const double lesser = -shape_.side * value_of(beta) < value_of(beta) ? -shape_.side : 1;  // that of the smaller wrap
+    const double lesser = -shape_.side * value_of(beta) < value_of(beta) ? -shape_.side : 1;  // for the smaller wrap
     const T turned = *law_.friction * (std::numbers::pi + 2 * lesser * beta);
     const double left = std::exp(-value_of(turned));
-    const T part = compose(turned, 1 - left, left, -left);  // of the tight side
+    const T part = compose(turned, 1 - left, left, -left);  // as a fraction of the tight side
     return law_.preload * part / (1 - 0.5 * part);
   }
-  /// The pull of a belt that slips.
+  /// Tension difference of a slipping belt.
   template <class T>
   T slipping(const Runs<T>& runs, int direction) const {
     if (direction == 0) return T(0);
@@ -235,13 +235,13 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
                                            : slipping(runs, grip.sense());
   }
 
-  /// Elastic tension: a slack span does not push.
+  /// Elastic tension; a slack span carries no compression.
   template <class T>
   T taut(const T& stretch) const {
     const T tension = law_.preload + law_.stiffness * stretch;
     return value_of(tension) > 0 ? tension : T(0);
   }
-  /// The damper acts in proportion to the tension, C at the preload, so that it lets go with the span.
+  /// The damping is proportional to the tension, C at the preload, so that it vanishes in a slack span.
   template <class T>
   T tension(const T& stretch, const T& rate) const {
     const T elastic = taut(stretch);
@@ -249,7 +249,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
     const T factor = T(1) + law_.damping / law_.preload * rate;
     return value_of(factor) > 0 ? T(elastic * factor) : T(0);
   }
-  /// Tensions of the two spans; `pull` gives the force along the gradient of `roll` where the belt is rigid.
+  /// Tensions of the two spans. `pull` returns the force along the gradient of `roll` if the belt is rigid.
   template <class T, class Pull>
   std::array<T, 2> tensions(const Runs<T>& runs, Pull pull) const {
     if (!law_.rigid()) return {tension(runs.stretch(0), runs.stretch_rate(0)), tension(runs.stretch(1), runs.stretch_rate(1))};

@@ -14,12 +14,12 @@ struct BeltData {
   std::array<double, 3> axis{};
   std::array<double, 2> radii{};
   bool crossed = false;
-  std::optional<double> stiffness;  ///< of one free span
-  std::optional<double> rigidity;   ///< EA; the stiffness of a span is EA over its length
-  double damping = 0;               ///< of one free span at its preload
+  std::optional<double> stiffness;  ///< stiffness of one free span
+  std::optional<double> rigidity;   ///< EA; a span's stiffness is EA over its length
+  double damping = 0;               ///< damping of one free span at its preload
   double preload = 0;               ///< tension of both spans in the reference configuration
   std::optional<double> friction;   ///< between belt and pulleys
-  bool sticks = false;              ///< slips beyond what that holds
+  bool sticks = false;              ///< the belt slips when friction is exceeded
 };
 
 /// BELT (COURROIE): two pulleys and a belt.

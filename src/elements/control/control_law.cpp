@@ -28,7 +28,7 @@ ControlLaw ControlLaw::pid(const Pid& gains, double reference, bool by_rate) {
     ++i;
   }
   if (derivative) {
-    // w = KD/filter times the error behind the filter; the derivative's part is KD/filter e − w
+    // w = KD/filter times the filtered error; the derivative part of y is KD/filter e − w
     const double high = gains.derivative / gains.filter;
     law.A(i, i) = -1 / gains.filter;
     law.pace[i] = 1 / gains.filter;
@@ -37,7 +37,7 @@ ControlLaw ControlLaw::pid(const Pid& gains, double reference, bool by_rate) {
     law.b_r[i] = high / gains.filter;
     law.start[i] = high * reference;
     if (by_rate) {
-      // w + high m in place of w: it is high r when all is steady, whatever m is
+      // the state is w + high m instead of w: in steady state it equals high r, whatever m is
       law.b_v[i] = high;
     } else {
       law.b_m[i] = -high / gains.filter;
@@ -55,7 +55,7 @@ ControlLaw ControlLaw::transfer_function(std::vector<double> numerator, std::vec
   const int n = static_cast<int>(denominator.size()) - 1;
   numerator.resize(denominator.size(), 0.0);
 
-  // time in units of the geometric mean of the poles that are not zero, so that coefficients are of one size
+  // scale time by the geometric mean of the nonzero poles, so that all coefficients have similar magnitude
   const auto zeros = std::find_if(denominator.begin(), denominator.end(), [](double v) { return v != 0; }) - denominator.begin();
   const double pace = zeros == n ? 1
                                  : std::pow(std::abs(denominator[static_cast<std::size_t>(zeros)] / denominator.back()),
@@ -67,7 +67,7 @@ ControlLaw ControlLaw::transfer_function(std::vector<double> numerator, std::vec
     b[k] = numerator[static_cast<std::size_t>(k)] * scale;
   }
 
-  // observer form: y = x_n + b_n e, the other states feed it in turn
+  // observer canonical form: y = x_n + b_n e
   ControlLaw law(n);
   Eigen::VectorXd input(n);
   for (int k = 0; k < n; ++k) {
@@ -89,7 +89,7 @@ ControlLaw ControlLaw::transfer_function(std::vector<double> numerator, std::vec
   const Eigen::VectorXd steady = -law.A.partialPivLu().solve(input);  // for e = 1
   law.start = steady * reference;
   if (by_rate) {
-    // x + steady·m in place of x
+    // the state is x + steady·m instead of x
     law.b_m.setZero();
     law.b_v = steady;
     law.d_m = -(b[n] + steady[n - 1]);

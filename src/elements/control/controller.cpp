@@ -17,7 +17,7 @@ namespace {
 
 constexpr int most_scalars = ControlLaw::most_states + 1;
 
-/// What the controller compares, and with what.
+/// The measured coordinate and its reference.
 struct ControllerInput {
   Coordinate coordinate;
   bool speed = false;
@@ -25,25 +25,26 @@ struct ControllerInput {
   const Function* function = nullptr;
 };
 
-/// What it does with its command y.
+/// The actuated coordinate and how the command y acts on it.
 struct ControllerOutput {
   enum class Kind : unsigned char { effort, speed, position };
   Coordinate coordinate;
   Kind kind = Kind::effort;
-  double lag = 0;  ///< of the drive
+  double lag = 0;  ///< time constant of the drive
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   double tracking = 0;  ///< time constant of the anti-windup
 };
 
-/// The states x of the law live in own unknowns z with x = ż + κ z and κ the pace of the state. So their equations
+/// The states x of the law are represented by own unknowns z with x = ż + κ z, κ the pace of the state. Their equations
 ///
 ///     (z̈ + κ ż − dx/dt)/κ = 0
 ///
-/// have a mass like those of the mechanism: the start finds z̈, and the integrator keeps its order. In statics, where nothing
-/// moves, x = κ z and dx/dt = 0 remain. z begins at x/κ, ż at zero; what z does beyond that changes nothing in x.
+/// then have a mass like those of the mechanism: the initial z̈ can be computed, and the integrator keeps its order. In
+/// statics, where rates vanish, x = κ z and dx/dt = 0 remain. z starts at x/κ and ż at zero; the remaining freedom in z does
+/// not affect x.
 ///
-/// A drive is a last unknown p, the position that it imposes: coordinate − p = 0. It follows the command with a lag τ, by
-/// τ p̈ + ṗ = y for a speed and τ² p̈ + 2 τ ṗ + p = y for a position. The force of the constraint acts on the mechanism alone.
+/// A drive adds a last unknown p, the position that it imposes: coordinate − p = 0. It follows the command with a lag τ, by τ
+/// p̈ + ṗ = y for a speed and τ² p̈ + 2 τ ṗ + p = y for a position. The constraint force acts on the mechanism only.
 class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalars + 1> {
  public:
   Controller(int id, const ControllerInput& input, const ControllerOutput& output, const ControlLaw& law)
@@ -118,7 +119,7 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
  private:
   static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-  // the coordinates add their nodes to the layout one after the other, and the base takes it in the end
+  // the coordinates append their nodes to the layout in turn, before it is passed to the base
   Controller(int id, const ControllerInput& input, const ControllerOutput& output, const ControlLaw& law, Layout layout)
       : TemplatedElement(id),
         law_(law),
@@ -226,7 +227,7 @@ std::optional<ControllerOutput> read_output(const ControllerData& data, const Bu
   return output;
 }
 
-/// Is the card one law, and a whole one?
+/// Whether the card gives exactly one complete law.
 bool check_law(const ControllerData& data, const BuildContext& context) {
   const bool transfer = !data.numerator.empty() || !data.denominator.empty();
   for (const char* keyword : {"KP", "KI", "KD", "TF", "I0", "TT"})
@@ -281,7 +282,7 @@ bool check_law(const ControllerData& data, const BuildContext& context) {
   return true;
 }
 
-/// Start of the run: where a steady law begins.
+/// Start time of the run, at which a law that starts in a steady state takes its reference.
 double start_time(const BuildContext& context) {
   double start = 0;
   if (context.records)

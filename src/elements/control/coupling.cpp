@@ -10,8 +10,8 @@ namespace engrane::elements::control {
 
 namespace {
 
-/// Φ = q₂ − r q₁ − o, held by a multiplier or by a spring and damper. The effort on q₂ is what the element exerts along the
-/// second coordinate; −r times as much acts along the first.
+/// Φ = q₂ − r q₁ − o, enforced by a multiplier or by a spring and damper. The effort on q₂ is that of the element along the
+/// second coordinate; −r times it acts along the first.
 class Coupling final : public TemplatedElement<Coupling, 4, 25> {
  public:
   struct Law {
@@ -62,7 +62,7 @@ class Coupling final : public TemplatedElement<Coupling, 4, 25> {
   }
 
  private:
-  // the coordinates add their nodes to the layout one after the other, and the base takes it in the end
+  // the coordinates append their nodes to the layout in turn, before it is passed to the base
   Coupling(int id, const Coordinate& first, const Coordinate& second, const Law& law, Layout layout)
       : TemplatedElement(id), law_(law), first_(first, layout), second_(second, layout) {
     if (!law.elastic())

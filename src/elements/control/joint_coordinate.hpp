@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A coordinate of another element of the deck, a joint or a sensor: what couplings relate, and what controllers measure and act
-// along.
+// A coordinate of another element of the deck, a joint or a sensor. Couplings relate such coordinates; controllers measure and
+// actuate them.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ namespace engrane::elements::control {
 
 using joints::Coordinate;
 
-/// A coordinate at its place in an element: where its nodes are in the layout and its turn count in the history.
+/// A coordinate as seen by an element that uses it: indices of its nodes in that element's layout and of its turn count in the
+/// history.
 struct PlacedCoordinate {
   Coordinate coordinate;
   std::array<std::size_t, 2> node{};
@@ -44,8 +45,8 @@ struct PlacedCoordinate {
   }
 };
 
-/// The coordinate `name` of element `id`, or its first when the name is empty. An error at the keyword when there is no such
-/// element, when it has no coordinates, or none of that name.
+/// Finds the coordinate `name` of element `id`, or its first one if the name is empty. Returns nothing, with an error at the
+/// keyword, if there is no such element or it has no such coordinate.
 std::optional<Coordinate> find_coordinate(const BuildContext& context, std::string_view keyword, int id,
                                           std::string_view name_keyword, const std::string& name);
 

@@ -10,7 +10,8 @@ namespace engrane::elements::control {
 
 namespace {
 
-/// Torque of a motor's shaft at a speed: a function, or the straight line from standstill to the speed without load.
+/// Torque of a motor's shaft as a function of speed: a function, or the straight line from the stall torque to the no-load
+/// speed.
 struct MotorCurve {
   const Function* function = nullptr;
   double stall = 0, free = 1;
@@ -21,7 +22,7 @@ struct MotorCurve {
   }
 };
 
-/// Effort r s(t) T(r q̇) along a coordinate q, with the curve T of the shaft, its ratio r and a function s of time.
+/// Effort r s(t) T(r q̇) along a coordinate q, with the torque curve T of the shaft, its ratio r and a function s of time.
 class Motor final : public TemplatedElement<Motor, 2, 12> {
  public:
   Motor(int id, const Coordinate& coordinate, const MotorCurve& curve, double ratio, const Function* supply)
@@ -57,7 +58,7 @@ class Motor final : public TemplatedElement<Motor, 2, 12> {
   }
 
  private:
-  // the coordinate adds its nodes to the layout, and the base takes it in the end
+  // the coordinate appends its nodes to the layout before it is passed to the base
   Motor(int id, const Coordinate& coordinate, const MotorCurve& curve, double ratio, const Function* supply, Layout layout)
       : TemplatedElement(id), coordinate_(coordinate, layout), curve_(curve), ratio_(ratio), supply_(supply) {
     set_layout(std::move(layout));
@@ -83,7 +84,7 @@ class Motor final : public TemplatedElement<Motor, 2, 12> {
   std::vector<Channel> channels_;
 };
 
-/// The curve of the card, or nothing with an error.
+/// The torque curve of the card; returns nothing, with an error, if it is invalid.
 std::optional<MotorCurve> find_curve(const MotorData& data, const BuildContext& context) {
   MotorCurve curve;
   if (data.curve != 0) {

@@ -13,12 +13,12 @@ struct MotorData {
   int joint = 0;
   std::string coordinate;             ///< empty: the joint's first
   int curve = 0;                      ///< function of the shaft's speed
-  std::optional<double> stall, free;  ///< torque at rest and speed without load: a straight line between them
+  std::optional<double> stall, free;  ///< torque at standstill and no-load speed; a straight line in between
   double ratio = 1;                   ///< of the shaft's speed to the coordinate's rate
-  int function = 0;                   ///< of time, multiplies the torque
+  int function = 0;                   ///< function of time that multiplies the torque
 };
 
-/// MOTOR (MOTEUR): torque along the coordinate of a joint that follows from its speed.
+/// MOTOR (MOTEUR): torque along a joint's coordinate as a function of its speed.
 ElementType motor_type();
 
 }  // namespace engrane::elements::control

@@ -15,7 +15,7 @@ class Sensor final : public TemplatedElement<Sensor, 2, 1>, public joints::Coord
   Sensor(int id, const Coordinate& coordinate) : TemplatedElement(id), coordinate_(coordinate) {
     Layout layout;
     layout.nodes.assign(coordinate.nodes.begin(), coordinate.nodes.end());
-    // it looks at the nodes and asks for none of their unknowns: a node that nothing turns stays unturned
+    // the sensor reads the nodes but needs none of their unknowns: it must not give a node rotations
     layout.needs = {NodeNeed{}, NodeNeed{}};
     layout.history = coordinate.history();
     set_layout(std::move(layout));
@@ -55,7 +55,7 @@ class Sensor final : public TemplatedElement<Sensor, 2, 1>, public joints::Coord
   std::vector<Channel> channels_;
 };
 
-/// What a sensor measures, or nothing, with errors.
+/// The coordinate measured by a sensor; returns nothing, with an error, if the data are invalid.
 std::optional<Coordinate> measured_coordinate(const SensorData& data, const BuildContext& context) {
   if (!check_nodes(context, data.nodes)) return {};
   Coordinate c;
@@ -74,7 +74,7 @@ std::optional<Coordinate> measured_coordinate(const SensorData& data, const Buil
     }
     c.name = "DISTANCE";
     c.what = joints::Measure::distance;
-    c.frame.turns_a = c.nodes[0] == 0;  // the ground's reaction is complete
+    c.frame.turns_a = c.nodes[0] == 0;  // makes the ground's reaction complete
     c.frame.turns_b = c.nodes[1] == 0;
     if (data.at) (c.nodes[0] == 0 ? c.frame.arm_a : c.frame.arm_b) = to_vector(*data.at);
     if (same_place(at_a + c.frame.arm_a, at_b + c.frame.arm_b)) {
@@ -101,7 +101,7 @@ std::optional<Coordinate> measured_coordinate(const SensorData& data, const Buil
   }
   c.name = "DISPLACEMENT";
   c.what = joints::Measure::gap_1;
-  c.frame.arm_a = at_b - at_a;  // the point of a's body where b was
+  c.frame.arm_a = at_b - at_a;  // the point of a's body that coincides with b in the reference configuration
   c.frame.turns_b = c.nodes[1] == 0;
   return c;
 }

@@ -10,15 +10,15 @@
 namespace engrane::elements::control {
 
 /// Card of a sensor. `SENSOR N a b DISTANCE [AT x y z]`, `SENSOR N a b ANGLE AXIS x y z`,
-/// `SENSOR N a b DISPLACEMENT AXIS x y z`; a may be left out: the ground.
+/// `SENSOR N a b DISPLACEMENT AXIS x y z`. Without a the sensor measures from the ground.
 struct SensorData {
   std::vector<int> nodes;  ///< one or two
   deck::Tagged kind;       ///< DISTANCE, ANGLE or DISPLACEMENT
   std::optional<std::array<double, 3>> axis;
-  std::optional<std::array<double, 3>> at;  ///< the ground's end of a distance
+  std::optional<std::array<double, 3>> at;  ///< end on the ground of a distance
 };
 
-/// SENSOR (CAPTEUR): observes a distance, an angle or a displacement. It has no forces and adds no unknowns.
+/// SENSOR (CAPTEUR): observes a distance, an angle or a displacement. It exerts no forces and adds no unknowns.
 ElementType sensor_type();
 
 }  // namespace engrane::elements::control

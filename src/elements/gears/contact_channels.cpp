@@ -60,7 +60,8 @@ void put_contact_channels(ChannelWriter& out, const ToothContact& contact, const
                           const std::array<double, 2>& power, std::span<const double> scalars) {
   out.put(report.sliding_speed);
   for (const double p : power) out.put(p);
-  // what goes through the teeth, of which a part is lost: the power taken, or where springy teeth give theirs back, given
+  // power through the teeth, part of which is lost: the power taken, or, when elastic teeth release energy, the power given
+  // plus losses
   const double lost = report.friction_power + report.damping_power;
   const double taken = -std::min(power[0], 0.0) - std::min(power[1], 0.0);
   const double given = std::max(power[0], 0.0) + std::max(power[1], 0.0);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<std::size_t, 2> wheels{0, 1};
 
-/// One value is of both wheels.
+/// A single value applies to both wheels.
 std::array<double, 2> both(const std::vector<double>& values, double otherwise) {
   if (values.empty()) return {otherwise, otherwise};
   return {values.front(), values.back()};
@@ -77,7 +77,7 @@ bool set_tips(CutTeeth& cut, const CutData& data, const std::array<std::string, 
       continue;
     }
     if (cut.ring[i] || cut.tip_thickness(i) > 0) continue;
-    // where the flanks meet: bisection between the reference circle and the tip
+    // diameter at which the flanks meet, by bisection between the reference circle and the tip
     double low = std::min(cut.reference_radius(i), cut.tip[i]), high = cut.tip[i];
     for (int k = 0; k < 100; ++k) {
       const double middle = 0.5 * (low + high);

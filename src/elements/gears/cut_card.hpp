@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a card says of how teeth are cut: profile shift, addendum and dedendum, tip diameters.
+// Card data on how teeth are cut: profile shift, addendum and dedendum, tip diameters.
 #pragma once
 
 #include <array>
@@ -12,32 +12,33 @@
 
 namespace engrane::elements::gears {
 
-/// The part of a card that describes the cut of cylindrical teeth. Cards derive their struct from it. Two values are those of
-/// A and B; of a rack and pinion the pinion's is A.
+/// Card data of the cut of cylindrical teeth; a base of the cards' structs. Two values are for A and B; in a rack-and-pinion
+/// pair A is the pinion.
 struct CutData {
   std::vector<double> shift;               ///< X
   std::vector<double> addendum, dedendum;  ///< factors; one value for both
   std::vector<double> tip_diameter;        ///< TIP
   std::vector<double> tip_alteration;      ///< TIPALTER, one value for both
 
-  /// Does the card describe the cut at all? Otherwise the teeth have addendum m_n and no shift.
+  /// Whether the card describes the cut. If not, the teeth have addendum m_n and no profile shift.
   bool describes_cut() const {
     return !(shift.empty() && addendum.empty() && dedendum.empty() && tip_diameter.empty() && tip_alteration.empty());
   }
   bool operator==(const CutData&) const = default;
 };
 
-/// The keywords that CutData has values of, and whether they are given.
+/// The keywords of CutData, each with whether it is given.
 std::vector<std::pair<std::string_view, bool>> given_cut_keywords(const CutData& data);
 
-/// The teeth that `reference` has before any shift, with the factors of the card; shifts as far as given, else 0.
+/// The teeth of `reference`, with its reference pressure angle as working angle and the factors of the card. Shifts are those
+/// given, else 0.
 CutTeeth reference_cut(const GearDesign& reference, const CutData& data);
 
-/// Tip radii from TIP, TIPALTER or the factors, once shifts and working angle are known. Pointed tips, and tips within the
-/// root circle, are errors. `names` are the wheels in messages; a rack is not looked at.
+/// Sets the tip radii from TIP, TIPALTER or the factors, once shifts and working pressure angle are known. Reports an error for
+/// pointed tips and for tips inside the root circle. `names` are the wheels in messages; a rack is skipped.
 bool set_tips(CutTeeth& cut, const CutData& data, const std::array<std::string, 2>& names, const BuildContext& context);
 
-/// Undercut, tips thinner than 0.2 m_n (DIN 3960, 3.9) and tips that reach the mate's root, each a warning with its cure.
+/// Warns of undercut, tips thinner than 0.2 m_n (DIN 3960, 3.9) and tips that reach the mate's root, each with a remedy.
 void warn_about_cut(const CutTeeth& cut, const CutData& data, const std::array<std::string, 2>& names,
                     const BuildContext& context);
 

@@ -18,18 +18,18 @@ namespace engrane::elements::gears {
 
 namespace {
 
-/// Bearings may be tilted on purpose, as far as teeth stand it.
+/// Bearings may be tilted on purpose, as far as the teeth tolerate it.
 constexpr double most_tilt = 1 * degree;
 
 /// A joint that lets a node turn about one direction, or not at all.
 struct Turning {
-  int to = 0;         ///< the body it is held by
-  Vec3 direction;     ///< of length 1; zero: every turn is held
+  int to = 0;         ///< id of the node at its other end
+  Vec3 direction;     ///< unit vector; zero: all rotations are held
   std::string joint;  ///< "HINGE 2"
 };
 
-/// The direction about which an element of two nodes lets one of them turn while the other stands: zero when it holds every
-/// turn, nothing when it lets it turn about more than one direction.
+/// The direction about which a two-node element lets one node turn while the other is fixed. Zero if it holds all rotations;
+/// nothing if it leaves more than one direction free.
 std::optional<Vec3> turning_direction(const Element& element, std::size_t node, const BuildContext& context) {
   const Layout& layout = element.layout();
   std::vector<double> scalars(layout.scalars.size()), rates(scalars.size()), none(scalars.size());
@@ -40,7 +40,7 @@ std::optional<Vec3> turning_direction(const Element& element, std::size_t node, 
     nodes[i].x = context.nodes.at(layout.nodes[i]);
     size = std::max(size, (nodes[i].x - nodes[0].x).norm());
   }
-  if (size == 0) size = 1;  // only makes lengths and turns comparable
+  if (size == 0) size = 1;  // only scales lengths against rotations
   element.start(scalars, history);
   State state;
   state.nodes = nodes;
@@ -82,7 +82,7 @@ std::optional<Vec3> turning_direction(const Element& element, std::size_t node, 
   return Vec3(turning.matrixU().col(0));
 }
 
-/// Of every node the joints it has. An element is looked at when a wheel stands on one of its nodes.
+/// The joints of every node. An element is examined when a wheel is on one of its nodes.
 class Bearings {
  public:
   explicit Bearings(const BuildContext& context) {
@@ -93,7 +93,7 @@ class Bearings {
       const Layout& layout = found.element->layout();
       const std::span<const int> nodes = found.element->node_ids();
       if (nodes.size() != 2 || layout.nodes.size() != 2 || layout.multipliers.empty()) continue;
-      if (layout.nodes[0] != nodes[0] || layout.nodes[1] != nodes[1]) continue;  // a block's common layout
+      if (layout.nodes[0] != nodes[0] || layout.nodes[1] != nodes[1]) continue;  // layout shared by a block of elements
       for (const std::size_t i : {std::size_t{0}, std::size_t{1}})
         joints_[nodes[i]].push_back({found.element, i, fmt::format("{} {}", record.schema->name, record.id)});
     }

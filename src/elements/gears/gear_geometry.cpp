@@ -9,7 +9,7 @@ namespace engrane::elements::gears {
 
 namespace {
 
-/// Below this a sine or cosine of an angle typed in degrees counts as zero.
+/// Sines and cosines below this count as zero, since angles are typed in degrees.
 constexpr double angular_rounding = 1e-9;
 
 }  // namespace
@@ -120,10 +120,10 @@ GearDesign working_design(const GearDesign& reference, const CutTeeth& cut) {
 
 std::optional<double> virtual_path_of_contact(const GearDesign& design, std::size_t wheel) {
   const double alpha = design.transverse_pressure_angle(wheel), m_n = design.normal_module, cosine = std::cos(design.cone[wheel]);
-  if (std::abs(cosine) < angular_rounding) return m_n / std::sin(alpha);  // a crown wheel: its virtual wheel is a rack
+  if (std::abs(cosine) < angular_rounding) return m_n / std::sin(alpha);  // crown wheel: its virtual wheel is a rack
   const double r = design.radius(wheel) / std::abs(cosine), base = r * std::cos(alpha);
   const double tip = design.cut ? design.cut->tip[wheel] : cosine < 0 ? r - m_n : r + m_n;
-  if (tip <= base) return {};  // the ring's tip lies inside its base circle: no involute there
+  if (tip <= base) return {};  // the tip of a ring inside its base circle: no involute there
   const double side = std::sqrt(tip * tip - base * base) - r * std::sin(alpha);
   return cosine < 0 ? -side : side;
 }
@@ -134,7 +134,7 @@ std::optional<double> path_of_contact(const GearDesign& design, std::size_t whee
 }
 
 std::optional<double> contact_ratio(const GearDesign& design) {
-  if (std::abs(design.helix[0] + design.helix[1]) > angular_rounding) return {};  // the axles pass each other
+  if (std::abs(design.helix[0] + design.helix[1]) > angular_rounding) return {};  // skew axles
   const auto a = virtual_path_of_contact(design, 0), b = virtual_path_of_contact(design, 1);
   if (!a || !b) return {};
   return (*a + *b) / (std::numbers::pi * design.transverse_module(0) * std::cos(design.transverse_pressure_angle(0)));

@@ -20,11 +20,11 @@ namespace engrane::elements::gears {
 
 namespace {
 
-/// Relative difference up to which typed numbers count as equal.
+/// Relative difference up to which numbers typed by the user count as equal.
 constexpr double typing_tolerance = 1e-6;
 constexpr double right_angle = std::numbers::pi / 2;
 
-/// The keywords that some kinds take and others do not, by kind.
+/// For each kind, the optional keywords that it accepts.
 const std::vector<std::pair<std::string_view, std::vector<std::string_view>>>& keywords_by_kind() {
   static const std::vector<std::pair<std::string_view, std::vector<std::string_view>>> table{
       {"SPUR", {"MN", "MT", "DISTANCE", "X", "ADDENDUM", "DEDENDUM", "TIP", "TIPALTER"}},
@@ -38,7 +38,7 @@ const std::vector<std::pair<std::string_view, std::vector<std::string_view>>>& k
   return table;
 }
 
-/// Those keywords, with whether the card has them.
+/// Those keywords, with whether they are given on the card.
 std::vector<std::pair<std::string_view, bool>> given_keywords(const GearData& data) {
   auto given = given_cut_keywords(data);
   given.insert(given.begin(), {{"MN", data.normal_module.has_value()},
@@ -101,7 +101,7 @@ class KindBuilder {
     return false;
   }
 
-  /// Which of these keywords are given? An error unless it is exactly one.
+  /// Which one of these keywords is given; reports an error unless it is exactly one.
   std::optional<std::string_view> one_of(const std::vector<std::pair<std::string_view, bool>>& choice,
                                          std::string_view what) const {
     std::vector<std::string_view> names, given;
@@ -117,21 +117,21 @@ class KindBuilder {
     return {};
   }
 
-  /// Sign of the trade's helix of A where another datum gives its size.
+  /// Sign of A's helix angle (right hand positive) when its magnitude follows from other data.
   double hand() const { return data_.hand.is("LEFT") ? -1 : 1; }
   double helix_a() const { return data_.helix[0] * degree; }
 
-  /// Sets both helices from the trade's angles.
+  /// Sets both helices from angles that are positive for right hand.
   void set_helices(double trade_a, double trade_b) {
     design_.helix = {paper_helix(trade_a, design_.cone[0]), paper_helix(trade_b, design_.cone[1])};
   }
-  /// The helix of B that fits parallel axles or axles that meet.
+  /// The same, with the matching helix of B for parallel or intersecting axles.
   void set_helices(double trade_a) {
     design_.helix[0] = paper_helix(trade_a, design_.cone[0]);
     design_.helix[1] = -design_.helix[0];
   }
 
-  /// A second helix must be the one that fits.
+  /// Checks that a second helix angle, if given, is the matching one.
   bool check_second_helix() const {
     if (data_.helix.size() < 2) return true;
     const double fits = paper_helix(design_.helix[1], design_.cone[1]) / degree;
@@ -157,7 +157,7 @@ class KindBuilder {
     if (straight || !data_.helix.empty()) {
       set_helices(straight ? 0 : helix_a());
       if (!check_second_helix()) return false;
-      // with X the distance may be given as well: it decides the other shift, or is checked
+      // with X the distance may also be given: it determines the other shift, or is checked
       const bool module = data_.normal_module || data_.transverse_module;
       std::vector<std::pair<std::string_view, bool>> choice{{"MN", data_.normal_module.has_value()},
                                                             {"MT", data_.transverse_module.has_value()}};
@@ -179,7 +179,7 @@ class KindBuilder {
     return helix_that_fits();
   }
 
-  /// Centre distance over m_n of parallel axles at the helix β, profile shifts considered.
+  /// Centre distance over m_n for parallel axles at the helix angle β, including profile shift.
   std::optional<double> distance_per_module(double helix) const {
     GearDesign one = design_;
     one.normal_module = 1;
@@ -197,7 +197,7 @@ class KindBuilder {
     return cut.distance();
   }
 
-  /// cosβ = m_n/m_t, where m_t may come from the centre distance, and that from the places of the nodes.
+  /// Helix angle from cosβ = m_n/m_t; m_t may follow from the centre distance, and that from the nodes.
   bool helix_that_fits() {
     if (!data_.normal_module)
       return fail("KIND", fmt::format("KIND {}: the normal module or the helix is missing", data_.kind.tag),
@@ -237,7 +237,7 @@ class KindBuilder {
     double helix = 0;
     if (data_.shift.empty()) {
       helix = std::acos(std::min(*straight / wanted, 1.0));
-    } else {  // the distance grows with the helix: bisection
+    } else {  // the distance increases with the helix angle: bisection
       double low = 0, high = right_angle * (1 - 1e-9);
       for (int i = 0; i < 200 && high - low > 1e-16 * high; ++i) {
         helix = 0.5 * (low + high);
@@ -250,7 +250,7 @@ class KindBuilder {
     return true;
   }
 
-  /// The angle between axles that meet: SHAFT, else AXISB with the places of the nodes, else 90 degrees.
+  /// The angle between intersecting axles: SHAFT, or from AXISB and the node positions, or 90 degrees.
   double shaft_angle() const {
     if (data_.shaft_angle) return *data_.shaft_angle * degree;
     if (data_.axis_b && site_.x_b)
@@ -349,7 +349,7 @@ class KindBuilder {
     design_.cone[ring] = cones->ring_cone;
     design_.helix[pinion] = paper_helix(spiral, cones->pinion_cone);
     design_.helix[ring] = paper_helix(-hand * cones->ring_spiral, cones->ring_cone);
-    // the axle of A may be given from the apex outwards or inwards: the side on which B lies tells
+    // A's axle may point from the apex outwards or inwards: the side on which B lies decides
     if (site_.x_b) {
       const Closure c = closure(design_, site_.x_a, *site_.x_b, site_.axle);
       if (c.offset_needed * c.offset_given < 0)
@@ -377,7 +377,7 @@ class KindBuilder {
     const std::string all = fmt::format("{}", fmt::join(worm_keywords, " "));
     if (given.size() == 1 && site_.x_b && given[0].size != WormSize::center_distance)
       given.push_back({WormSize::center_distance, cross(site_.axle, Vec3(*site_.x_b - site_.x_a)).norm()});
-    // two that are independent: λ and q say the same, and so do lead and axial module
+    // two independent ones: λ and q are equivalent, and so are lead and axial module
     const auto independent = [](WormSize one, WormSize other) {
       if (!is_length(one) && !is_length(other)) return false;
       const auto pitch = [](WormSize s) { return s == WormSize::lead || s == WormSize::axial_module; };
@@ -408,7 +408,7 @@ class KindBuilder {
   static std::string_view keyword(WormSize size) { return worm_keywords[static_cast<std::size_t>(size)]; }
   static std::string shown(WormSize size, double value) { return number(size == WormSize::lead_angle ? value / degree : value); }
 
-  /// Whatever else is given must agree.
+  /// Checks that all other given dimensions agree.
   bool check_worm(const WormNumbers& numbers, double lead_angle, const std::array<std::optional<double>, 7>& values) const {
     bool good = true;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -434,7 +434,8 @@ class KindBuilder {
 
 namespace {
 
-/// The teeth of wheel B that close a pair on parallel axles: the centre distance grows with them outside a ring and inside.
+/// The number of teeth of wheel B that closes a pair on parallel axles: the centre distance increases with it, external or
+/// internal.
 std::optional<std::array<int, 2>> teeth_that_close(const GearData& data, double distance, const BuildContext& context) {
   const bool internal = data.internal || data.kind.is("INTERNAL");
   const double helix = data.helix.empty() ? 0 : data.helix[0] * degree;
@@ -458,7 +459,7 @@ std::optional<std::array<int, 2>> teeth_that_close(const GearData& data, double 
     return {};
   }
   int low = first, high = most;
-  while (low < high) {  // the first number of teeth that reaches the distance
+  while (low < high) {  // smallest number of teeth that reaches the distance
     const int middle = (low + high) / 2;
     if (distance_with(middle) < distance * (1 - typing_tolerance))
       low = middle + 1;
@@ -499,7 +500,7 @@ std::optional<std::array<int, 2>> gear_teeth_numbers(const GearData& data, const
 std::array<double, 2> bevel_cones(double shaft, const std::array<int, 2>& teeth, const GearSite& site) {
   auto cones = cones_of_shaft_angle(shaft, teeth);
   if (!site.x_b) return cones;
-  // the offset of B along the axle of A, −r_B Z₁₂ = −r_B sin(γ_A + γ_B), has the sign to choose by
+  // the sign is chosen to match the offset of B along the axle of A, −r_B Z₁₂ = −r_B sin(γ_A + γ_B)
   GearDesign design;
   design.teeth = teeth;
   design.cone = cones;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The short forms of GEAR: from what a designer has of a kind of pair to its pitch geometry.
+// The short forms of GEAR: pitch geometry from the usual design data of a kind of pair.
 #pragma once
 
 #include <optional>
@@ -10,27 +10,27 @@
 
 namespace engrane::elements::gears {
 
-/// Where a pair stands. The place of B is known unless the pair itself is to find it (`PLACE`).
+/// Location of a pair. The position of B is known unless the pair itself determines it (`PLACE`).
 struct GearSite {
   Vec3 x_a = Vec3::Zero();
   std::optional<Vec3> x_b;
   Vec3 axle = Vec3::UnitZ();  ///< μ₁, of length 1
 };
 
-/// Numbers of teeth, from Z and STARTS. Of parallel axles Z may have one value where module, helix and centre distance (DISTANCE,
-/// or of the nodes) are known: wheel B has the teeth with which they close, profile shifts considered. An error when one is
-/// missing or no whole number fits.
+/// Numbers of teeth from Z and STARTS. For parallel axles Z may have one value if module, helix and centre distance (DISTANCE,
+/// or that of the nodes) are known: wheel B gets the number of teeth that closes the pair, including profile shift. Reports an
+/// error if a number is missing or no integer fits.
 std::optional<std::array<int, 2>> gear_teeth_numbers(const GearData& data, const GearSite& site, const BuildContext& context);
 
-/// The design of a card with `KIND`. Data that are missing, that contradict each other or that the kind does not take go to
-/// the context's diagnostics; then there is no result.
+/// The design of a card with `KIND`. Returns nothing, with errors, if data are missing, contradictory, or not accepted by the
+/// kind.
 std::optional<GearDesign> design_of_kind(const GearData& data, const GearSite& site, const BuildContext& context);
 
-/// Cones of a pair whose axles meet at the angle `shaft`: their sign is the one that suits the side of A on which B lies,
-/// positive where B is still to be placed.
+/// Cone angles of a pair whose axles intersect at the angle `shaft`. Their sign follows from the side of A on which B lies; it
+/// is positive if B is not yet placed.
 std::array<double, 2> bevel_cones(double shaft, const std::array<int, 2>& teeth, const GearSite& site);
 
-/// Without `KIND`: are there keywords that only the short forms know? Then an error.
+/// Without `KIND`: reports an error if keywords of the short forms are given.
 bool check_long_form(const GearData& data, const BuildContext& context);
 
 }  // namespace engrane::elements::gears

@@ -55,7 +55,7 @@ ContactGeometry contact_geometry(const GearDesign& design, const PitchFrames& fr
   ContactGeometry g = contact_geometry(design, width);
   g.turn_ratio = -design.lever(0) / design.lever(1);
   const Vec3 speed_a = design.radius(0) * frames.mu.col(2), speed_b = g.turn_ratio * design.radius(1) * frames.xi.col(2);
-  // of axles that are parallel or meet the wheels roll: what is left is rounding
+  // for parallel or intersecting axles the wheels roll, and any slip is rounding error
   if (const double slip = (speed_a - speed_b).norm(); slip > 1e-9 * speed_a.norm()) g.slip_per_turn = slip;
   return g;
 }
@@ -70,7 +70,7 @@ ContactGeometry contact_geometry(const GearDesign& design, double width) {
   g.width = width;
   const int kind = design.parallel_kind();
   if (kind == 0) {
-    // axles that meet: the virtual wheels at the middle of the face (Tredgold), which roll as the cones do
+    // intersecting axles: the virtual wheels at the middle of the face (Tredgold), which roll as the cones do
     if (contact_ratio(design)) {
       g.base_pitch = std::numbers::pi * design.transverse_module(0) * std::cos(g.transverse_pressure_angle);
       g.approach = virtual_path_of_contact(design, 1).value_or(0);
@@ -86,7 +86,7 @@ ContactGeometry contact_geometry(const GearDesign& design, double width) {
   g.base_pitch = std::numbers::pi * design.transverse_module(0) * c;
   g.approach = path_of_contact(design, 1).value_or(0);
   g.recess = path_of_contact(design, 0).value_or(0);
-  if (design.cut) {  // half the tooth of A at the working pitch circle, of the pitch there
+  if (design.cut) {  // half the tooth thickness of A at the working pitch circle, over the pitch there
     const double r = design.radius(0);
     g.flank = design.cut->thickness_at(0, r) * design.teeth[0] / (4 * std::numbers::pi * r);
   }
@@ -129,7 +129,7 @@ void GearPair::observe(const State& state, std::span<double> values) const {
   const ContactReport on = report(state);
   out.put(state.multipliers[0]);
   std::array<Vec3, 2> point;
-  std::array<double, 2> power{};  // that the teeth give to each wheel, in the pair's frame
+  std::array<double, 2> power{};  // given by the teeth to each wheel, in the pair's frame
   for (std::size_t i = 0; i < 2; ++i) {
     const NodeState& node = state.nodes[i];
     const auto w = wheel(i, node.R, state.scalars[i]);

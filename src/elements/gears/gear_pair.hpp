@@ -11,21 +11,22 @@
 
 namespace engrane::elements::gears {
 
-/// Two toothed wheels A and B, each rigid and centred on a node; teeth rigid or elastic. One element for every kind of pair.
+/// Two toothed wheels A and B, each rigid and centred on a node, with rigid or elastic teeth. One element for all kinds of
+/// pairs.
 ///
-/// Own unknowns: ψ_A, ψ_B, the turns of the wheels about their axles relative to the frame that follows the contact point
+/// Own unknowns: ψ_A, ψ_B, the angles of the wheels about their axles relative to the frame that follows the contact point
 /// (16), and with elastic teeth u_m, their deformation along the circumference. ψ is kept within a turn; whole turns are
-/// counted in the history, so that no tooth phase is lost however far the wheels turn.
+/// counted in the history, so that the tooth phase stays exact however far the wheels turn.
 ///
-/// Multipliers: kλ₁ of the tooth contact φ₁ (21) is the normal tooth force, positive when A drives in the positive sense
-/// about its axle; kλ₂ of φ₂ (22) and kλ₃ of φ₃ (23) hold the frame to the contact point.
+/// Multipliers: kλ₁ of the tooth contact φ₁ (21) is the normal tooth force, positive when A drives in the positive sense about
+/// its axle; kλ₂ of φ₂ (22) and kλ₃ of φ₃ (23) keep the frame at the contact point.
 ///
-/// Differences from the print, beyond the corrections in docs/elements/gears/gear_pair.md: φ₂ and φ₃ treat both wheels alike,
+/// Differences from the paper, beyond the corrections in docs/elements/gears/gear_pair.md: φ₂ and φ₃ treat both wheels alike,
 ///
 ///     φ₂ = (x_C^A − x_C^B)·½(η₃^A + η₃^B),   φ₃ = ½(η₂^A·η₃^B − η₃^A·η₂^B),
 ///
-/// and the separating force acts at the point midway between the contact points of A and B. Where the wheels are aligned
-/// this is the paper's; where supports bend, wheels may be exchanged and the pair stays in equilibrium by itself exactly.
+/// and the separating force acts midway between the contact points of A and B. For aligned wheels this agrees with the paper.
+/// With deflected supports, the wheels can be exchanged and the pair remains exactly in equilibrium by itself.
 class GearPair final : public ToothedPair<GearPair> {
  public:
   /// `teeth.stiffness` 0: rigid teeth. `width`: face width.
@@ -43,14 +44,14 @@ class GearPair final : public ToothedPair<GearPair> {
  private:
   friend class ToothedPair<GearPair>;
 
-  /// From the wheel's rotation and turn ψ, by (4), (16) and (6) or (8).
+  /// The wheel in its current configuration, from its rotation and turn ψ, by (4), (16) and (6) or (8).
   template <class T>
   ToothedSide<T> wheel(std::size_t i, const Mat3T<T>& R, const T& psi) const;
 
   template <class T>
   void mesh(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance, ContactReport* report) const;
 
-  /// 2π (z_A n_A + z_B n_B), of the whole turns counted: the integers cancel before they are rounded.
+  /// 2π (z_A n_A + z_B n_B) of the counted whole turns. The integers cancel before rounding.
   double counted_phase(std::span<const double> history) const;
 
   GearDesign design_;
@@ -62,10 +63,10 @@ class GearPair final : public ToothedPair<GearPair> {
 
 extern template class ToothedPair<GearPair>;
 
-/// What the contact needs of a pair's geometry. Involute relations, sliding along the profile and slices are of parallel axles
-/// only; for others their dimensions stay zero.
+/// Contact data from a pair's geometry. Involute relations, running axles and slices apply to parallel axles only; the path of
+/// contact also exists for intersecting axles. Data that do not apply are zero.
 ContactGeometry contact_geometry(const GearDesign& design, double width);
-/// With what friction at rest needs.
+/// The same, with the data needed for friction at rest.
 ContactGeometry contact_geometry(const GearDesign& design, const PitchFrames& frames, double width);
 
 ElementType gear_pair_type();

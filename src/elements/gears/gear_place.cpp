@@ -16,10 +16,10 @@ namespace engrane::elements::gears {
 
 namespace {
 
-/// Relative misfit of lengths up to which typed numbers count as equal.
+/// Relative misfit up to which lengths typed by the user count as equal.
 constexpr double typing_tolerance = 1e-6;
 
-/// The wheel with more teeth is the ring of an internal pair.
+/// In an internal pair the wheel with more teeth is the ring.
 std::optional<std::array<double, 2>> internal_cones(const std::array<int, 2>& teeth, const BuildContext& context) {
   if (teeth[0] == teeth[1]) {
     context.error("INTERNAL", fmt::format("an internal pair with {} teeth on both wheels", teeth[0]),
@@ -30,7 +30,7 @@ std::optional<std::array<double, 2>> internal_cones(const std::array<int, 2>& te
   return std::array<double, 2>{ring_is_a ? std::numbers::pi : 0.0, ring_is_a ? 0.0 : std::numbers::pi};
 }
 
-/// Cone angles, radians, from whichever of CONE, SHAFT, INTERNAL and AXISB the deck gives.
+/// Cone angles in radians, from whichever of CONE, SHAFT, INTERNAL and AXISB is given.
 std::optional<std::array<double, 2>> cones_of(const GearData& data, const std::array<int, 2>& teeth, const GearSite& site,
                                               const BuildContext& context) {
   const int ways = (data.cone ? 1 : 0) + (data.shaft_angle ? 1 : 0) + (data.internal ? 1 : 0);
@@ -70,7 +70,7 @@ bool check_radii(const GearDesign& design, const GearData& data, const BuildCont
   return good;
 }
 
-/// ", or …": the sum of profile shifts with which parallel axles would fit, where such teeth could be cut.
+/// ", or …": the sum of profile shifts with which parallel axles would fit, if such teeth can be cut.
 std::string shift_that_fits(const GearDesign& design, const GearData& data, double distance) {
   if (design.parallel_kind() == 0) return {};
   const CutTeeth cut = design.cut ? *design.cut : reference_cut(design, data);
@@ -82,7 +82,7 @@ std::string shift_that_fits(const GearDesign& design, const GearData& data, doub
                      number(sum));
 }
 
-/// Does the pair close where its nodes are?
+/// Checks that the pair closes at the positions of its nodes.
 bool check_closure(const GearDesign& design, const GearData& data, const Vec3& x_a, const Vec3& x_b, const Vec3& axle,
                    const BuildContext& context) {
   const int kind = design.parallel_kind();
@@ -123,7 +123,7 @@ bool check_closure(const GearDesign& design, const GearData& data, const Vec3& x
   return good;
 }
 
-/// AXISB is a line: its sense does not matter.
+/// Checks the axle of B. AXISB is a line: its sense does not matter.
 bool check_axle_b(const GearDesign& design, const GearData& data, const PitchFrames& frames, const BuildContext& context) {
   const Vec3 needed = frames.xi.col(0);
   if (!data.axis_b) {
@@ -149,7 +149,7 @@ bool check_axle_b(const GearDesign& design, const GearData& data, const PitchFra
   return false;
 }
 
-/// The design without KIND, from cones and helices.
+/// The design without KIND, from cone and helix angles.
 std::optional<GearDesign> design_of_angles(const GearData& data, const GearSite& site, const BuildContext& context) {
   const auto teeth = gear_teeth_numbers(data, site, context);
   if (!check_long_form(data, context) || !teeth) return {};
@@ -164,8 +164,8 @@ std::optional<GearDesign> design_of_angles(const GearData& data, const GearSite&
   return design;
 }
 
-/// The working pair of a card that says how its teeth are cut: the shifts decide the centre distance, or with one value of X
-/// the centre distance, of DISTANCE or of the nodes, decides the other shift.
+/// The working pair of a card that describes the cut of its teeth. The shifts determine the centre distance; or, with one value
+/// of X, the centre distance given by DISTANCE or the nodes determines the other shift.
 std::optional<GearDesign> cut_design(const GearDesign& reference, const GearData& data, const GearSite& site,
                                      const BuildContext& context) {
   if (reference.parallel_kind() == 0) {
@@ -218,7 +218,7 @@ std::optional<GearDesign> cut_design(const GearDesign& reference, const GearData
   return working_design(reference, cut);
 }
 
-/// What the card says, apart from whether B is where it must be.
+/// The data of the card before the position of B is checked.
 struct Intention {
   GearSite site;
   GearDesign design;
@@ -244,7 +244,7 @@ std::optional<Intention> intention(const GearData& data, const BuildContext& con
   return i;
 }
 
-/// The direction of PLACE across the axle.
+/// The direction of PLACE, projected across the axle.
 std::optional<Vec3> place_direction(const GearData& data, const Vec3& axle, const BuildContext& context) {
   if (data.nodes[1] == 0) {
     context.error("PLACE", "wheel B is at node 0, the ground, which stays at the origin",
@@ -270,7 +270,7 @@ std::optional<GearPlacement> place_gear(const GearData& data, const BuildContext
   const GearDesign& design = intended->design;
   const Vec3 &x_a = intended->site.x_a, &axle = intended->site.axle, &x_b = context.nodes.at(data.nodes[1]);
   if (data.place && !place_direction(data, axle, context)) return {};
-  const bool radii_good = check_radii(design, data, context);  // both, so that one run reports all faults
+  const bool radii_good = check_radii(design, data, context);  // evaluate both checks, so that one run reports all errors
   if (!check_closure(design, data, x_a, x_b, axle, context) || !radii_good) return {};
   GearPlacement placement{design, pitch_frames(design, x_a, x_b, axle)};
   if (!check_axle_b(design, data, placement.frames, context)) return {};

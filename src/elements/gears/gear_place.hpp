@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From what a designer knows of a gear pair to its geometry, checked against the places of the nodes.
+// The geometry of a gear pair from its design data, checked against the node positions.
 #pragma once
 
 #include <optional>
@@ -16,11 +16,11 @@ struct GearPlacement {
   PitchFrames frames;
 };
 
-/// Geometry that agrees with the places of the nodes, and with the pitch radii and the axle of B where given. Faults go to
-/// the context's diagnostics; then there is no result.
+/// Geometry consistent with the node positions and, where given, the pitch radii and the axle of B. Returns nothing, with
+/// errors, if there is none.
 std::optional<GearPlacement> place_gear(const GearData& data, const BuildContext& context);
 
-/// Where `PLACE` puts the node of wheel B; nothing without it. To be asked before anything looks at the nodes.
+/// Position that `PLACE` gives to the node of wheel B; nothing without `PLACE`. Must be called before node positions are used.
 std::optional<NodePlacement> place_second_wheel(const GearData& data, const BuildContext& context);
 
 }  // namespace engrane::elements::gears

@@ -22,13 +22,13 @@ const char* name_of(std::size_t wheel) { return wheel == 0 ? "A" : "B"; }
 
 bool is_ring(const GearDesign& design, std::size_t wheel) { return std::cos(design.cone[wheel]) < 0; }
 
-/// Helices from here on make a worm of a wheel: a lead angle below 45 degrees.
+/// Whether the helix makes the wheel a worm: a lead angle below 45 degrees.
 bool is_worm(const GearDesign& design, std::size_t wheel) {
   return design.parallel_kind() == 0 && std::abs(design.helix[wheel]) > std::numbers::pi / 4 &&
          std::abs(std::sin(design.cone[wheel])) < 1e-9;
 }
 
-/// Distance of the axles along their common normal; the triple product of x_AB with both.
+/// Distance of the axles along their common normal, from the triple product of x_AB with both.
 double axle_distance(const GearDesign& design, const Mat3& Z) {
   const double sine = std::hypot(Z(1, 0), Z(2, 0));
   if (sine < 1e-9) return std::abs(design.radius(0) - Z(1, 1) * design.radius(1));
@@ -52,7 +52,7 @@ std::optional<double> usable_contact_ratio(const GearDesign& design) {
   for (const std::size_t i : wheels) {
     const std::size_t mate = 1 - i;
     const double side = *virtual_path_of_contact(design, i), cosine = std::cos(design.cone[mate]);
-    // a ring's involute starts outside its base circle, a crown wheel's nowhere
+    // a ring's involute starts outside its base circle; a crown wheel's has no start
     path += cosine > 1e-9 ? std::min(side, design.radius(mate) / cosine * sine) : side;
   }
   return path / (std::numbers::pi * design.transverse_module(0) * std::cos(design.transverse_pressure_angle(0)));
@@ -188,7 +188,7 @@ std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& fr
 
 namespace {
 
-/// Has an earlier pair of the deck the same teeth, so that all was said of them?
+/// Whether an earlier pair of the deck has the same teeth, so that its warnings cover this one.
 bool said_before(const GearData& data, const BuildContext& context) {
   if (!context.records) return false;
   for (const deck::Record& record : *context.records) {

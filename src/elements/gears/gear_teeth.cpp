@@ -15,7 +15,7 @@ void add(Function::Jet& sum, const Function::Jet& term) {
   sum.d3 += term.d3;
 }
 
-/// A function of degrees, with derivatives by radians.
+/// A function of an angle in degrees, with derivatives with respect to radians.
 Function::Jet by_radians(const Function& function, double angle) {
   constexpr double degrees = 180 / std::numbers::pi;
   return stretched(function.at(angle * degrees), degrees);
@@ -122,7 +122,7 @@ ToothLaw::Pressed ToothLaw::pressed_pairs(double phase, double depth) const {
     p.energy_by_phase_twice +=
         share * along * along * (w.d2 * G - 2 * w.d1 * F.f * lack.d1 + w.f * F.d1 * lack.d1 * lack.d1 - w.f * F.f * lack.d2);
   }
-  // the damping of a flank that touches is limited by this force over that without relief
+  // factor of the force over that without relief; it limits the damping of a flank in contact
   const Function::Jet plain = flank(depth);
   p.factor = {1, 0, 0, 0};
   if (plain.f > 0 && plain.d1 > 0)
@@ -147,7 +147,7 @@ ToothLaw::Pressed ToothLaw::pressed(double phase, double depth, bool back) const
   p.force = f[0] * d.f;
   p.by_depth = (f[3] * d.f + f[0]) * d.d1;
   p.by_phase = f[1] * d.f;
-  // Gauss's rule of eight points is exact for factors up to degree 14 in the deflection; the rounded onset is a part of its own
+  // 8-point Gauss rule, exact for factors up to degree 14 in the deflection; the rounded onset is integrated separately
   constexpr std::array<double, 4> place{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975362};
   constexpr std::array<double, 4> weight{0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
   const auto integrate = [&](double from, double to) {

@@ -29,8 +29,8 @@ Radii radii(const HypoidDesign& h, const D& spiral_difference) {
   return {h.pinion_teeth * module / (2 * std::cos(h.pinion_spiral)), h.ring_teeth * module / (2 * ring_cosine)};
 }
 
-/// Three conditions, relative to the ring's radius: what `h` prescribes on the way from the bevel pair (`part` 0, with the
-/// cone angles `bevel`) to the hypoid pair (`part` 1).
+/// The three conditions, relative to the ring's radius. They lead from the bevel pair (`part` 0, with the cone angles `bevel`)
+/// to the hypoid pair `h` (`part` 1).
 std::array<D, 3> conditions(const HypoidDesign& h, const std::array<double, 2>& bevel, double part, const Unknowns& u) {
   std::array<D, 3> x{D(u[0]), D(u[1]), D(u[2])};
   for (std::size_t i = 0; i < 3; ++i) x[i].d[i] = 1;
@@ -43,7 +43,7 @@ std::array<D, 3> conditions(const HypoidDesign& h, const std::array<double, 2>& 
   std::size_t next = 0;
   f[next++] = cp * cg * ce - sp * sg - shaft_cosine;
   if (h.offset && h.ring_spiral) {
-    // both at once: divided by sinε, so that the condition stays regular while both are small
+    // both are given: divided by sinε, so that the condition remains regular as both tend to zero
     f[next++] = (r.pinion * cg + r.ring * cp - *h.offset * shaft_sine / std::sin(h.pinion_spiral - *h.ring_spiral)) / r.ring;
   } else if (h.offset) {
     f[next++] = ((r.pinion * cg + r.ring * cp) * se - part * *h.offset * shaft_sine) / r.ring;
@@ -60,7 +60,7 @@ std::array<D, 3> conditions(const HypoidDesign& h, const std::array<double, 2>& 
 
 double size(const std::array<D, 3>& f) { return std::max({std::abs(f[0].value), std::abs(f[1].value), std::abs(f[2].value)}); }
 
-/// Newton's method, each step halved until it helps.
+/// Newton's method with the step halved until the residual decreases.
 bool solve(const HypoidDesign& h, const std::array<double, 2>& bevel, double part, Unknowns& u) {
   constexpr double accuracy = 1e-14;
   auto f = conditions(h, bevel, part, u);
@@ -84,7 +84,7 @@ bool solve(const HypoidDesign& h, const std::array<double, 2>& bevel, double par
       next = u - fraction * step;
       g = conditions(h, bevel, part, next);
     }
-    if (!(size(g) < before)) return before < 100 * accuracy;  // as near as rounding allows, or not at all
+    if (!(size(g) < before)) return before < 100 * accuracy;  // converged to rounding error, or failed
     u = next;
     f = g;
   }

@@ -36,8 +36,8 @@ Function::Jet fourier_series(const std::vector<double>& coefficients, double ang
 }
 
 Function::Jet MeshStiffness::square_wave(double cycle) const {
-  // One pair more for the fraction of the pitch by which the contact ratio exceeds a whole number. The middle of that
-  // interval is where two flanks touch half a base pitch on either side of the pitch point.
+  // One more pair for the fraction of the pitch by which the contact ratio exceeds an integer. In the middle of that interval
+  // two flanks touch half a base pitch on either side of the pitch point.
   const double pairs = std::floor(contact_ratio), fraction = contact_ratio - pairs;
   const double from_middle = cycle - middle - std::round(cycle - middle);
   const double side = from_middle < 0 ? -1 : 1;
@@ -81,7 +81,7 @@ IsoStiffness iso_stiffness(const IsoMesh& mesh) {
   const auto inverse_teeth = [&](std::size_t wheel) {
     return mesh.ring[wheel] ? 0.0 : cos_beta * cos_beta * cos_beta / mesh.teeth[wheel];
   };
-  // wheel 1 of the norm is the pinion
+  // wheel 1 of the standard is the pinion
   const std::size_t pinion = mesh.ring[0] || (!mesh.ring[1] && mesh.teeth[1] < mesh.teeth[0]) ? 1 : 0, wheel = 1 - pinion;
   const double n_1 = inverse_teeth(pinion), n_2 = inverse_teeth(wheel);
   const double x_1 = mesh.ring[pinion] ? 0 : mesh.shift[pinion], x_2 = mesh.ring[wheel] ? 0 : mesh.shift[wheel];

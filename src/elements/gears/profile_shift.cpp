@@ -11,7 +11,7 @@ double involute(double angle) { return std::tan(angle) - angle; }
 
 double inverse_involute(double value) {
   if (!(value > 0)) return 0;
-  // inv α = α³/3 (1 + 2α²/5 + …) below, tanα ≈ inv α + π/2 far above; Newton with inv′ = tan²α
+  // initial guesses: inv α = α³/3 (1 + 2α²/5 + …) for small values, tanα ≈ inv α + π/2 for large ones; Newton with inv′ = tan²α
   double angle = value < 1 ? std::cbrt(3 * value) / (1 + 0.2 * std::pow(3 * value, 2.0 / 3.0)) : std::atan(value + 1.4);
   for (int i = 0; i < 60; ++i) {
     const double tangent = std::tan(angle), step = (tangent - angle - value) / (tangent * tangent);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cylindrical involute teeth as they are cut, with profile shift: DIN 3960 (1987) and ISO 21771 (2007).
+// Cut cylindrical involute teeth with profile shift: DIN 3960 (1987) and ISO 21771 (2007).
 #pragma once
 
 #include <array>
@@ -13,20 +13,20 @@ double involute(double angle);
 /// The angle, radians, whose involute function is `value` ≥ 0.
 double inverse_involute(double value);
 
-/// How the teeth of two cylindrical wheels on parallel axles are cut. Entry 0 is wheel A, entry 1 wheel B. Lengths in the
+/// Cutting data of the teeth of two cylindrical wheels on parallel axles. Entry 0 is wheel A, entry 1 wheel B. Lengths in the
 /// units of the deck, angles in radians; factors are multiples of the normal module.
 ///
 /// A ring's shift has the sign of ISO 21771: positive makes its teeth thicker and its tip circle smaller.
 struct CutTeeth {
   std::array<int, 2> teeth{1, 1};              ///< z > 0; 0: a rack
-  std::array<bool, 2> ring{false, false};      ///< teeth on the inside
+  std::array<bool, 2> ring{false, false};      ///< internal teeth
   double normal_module = 1;                    ///< m_n of the basic rack
   double pressure_angle = 0;                   ///< α_n of the basic rack
   std::array<double, 2> helix{};               ///< β at the reference cylinder, the paper's sign
   std::array<double, 2> shift{};               ///< x
   std::array<double, 2> addendum{1, 1};        ///< h_aP of the basic rack
   std::array<double, 2> dedendum{1.25, 1.25};  ///< h_fP
-  std::array<double, 2> tip{};                 ///< tip radii; set_tips() gives those that follow from the rest
+  std::array<double, 2> tip{};                 ///< tip radii; set_tips() computes them from the rest
   double working_pressure_angle = 0;           ///< α_wt, transverse
 
   double transverse_module() const;
@@ -36,11 +36,11 @@ struct CutTeeth {
   double reference_radius(std::size_t wheel) const;
   /// d_b/2 = d/2 cosα_t
   double base_radius(std::size_t wheel) const;
-  /// d_w/2 = d_b/2 / cosα_wt; of a pinion on a rack the reference radius
+  /// d_w/2 = d_b/2 / cosα_wt; for a pinion on a rack the reference radius
   double working_radius(std::size_t wheel) const;
-  /// d_f/2 = d/2 ∓ m_n (h_fP − x), upper sign outside
+  /// d_f/2 = d/2 ∓ m_n (h_fP − x), upper sign for external teeth
   double root_radius(std::size_t wheel) const;
-  /// a_d = |z_A ± z_B| m_t/2: the centre distance without shift
+  /// a_d = |z_A ± z_B| m_t/2: centre distance without profile shift
   double reference_distance() const;
   /// a = a_d cosα_t/cosα_wt
   double distance() const;
@@ -50,25 +50,26 @@ struct CutTeeth {
   double thickness_at(std::size_t wheel, double radius) const;
   /// Tooth thickness at the tip circle, normal.
   double tip_thickness(std::size_t wheel) const;
-  /// Distance of the wheel's tip circle from the mate's root circle.
+  /// Distance between the wheel's tip circle and the mate's root circle.
   double tip_clearance(std::size_t wheel) const;
-  /// k: by how much of m_n the tip lies beyond x + h_aP from the reference circle.
+  /// k: tip radius beyond that of addendum x + h_aP, in units of m_n.
   double tip_alteration(std::size_t wheel) const;
-  /// Least shift that a rack tool does not undercut with: x = h − z sin²α_t/(2cosβ), where h = h_fP − 0.25 is the straight
-  /// part of its addendum.
+  /// Smallest shift without undercut by a rack tool: x = h − z sin²α_t/(2cosβ), where h = h_fP − 0.25 is the straight part of
+  /// the tool's addendum.
   double least_shift(std::size_t wheel) const;
-  /// k = (a − a_d)/m_n − Σx: the alteration of external tips that keeps the tip clearance h_fP − h_aP; 0 in a ring or on a rack.
+  /// k = (a − a_d)/m_n − Σx: the tip alteration of external teeth that keeps the tip clearance h_fP − h_aP; 0 with a ring or a
+  /// rack.
   double clearance_alteration() const;
 
   /// Tip radii d_a/2 = d/2 ± m_n (h_aP + x + k).
   void set_tips(const std::array<double, 2>& k);
 
-  /// α_wt of a sum of shifts: inv α_wt = inv α_t + 2 Σx tanα_n/(z_A + z_B), z of a ring negative. Nothing where the wheels
-  /// would have to come so close that their base circles touch.
+  /// α_wt for a sum of shifts: inv α_wt = inv α_t + 2 Σx tanα_n/(z_A + z_B), z of a ring negative. Returns nothing if the
+  /// wheels would have to be so close that their base circles touch.
   std::optional<double> working_angle_of(double sum_of_shifts) const;
-  /// α_wt of a centre distance: cosα_wt = a_d cosα_t/a. Nothing where no involutes meet.
+  /// α_wt for a centre distance: cosα_wt = a_d cosα_t/a. Returns nothing if the involutes do not meet.
   std::optional<double> working_angle_at(double distance) const;
-  /// The sum of shifts without play at α_wt: Σx = (z_A + z_B)(inv α_wt − inv α_t)/(2tanα_n).
+  /// Sum of shifts for zero backlash at α_wt: Σx = (z_A + z_B)(inv α_wt − inv α_t)/(2tanα_n).
   double sum_of_shifts_at(double working_angle) const;
 
  private:

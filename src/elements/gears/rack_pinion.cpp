@@ -46,7 +46,7 @@ ContactGeometry contact_geometry(const RackPinion::Geometry& g, double width) {
   c.radius = design.radius(0);
   c.width = width;
   c.base_pitch = std::numbers::pi * design.transverse_module(0) * std::cos(c.transverse_pressure_angle);
-  // the rack's tip line lies h_aP − x from the plane that rolls on the pinion's reference circle
+  // the rack's tip line is at h_aP − x from the plane that rolls on the pinion's reference circle
   const double height = design.cut ? design.cut->addendum[1] - design.cut->shift[0] : 1;
   c.approach = height * design.normal_module / std::sin(c.transverse_pressure_angle);
   c.recess = path_of_contact(design, 0).value_or(0);
@@ -100,7 +100,7 @@ void RackPinion::mesh(const Motion<T, 2>& motion, const State& state, Balance<T,
   const T normal_force =
       contact_.act(motion, a, b, closing, balance, this->grip(psi, state.history[0], state, balance), loads, report);
   balance.scalar(0, contact_.cos_alpha() * lever_a * normal_force + dot(a.axle, loads.frame_moment[0]));
-  // the travel shifts the contact point along the rack by −s ξ₃
+  // the travel moves the contact point along the rack by −s ξ₃
   balance.scalar(1, contact_.cos_alpha() * lever_b * normal_force - geometry_.sense * dot(b.forward, loads.frame_force));
 }
 
@@ -156,7 +156,7 @@ Drawing RackPinion::drawing() const {
   const GearDesign& d = geometry_.design;
   const PitchFrames& f = geometry_.frames;
   const double width = contact_.geometry().width;
-  Vec3 reference = f.contact;  // in the plane where the rack's teeth are as thick as their spaces
+  Vec3 reference = f.contact;  // in the plane where teeth and spaces of the rack are equally wide
   if (d.cut) reference += d.cut->shift[0] * d.normal_module * f.mu.col(1);
   const std::string common =
       R"(, "module": )" + format_number(d.normal_module) + R"(, "width": )" + format_number(width) + R"(, "helix": )";
@@ -212,7 +212,7 @@ const deck::Card<RackData>& rack_card() {
 
 namespace {
 
-/// Teeth of a pinion, and of the rack that meets it, as the card describes them.
+/// Cuts the teeth of the pinion and of the mating rack as described by the card.
 bool cut_rack(GearDesign& design, const RackData& data, const BuildContext& context) {
   if (std::abs(design.helix[0] + design.helix[1]) > 1e-9) {
     for (const auto& [keyword, given] : given_cut_keywords(data))
@@ -310,7 +310,7 @@ std::unique_ptr<Element> build_rack_pinion(const RackData& data, BuildContext& c
   else
     warn_about_undercut(geometry->design, 0, "the pinion", context);
   if (const ContactGeometry& g = owner.geometry; owner.parallel && g.recess > 0) {
-    // the rack's tips touch nothing beyond where the involute begins
+    // the rack's tips have no contact beyond the start of the involute
     const double involute = geometry->design.radius(0) * std::sin(g.transverse_pressure_angle);
     warn_about_contact_ratio((std::min(g.approach, involute) + g.recess) / g.base_pitch, context);
   }

@@ -13,31 +13,31 @@
 
 namespace engrane::elements::gears {
 
-/// `I id RACK …`, as the deck gives it: angles in degrees, helices in the trade's sign.
+/// `I id RACK …` as given in the deck: angles in degrees, helices positive for right hand.
 struct RackData : TeethData, CutData {
   std::array<int, 2> nodes{0, 0};  ///< centre of the pinion, body of the rack
   int teeth = 0;
   double normal_module = 0;
   double pressure_angle = 20;
-  std::vector<double> helix;  ///< of the pinion and of the rack; one value: the rack's fits, its axles are parallel
+  std::vector<double> helix;  ///< of the pinion and of the rack; one value: that of the rack follows, for parallel axles
   std::array<double, 3> axis{0, 0, 0};
   std::array<double, 3> direction{0, 0, 0};
-  std::optional<std::array<double, 3>> at;  ///< a point of the rack's reference plane; default: its node
+  std::optional<std::array<double, 3>> at;  ///< a point in the rack's reference plane; default: its node
 };
 
 const deck::Card<RackData>& rack_card();
 
-/// A pinion A on a node that is its centre, and a rack B carried by a node anywhere on its body.
+/// A pinion A centred on a node, and a rack B carried by a node anywhere on its body.
 ///
-/// Own unknowns: ψ_A, the pinion's turn relative to the pair's frame; the travel of the rack relative to that frame, positive
-/// along `DIR`; u_m with elastic teeth. The rest, multipliers included, is the gear pair's with x_C^B = x_B + R_B(c − s ξ₃) and
-/// ξ fixed to the rack: φ₁ = −(r_A cosβ_A ψ_A + s cosβ_B) cosα_n + u_m cosα_n, s the travel along ξ₃.
+/// Own unknowns: ψ_A, the pinion's angle relative to the pair's frame; the travel of the rack relative to that frame, positive
+/// along `DIR`; and u_m with elastic teeth. All else, including the multipliers, is as in the gear pair, with x_C^B = x_B +
+/// R_B(c − s ξ₃) and ξ fixed to the rack: φ₁ = −(r_A cosβ_A ψ_A + s cosβ_B) cosα_n + u_m cosα_n, s the travel along ξ₃.
 class RackPinion final : public ToothedPair<RackPinion> {
  public:
   struct Geometry {
-    GearDesign design;   ///< wheel A the pinion; helix of B the rack's, its number of teeth and cone of no meaning
+    GearDesign design;   ///< wheel A is the pinion; helix B is the rack's, its number of teeth and cone are unused
     PitchFrames frames;  ///< ξ₃ along or against the travel
-    Vec3 offset;         ///< contact point from the rack's node, reference configuration
+    Vec3 offset;         ///< from the rack's node to the contact point, reference configuration
     double sense = 1;    ///< of the travel along ξ₃
   };
   RackPinion(int id, std::array<int, 2> nodes, const Geometry& geometry, const ToothLaw& teeth, const ContactOptions& options,

@@ -77,7 +77,7 @@ bool set_wheel_errors(ToothLaw& law, const TeethData& data, const BuildContext& 
   return good;
 }
 
-/// The mean stiffness by ISO 6336-1.
+/// Sets the mean stiffness by ISO 6336-1.
 bool set_iso(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   const auto refuse = [&](std::string_view keyword, std::string message, std::string hint) {
     context.error(keyword, std::move(message), std::move(hint));
@@ -112,7 +112,7 @@ bool set_iso(ToothLaw& law, const TeethData& data, const TeethOwner& owner, cons
   return true;
 }
 
-/// A factor over one tooth pitch, and perhaps of the deflection, by a routine of the user's.
+/// Sets the stiffness factor over one pitch, and possibly of the deflection, from a user routine.
 bool set_user_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   MeshStiffness& course = law.course;
   const double deflection = 1e-4 * owner.geometry.radius;
@@ -188,9 +188,9 @@ bool set_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, c
       return false;
     }
     course.edge = std::min({edge, fraction, 1 - fraction});
-    // the place, from the pitch point, of the later flank where both ends of the path are equally far
+    // position, from the pitch point, of the later flank when both ends of the path are equally far away
     if (owner.cut && values.empty()) course.middle = 0.5 * fraction - g.approach / g.base_pitch - g.flank;
-    if (course.edge < 1e-6) course.kind = MeshStiffness::Kind::constant;  // a whole number of pairs at all times
+    if (course.edge < 1e-6) course.kind = MeshStiffness::Kind::constant;  // an integer number of pairs at all times
   }
   double least = 1;
   for (int i = 0; course.varies() && i < 720; ++i) least = std::min(least, course.at(i * std::numbers::pi / 360).f);
@@ -199,7 +199,8 @@ bool set_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, c
   return false;
 }
 
-/// Backlash that leaves nothing of the teeth: beyond half the pitch along the tooth normal, where teeth and gaps are as wide.
+/// Warns of a backlash wider than half the pitch along the tooth normal, where teeth and spaces are equally wide: no tooth
+/// would be left.
 void warn_of_wide_backlash(const ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   const double gap = std::numbers::pi * owner.lever[0] / owner.teeth[0];
   if (law.backlash <= gap) return;
@@ -210,7 +211,7 @@ void warn_of_wide_backlash(const ToothLaw& law, const TeethData& data, const Tee
                               "is it in the deck's unit of length? Teeth have backlash of a few hundredths of the module");
 }
 
-/// Backlash along the circumference, in whichever way it is given.
+/// Sets the backlash along the circumference, however it is given.
 bool set_backlash(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   const int ways = (data.backlash ? 1 : 0) + (data.normal_backlash ? 1 : 0) + (data.center_backlash ? 1 : 0) +
                    (data.thickness_allowance.empty() ? 0 : 1);
@@ -267,7 +268,7 @@ bool set_damping(ToothLaw& law, const TeethData& data, const TeethOwner& owner, 
   return good;
 }
 
-/// What describes elastic teeth means nothing for rigid ones.
+/// Rejects data of elastic teeth on a card with rigid teeth.
 bool refuse_of_rigid_teeth(const TeethData& data, const BuildContext& context) {
   const std::array<std::pair<std::string_view, bool>, 21> elastic{{{"XI", data.damping_ratio.has_value()},
                                                                    {"CM", data.damping.has_value()},
@@ -386,7 +387,7 @@ void warn_of_radians(double alpha, const BuildContext& context) {
                               fmt::format("angles are in degrees: {} radians are {:.4g} degrees", number(alpha), alpha / degree));
 }
 
-/// Relief and crowning: what is taken off normal to the flanks, along the circumference.
+/// Sets relief and crowning: the material removed normal to the flanks, converted to the circumference.
 bool set_relief(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   const ContactGeometry& g = owner.geometry;
   const double along = std::cos(g.helix) / std::cos(g.transverse_pressure_angle);

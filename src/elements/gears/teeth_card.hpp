@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a card says of the teeth of a gear pair, or of a pinion and its rack.
+// Card data of the teeth of a gear pair, or of a pinion and its rack.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 
 namespace engrane::elements::gears {
 
-/// The part of a card that describes how teeth touch, angles in degrees. Cards derive their struct from it.
+/// Card data of the tooth contact, angles in degrees; a base of the cards' structs.
 struct TeethData {
   std::optional<double> width;
   std::optional<double> stiffness;
@@ -44,29 +44,29 @@ struct TeethData {
   int slices = 1;
 };
 
-/// What the tooth law needs to know of the pair whose teeth these are. Entry 0 is wheel A, entry 1 wheel B or the rack.
+/// Data of the pair that the tooth law depends on. Entry 0 is wheel A, entry 1 wheel B or the rack.
 struct TeethOwner {
   std::array<int, 2> nodes{0, 0};
   std::array<Vec3, 2> axle{Vec3::Zero(), Vec3::Zero()};
   std::array<int, 2> teeth{1, 1};  ///< 0: a rack
   std::array<bool, 2> ring{false, false};
   std::array<double, 2> lever{1, 1};  ///< r cosβ, along which u_m is measured; 1 for a rack
-  bool parallel = true;               ///< are the axles, so that involute relations hold?
-  bool path_known = true;  ///< is the path of contact: of parallel axles, and of the virtual wheels of axles that meet?
+  bool parallel = true;               ///< axles are parallel, so that involute relations hold
+  bool path_known = true;  ///< the path of contact is known: parallel axles, or intersecting ones by their virtual wheels
   ContactGeometry geometry;
   MeshPhase mesh;
-  std::optional<CutTeeth> cut;  ///< where the card describes the teeth
+  std::optional<CutTeeth> cut;  ///< if the card describes the cut
 };
 
-/// How teeth touch, as a card says.
+/// Tooth law and contact options of a card.
 struct Teeth {
-  ToothLaw law;  ///< rigid teeth, without `KM` or `STIFF ISO`, have stiffness 0
+  ToothLaw law;  ///< stiffness is 0 for rigid teeth, without `KM` or `STIFF ISO`
   ContactOptions options;
 };
-/// Faults go to the context's diagnostics; then there is no result.
+/// Reads the teeth of a card. Returns nothing, with errors, if the data are invalid.
 std::optional<Teeth> read_teeth(const TeethData& data, const TeethOwner& owner, const BuildContext& context);
 
-/// Warns of a pressure angle, in degrees, that looks as if it were in radians.
+/// Warns of a pressure angle, in degrees, that was probably given in radians.
 void warn_of_radians(double alpha, const BuildContext& context);
 
 /// Adds the keywords of TeethData to a card.

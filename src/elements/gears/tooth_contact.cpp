@@ -10,8 +10,8 @@ namespace engrane::elements::gears {
 
 namespace {
 
-/// Less than this no pair runs at: where the base circles touch it would be zero, and closer there is no involute contact. What
-/// an iteration may try beyond is continued by a parabola.
+/// Lower bound of the running pressure angle. It is zero when the base circles touch, and closer wheels have no involute
+/// contact. Iterates beyond the bound use a parabolic continuation.
 constexpr double least_pressure_angle = 0.05;
 
 }  // namespace
@@ -38,13 +38,13 @@ Function::Jet ContactGeometry::flank_opening(double opening) const {
   const double c = std::cos(running), s = std::sin(running);
   const double turn = side * c / (distance * s);  // dα_t′/d opening
   const auto involute = [](double angle) { return std::tan(angle) - angle; };
-  const double bend = -c / (distance * distance * s) * (1 + 1 / (s * s));  // of α_t′
+  const double bend = -c / (distance * distance * s) * (1 + 1 / (s * s));  // second derivative of α_t′
   return {lead * base_radii * (involute(running) - involute(transverse_pressure_angle)), lead * s, lead * c * turn,
           lead * (c * bend - s * turn * turn)};
 }
 
 std::vector<std::string> ToothContact::remarks(double deflection) const {
-  // a flank pressed in by w/2 and more follows (28); below four widths the stretch before it still shows in the crests
+  // a flank pressed in by w/2 or more follows (28); up to four widths the rounding still shows in the peaks
   if (deflection == 0 || deflection >= 4 * law_.onset) return {};
   return {
       fmt::format("the teeth were pressed in by {:.3g} at most, and SMOOTH lets contact come on over {:.3g}: such a light load "
@@ -71,7 +71,7 @@ void ToothContact::switches(const ContactReport& report, const State& state, std
                error_b = law_.error.of_b(state.scalars[1], law_.mesh).d1;
   const double rate = state.scalar_rates[2] + error_a * state.scalar_rates[0] + error_b * state.scalar_rates[1];
   const double half = 0.5 * law_.onset;
-  // u_m is what is left of turns that are known to rounding of a radian
+  // u_m is a difference of angles that are known to the rounding error of a radian
   const double size =
       geometry_.radius + law_.backlash + std::abs(state.scalars[2]) + std::abs(report.approach - state.scalars[2]);
   std::size_t next = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What acts where teeth meet, whatever they are cut on: two wheels, or a pinion and a rack.
+// Forces between meshing teeth, of two wheels or of a pinion and a rack.
 #pragma once
 
 #include <algorithm>
@@ -17,49 +17,50 @@
 
 namespace engrane::elements::gears {
 
-/// Dimensions of the contact that do not change. Angles in radians; β is the paper's helix of wheel A.
+/// Constant dimensions of the contact. Angles in radians; β is the paper's helix of wheel A.
 struct ContactGeometry {
   double pressure_angle = 0;             ///< α_n
   double transverse_pressure_angle = 0;  ///< α_t; only of parallel axles
   double helix = 0;                      ///< β of A
-  int teeth = 1;                         ///< z_A, by which ψ_A turns into mesh phase
+  int teeth = 1;                         ///< z_A, which converts ψ_A into mesh phase
   double radius = 1;                     ///< pitch radius of A
-  double width = 0;                      ///< face width, over which slices are spread
+  double width = 0;                      ///< face width, over which slices are distributed
 
-  /// Signed sum of the base radii over that of the pitch radii's sense: r_bA + r_bB outside, their difference, negative when
-  /// the ring is B, inside; 0 for a rack, whose pressure angle does not run.
+  /// External: r_bA + r_bB, the sum of the base radii; internal: that of the pinion less that of the ring, negative; 0 for a
+  /// rack, whose pressure angle is constant.
   double base_radii = 0;
   double center_distance = 0;  ///< of the reference configuration
-  double side = 1;             ///< κ: 1 outside, −1 inside
+  double side = 1;             ///< κ: 1 external, −1 internal
   double axle_sense = 1;       ///< σ: ξ₁ = σ μ₁
-  /// Path of contact from the pitch point, along the direction in which A moves: while flanks in front touch from
-  /// −approach to recess. Of parallel axles, and of the virtual wheels of axles that meet.
+  /// Path of contact from the pitch point, in the direction in which A moves: front flanks touch from −approach to recess. For
+  /// parallel axles, and for intersecting axles by their virtual wheels.
   double approach = 0, recess = 0;
   double base_pitch = 0;  ///< transverse
-  /// Front flank of A from the middle of its tooth, in pitches, at the working pitch circle: a quarter without profile shift.
+  /// Position of A's front flank from the middle of its tooth, in pitches, at the working pitch circle: a quarter without
+  /// profile shift.
   double flank = 0.25;
 
   double turn_ratio = 0;     ///< ψ̇_B/ψ̇_A of rigid teeth
-  double slip_per_turn = 0;  ///< sliding at the pitch point over ψ̇_A; zero of axles that are parallel or meet, and of racks
+  double slip_per_turn = 0;  ///< sliding at the pitch point over ψ̇_A; zero for parallel or intersecting axles and racks
 
-  /// cosα_t′ = (a₀/a) cosα_t. `opening` is by how far the wheels have moved apart across the teeth.
+  /// From cosα_t′ = (a₀/a) cosα_t. `opening` is the distance by which the wheels have moved apart across the teeth.
   double working_pressure_angle(double opening) const;
-  /// By how much each flank opens, along the circumference, when the wheels move apart: of involutes,
-  /// (cosβ/cosα_t) (r_bA + r_bB)(inv α_t′ − inv α_t).
+  /// Opening of each flank, along the circumference, when the wheels move apart; for involutes (cosβ/cosα_t) (r_bA + r_bB)(inv
+  /// α_t′ − inv α_t).
   Function::Jet flank_opening(double opening) const;
 };
 
-/// Friction between teeth: sliding at the pitch point, or of every pair of flanks along the path of contact, and rolling.
+/// Friction between teeth: sliding at the pitch point, or of each pair of flanks along the path of contact, and rolling.
 struct ToothFriction {
   FrictionLaw law;
-  bool profile = false;  ///< each pair of flanks slides by its distance from the pitch point
+  bool profile = false;  ///< each pair of flanks slides in proportion to its distance from the pitch point
   double rolling = 0;    ///< lever of the rolling resistance, a length
 };
 
-/// Which of the options beyond the founding paper's model a scene asks for.
+/// Options beyond the model of the original paper.
 struct ContactOptions {
   bool separation = true;  ///< the radial force (34, 35)
-  bool running = false;    ///< pressure angle and flanks follow the distance of the axles
+  bool running = false;    ///< pressure angle and flanks follow the current distance of the axles
   int slices = 1;          ///< along the face width; more than 1 needs `running`
   std::optional<ToothFriction> friction;
 };
@@ -74,8 +75,8 @@ struct ToothedSide {
   Vec3T<T> forward;  ///< μ₃″ or ξ₃″
 };
 
-/// A wheel from its rotation and turn ψ, by (4), (16) and (6) or (8). `triad`: columns μ or ξ of the reference configuration;
-/// `tooth`: Y_A or Y_B.
+/// A wheel from its rotation R and angle ψ, by (4), (16) and (6) or (8). `triad`: columns μ or ξ in the reference
+/// configuration; `tooth`: Y_A or Y_B.
 template <class T>
 ToothedSide<T> toothed_wheel(const Mat3& triad, const Mat3& tooth, double radius, const Mat3T<T>& R, const T& psi) {
   using std::cos, std::sin;
@@ -93,51 +94,52 @@ ToothedSide<T> toothed_wheel(const Mat3& triad, const Mat3& tooth, double radius
   return w;
 }
 
-/// What friction that can rest does (GripState): the direction of sliding, and the force that holds it.
+/// State of friction that can stick (GripState): the direction of sliding, or the force that holds it.
 template <class T>
 struct ToothGrip {
-  int direction = 0;  ///< 1: as when ψ_A grows
+  int direction = 0;  ///< 1: as when ψ_A increases; −1: opposite; 0: not sliding in a known direction
   bool holds = false;
-  T force = T(0);  ///< on A along the sliding of A on B, over ToothContact::grip_lever()
+  T force = T(0);  ///< on A along its sliding on B; conjugate to ψ_A times ToothContact::grip_lever()
 
-  /// Does friction depend on the velocities alone?
+  /// Whether friction depends on the velocities alone.
   bool free() const { return direction == 0 && !holds; }
 };
 
 template <class T>
 struct FlankPairs;
 
-/// Forces of the teeth on A; B gets the opposite. Moments on A and B about their nodes. What belongs to the pair's frame also
-/// acts on the coordinate by which a body moves relative to it; what acts on the bodies does not.
+/// Forces of the teeth on A, with the opposite on B, and moments on A and B about their nodes. Frame loads also act on the
+/// coordinate of a body's motion relative to the pair's frame; body loads do not.
 template <class T>
 struct ToothLoads {
   Vec3T<T> frame_force = Vec3T<T>(T(0), T(0), T(0)), body_force = frame_force;
   std::array<Vec3T<T>, 2> frame_moment{frame_force, frame_force}, body_moment{frame_force, frame_force};
 };
 
-/// What a contact can be asked for besides its forces.
+/// Results of a contact.
 struct ContactReport {
   std::array<Vec3, 2> force, moment;  ///< of the teeth on A and B, moments about the nodes, global components
   double approach = 0;                ///< u_m + x_err
-  double front = 0, back = 0;         ///< how far either flank is pressed in, middle of the face
+  double front = 0, back = 0;         ///< penetration of each flank, at the middle of the face
   double opening = 0;                 ///< of the wheels, across the teeth
-  double stiffness_factor = 1;        ///< of the course over the mesh
+  double stiffness_factor = 1;        ///< of the mesh stiffness variation
   double potential = 0;
   double damping_power = 0, friction_power = 0, separation_power = 0;
   double sliding_speed = 0;     ///< at the pitch point
-  double friction_force = 0;    ///< size
-  Vec3 sliding = Vec3::Zero();  ///< of the fastest flank, where there is friction
-  double grip_limit = 0;        ///< largest friction at rest
-  std::vector<double> slices;   ///< force on each along the circumference
+  double friction_force = 0;    ///< magnitude
+  Vec3 sliding = Vec3::Zero();  ///< sliding velocity of the fastest flank, if there is friction
+  double grip_limit = 0;        ///< largest friction force at rest
+  std::vector<double> slices;   ///< force along the circumference on each slice
 };
 
-/// The separating force (34) works on the wheels where the centres change their distance; it counts as external.
+/// The separating force (34) does work on the wheels when the centre distance changes; it counts as external.
 inline Energies energies_of(const ContactReport& r) {
   return {0, r.potential, r.damping_power + r.friction_power, r.separation_power};
 }
 
-/// The contact of two toothed bodies: (21)–(23) with their forces, the tooth law (28–33), and what a scene asks for beyond the
-/// paper. Scalars of the element are ψ_A, the motion of B, and u_m with elastic teeth; multipliers those of φ₁, φ₂, φ₃.
+/// The contact of two toothed bodies: constraints (21)–(23) with their forces, the tooth law (28–33), and the options beyond
+/// the paper. The element's scalars are ψ_A, the motion of B, and u_m with elastic teeth; its multipliers are those of φ₁, φ₂,
+/// φ₃.
 class ToothContact {
  public:
   ToothContact(const ContactGeometry& geometry, const ToothLaw& law, const ContactOptions& options)
@@ -155,30 +157,31 @@ class ToothContact {
   const ToothLaw& law() const { return law_; }
   const ContactOptions& options() const { return options_; }
   bool elastic() const { return law_.stiffness > 0; }
-  /// Does SMOOTH round the onset of contact, so that the law differs from (28) where the teeth are hardly pressed in?
+  /// Whether SMOOTH rounds the onset of contact, so that the law differs from (28) for small penetrations.
   bool rounds_contact() const { return elastic() && law_.exponent == 1 && law_.crown == 0 && law_.onset > 0; }
-  /// Force of the more pressed flank along the circumference over k_m.
+  /// Force along the circumference of the more loaded flank, divided by k_m.
   double deflection(const ContactReport& report) const { return std::max(law_.flank(report.front).f, law_.flank(report.back).f); }
-  /// What a run should be told in which no flank was ever pressed in by more than `deflection`.
+  /// Remarks for a run in which no flank was ever pressed in by more than `deflection`.
   std::vector<std::string> remarks(double deflection) const;
   double cos_alpha() const { return cos_alpha_; }
   double sin_alpha() const { return sin_alpha_; }
 
-  /// Everything but the rows of ψ_A and of B's motion from (21) and the frame, which the element knows how to make of `loads`.
-  /// `closing` is φ₁ over cosα_n without u_m. Returns the force kλ₁ along the normal.
+  /// Writes all residual rows except the parts of ψ_A and of B's motion due to (21) and the frame, which the element derives
+  /// from `loads`. `closing` is φ₁/cosα_n without u_m. Returns the normal force kλ₁.
   template <class T>
   T act(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const T& closing, Balance<T, 2>& balance,
         const ToothGrip<T>& grip, ToothLoads<T>& loads, ContactReport* report) const;
-  /// Can the friction rest?
+  /// Whether the friction can stick.
   bool grips() const { return options_.friction && options_.friction->law.rests; }
-  /// The coordinate of the friction that rests is this times ψ_A: how far A slides on B at the pitch point, or, where flanks roll
-  /// there and slide elsewhere, the way on the pitch circle.
+  /// The coordinate of friction at rest is this times ψ_A: the distance that A slides on B at the pitch point or, if flanks
+  /// roll there and slide elsewhere, the distance along the pitch circle.
   double grip_lever() const { return options_.friction->profile ? geometry_.radius : geometry_.slip_per_turn; }
 
-  /// Where the force between flanks is not smooth: both ends of each rounded corner, or the corner itself, and where the
-  /// damping of a flank in contact is limited. None with slices, which come into contact one after another.
+  /// Names of the switches where the force between flanks is not smooth: both ends of each rounded corner, or the corner
+  /// itself, and the limit of the damping of a flank in contact. None with slices, which come into contact one after another.
   std::vector<SwitchNames> switch_names() const;
-  /// Their values. Rates leave out what the distance of running axles changes, which only aims at events, never moves them.
+  /// Their values. The rates neglect the changing distance of running axles; this affects the search for events, not their
+  /// location.
   void switches(const ContactReport& report, const State& state, std::span<Switch> values) const;
 
  private:
@@ -190,11 +193,11 @@ class ToothContact {
   void rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap, const T& force_1,
            const ToothGrip<T>& grip, ToothLoads<T>& loads, ContactReport* report) const;
 
-  /// The path of contact along the line of action, from the pitch point, and the width over which flanks come and go.
+  /// Path of contact along the line of action, from the pitch point, and the width over which flanks enter and leave it.
   struct Path {
     double low, high, edge;
   };
-  /// `sense`: 1 where flanks in front of A's teeth carry, −1 where those behind them do.
+  /// `sense`: 1 if the front flanks of A's teeth carry load, −1 if the back flanks do.
   Path path(double sense) const;
   template <class T>
   FlankPairs<T> flanks(const T& psi_a, double sense) const;
@@ -203,7 +206,7 @@ class ToothContact {
   ToothLaw law_;
   ContactOptions options_;
   double cos_alpha_, sin_alpha_, cos_beta_;
-  double slice_crown_ = 0;  ///< crowning that slices see for themselves
+  double slice_crown_ = 0;  ///< crowning, applied per slice
 };
 
 }  // namespace engrane::elements::gears

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The forces of ToothContact, in numbers of any kind. Included by tooth_contact.hpp only.
+// The forces of ToothContact, for any number type. Included by tooth_contact.hpp only.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace engrane::elements::gears {
 template <class T>
 T ToothContact::act(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const T& closing,
                     Balance<T, 2>& balance, const ToothGrip<T>& grip, ToothLoads<T>& loads, ContactReport* report) const {
-  // (21) with the sign of external contact, (22) and (23) for both sides alike
+  // (21) with the sign of external contact; (22) and (23) in the form that treats both sides alike
   const T force_1 = balance.constraint(0, cos_alpha_ * (elastic() ? T(closing + motion.scalar[2]) : closing));
   Vec3T<T> gap, normal;  // x_C^A − x_C^B (10), mean of η₃
   for (int k = 0; k < 3; ++k) {
@@ -21,7 +21,7 @@ T ToothContact::act(const Motion<T, 2>& motion, const ToothedSide<T>& a, const T
   const T force_2 = balance.constraint(1, dot(gap, normal));
   const T moment_3 = balance.constraint(2, 0.5 * (dot(a.eta_2, b.eta_3) - dot(a.eta_3, b.eta_2)));
 
-  // The gradients (24)–(26): a small turn θ of a side's frame changes its arm and η by θ ×.
+  // gradients (24)–(26): a small rotation θ of a side's frame changes its arm and η by θ ×
   const Vec3T<T> lateral_a = cross(a.eta_3, gap), lateral_b = cross(b.eta_3, gap);
   const Vec3T<T> triads_a = cross(a.eta_2, b.eta_3), triads_b = cross(a.eta_3, b.eta_2);
   for (int k = 0; k < 3; ++k) loads.frame_force[k] += force_2 * normal[k];
@@ -60,7 +60,7 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
   const T x = motion.scalar[2] + compose(psi_a, error_a.f, error_a.d1, error_a.d2) +
               compose(psi_b, error_b.f, error_b.d1, error_b.d2) + law_.mesh.misfit;
 
-  // V = k f(τ) ∫[[x]] dx, and f with its derivative by ψ_A where the stiffness varies, at a place y along the face
+  // V = k f(τ) ∫[[x]] dx; if the stiffness varies, f and its derivative with respect to ψ_A, at y along the face
   const double z = geometry_.teeth, twist = std::tan(geometry_.helix) / geometry_.radius;
   const auto course = [&](double y, T& factor, T& slope) {
     const Function::Jet f = law_.course.at(z * (value_of(psi_a) - twist * y) + law_.mesh.phase);
@@ -73,7 +73,7 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
   T net(0), by_turn(0);  // ∂V/∂x, ∂V/∂ψ_A at constant x
   T front = x, back = -law_.backlash - x;
   double potential = 0;
-  if (law_.by_load()) {  // V = k ∫ f(τ, |[[x]]|) [[x]] dx, or the sum over pairs with relief; never with `running`
+  if (law_.by_load()) {  // V = k ∫ f(τ, |[[x]]|) [[x]] dx, or with relief the sum over pairs; never with `running`
     const double tau = z * value_of(psi_a) + law_.mesh.phase;
     const ToothLaw::Pressed f = law_.pressed(tau, value_of(front)), g = law_.pressed(tau, value_of(back), true);
     const double by_phase = z * (f.by_phase - g.by_phase);
@@ -96,8 +96,8 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
     }
     potential = value_of(factor) * energy;
   } else {
-    // Each flank is a potential of its own, pressed in by ±x less what the opening of the wheels takes away: the separating
-    // force is its derivative. A slice at y sees the axles' tilt: D = μ₁ − σ ξ₁ moves A's teeth along and across.
+    // Each flank has its own potential, with penetration ±x less the effect of the opening of the wheels; the separating force
+    // is its derivative. A slice at y sees the tilt of the axles: D = μ₁ − σ ξ₁ moves A's teeth along and across.
     Vec3T<T> across, along, tilt;
     for (int i = 0; i < 3; ++i) {
       across[i] = 0.5 * (a.eta_2[i] + b.eta_2[i]);
@@ -125,7 +125,7 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
         return T((k / n) * compose(depth, law_.flank_integral(value_of(depth)), f.f, f.d1));
       };
       T push = flank(in_front), pull = flank(behind);
-      if (value_of(push) == 0 && value_of(pull) == 0)  // a way across the gap for statics, as elastic_deflection()
+      if (value_of(push) == 0 && value_of(pull) == 0)  // small slope in the backlash for statics, see elastic_deflection()
         push = compose(x, 0, ToothLaw::least_slope * k / n, 0);
       double part = (k / n) * (law_.flank_integral(value_of(in_front)) + law_.flank_integral(value_of(behind)));
       if (law_.course.varies()) {
@@ -149,7 +149,7 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
     front -= open;
     back -= open;
 
-    // forces −∂V/∂q: the opening is −gap·½(η₂^A + η₂^B), the tilts are products of D with directions that A and B carry
+    // forces −∂V/∂q: the opening is −gap·½(η₂^A + η₂^B), the tilts are products of D with directions carried by A and B
     Vec3T<T> out;
     for (int i = 0; i < 3; ++i) out[i] = by_opening * across[i];
     const Vec3T<T> out_a = cross(a.arm, out), out_b = cross(b.arm, out);
@@ -160,7 +160,7 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
       loads.frame_moment[1][i] += -out_b[i] + 0.5 * by_opening * gap_b[i];
     }
     if (n > 1) {
-      Vec3T<T> way;  // V varies with the tilt D by D·way
+      Vec3T<T> way;  // derivative of V with respect to the tilt D
       for (int i = 0; i < 3; ++i) way[i] = by_across * across[i] + by_along * along[i];
       const Vec3T<T> turn_a = cross(a.axle, way), turn_b = cross(b.axle, way);
       Vec3T<T> carried_a, carried_b;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Separation and friction of ToothContact, in numbers of any kind. Included by tooth_contact.hpp only.
+// Separation and friction of ToothContact, for any number type. Included by tooth_contact.hpp only.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 
 namespace engrane::elements::gears {
 
-/// Where two toothed bodies meet: from the nodes to the point midway between the two contact points, and the directions there.
+/// Meeting point of two toothed bodies: arms from the nodes to the midpoint of the two contact points, and the directions
+/// there.
 template <class T>
 struct ToothMeeting {
   Vec3T<T> arm_a, arm_b;
@@ -24,7 +25,7 @@ struct ToothMeeting {
   }
 };
 
-/// How two toothed bodies slide.
+/// Relative velocity of two toothed bodies.
 template <class T>
 struct ToothSlip {
   const Motion<T, 2>& motion;
@@ -33,7 +34,7 @@ struct ToothSlip {
 
   ToothSlip(const Motion<T, 2>& m, const ToothMeeting<T>& meeting)
       : motion(m), at(meeting), spin_a(rotate(m.node[0].R, m.node[0].W)), spin_b(rotate(m.node[1].R, m.node[1].W)) {}
-  /// Velocity of A relative to B where they meet, and at an offset from there.
+  /// Velocity of A relative to B at the meeting point, and at an offset from it.
   Vec3T<T> here() const { return between(at.arm_a, at.arm_b); }
   Vec3T<T> off(const Vec3T<T>& offset) const { return between(at.arm_a + offset, at.arm_b + offset); }
 
@@ -43,7 +44,7 @@ struct ToothSlip {
   }
 };
 
-/// The part of v in the plane whose normal is n.
+/// The part of v in the plane with normal n.
 template <class T>
 Vec3T<T> along_plane(const Vec3T<T>& v, const Vec3T<T>& n) {
   const T v_n = dot(v, n);
@@ -58,7 +59,7 @@ Vec3T<T> direction_of(const Vec3T<T>& v) {
   return v * T(1 / sqrt(dot(v, v)));
 }
 
-/// A pair of flanks that touch: at ζ from the pitch point along the line of action, with a share of the load.
+/// A pair of flanks in contact: its position ζ from the pitch point along the line of action, and its share of the load.
 template <class T>
 struct FlankPair {
   T place, share;
@@ -84,11 +85,11 @@ FlankPairs<T> ToothContact::flanks(const T& psi_a, double sense) const {
   const auto [low, high, edge] = path(sense);
   const double pitch = geometry_.base_pitch;
   const T cycle = (psi_a * geometry_.teeth + law_.mesh.phase) * (0.5 / std::numbers::pi) + geometry_.flank * sense;
-  // Those wholly on the path, and the part of one that comes and of one that goes, over `edge` about either end: half within
-  // and half beyond, so that the mean over a pitch is that of flanks which come and go at once.
+  // All pairs wholly on the path, and a fraction of the one that enters and of the one that leaves, over `edge` about either
+  // end: half inside and half outside, so that the mean over a pitch is the same as with abrupt changes.
   FlankPairs<T> pairs;
   std::size_t whole = 0;
-  std::array<T, 2> part{T(0), T(0)};  // of the one that comes and of the one that goes
+  std::array<T, 2> part{T(0), T(0)};  // fractions of the entering and of the leaving pair
   for (double j = std::ceil((low - 0.5 * edge) / pitch - value_of(cycle)); pairs.count < pairs.all.size(); ++j) {
     const T place = pitch * (cycle + j);
     const double at = value_of(place);
@@ -105,8 +106,8 @@ FlankPairs<T> ToothContact::flanks(const T& psi_a, double sense) const {
     }
     pairs.all[pairs.count++] = {place, in};
   }
-  // The load is shared equally. The share of a flank is the mean of 1/number over whether those at the ends are there or not:
-  // linear in each, so that a flank takes half of what it takes in full where it is half there.
+  // The load is shared equally. A pair's share is the mean of 1/number over the presence or absence of the pairs at the ends:
+  // linear in each fraction, so that a pair that is half present takes half its full share.
   const double n = static_cast<double>(whole);
   const auto split = [](const T& p, double without, double with) { return T((1 - p) * without + p * with); };
   const T both = part[0] * part[1];
@@ -143,7 +144,7 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
   };
 
   Vec3T<T> separating(T(0), T(0), T(0));
-  if (radial) {  // (34, 35); it does no work on ψ
+  if (radial) {  // (34, 35); does no work on ψ
     T size = sin_alpha_ * load;
     if (options_.running) {
       const T opening = -dot(gap, at.across);
@@ -170,7 +171,7 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
   if (!options_.friction) return;
 
   const ToothFriction& friction = *options_.friction;
-  // −μ(|v_s|) N v_s/|v_s|, v_s the part of the velocity in the plane whose normal is n
+  // −μ(|v_s|) N v_s/|v_s|, with v_s the part of the velocity in the plane with normal n
   const auto drag = [&](const Vec3T<T>& v, const Vec3T<T>& n, const FrictionLaw& law, const T& N) {
     const Vec3T<T> tangential = along_plane(v, n);
     const T speed_squared = dot(tangential, v);
@@ -186,7 +187,7 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
   };
   const Vec3T<T> before = loads.body_force;
   const double sense = value_of(force_1) >= 0 ? 1 : -1;
-  const auto flank_axes = [&] {  // the line of action, and the normal of the flanks
+  const auto flank_axes = [&] {  // line of action and normal of the flanks
     const double cos_t = std::cos(geometry_.transverse_pressure_angle), sin_t = std::sin(geometry_.transverse_pressure_angle);
     std::array<Vec3T<T>, 2> axes;
     for (int k = 0; k < 3; ++k) {
@@ -206,8 +207,8 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
       }
     }
   } else {
-    // Flanks slide along the way that A's takes on B's when ψ_A grows, by `lever` for each unit of ψ_A. Friction against it is of
-    // a known sign, and the force at rest is spread over flanks as its limit is.
+    // Flanks slide in the direction in which A moves on B when ψ_A increases, by `unit` per unit of ψ_A. Friction opposes
+    // sliding in a known direction; the force at rest is distributed over the flanks like its limit.
     const double unit = grip_lever();
     const auto against = [&](const Vec3T<T>& way, const Vec3T<T>& velocity, const T& part) {
       const T sliding = dot(way, velocity) * grip.direction;
@@ -227,12 +228,12 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
       const Vec3T<T> per_place = along_plane<T>(cross(rolling, line), flank_normal), way = direction_of(per_place);
       const auto pairs = flanks(motion.scalar[0], sense);
       const double edge = path(sense).edge;
-      // sliding changes its direction at the pitch point, over the same width as flanks come and go
+      // sliding reverses at the pitch point, over the same width as flanks enter and leave
       const auto part = [&](const FlankPair<T>& pair) {
         const Function::Jet s = smooth_step(value_of(pair.place), edge);
         return T(pair.share * (compose(pair.place, s.f, s.d1, s.d2) * 2.0 - 1.0));
       };
-      T lever(1e-12 * geometry_.base_pitch);  // none where the only flank touches at the pitch point
+      T lever(1e-12 * geometry_.base_pitch);  // avoids a zero lever if the only flank touches at the pitch point
       for (const FlankPair<T>& pair : pairs) lever += part(pair) * pair.place;
       lever *= dot(way, per_place);
       for (const FlankPair<T>& pair : pairs) {

@@ -23,20 +23,21 @@ namespace {
 constexpr double turn = 2 * std::numbers::pi;
 constexpr std::array<std::size_t, 2> sides{0, 1};
 
-/// Misfit, in pitches, that typed coordinates may leave; and the most that elastic teeth contact_homotopy.
+/// Misfit, in pitches, that is attributed to typed coordinates, and the largest that elastic teeth can bridge.
 constexpr double fits = 1e-6, bridged = 0.05;
 
-/// Profile shifts that differ by less are of one wheel: one may be typed, the other follow from a rounded centre distance.
+/// Profile shifts that differ by less belong to the same wheel: one may be typed, the other computed from a rounded centre
+/// distance.
 constexpr double same_shift = 0.01;
 
-/// An angle between −π and π.
+/// The angle reduced to [−π, π].
 double wrapped(double angle) { return std::remainder(angle, turn); }
 
 struct Wheel {
   int node = 0;
   int teeth = 1;
   double module = 1;
-  double cone = 0, helix = 0;  ///< counted for the axle in its one sense; the helix is the trade's
+  double cone = 0, helix = 0;  ///< for the axle in its standard sense; right-hand helix positive
   Vec3 axle, center;
   Vec3 datum;  ///< across the axle, towards the wheel's first contact point
   double tip = 0, width = 0, shift = 0;
@@ -53,17 +54,17 @@ struct Wheel {
 struct Mesh {
   const deck::Record* record = nullptr;
   std::array<std::size_t, 2> wheel{0, 0};
-  std::array<double, 2> sense{1, 1};    ///< of the pair's axles, against that of the wheels
-  std::array<double, 2> contact{0, 0};  ///< θ, about the wheel's axle from its datum
-  std::array<double, 2> tip{0, 0};      ///< tip radius of either wheel, as this pair has it
+  std::array<double, 2> sense{1, 1};    ///< of the pair's axles relative to those of the wheels
+  std::array<double, 2> contact{0, 0};  ///< θ, from the wheel's datum about its axle
+  std::array<double, 2> tip{0, 0};      ///< tip radii of the wheels according to this pair
   double module = 1;
-  bool closes = false;  ///< its wheels are joined by earlier pairs
+  bool closes = false;  ///< its wheels are already connected by earlier pairs
 
   bool has(std::size_t w) const { return wheel[0] == w || wheel[1] == w; }
   std::size_t other(std::size_t w) const { return wheel[0] == w ? wheel[1] : wheel[0]; }
 };
 
-/// One sense for an axle, whichever way the decks count it.
+/// A standard sense for an axle, whichever way a deck gives it.
 double sense_of(const Vec3& axle) {
   for (int k = 0; k < 3; ++k)
     if (std::abs(axle[k]) > 1e-6) return axle[k] < 0 ? -1 : 1;
@@ -91,13 +92,13 @@ class Trains {
     return found == mesh_of_.end() ? nullptr : &meshes_[found->second];
   }
 
-  /// z_A times the angle from the contact point to a tooth, about the pair's axle of that wheel.
+  /// z_A times the angle from the contact point to a tooth, about that wheel's axle in the pair's sense.
   double phase(const Mesh& m, std::size_t side) const {
     const Wheel& w = wheels_[m.wheel[side]];
     return m.sense[side] * (tooth_[m.wheel[side]] - w.teeth * m.contact[side]);
   }
 
-  /// By how much, of a pitch of 2π, the teeth of A stand too far ahead for a space of B.
+  /// How far the teeth of A are ahead of a space of B, with a pitch of 2π.
   double misfit(const Mesh& m) const { return wrapped(phase(m, 0) + phase(m, 1) - std::numbers::pi); }
 
   std::string planet_condition(const Mesh& m) const;
@@ -146,9 +147,9 @@ class Trains {
     meshes_.push_back(m);
   }
 
-  /// Tells the pairs that close a loop: those whose wheels earlier pairs of the deck have joined.
+  /// Marks the pairs that close a loop: those whose wheels are already connected by earlier pairs of the deck.
   void join() {
-    std::vector<std::size_t> joined_to(wheels_.size());  // a wheel of the same train; itself: the train's first
+    std::vector<std::size_t> joined_to(wheels_.size());  // a wheel of the same train; the representative's is itself
     std::iota(joined_to.begin(), joined_to.end(), std::size_t{0});
     const auto train = [&](std::size_t wheel) {
       while (joined_to[wheel] != wheel) wheel = joined_to[wheel] = joined_to[joined_to[wheel]];
@@ -161,23 +162,23 @@ class Trains {
     }
   }
 
-  /// Gives every wheel the place of its teeth, from the first pair of each train on.
+  /// Positions the teeth of every wheel, starting from the first pair of each train.
   void spread() {
     tooth_.assign(wheels_.size(), 0);
     std::vector<bool> known(wheels_.size(), false);
     for (std::size_t first = 0; first < meshes_.size(); ++first) {
       const Mesh& founder = meshes_[first];
       if (known[founder.wheel[0]]) continue;
-      known[founder.wheel[0]] = true;  // a tooth at the contact point: θ = 0 there, by the datum
+      known[founder.wheel[0]] = true;  // a tooth at the contact point, where θ = 0 by the datum
       tooth_[founder.wheel[0]] = wheels_[founder.wheel[0]].teeth * founder.contact[0];
-      // pairs that close no loop make a tree: there is one way to each wheel
+      // pairs that close no loop form a tree: there is a single path to each wheel
       for (std::vector<std::size_t> open{founder.wheel[0]}; !open.empty();) {
         const std::size_t wheel = open.back();
         open.pop_back();
         for (const std::size_t index : meshes_of_[wheel]) {
           const Mesh& m = meshes_[index];
           if (m.closes || known[m.other(wheel)]) continue;
-          const std::size_t side = m.wheel[0] == wheel ? 1 : 0;  // the one to be found
+          const std::size_t side = m.wheel[0] == wheel ? 1 : 0;  // the wheel to be positioned
           const std::size_t next = m.wheel[side];
           const double phase_needed = std::numbers::pi - phase(m, 1 - side);
           tooth_[next] = wrapped(m.sense[side] * phase_needed + wheels_[next].teeth * m.contact[side]);
@@ -196,8 +197,8 @@ class Trains {
   std::vector<double> tooth_;                                    ///< z δ of each wheel, from its datum about its axle
 };
 
-/// Where equal planets fit, when the pair closes a loop of two coaxial wheels and two planets: (z_s + z_r)·angle/360 must be
-/// an integer (also for the pinions of a bevel differential: the coaxial wheels turn against each other past the planets).
+/// Condition for equal planets when the pair closes a loop of two coaxial wheels and two planets: (z_s + z_r)·angle/360 must be
+/// an integer (also for the pinions of a bevel differential, whose coaxial wheels turn in opposite directions).
 std::string Trains::planet_condition(const Mesh& m) const {
   for (const std::size_t side : sides) {
     const std::size_t planet = m.wheel[side], central = m.wheel[1 - side];
@@ -231,8 +232,8 @@ std::string Trains::planet_condition(const Mesh& m) const {
   return "move the axle of one wheel of the loop, or change its teeth";
 }
 
-/// Wheels that share a partner, such as neighbouring planets, must keep their tips apart. Each wheel is looked at by the
-/// pair that first names it.
+/// Warns if wheels that share a partner, such as neighbouring planets, overlap at their tips. Each wheel is checked by the
+/// first pair that names it.
 void Trains::warn_of_overlap(const Mesh& m, const BuildContext& context) const {
   for (const std::size_t side : sides) {
     const std::size_t self = m.wheel[side], partner = m.wheel[1 - side];
@@ -241,7 +242,7 @@ void Trains::warn_of_overlap(const Mesh& m, const BuildContext& context) const {
     if (&meshes_[meshes_of_[self].front()] != &m) continue;
     for (const std::size_t index : meshes_of_[partner]) {
       const Mesh& k = meshes_[index];
-      if (&k == &m) break;  // each two wheels once
+      if (&k == &m) break;  // each pair of wheels once
       const std::size_t neighbour = k.other(partner);
       const Wheel& n = wheels_[neighbour];
       if (neighbour == self || n.node == w.node || !n.external_cylinder() || cross(n.axle, w.axle).norm() > 1e-6) continue;
@@ -263,7 +264,7 @@ void Trains::warn_of_overlap(const Mesh& m, const BuildContext& context) const {
   }
 }
 
-/// Pairs that cut one wheel differently. Each is compared with the first pair of the wheel.
+/// Warns of pairs that cut the same wheel differently. Each is compared with the wheel's first pair.
 void Trains::warn_of_cut(const Mesh& m, const BuildContext& context) const {
   for (const std::size_t side : sides) {
     const std::size_t self = m.wheel[side];
@@ -300,7 +301,7 @@ std::optional<MeshPhase> mesh_phase(const BuildContext& context, bool elastic) {
   trains.warn_of_cut(*m, context);
   MeshPhase result;
   result.phase = wrapped(trains.phase(*m, 0));
-  if (result.phase < 1e-9 - std::numbers::pi) result.phase += turn;  // half a pitch has one name
+  if (result.phase < 1e-9 - std::numbers::pi) result.phase += turn;  // half a pitch is always +π
   for (const std::size_t side : sides) result.contact[side] = m->sense[side] * m->contact[side];
   if (!m->closes) return result;
 

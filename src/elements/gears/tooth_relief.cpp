@@ -11,7 +11,7 @@ Function::Jet ToothRelief::lacking(double place) const {
   Function::Jet sum;
   for (const Ramp& r : ramps) {
     const double side = r.at_recess ? 1 : -1;
-    const double s = (side * place - (r.at_recess ? recess : approach)) / r.length + 1;  // 0 where it begins, 1 at the end
+    const double s = (side * place - (r.at_recess ? recess : approach)) / r.length + 1;  // 0 at its start, 1 at the end
     if (s <= 0) continue;
     const double p = r.exponent, slope = side / r.length;
     sum.f += r.amount * std::pow(s, p);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Relief of tooth profiles: every pair of teeth on the path of contact is a spring of its own, and begins to press later by as
-// much as was taken off its flanks.
+// Profile relief: each pair of teeth on the path of contact is a separate spring, and starts to press later by the amount
+// removed from its flanks.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,11 @@
 
 namespace engrane::elements::gears {
 
-/// The profiles of a pair of wheels along the path of contact. Lengths along the path ζ count from the pitch point in the
+/// Profiles of a pair of wheels along the path of contact. Positions ζ on the path are measured from the pitch point in the
 /// direction in which A moves; amounts are in the units of u_m, along the circumference.
 struct ToothRelief {
-  /// Material taken off towards one end of the path: amount (s/length)^exponent, s the way beyond where it begins.
+  /// Material removed towards one end of the path: amount (s/length)^exponent, with s the distance from the start of the
+  /// relief.
   struct Ramp {
     bool at_recess = true;  ///< the end where A's tips touch; otherwise where B's do
     double amount = 0, length = 0, exponent = 2;
@@ -21,14 +22,14 @@ struct ToothRelief {
   double approach = 0, recess = 0;  ///< front flanks touch from −approach to recess
   double base_pitch = 1;
   double flank = 0.25;  ///< of A's front flank from the middle of its tooth, in pitches
-  double edge = 0;      ///< way over which a pair comes and goes, half within the path and half beyond: its stiffness is C²
+  double edge = 0;  ///< length over which a pair enters or leaves, half inside the path and half outside; its stiffness is C²
 
   bool active() const { return !ramps.empty(); }
-  /// Pairs on the path in the mean, over which k_m is shared out: each has k_m/ε.
+  /// Mean number of pairs on the path, which share k_m: each has k_m/ε.
   double contact_ratio() const { return (approach + recess) / base_pitch; }
-  /// δ(ζ), what the pair at ζ lacks, with derivatives by ζ.
+  /// δ(ζ): material removed at ζ, with derivatives with respect to ζ.
   Function::Jet lacking(double place) const;
-  /// The part of a pair at ζ that is there: 1 on the path, 0 beyond.
+  /// Weight of a pair at ζ: 1 on the path, 0 beyond.
   Function::Jet present(double place) const;
 };
 

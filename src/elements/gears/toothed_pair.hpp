@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a gear pair and a rack and pinion have in common as elements: the unknowns of their teeth and what they tell of them.
+// Common base of the gear pair and the rack and pinion: unknowns and results of their teeth.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,11 @@
 
 namespace engrane::elements::gears {
 
-/// Base of the elements whose teeth meet on two nodes. The derived element writes its residual once, as
+/// Base of elements whose teeth meet on two nodes. The derived element writes its residual once, as
 ///
 ///     template <class T> void mesh(const Motion<T, 2>&, const State&, Balance<T, 2>&, ContactReport*) const;
 ///
-/// with the rows of its first two scalars, and `ToothContact::act` for the rest.
+/// including the rows of its first two scalars; `ToothContact::act` writes the others.
 template <class Derived>
 class ToothedPair : public TemplatedElement<Derived, 2, 20> {
  public:
@@ -48,7 +48,7 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20> {
     self().mesh(motion, state, balance, nullptr);
   }
 
-  /// Remembers, last in the history but for grips, the most that a flank of teeth with a rounded onset was pressed in.
+  /// Also stores the largest deflection of a flank whose contact onset is rounded: the last history entry before the grips.
   void commit(const State& state, std::span<double> scalars, std::span<double> history) const override {
     const double pressed = contact_.rounds_contact() ? contact_.deflection(report(state)) : 0;  // counting turns may shift ψ
     self().count_turns(state, scalars, history);
@@ -64,7 +64,7 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20> {
 
   const ToothLaw& teeth() const { return contact_.law(); }
   const ContactOptions& options() const { return contact_.options(); }
-  /// What the teeth tell, their forces on both bodies among it.
+  /// Results of the teeth, including their forces on both bodies.
   ContactReport report(const State& state) const {
     ContactReport report;
     Balance<double, 2> balance(state);
@@ -94,7 +94,7 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20> {
  protected:
   ToothContact contact_;
 
-  /// The friction at rest, with the row of its grip, for ψ_A of so many whole turns.
+  /// Friction at rest, including the constraint row of its grip; `turns` whole turns are added to ψ_A.
   template <class T>
   ToothGrip<T> grip(const T& psi_a, double turns, const State& state, Balance<T, 2>& balance) const {
     if (!contact_.grips()) return {};

@@ -23,7 +23,7 @@ double worm_size(WormSize size, const WormNumbers& numbers, double lead_angle) {
     case WormSize::diameter:
       return starts / s;
     case WormSize::center_distance:
-      // the wheel's helix is what the worm's, 90° − λ, lacks of the shaft angle
+      // the wheel's helix angle is the shaft angle less that of the worm, 90° − λ
       return 0.5 * (starts / s + numbers.teeth / std::cos(numbers.shaft_angle - std::numbers::pi / 2 + lead_angle));
   }
   return 0;
@@ -36,7 +36,7 @@ std::optional<double> worm_lead_angle(const WormNumbers& numbers, WormSize one, 
   const auto excess = [&](double angle) {
     return worm_size(one, numbers, angle) * other_value - worm_size(other, numbers, angle) * value;
   };
-  // the first change of sign from small lead angles on, then bisection to the last digit
+  // first change of sign from small lead angles upwards, then bisection to the last digit
   constexpr double step = std::numbers::pi / 2 / 4000;
   double low = 1e-6, f_low = excess(low);
   for (double high = step; high < std::numbers::pi / 2; high += step) {

@@ -11,7 +11,7 @@ namespace engrane::elements::joints {
 
 namespace {
 
-constexpr double largest_bend = 175;  // degrees: at 180 a half turn is as good as none
+constexpr double largest_bend = 175;  // degrees: at 180 the axis of the bend is undefined
 
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "constant velocity joint", PointRule::one_place);
@@ -27,7 +27,7 @@ std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
                     "both point the same way along the drive line: AXIS towards the joint, AXIS2 away from it");
       return nullptr;
     }
-    // B's axes are A's, turned with the bend and not about the shaft: v + w×v + w×(w×v)/(1 + cos)
+    // B's axes are A's, rotated by the bend and not about the shaft: v + w×v + w×(w×v)/(1 + cos)
     const double cosine = frame.e1.dot(*shaft);
     const auto bent = [&](const Vec3& v) {
       const Vec3 once = cross(across, v);

@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// CONSTANT_VELOCITY (HOMOCINETIQUE): two shafts that meet in a point turn by the same angle, however they are bent.
+/// CONSTANT_VELOCITY (HOMOCINETIQUE): two shafts that meet in a point turn by the same angle, whatever the angle between them.
 ElementType constant_velocity_type();
 
 }  // namespace engrane::elements::joints

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scalar coordinate between two nodes, as other elements see it.
+// A scalar coordinate between two nodes, for use by other elements.
 #pragma once
 
 #include <array>
@@ -15,11 +15,11 @@
 namespace engrane::elements::joints {
 
 struct Coordinate {
-  std::string name;            ///< channel of its element: ANGLE, SLIDE
+  std::string name;            ///< the element's channel: ANGLE, SLIDE
   std::array<int, 2> nodes{};  ///< a and b
   JointFrame frame;
   Measure what = Measure::angle;
-  Vec3 point = Vec3::Zero();  ///< for pictures
+  Vec3 point = Vec3::Zero();  ///< for drawings
 
   bool is_angle() const { return is_turn(what); }
   Dimension dimension() const { return is_angle() ? dimension::angle : dimension::length; }
@@ -30,7 +30,7 @@ struct Coordinate {
     return (end == 0 ? frame.turns_a : frame.turns_b) ? NodeNeed::both : NodeNeed::translation;
   }
 
-  /// Value with its gradient and rate. `committed` is the piece of the element's history that counts its turns.
+  /// Value, gradient and rate. `committed` is the part of the element's history that counts the turns.
   template <class T>
   struct Reading {
     JointPose<T> pose;
@@ -50,8 +50,8 @@ struct Coordinate {
     return {pose, m, dot(m.force, slip) + dot(m.moment, Vec3T<T>(spin_b - spin_a))};
   }
 
-  /// Acts on the ends, nodes `ia` and `ib` of the element, with an effort along the coordinate: a force on a length, a moment
-  /// on an angle, positive where it makes the coordinate grow. Nothing is left over for the ground.
+  /// Applies an effort along the coordinate to nodes `ia` and `ib` of the element: a force for a length, a moment for an angle,
+  /// positive in the direction in which the coordinate grows. The forces and moments on the two nodes balance.
   template <class T, class Node, int Nodes>
   void act(const Reading<T>& reading, const T& effort, const Node& a, const Node& b, int ia, int ib,
            Balance<T, Nodes>& balance) const {
@@ -67,7 +67,7 @@ struct Coordinate {
   void commit(const NodeState& a, const NodeState& b, std::span<const double> committed, std::span<double> next) const;
 };
 
-/// An element whose coordinates other elements may relate, measure and act along.
+/// An element whose coordinates other elements can couple, measure and actuate.
 class CoordinateOwner : public CoordinateChannels {
  public:
   virtual std::vector<Coordinate> coordinates() const = 0;

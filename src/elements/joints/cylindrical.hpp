@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// CYLINDRICAL (CYLINDRIQUE): node B slides along an axis held by node A and turns about it.
+/// CYLINDRICAL (CYLINDRIQUE): node B slides along an axis fixed to node A and turns about it.
 ElementType cylindrical_type();
 
 }  // namespace engrane::elements::joints

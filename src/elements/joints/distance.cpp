@@ -9,7 +9,7 @@ namespace engrane::elements::joints {
 
 namespace {
 
-/// An end of the rod: as given, or at the node.
+/// An end of the rod: as given, or the node itself.
 std::optional<Vec3> end(const BuildContext& context, const char* keyword, int node,
                         const std::optional<std::array<double, 3>>& given) {
   if (given) return to_vector(*given);

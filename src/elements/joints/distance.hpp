@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// DISTANCE: a massless rod, of constant or driven length, between a point of A and a point of B.
+/// DISTANCE: a massless rod of constant or driven length between a point of A and a point of B.
 ElementType distance_type();
 
 }  // namespace engrane::elements::joints

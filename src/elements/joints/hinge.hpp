@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// HINGE (CHARNIERE): node B turns about an axis held by node A through a point held by both.
+/// HINGE (CHARNIERE): node B turns about an axis fixed to node A, through a point fixed to both.
 ElementType hinge_type();
 
 }  // namespace engrane::elements::joints

@@ -16,7 +16,7 @@ namespace engrane::elements::joints {
 
 namespace {
 
-/// Does the measure look at B's second or third axis?
+/// Whether the measure depends on B's second or third axis.
 bool looks_across_b(Measure m) {
   switch (m) {
     case Measure::gap_1:
@@ -78,7 +78,7 @@ Multiplier multiplier(Measure m) {
   }
 }
 
-/// Adds the grip of a friction, with names for what holds it.
+/// Adds the grip of one joint friction, with names for its constraints.
 void name_grip(Layout& layout, const JointFriction& f) {
   const GripShape shape = f.shape();
   const std::array coordinates = f.coordinates();
@@ -98,7 +98,7 @@ void name_grip(Layout& layout, const JointFriction& f) {
 bool rubs_along(const JointFriction& f) { return f.kind != Rubbing::journal && f.kind != Rubbing::ball; }
 bool rubs_round(const JointFriction& f) { return f.kind != Rubbing::guide && f.radius > 0; }
 
-/// Rate of a measure from the velocities of the nodes, by its gradient.
+/// Rate of a measure from the nodes' velocities, by its gradient.
 template <class T>
 T rate_of(const Measured<T>& m, const JointRates<T>& rates) {
   T sum(0);
@@ -186,7 +186,7 @@ void Joint::act(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& b
 
   balance.force(0, force);
   balance.force(1, Vec3T<T>(-force));
-  // A's lever reaches to B's point, gap or no gap, so that the sum of moments is zero
+  // A's lever reaches to B's point, whatever the gap, so that the moments balance
   if (frame.turns_a)
     balance.moment(
         0, rotate_back(a.R, Vec3T<T>(cross(pose.has_arm_a ? Vec3T<T>(pose.gap + pose.arm_a) : pose.gap, force) + moment)));
@@ -212,7 +212,7 @@ JointRub<T> Joint::rest(const JointFriction& f, std::size_t grip, const JointPos
     const auto i = static_cast<std::size_t>(k);
     along[i] = coordinates[i] == f.turn && !ball ? turn : measured(coordinates[i], ball ? *turned : pose, state);
     held[k] = balance.constraint(row + k, ball ? along[i].value : T(along[i].value - now.held[k]));
-    // a ball slides by its spin; how far it has turned from where it rested changes the gradient of that turn
+    // a ball slides by its spin: the rotation since the place of rest must not enter the gradient
     if (ball && now.mode == GripState::sliding) along[i].set_moment(i == 0 ? pose.a1 : i == 1 ? pose.a2 : pose.a3);
     u[k] = rate_of(along[i], rates) * shape.lever[i];
   }
@@ -231,8 +231,8 @@ void Joint::evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 
 
 Joint::~Joint() = default;
 
-/// Without friction a multiplier acts along the gradient of its constraint, which needs no differentiation, and of the nodes'
-/// places only the difference counts: nine lanes in place of eighteen.
+/// Without friction a multiplier acts along its constraint's gradient, which needs no differentiation, and only the difference
+/// of the nodes' positions matters: nine derivative lanes instead of eighteen.
 void Joint::tangent(const State& state, Weights weights, std::span<double> r, std::span<double> k) const {
   if (!parts_.friction.empty()) return TemplatedElement::tangent(state, weights, r, k);
   constexpr std::size_t places = 0, turns_a = 3, turns_b = 6;
@@ -332,7 +332,7 @@ void Joint::count_turns(const State& state, std::span<double>, std::span<double>
     turn_count::commit(measure(angles_[i], parts_.frame, pose).value, state.history.subspan(at, turn_count::history),
                        history.subspan(at, turn_count::history));
   }
-  // a ball that does not rest: whatever place it stops in is measured from here
+  // a ball that is not at rest: the place where it stops is measured from the current orientation
   std::size_t grip = 0;
   for (const JointFriction& f : parts_.friction) {
     if (!f.law.rests) continue;
@@ -350,7 +350,7 @@ void Joint::count_turns(const State& state, std::span<double>, std::span<double>
 void Joint::commit(const State& state, std::span<double> scalars, std::span<double> history) const {
   count_turns(state, scalars, history);
   const std::vector<GripShape>& shapes = layout().grips;
-  bool turns = false;  // does any direction of sliding?
+  bool turns = false;  // whether any direction of sliding can change
   for (std::size_t i = 0; i < shapes.size(); ++i)
     turns = turns || (shapes[i].size > 1 && GripState::of(layout(), state.history, i).mode == GripState::sliding);
   if (!turns) return;

@@ -15,13 +15,13 @@
 
 namespace engrane::elements::joints {
 
-/// A measure that the joint holds at a value.
+/// A measure that the joint constrains to a value.
 struct JointConstraint {
   Measure measure;
   double value = 0;
 };
 
-/// The channels of a free coordinate.
+/// Channel names of a free coordinate.
 struct CoordinateNames {
   std::string value, rate;                      ///< SLIDE, SLIDE_SPEED
   std::string spring, drive, power, stop, gap;  ///< SLIDE_SPRING and so on
@@ -31,55 +31,55 @@ struct CoordinateNames {
   }
 };
 
-/// A measure left free: it is observed, and may have a spring, a damper, a drive and stops.
+/// A free measure: it is observed, and may have a spring, a damper, a drive and stops.
 struct JointCoordinate {
   Measure measure;
   CoordinateNames names;
   SpringLaw law = {};
-  double relaxed = 0;  ///< where the spring is
+  double relaxed = 0;  ///< value at which the spring is relaxed
   Drive drive = {};
   double origin = 0;  ///< value at t = 0 when the drive gives the rate
   StopRange stop = {};
 
   bool sprung() const { return law.acts(); }
-  /// Force or torque of spring and damper.
+  /// Force or torque of spring and damper on the coordinate.
   template <class T>
   T spring(const T& value, const T& rate, double time) const {
     return -law.force(T(value - relaxed), rate, time);
   }
 };
 
-/// What a kind of joint is made of.
+/// The parts that make up a kind of joint.
 struct JointParts {
   JointFrame frame;
   std::array<int, 2> nodes{};
   std::vector<JointConstraint> constraints;
   std::vector<JointCoordinate> coordinates;
   std::vector<JointFriction> friction;
-  bool has_axis = true;        ///< reports reactions along e1, e2, e3 too
-  bool drawn_axis = true;      ///< drawn with its axis e1
-  bool is_bearing = false;     ///< reports the sizes of force and moment across the axis
-  bool has_axial = false;      ///< reports the force along the axis by that name
-  bool has_thrust = false;     ///< reports the force along the gap
-  bool has_bend = false;       ///< reports the angle between the axes e1 of A and B
+  bool has_axis = true;        ///< also reports reactions along e1, e2, e3
+  bool drawn_axis = true;      ///< draws the axis e1
+  bool is_bearing = false;     ///< reports the magnitudes of force and moment across the axis
+  bool has_axial = false;      ///< reports the force along the axis as its own channel
+  bool has_thrust = false;     ///< reports the force along the gap vector
+  bool has_bend = false;       ///< reports the angle between the e1 axes of A and B
   bool has_moment = true;      ///< reports moments
-  std::string normal_channel;  ///< name under which the first multiplier is reported, if any
-  Vec3 point = Vec3::Zero();   ///< joint point, for pictures
+  std::string normal_channel;  ///< channel name of the first multiplier, if it is reported
+  Vec3 point = Vec3::Zero();   ///< joint point, for drawings
 };
 
-/// Any joint between two nodes that is a list of constraints and free coordinates (joint_measures.hpp). The multipliers
-/// are forces and moments on B in the joint axes that A carries.
+/// Any joint between two nodes, as a list of constraints and free coordinates (joint_measures.hpp). The multipliers are forces
+/// and moments on B, in the joint axes carried by A.
 class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwner {
  public:
   Joint(int id, JointParts parts);
-  ~Joint() override;  // where the class is compiled, and nowhere else: it is large
+  ~Joint() override;  // out of line: the class is large
 
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const;
 
   void tangent(const State& state, Weights weights, std::span<double> r, std::span<double> k) const override;
   void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
-  /// Keeps the direction of sliding, and for a ball the place.
+  /// Also stores the direction of sliding, and for a ball the orientation from which rest is measured.
   void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void switches(const State& state, std::span<Switch> values) const override;
   void sliding(const State& state, std::span<Vec3> speeds) const override;
@@ -87,11 +87,11 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   Energies energies(const State& state) const override;
   const std::vector<Channel>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override;
-  /// Usual kinds of joint that hold some of the same directions and no other.
+  /// Standard joint types that constrain a subset of the same directions.
   std::vector<Release> releases() const override;
   Drawing drawing() const override;
 
-  /// The free ones.
+  /// The free coordinates.
   std::vector<Coordinate> coordinates() const override;
 
  private:
@@ -103,10 +103,10 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
 
   static double driven_origin(const JointCoordinate& c) { return c.drive.rate_given ? c.origin : 0; }
 
-  /// Entry of an angle's turn count in the history, or -1.
+  /// Index of an angle's turn count in the history, or −1.
   int counted(Measure what) const;
 
-  /// The friction of surfaces that can rest, and the rows of their grip.
+  /// Friction of surfaces that can stick; writes the constraint rows of their grip.
   template <class T>
   JointRub<T> rest(const JointFriction& f, std::size_t grip, const JointPose<T>& pose, const Vec3T<T>& force,
                    const Vec3T<T>& moment, const Measured<T>& turn, const Vec3T<T>& normal, const JointRates<T>& rates,
@@ -125,10 +125,10 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   void name_channels();
 
   JointParts parts_;
-  bool moves_ = false;           ///< something acts along or against the free motion
-  bool has_rates_ = false;       ///< and depends on its speed
-  bool whole_b_ = false;         ///< what acts looks at B's second or third axis
-  std::vector<Measure> angles_;  ///< counted in turns, in the order of the history
+  bool moves_ = false;           ///< there are forces along the free motion
+  bool has_rates_ = false;       ///< those forces depend on its rate
+  bool whole_b_ = false;         ///< those forces need B's second or third axis
+  std::vector<Measure> angles_;  ///< angles whose turns are counted, in the order of the history
   std::vector<Channel> channels_;
 };
 

@@ -82,7 +82,7 @@ const CoordinateWords pin_2{"2", "ANGLE", "the angle of b's pin", true, "DRIVE2"
 template <int Which>
 void add_coordinate(JointCard& card, const CoordinateWords& words) {
   using Data = NumberedCoordinate<Which>;
-  // members of the common base, seen as members of this one of several
+  // pointers to members of the common base, as members of this particular derived struct
   deck::Tagged Data::*drive = &CoordinateData::drive;
   deck::Tagged Data::*damping_of_stop = &CoordinateData::stop_damping;
   int Data::*function = &CoordinateData::function;
@@ -149,7 +149,7 @@ std::optional<JointParts> start_joint(const JointData& data, const BuildContext&
 }
 
 void release_rotations(JointParts& parts, bool axes_on_a) {
-  // the ground's rotation is no unknown, and its reaction is complete
+  // the ground's rotation is not an unknown, and with it the reaction is complete
   parts.frame.turns_a = axes_on_a || parts.nodes[0] == 0 || parts.frame.arm_a != Vec3::Zero();
   parts.frame.turns_b = parts.nodes[1] == 0 || parts.frame.arm_b != Vec3::Zero();
   parts.has_moment = false;
@@ -157,7 +157,7 @@ void release_rotations(JointParts& parts, bool axes_on_a) {
 
 namespace {
 
-/// The drive behind `DRIVE ANGLE NF f`; false, with an error, when a part is missing.
+/// Reads `DRIVE ANGLE NF f`. Returns false, with an error, if a part is missing.
 bool find_drive(const BuildContext& context, const CoordinateData& data, const CoordinateWords& words, Drive& drive) {
   if (!data.drive.given()) {
     if (data.function == 0) return true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the cards of joints have in common: nodes, axis, joint point, springs and drives of free coordinates.
+// What the cards of joints share: nodes, axis, joint point, springs and drives of free coordinates.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace engrane::elements::joints {
 
-/// What a card says of one free coordinate. Of a turn: angles in degrees, stiffness and damping per radian.
+/// Card data of one free coordinate. For angles: values in degrees, stiffness and damping per radian.
 struct CoordinateData : SpringLawData {
   deck::Tagged drive;
   int function = 0;
@@ -22,30 +22,30 @@ struct CoordinateData : SpringLawData {
   double stop_stiffness = 0, stop_exponent = 1;
   deck::Tagged stop_damping;
 };
-/// One of several in the same card.
+/// One of several such sets on the same card.
 template <int Which>
 struct NumberedCoordinate : CoordinateData {};
 
-/// The card of any joint; each kind declares the keywords it has.
+/// Card data of any joint; each kind declares the keywords it uses.
 struct JointData : NumberedCoordinate<0>, NumberedCoordinate<1>, NumberedCoordinate<2>, NumberedCoordinate<3> {
   std::array<int, 2> nodes{};
   std::array<double, 3> axis{};
   std::optional<std::array<double, 3>> second;    ///< second direction: pin or shaft of B, or direction in the plane
   std::optional<std::array<double, 3>> at;        ///< joint point in the reference configuration
   std::optional<std::array<double, 3>> from, to;  ///< ends of a DISTANCE
-  std::optional<std::array<double, 3>> on;        ///< a point of the axis of a POINT_CYLINDER
-  double pitch = 0;                               ///< of a screw, per turn
-  double both_stiffness = 0, both_damping = 0, both_relaxed = 0;  ///< of both slides, or of both pins
+  std::optional<std::array<double, 3>> on;        ///< a point on the axis of a POINT_CYLINDER
+  double pitch = 0;                               ///< of a screw: advance per turn
+  double both_stiffness = 0, both_damping = 0, both_relaxed = 0;  ///< for both slides, or both pins
 
   deck::Tagged friction;
   std::optional<double> friction_width;
   bool sticks = false;
   double radius = 0, collar = 0, bearing_length = 0, preload = 0;
-  double flank = 0;  ///< of a thread, degrees
+  double flank = 0;  ///< thread flank angle, degrees
 
-  CoordinateData& slide() { return static_cast<NumberedCoordinate<0>&>(*this); }    ///< or length, or first slide
+  CoordinateData& slide() { return static_cast<NumberedCoordinate<0>&>(*this); }    ///< also a length, or the first slide
   CoordinateData& slide_b() { return static_cast<NumberedCoordinate<1>&>(*this); }  ///< second slide
-  CoordinateData& turn() { return static_cast<NumberedCoordinate<2>&>(*this); }     ///< or turn about A's pin
+  CoordinateData& turn() { return static_cast<NumberedCoordinate<2>&>(*this); }     ///< also the turn about A's pin
   CoordinateData& turn_b() { return static_cast<NumberedCoordinate<3>&>(*this); }   ///< turn about B's pin
   const CoordinateData& slide() const { return static_cast<const NumberedCoordinate<0>&>(*this); }
   const CoordinateData& slide_b() const { return static_cast<const NumberedCoordinate<1>&>(*this); }
@@ -55,49 +55,49 @@ struct JointData : NumberedCoordinate<0>, NumberedCoordinate<1>, NumberedCoordin
 
 using JointCard = deck::Card<JointData>;
 
-/// Where the joint point may be by default when the nodes are apart.
+/// Default joint point when the nodes do not coincide.
 enum class PointRule {
-  one_place,  ///< nowhere: the place matters
-  on_axis,    ///< at node b when the nodes are on one line along the axis
-  at_b,       ///< at node b: the place matters to the reported moment only
+  one_place,  ///< none: the position matters
+  on_axis,    ///< node b, if the line between the nodes is along the axis
+  at_b,       ///< node b: the position affects only the reported moment
 };
 
-/// The joint point: AT, or where both nodes are, or where the one is that is not the ground, or what the rule says.
-/// `joint` is for the message: "hinge".
+/// The joint point: AT, or the common position of the nodes, or the node that is not the ground, or the default given by
+/// `rule`. `joint` is the name used in messages: "hinge".
 std::optional<Vec3> joint_point(const BuildContext& context, const std::array<int, 2>& nodes,
                                 const std::optional<std::array<double, 3>>& at, const std::string& joint, PointRule rule,
                                 const Vec3& axis = Vec3::Zero());
 
-/// How a card speaks of a free coordinate.
+/// Keywords and words that a card uses for a free coordinate.
 struct CoordinateWords {
-  std::string suffix;  ///< behind every keyword: K, KT
-  std::string name;    ///< option that drives the coordinate itself: SLIDE, ANGLE, LENGTH; with 0 where its spring is relaxed
-  std::string thing;   ///< in the help: "the slide"
+  std::string suffix;  ///< suffix of every keyword: K, KT
+  std::string name;    ///< option that drives the coordinate: SLIDE, ANGLE, LENGTH; prefix of SLIDE0 etc.
+  std::string thing;   ///< name in the help: "the slide"
   bool turns = false;  ///< an angle
-  std::string drive = "DRIVE", function = "NF";  ///< the suffix included
+  std::string drive = "DRIVE", function = "NF";  ///< including the suffix
 };
 
 namespace words {
-extern const CoordinateWords slide;    ///< the one slide of a joint
-extern const CoordinateWords length;   ///< that of a rod
+extern const CoordinateWords slide;    ///< the only slide of a joint
+extern const CoordinateWords length;   ///< the length of a rod
 extern const CoordinateWords slide_2;  ///< slides in a plane
 extern const CoordinateWords slide_3;
-extern const CoordinateWords turn;   ///< the turn of a joint that slides too
-extern const CoordinateWords angle;  ///< the one turn of a joint
-extern const CoordinateWords pin_1;  ///< of a universal joint
+extern const CoordinateWords turn;   ///< the turn of a joint that also slides
+extern const CoordinateWords angle;  ///< the only turn of a joint
+extern const CoordinateWords pin_1;  ///< the pins of a universal joint
 extern const CoordinateWords pin_2;
 }  // namespace words
 
-/// Declarations of keywords.
+/// Declare keywords.
 void add_joint_nodes(JointCard& card);
 void add_joint_axis(JointCard& card);
 void add_joint_point(JointCard& card);
-/// Which keywords of friction a joint has.
+/// The friction keywords of a joint.
 struct FrictionWords {
-  std::string radius = {};  ///< what RADIUS is; empty: it has none
-  std::string collar = {};  ///< THRUST
-  std::string length = {};  ///< LENGTH
-  bool flank = false;       ///< FLANK
+  std::string radius = {};  ///< meaning of RADIUS; empty: no such keyword
+  std::string collar = {};  ///< likewise THRUST
+  std::string length = {};  ///< likewise LENGTH
+  bool flank = false;       ///< whether FLANK exists
   bool needs_radius = true;
 };
 void add_joint_friction(JointCard& card, const FrictionWords& words);
@@ -106,31 +106,32 @@ void add_joint_friction(JointCard& card, const FrictionWords& words);
 template <int Which>
 void add_coordinate(JointCard& card, const CoordinateWords& words);
 
-/// Nodes, axes and joint point; empty, with an error, when they make no joint. `has_axis` reads AXIS.
+/// Reads nodes, axes and joint point. Returns nothing, with an error, if they are invalid. `has_axis`: AXIS is read.
 std::optional<JointParts> start_joint(const JointData& data, const BuildContext& context, const std::string& joint,
                                       PointRule rule, bool has_axis = true);
 
-/// Without levers and axes the rotations of the nodes do not matter, and the joint asks for none.
+/// Drops the rotations that the joint does not need: of nodes without an arm to the joint point and, for A, without axes.
 void release_rotations(JointParts& parts, bool axes_on_a);
 
-/// The free coordinate with what the card gives for it; empty, with an error, when that is faulty.
+/// Builds a free coordinate from the card. Returns nothing, with an error, if the data are invalid.
 std::optional<JointCoordinate> find_coordinate(const BuildContext& context, const CoordinateData& data,
                                                const CoordinateWords& words, Measure measure, const CoordinateNames& names);
-/// Adds one to the joint; false with an error.
+/// Adds a free coordinate to the joint; returns false, with an error, if the data are invalid.
 bool add_free(const BuildContext& context, JointParts& parts, const CoordinateData& data, const CoordinateWords& words,
               Measure measure, const CoordinateNames& names);
-/// The same of the slide along e1, and of the turn about it.
+/// Adds the slide along e1, or the turn about it.
 bool add_slide(const JointData& data, const BuildContext& context, JointParts& parts);
 bool add_turn(const JointData& data, const BuildContext& context, JointParts& parts);
-/// Keywords of the slides across a normal e1, their axes, and the slides.
+/// Declares the keywords of the slides across a normal e1, finds their axes, and adds the slides.
 void add_plane_slides(JointCard& card);
 bool find_plane_axes(const JointData& data, const BuildContext& context, JointParts& parts);
 bool add_slides(const JointData& data, const BuildContext& context, JointParts& parts);
-/// What is said of one coordinate with what K, C of both (`both` behind them) add; empty with an error when both give the same.
+/// Data of one coordinate completed by the K and C of both, whose keywords have the suffix `both`. Returns nothing, with an
+/// error, if both give the same quantity.
 std::optional<CoordinateData> with_both(const BuildContext& context, const JointData& data, const CoordinateData& own,
                                         const CoordinateWords& words, const std::string& both);
 
-/// Friction of the card, if any; false with an error.
+/// Adds the friction given on the card, if any; returns false, with an error, if it is invalid.
 bool add_friction(const JointData& data, const BuildContext& context, JointParts& parts, Rubbing kind,
                   const FrictionWords& words);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dry friction in joints, from the forces that the joint itself carries.
+// Dry friction in joints, computed from the forces that the joint itself carries.
 #pragma once
 
 #include <array>
@@ -13,33 +13,33 @@
 
 namespace engrane::elements::joints {
 
-/// Where the parts of a joint rub, which says what presses them together and how they slide.
+/// The rubbing surfaces of a joint: determines the normal force and the sliding velocity.
 enum class Rubbing {
-  journal,  ///< a pin in its bushes and on its collar: turns
+  journal,  ///< a pin in its bushes and on its collar: rotates
   guide,    ///< a slider on its guide: slides along e1
-  sleeve,   ///< a sleeve on a round shaft: slides along e1 and turns
-  thread,   ///< a nut on its thread: the same, pressed by the axial force
+  sleeve,   ///< a sleeve on a round shaft: slides along e1 and rotates
+  thread,   ///< a nut on its thread: likewise, pressed by the axial force as well
   face,     ///< a face on a plane, or a point on a surface: slides across the normal and may spin about it
   ball      ///< a ball in its socket
 };
 
-/// One pair of rubbing surfaces. The sliding velocity is u = (u_s, r w) of the sliding u_s of B's joint point and the spin w; the
-/// friction is −μ(u, N) N u/|u| on B, and the opposite on A: a force −μ N u_s/|u| and a moment −μ N r² w/|u|. Its power is
-/// −μ N |u|, never positive.
+/// One pair of rubbing surfaces. The sliding velocity u = (u_s, r w) combines the sliding velocity u_s of B's joint point and
+/// the spin w at the radius r. The friction on B is −μ(u, N) N u/|u|: a force −μ N u_s/|u| and a moment −μ N r² w/|u|. The
+/// opposite acts on A. The power −μ N |u| is never positive.
 struct JointFriction {
   Rubbing kind = Rubbing::journal;
   FrictionLaw law;
-  double radius = 0;   ///< 0: turning does not rub
-  double collar = 0;   ///< radius at which a journal's axial force rubs; 0: it does not
-  double length = 0;   ///< between the two bushes, or shoes, that carry bending moments; 0: these press nothing
-  double preload = 0;  ///< force that presses the surfaces together besides the load
-  double steep = 1;    ///< of a thread: normal force per axial force, 1/(cos λ cos α_n)
+  double radius = 0;   ///< 0: no friction against rotation
+  double collar = 0;   ///< radius at which a journal's axial force rubs; 0: no friction from it
+  double length = 0;   ///< distance of the two bushes, or shoes, that carry bending moments; 0: moments do not press
+  double preload = 0;  ///< normal force in addition to that of the load
+  double steep = 1;    ///< thread: normal force per axial force, 1/(cos λ cos α_n)
   Measure turn = Measure::angle;
-  std::string suffix;  ///< of channels
+  std::string suffix;  ///< suffix of the channel names
 
-  /// The coordinate along which surfaces slide that have but one: its force is the force or moment of friction.
+  /// Whether the surfaces slide along a single coordinate; friction is then a force or moment on that coordinate.
   bool along_line() const { return kind == Rubbing::journal || kind == Rubbing::guide || kind == Rubbing::thread; }
-  /// The coordinates along which the surfaces slide, with their levers. The lever of a coordinate that is the only one is 1.
+  /// Number of coordinates along which the surfaces slide, with their levers. A single coordinate has lever 1.
   GripShape shape() const {
     const auto count = [this](int slides) { return slides + (radius > 0 ? 1 : 0); };
     switch (kind) {
@@ -69,7 +69,8 @@ struct JointFriction {
   }
 };
 
-/// The pose with B turned back by the rotation vector that took it from A's axes (in these axes) to where it rested.
+/// The pose with B turned back by `turned`, its rotation relative to A at the place of rest (a rotation vector in A's axes), so
+/// that only the rotation since then remains.
 template <class T>
 JointPose<T> since_rest(const JointPose<T>& pose, const Vec3& turned) {
   const Mat3 Q = rotation_exp(turned);
@@ -81,19 +82,20 @@ JointPose<T> since_rest(const JointPose<T>& pose, const Vec3& turned) {
   return back;
 }
 
-/// Velocity of B's joint point relative to the point of A's body there, and of B's rotation relative to A's.
+/// Velocity of B's joint point relative to the coincident point of A's body, and angular velocity of B relative to A; global
+/// components.
 template <class T>
 struct JointRates {
   Vec3T<T> slip, spin;
 };
 
-/// The friction on B at its joint point, and what it comes from.
+/// Friction force and moment on B at its joint point, with the quantities they follow from.
 template <class T>
 struct JointRub {
   Vec3T<T> force = Vec3T<T>(T(0), T(0), T(0)), moment = Vec3T<T>(T(0), T(0), T(0));
-  T normal = T(0), power = T(0);  ///< pressing force, and power lost
-  Vec3 sliding = Vec3::Zero();    ///< its velocity, in any axes; only of numbers without derivatives
-  double limit = 0;               ///< largest force on the coordinate at rest; only of surfaces that can rest
+  T normal = T(0), power = T(0);  ///< normal force and dissipated power
+  Vec3 sliding = Vec3::Zero();    ///< sliding velocity, in arbitrary axes; only for numbers without derivatives
+  double limit = 0;               ///< largest force on the coordinate at rest; only for surfaces that can stick
 };
 
 namespace joint_friction {
@@ -103,7 +105,7 @@ T square(const Vec3T<T>& v) {
   return dot(v, v);
 }
 
-/// |v|, with slope zero at zero.
+/// |v|, with zero derivative at zero.
 template <class T>
 T size(const Vec3T<T>& v) {
   using std::sqrt;
@@ -115,7 +117,8 @@ T size(const T& v) {
   return value_of(v) < 0 ? T(-v) : v;
 }
 
-/// What force F and moment M press on a shaft along e: two bushes at ±length/2 from the joint point carry F_t/2 ± M×e/length.
+/// Sum of the bearing forces on a shaft along e under the force F and the moment M: two bushes at ±length/2 from the joint
+/// point carry F_t/2 ± M×e/length. With length 0 the moment adds nothing.
 template <class T>
 T bushes(const Vec3T<T>& F, const Vec3T<T>& M, const Vec3T<T>& e, double length) {
   const Vec3T<T> across = F - e * dot(F, e);
@@ -126,8 +129,9 @@ T bushes(const Vec3T<T>& F, const Vec3T<T>& M, const Vec3T<T>& e, double length)
 
 }  // namespace joint_friction
 
-/// Force and moment on B of a unit force on the coordinate of surfaces that slide along a line. A nut on its thread advances by
-/// `lead` per radian: its friction, along the thread, does the work of a moment of 1 when it has these parts.
+/// Adds to `out` the force and moment on B that correspond to the generalised force `amount` on the single coordinate of the
+/// surfaces. A nut advances by `lead` per radian: its friction acts along the thread, and the two parts together do the work of
+/// a moment `amount`.
 template <class T>
 void rub_along(const JointFriction& f, const JointPose<T>& pose, const Measured<T>& turn, double lead, const T& amount,
                JointRub<T>& out) {
@@ -142,8 +146,8 @@ void rub_along(const JointFriction& f, const JointPose<T>& pose, const Measured<
   }
 }
 
-/// The pressing forces N of a shaft or slider in its bushes, and the lever of each: its speed over the rate of the coordinate,
-/// where there is but one (JointFriction::along_line).
+/// Normal force N of a shaft or slider in its bushes, and its lever: sliding speed over the rate of the coordinate, if there is
+/// only one (JointFriction::along_line).
 template <class T>
 struct Pressed {
   T normal;
@@ -166,15 +170,15 @@ std::array<Pressed<T>, 2> pressed(const JointFriction& f, const JointPose<T>& po
   return {Pressed<T>{N, std::sqrt(lead * lead + f.radius * f.radius)}, none};
 }
 
-/// What presses surfaces together that slide along more than a line.
+/// Normal force of surfaces that slide along several coordinates.
 template <class T>
 T pressing(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>& F, const Vec3T<T>& M) {
   if (f.kind == Rubbing::face || f.kind == Rubbing::ball) return joint_friction::size(F) + f.preload;
   return pressed(f, pose, F, M, 0)[0].normal;
 }
 
-/// Friction on the coordinates of surfaces that slide along more than a line, with u in a known direction, or rest: `held` holds
-/// them.
+/// Friction of surfaces that slide along several coordinates with velocity u, in a known direction, or are at rest under the
+/// forces `held`.
 template <class T>
 JointRub<T> rub_towards(const JointFriction& f, const GripState& now, const T& N, const std::array<Measured<T>, 3>& along,
                         const Vec3T<T>& u, const Vec3T<T>& held) {
@@ -199,7 +203,8 @@ JointRub<T> rub_towards(const JointFriction& f, const GripState& now, const T& N
   return out;
 }
 
-/// The friction of surfaces that slide along a line in a known direction, or rest (0), without what holds them at rest.
+/// Friction of surfaces that slide along a single coordinate in a known direction, or are at rest (0); excludes the force that
+/// holds them at rest.
 template <class T>
 JointRub<T> rub_in_direction(const JointFriction& f, int direction, const JointPose<T>& pose, const Vec3T<T>& F,
                              const Vec3T<T>& M, const Measured<T>& turn, double lead, const JointRates<T>& rates) {
@@ -217,15 +222,15 @@ JointRub<T> rub_in_direction(const JointFriction& f, int direction, const JointP
   return out;
 }
 
-/// The friction of surfaces in a joint whose constraints put the force F and the moment M on B at its joint point. `turn` is the
-/// measure of JointFriction::turn, where the kind has one, and `normal` that of a face.
+/// Friction as a function of the sliding velocity alone. The constraints exert the force F and the moment M on B at its joint
+/// point. `turn` is the measure JointFriction::turn, if the kind has one; `normal` is the normal of a face.
 template <class T>
 JointRub<T> rub(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>& F, const Vec3T<T>& M, const Measured<T>& turn,
                 const Vec3T<T>& normal, const JointRates<T>& rates) {
   using namespace joint_friction;
   JointRub<T> out;
   const double r2 = f.radius * f.radius;
-  /// Adds the friction of surfaces pressed by N that slide with u and spin with w at radius √r².
+  /// Adds the friction of surfaces with normal force N that slide with u and spin with w at radius √lever_squared.
   const auto add = [&](const T& N, const Vec3T<T>* u, const Vec3T<T>* w, const T& speed_squared, double lever_squared) {
     const T drag = f.law.over_speed(speed_squared, N) * N;
     if (u) out.force -= *u * drag;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What joints constrain, drive and measure: scalar functions of the pose of B relative to A, each with its gradient.
+// The quantities that joints constrain, drive and measure: scalar functions of the pose of B relative to A, with gradients.
 #pragma once
 
 #include <cmath>
@@ -9,42 +9,42 @@
 
 namespace engrane::elements::joints {
 
-/// A function of the relative pose. e_i are the joint axes that A carries, ê_i those that B carries, d the gap from
-/// A's joint point to B's.
+/// A function of the relative pose. e_i are the joint axes carried by A, ê_i those carried by B, and d the vector from A's
+/// joint point to B's.
 enum class Measure {
-  gap_1,  ///< e1·d, and so on: coordinates of B's point in A's axes
+  gap_1,  ///< e1·d and so on: coordinates of B's point in A's axes
   gap_2,
   gap_3,
-  tilt_2,  ///< −e3·ê1: small turn about e2 of B's axis from A's
+  tilt_2,  ///< −e3·ê1: small rotation about e2 of B's axis relative to A's
   tilt_3,  ///< e2·ê1
-  turn_1,  ///< e_i·w with the Rodrigues vector w = 2 tan(θ/2) n of the relative rotation
+  turn_1,  ///< e_i·w, w = 2 tan(θ/2) n the Rodrigues vector of the relative rotation
   turn_2,
   turn_3,
   pins,      ///< e1·ê2: zero when A's pin and B's pin cross at right angles
-  angle,     ///< turn of B from A about e1 (axis_angle)
-  pin_a,     ///< turn of the cross of a universal joint from A, about e1
-  pin_b,     ///< turn of B from the cross, about ê2
+  angle,     ///< angle of B relative to A about e1 (axis_angle)
+  pin_a,     ///< angle of a universal joint's cross relative to A, about e1
+  pin_b,     ///< angle of B relative to the cross, about ê2
   distance,  ///< |d|
   screw,     ///< e1·d − lead · angle
-  twist,     ///< `angle` where it is held at zero, so that no turns are counted
-  radius,    ///< |d − e1 e1·d|: from A's axis e1 to B's point
-  azimuth,   ///< atan2(e3·d, e2·d): turn of B's point round that axis
+  twist,     ///< `angle` when it is held at zero, so that no turns are counted
+  radius,    ///< |d − e1 e1·d|: distance of B's point from A's axis e1
+  azimuth,   ///< atan2(e3·d, e2·d): angle of B's point around that axis
 };
 
-/// An angle that counts its whole turns.
+/// Whether the measure is an angle whose whole turns are counted.
 inline bool is_turn(Measure m) {
   return m == Measure::angle || m == Measure::pin_a || m == Measure::pin_b || m == Measure::azimuth;
 }
 
-/// The joint axes and the joint point on each node, in the reference configuration.
+/// Joint axes and joint point on each node, in the reference configuration.
 struct JointFrame {
   Vec3 e1 = Vec3::UnitX(), e2 = Vec3::UnitY(), e3 = Vec3::UnitZ();  ///< on A
   Vec3 b1 = Vec3::UnitX(), b2 = Vec3::UnitY(), b3 = Vec3::UnitZ();  ///< on B: the same unless the joint starts bent
   Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();                  ///< from the node to its joint point
-  bool turns_a = true, turns_b = true;  ///< false: the rotation of the node is of no concern to the joint
-  double lead = 0;                      ///< of a screw: advance per radian
+  bool turns_a = true, turns_b = true;                              ///< false: the node's rotation does not affect the joint
+  double lead = 0;                                                  ///< of a screw: advance per radian
 
-  /// The axes of both nodes.
+  /// Sets the axes on both nodes.
   void set_axes(const Vec3& first, const Vec3& second) {
     e1 = b1 = first;
     e2 = b2 = second;
@@ -52,14 +52,14 @@ struct JointFrame {
   }
 };
 
-/// The frame carried along by the nodes.
+/// The joint frame carried by the nodes; global components.
 template <class T>
 struct JointPose {
   Vec3T<T> a1, a2, a3, b1, b2, b3, arm_a, arm_b, gap;
   bool has_arm_a = false, has_arm_b = false;
 
   template <class Node>
-  /// Without `whole_b` B's second and third axis are left out.
+  /// `whole_b` false: B's second and third axes are not computed.
   JointPose(const JointFrame& f, const Node& a, const Node& b, bool whole_b = true) {
     const auto carried = [](bool turns, const Node& node, const Vec3& v) {
       return turns ? Vec3T<T>(rotate(node.R, v)) : Vec3T<T>(T(v[0]), T(v[1]), T(v[2]));
@@ -90,9 +90,9 @@ struct JointPose {
   }
 };
 
-/// A measure's value and gradient. δvalue = force · (δx of B's point − δx of the point of A's body that is there)
-/// + moment · (δφ_B − δφ_A): a multiplier times `force` and `moment` is what acts on B at its joint point, and the
-/// opposite acts on A at the same place, so that nothing is left over whatever the gap.
+/// A measure's value and gradient: δvalue = force · (δx of B's joint point − δx of the coincident point of A's body) + moment ·
+/// (δφ_B − δφ_A). A multiplier times `force` and `moment` acts on B at its joint point, and the opposite acts on A at the same
+/// point, so that forces and moments balance whatever the gap.
 template <class T>
 struct Measured {
   T value = T(0);
@@ -100,7 +100,7 @@ struct Measured {
   Vec3T<T> force, moment;
 
   Measured() {
-    if constexpr (std::is_same_v<T, double>) {  // other numbers start at zero by themselves
+    if constexpr (std::is_same_v<T, double>) {  // other number types initialise to zero
       force.setZero();
       moment.setZero();
     }
@@ -125,7 +125,7 @@ Measured<T> along(const Vec3T<T>& e, const JointPose<T>& p) {
   return m;
 }
 
-/// a·b of a vector that A carries and one that B carries: δ(a·b) = (b×a)·(δφ_B − δφ_A).
+/// a·b of a vector carried by A and one carried by B: δ(a·b) = (b×a)·(δφ_B − δφ_A).
 template <class T>
 Measured<T> product(const Vec3T<T>& a, const Vec3T<T>& b) {
   Measured<T> m;
@@ -134,8 +134,8 @@ Measured<T> product(const Vec3T<T>& a, const Vec3T<T>& b) {
   return m;
 }
 
-/// e·w with w = 2 Σ e_i×ê_i / (1 + Σ e_i·ê_i), which is 2 tan(θ/2) n. The spatial rotation δφ of B from A changes it by
-/// δw = δφ + ½ δφ×w + ¼ w w·δφ (composition of Rodrigues vectors).
+/// e·w with w = 2 Σ e_i×ê_i / (1 + Σ e_i·ê_i) = 2 tan(θ/2) n. A spatial rotation δφ of B relative to A changes it by δw = δφ +
+/// ½ δφ×w + ¼ w w·δφ (composition of Rodrigues vectors).
 template <class T>
 Measured<T> turned(const Vec3T<T>& e, const JointPose<T>& p) {
   const T factor = T(2) / (T(1) + dot(p.a1, p.b1) + dot(p.a2, p.b2) + dot(p.a3, p.b3));
@@ -146,20 +146,20 @@ Measured<T> turned(const Vec3T<T>& e, const JointPose<T>& p) {
   return m;
 }
 
-/// atan2(s·t, c·t), where t is carried by one node and the perpendicular unit vectors s, c by the other.
+/// atan2(s·t, c·t), with t carried by one node and the perpendicular unit vectors s, c by the other.
 template <class T>
 Measured<T> pin_angle(const Vec3T<T>& s, const Vec3T<T>& c, const Vec3T<T>& t) {
   using std::atan2;
   const T y = dot(s, t), x = dot(c, t), scale = T(1) / (x * x + y * y);
   Measured<T> m;
   m.value = atan2(y, x);
-  m.set_moment((cross(t, s) * x - cross(t, c) * y) * scale);  // t carried by B
+  m.set_moment((cross(t, s) * x - cross(t, c) * y) * scale);  // for t carried by B
   return m;
 }
 
 }  // namespace joint_measures
 
-/// Evaluates one measure. Angles, that of a screw too, are in (−π, π]: who counts turns adds them.
+/// Evaluates one measure. Angles, including that of a screw, are in (−π, π]; the caller adds counted turns.
 template <class T>
 Measured<T> measure(Measure what, const JointFrame& frame, const JointPose<T>& p) {
   using namespace joint_measures;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which other kinds of joint hold less: advice against redundant constraints.
+// Other kinds of joint with fewer constraints: advice against redundant constraints.
 #include <fmt/format.h>
 
 #include <array>
@@ -11,12 +11,12 @@ namespace engrane::elements::joints {
 
 namespace {
 
-/// Directions that a joint holds, in its own axes: forces along 1, 2, 3, then moments about them.
+/// Directions that a joint constrains, in its own axes: forces along 1, 2, 3, then moments about them.
 using Held = std::bitset<6>;
 
 constexpr unsigned force_1 = 1, force_2 = 2, force_3 = 4, moment_1 = 8, moment_2 = 16, moment_3 = 32;
 
-/// The direction of a constraint; none for those that are not of this sort.
+/// The direction held by a constraint; none if it is not of this form.
 Held held_by(Measure m) {
   switch (m) {
     case Measure::gap_1:
@@ -43,7 +43,7 @@ struct Kind {
   Held holds;
 };
 
-/// Usual joints of machines first.
+/// Ordered by preference: the most usual joints first.
 const std::array<Kind, 7> kinds{{
     {"SPHERICAL", force_1 | force_2 | force_3},
     {"CYLINDRICAL", force_2 | force_3 | moment_2 | moment_3},
@@ -64,7 +64,7 @@ std::string in_words(Held direction) {
 }  // namespace
 
 std::vector<Release> Joint::releases() const {
-  // a joint of another kind may have no such drive
+  // another kind of joint may not offer such a drive
   if (layout().multipliers.size() > parts_.constraints.size()) return Element::releases();
   Held mine;
   for (const JointConstraint& c : parts_.constraints) {

@@ -16,16 +16,16 @@ namespace {
 
 constexpr int most_nodes = 6;
 
-/// Φ = Σ aᵢ uᵢ − V f(t). A displacement is a global component of the node's way from its reference position; a rotation is
-/// the node's turn about a global axis (axis_angle), counted in turns.
+/// Φ = Σ aᵢ uᵢ − V f(t). A displacement is a global component measured from the node's reference position; a rotation is the
+/// node's angle about a global axis (axis_angle), with turns counted.
 class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes, 6 * most_nodes + 1> {
  public:
   struct Term {
     std::size_t node = 0;  ///< index into the layout
     int component = 0;     ///< 0 to 2 translations, 3 to 5 rotations
     double coefficient = 0;
-    double origin = 0;  ///< of a translation: reference coordinate
-    int history = -1;   ///< of a rotation: its turn count
+    double origin = 0;  ///< translation: reference coordinate
+    int history = -1;   ///< rotation: index of its turn count
     bool turns() const { return component >= 3; }
   };
 

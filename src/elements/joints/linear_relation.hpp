@@ -7,9 +7,9 @@
 
 namespace engrane::elements::joints {
 
-/// Card of a linear relation. `.LIA I 1 NOEUD 3 4 C 1 1 A 2. -1. [V v] [NF f]`: the sum of A u is V times the function.
+/// Card of a linear relation. `.LIA I 1 NOEUD 3 4 C 1 1 A 2. -1. [V v] [NF f]`: Σ A u equals V times the function.
 struct LinearRelationData {
-  std::vector<int> nodes, components;  ///< one of each per term
+  std::vector<int> nodes, components;  ///< one entry per term
   std::vector<double> coefficients;
   double value = 0;
   int function = 0;

@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// PLANAR (PLAN): node B slides on a plane held by node A and turns about its normal.
+/// PLANAR (PLAN): node B slides on a plane fixed to node A and turns about its normal.
 ElementType planar_type();
 
 }  // namespace engrane::elements::joints

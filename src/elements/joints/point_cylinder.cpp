@@ -22,7 +22,7 @@ std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
                   "ON x y z is a point of the axis, AT x y z the point on the surface");
     return nullptr;
   }
-  // the axis is joint point A; it is met level with the point, so that slide and angle start at 0
+  // joint point A is on the axis, level with the point of B, so that slide and angle start at 0
   frame.arm_a = on + frame.e1 * reach.dot(frame.e1) - at_a;
   frame.set_axes(frame.e1, out.normalized());
   release_rotations(*parts, true);

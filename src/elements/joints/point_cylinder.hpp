@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// POINT_CYLINDER (POINT_CYLINDRE): a point of node B stays on a cylinder held by node A.
+/// POINT_CYLINDER (POINT_CYLINDRE): a point of node B stays on a cylinder fixed to node A.
 ElementType point_cylinder_type();
 
 }  // namespace engrane::elements::joints

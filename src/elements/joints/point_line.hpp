@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// POINT_LINE (POINT_DROITE): a point of node B stays on a line held by node A.
+/// POINT_LINE (POINT_DROITE): a point of node B stays on a line fixed to node A.
 ElementType point_line_type();
 
 }  // namespace engrane::elements::joints

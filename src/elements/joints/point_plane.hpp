@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// POINT_PLANE (POINT_PLAN): a point of node B stays on a plane held by node A.
+/// POINT_PLANE (POINT_PLAN): a point of node B stays on a plane fixed to node A.
 ElementType point_plane_type();
 
 }  // namespace engrane::elements::joints

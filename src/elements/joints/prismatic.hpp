@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// PRISMATIC (PRISMATIQUE): node B slides along an axis held by node A and does not turn from it.
+/// PRISMATIC (PRISMATIQUE): node B slides along an axis fixed to node A without rotating relative to it.
 ElementType prismatic_type();
 
 }  // namespace engrane::elements::joints

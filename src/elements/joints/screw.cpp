@@ -28,7 +28,7 @@ std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
       !add_friction(data, context, *parts, Rubbing::thread, friction_words))
     return nullptr;
   for (JointFriction& f : parts->friction) {
-    // normal to a flank that leans by α in the plane of the axis, on a helix of lead angle λ: tan α_n = tan α cos λ
+    // normal to a flank inclined by α in the axial plane, on a helix of lead angle λ: tan α_n = tan α cos λ
     const double lead = std::atan(parts->frame.lead / f.radius),
                  normal = std::atan(std::tan(data.flank * degree) * std::cos(lead));
     f.steep = 1 / (std::cos(lead) * std::cos(normal));

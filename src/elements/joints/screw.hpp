@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// SCREW (VIS): node B turns about an axis held by node A and advances by a pitch per turn.
+/// SCREW (VIS): node B turns about an axis fixed to node A and advances by a pitch per turn.
 ElementType screw_type();
 
 }  // namespace engrane::elements::joints

@@ -36,7 +36,7 @@ std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
       !add_free(context, *parts, *second, words::pin_2, Measure::pin_b, CoordinateNames::of("ANGLE_2", "SPEED_2")) ||
       !add_friction(data, context, *parts, Rubbing::journal, friction_words))
     return nullptr;
-  if (!parts->friction.empty()) {  // both pins are alike
+  if (!parts->friction.empty()) {  // both pins have the same friction data
     JointFriction& a = parts->friction.front();
     a.turn = Measure::pin_a;
     a.suffix = "_1";

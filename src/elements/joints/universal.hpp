@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// UNIVERSAL (CARDAN): two shafts joined by a cross of perpendicular pins, one held by each.
+/// UNIVERSAL (CARDAN): two shafts joined by a cross of perpendicular pins, one fixed to each.
 ElementType universal_type();
 
 }  // namespace engrane::elements::joints

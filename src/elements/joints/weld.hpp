@@ -5,7 +5,7 @@
 
 namespace engrane::elements::joints {
 
-/// WELD (ENCASTREMENT): node B keeps its place and orientation relative to node A.
+/// WELD (ENCASTREMENT): node B keeps its position and orientation relative to node A.
 ElementType weld_type();
 
 }  // namespace engrane::elements::joints

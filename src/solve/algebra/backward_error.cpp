@@ -12,7 +12,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// Takes the products of a row with `x` from `remainder` and adds their sizes to `terms`.
+/// Subtracts the products of a row with `x` from `remainder` and adds their magnitudes to `terms`.
 void add_row(const Rows& rows, PetscInt row, const PetscScalar* x, double& remainder, double& terms) {
   for (PetscInt k = rows.begin()[row]; k < rows.begin()[row + 1]; ++k) {
     const double term = rows.value()[k] * x[rows.column()[k]];
@@ -21,7 +21,7 @@ void add_row(const Rows& rows, PetscInt row, const PetscScalar* x, double& remai
   }
 }
 
-/// The same of all rows of a matrix of which the upper half is kept. A row gets its products in the order of the columns.
+/// The same for all rows of a matrix whose upper half is stored. A row gets its products in the order of the columns.
 void add_halves(const Rows& rows, const PetscScalar* x, PetscScalar* remainder, double* terms) {
   for (PetscInt row = 0; row < rows.size(); ++row) {
     PetscInt k = rows.begin()[row];

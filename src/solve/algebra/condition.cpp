@@ -8,7 +8,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// Each entry by what `change` makes of it and of its number.
+/// Replaces each entry by `change` of the entry and its index.
 template <class Change>
 void for_each(Vec vector, const Change& change) {
   PetscInt first = 0, end = 0;
@@ -41,7 +41,7 @@ double inverse_norm(Factors& factors, Mat matrix) {
   double estimate = norm1(y);
   PetscInt last = -1;
   for (int round = 0; round < most_rounds; ++round) {
-    // the gradient of the norm: where its largest entry lies, the next unit vector
+    // gradient of the norm: its largest entry gives the next unit vector
     for_each(y, [](double value, PetscInt) { return value < 0 ? -1.0 : 1.0; });
     factors.solve_transposed(y, z);
     for_each(z, [](double value, PetscInt) { return std::abs(value); });
@@ -56,7 +56,7 @@ double inverse_norm(Factors& factors, Mat matrix) {
     if (!(found > estimate)) break;
     estimate = found;
   }
-  // signs in turn, growing: what hides from the rounds above
+  // alternating signs, growing: finds what hides from the rounds above
   for_each(x, [n](double, PetscInt i) {
     const double size_of = n > 1 ? 1 + static_cast<double>(i) / (n - 1) : 1;
     return i % 2 == 0 ? size_of : -size_of;

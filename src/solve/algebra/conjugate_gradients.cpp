@@ -9,9 +9,9 @@ namespace engrane::solve {
 
 namespace {
 
-/// Of the residual; LinearSolver refines what this leaves, with another solution to the same precision.
+/// Of the residual. What it leaves is refined by another solution to the same precision (JudgedFactors).
 constexpr double precision = 1e-8;
-/// With more iterations factors are cheaper, where they fit.
+/// With more iterations factors are cheaper, if they fit.
 constexpr PetscInt most_iterations = 1000;
 
 }  // namespace

@@ -7,14 +7,14 @@
 
 namespace engrane::solve {
 
-/// Conjugate gradients with smoothed aggregation multigrid (PETSc's GAMG) for large symmetric, positive definite matrices, whose
-/// factors would not fit into memory. note_rigid_motions() should have told the matrix what its model resists least. A matrix of
-/// another kind, and one for which the iteration does not converge, goes to MUMPS, and so do all later ones.
+/// Conjugate gradients with smoothed aggregation multigrid (PETSc's GAMG), for large symmetric positive definite matrices whose
+/// factors would not fit into memory. The matrix needs its near-null space (note_rigid_motions()). A matrix of another kind, or
+/// one for which the iteration does not converge, is solved by MUMPS, and so are all later ones.
 class ConjugateGradients final : public Factors {
  public:
   explicit ConjugateGradients(Mat matrix);
 
-  /// Makes the grids.
+  /// Sets up the grids.
   bool factor() override;
   std::optional<ForeseenFactors> foresee() override;
   void solve(Vec right, Vec solution) override;
@@ -26,7 +26,7 @@ class ConjugateGradients final : public Factors {
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
   SolverWork work() const override { return direct_ ? direct_->work() : SolverWork{}; }
-  /// Of factors; the grids do not tell.
+  /// Memory of MUMPS' factors; 0 for the grids, which do not report theirs.
   double bytes() const override;
   std::string remark() const override { return remark_; }
 

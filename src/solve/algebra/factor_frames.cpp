@@ -9,11 +9,11 @@ namespace engrane::solve {
 
 namespace {
 
-/// Where no node has turned by more since the tangent was made (in radians, about), it tells little.
+/// If no node has turned by more than this since the tangent was made (in radians, about), the comparison says little.
 constexpr double least_turn = 0.02;
 constexpr int longest_pause = 64;
 
-/// A row of a matrix, for as long as this lives.
+/// A row of a matrix, for the lifetime of this object.
 class Row {
  public:
   Row(Mat matrix, int row) : matrix_(matrix), row_(row) { check_petsc(MatGetRow(matrix, row, &size_, &columns_, &values_)); }
@@ -31,7 +31,7 @@ class Row {
   const PetscScalar* values_ = nullptr;
 };
 
-/// Whether a joint's multipliers from `m` on are the components of a vector.
+/// Whether a joint's multipliers from `m` on are the three components of a vector.
 bool is_vector(const std::vector<Multiplier>& multipliers, std::size_t m) {
   if (m + 3 > multipliers.size()) return false;
   const Role role = multipliers[m].role;
@@ -204,7 +204,7 @@ void FactorFrames::save(Snapshot& snapshot) const {
 
 void FactorFrames::load(const Snapshot& snapshot) {
   const std::vector<double>& all = snapshot.array("newton/frames");
-  if (all.size() != 2 + 10 * frames_.size()) return;  // of several ranks
+  if (all.size() != 2 + 10 * frames_.size()) return;  // this run or the earlier one has several ranks
   pause_ = static_cast<int>(all[0]);
   left_ = static_cast<int>(all[1]);
   for (std::size_t f = 0; f < frames_.size(); ++f) {

@@ -9,7 +9,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// A contraction weaker than this is no way to a solution.
+/// A contraction weaker than this does not lead to a solution.
 constexpr double worst_contraction = 0.5;
 
 }  // namespace
@@ -29,7 +29,7 @@ void FactorPolicy::begin(double residual, double renewal) {
 
 bool FactorPolicy::due() const {
   if (!usable_) return true;
-  // the first solution after the one they were made in shows what they are worth
+  // the first solution after that for which they were made shows how good they are
   if (made_ == 0) return age_ > 1 && corrections(residual_, theta_ * age_ / (age_ - 1)) * (age_ - 1) > spent_;
   return contraction_ > 0 && corrections(residual_, contraction_) > renewal_ + 1;
 }

@@ -12,15 +12,15 @@ namespace engrane::solve {
 
 namespace {
 
-/// The two sequential matrices that one rank's rows are made of: columns of its own rows, and the others.
+/// The two sequential matrices that hold one rank's rows: the columns of its own rows, and the others.
 struct Pieces {
   explicit Pieces(Mat shared) { check_petsc(MatMPIAIJGetSeqAIJ(shared, &own, &others, &global)); }
 
   Mat own = nullptr, others = nullptr;
-  const PetscInt* global = nullptr;  ///< the column of the shared matrix that a column of `others` is
+  const PetscInt* global = nullptr;  ///< column of the shared matrix for each column of `others`
 };
 
-/// Starts of pieces that follow one another.
+/// Start of each of several consecutive pieces.
 std::vector<int> starts(const std::vector<int>& sizes) {
   std::vector<int> first(sizes.size());
   std::exclusive_scan(sizes.begin(), sizes.end(), first.begin(), 0);

@@ -9,7 +9,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// A constraint is not open by less than this part of its length.
+/// A constraint counts as closed up to this fraction of its length.
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
 }  // namespace

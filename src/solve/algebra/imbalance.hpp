@@ -8,27 +8,27 @@
 
 namespace engrane::solve {
 
-/// A correction this small (over the lengths around, or in radians) changes nothing that anybody can see: what residual is left
-/// is the rounding of the sums themselves.
+/// A correction this small (over the lengths around, or in radians) is at rounding level: what is left of the residual is the
+/// rounding of the sums themselves.
 constexpr double negligible_correction = 1e-13;
-/// And below this nothing moves at all, whatever the forces are compared with: a freely spinning body has forces that
-/// cancel inside its one element, and leaves nothing but rounding to judge by.
+/// Below this nothing moves at all, whatever the reference of the forces: a freely spinning body has forces that cancel inside
+/// its one element, so that only rounding is left to judge by.
 constexpr double no_correction = 2e-15;
 
-/// The largest residuals, each over what it is compared with (References); infinite where one is not a number.
+/// Largest residuals, each over its reference (References); infinite if one is not a number.
 struct Imbalance {
   double force = 0, moment = 0, length = 0, angle = 0;
   double constraint_force = 0;  ///< largest force kΦ of a constraint that is open by more than rounding, over the loads around
   int worst = -1;               ///< equation with the largest of all
 
   double largest() const { return std::max({force, moment, length, angle}); }
-  /// Whether all have become this small.
+  /// Whether all are at most this.
   bool within(double precision) const { return largest() <= precision && constraint_force <= precision; }
-  /// Takes the larger of both.
+  /// Takes the larger of each.
   void join(const Imbalance& other);
 };
 
-/// That of a residual of the assembler; the same on every rank.
+/// Evaluates a residual of the assembler; the same on every rank.
 Imbalance imbalance(const Assembler& assembler, const References& references, Vec residual);
 
 }  // namespace engrane::solve

@@ -9,9 +9,10 @@ namespace engrane::solve {
 
 namespace {
 
-/// Refinement that changes a solution by more than this part of its largest entry does not converge: the matrix is singular to
-/// working precision (Higham, Accuracy and Stability of Numerical Algorithms, 2002, section 12.1). The solution stays as it was:
-/// of a motion that nothing resists and nothing drives it holds rounding, and the correction holds that over rounding.
+/// If refinement changes a solution by more than this fraction of its largest entry, it does not converge: the matrix is
+/// singular to working precision (Higham, Accuracy and Stability of Numerical Algorithms, 2002, section 12.1). The solution
+/// then stays as it is: along a motion that nothing resists and nothing drives it contains rounding, and the correction that
+/// rounding over rounding.
 constexpr double most_refinement = 0.5;
 
 double largest(Vec vector) {
@@ -75,7 +76,7 @@ void JudgedFactors::solve_and_refine(Vec right, Vec solution) {
   factors_->solve(backward_error_.residual(), correction_);
   if (!(largest(correction_) <= most_refinement * largest(solution))) return;
   check_petsc(VecAXPY(solution, 1, correction_));
-  // what was good enough before is so after it
+  // a solution that was good enough is still so after refinement
   if (error_ > fair_solution) error_ = backward_error_.of(right, solution);
 }
 

@@ -12,15 +12,15 @@ namespace {
 
 static_assert(sizeof(PetscInt) == sizeof(int), "KLU's int interface takes PETSc's indices as they are");
 
-/// After old pivots were useless n times in a row they are not tried for the next 2ⁿ matrices, but not longer than for this many:
-/// a trial costs a factorisation and two solutions, and is worth a third of a factorisation when it succeeds.
+/// After n failures in a row old pivots are not tried for the next 2ⁿ matrices, but for at most this many: a trial costs a
+/// factorisation and two solutions, and is worth a third of a factorisation if it succeeds.
 constexpr int longest_wait = 64;
 
-// KLU's interface predates const
+// KLU's interface is not const-correct
 int* indices(const PetscInt* from) { return const_cast<int*>(from); }
 double* values(const Rows& rows) { return const_cast<double*>(rows.value()); }
 
-/// Copies `right` to `solution` and lets `with` work on that.
+/// Copies `right` to `solution` and lets `with` solve in place.
 template <class Solve>
 void solve_in_place(Vec right, Vec solution, const Solve& with) {
   const PetscScalar* b = nullptr;
@@ -71,7 +71,7 @@ bool Klu::factor_with_new_pivots() {
 bool Klu::factor_chosen() {
   const Rows rows(matrix_);
   stale_ = false;
-  // rows are, to KLU, columns: it factors the transpose
+  // to KLU rows are columns: it factors the transpose
   if (!symbolic_) symbolic_ = klu_analyze(rows.size(), indices(rows.begin()), indices(rows.column()), &common_);
   if (!symbolic_) return false;
   klu_free_numeric(&numeric_, &common_);

@@ -9,9 +9,9 @@
 
 namespace engrane::solve {
 
-/// KLU. The pivots of one factorisation serve the next ones too, which makes these two to four times faster than a factorisation
-/// that looks for its own. Where old pivots do not serve, as in a machine whose matrix changes much from step to step, they are
-/// not tried for a while. Davis and Palamadai Natarajan, ACM Trans. Math. Softw. 37 (2010) 36.
+/// KLU. The pivots of one factorisation are reused for the next ones, which makes these two to four times faster than with a
+/// search for pivots. Where old pivots fail, as in a machine whose matrix changes much from step to step, they are not tried
+/// for a while. Davis and Palamadai Natarajan, ACM Trans. Math. Softw. 37 (2010) 36.
 class Klu : public Factors {
  public:
   /// `matrix`: sequential.
@@ -21,12 +21,12 @@ class Klu : public Factors {
   bool factor() override;
   void solve(Vec right, Vec solution) override;
   void solve_transposed(Vec right, Vec solution) override;
-  /// With pivots of its own.
+  /// With new pivots.
   bool improvable() const override { return stale_; }
   bool improve() override;
   void served() override;
   void forget() override;
-  /// The pivots, by the matrix that they were chosen for, and for how long old ones are not tried.
+  /// The pivots, as the matrix that they were chosen for, and for how long old ones are not tried.
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
   bool restore() override;
@@ -35,10 +35,10 @@ class Klu : public Factors {
 
  private:
   void free();
-  /// With the pivots there are; false where they are of no use.
+  /// Factors with the present pivots; false if they are of no use.
   bool refactor();
   bool factor_with_new_pivots();
-  /// The same for the values in chosen_for_.
+  /// The same with the values in chosen_for_.
   bool factor_chosen();
 
   Mat matrix_;
@@ -47,8 +47,8 @@ class Klu : public Factors {
   klu_numeric* numeric_ = nullptr;
   std::vector<double> chosen_for_;  ///< values of the matrix that the pivots were chosen for
   bool stale_ = false;              ///< pivots are those of an earlier matrix
-  int trials_lost_ = 0;             ///< old pivots in a row that did not serve
-  int wait_ = 0;                    ///< matrices for which old pivots are not tried
+  int trials_lost_ = 0;             ///< consecutive failures of old pivots
+  int wait_ = 0;                    ///< number of matrices for which old pivots are not tried
 };
 
 }  // namespace engrane::solve

@@ -10,7 +10,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// Up to so many rows, one rank solves what several share (docs/decisions/0037-small-systems-on-one-rank.md).
+/// Up to this many rows, one rank solves what several share (docs/decisions/0037-small-systems-on-one-rank.md).
 constexpr PetscInt most_gathered = 3000;
 
 bool worth_gathering(Mat matrix, const std::string& wanted) {
@@ -100,7 +100,7 @@ bool LinearSolver::agree(const Act& act) {
 }
 
 std::optional<ForeseenFactors> LinearSolver::foresee() {
-  if (gathered_) return {};  // too little to tell of
+  if (gathered_) return {};  // too small to matter
   return factors_->package().foresee();
 }
 
@@ -153,7 +153,7 @@ void LinearSolver::save(Snapshot& snapshot) const {
 }
 
 void LinearSolver::load(const Snapshot& snapshot) {
-  // ranks number the rows: with others of them entries have other places
+  // rows are numbered by rank: with another number of ranks the entries are in other places
   resumable_ = (snapshot.has("solver/ranks") ? snapshot.number("solver/ranks") : 1) == ranks_of(matrix_);
   if (!resumable_) return;
   if (factors_) factors_->package().load(snapshot);
@@ -179,7 +179,7 @@ void LinearSolver::restore_factors() {
 
 void LinearSolver::make_factors_again() {
   restored_ = agree([this] { return factors_->restore(proven_before_); });
-  check_petsc(KSPSetUp(ksp_));  // finds them made
+  check_petsc(KSPSetUp(ksp_));  // finds them already made
   restored_ = false;
 }
 

@@ -11,8 +11,9 @@ namespace engrane::solve {
 
 namespace {
 
-/// Pivots that are not where the analysis expects them take room, and so does work that ranks give one another while they factor.
-/// Without either the estimate is nearly exact. After too little the whole factorisation is made again.
+/// Workspace above the estimate, per cent: for pivots that are not where the analysis expects them, and for work that ranks
+/// give one another during the factorisation. Without either the estimate is nearly exact. With too little room the whole
+/// factorisation is repeated.
 constexpr int some_room = 10, usual_room = 50, most_room = 3000;
 
 constexpr double gigabyte = 1e9, megabyte = 1e6;
@@ -23,7 +24,7 @@ double infog(Mat factors, PetscInt index) {
   return static_cast<double>(value);
 }
 
-/// Counts that may be negative: in millions.
+/// A count from MUMPS, which gives large ones in millions, as negative numbers.
 double count(double value) { return value < 0 ? -1e6 * value : value; }
 
 }  // namespace
@@ -41,7 +42,7 @@ bool Mumps::analyse() {
   if (form_ == Form::unknown)
     become(!symmetry_.symmetric() ? Form::general : symmetry_.positive_diagonal() ? Form::definite : Form::symmetric);
   symmetry_.rest();
-  if (form_ != Form::definite) note_analysed();  // without pivots to choose the pattern alone decides
+  if (form_ != Form::definite) note_analysed();  // without a choice of pivots only the pattern matters
   const bool symmetric = form_ != Form::general;
   if (symmetric) check_petsc(MatSetOption(matrix_, MAT_SPD, form_ == Form::definite ? PETSC_TRUE : PETSC_FALSE));
   check_petsc(MatGetFactor(matrix_, MATSOLVERMUMPS, symmetric ? MAT_FACTOR_CHOLESKY : MAT_FACTOR_LU, factors_.out()));
@@ -69,7 +70,7 @@ bool Mumps::factor() {
     if (analyse() && factor_as_analysed()) return true;
     if (enlarge()) continue;
     if (form_ != Form::definite) break;
-    become(Form::symmetric);  // a pivot on the diagonal may be zero where others are not
+    become(Form::symmetric);  // a diagonal pivot may be zero where others are not
   }
   forget();
   return false;
@@ -84,7 +85,7 @@ bool Mumps::enlarge() {
   const auto info = static_cast<int>(infog(factors_, 1));
   const bool short_of_room = info == -9 || info == -8 || info == -14 || info == -15;
   if (!short_of_room || room_ > most_room) return false;
-  PackageFactors::forget();  // after a failure PETSc's interface factors no more, and does not say so
+  PackageFactors::forget();  // after a failure PETSc's interface no longer factors, and does not say so
   room_ *= 4;
   return true;
 }
@@ -113,7 +114,7 @@ ForeseenFactors Mumps::foreseen() const {
 }
 
 void Mumps::refuse_without_memory() const {
-  // ranks of one machine share its memory
+  // ranks on one machine share its memory
   MPI_Comm machine = MPI_COMM_NULL;
   MPI_Comm_split_type(comm_of(matrix_), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
   int sharing = 1;

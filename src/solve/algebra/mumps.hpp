@@ -6,9 +6,9 @@
 
 namespace engrane::solve {
 
-/// MUMPS, on any number of ranks. A matrix that is symmetric is factored as such, in half the time and memory: LDLᵀ with pivots
-/// from the diagonal where none of it is zero or negative, with pivots of one and two rows where it is (constraints), LU where
-/// the matrix is not symmetric. The first of these that fits is taken; where its solutions are not good enough the next one.
+/// MUMPS, on any number of ranks. A symmetric matrix is factored as such, in half the time and memory: LDLᵀ with diagonal
+/// pivots if the whole diagonal is positive, with pivots of one and two rows if it is not (constraints). Other matrices are
+/// factored by LU. The first of these forms that fits is used; if its solutions are not good enough, the next one.
 class Mumps final : public PackageFactors {
  public:
   explicit Mumps(Mat matrix) : PackageFactors(matrix, "MUMPS"), symmetry_(matrix), half_(is_half(matrix)) {}
@@ -27,20 +27,20 @@ class Mumps final : public PackageFactors {
  private:
   enum class Form : unsigned char { unknown, definite, symmetric, general };
 
-  /// The order of elimination and what it will take; false where MUMPS finds the matrix singular by its pattern.
+  /// Finds the elimination order and predicts the cost; false if MUMPS finds the matrix singular by its pattern.
   bool analyse();
   bool factor_as_analysed();
-  /// Goes on with another form; the analysis belongs to the one before.
+  /// Switches to another form, and discards the analysis, which belongs to the old one.
   void become(Form form);
-  /// Whether the last factorisation lacked nothing but room: the next one, with an analysis of its own, has more.
+  /// Whether the last factorisation failed only for lack of room. The next one, with an analysis of its own, then has more.
   bool enlarge();
   ForeseenFactors foreseen() const;
   void refuse_without_memory() const;
 
   SymmetryTest symmetry_;
-  bool half_;  ///< the matrix cannot be factored but as a symmetric one
+  bool half_;  ///< only half of the matrix is stored: it can be factored as a symmetric one only
   Form form_ = Form::unknown;
-  int room_ = 50;  ///< MUMPS' ICNTL(14): per cent over the estimate
+  int room_ = 50;  ///< MUMPS' ICNTL(14): workspace above the estimate, per cent
 };
 
 }  // namespace engrane::solve

@@ -14,38 +14,38 @@ namespace engrane::solve {
 
 namespace {
 
-/// Residuals of stiff meshes in dynamics hold so many times PREC of rounding, or less.
+/// Residuals of stiff meshes in dynamics contain at most this many times PREC of rounding.
 constexpr double most_rounding = 1000;
 
-/// What forces that an iteration at rest tried on its way count for, where nothing larger stays.
+/// Weight of the loads that an iteration at rest only tried on its way, if nothing larger remains.
 constexpr double share_of_tried = 1e-3;
 
-/// Instructions of an element's residual for each of its slots, those of setting and measuring the configuration included, and
-/// what a tangent costs over that: counted for chains of 3, 20 and 100 links (docs/decisions/0024-kept-factors.md).
+/// Instructions of an element's residual for each of its slots, including setting and measuring the configuration, and the cost
+/// of a tangent over that: counted for chains of 3, 20 and 100 links (docs/decisions/0024-kept-factors.md).
 constexpr double residual_of_slot = 225, tangent_over_residual = 5.4;
 
-/// A correction this small changes no tangent: what is left of forces is their rounding, or a kink that a new one would not see
-/// either.
+/// A correction this small does not change the tangent: what is left of the forces is rounding, or a kink that a new tangent
+/// would not see either.
 constexpr double same_tangent = 1e-10;
-/// A tangent serves again for a correction that is to leave this share of PREC.
+/// A tangent is used again if the correction is expected to leave this fraction of PREC.
 constexpr double share_of_precision = 1e-2;
-/// And no more often than this without a new one.
+/// Largest number of uses of one tangent.
 constexpr int most_uses = 3;
 
-/// A constraint that is open by less counts as closed, and corrections no larger than so many times what it is open by as its
-/// own.
+/// Violation below which a constraint counts as closed, and the largest correction, over the violation, that is attributed to
+/// it.
 constexpr double closed = 1e-9, most_of_open = 2;
 
-/// A sliding speed that counts as none, over the speed below which friction is regularised.
+/// Sliding speed that counts as zero, over the speed below which friction is regularised.
 constexpr double resting = 1e-3;
 
-/// Whether factors for the one may serve for the other: how well, their contraction tells.
+/// Whether factors for one may be used for the other; how good they are shows in their contraction.
 bool similar(const Weights& a, const Weights& b) {
   const auto near = [](double x, double y) { return std::abs(x - y) <= 0.2 * std::abs(y); };
   return near(a.q, b.q) && near(a.v, b.v) && near(a.a, b.a) && a.multipliers == b.multipliers;
 }
 
-/// Norms of residuals and corrections, which judge nothing here, are for those who give SNES options such as -snes_monitor.
+/// Norms of residuals and corrections, which decide nothing here, are only computed for SNES options such as -snes_monitor.
 PetscBool snes_is_watched() {
   char* options = nullptr;
   check_petsc(PetscOptionsGetAll(nullptr, &options));
@@ -70,7 +70,7 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
   check_petsc(SNESSetType(snes_, SNESNEWTONLS));
   check_petsc(SNESSetKSP(snes_, solver.ksp()));
   check_petsc(SNESSetFunction(snes_, residual_, form_function, this));
-  // tangents are made where their need is decided: SNES would look up nine of its options before each
+  // tangents are made by choose_factors(): SNES would look up nine of its options before each
   check_petsc(SNESSetJacobian(snes_, assembler.matrix(), assembler.matrix(), no_jacobian, nullptr));
   check_petsc(SNESSetLagJacobian(snes_, -1));
   SNESLineSearch search = nullptr;
@@ -85,13 +85,13 @@ Newton::Newton(Assembler& assembler, LinearSolver& solver, double precision, int
     const Layout& layout = part.element->layout();
     evaluation_ += residual_of_slot * static_cast<double>(layout.slots());
   }
-  // one more than judged: SNES evaluates no residual behind its last iteration
+  // one more than are judged: SNES evaluates no residual after its last iteration
   check_petsc(SNESSetTolerances(snes_, 0, 0, 0, iterations + 1, 100000));
   check_petsc(SNESLineSearchSetComputeNorms(search, snes_is_watched()));
   check_petsc(SNESSetConvergenceTest(snes_, test_convergence, this, nullptr));
   check_petsc(SNESSetFromOptions(snes_));
   check_petsc(SNESSetUp(snes_));
-  // its own, which SNESSetUp() has set, are for inexact Newton methods
+  // those set by SNESSetUp() are for inexact Newton methods
   check_petsc(KSPSetPreSolve(solver.ksp(), before_solution, this));
   check_petsc(KSPSetPostSolve(solver.ksp(), after_solution, this));
 }
@@ -103,7 +103,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   weights_ = weights;
   keep_ = keep;
   NewtonReport report;
-  // nothing before the first solution, for whose factors a large model needs the room
+  // no copy before the first solution, for whose factors a large model needs the memory
   std::vector<double> before;
   if (references_.remembers()) before = references_.memory();
   references_.begin(work);
@@ -129,8 +129,8 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
     report.reason = "the iteration left the range of numbers";
   policy_.end(report.converged);
   if (report.singular) solver_.reset();
-  // What an iteration tried on its way is no measure of loads. At rest, where there may be none, its thousandth is one of their
-  // rounding.
+  // Loads that an iteration only tried on its way are no reference. At rest, where there may be no others, a thousandth of them
+  // is one for their rounding.
   if (report.converged) {
     const double tried = weights.a > 0 ? 0 : share_of_tried;
     std::vector<double> memory = references_.memory();
@@ -210,8 +210,8 @@ void Newton::choose_factors() {
   uses_ = serve ? uses_ + 1 : 1;
 }
 
-/// A tangent at x_k leaves the part θ of the residual, which is half of what it changes by on the way to x_k+1: there it would
-/// leave the part 2 θ.
+/// A tangent at x_k leaves the fraction θ of the residual. θ is half of the relative change of the tangent on the way to x_k+1,
+/// so that there it would leave 2 θ.
 bool Newton::tangent_serves_again() const {
   if (rows_.size() < 2 || uses_ >= most_uses || !sliding_parts_.empty() || matrix_of_factors_ != assembler_.changes())
     return false;
@@ -267,9 +267,9 @@ PetscErrorCode Newton::change_step(SNESLineSearch, Vec x, Vec step, PetscBool* c
   return 0;
 }
 
-/// The curve of a regularised friction is flat on both sides and steep between: from one side its tangent leads far over to the
-/// other, and back. A step that would reverse a sliding ends where it stops; from there tangents lead towards the solution. True
-/// where the step has been changed.
+/// The curve of a regularised friction is flat on both sides and steep in between: a tangent on one side leads far over to the
+/// other, and back. A step that would reverse a sliding direction is shortened to where the sliding stops; from there tangents
+/// lead towards the solution. True if the step has been changed.
 bool Newton::keep_sliding(Vec x, Vec step) {
   const std::vector<Vec3> before = sliding();
   check_petsc(VecWAXPY(trial_, -1, step, x));
@@ -330,20 +330,21 @@ bool Newton::judge(int iteration) {
   if (imbalance_.within(precision_) && std::max(imbalance_.length, imbalance_.angle) <= open_) return true;
   const double changed_before = std::exchange(changed_, std::max(row_.correction, forces)), changed = changed_;
   if (iteration > 1 && changed <= no_correction) return true;
-  // the rounding of positions, of which parts that carry next to nothing hold no less than others
+  // positions are at rounding level, which is no lower for parts that carry next to nothing than for others
   const bool rests = iteration > 1 && row_.correction <= no_correction;
   if (iteration > 0 && (one_tangent_ || rests) && left_to_rounding()) return true;
   const double left = imbalance_.largest();
   if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;
   if (changed <= negligible_correction) return true;
-  // In dynamics the next correction is foretold by the last two: those with tangents of their own shrink quadratically. Stiff
-  // meshes hold more rounding of positions than PREC allows, which another iteration would only find out. At rest what is soft
-  // beside what is stiff may still move where corrections have become small, and what kept factors leave is no rounding.
+  // In dynamics the last two corrections predict the next one, since corrections with their own tangents shrink quadratically.
+  // Residuals of stiff meshes contain more rounding of positions than PREC allows, which another iteration would only confirm.
+  // At rest soft parts beside stiff ones may still move when corrections have become small, and what kept factors leave is not
+  // rounding.
   const double theta = changed / changed_before, next = changed * (uses_ == 1 ? theta * theta : theta);
   const bool near = weights_.a > 0 && !keep_ && left <= most_rounding * precision_ && sliding_parts_.empty();
   if (near && theta < 1 && next <= negligible_correction) return true;
-  // forces that are small beside stiffness times the rounding of positions follow that rounding and never settle; at rest
-  // rounding may be that of an angle of many turns, which its constraint then stays open by
+  // forces that are small beside stiffness times the rounding of positions follow that rounding and never settle; at rest this
+  // may be the rounding of an angle of many turns, by which its constraint then stays open
   const NewtonRow& before = rows_[rows_.size() - 2];
   const auto rounds = [this](const NewtonRow& row) {
     const double open = std::max(row.length, row.angle);

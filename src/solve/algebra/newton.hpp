@@ -14,70 +14,70 @@
 
 namespace engrane::solve {
 
-/// One line of a Newton table, all relative to what is there (References): forces and moments to the loads, open constraints and
+/// One line of a Newton table. All values are relative (References): forces and moments to the loads, constraint violations and
 /// corrections to the lengths.
 struct NewtonRow {
   int iteration = 0;
   double force = 0, moment = 0, length = 0, angle = 0;
-  double correction = 0;  ///< largest change of a position or of an angle, of the iteration before
+  double correction = 0;  ///< largest change of a position or of an angle by the previous iteration
   int worst = -1;         ///< equation with the largest relative residual
 };
 
 struct NewtonReport {
   bool converged = false;
   bool singular = false;
-  bool conflict = false;  ///< constraints could not be met that the solver took for consequences of the others
-  bool coupled = false;   ///< all stages of a step, each with its own tangents (CoupledStages)
+  bool conflict = false;  ///< constraints that were taken to be redundant could not be satisfied
+  bool coupled = false;   ///< all stages of a step were solved together, each with its own tangents (CoupledStages)
   int iterations = 0;
   std::string reason;  ///< why it did not converge, in words
   std::vector<NewtonRow> rows;
 };
 
-/// One more unknown and one more equation beside those of the matrix: Newton's corrections, which are made with the matrix alone,
-/// are completed for them (block elimination of the bordered system; Keller 1977, in Applications of Bifurcation Theory).
+/// One more unknown and one more equation beside those of the matrix. Newton corrections are made with the matrix alone and
+/// then completed for them (block elimination of the bordered system; Keller 1977, in Applications of Bifurcation Theory).
 class Border {
  public:
   virtual ~Border() = default;
-  /// `step` is the correction with the other unknown as it is; the next point is x − step.
+  /// `step` is the correction with the other unknown fixed; the next point is x − step.
   virtual void complete(Vec x, Vec step) = 0;
 };
 
-/// PETSc's SNES on the assembled system, with a convergence test that knows forces from lengths.
+/// Newton's method (PETSc's SNES) on the assembled system, with a convergence test that distinguishes forces from lengths.
 class Newton {
  public:
-  /// Writes the configuration that belongs to the unknowns; multipliers come scaled, λ = unknown × k.
+  /// Sets the configuration that belongs to the unknowns; multipliers are scaled, λ = unknown × k.
   using Apply = std::function<void(std::span<const double> unknowns, Configuration& configuration)>;
 
   Newton(Assembler& assembler, LinearSolver& solver, double precision, int iterations);
 
   /// Solves r = 0 from the guess `x`, which it overwrites; `work` ends as the last configuration tried. `keep`: tangent and
-  /// factors of earlier solutions serve as long as that pays; else each iteration makes its own.
+  /// factors of earlier solutions are reused as long as that pays; otherwise iterations have their own tangents.
   NewtonReport solve(Vec x, Weights weights, bool keep, const Apply& apply, Configuration& work, Border* border = nullptr);
 
-  /// From now on one tangent and its factors serve all solutions: that of a linear model never changes.
+  /// From now on all solutions share one tangent and its factors: that of a linear model never changes.
   void keep_one_tangent() { one_tangent_ = true; }
   bool keeps_one_tangent() const { return one_tangent_; }
-  /// The next solution is corrected at least twice: the second correction costs little beside the factors that both share, and
-  /// gains the digits that rounding in them took. With an iterative solver it would cost as much as the first: it is left out.
+  /// Makes the next solution take at least two corrections. The second costs little, since both share the factors, and recovers
+  /// the digits lost to rounding in them. With an iterative solver it would cost as much as the first and is left out.
   void refine_next() { refined_ = true; }
-  /// The next solution leaves no constraint open by more than this part of its length, or of a radian.
+  /// Limits the constraint violations that the next solution leaves to this fraction of their length, or of a radian.
   void close_next(double open) { open_ = open; }
 
-  /// The largest force that an element has contributed so far.
+  /// Largest force that any element has contributed so far.
   double largest_force() const { return references_.largest_force(); }
 
-  /// What the residual of an equation was compared with last.
+  /// Reference load of an equation in the last residual.
   double load(int equation) const { return references_.load(equation); }
-  /// What corrections of an unknown are compared with: how far away its positions are counted, or 1 radian.
+  /// Reference length of an unknown's corrections (References::length), or 1 radian.
   double reach(int equation) const { return references_.length(equation); }
-  /// The size of a constraint: of positions, or 1 radian.
+  /// Reference length of a constraint: that of positions, or 1 radian.
   double length(int multiplier) const { return references_.length(equation(multiplier)); }
-  /// The force kΦ of a constraint that is open by this much, over the largest loads so far around it.
+  /// Force kΦ of a constraint that is open by this much, over the largest loads so far around it.
   double relative_force(int multiplier, double open) const {
     return assembler_.scale()[static_cast<std::size_t>(multiplier)] * open / references_.peak(equation(multiplier));
   }
 
-  /// The largest contributions so far, which residuals are compared with, and the factors kept, for a restart.
+  /// The largest loads so far, which are references of residuals, and the kept factors, for a restart.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
 
@@ -94,14 +94,14 @@ class Newton {
   int equation(int multiplier) const {
     return assembler_.numbering().equation(assembler_.numbering().motion_slots() + multiplier);
   }
-  /// Decides whether the next correction is made with the factors there are, and makes a tangent for new ones if not.
+  /// Decides whether the next correction uses the present factors, and makes a tangent for new ones if not.
   void choose_factors();
   void make_tangent();
-  /// Whether another tangent than that of the last correction would gain nothing that counts.
+  /// Whether the tangent of the last correction is good enough for the next one.
   bool tangent_serves_again() const;
   bool judge(int iteration);
-  /// Whether what is left of every force of a linear model is no more than the rounding of positions makes: nothing better can be
-  /// found. Collective.
+  /// Whether every force left in the residual is within the rounding of positions, so that nothing better can be found.
+  /// Collective.
   bool left_to_rounding() const;
 
   Assembler& assembler_;
@@ -121,12 +121,12 @@ class Newton {
   double open_ = 1;  ///< of close_next()
   FactorPolicy policy_;
   FactorFrames frames_;
-  bool solving_ = false;         ///< for others the solver takes its factors as they are
+  bool solving_ = false;         ///< in solve(): for other users the solver takes its factors as they are
   bool fresh_ = true;            ///< factors are those of the last residual's configuration
-  long matrix_of_factors_ = -1;  ///< Assembler::changes() when the tangent was made that the factors belong to
+  long matrix_of_factors_ = -1;  ///< Assembler::changes() when the factored tangent was made
   int uses_ = 0;                 ///< corrections of this solution with the last tangent
-  double changed_ = 0;           ///< by the last correction, multipliers too
-  double evaluation_ = 0;        ///< instructions of a residual, about
+  double changed_ = 0;           ///< relative change by the last correction, multipliers included
+  double evaluation_ = 0;        ///< estimated instructions of a residual
   References references_;
   NewtonRow row_;
   Imbalance imbalance_;  ///< of the last residual

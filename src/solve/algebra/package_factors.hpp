@@ -8,7 +8,7 @@
 
 namespace engrane::solve {
 
-/// What PETSc's own interface to a package serves well: UMFPACK, SUPERLU and, with what Mumps adds, MUMPS.
+/// Packages used through PETSc's own interface: UMFPACK, SUPERLU and, with additions by Mumps, MUMPS.
 class PackageFactors : public Factors {
  public:
   PackageFactors(Mat matrix, std::string package);
@@ -17,14 +17,14 @@ class PackageFactors : public Factors {
   void solve(Vec right, Vec solution) override { check_petsc(MatSolve(factors_, right, solution)); }
   void solve_transposed(Vec right, Vec solution) override { check_petsc(MatSolveTranspose(factors_, right, solution)); }
   void forget() override;
-  /// The matrix that the analysis was made for: it decides on the order of elimination.
+  /// The values that the analysis was made for: they decide on the elimination order.
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
   SolverWork work() const override;
   double bytes() const override;
 
  protected:
-  /// Takes over the values that an analysis is made for from a matrix of the same pattern.
+  /// Stores the values that an analysis is made for.
   void note_analysed();
   bool failed() const;
 
@@ -34,7 +34,7 @@ class PackageFactors : public Factors {
  private:
   std::string package_;
   bool sequential_ = false;
-  std::vector<double> analysed_for_;  ///< values of that matrix, on one rank
+  std::vector<double> analysed_for_;  ///< values that the analysis was made for, on one rank
 };
 
 }  // namespace engrane::solve

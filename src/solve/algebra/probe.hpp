@@ -5,8 +5,8 @@
 
 namespace engrane::solve {
 
-/// A number between 0.5 and 1.5 for each place: parts of multiples of the golden ratio. No two numbers, sums or differences are
-/// alike, and none depends on the ranks.
+/// A number between 0.5 and 1.5 for each index: fractional parts of multiples of the golden ratio. No two numbers, sums or
+/// differences are alike, and none depends on the ranks.
 double probe_value(std::size_t place);
 void fill_probe(Vec vector);
 

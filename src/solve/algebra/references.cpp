@@ -11,13 +11,13 @@ namespace engrane::solve {
 
 namespace {
 
-/// Share of the largest load so far that a residual is at least compared with: a load that passes through zero could never be
+/// Least reference of a residual, as a fraction of the largest load so far: a load that passes through zero could never be
 /// balanced by itself.
 constexpr double remembered = 1e-3;
-/// Part of the distance to the nodes joined with it at which a node's forces count as moments: a small moment beside large
-/// forces need not balance better than they do.
+/// Lever at which a node's forces count as moments, as a fraction of the distance to the nodes joined with it: a small moment
+/// beside large forces need not balance better than they do.
 constexpr double part_of_lever = 0.1;
-/// Forces of a node make moments of its rotations by rounding of its place, and moments forces.
+/// Through the rounding of its position a node's forces make moments, and moments forces.
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 bool is_rotational(Measure m) { return m == Measure::moment || m == Measure::angle; }
 
@@ -42,7 +42,7 @@ void References::find_spans() {
   for (const Model::Part& part : model.parts)
     for (const int a : part.nodes)
       for (const int b : part.nodes) {
-        // the ground is no place but what holds others
+        // the ground has no position of its own
         if (a <= 0 || b <= 0) continue;
         double& span = spans_[static_cast<std::size_t>(a)];
         span = std::max(span, (place(a) - place(b)).norm());
@@ -67,7 +67,7 @@ void References::find_sources() {
   for (const Unknown& u : assembler_.numbering().unknowns()) {
     std::size_t pair = static_cast<std::size_t>(u.node);
     if (u.part >= 0) {
-      // a signal is of no unit
+      // signals have no unit
       const bool signal = u.first_order || model.parts[static_cast<std::size_t>(u.part)].nodes.empty();
       pair = signal ? pairs_.size() - 1 : spans_.size() + static_cast<std::size_t>(u.part);
     }
@@ -83,7 +83,7 @@ void References::find_sources() {
 }
 
 void References::begin(const Configuration& c) {
-  // a size need not follow every step
+  // reference lengths need not follow every step
   const auto reach = [&](std::size_t i) { return std::max(spans_[i], c.nodes[i].x.norm()); };
   for (std::size_t i = 0; i < spans_.size(); ++i) {
     const double now = reach(i);
@@ -96,7 +96,7 @@ void References::begin(const Configuration& c) {
 
 void References::find_lengths() {
   const Model& model = assembler_.model();
-  // a node that no element joins with another tells no length: that of the model stands for it
+  // a node that no element joins with another has no length of its own: that of the model is used
   const auto length_at = [&](int node) {
     const auto i = static_cast<std::size_t>(node);
     return spans_[i] > 0 ? reach_[i] : std::max(reach_[i], model.extent());
@@ -158,7 +158,7 @@ void References::take(const Configuration& c, const std::vector<double>& carried
   }
   all.force = all.moment = std::max(all.force, all.moment);
   everywhere() = all;
-  // what passes through a node inside an element leaves nothing there: the element's other nodes tell its size
+  // a node inside an element transmits no load: the element's other nodes give the reference
   for (const Inner& inner : inner_) {
     Pair& own = at_node(static_cast<int>(inner.node));
     for (const int node : model.parts[inner.part].nodes) {
@@ -166,7 +166,7 @@ void References::take(const Configuration& c, const std::vector<double>& carried
       own = {std::max(own.force, other.force), std::max(own.moment, other.moment)};
     }
   }
-  // loads of an element's own unknowns cancel inside it: those of its nodes and multipliers tell their size
+  // loads on an element's own unknowns cancel inside it: those of its nodes and multipliers are the reference
   std::size_t m = 0;
   for (const Owner& owner : owners_) {
     Pair of;

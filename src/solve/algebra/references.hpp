@@ -9,39 +9,39 @@
 
 namespace engrane::solve {
 
-/// What residuals, open constraints and corrections are compared with, each by the size of what it is part of: the loads of its
-/// own node or element, and the lengths around it (docs/theory.md, "Newton"). So a watch on a press is solved as well as a watch
-/// alone, and no unit of length or force counts.
+/// Reference values of residuals, constraint violations and corrections, all of them local: the loads of the same node or
+/// element, and the lengths around it (docs/theory.md, "Newton"). A watch on a press is therefore solved as accurately as a
+/// watch alone, and units of length and force do not matter.
 class References {
  public:
-  /// `precision`: part of a reference down to which residuals are to go.
+  /// `precision`: fraction of the reference to which residuals are to be reduced.
   References(const Assembler& assembler, double precision);
 
-  /// Finds the lengths for an iteration that begins near `c`.
+  /// Updates the lengths for an iteration that begins near `c`.
   void begin(const Configuration& c);
-  /// Takes what the last residual's elements contributed (Assembler::carried).
+  /// Updates the loads by what the elements contributed to the last residual (Assembler::carried).
   void take(const Configuration& c, const std::vector<double>& carried);
 
-  /// What the residual of an equation is compared with; of a constraint, what the force kΦ is.
+  /// Reference load of an equation's residual; for a constraint, of the force kΦ.
   double load(int equation) const {
     const Source& from = sources_[static_cast<std::size_t>(equation)];
     return std::max(pairs_[from.pair].of(from.turns), least_load);
   }
-  /// The largest force, or moment, so far on the nodes of the element that has a constraint's equation; load() where that is
-  /// none.
+  /// Largest force, or moment, so far on the nodes of the element that owns a constraint's equation; at least load().
   double peak(int equation) const;
-  /// What the correction of an unknown, or an open constraint, is compared with: a length, or 1 radian.
+  /// Reference length of an unknown's correction, or of a constraint violation; 1 radian for rotations.
   double length(int equation) const { return lengths_[static_cast<std::size_t>(equation)]; }
 
-  /// The change of an unknown over what it is compared with. Of a multiplier the unknown is λ/k, the displacement that its force
-  /// stands for; where k is small, as of what has no mass, the force itself tells that nothing changes any more.
+  /// Change of an unknown over its reference. The unknown of a multiplier is λ/k, a displacement; its change over the length or
+  /// that of the force over the load counts, whichever is less. Where k is small, as for motions without mass, only the force
+  /// shows that nothing changes any more.
   double relative_change(int equation, double change) const;
 
-  /// The largest force that an element has contributed so far.
+  /// Largest force that any element has contributed so far.
   double largest_force() const { return largest_force_; }
-  /// The memory of loads so far, to be put back where an iteration failed.
+  /// Largest loads so far, to be restored after a failed iteration.
   const std::vector<double>& memory() const { return largest_of_slot_; }
-  /// Whether any of it is not zero.
+  /// Whether any of them is not zero.
   bool remembers() const;
   void restore(std::vector<double> memory);
 
@@ -49,17 +49,17 @@ class References {
   void load_memory(const Snapshot& snapshot);
 
  private:
-  static constexpr double least_load = 1e-200;  ///< stands for none: what is divided by it stays finite
+  static constexpr double least_load = 1e-200;  ///< stands for no load: quotients by it stay finite
   struct Pair {
     double force = 0, moment = 0;
     double of(bool turns) const { return turns ? moment : force; }
   };
-  /// Where the loads of an equation stand in pairs_.
+  /// Where the loads of an equation are in pairs_.
   struct Source {
     std::size_t pair;
     bool turns;
   };
-  /// An element with unknowns of its own, and the end of its multipliers.
+  /// An element with unknowns of its own, and the end of its range of multipliers.
   struct Owner {
     std::size_t part, end;
   };
@@ -77,15 +77,15 @@ class References {
 
   const Assembler& assembler_;
   double rounding_share_;
-  std::vector<double> spans_;    ///< of each node: to the farthest node that an element joins it with
-  std::vector<double> reach_;    ///< of each node: that, or its distance from the origin
-  std::vector<Inner> inner_;     ///< all such nodes
-  std::vector<Pair> pairs_;      ///< loads at each node, of each element, and the largest of all
+  std::vector<double> spans_;  ///< of each node: distance to the farthest node that an element joins it with
+  std::vector<double> reach_;  ///< of each node: that, or its distance from the origin if that is larger
+  std::vector<Inner> inner_;
+  std::vector<Pair> pairs_;      ///< loads at each node, then of each element, then the largest of all
   std::vector<Source> sources_;  ///< of each equation
   std::vector<Owner> owners_;
   std::vector<char> turns_;              ///< of each multiplier: whether it is a moment
   std::vector<double> lengths_;          ///< of each equation
-  std::vector<double> largest_of_slot_;  ///< so far, of the motion
+  std::vector<double> largest_of_slot_;  ///< largest load so far, by motion slot
   double largest_force_ = 0;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t count = 6;
 
-/// What each of the six does to an unknown of a node at `x`.
+/// Components of the six rigid-body motions in an unknown of a node at `x`.
 std::array<double, count> shares(const Unknown& u, const Vec3& x) {
   std::array<double, count> of{};
   if (u.node < 0) return of;
@@ -24,7 +24,7 @@ std::array<double, count> shares(const Unknown& u, const Vec3& x) {
   return of;
 }
 
-/// Consecutive equations of one node, the same number at every node of this rank; 1 where there is no such number.
+/// Number of consecutive equations of a node, if it is the same for every node of this rank; otherwise 1.
 PetscInt block_size(const Numbering& numbering) {
   PetscInt size = 0, length = 0;
   for (int row = numbering.first_row(); row < numbering.end_row(); ++row) {
@@ -61,7 +61,7 @@ void note_rigid_motions(const Assembler& assembler, Mat matrix) {
     values -= numbering.end_row() - numbering.first_row();
     check_petsc(VecRestoreArrayWrite(motions[k], &values));
   }
-  // orthonormal, without those that the model does not know (out of a plane)
+  // orthonormalised, without motions that the model does not have (out of a plane)
   std::vector<Vec> kept;
   for (const Owned<Vec>& motion : motions) {
     PetscReal before = 0, after = 0;
@@ -79,7 +79,7 @@ void note_rigid_motions(const Assembler& assembler, Mat matrix) {
   check_petsc(MatNullSpaceCreate(comm, PETSC_FALSE, static_cast<PetscInt>(kept.size()), kept.data(), space.out()));
   check_petsc(MatSetNearNullSpace(matrix, space));
   PetscInt least[] = {block_size(numbering), 0};
-  if (least[0] == 0) least[0] = 6;  // a rank without equations has nothing to say
+  if (least[0] == 0) least[0] = 6;  // a rank without equations does not restrict the block size
   least[1] = -least[0];
   MPI_Allreduce(MPI_IN_PLACE, least, 2, MPIU_INT, MPI_MIN, comm);
   if (least[0] == -least[1] && least[0] < 6) check_petsc(MatSetBlockSize(matrix, least[0]));

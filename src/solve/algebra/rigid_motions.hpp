@@ -5,8 +5,8 @@
 
 namespace engrane::solve {
 
-/// Tells a matrix of the assembler what its model resists least: translations and rotations of the whole. Algebraic multigrid
-/// must not lose them on its way to few unknowns.
+/// Gives a matrix of the assembler its near-null space: the rigid-body translations and rotations of the model. Algebraic
+/// multigrid must preserve them on its coarse grids.
 void note_rigid_motions(const Assembler& assembler, Mat matrix);
 
 }  // namespace engrane::solve

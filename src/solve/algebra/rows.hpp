@@ -8,19 +8,19 @@
 
 namespace engrane::solve {
 
-/// The ranks that share a matrix, and its rows on all of them.
+/// Communicator of a matrix, and its number of rows on all ranks.
 MPI_Comm comm_of(Mat matrix);
 PetscInt rows_of(Mat matrix);
 
-/// Whether a matrix is that of one rank, whose rows Rows shows.
+/// Whether a matrix is stored on one rank, so that Rows can show it.
 bool is_sequential(Mat matrix);
-/// Whether it is a symmetric one of which only the diagonal and what is above it are kept (Scatter).
+/// Whether only the diagonal and the upper triangle of a symmetric matrix are stored (Scatter).
 bool is_half(Mat matrix);
-/// The entries of a sequential matrix, and the other way round: false where there are not as many.
+/// Reads and writes the entries of a sequential matrix; set_values() returns false if their number differs.
 std::vector<double> values_of(Mat matrix);
 bool set_values(Mat matrix, const std::vector<double>& values);
 
-/// The rows of a sequential matrix, as far as they are kept, for as long as this lives. Its values must not be changed meanwhile.
+/// Stored rows of a sequential matrix, for the lifetime of this object. The matrix must not be changed meanwhile.
 class Rows {
  public:
   explicit Rows(Mat matrix);
@@ -31,7 +31,7 @@ class Rows {
   PetscInt size() const { return size_; }
   bool half() const { return half_; }  ///< rows begin with the diagonal
   PetscInt entries() const { return begin_[size_]; }
-  const PetscInt* begin() const { return begin_; }  ///< of each row in column() and value(), and the end of the last
+  const PetscInt* begin() const { return begin_; }  ///< offset of each row in column() and value(), then the end of the last
   const PetscInt* column() const { return column_; }
   const PetscScalar* value() const { return value_; }
 

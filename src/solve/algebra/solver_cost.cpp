@@ -9,7 +9,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// What MUMPS' factors have over KLU's, as KLU foresees them: counted for a lattice of springs.
+/// Entries and operations of MUMPS' factors over those that KLU predicts for its own: counted for a lattice of springs.
 constexpr double more_entries = 1.25, more_operations = 1.7;
 
 }  // namespace
@@ -30,7 +30,7 @@ ForeseenWork foresee_work(Mat matrix) {
   klu_common common;
   klu_defaults(&common);
   klu_symbolic* symbolic = klu_analyze(rows.size(), const_cast<int*>(rows.begin()), const_cast<int*>(rows.column()), &common);
-  if (!symbolic) return {{1, 1}, {1, 1}};  // singular whatever the numbers: no package does better
+  if (!symbolic) return {{1, 1}, {1, 1}};  // structurally singular: no package does better
   const double entries = symbolic->lnz + symbolic->unz, operations = symbolic->est_flops;
   klu_free_symbolic(&symbolic, &common);
   return {klu_work(entries, operations), mumps_work(rows.size(), more_entries * entries, more_operations * operations)};

@@ -16,7 +16,7 @@ PetscInt local_size(Vec vector) {
   return size;
 }
 
-/// Whether all ranks say yes.
+/// Whether `yes` holds on all ranks.
 bool everywhere(bool yes, Mat matrix) {
   int all = yes ? 1 : 0;
   MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_LAND, comm_of(matrix));

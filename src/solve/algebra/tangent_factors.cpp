@@ -5,9 +5,9 @@ namespace engrane::solve {
 
 namespace {
 
-/// Parts of the largest entry of a row that are left of an equilibrium's forces at most.
+/// Largest asymmetry that unbalanced forces at an equilibrium cause, relative to the largest entry of a row.
 constexpr double unbalanced = 1e-6;
-/// MUMPS' room for pivots that are not where the analysis expects them, per cent.
+/// MUMPS' workspace for pivots that are not where the analysis expects them, per cent above the estimate.
 constexpr PetscInt first_room = 50, most_room = 5000;
 
 }  // namespace
@@ -19,7 +19,7 @@ bool TangentFactors::factor() {
     factors_ = {};
     check_petsc(MatGetFactor(matrix_, MATSOLVERMUMPS, is_symmetric_ ? MAT_FACTOR_CHOLESKY : MAT_FACTOR_LU, factors_.out()));
     check_petsc(MatMumpsSetIcntl(factors_, 14, room));
-    check_petsc(MatMumpsSetIcntl(factors_, 13, 1));  // the last block too is counted
+    check_petsc(MatMumpsSetIcntl(factors_, 13, 1));  // so that the pivots of the last block are counted, too
     if (!is_symmetric_) check_petsc(MatMumpsSetIcntl(factors_, 33, 1));
     MatFactorInfo info;
     check_petsc(MatFactorInfoInitialize(&info));

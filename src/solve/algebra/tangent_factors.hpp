@@ -5,22 +5,22 @@
 
 namespace engrane::solve {
 
-/// Factors of the tangent of an equilibrium, by MUMPS on any number of ranks, and what they tell of its stability. Nothing is
-/// kept from one matrix to the next, so that a restart finds the same digits.
+/// Factors of the tangent at an equilibrium, by MUMPS on any number of ranks, and what they say about its stability. Nothing is
+/// kept from one matrix to the next, so that a restart gives the same digits.
 class TangentFactors {
  public:
-  /// Takes the matrix over.
+  /// Takes ownership of the matrix.
   explicit TangentFactors(Mat matrix) : symmetry_(matrix) { *matrix_.out() = matrix; }
 
   Mat matrix() const { return matrix_; }
-  /// Of the matrix as it stands; false where it is singular to the last digit. Collective.
+  /// Factors the matrix as it stands; false if it is singular to the last digit. Collective.
   bool factor();
   void solve(Vec right, Vec solution) { check_petsc(MatSolve(factors_, right, solution)); }
 
-  /// Of a symmetric matrix the number of its negative eigenvalues (Sylvester's law of inertia). Of others 1 where the determinant
+  /// Number of negative eigenvalues of a symmetric matrix (Sylvester's law of inertia). For other matrices 1 if the determinant
   /// is negative, else 0.
   int negative() const { return negative_; }
-  /// Whether the matrix was taken for symmetric: what Newton's iteration leaves of moments makes it so but for that part.
+  /// Whether the matrix was treated as symmetric, which it is but for the moments that Newton's iteration leaves unbalanced.
   bool symmetric() const { return is_symmetric_; }
 
  private:

@@ -18,10 +18,10 @@ namespace {
 
 std::size_t index(Eigen::Index i) { return static_cast<std::size_t>(i); }
 
-/// Entries below this in columns of length 1 are rounding; following them would fill what is sparse.
+/// Entries below this in columns of length 1 are rounding; eliminating with them would cause fill-in.
 constexpr double rounding = 1e-13;
 
-/// A sparse vector in the elimination by an upper triangle: its places are taken from the last, new ones come before.
+/// A sparse vector during elimination by an upper triangle: entries are taken from the last on, and new ones come before it.
 class Elimination {
  public:
   explicit Elimination(std::size_t size) : value_(size, 0.0), seen_(size, false) {}
@@ -36,7 +36,7 @@ class Elimination {
 
   bool empty() const { return places_.empty(); }
 
-  /// The last place and its value, which is final.
+  /// Takes the last place and its value, which is final.
   std::pair<int, double> take() {
     const int place = places_.top();
     places_.pop();
@@ -71,7 +71,7 @@ void ColumnBasis::factor(double tolerance) {
   Cholmod cholmod;
   cholmod_sparse* factor = nullptr;
   Long* order = nullptr;
-  // orders by degree cost as much, but their null vectors run on through many loops
+  // minimum-degree orders cost as much, but their null vectors extend through many loops
   if (!core.empty()) SuiteSparseQR<double>(SPQR_ORDERING_METIS, tolerance, 0, core.get(), &factor, &order, cholmod.get());
   const auto free_factor = [&](cholmod_sparse* r) { cholmod_l_free_sparse(&r, cholmod.get()); };
   const auto free_order = [&](Long* e) { cholmod_l_free(index(n), sizeof(Long), e, cholmod.get()); };
@@ -79,8 +79,8 @@ void ColumnBasis::factor(double tolerance) {
   const std::unique_ptr<Long, decltype(free_order)> permutation(order, free_order);
   if (!core.empty() && !r) throw std::bad_alloc();
 
-  // R is a staircase: a column is independent where it goes one row farther than those before it
-  std::vector<int> places;  // in the order of R, of the dependent columns
+  // R is a staircase: a column is independent if it reaches one row farther than those before it
+  std::vector<int> places;  // of the dependent columns, in the order of R
   const auto* r_begin = r ? static_cast<const Long*>(r->p) : nullptr;
   const auto* r_at = r ? static_cast<const Long*>(r->i) : nullptr;
   const auto* r_entry = r ? static_cast<const double*>(r->x) : nullptr;
@@ -134,7 +134,7 @@ void ColumnBasis::factor(double tolerance) {
 
 ColumnBasis::Vector ColumnBasis::corrected(Vector y, const Vector& b) const {
   const auto short_of = [&](int column) { return b[column] - a_.col(column).dot(y); };
-  // y += A (RᵀR)⁻¹ (b − Aᵀy) over the columns of the core; the second pass takes back the rounding of the first
+  // y += A (RᵀR)⁻¹ (b − Aᵀy) over the columns of the core; the second pass removes the rounding error of the first
   for (int pass = 0; pass < 2; ++pass) {
     Vector x(static_cast<Eigen::Index>(core_.size()));
     for (std::size_t k = 0; k < core_.size(); ++k) {
@@ -148,7 +148,7 @@ ColumnBasis::Vector ColumnBasis::corrected(Vector y, const Vector& b) const {
     }
     for (std::size_t k = 0; k < core_.size(); ++k) y += x[static_cast<Eigen::Index>(k)] * a_.col(core_[k]);
   }
-  // no other column than those of a leaf touches its rows but those of leaves taken before
+  // only its own columns and those of leaves taken before touch the rows of a leaf
   for (std::size_t leaf = leaves_.groups.size(); leaf-- > 0;) {
     const std::span<const int> columns = leaves_.of(leaf);
     Vector open(static_cast<Eigen::Index>(columns.size()));

@@ -12,16 +12,15 @@ namespace engrane::solve {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon(), none = std::numeric_limits<double>::quiet_NaN();
-/// Rounding of positions is seen where its force is more than this part of the loads.
+/// Rounding of positions is visible if its force exceeds this fraction of the loads.
 constexpr double seen = 1e-7;
-/// And more than this part of the square of the turn of a step: the error of reactions by the scheme itself is about a tenth of
-/// that square.
+/// And this fraction of the squared rotation of a step: the scheme's own error of reactions is about a tenth of that square.
 constexpr double seen_of_scheme = 0.01;
-/// And what sums of changes leave open is closed so slowly that the force for rounding is this part of them.
+/// What sums of changes leave open is closed so slowly that the force for it is this fraction of the loads.
 constexpr double closing = 1e-9;
-/// A constraint open by more than this part of its length is closed by positions.
+/// A constraint open by more than this fraction of its length is closed by positions.
 constexpr double open_by_far = 1e-9;
-/// Beyond this part of the length what quadrature leaves out may be more than the rounding of positions.
+/// Above this fraction of the length the quadrature error may exceed the rounding of positions.
 constexpr double smooth = 1e-14;
 
 }  // namespace
@@ -43,7 +42,7 @@ void ConstraintChanges::begin(const Configuration& from, std::span<const double>
     const int part = multiplier_unknown(assembler_.numbering(), i).part;
     if (!parts_.empty() && part <= parts_.back()) continue;
     parts_.push_back(part);
-    // those whose shares make up its constraints
+    // and the elements whose shares make up its constraints
     const auto& parts = assembler_.model().parts;
     for (auto next = static_cast<std::size_t>(part) + 1; next < parts.size() && parts[next].element->layout().shares_multipliers;
          ++next)
@@ -58,7 +57,7 @@ void ConstraintChanges::begin(const Configuration& from, std::span<const double>
 
 void ConstraintChanges::state(const Configuration& from, double h, std::span<const double> y) {
   if (!any()) return;
-  // Gauss's quadrature with two points, of the order h⁵ in Φ
+  // two-point Gauss quadrature, of the order h⁵ in Φ
   const double apart = 1 / std::sqrt(3.0);
   std::vector<double> part(y.begin(), y.end()), speed(y.begin(), y.end());
   for (double& v : speed) v /= h;
@@ -79,7 +78,7 @@ void ConstraintChanges::state(const Configuration& from, double h, std::span<con
   for (std::size_t m = 0; m < value.size(); ++m) {
     if (std::isnan(value[m])) continue;
     const double length = newton_.length(static_cast<int>(m));
-    // the rates at both points and their slopes there tell the fourth derivative, which is that of what is left out
+    // the rates at both points and their slopes there give the fourth derivative, on which the quadrature error depends
     const double left_out = h * std::abs(rate_[1][m] - rate_[0][m] - 0.5 * apart * h * (second_[0][m] + second_[1][m]));
     value[m] = left_out < smooth * length ? value[m] + 0.5 * h * (rate_[0][m] + rate_[1][m]) : none;
     rounding[m] = epsilon * moved(static_cast<int>(m), y);

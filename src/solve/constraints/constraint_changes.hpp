@@ -9,31 +9,31 @@
 
 namespace engrane::solve {
 
-/// Constraints of short steps. Positions are rounded, so that Φ of a configuration is rounding of the size ε L, which the
-/// multiplier of a step turns into the force ε L m/(β h²). The change of Φ over the step, ∫ B y ds along its increment y, is
-/// known to ε B y, which is much less: where the force would be seen, a step closes Φ by its change (decision 21).
+/// Constraints of short steps. Positions are rounded, so that Φ of a configuration has a rounding error of the size ε L, which
+/// the multiplier of a step turns into the force ε L m/(β h²). The change of Φ over the step, ∫ B y ds along its increment y,
+/// is known to ε B y, which is much less. Where the force would be visible, a step closes Φ by its change (decision 21).
 class ConstraintChanges {
  public:
   ConstraintChanges(Assembler& assembler, const Newton& newton, const MotionSlots& motion)
       : assembler_(assembler), newton_(newton), motion_(motion) {}
 
-  /// Chooses the constraints whose change is to be taken in a step from `from` by about the increment y; its scale has been
-  /// chosen.
+  /// Selects the constraints that a step from `from` by about the increment y closes by their change. The scales of the
+  /// multipliers must have been chosen for this step.
   void begin(const Configuration& from, std::span<const double> y);
   bool any() const { return !parts_.empty(); }
-  /// States them (Assembler::stated) for the increment y over the time h.
+  /// States their values (Assembler::stated) for the increment y over the time h.
   void state(const Configuration& from, double h, std::span<const double> y);
-  /// All constraints are those of positions again.
+  /// From now on all constraints are closed by positions again.
   void end();
 
  private:
-  /// How far the increment moves what a constraint joins: a length, or radians.
+  /// Displacement by the increment of what a constraint joins, at most: a length, or radians.
   double moved(int multiplier, std::span<const double> y) const;
 
   Assembler& assembler_;
   const Newton& newton_;
   const MotionSlots& motion_;
-  std::vector<int> parts_;     ///< elements with constraints whose change is taken, ascending
+  std::vector<int> parts_;     ///< elements whose constraints are closed by their change, ascending
   std::vector<double> given_;  ///< part of Φ at the beginning that the step is to close; NaN: Φ is taken from positions
   Configuration between_;
   std::vector<double> phi_, rate_[2], second_[2];

@@ -12,45 +12,47 @@
 
 namespace engrane::solve {
 
-/// Whether the columns are those of B (gradients of the constraints) or of the forces that multipliers make, which differ
-/// where a force follows the size of a multiplier (the separating force of gears).
+/// Whether the columns are those of B (gradients of the constraints) or of the forces caused by the multipliers. They differ
+/// where a force depends on the magnitude of a multiplier (the separating force of gears).
 enum class ConstraintColumns { gradients, forces };
 
 /// Size that makes an unknown or its equation comparable with others: the extent for translations, 1 for rotations.
 double size_of(const Unknown& u, double extent);
 
-/// The unknown of a multiplier, index into Configuration::multipliers.
+/// The unknown of a multiplier (index into Configuration::multipliers).
 const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier);
 
-/// What the element says of the unknown of a multiplier.
+/// The element's description of the unknown of a multiplier.
 const Multiplier& multiplier_of(const Model& model, const Unknown& multiplier);
 bool is_drive(const Model& model, const Unknown& multiplier);
 bool is_grip(const Model& model, const Unknown& multiplier);
 
 /// Sizes of the constraints, one for each multiplier: the extent for lengths, 1 for angles.
 Eigen::VectorXd constraint_sizes(const Assembler& assembler);
-/// Open constraints over the extent, or in radians.
+/// Magnitudes of the constraint violations, over the extent or in radians.
 Eigen::VectorXd relative_open(const Assembler& assembler, const std::vector<double>& phi);
 
-/// Tangents of elements are taken per increment of a step's rotation vector; this takes them at its start.
+/// Returns `c` as the start of a step (T = identity): elements take tangents with respect to the increment of a step's rotation
+/// vector.
 Configuration outside_of_steps(Configuration c);
 
-/// The free motions as rows of a matrix, scaled with their size.
+/// The free motions as rows of a matrix, scaled by their size.
 struct MotionRows {
   explicit MotionRows(const Assembler& assembler);
 
-  /// A motion with a part of every free one, for what is to be tried in any direction but a special one.
+  /// Returns a motion with a component in every free one, as a generic direction.
   Eigen::VectorXd any() const;
-  /// "node 3 (x)": where a scaled motion is largest; rather a node than a number of an element, where they are of one size.
+  /// Name of the largest component of a scaled motion: "node 3 (x)". A node is preferred to a scalar of an element if it is at
+  /// least a tenth as large.
   std::string largest_part(const Numbering& numbering, const Eigen::VectorXd& motion) const;
 
-  std::vector<std::size_t> slot;  ///< of a row
-  std::vector<int> row;           ///< of a motion slot; -1: held
-  std::vector<double> size;       ///< of a row: the extent for translations, 1 for rotations
-  std::vector<int> first_rows;    ///< of the nodes, and of the elements' scalars each
+  std::vector<std::size_t> slot;  ///< motion slot of each row
+  std::vector<int> row;           ///< row of each motion slot; -1: held
+  std::vector<double> size;       ///< of each row: the extent for translations, 1 for rotations
+  std::vector<int> first_rows;    ///< first row of each node, and of each scalar of elements
 };
 
-/// One column per multiplier, one row per free motion; rows are scaled with the size of their motion.
+/// One column per multiplier, one row per free motion; rows are scaled by the size of their motion.
 struct ConstraintMatrix {
   ConstraintMatrix(Assembler& assembler, const Configuration& configuration, ConstraintColumns kind);
 
@@ -61,7 +63,7 @@ struct ConstraintMatrix {
   Eigen::SparseMatrix<double> matrix;
 };
 
-/// Which columns of a ConstraintMatrix are independent when all have length 1.
+/// Determines which columns of a ConstraintMatrix are independent when all are scaled to length 1.
 class ConstraintFactors {
  public:
   /// Columns whose remainder after the others is below `tolerance` count as dependent.
@@ -70,15 +72,15 @@ class ConstraintFactors {
   Eigen::Index rank() const { return basis_.rank(); }
   Eigen::Index rows() const { return basis_.rows(); }
   Eigen::Index columns() const { return basis_.columns(); }
-  /// How many columns are dependent; idle constraints, whose columns are empty, do not count.
+  /// Number of dependent columns, without those of idle constraints, which are empty.
   Eigen::Index deficiency() const { return static_cast<Eigen::Index>(dependent().size()); }
   const std::vector<int>& dependent() const { return any_idle_ ? dependent_ : basis_.dependent(); }
 
-  /// A basis of the multipliers that make no force, one column for each dependent one, for columns of length 1.
+  /// Basis of the multipliers that cause no force, one column for each dependent constraint; for columns of length 1.
   const Eigen::SparseMatrix<double>& null_multipliers() const { return any_idle_ ? null_ : basis_.null(); }
-  /// The (scaled) motion that closes no constraint and is near to `wish`.
+  /// Returns the (scaled) motion near `wish` that violates no constraint, to first order.
   Eigen::VectorXd possible_motion(const Eigen::VectorXd& wish) const { return basis_.left_null(wish); }
-  /// A (scaled) motion that closes the independent constraints, to first order.
+  /// Returns a (scaled) motion that closes the independent constraints, to first order.
   Eigen::VectorXd closing_motion(const std::vector<double>& phi) const;
   void to_slots(const Eigen::VectorXd& motion, std::vector<double>& y) const { gradients_.to_slots(motion, y); }
   const MotionRows& motions() const { return gradients_.rows; }
@@ -89,7 +91,7 @@ class ConstraintFactors {
   ColumnBasis basis_;
   bool any_idle_ = false;
   std::vector<int> dependent_;        ///< those of basis_ that are not idle
-  Eigen::SparseMatrix<double> null_;  ///< and their columns
+  Eigen::SparseMatrix<double> null_;  ///< their columns of basis_.null()
 };
 
 }  // namespace engrane::solve

@@ -19,7 +19,7 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-/// The same list from all ranks, one behind the other.
+/// The lists of all ranks, one after the other.
 template <class T>
 std::vector<T> from_all(const std::vector<T>& mine, MPI_Datatype type, MPI_Comm comm) {
   int ranks = 1;
@@ -37,7 +37,7 @@ std::vector<T> from_all(const std::vector<T>& mine, MPI_Datatype type, MPI_Comm 
   return all;
 }
 
-/// The matrix, whole, on every rank.
+/// The whole matrix, on every rank.
 Sparse whole_matrix(Assembler& assembler) {
   std::vector<int> rows, columns;
   std::vector<double> values;
@@ -72,8 +72,8 @@ Sparse whole_matrix(Assembler& assembler) {
   return matrix;
 }
 
-/// Scales rows and columns so that their sizes do not hide the null space, columns to length 1 in the end; returns the factors
-/// of the columns.
+/// Scales rows and columns so that their sizes do not hide the null space, columns to length 1 in the end. Returns the column
+/// factors.
 Vector equilibrate(Sparse& matrix) {
   Vector scale = Vector::Ones(matrix.cols());
   const auto inverse = [](const Vector& size) { return Vector((size.array() > 0).select(size.cwiseInverse(), 1.0)); };
@@ -93,7 +93,7 @@ Vector equilibrate(Sparse& matrix) {
   return scale;
 }
 
-/// A vector that the matrix all but annihilates, and how many there are like it.
+/// A vector that the matrix all but annihilates, and the number of such vectors.
 struct NullVector {
   Vector entries;
   Eigen::Index of = 0;
@@ -108,7 +108,7 @@ NullVector nearest_null_vector(Sparse matrix) {
   return {};
 }
 
-/// What to do about a motion that nothing resists; `order`: equations, those that move most first.
+/// Advice on a motion that nothing resists; `order`: equations, those that move most first.
 std::string advice(const Assembler& assembler, const std::vector<int>& order, const Vector& null, Resistance resistance) {
   const Model& model = assembler.model();
   const double largest = std::abs(null[order[0]]);
@@ -137,8 +137,8 @@ std::string advice(const Assembler& assembler, const std::vector<int>& order, co
          ": give it a mass (INERTIA), make it part of a body (RIGID), or hold it by a support or spring";
 }
 
-/// Whether the matrix itself tells that rounding of positions is no visible part of the loads. In a linear model without
-/// constraints it is the sum of positive semidefinite parts, none of which has a larger entry than its diagonal.
+/// Whether the matrix alone shows that the rounding of positions is no visible part of the loads. In a linear model without
+/// constraints it is a sum of positive semidefinite parts, none of which has a larger entry than its diagonal.
 bool surely_resolved(const Assembler& assembler, const Newton& newton, double visible, double least_load) {
   const auto& unknowns = assembler.numbering().unknowns();
   const bool forces = std::all_of(unknowns.begin(), unknowns.end(),
@@ -177,7 +177,7 @@ std::string explain_singular(Assembler& assembler, const std::string& what, Resi
     if (!numbering.unknown(e).multiplier && std::abs(null[e]) > 0.1 * largest) moves = true;
   std::string names;
   int listed = 0;
-  // of reactions also the small ones: that of a hinge far away is no less undetermined than the tooth force it comes from
+  // of reactions also small ones: that of a hinge far away is no less undetermined than the tooth force that causes it
   const int most = moves ? 6 : 12;
   for (const int e : order) {
     if (std::abs(null[e]) < (moves ? 0.1 : 1e-3) * largest || listed == most) break;
@@ -210,7 +210,7 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
   struct {
     double part;
     int rank;
-  } worst{visible, assembler.rank()};  // as MPI_DOUBLE_INT wants it
+  } worst{visible, assembler.rank()};  // layout of MPI_DOUBLE_INT
   double worst_noise = 0;
   int worst_equation = -1, culprit = -1;
   std::vector<double> r, k;
@@ -221,7 +221,7 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
     r.assign(n, 0);
     k.assign(n * n, 0);
     element.tangent(assembler.view(p, configuration), {1, 0, 0, 0}, r, k);
-    // parts of a mesh that waves have not reached yet carry nothing that anybody asks for
+    // parts of a mesh that waves have not reached yet carry no forces of interest
     const double elsewhere = element.cell_shape() == CellShape::none ? 0 : newton.largest_force();
     for (std::size_t i = 0; i < of_nodes; ++i) {
       const int row = numbering.equation(slots[i]);
@@ -233,7 +233,7 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
         noise = std::max(noise, std::abs(k[i * n + j]) * epsilon * newton.reach(column));
         place = std::max(place, epsilon * newton.reach(column));
       }
-      // a machine without loads has no forces that could be known
+      // a machine without loads has no forces to resolve
       if (!(energy > 1e3 * noise * place)) continue;
       const double size = numbering.unknown(row).measure == Measure::moment ? energy : least;
       const double part = noise / std::max({newton.load(row), size, elsewhere});
@@ -244,7 +244,7 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
       culprit = p;
     }
   }
-  // the first of the ranks that found the worst tells the others
+  // the first rank with the worst value broadcasts the rest
   MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, assembler.comm());
   MPI_Bcast(&worst_equation, 1, MPI_INT, worst.rank, assembler.comm());
   MPI_Bcast(&culprit, 1, MPI_INT, worst.rank, assembler.comm());

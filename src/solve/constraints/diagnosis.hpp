@@ -8,21 +8,21 @@
 
 namespace engrane::solve {
 
-/// What resists a motion: forces that depend on the position alone, or inertia too.
+/// What resists a motion: only forces that depend on the position, or inertia too.
 enum class Resistance { at_rest, in_motion };
 
-/// Says which motion or which reactions make the matrix of `assembler` singular: `what`, then the unknowns of its
-/// nearest null vector by name. Collective.
+/// Names the motion or the reactions that make the matrix of `assembler` singular: returns `what`, followed by the unknowns of
+/// the nearest null vector. Collective.
 std::string explain_singular(Assembler& assembler, const std::string& what, Resistance resistance = Resistance::in_motion);
 
-/// Which motion no drive determines, of a mechanism with so much freedom; empty when there is none.
+/// Names a motion that no drive determines, of a mechanism with `freedom` degrees of freedom; empty if there is none.
 std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, int freedom);
 
 /// Says where a Newton iteration got stuck: "largest residual at node 57 (rz) from HINGE 3".
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report);
 
-/// Names the element whose stiffness makes the rounding of positions a visible part of the loads, when there is one. `energy`:
-/// what was in the machine or passed through it. Collective.
+/// Names the element whose stiffness makes the rounding of positions a visible part of the loads; empty if there is none.
+/// `energy`: what was in the machine or passed through it. Collective.
 std::string explain_unresolved(const Assembler& assembler, const Newton& newton, const Configuration& configuration,
                                double energy);
 

@@ -13,16 +13,16 @@ namespace engrane::solve {
 
 namespace {
 
-/// A speed closer to zero than this part of the speeds it is the difference of is rest.
+/// A grip is at rest if its speed is below this fraction of the speeds that it is the difference of.
 constexpr double rounding = 1e-12;
-/// Places are known to this part of the extent, or of a radian.
+/// Accuracy of positions, over the extent or in radians.
 constexpr double place_rounding = 1e-14;
-/// Differences within this part of what they are of are rounding.
+/// Differences below this fraction of their terms are rounding.
 constexpr double slack = GripState::slack;
-/// A grip that bears more than this part of what it holds may give way within the next step.
+/// A grip that carries more than this fraction of its limit may give way within the next step.
 constexpr double near = 0.8;
 
-/// The largest speed and acceleration of any node, or of its turning: what is rounding beside them is none.
+/// Largest speed and acceleration of any node, or of its rotation: what is rounding beside them counts as zero.
 struct Fastest {
   double speed = 0, acceleration = 0;
 };
@@ -159,7 +159,7 @@ bool Grips::aim(Seen& grip, const Seen& now, Aim& aim) {
   const Vec3& a = now.acceleration;
   const Vec3 beside = a - direction * direction.dot(a);
   if (aim.tried) aim.slope = std::max(aim.slope, (a - aim.acceleration).norm() / (direction - aim.direction).norm());
-  // friction that hardly lets go turns the direction much more than what pulls it
+  // friction that barely gives way makes the acceleration depend on the direction much more than on the pull
   aim.found = beside.norm() <= aligned * std::max(a.norm(), aim.slope);
   if (aim.found) return false;
   aim.direction = direction;
@@ -172,7 +172,7 @@ bool Grips::aim(Seen& grip, const Seen& now, Aim& aim) {
 void Grips::settle(Configuration& c, bool massless) {
   assembler_.count_turns(c);  // a place of rest may be that of the last count
   std::vector<Seen> grips = look(c);
-  // those at rest may hold or slide any way; the others slide on
+  // those at rest may hold, or slide in any direction; the others slide on
   std::vector<bool> at_rest(count_);
   for (std::size_t i = 0; i < count_; ++i) {
     Seen& grip = grips[i];
@@ -182,7 +182,7 @@ void Grips::settle(Configuration& c, bool massless) {
       state = GripState::slides_towards(grip.speed, state.held);
       at_rest[i] = false;
     } else if (overloaded(grip)) {
-      state = GripState::slides_towards(-grip.force, state.held);  // friction is against sliding
+      state = GripState::slides_towards(-grip.force, state.held);  // friction opposes sliding
     } else if (at_rest[i] && state.mode != GripState::holding) {
       state = GripState::holds_at(state.held + grip.place);
     } else if (state.mode == GripState::free || turns_back(grip)) {
@@ -190,10 +190,10 @@ void Grips::settle(Configuration& c, bool massless) {
       if (grip.shape.size > 1) state.speed = grip.speed.norm();
     }
   }
-  // All that is wrong is changed at once first, then one at a time, always the first in the deck: a rule that comes back to no
-  // combination but those of equal right. Directions are sought where nothing else is wrong.
+  // At first everything wrong is changed at once, then one grip at a time, always the first in the deck: a rule that returns to
+  // no combination except equivalent ones. Directions are adjusted once nothing else is wrong.
   const std::size_t together = 3 + count_, most = 3 + 20 * count_;
-  std::size_t last = 0;  // that was changed
+  std::size_t last = 0;  // grip that was changed
   std::vector<Aim> aims(count_);
   for (std::size_t pass = 0, aimed = 0; pass < most && aimed < most;) {
     write(grips, c);
@@ -205,7 +205,7 @@ void Grips::settle(Configuration& c, bool massless) {
       GripState& state = grips[i].state;
       const Seen& grip = now[i];
       if (state.mode == GripState::holding) {
-        if (pulled(grip))  // what speed it has is that of the time past its event
+        if (pulled(grip))  // its speed was gained only after its event
           state = GripState::slides_towards(grip.acceleration, state.held);
         else if (dragged(grip))
           state = GripState::slides_towards(grip.speed, state.held);

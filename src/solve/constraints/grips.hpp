@@ -8,54 +8,54 @@
 
 namespace engrane::solve {
 
-/// Decides which dry frictions hold and which slide (docs/theory.md, "Friction at rest"). What is decided stands in the history
-/// of the elements, and in the assembler, where grips that slide are idle constraints. Every rank decides the same.
+/// Decides which dry frictions hold and which slide (docs/theory.md, "Friction at rest"). The decisions are stored in the
+/// history of the elements and in the assembler, where sliding grips are idle constraints. Every rank decides the same.
 class Grips {
  public:
-  /// `step`: the H of the analysis.
+  /// `step`: the step H of the analysis.
   Grips(Assembler& assembler, Redundancy& redundancy, Start& start, double step);
 
   bool any() const { return !places_.empty(); }
-  /// Whether some grip slides back, is dragged along, or bears more than it holds. Always so before settle().
+  /// Whether any grip slides backwards, is dragged along, or carries more than it can hold. Always true before settle().
   bool violated(const Configuration& c) const;
-  /// Whether a grip bears so much that it may give way within a step.
+  /// Whether any grip carries so much that it may give way within a step.
   bool strained(const Configuration& c) const;
-  /// Decides: velocities, accelerations and multipliers of `c` then fit, and so do the directions of sliding. `massless`: the
-  /// model has motions without mass. Throws SolutionFailure when no decision fits.
+  /// Decides, and makes velocities, accelerations and multipliers of `c` and the directions of sliding consistent with the
+  /// decisions. `massless`: the model has motions without mass. Throws SolutionFailure if no decision fits.
   void settle(Configuration& c, bool massless);
-  /// No grip is followed any more: friction as the speeds of sliding ask, and belts hold.
+  /// Stops following grips: friction then depends on the sliding speeds only, and belts hold.
   void let_go(Configuration& c);
 
  private:
   struct Place {
-    int part, first;  ///< first: multiplier, of the model
+    int part, first;  ///< `first`: index of the first multiplier
     const Layout* layout;
   };
-  /// A grip, with `speeds` and `accelerations` those of the fastest node, or what moves it in a step by the rounding of places.
+  /// A grip. `speeds` and `accelerations`: of the fastest node, but at least those by the rounding of positions in a step.
   struct Seen : Grip {
-    bool redundant = false;  ///< holds, but other constraints hold the same
+    bool redundant = false;  ///< holds, but other constraints hold the same motion
   };
-  /// The search for the direction in which a grip of several coordinates begins to slide.
+  /// Search for the direction in which a grip of several coordinates begins to slide.
   struct Aim {
-    Vec3 direction = Vec3::Zero(), acceleration = direction;  ///< as tried last
-    double slope = 0;                                         ///< of the acceleration over the direction; 0: not known yet
+    Vec3 direction = Vec3::Zero(), acceleration = direction;  ///< last tried
+    double slope = 0;                                         ///< change of the acceleration with the direction; 0: unknown
     bool tried = false, found = false;
   };
   static bool rests(const Seen& grip);
   static bool overloaded(const Seen& grip);
   static bool turns_back(const Seen& grip);
-  /// Does a grip that turns back come to rest, or only slide on elsewhere?
+  /// Whether a grip that turns back comes to rest, rather than sliding on in another direction.
   static bool stops(const Seen& grip);
-  /// Do the others move what it holds, or begin to? Then it holds nothing.
+  /// Whether other constraints move what the grip holds, or begin to (pulled()). It then holds nothing.
   static bool dragged(const Seen& grip);
   static bool pulled(const Seen& grip);
 
   std::vector<Seen> look(const Configuration& c) const;
   void write(const std::vector<Seen>& grips, Configuration& c);
-  /// Changes the direction of a grip that begins to slide, until it accelerates that way; false where it does.
+  /// Adjusts the direction of a grip that begins to slide until it accelerates that way; false once it does.
   static bool aim(Seen& grip, const Seen& now, Aim& aim);
   void fit(Configuration& c, bool massless);
-  /// "HINGE 3", whose grip it is.
+  /// Name of the element that owns the grip: "HINGE 3".
   std::string name(std::size_t grip) const;
 
   Assembler& assembler_;

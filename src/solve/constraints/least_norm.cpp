@@ -50,7 +50,7 @@ RowSpace::RowSpace(const Sparse& a, double tolerance, std::vector<int> groups) {
 
   if (leaves_.rest.empty()) return;
 
-  // transposed: a column for each row of `a` that the remaining columns touch
+  // transposed: one column for each row of `a` that the remaining columns touch
   Sparse rest(a.rows(), static_cast<Eigen::Index>(leaves_.rest.size()));
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t j = 0; j < leaves_.rest.size(); ++j)

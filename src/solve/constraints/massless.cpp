@@ -17,10 +17,10 @@ using Sparse = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// Of a matrix with columns of length 1: a motion along which all are shorter than this is one that the matrix does not see.
+/// For a matrix with columns of length 1: it does not see a motion along which all columns are shorter than this.
 constexpr double unseen = 1e-11;
 
-/// The block of a tangent that belongs to the motions, scaled like them on both sides.
+/// The block of a tangent for the motions, scaled like them on both sides.
 Triplets motion_block(Assembler& assembler, const Configuration& c, const MotionRows& rows, Weights weights) {
   Triplets entries;
   std::vector<double> r, k;
@@ -43,12 +43,12 @@ Triplets motion_block(Assembler& assembler, const Configuration& c, const Motion
   return entries;
 }
 
-/// Matrices side by side, the columns of length 1.
+/// Matrices side by side, with columns of length 1.
 class SideBySide {
  public:
   explicit SideBySide(Eigen::Index rows) : rows_(rows) {}
 
-  /// A block of as many columns as rows.
+  /// Adds a block of as many columns as rows.
   void add(const Triplets& block, bool transposed = false) {
     for (const auto& entry : block)
       all_.emplace_back(transposed ? entry.col() : entry.row(),
@@ -75,7 +75,7 @@ class SideBySide {
   Triplets all_;
 };
 
-/// Whether each node's and each scalar's own block of M is positive: then there is nothing to look for.
+/// Whether the block of M of each node and each scalar is positive definite: then there are no massless motions.
 bool all_have_mass(const Triplets& mass, const MotionRows& rows) {
   const std::size_t groups = rows.first_rows.size();
   std::vector<std::size_t> group_of(rows.slot.size());
@@ -99,7 +99,7 @@ bool all_have_mass(const Triplets& mass, const MotionRows& rows) {
   return true;
 }
 
-/// Where the largest part of a motion outside of `determined` is.
+/// Name of the largest component of a motion outside `determined`.
 std::string outside(const Assembler& assembler, const MotionRows& rows, const RowSpace& determined) {
   const Vector any = rows.any();
   return rows.largest_part(assembler.numbering(), any - determined.part(any));
@@ -114,7 +114,7 @@ MasslessMotions::MasslessMotions(Assembler& assembler, const Configuration& conf
   const auto n = static_cast<Eigen::Index>(rows_.slot.size());
   SideBySide seen(n);
   seen.add(mass);
-  seen.add(mass, true);  // of a controller it is not symmetric
+  seen.add(mass, true);  // not symmetric for a controller
   seen.add(ConstraintMatrix(assembler, c, ConstraintColumns::gradients).matrix);
   seen_ = seen.matrix();
   determined_.emplace(seen_.transpose(), unseen);

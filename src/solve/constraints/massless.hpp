@@ -13,8 +13,8 @@
 
 namespace engrane::solve {
 
-/// Motions that the joints leave free and that move no mass, at one configuration: those z with M z = 0 and B z = 0. No balance
-/// of forces gives their acceleration; springs and dampers hold them in quasi-static equilibrium, or nothing does.
+/// Motions that the joints leave free and that move no mass, at one configuration: the z with M z = 0 and B z = 0. No balance
+/// of forces determines their acceleration. Springs and dampers hold them in quasi-static equilibrium, or nothing does.
 ///
 /// Not collective: every rank finds the same.
 class MasslessMotions {
@@ -23,24 +23,24 @@ class MasslessMotions {
 
   bool any() const { return count_ > 0; }
   int count() const { return count_; }
-  /// Where the largest part of one of them is: "node 3 (x)".
+  /// Name of the largest component of one of them: "node 3 (x)".
   const std::string& example() const { return example_; }
 
-  /// "node 2 (y) has no inertia, and ... holds it: ...", of one that neither a spring nor a damper holds at the
-  /// configuration of this; empty when there is none.
+  /// Explains a motion that neither a spring nor a damper holds: "node 2 (y) has no inertia, and ... holds it: ..."; empty if
+  /// there is none. `configuration`: that of the constructor.
   std::string explain_unheld(Assembler& assembler, const Configuration& configuration) const;
 
-  /// Takes these motions out of a vector with an entry for each motion slot, such as accelerations.
+  /// Removes these motions from a vector with an entry for each motion slot, such as accelerations.
   void remove(std::span<double> slots) const;
-  /// Leaves nothing but them in it.
+  /// Removes everything else from it.
   void keep(std::span<double> slots) const;
-  /// Takes the forces that act along them out of a vector with an entry for each motion slot.
+  /// Removes the forces that act along them from a vector with an entry for each motion slot.
   void remove_forces(std::span<double> slots) const;
 
  private:
   MotionRows rows_;
-  Eigen::SparseMatrix<double> seen_;    ///< [M Mᵀ Bᵀ], columns of length 1: motions that it does not see are massless
-  std::optional<RowSpace> determined_;  ///< of its transpose: all other motions
+  Eigen::SparseMatrix<double> seen_;    ///< [M Mᵀ Bᵀ], columns of length 1; motions orthogonal to all of them are massless
+  std::optional<RowSpace> determined_;  ///< its column space: all other motions
   int count_ = 0;
   std::string example_;
 };

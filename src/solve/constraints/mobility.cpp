@@ -23,10 +23,10 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-/// A little along a possible motion, closed again. False when it does not close: then the motion is only one of first order.
+/// Moves `c` a little along a possible motion and closes it again. False if it does not close: a motion of first order only.
 bool move_along(Assembler& assembler, const MotionSlots& motion, const ConstraintFactors& here, Configuration& c,
                 double tolerance) {
-  // any direction does that is not a special one
+  // any generic direction will do
   Vector wish(here.rows());
   for (Eigen::Index i = 0; i < wish.size(); ++i) wish[i] = std::sin(1.0 + 2.3 * static_cast<double>(i * i % 1009));
   Vector way = here.possible_motion(wish);
@@ -48,7 +48,7 @@ bool move_along(Assembler& assembler, const MotionSlots& motion, const Constrain
     const double open = relative_open(assembler, phi).lpNorm<Eigen::Infinity>();
     if (!std::isfinite(open)) return false;
     if (open < 1e-13) return true;
-    // factors serve on while the gap shrinks by decades
+    // factors are reused while the gap shrinks a hundredfold each time
     if (open > 1e-2 * before) factors.emplace(assembler, c, ConstraintColumns::gradients, tolerance);
     before = open;
     const Vector by = factors->closing_motion(phi);
@@ -59,7 +59,7 @@ bool move_along(Assembler& assembler, const MotionSlots& motion, const Constrain
   return false;
 }
 
-/// The largest entry of a column that has one, and its size.
+/// Row of the largest entry of a column, −1 if there is none, and its magnitude.
 std::pair<int, double> largest_entry(const Sparse& a, Eigen::Index column) {
   std::pair<int, double> largest{-1, 0.0};
   for (Sparse::InnerIterator it(a, column); it; ++it)
@@ -67,9 +67,9 @@ std::pair<int, double> largest_entry(const Sparse& a, Eigen::Index column) {
   return largest;
 }
 
-/// Exchanges dependent constraints for grips and drives that they depend on, the last in the deck first: friction gives way to
-/// what else moves or holds its surfaces; a drive that asks for what the joints forbid is then left out, found open, and named,
-/// and no joint opens in its place.
+/// Exchanges dependent constraints for grips and drives that they depend on, the last in the deck first. Friction gives way to
+/// whatever else moves or holds its surfaces. A drive that asks for what the joints forbid is then left out, found open, and
+/// named, and no joint opens in its place.
 void prefer_grips_and_drives(const Model& model, const Numbering& numbering, Sparse& null, std::vector<int>& dependent) {
   constexpr double significant = 1e-3;
   std::vector<std::pair<bool, int>> preferred;  // whether a grip, and the multiplier
@@ -107,7 +107,7 @@ void prefer_grips_and_drives(const Model& model, const Numbering& numbering, Spa
   std::sort(dependent.begin(), dependent.end());
 }
 
-/// Which constraints hang together: those that a null vector combines.
+/// Groups of constraints that null vectors combine.
 std::vector<RedundantGroup> group(const Sparse& null) {
   std::vector<int> leader(static_cast<std::size_t>(null.rows()));
   std::iota(leader.begin(), leader.end(), 0);
@@ -148,7 +148,7 @@ std::string along(const Vec3& direction) {
   return fmt::format("({:.3g}, {:.3g}, {:.3g})", direction[0], direction[1], direction[2]);
 }
 
-/// "force along z", from the gradient of the constraint; for what is not a joint the words of its element.
+/// "force along z", from the gradient of the constraint; for an element that is no joint, its own words.
 std::string describe_direction(Assembler& assembler, const Configuration& c, const Unknown& u) {
   const Model::Part& part = assembler.model().parts[static_cast<std::size_t>(u.part)];
   const Layout& layout = part.element->layout();
@@ -202,8 +202,7 @@ std::string names(Assembler& assembler, const Configuration& c, const std::vecto
 
 std::string counted(int number, const char* what) { return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s"); }
 
-/// What the forces in each motion slot change by when the multipliers are those of `to` instead of those of `from`, and all
-/// else is the same.
+/// Change of the forces in each motion slot when the multipliers of `from` become those of `to`.
 Vector change_of_forces(Assembler& assembler, const Configuration& from, const Configuration& to) {
   Vector change = Vector::Zero(assembler.numbering().slots());
   std::vector<double> before, after;
@@ -319,7 +318,7 @@ std::string Redundancy::conflict(const Configuration& c) {
 }
 
 std::string Redundancy::cure_of(const RedundantGroup& one) const {
-  // of drives the last in the deck: it is the one that was added to what moved before
+  // of drives the last in the deck, as the one that was added to what moved before
   for (auto m = one.members.rbegin(); m != one.members.rend(); ++m) {
     const Unknown& u = multiplier_unknown(assembler_.numbering(), *m);
     const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(u.part)];
@@ -331,7 +330,7 @@ std::string Redundancy::cure_of(const RedundantGroup& one) const {
   }
   Sparse null(mobility_.null.rows(), one.redundant);
   Eigen::Index count = 0;
-  // a combination belongs to the group that its largest part belongs to
+  // a combination belongs to the group of its largest entry
   for (Eigen::Index j = 0; j < mobility_.null.cols() && count < one.redundant; ++j)
     if (std::binary_search(one.members.begin(), one.members.end(), largest_entry(mobility_.null, j).first))
       null.col(count++) = mobility_.null.col(j);

@@ -9,8 +9,8 @@ namespace engrane::solve {
 
 namespace {
 
-/// The rounded sum; `remainder`, what earlier sums left out, is added and becomes what this one does (Kahan 1965; Knuth's sum of
-/// two, exact whichever is larger).
+/// Returns the rounded sum. `remainder`, what earlier sums left out, is added, and becomes what this sum leaves out (Kahan
+/// 1965; Knuth's two-sum, exact whichever term is larger).
 double compensated_sum(double a, double b, double& remainder) {
   const double added = b + remainder, sum = a + added, part = sum - a;
   remainder = (a - (sum - part)) + (added - part);
@@ -20,13 +20,13 @@ double compensated_sum(double a, double b, double& remainder) {
 /// The same for a rotation and an increment in material axes.
 Mat3 compensated_turn(const Mat3& R, const Vec3& y, Eigen::Ref<Vec3> remainder) {
   const Mat3 change = R * rotation_change(y + remainder), turned = orthonormalized(R + change);
-  // the difference of two close matrices is exact, and so what it lacks of the change
+  // the difference of two close matrices is exact, and so is what it lacks of the change
   const Mat3 left = turned.transpose() * (change - (turned - R));
   remainder = 0.5 * Vec3(left(2, 1) - left(1, 2), left(0, 2) - left(2, 0), left(1, 0) - left(0, 1));
   return turned;
 }
 
-/// Moves a node that stands where it starts from; `y` and `remainder`: its six entries.
+/// Moves a node that is at its starting point; `y` and `remainder`: its six entries.
 void move_node(const double* y, double* remainder, NodeState& node) {
   for (int k = 0; k < 3; ++k) node.x[k] = compensated_sum(node.x[k], y[k], remainder[k]);
   const Vec3 rotation(y[3], y[4], y[5]);
@@ -38,7 +38,7 @@ void move_node(const double* y, double* remainder, NodeState& node) {
   }
 }
 
-/// Moves the scalars of `to`, whose remainders are those of where it starts from.
+/// Moves the scalars of `to` from `from`; the remainders of `to` must be those of the starting point.
 void move_scalars(std::span<const double> from, std::span<const double> y, Configuration& to) {
   const std::size_t first = 6 * to.nodes.size();
   to.scalars.resize(from.size());

@@ -16,11 +16,12 @@ class MotionSlots {
 
   std::size_t size() const { return static_cast<std::size_t>(numbering_.motion_slots()); }
 
-  /// `to` = `from` moved by y: positions and scalars added, rotations multiplied by exp of the rotation vector; sets
-  /// NodeState::T. Rates and history are copied. Sums are compensated (Configuration::remainders).
+  /// `to` = `from` moved by y: positions and scalars are added, rotations multiplied by exp of the rotation vector; sets
+  /// NodeState::T. Rates of nodes are copied; those of scalars, the history and the rest of `to` are left alone. Sums are
+  /// compensated (Configuration::remainders).
   void move(const Configuration& from, std::span<const double> y, Configuration& to) const;
 
-  /// What move() starts from, a fifth of a configuration's size where few nodes have turned.
+  /// What move() starts from; a fifth of a configuration's size if few nodes have turned.
   class Origin {
    public:
     explicit Origin(const Configuration& c);
@@ -28,11 +29,11 @@ class MotionSlots {
    private:
     friend class MotionSlots;
     std::vector<Vec3> places;                          ///< of all nodes
-    std::vector<std::pair<std::size_t, Mat3>> turned;  ///< nodes that are not as in the reference configuration, ascending
+    std::vector<std::pair<std::size_t, Mat3>> turned;  ///< nodes turned from the reference configuration, ascending
     std::vector<double> scalars;
     std::vector<double> remainders;  ///< empty: all are zero
   };
-  /// The same for `to` that was equal to the origin, and has only been moved since.
+  /// The same for a `to` that was equal to the origin and has only been moved since.
   void move(const Origin& from, std::span<const double> y, Configuration& to) const;
 
   std::vector<double> velocities(const Configuration& c) const;
@@ -43,10 +44,10 @@ class MotionSlots {
   /// Copies the entries of `unknowns` (one per equation) into the motion slots that have an equation.
   void scatter(std::span<const double> unknowns, std::span<double> motion) const;
 
-  /// The other way round: an entry of `unknowns` for each motion slot that has an equation.
+  /// The reverse: sets the entry of `unknowns` for each motion slot that has an equation.
   void gather(std::span<const double> motion, std::span<double> unknowns) const;
 
-  /// A prescribed slot at a time: displacement from the reference, its rate and acceleration.
+  /// A prescribed slot at a given time: displacement from the reference, its rate and acceleration.
   struct Prescribed {
     std::size_t slot;
     double u, v, a;

@@ -20,7 +20,7 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-/// Open constraints in comparable sizes: over the extent, or in radians.
+/// Constraint violations over the extent, or in radians.
 Vector scaled_open(Assembler& assembler, const Configuration& c) {
   std::vector<double> phi, rate, second;
   assembler.constraint_rates(c, phi, rate, second);
@@ -28,8 +28,8 @@ Vector scaled_open(Assembler& assembler, const Configuration& c) {
   return Eigen::Map<const Vector>(phi.data(), sizes.size()).cwiseQuotient(sizes);
 }
 
-/// −Jᵀ(JJᵀ + μ)⁻¹ φ with Jᵀ = `gradient`, from [−1 Jᵀ; J μ] [y; z] = [0; φ]: the product JJᵀ is full where one body has many
-/// constraints.
+/// −Jᵀ(JJᵀ + μ)⁻¹ φ with Jᵀ = `gradient`, from [−1 Jᵀ; J μ] [y; z] = [0; φ], since the product JJᵀ is full where one body has
+/// many constraints.
 Vector damped_step(const Sparse& gradient, const Vector& phi, double mu) {
   const Eigen::Index n = gradient.rows(), m = gradient.cols();
   std::vector<Eigen::Triplet<double, Eigen::Index>> entries;
@@ -48,8 +48,8 @@ Vector damped_step(const Sparse& gradient, const Vector& phi, double mu) {
   return -Eigen::SparseLU<Sparse>(whole).solve(right).head(n);
 }
 
-/// Moves `c` to where the weighted sum of squares of the open constraints is least: steps −Jᵀ(JJᵀ + μ)⁻¹ φ of Levenberg and
-/// Marquardt, which are least movements where the constraints can be closed and go on where they cannot.
+/// Moves `c` to where the weighted sum of squares of the violations is smallest, by Levenberg–Marquardt steps −Jᵀ(JJᵀ + μ)⁻¹ φ.
+/// These are least movements where the constraints can be closed, and still advance where they cannot.
 void narrow(Assembler& assembler, const MotionSlots& motion, const Vector& weight, Configuration& c) {
   constexpr int most_steps = 300;
   constexpr double longest = 0.25;  // of the extent, or radians
@@ -93,7 +93,7 @@ std::string node_name(const Model& model, int node) {
 std::string loop_of(const Model& model, int part) {
   std::vector<int> held(model.nodes.size(), 0);
   for (const Support& s : model.supports) held[static_cast<std::size_t>(s.node)] |= 1 << s.component;
-  // a node whose position is held is as good as the ground, and still deserves its name
+  // a node whose position is held counts as the ground, but keeps its name
   const auto fixed = [&](int node) { return (held[static_cast<std::size_t>(node)] & 7) == 7; };
   struct Way {
     int from, part;

@@ -22,7 +22,7 @@ OutOfPlane::OutOfPlane(Assembler& assembler) : assembler_(assembler) {
   holds_.assign(model.parts.size(), false);
   for (std::size_t m = 0; m < column_.size(); ++m) {
     if (!model.plane.out_of_plane[m]) continue;
-    // a grip that acts out of the plane holds nothing: nothing slides there
+    // a grip that acts out of the plane holds nothing, since nothing slides there
     if (is_grip(model, assembler.numbering().multiplier(static_cast<int>(m)))) continue;
     column_[m] = static_cast<int>(multipliers_.size());
     multipliers_.push_back(static_cast<int>(m));
@@ -38,7 +38,7 @@ void OutOfPlane::find(Configuration& c) {
   const auto& parts = assembler_.model().parts;
   const double extent = assembler_.model().extent();
   const Configuration here = outside_of_steps(c);
-  // rows are moments: forces times the extent
+  // rows are moments: forces are multiplied by the extent
   const auto size = [&](int slot) { return slot % 6 < 3 ? extent : 1.0; };
   const auto weight = [&](int m) { return size_of(numbering.multiplier(m), extent); };
   Vector right = Vector::Zero(static_cast<Eigen::Index>(slots_.size()));
@@ -67,7 +67,7 @@ void OutOfPlane::find(Configuration& c) {
   }
   Sparse forces(right.size(), static_cast<Eigen::Index>(multipliers_.size()));
   forces.setFromTriplets(entries.begin(), entries.end());
-  // the least solution of forces x = right, whose rows are independent (examine_plane): forcesᵀ (forces forcesᵀ)⁻¹ right, refined
+  // minimum-norm solution of forces x = right (rows are independent: examine_plane): forcesᵀ (forces forcesᵀ)⁻¹ right, refined
   const Sparse square = forces * Sparse(forces.transpose());
   factors_.compute(square);
   Vector x = Vector::Zero(forces.cols());

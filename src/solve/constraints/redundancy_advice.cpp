@@ -43,7 +43,7 @@ using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 /// A growing set of independent sparse rows, as an echelon form: each row is free of the leading columns of those before it.
 class IndependentRows {
  public:
-  /// Adds these rows of `all` and returns true when that leaves the set independent; else leaves it as it is.
+  /// Adds these rows of `all` and returns true if the set remains independent; otherwise leaves it as it is.
   bool add(const Rows& all, const std::vector<Eigen::Index>& rows) {
     const std::size_t before = echelon_.size();
     for (const Eigen::Index row : rows)
@@ -102,7 +102,7 @@ std::string suggest_releases(const Assembler& assembler, const Eigen::SparseMatr
   const auto parts = static_cast<int>(assembler.model().parts.size());
   std::vector<Cure> chosen(static_cast<std::size_t>(parts));
   Eigen::Index given_up = 0;
-  // sizes of the columns say nothing: units and lengths are in them
+  // scale the columns to size 1: their sizes depend on units and lengths
   Rows rows = null;
   Eigen::VectorXd size = Eigen::VectorXd::Constant(needed, 1e-300);
   for (Eigen::Index i = 0; i < rows.rows(); ++i)
@@ -110,7 +110,7 @@ std::string suggest_releases(const Assembler& assembler, const Eigen::SparseMatr
   for (Eigen::Index i = 0; i < rows.rows(); ++i)
     for (Rows::InnerIterator it(rows, i); it; ++it) it.valueRef() /= size[it.col()];
   IndependentRows taken;
-  // a second pass changes more of a joint that the first has changed already
+  // a second pass may change a joint further than the first has done
   for (int pass = 0; pass < 2; ++pass)
     for (int p = parts; p-- > 0 && given_up < needed;) {
       Cure& mine = chosen[static_cast<std::size_t>(p)];

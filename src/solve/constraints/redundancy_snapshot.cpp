@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an analysis of the constraints found, as numbers.
+// Result of an analysis of the constraints, as numbers.
 #include "solve/constraints/mobility.hpp"
 
 namespace engrane::solve {

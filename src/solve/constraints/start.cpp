@@ -20,7 +20,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Angle of the rotation that leads from one to the other.
+/// Angle of the rotation from one to the other.
 double angle_between(const Mat3& a, const Mat3& b) { return rotation_log(Mat3(a.transpose() * b)).norm(); }
 
 }  // namespace
@@ -64,7 +64,7 @@ void Start::verify_imposed(const Configuration& c, std::span<const double> wishe
       off = node.x[u.item] - wished[slot];
       size = assembler_.model().extent();
     } else {
-      // what was held is the component of the turn from where the deck put the node
+      // the held value is the component of the rotation from where the deck put the node
       const std::size_t first = slot - static_cast<std::size_t>(u.item - 3);
       const Mat3 put = rotation_exp(Vec3(wished[first], wished[first + 1], wished[first + 2]));
       off = rotation_log(put.transpose() * node.R)[u.item - 3] / degree;
@@ -95,7 +95,7 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
     Closing closing = close_initial(c, report);
     std::string conflict = closing.closed ? redundancy_.conflict(c) : "";
     bool sharp = true;
-    // where the parts do not quite fit, constraints that repeat one another look independent: look again less sharply
+    // where the parts do not quite fit, redundant constraints look independent: analyse again with a looser tolerance
     if (!closing.closed || !conflict.empty()) {
       if (Configuration again = given; redundancy_.analyse(given, 1e-4)) {
         closing = close_initial(again, report);
@@ -104,7 +104,7 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
         sharp = false;
       }
     }
-    // joints that repeat one another do so exactly only where the mechanism is closed
+    // redundant joints are exactly redundant only where the mechanism is closed
     if (closing.closed && conflict.empty() && (closing.iterations > 0 || !sharp) && redundancy_.analyse(c)) {
       closing = close(c, imposed(false), {});
       conflict = closing.closed ? redundancy_.conflict(c) : "";
@@ -173,7 +173,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, std::sp
       result.singular = true;
       return result;
     }
-    // a step far outside where the constraints are nearly linear would jump to another way of assembling
+    // a step far beyond where the constraints are nearly linear would jump to another way of assembling
     double length = 0;
     std::vector<double> y(motion_size, 0.0);
     motion_.scatter(step, y);
@@ -185,7 +185,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, std::sp
     }
     const double before = open;
     Configuration moved = c;
-    // damped: a step that opens the constraints further is halved, but not for ever
+    // damped: a step that opens the constraints further is halved, at most four times
     for (int halvings = 0;; ++halvings) {
       motion_.move(c, y, moved);
       for (NodeState& node : moved.nodes) node.T.setIdentity();
@@ -195,7 +195,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, std::sp
       for (double& v : y) v /= 2;
     }
     std::swap(c, moved);
-    if (length < 4 * epsilon && before < 1e-11) {  // closed as far as rounding lets it
+    if (length < 4 * epsilon && before < 1e-11) {  // closed as far as rounding allows
       ++result.iterations;
       result.closed = true;
       return result;
@@ -210,7 +210,7 @@ double Start::amplification(const Configuration& c) {
   for (std::size_t e = 0; e < right.size(); ++e) {
     const Unknown& u = numbering.unknown(static_cast<int>(e));
     if (!u.multiplier || assembler_.released(u.slot - numbering.motion_slots())) continue;
-    right[e] = std::cos(2.3 * static_cast<double>(e)) * size_of(u, extent);  // in any direction but a special one
+    right[e] = std::cos(2.3 * static_cast<double>(e)) * size_of(u, extent);  // a generic direction
   }
   assembler_.projection(outside_of_steps(c), Assembler::Metric::geometric);
   if (!solve(right, motion)) return std::numeric_limits<double>::infinity();
@@ -233,8 +233,8 @@ Start::Distance Start::distance(const Configuration& from, const Configuration& 
 }
 
 Start::Closing Start::close_initial(Configuration& c, StartReport& report) {
-  constexpr double near = 0.3;     // a shorter way, over the extent or in radians, is not looked at again
-  constexpr double another = 0.1;  // positions farther apart than this are taken for different ones
+  constexpr double near = 0.3;     // a shorter way, over the extent or in radians, is not checked again
+  constexpr double another = 0.1;  // positions farther apart than this count as different
   const Configuration given = c;
   const std::vector<int> held = imposed(false);
   report.remarks.clear();
@@ -289,7 +289,7 @@ int Start::follow(Configuration& c, std::span<const int> held) {
       continue;
     }
     c = std::move(tried);
-    assembler_.count_turns(c);  // turns count on the way to drives that begin more than half a turn away
+    assembler_.count_turns(c);  // turns are counted on the way to drives that begin more than half a turn away
     if (next == 1) return steps;
     done = next;
     if (closing.iterations < 5) part *= 1.5;

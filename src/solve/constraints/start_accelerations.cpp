@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Accelerations and multipliers at a start: of the forces there, and of what is stiffer than a step resolves.
+// Accelerations and multipliers at a start, also where something is stiffer than a step resolves.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ void note_accelerations(const Assembler& assembler, const Configuration& c, int 
   report.acceleration_iterations = iterations;
   report.largest_acceleration = report.largest_force = 0;
   std::size_t most = 0;
-  // a node's path says more than its turning, and a force more than a moment; they have no common unit
+  // translations say more than rotations, and forces more than moments; they have no common unit
   for (const bool turning : {false, true}) {
     if (report.largest_acceleration > 0) break;
     for (std::size_t i = 1; i < c.nodes.size(); ++i)
@@ -46,7 +46,7 @@ void note_accelerations(const Assembler& assembler, const Configuration& c, int 
   if (carried >= 0) report.carried_most = assembler.numbering().describe(assembler.numbering().equation(carried));
 }
 
-/// How far a mean acceleration of a step of h leads what rests, over that acceleration, by the trapezoidal rule.
+/// Displacement from rest by a mean acceleration over a step of h, over that acceleration, by the trapezoidal rule.
 double give_of(double h) { return h * h / 4; }
 
 }  // namespace
@@ -54,7 +54,7 @@ double give_of(double h) { return h * h / 4; }
 void Start::verify_balance(const Configuration& c, std::span<const double> unbalanced) {
   constexpr double enough = 1e-6;
   const Numbering& numbering = assembler_.numbering();
-  // without friction there always are such accelerations
+  // without friction such accelerations always exist
   const auto& parts = assembler_.model().parts;
   if (std::none_of(parts.begin(), parts.end(), [](const Model::Part& part) {
         return part.element->layout().slides > 0 || !part.element->layout().grips.empty();
@@ -66,8 +66,8 @@ void Start::verify_balance(const Configuration& c, std::span<const double> unbal
   for (int e = 0; e < numbering.equations(); ++e)
     if (const Unknown& u = numbering.unknown(e); !u.multiplier)
       largest[u.measure] = std::max(largest[u.measure], assembler_.carried()[static_cast<std::size_t>(e)]);
-  // forces that cancel inside a body are no loads, but what is left of them is their rounding: gyroscopic moments are of the size
-  // of the kinetic energy
+  // forces that cancel inside a body are no loads, but leave their rounding behind: gyroscopic moments are of the size of the
+  // kinetic energy
   double kinetic = 0;
   for (std::size_t p = 0; p < parts.size(); ++p)
     kinetic += parts[p].element->energies(assembler_.view(static_cast<int>(p), c)).kinetic;
@@ -105,7 +105,7 @@ bool Start::overshoots(const Configuration& c, double h) const {
   Configuration still = c;
   motion_.set_accelerations(std::vector<double>(motion_.size(), 0.0), still);
   const auto here = assembler_.slot_residual(c), resting = assembler_.slot_residual(still);
-  // from half way on: at an event a law may jump, which is no stiffness
+  // from halfway on: at an event a law may jump, which is no stiffness
   const auto half_way = assembler_.slot_residual(moved_along(c, give_of(h) / 2)),
              there = assembler_.slot_residual(moved_along(c, give_of(h)));
   double change = 0, inertia = 0;
@@ -118,7 +118,7 @@ bool Start::overshoots(const Configuration& c, double h) const {
     change = std::max(change, changed);
     inertia = std::max(inertia, std::abs(resting[slot] - here[slot]) / size);
   }
-  // along a vibration forces change by ω² h²/4 times M a; of a period shorter than two steps no step sees anything
+  // along a vibration forces change by ω² h²/4 times M a; steps cannot resolve a period shorter than two of them
   return change > std::numbers::pi * std::numbers::pi / 4 * inertia;
 }
 
@@ -180,9 +180,9 @@ bool Start::balance_softly(Configuration& c, double give, StartReport* report, c
   motion_.set_accelerations(a, still);
   std::vector<double> last;
   double change = std::numeric_limits<double>::infinity();
-  // once more where forces follow the multipliers, as in balance_accelerations
+  // repeated where forces depend on the multipliers, as in balance_accelerations
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    // all of the accelerations is sought each time: forces follow them by the stiffness in the matrix alone
+    // the whole of the accelerations is sought each time: forces follow them only through the stiffness in the matrix
     std::vector<double> right = out_of_balance(still, massless);
     if (!std::isfinite(largest(right))) throw SolutionFailure("the forces at the start are not finite");
     assembler_.projection(still, Assembler::Metric::dynamic, {}, assembler_.matrix(), give);
@@ -207,7 +207,7 @@ void Start::balance_accelerations(Configuration& c, int most_iterations, StartRe
   for (const auto& p : motion_.prescribed(c.time)) a[p.slot] = p.a;
   motion_.set_accelerations(a, c);
   double before = std::numeric_limits<double>::infinity();
-  // linear but for forces that follow the multipliers (|λ| of the separating force), hence a short iteration
+  // linear but for forces that depend on the multipliers (|λ| of the separating force), hence a short iteration
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     std::vector<double> right = out_of_balance(c, massless);
     const double size = largest(right);
@@ -222,7 +222,7 @@ void Start::balance_accelerations(Configuration& c, int most_iterations, StartRe
       continue;
     }
     before = size;
-    // without multipliers nothing in the matrix follows what is sought
+    // without multipliers nothing in the matrix depends on the unknowns
     if (iteration == 0 || !c.multipliers.empty()) assembler_.projection(c, Assembler::Metric::dynamic, {}, assembler_.matrix());
     const std::vector<double> change = solve_balance(right, c, massless);
     for (std::size_t i = 0; i < a.size(); ++i) a[i] += change[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joints that start where the deck says.
+// Joints whose initial values are given by the deck.
 #include "solve/constraints/start_coordinates.hpp"
 
 #include <fmt/format.h>
@@ -100,7 +100,7 @@ std::vector<StartCoordinates::Wanted> Start::undecided(const Configuration& c, c
     std::vector<double> gradient = coordinates_.gradient(c, *one.coordinate), response;
     std::vector<double> right = gradient;
     if (!solve(right, response)) return {};
-    // a row of Cholesky's factor of G D⁻¹ Gᵀ: its pivot is what those before it leave of this one
+    // a row of the Cholesky factor of G D⁻¹ Gᵀ: its pivot is what the rows before it leave of this one
     const auto row = static_cast<Eigen::Index>(free.size());
     const auto times = [&](const std::vector<double>& g) {
       double sum = 0;
@@ -125,7 +125,7 @@ bool Start::add_coordinates(const Configuration& c, const std::vector<StartCoord
   const auto n = static_cast<Eigen::Index>(wanted.size());
   const auto equations = static_cast<Eigen::Index>(step.size());
   const std::vector<double> missed = coordinates_.missed(c, wanted);
-  // the least step that also meets the coordinates: y + Z μ with B Z = 0, so that G (y + Z μ) = −missed
+  // the smallest step that also reaches the coordinates: y + Z μ with B Z = 0, so that G (y + Z μ) = −missed
   Eigen::MatrixXd gradients(equations, n), responses(equations, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     std::vector<double> right = coordinates_.gradient(c, *wanted[static_cast<std::size_t>(i)].coordinate), response;
@@ -145,7 +145,7 @@ void Start::move_coordinates(Configuration& c, StartReport& report) {
   if (asked.empty()) return;
   const std::vector<int> held = imposed(false);
   const std::vector<StartCoordinates::Wanted> free = undecided(c, asked, held);
-  // along the path on which they go from where they are in equal parts: a loop folds over on no such way
+  // all of them advance along a path by the same fraction: no loop folds over on such a path
   constexpr double longest = 0.2, shortest = 1e-4;
   std::vector<double> from;
   for (const StartCoordinates::Wanted& one : free) from.push_back(coordinates_.value(c, *one.coordinate));

@@ -16,24 +16,24 @@ struct StartReport {
   };
   struct Opened {
     int part = 0;
-    double length = 0, angle = 0;  ///< sizes of its open constraints before the assembly
+    double length = 0, angle = 0;  ///< violation of its constraints before the assembly
   };
 
   /// Assembly of positions.
   int position_iterations = 0;
-  int path_steps = 0;                    ///< of closing the gaps little by little; 0 when that was not needed
+  int path_steps = 0;                    ///< steps taken to close the gaps gradually; 0 if not needed
   std::vector<Moved> moved;              ///< nodes that moved or turned, the farthest first
-  std::vector<Opened> opened;            ///< joints that did not fit, the widest first
-  std::vector<std::string> coordinates;  ///< of joints that start where the deck says: "ANGLE of HINGE 2 = 30 deg"
+  std::vector<Opened> opened;            ///< joints that did not fit, the largest gap first
+  std::vector<std::string> coordinates;  ///< joint values set by the deck: "ANGLE of HINGE 2 = 30 deg"
   std::vector<std::string> remarks;      ///< on the branch that was reached
   double largest_move = 0;               ///< in the deck's unit of length
   double largest_turn = 0;               ///< radians
 
   /// Velocities.
   bool velocities_fitted = false;
-  double largest_velocity_change = 0;  ///< from the wished initial velocities, per unit of time
+  double largest_velocity_change = 0;  ///< from the given initial velocities, per unit of time
   std::string velocity_changed_most;   ///< "node 3 (x)"
-  std::string rate_violated_most;      ///< constraint that the wished velocities violated most; empty when none
+  std::string rate_violated_most;      ///< constraint most violated by the given velocities; empty if none
 
   /// Accelerations and multipliers.
   bool accelerations_found = false;
@@ -51,7 +51,7 @@ struct StartReport {
   std::string mobility;  ///< degrees of freedom and redundant constraints, as a paragraph
 };
 
-/// "node 3 (x)" of a motion slot of a node.
+/// Name of a node's motion slot: "node 3 (x)".
 std::string slot_name(const Model& model, std::size_t slot);
 
 /// The paragraphs of the listing and of `engrane check`.

@@ -19,9 +19,9 @@ namespace engrane::solve {
 
 namespace {
 
-/// Differences that the change of the tangent is found from: a first guess over H, and over the nearest buckling time.
+/// Finite-difference step for the change of the tangent: at first over H, then over the nearest buckling time.
 constexpr double first_step = 1e-3, good_step = 1e-2;
-/// Times that differ by so much with another difference are rounding.
+/// Times that change by more than this fraction with another difference are rounding.
 constexpr double same = 1e-3;
 constexpr int most_passes = 8;
 constexpr double precision = 1e-10;
@@ -72,7 +72,7 @@ class Problem {
     double time;
     std::vector<double> vector;  ///< by equation
   };
-  /// The nearest times, from the equilibrium's own, with their modes.
+  /// Nearest times, from the equilibrium's own, with their modes.
   std::vector<Pair> solve(int count) {
     Owned<Mat> shell;
     PetscInt local = 0, global = 0;
@@ -101,7 +101,7 @@ class Problem {
     for (PetscInt i = 0; i < converged && static_cast<int>(pairs.size()) < count; ++i) {
       PetscScalar value = 0, imaginary = 0;
       check_petsc(EPSGetEigenpair(eps, i, &value, &imaginary, real, nullptr));
-      // a pair of complex ones is no loss of stability at rest
+      // a complex pair is no loss of stability at rest
       if (value == 0 || imaginary != 0) continue;
       const auto all = context_.assembler.gather(real);
       pairs.push_back({-1 / value, {all.begin(), all.end()}});
@@ -119,7 +119,7 @@ class Problem {
     return 0;
   }
 
-  /// The equilibrium so much later, were everything to go on as it does.
+  /// The equilibrium later by `time`, if everything goes on as it does.
   const Configuration& moved(double time) {
     std::vector<double> y(context_.motion.size(), 0.0), step(along_.size());
     for (std::size_t i = 0; i < step.size(); ++i) step[i] = time * along_[i];

@@ -8,18 +8,18 @@
 
 namespace engrane::solve {
 
-/// A time of functions at which the tangent is singular, were it to go on changing as it does at one equilibrium.
+/// A load time at which the tangent is singular, if it goes on changing as it does at one equilibrium.
 struct BucklingMode {
   double load_time = 0;
   std::vector<Vec3> displacement;  ///< of each node, global; the largest component of all is 1
   std::vector<Vec3> rotation;      ///< of each node, global, in the same scale
-  std::string largest;             ///< components of the mode, by name
+  std::string largest;             ///< largest components of the mode, by name
 };
 
-/// Linearised buckling (`.BUCKLING`): the `count` times nearest to the equilibrium's own, in order of distance. K + θ K′ is
-/// singular there: K the tangent at the equilibrium, K′ its change with time along the tangent of the path, prestress,
-/// displacements, loads and reactions included. SLEPc finds the largest eigenvalues −1/θ of K⁻¹K′. Fewer where there are no more.
-/// Throws SolutionFailure where K is singular. Collective.
+/// Linearised buckling (`.BUCKLING`): the `count` load times nearest to that of the equilibrium at which K + θ K′ is singular,
+/// in order of distance. K is the tangent at the equilibrium, K′ its change with time along the tangent of the path, with
+/// prestress, displacements, loads and reactions. SLEPc finds the largest eigenvalues −1/θ of K⁻¹K′. Returns fewer if there are
+/// no more. Throws SolutionFailure if K is singular. Collective.
 std::vector<BucklingMode> find_buckling(SolverContext& context, const Configuration& equilibrium, int count);
 
 }  // namespace engrane::solve

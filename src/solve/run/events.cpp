@@ -11,27 +11,27 @@ namespace engrane::solve {
 
 namespace {
 
-/// A switch closer to zero than this part of its terms says nothing.
+/// A switch closer to zero than this fraction of its terms is at rounding level.
 constexpr double rounding = 1e-13;
-/// An event is met no more sharply than so many times the time in which its switch passes through rounding.
+/// An event is located no more sharply than this many times the time in which its switch passes through rounding.
 constexpr double blurs = 4;
-/// More events between two multiples of H than this are chattering: the law, not the motion, makes them.
+/// More events than this between two multiples of H are chattering, caused by the law and not by the motion.
 constexpr int most_events = 40;
-/// Bisections enough for any tolerance, and some attempts by extrapolation before them.
+/// Attempts by extrapolation, and all attempts: enough bisections for any tolerance.
 constexpr int quick_attempts = 6, most_attempts = 60;
-/// A step that does not converge is suspected to end at an event when the speeds at its beginning reach one in this many steps.
+/// A step that does not converge is suspected to end at an event if its initial speeds reach one within this many steps.
 constexpr double foreseen = 4;
-/// Attempts without a solution after which something else must be wrong.
+/// Number of attempts without a solution after which something else must be wrong.
 constexpr int most_failures = 30;
-/// The motion of switches is continued by no more than so many steps like the last.
+/// The motion of switches is extrapolated over at most this many steps like the last.
 constexpr double farthest = 3;
-/// Where no step tells how they move, motion with the accelerations of its beginning is looked at so many times in a step.
+/// If no step shows how they move, the motion with the accelerations of its beginning is sampled this many times in a step.
 constexpr int looks = 6;
-/// An event no farther behind the end of a step that was to meet it than this part of the step is met by another attempt.
+/// An event at most this fraction of a step behind the end of the step that was to meet it is met by another attempt.
 constexpr double near_miss = 0.25;
 
-/// A drift's error is a sixth of the cube of its part of a step, where that step changes accelerations by themselves. With this
-/// part of the cube root of TOL it is a fiftieth of TOL. Longer ones would pass more than one event.
+/// A drift's error is a sixth of the cube of its fraction of a step in which accelerations change by their own size. With this
+/// fraction of the cube root of TOL it is a fiftieth of TOL. Longer drifts would pass more than one event.
 constexpr double part_of_root = 0.5, longest_drift = 0.05;
 
 /// The cubic with values a, b and rates da, db at 0 and h: a + s (c1 + s (c2 + s c3)), s = t/h.
@@ -49,7 +49,7 @@ std::optional<double> first_descent(double a, double da, double b, double db, do
   if (a < -band) return 0.0;
   const Cubic p(a, da, b, db, h);
   const auto [c1, c2, c3] = std::tuple(p.c1, p.c2, p.c3);
-  // between its extremes, roots of c1 + 2 c2 s + 3 c3 s², the cubic is monotone
+  // between its extrema, roots of c1 + 2 c2 s + 3 c3 s², the cubic is monotone
   std::array<double, 4> knots{0, 1, 1, 1};
   std::size_t count = 1;
   const double discriminant = c2 * c2 - 3 * c1 * c3;
@@ -269,13 +269,13 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
   std::vector<Switch>& before = began_;
   std::vector<Switch> after;
   double ahead = 0;  // from `to` to the next event
-  // a step that ends within rounding of an event may have taken either law at its end: as good as past it
+  // a step that ends within rounding of an event may have used either law at its end, and counts as past it
   const auto change_within = [&](double h) {
     after = switches_.at(to);
     Switches::complete(before, after, h);
     ahead = switches_.time_to_change(after, tolerance_);
     const auto change = switches_.first_change(before, after, h);
-    // the cubic knows more than the rates at its end
+    // the cubic predicts better than the rates at its end
     if (!change && ahead > tolerance_ && ahead < h)
       if (const auto next = switches_.next_change(before, after, h, 2 * ahead)) ahead = *next;
     return change || ahead > 0.1 * tolerance_ ? change : h;
@@ -286,7 +286,7 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
     if (const auto seen = change_within(size)) {
       event = *seen;
     } else {
-      // a step that was to end just before an event has done so, or misses it by little
+      // a step that was to end just before an event has done so, or has narrowly missed it
       event = size + ahead;
       if (ahead > near_miss * size || event >= aimed_) return found;
       if (ahead <= reach(size)) {
@@ -320,7 +320,7 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
       coasted = true;
       event = shortest();
     }
-    // the step is to end before the event, where the law is still that of its beginning
+    // the step is to end before the event, where the law of its beginning still applies
     double size_tried = std::max(event - 0.5 * tolerance_, shortest());
     if (found.attempts >= quick_attempts || size_tried <= free || size_tried >= past) size_tried = 0.5 * (free + past);
     if (past - free <= 0.5 * tolerance_ || found.attempts == most_attempts) size_tried = free;

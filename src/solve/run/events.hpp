@@ -16,41 +16,40 @@ struct Event {
   bool rises = true;
 };
 
-/// The switches of all elements, and the side that each is on. Every rank computes the same, for every rank holds the whole
-/// configuration.
+/// The switches of all elements and their sides. Every rank holds the whole configuration and computes the same.
 class Switches {
  public:
   explicit Switches(SolverContext& context);
 
   bool empty() const { return places_.empty(); }
   std::vector<Switch> at(const Configuration& c) const;
-  /// The same for a configuration that a step begins in: as a rule that which take() has seen last.
+  /// The same at the beginning of a step: as a rule the values of the last take().
   std::vector<Switch> before(const Configuration& c) const;
 
-  /// Takes the sides of an accepted configuration and returns the switches that have changed. A value that is mere rounding
-  /// stays on the side it came from.
+  /// Takes the sides of an accepted configuration and returns the switches that have changed. A value at rounding level keeps
+  /// its side.
   std::vector<Event> take(const Configuration& c);
 
-  /// Takes the sides of the grips anew, which mean something else after their friction has come to rest or given way.
+  /// Determines the sides of the grips anew: their meaning changes when friction comes to rest or gives way.
   void renew(const Configuration& c);
 
-  /// The sides: 1, −1, or 0 of a switch that says nothing.
+  /// Sides: 1, −1, or 0 for a switch that has no meaning at present.
   const std::vector<int>& sides() const { return side_; }
 
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
 
-  /// Time from `from`, which is h before `to`, to the first change of a side: of the cubic that has the values and rates of both
-  /// ends, so that a phase which begins and ends within the step is seen.
+  /// Time from `from`, which is h before `to`, to the first change of a side, by the cubic with the values and rates at both
+  /// ends, so that a phase that begins and ends within the step is found.
   std::optional<double> first_change(const std::vector<Switch>& from, const std::vector<Switch>& to, double h) const;
-  /// Time from `to` to the first change after it, of the same cubics continued, within `ahead`.
+  /// Time from `to` to the first change after it, within `ahead`, by extrapolating the same cubics.
   std::optional<double> next_change(const std::vector<Switch>& from, const std::vector<Switch>& to, double h, double ahead) const;
-  /// Where a rate is unknown takes the slope of the chord from one to the other, h later, at both.
+  /// Replaces unknown rates (NaN) at both ends, h apart, by the slope of the chord.
   static void complete(std::vector<Switch>& from, std::vector<Switch>& to, double h);
-  /// Time from an instant to the next change of a side, as its values and rates foretell; infinite when none is near. What stays
-  /// within rounding of zero for longer than `tolerance` rests there: its side changes when it leaves.
+  /// Time to the next change of a side, as predicted by values and rates; infinite if none is near. A value that stays within
+  /// rounding of zero for longer than `tolerance` rests there: its side changes when it leaves.
   double time_to_change(const std::vector<Switch>& now, double tolerance) const;
-  /// How long the values of switches that are to change within `ahead` take to pass through their rounding: no event can be met
+  /// Longest time that switches about to change within `ahead` take to pass through their rounding: no event can be located
   /// more sharply.
   double blur(const std::vector<Switch>& now, double ahead) const;
 
@@ -60,37 +59,36 @@ class Switches {
     int part, index;
   };
   std::vector<Place> places_;
-  std::vector<int> side_;      ///< 1 or −1
-  std::vector<Switch> taken_;  ///< values that take() has seen last
+  std::vector<int> side_;      ///< 1, −1 or 0
+  std::vector<Switch> taken_;  ///< values at the last take()
   double taken_at_ = 0;
 };
 
-/// First t in [0, h] at which the cubic with values a, b and rates da, db at 0 and h is below −`band`, when there is one: the
-/// instant at which it passes −band.
+/// First t in [0, h] at which the cubic with values a, b and rates da, db at 0 and h falls below −`band`, if there is one.
 std::optional<double> first_descent(double a, double da, double b, double db, double h, double band);
 
-/// Ends steps at events. An event is met by a step that ends a little before it and a drift across it; steps are never
-/// shorter than `shortest()`, below which the inverse square of the step enlarges rounding: there it drifts. Controlled steps may
-/// end as far before it as a drift is more accurate than they are.
+/// Ends steps at events. An event is met by a step that ends a little before it and a drift across it. Steps are never shorter
+/// than `shortest()`, below which the inverse square of the step amplifies rounding; a drift takes their place. Controlled
+/// steps may end as far before an event as a drift is more accurate than they are.
 class EventLocator {
  public:
   EventLocator(SolverContext& context, Scheme& scheme);
 
   bool active() const { return active_; }
   double shortest() const { return 0.01 * step_; }
-  /// How far an event may be from the end of the step before it.
+  /// Largest time from the end of a step to the event that it is to meet.
   double tolerance() const { return tolerance_; }
 
-  /// Steps are of this length now.
+  /// Sets the present length of steps.
   void step_is(double step);
 
   Switches& switches() { return switches_; }
-  /// A new multiple of H is the aim, or a controlled step has met no event: the guard against chattering counts anew.
+  /// Resets the guard against chattering: steps aim at a new multiple of H, or a controlled step has met no event.
   void new_target() { located_ = 0; }
 
   struct Finding {
     enum class Kind {
-      none,   ///< no event in the step just tried: it stands
+      none,   ///< no event in the step just tried
       land,   ///< `to` ends a little before the event; then drift
       drift,  ///< the event is too near for a step: drift at once
       pass,   ///< the step passes over the event
@@ -101,42 +99,42 @@ class EventLocator {
     int attempts = 0;  ///< beyond the first
     std::optional<Outcome> outcome;
   };
-  /// How long a controlled step of at most `size` is to be tried: to the first event that the last step lets expect, a little
-  /// less than to there.
+  /// Returns the length to try for a controlled step of at most `size`: just short of the first event that is predicted by the
+  /// last step.
   double foresee(const Configuration& from, double size);
-  /// A step of `size` stands; what was seen at its beginning tells where the next event is. After drifts nothing does.
+  /// A step of `size` has been accepted: the switches at its beginning help to predict the next event.
   void stepped(double size) {
     before_ = began_;
     last_step_ = size;
   }
   void forget() { last_step_ = 0; }
-  /// After an attempt of `size` from `from` to `to`, converged or not.
+  /// Examines an attempt of `size` from `from` to `to`, converged or not.
   Finding inspect(const Configuration& from, double size, bool converged, Configuration& to);
 
-  /// The sides, and how often events were met on the way to the present multiple of H.
+  /// The sides, and how many events were located on the way to the present multiple of H, for a restart.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
 
-  /// Whether the guard has switched location off for the rest of the step; true once per run.
+  /// Whether the guard has switched off location for the rest of the step; true once per run.
   bool chatters();
 
  private:
-  /// Time to the first event within `size` as velocities and accelerations of `from` foretell it; `now`: the switches there.
+  /// Time to the first event within `size`, predicted by velocities and accelerations of `from`; `now`: the switches there.
   std::optional<double> coasting_change(const Configuration& from, std::vector<Switch> now, double size) const;
   /// How far before an event a step of `size` may end.
   double reach(double size) const;
-  /// How sharply events within `ahead` of these values are met.
+  /// Sets how sharply events within `ahead` of these values are located.
   void sharpen(const std::vector<Switch>& now, double ahead);
 
   Scheme& scheme_;
   Switches switches_;
   double step_, sharpness_, tolerance_ = 0;
-  double part_of_drift_ = 0;  ///< of a controlled step
+  double part_of_drift_ = 0;  ///< largest drift, over a controlled step
   bool active_ = false;
   std::vector<Switch> began_;   ///< at the beginning of the last attempt
-  std::vector<Switch> before_;  ///< at the beginning of the last step that stands
-  double last_step_ = 0;        ///< from there to the beginning of the next; 0: not known
-  double aimed_ = 0;            ///< the present attempt is to end near an event that was expected within so long; 0: it is not
+  std::vector<Switch> before_;  ///< at the beginning of the last accepted step
+  double last_step_ = 0;        ///< from there to the beginning of the next; 0: unknown
+  double aimed_ = 0;            ///< time within which an event was predicted that the present attempt is to end near; 0: none
   int located_ = 0;
   bool chattered_ = false, told_ = false;
 };

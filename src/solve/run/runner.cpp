@@ -14,16 +14,16 @@ namespace engrane::solve {
 
 namespace {
 
-/// With error control steps may be cut this much deeper than CUTS says.
+/// With error control steps may be cut by this many more halvings than CUTS says.
 constexpr int deeper = 20;
-/// A controlled step without a solution is cut to this part: equal steps of it do not end where it did, which may be a singular
-/// position. Halves would, again and again.
+/// A controlled step without a solution is cut to this fraction. Equal steps of it do not end where it did, which may be a
+/// singular position; halves would, again and again.
 constexpr double aside = 0.38;
-/// Part of the run below which two corners of functions of time count as one.
+/// Fraction of the run below which two corners of functions of time count as one.
 constexpr double shortest_way = 1e-9;
-/// A drift across an event is certain to be still before it this many of the locator's tolerances before its end.
+/// A drift across an event is certainly still before it this many of the locator's tolerances before its end.
 constexpr double crossing = 1.5;
-/// Part of H below which reactions would carry visible noise of rounding.
+/// Fraction of H below which reactions would show the noise of rounding.
 constexpr double noisy = 0.1;
 
 std::string failure_text(SolverContext& context, const Configuration& tried, const NewtonReport& report, int number, int cuts) {
@@ -35,7 +35,7 @@ std::string failure_text(SolverContext& context, const Configuration& tried, con
     text += report.reason;
   else if (report.singular)
     return explain_singular(context.assembler, text + report.reason + cut,
-                            context.options.moves() ? Resistance::in_motion : Resistance::at_rest);  // with advice at its end
+                            context.options.moves() ? Resistance::in_motion : Resistance::at_rest);  // ends with advice
   else if (const std::string where = explain_residual(context.assembler, tried, report); !where.empty())
     text += report.reason + "; " + where;
   else
@@ -43,7 +43,7 @@ std::string failure_text(SolverContext& context, const Configuration& tried, con
   return text + cut;
 }
 
-/// How many halvings of H a step is. Steps of equal parts of what is left are some hundredths longer than the halvings.
+/// Number of halvings of H that make a step. Steps that divide the rest equally are some hundredths longer than the halvings.
 int depth_of(double size, double step) { return static_cast<int>(std::floor(std::log2(step / size) + 0.1)); }
 
 }  // namespace
@@ -60,7 +60,7 @@ Runner::Runner(SolverContext& context, Scheme& scheme)
 bool Runner::run(const Observer& observer, const std::function<void(const StartReport&)>& started) {
   observer_ = &observer;
   started(scheme_.start(now_));
-  // the start solved with matrices of other kinds; the steps deserve their own analysis
+  // the start used matrices of other kinds; the steps need their own analysis
   if (!context_.newton.keeps_one_tangent()) context_.solver.reset();
   context_.assembler.commit(now_);
   if (locator_.active()) locator_.switches().take(now_);
@@ -133,7 +133,7 @@ bool Runner::march() {
   const double begin = options_.begin, end = options_.end, step = options_.step;
   if (control_.active()) {
     for (const double corner : context_.model.corners(now_.time, end)) {
-      // a step that ends at a jump must not know what follows
+      // a step that ends at a jump must not see what follows
       const bool jumps = scheme_.meets_events() && context_.model.jumps_at(corner);
       const double before = jumps ? std::nextafter(corner, begin) : corner, least = shortest_way * (end - begin);
       const bool there = jumps && now_.time == before;  // where a resumed run begins
@@ -147,7 +147,7 @@ bool Runner::march() {
     corner_.reset();
     return now_.time >= end || reach(end);
   }
-  // a last step shorter than a billionth of the others is the rounding of their sum
+  // a last step shorter than a billionth of the others is the rounding error of their sum
   const auto steps = static_cast<long long>(std::ceil((end - begin) / step * (1 - 1e-9)));
   const auto done = static_cast<long long>(std::floor((now_.time - begin) / step * (1 + 1e-15)));
   for (long long k = std::max(1LL, done); k <= steps; ++k) {
@@ -164,7 +164,7 @@ double Runner::next_size(double left) const {
 }
 
 bool Runner::reach(double target) {
-  // a resumed run is on its way to a target already
+  // a resumed run may have a drift to make first
   if (pending_drift_ > 0 && !drift(std::exchange(pending_drift_, 0), target)) return false;
   while (now_.time < target) {
     const double left = target - now_.time;
@@ -183,13 +183,13 @@ bool Runner::reach(double target) {
     if (found.outcome) outcome = std::move(*found.outcome);
     if (found.kind == Kind::drift) {
       if (const double way = before_event(found.drift); way > 0 && scheme_.drift_error(now_, way) > 1) {
-        // it moves otherwise than when the step was chosen, as after a jump of a force: a shorter step gets there
+        // the motion has changed since the step was chosen, as after a jump of a force: a shorter step gets there
         if (control_.active()) {
           ++step_.cuts;
           h_ = found.drift;
           continue;
         }
-        // what is stiff does not bear a drift: a step as short as steps can be passes over the event
+        // a drift is too inaccurate for what is stiff: a step of the shortest length passes over the event
         size = locator_.shortest();
         outcome = scheme_.attempt(now_, size, next_);
         if (outcome.converged()) found.kind = Kind::pass;
@@ -197,7 +197,7 @@ bool Runner::reach(double target) {
     }
     const NewtonReport& report = outcome.newton;
     if (!report.converged && found.kind != Kind::drift) {
-      // other constraints may depend on the rest here than did at the start
+      // other constraints may be redundant here than at the start
       if (renew(report)) continue;
       control_.refused();
       cut(size, (control_.active() ? aside : 0.5) * size, report);
@@ -211,15 +211,15 @@ bool Runner::reach(double target) {
       continue;
     }
     if (found.kind != Kind::drift) {
-      if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // no drift from the sums of h
+      if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // avoids rounding accumulated in sums of h
       scheme_.accept();
       locator_.stepped(size);
       std::swap(now_, next_);
-      // the inverse square of a short step enlarges rounding in accelerations and multipliers: they are found anew
+      // the inverse square of a short step amplifies rounding in accelerations and multipliers: they are computed anew
       if (locator_.active() && size < noisy * (control_.active() ? h_ : options_.step)) scheme_.drift(now_, 0);
       using Landing = StepControl::Landing;
       const Landing landing = found.kind != Kind::land ? Landing::none : found.attempts > 0 ? Landing::sought : Landing::foreseen;
-      // back to the asked step as soon as it goes
+      // back to the step asked for as soon as possible
       h_ = control_.active() ? control_.after(size, error, h_, landing) : std::min(options_.step, 2 * h_);
       step_.newton = &report;
       if (control_.active() && found.kind == Kind::none) locator_.new_target();
@@ -241,7 +241,7 @@ double Runner::before_event(double drift) const {
   return before > locator_.tolerance() ? before : 0;
 }
 
-/// Over an event, and to the target if a step would be too short to get there.
+/// Drifts across an event, and on to the target if a step would be too short to get there.
 bool Runner::drift(double time, double target) {
   const double left = target - now_.time;
   const bool arrives = left - time < locator_.shortest();

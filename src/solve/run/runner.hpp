@@ -10,17 +10,17 @@
 
 namespace engrane::solve {
 
-/// What the run tells about each accepted step.
+/// Report on each accepted step.
 struct StepReport {
   int number = 0;       ///< from 1; 0 is the start
   double step = 0;      ///< h
   int cuts = 0;         ///< failed attempts before this one
   bool corner = false;  ///< a function of time has a corner at the end of the step
-  bool regular = true;  ///< false: the step ended for an event, not where a multiple of H or a cut asks for it
-  /// Gives the motion within the step; only with a tolerance, and empty where the step is but a drift across an event.
+  bool regular = true;  ///< false: the step ended for an event, not at a multiple of H or after a cut
+  /// Returns the motion within the step; set with a tolerance only, and empty if the step is but a drift across an event.
   std::function<std::unique_ptr<Within>()> within;
   int locating = 0;           ///< attempts spent on locating an event before this step
-  bool chatter = false;       ///< the first time that events come too thick to be located
+  bool chatter = false;       ///< first time that events are too dense to be located
   std::vector<Event> events;  ///< that happened in this step
   const NewtonReport* newton = nullptr;
   bool last = false;               ///< the run is over
@@ -30,42 +30,42 @@ struct StepReport {
 /// Called with the start and every accepted step; false ends the run early.
 using Observer = std::function<bool(const Configuration&, const StepReport&)>;
 
-/// Goes from the start to the end of `.SUB`: cuts steps that fail, lets them grow again, ends them at events and at the
-/// multiples of H. Where a tolerance is asked for, steps follow their errors, and who observes may ask for instants between.
+/// Advances from the start to the end of `.SUB`: cuts steps that fail, lets them grow again, and ends them at events and at
+/// multiples of H. With a tolerance steps are controlled by their error, and observers may ask for instants in between.
 class Runner {
  public:
   Runner(SolverContext& context, Scheme& scheme);
 
-  /// Starts, and runs to the end. Throws SolutionFailure when cutting does not help; false when the observer ended it.
+  /// Starts, and runs to the end; false if the observer ended it. Throws SolutionFailure if step cuts do not help.
   bool run(const Observer& observer, const std::function<void(const StartReport&)>& started);
-  /// Goes on from a snapshot that save() made; the observer sees the steps after it.
+  /// Continues from a snapshot made by save(); the observer sees the steps after it.
   bool resume(const Snapshot& snapshot, const Observer& observer);
 
-  /// The last accepted configuration and everything that the steps after it depend on. May be called by the observer, and
-  /// after run() has returned or thrown.
+  /// Saves the last accepted configuration and everything that later steps depend on. May be called by the observer, and after
+  /// run() has returned or thrown.
   void save(Snapshot& snapshot) const;
   const Configuration& now() const { return now_; }
   const SolverOptions& options() const { return options_; }
-  /// Accepted since it started or was resumed.
+  /// Number of steps accepted since the run started or was resumed.
   long steps() const { return step_.number - resumed_at_; }
   bool started() const { return started_; }  ///< now() is an accepted configuration
 
  private:
   bool march();
   bool reach(double target);
-  /// Along the scheme's own course.
+  /// Advances along the scheme's own path (Scheme::course()).
   bool follow();
   bool over() const;
-  /// Looks at the constraints again after an attempt that failed; true where that changes them.
+  /// Analyses the constraints again after a failed attempt; true if that changes them.
   bool renew(const NewtonReport& report);
   bool drift(double time, double target);
-  /// Of a drift over an event the part before it, under the law that has held so far; 0: all is too short to be divided.
+  /// The part of a drift that lies before the event, under the present force law; 0: too short to be divided.
   double before_event(double drift) const;
-  /// now_ is accepted: by a step that was `solved`, which next_ began, or by a drift.
+  /// Processes a newly accepted now_: of a step (`solved`), whose beginning is next_, or of a drift.
   bool accepted(double size, bool regular, bool solved);
-  /// The step that an attempt towards a point `left` ahead takes: equal parts of it, as long as h_ allows.
+  /// Length of an attempt towards a point `left` ahead: equal parts of it, as long as h_ allows.
   double next_size(double left) const;
-  /// Prepares the next attempt, of `shorter`, after one of `size` that failed; throws when there have been too many.
+  /// Prepares the next attempt, with `shorter`, after a failed one of `size`; throws after too many cuts.
   void cut(double size, double shorter, const NewtonReport& report);
 
   SolverContext& context_;
@@ -78,10 +78,10 @@ class Runner {
   std::vector<double> ended_;  ///< scalars of now_ before whole turns were counted
   double h_;
   bool started_ = false;
-  int resumed_at_ = 0;            ///< number of the step after which it was
-  bool renewed_ = false;          ///< constraints have been analysed anew on the way to the present target
-  std::optional<double> corner_;  ///< of a function of time, that is being approached
-  double pending_drift_ = 0;      ///< time to drift over the event that the last step has landed before
+  int resumed_at_ = 0;            ///< number of the step after which the run was resumed
+  bool renewed_ = false;          ///< constraints have been analysed again on the way to the present target
+  std::optional<double> corner_;  ///< corner of a function of time that is being approached
+  double pending_drift_ = 0;      ///< time to drift across the event just before which the last step ended
   StepReport step_;
 };
 

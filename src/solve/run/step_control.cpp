@@ -9,16 +9,16 @@ namespace engrane::solve {
 
 namespace {
 
-/// Part of the step that would just pass, so that most do.
+/// Fraction of the step that would just pass, so that most steps do.
 constexpr double safety = 0.9;
 constexpr double most_growth = 2, most_cut = 0.2;
-/// Steps that would grow by less stay.
+/// Steps that would grow by less are kept.
 constexpr double worthwhile = 1.2;
-/// An error is taken to be no less than this part of what the step before lets expect.
+/// Least error assumed, as a fraction of what the step before predicts.
 constexpr double fading = 0.8;
-/// Errors below this part of the tolerance are nothing.
+/// Errors below this fraction of the tolerance count as none.
 constexpr double least_error = 1e-6;
-/// Steps behind events are kept for no more combinations of sides.
+/// Largest number of combinations of sides for which steps after events are kept.
 constexpr std::size_t most_sides = 1000;
 
 }  // namespace
@@ -34,7 +34,7 @@ double StepControl::after(double size, double error, double asked, Landing landi
 }
 
 void StepControl::remember(double size, double step, Landing landing) {
-  // one that ended where the event was expected says nothing against longer ones, and nothing for them
+  // a step that ended where the event was predicted says nothing for or against longer ones
   const auto [known, first] = steps_.try_emplace(entered_, landing == Landing::none ? step : worthwhile * size);
   if (first || landing == Landing::foreseen) return;
   known->second = std::min(worthwhile * (landing == Landing::none ? known->second : size), step);
@@ -50,8 +50,8 @@ double StepControl::next(double size, double error, double asked) {
   error = std::max(error, least_error);
   // where the estimate passes through zero the error does not
   if (size_before_ > 0) error = std::max(error, fading * error_before_ * std::pow(size / size_before_, order_));
-  // what the error itself asks for, and what the way it has changed since the step before foretells (Hairer and Wanner, Solving
-  // Ordinary Differential Equations II, 1996, IV.8.25)
+  // what the error itself asks for, and what its change since the step before predicts (Hairer and Wanner, Solving Ordinary
+  // Differential Equations II, 1996, IV.8.25)
   double factor = safety * std::pow(error, -1 / order_);
   if (size_before_ > 0)
     factor = std::min(factor, safety * size / size_before_ * std::pow(error_before_ / (error * error), 1 / order_));
@@ -59,7 +59,7 @@ double StepControl::next(double size, double error, double asked) {
   size_before_ = size;
   const bool grow = !std::exchange(refused_, false);
   const double found = size * std::clamp(factor, most_cut, grow ? most_growth : 1.0);
-  // a step cut short tells little of those that are not
+  // a step cut short says little about those that are not
   if (size < asked && error <= 1) return std::min(std::max(found, asked), longest_);
   const bool stay = factor < worthwhile && error <= safety;
   return std::min(stay ? std::max(size, asked) : found, longest_);

@@ -15,28 +15,28 @@ namespace engrane::solve {
 
 namespace {
 
-/// Difference by which changes of forces with the loads' time are found, over H.
+/// Finite-difference step, in load time over H, for the change of forces with the load time.
 constexpr double load_step = 1e-4;
-/// Where Newton's method takes more iterations the next step is half as long. Below that they do not count: they change by one
-/// with the last digit, and steps with them.
+/// If Newton's method takes more iterations, the next step is half as long. Fewer do not count: their number changes by one
+/// with the last digit, and steps would change with it.
 constexpr int most_iterations = 12;
-/// Angle that a step of the path is to turn by, and may.
+/// Angle by which a step of the path should turn, and by which it may.
 constexpr double wished_turn = 6 * std::numbers::pi / 180, most_turn = 45 * std::numbers::pi / 180;
 constexpr double longest_step = 0.1;
-/// A corner of the path turns however short the step is.
+/// Fraction of H below which a step may turn by any angle: at a corner the path turns however short the step is.
 constexpr double corner = 1.0 / 128;
-/// A path without an end of its own is given up after so many steps.
+/// Number of steps after which a path without an end of its own is given up.
 constexpr int most_steps = 10000;
-/// Bifurcations are sought to this part of the least eigenvalue, nothing to less than that part of a step. Nearer to a
-/// bifurcation what Newton's method leaves of forces is a visible displacement along the mode.
+/// Bifurcations are located to this fraction of the least eigenvalue, and nothing to less than that fraction of a step. Nearer
+/// to a bifurcation what Newton's method leaves of forces is a visible displacement along the mode.
 constexpr double sharp = 1e-4, narrow = 1e-9;
-/// Where it does, the next trial is nearer to the beginning by a part of the way.
+/// If there is no solution, the next trial is nearer to the beginning by this fraction of the way.
 constexpr double aside = 1e-3;
 constexpr int most_nearer = 4;
-/// A value that small counts where the point lies between ends so near to each other.
+/// A small value is accepted only if the bracket is shorter than this fraction of the step.
 constexpr double near = 0.1;
 constexpr int most_trials = 60;
-/// Inverse iterations for the least eigenvalue, and where they end: vectors are off by the root of that.
+/// Inverse iterations for the least eigenvalue, and the change at which they end: vectors are off by its square root.
 constexpr int most_turns = 30;
 constexpr double settled = 1e-15;
 
@@ -155,7 +155,7 @@ void ArcLength::complete(Vec x, Vec step) {
   check_petsc(VecDot(plane_, x, &at));
   check_petsc(VecDot(plane_, step, &by));
   check_petsc(VecDot(plane_, toward_, &with));
-  // with Δ of the loads' time x changes by −step − Δ toward
+  // a change Δ of the load time changes x by −step − Δ toward
   const double change = (at - by - aim_) / with;
   if (!std::isfinite(change)) return;
   now_ += change;
@@ -185,7 +185,7 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
     return {std::move(report), {}};
   }
   const double growth = report.iterations > most_iterations ? 0.5 : std::clamp(wished_turn / turn, 0.5, 2.0);
-  // the loads' time changes by a part of the run's at most
+  // the load time changes by a fraction of the run's at most
   const double longest = longest_step * (context_.options.end - context_.options.begin) / std::abs(there_.load);
   next_course_.next = std::min(growth * h, longest);
   find_goal(from, h, to, there_);
@@ -217,14 +217,14 @@ ArcLength::Bracket ArcLength::locate(const Configuration& from, double& h, Confi
   double low = 0, high = h, at_low = first, at_high = found.behind.value;
   int side = 0;
   for (int trial = 0; trial < most_trials && high - low > narrow * whole; ++trial) {
-    // the false position; an end that stays twice counts half (Illinois). The least eigenvalue at an end may be another one than
-    // that which changes its sign: every third time the middle
+    // regula falsi; the value of an end that stays twice is halved (Illinois). The least eigenvalue at an end may be another
+    // one than that which changes its sign: every third trial bisects
     double h_try = high - at_high * (high - low) / (at_high - at_low);
     if (!(h_try > low && h_try < high) || trial % 3 == 2) h_try = 0.5 * (low + high);
     Configuration tried;
     Point point;
     bool solved = false;
-    // next to a bifurcation the tangent may be too near to singular
+    // next to a bifurcation the tangent may be too close to singular
     for (int nearer = 0; !solved && nearer < most_nearer; ++nearer, h_try -= aside * (h_try - low))
       if (follow(from, h_try, tried).converged && examine(tried, &here_, point)) {
         solved = true;
@@ -255,7 +255,7 @@ void ArcLength::find_critical(const Configuration& from, double& h, Configuratio
   const int before = here_.negative;
   const auto value = [&](const Configuration&, const Point& point) {
     if (limit) return point.load;
-    // the least eigenvalue, with a sign that tells the side
+    // the least eigenvalue, with a sign for the side
     const double size = std::abs(least_mode().eigenvalue);
     return point.negative == before ? size : -size;
   };
@@ -267,13 +267,13 @@ void ArcLength::find_critical(const Configuration& from, double& h, Configuratio
     if (!examine(to, &here_, there)) return;  // the factors are of the end again
   }
   const Bracket bracket = locate(from, h, to, there, first, limit ? narrow : sharp, value);
-  // where the search has ended its last factors may be of an attempt that failed
+  // the last factors of the search may belong to a failed attempt
   if (!examine(to, &here_, there)) return;
   const Mode mode = least_mode();
   CriticalPoint point;
   point.kind = limit ? CriticalPoint::Kind::limit : CriticalPoint::Kind::bifurcation;
   point.load_time = to.load_time();
-  if (limit)  // passed, whichever side of it the last trial came to; the other end of the bracket may be far behind
+  if (limit)  // passed, whichever side the last trial ended on; the other end of the bracket may be far behind
     there.load = std::copysign(there.load, bracket.behind.point.load);
   else
     point.load_time = std::lerp(bracket.before.load_time, bracket.behind.load_time,
@@ -284,14 +284,14 @@ void ArcLength::find_critical(const Configuration& from, double& h, Configuratio
   there.negative = bracket.behind.point.negative;
   if (!limit && ++next_bifurcations_ == context_.options.path.branch) point.switched = take_branch(mode, there);
   next_course_.critical = std::move(point);
-  next_course_.arrived = false;  // that was behind it
+  next_course_.arrived = false;  // that was beyond it
 }
 
 ArcLength::Mode ArcLength::least_mode() {
   const auto equations = weights_.size();
   Mode mode;
   mode.vector.resize(equations);
-  // no motion is without a part in it
+  // has a component in every motion
   for (std::size_t i = 0; i < equations; ++i) mode.vector[i] = weights_[i] > 0 ? probe_value(i) : 0;
   std::vector<double> right(equations);
   for (int turn = 0; turn < most_turns; ++turn) {

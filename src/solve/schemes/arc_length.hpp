@@ -10,13 +10,14 @@
 
 namespace engrane::solve {
 
-/// A path of equilibria followed by its length (`.PATH`): the loads' time is one more unknown, and may fall. Configuration::time
-/// is the length s of the path. Displacements are measured by their root of a sum of squares, translations over the extent of the
-/// model and rotations in radians, in such a unit that at the start s passes as the loads' time does.
+/// A path of equilibria followed by its length (`.PATH`): the load time is one more unknown, and may decrease.
+/// Configuration::time is the length s of the path. Displacements are measured by the root of their sum of squares,
+/// translations over the extent of the model and rotations in radians, in a unit in which s increases as fast as the load time
+/// at the start.
 ///
-/// A step begins on the tangent and stays in the plane across its end (Riks 1979, Int. J. Solids Struct. 15; Keller 1977). At its
-/// end the tangent matrix is factored anew: the number of its negative eigenvalues tells whether the step has passed a critical
-/// point, which is then sought, and its eigenvector of the least eigenvalue is the mode there.
+/// A step begins on the tangent and stays in the plane normal to it at its end (Riks 1979, Int. J. Solids Struct. 15; Keller
+/// 1977). There the tangent matrix is factored anew: the number of its negative eigenvalues shows whether the step has passed a
+/// critical point. This point is then located, and the eigenvector of the smallest eigenvalue is the mode there.
 class ArcLength final : public Statics, private Border {
  public:
   explicit ArcLength(SolverContext& context);
@@ -29,20 +30,20 @@ class ArcLength final : public Statics, private Border {
   void load(const Snapshot& snapshot) override;
 
  private:
-  /// What is known of an equilibrium.
+  /// Data of an equilibrium.
   struct Point {
     std::vector<double> way;  ///< tangent of the path, by equation (multipliers scaled), over its length
-    double load = 1;          ///< the same of the loads' time
+    double load = 1;          ///< the same of the load time
     int negative = 0;         ///< TangentFactors::negative()
     bool symmetric = true;
   };
-  /// The least eigenvalue of the tangent in size, with the weights of the length, and its vector by equation.
+  /// The eigenvalue of the tangent of least magnitude, with the weights of the length, and its vector by equation.
   struct Mode {
     double eigenvalue = 0;
     std::vector<double> vector;
   };
 
-  /// What a point that is sought lies between.
+  /// Bracket of a point that is sought.
   struct Bracket {
     struct Side {
       Point point;
@@ -50,48 +51,48 @@ class ArcLength final : public Statics, private Border {
     } before, behind;
   };
 
-  /// The equilibrium at the length h from the one of here_.
+  /// Finds the equilibrium at the length h from that of here_.
   NewtonReport follow(const Configuration& from, double h, Configuration& to);
   void complete(Vec x, Vec step) override;
-  /// The tangent at an equilibrium, on from `before` (nullptr: loads grow); false where the matrix is singular.
+  /// Finds the tangent at an equilibrium, onwards from `before` (nullptr: loads grow); false if the matrix is singular.
   bool examine(const Configuration& c, const Point* before, Point& point);
-  /// Of the matrix examined last.
+  /// Mode of the matrix examined last.
   Mode least_mode();
-  /// Of vectors by equation, with the weights of the length.
+  /// Inner product of vectors by equation, with the weights of the length.
   double product(std::span<const double> a, std::span<const double> b) const;
   double length(std::span<const double> way) const;
-  /// Between the directions at two points, the loads' time counted as the length is at the start.
+  /// Cosine between the directions at two points; the load time counts as the length does at the start.
   double cosine(const Point& a, const Point& b) const;
-  /// Ends the step where `value` is zero, to a part of its larger end; it is `first` at the beginning and has another sign at the
-  /// end.
+  /// Ends the step where `value` is zero, to the fraction `precision` of its larger end value. `first`: the value at the
+  /// beginning, of the opposite sign to that at the end.
   Bracket locate(const Configuration& from, double& h, Configuration& to, Point& there, double first, double precision,
                  const std::function<double(const Configuration&, const Point&)>& value);
   /// What ends the path, as numbers.
   std::vector<double> goal() const;
-  /// Ends a step that passes a critical point there.
+  /// Ends a step that passes a critical point at that point.
   void find_critical(const Configuration& from, double& h, Configuration& to, Point& there);
-  /// Ends a step that passes what the deck asks for there.
+  /// Ends a step that passes the deck's goal at that goal.
   void find_goal(const Configuration& from, double& h, Configuration& to, Point& there);
-  /// Turns the direction at a bifurcation to the mode; returns the displacement that the next step begins with.
+  /// Sets the direction at a bifurcation to the mode; returns the displacement with which the next step begins.
   double take_branch(const Mode& mode, Point& there);
-  /// Directions in which the equilibrium is unstable; of an unsymmetric tangent 1 for an odd number of them, else 0.
+  /// Number of directions in which the equilibrium is unstable; of an unsymmetric tangent 1 if the number is odd, else 0.
   int unstable(const Point& point) const;
 
   TangentFactors factors_;
   LoadDerivative load_derivative_;
-  Owned<Vec> load_, toward_, right_;  ///< change of the residual with the loads' time, solutions, right sides
+  Owned<Vec> load_, toward_, right_;  ///< derivative of the residual by the load time, solutions, right sides
   std::vector<double> weights_;       ///< of the length, by equation
   double unit_ = 1;                   ///< of the length
-  Point here_, there_;                ///< where the path has got to, and the end of the last attempt
+  Point here_, there_;                ///< present point of the path, and the end of the last attempt
   int bifurcations_ = 0, next_bifurcations_ = 0, steps_ = 0;
   bool branching_ = false;  ///< the next step leaves a bifurcation along its mode
   double branch_step_ = 0;
   Course course_, next_course_;
-  // of one solution by Newton's method
+  // for one solution by Newton's method
   Configuration* work_ = nullptr;
-  double now_ = 0;    ///< loads' time
-  double aim_ = 0;    ///< what plane_ times the displacements is to be
-  Owned<Vec> plane_;  ///< weights times the direction at the beginning
+  double now_ = 0;    ///< load time
+  double aim_ = 0;    ///< required product of plane_ with the displacements
+  Owned<Vec> plane_;  ///< weights times the direction at the beginning of the step
 };
 
 }  // namespace engrane::solve

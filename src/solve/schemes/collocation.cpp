@@ -34,8 +34,8 @@ Collocation Collocation::radau() {
   }
   r.untransform = r.transform.inverse();
 
-  // weights b̂ with Σ b̂_i c_i^(k−1) = 1/k for k = 1 to s, the first of them together with that of the beginning: the real
-  // eigenvalue of a, which that choice of IV.8 makes damp what is stiff
+  // weights b̂ with Σ b̂_i c_i^(k−1) = 1/k for k = 1 to s; the first sum includes the weight of the beginning, the real
+  // eigenvalue of a, a choice of IV.8 that damps stiff components
   for (const Block& block : r.blocks)
     if (!block.complex()) r.embedded_first = 1 / block.alpha;
   Eigen::VectorXd conditions(stages);

@@ -86,7 +86,7 @@ void CoupledStages::assemble(const std::vector<Configuration>& places, const std
   check_petsc(MatGetOwnershipRange(matrices_.front().stiffness, &begin, &end));
   std::vector<double> values;
   for (PetscInt row = begin; row < end; ++row) {
-    const bool constraint = numbering.unknown(static_cast<int>(row)).multiplier;  // it is of positions of one stage
+    const bool constraint = numbering.unknown(static_cast<int>(row)).multiplier;  // it depends on positions of one stage only
     for (Eigen::Index i = 0; i < stages; ++i) {
       const RowOfStage from(matrices_[static_cast<std::size_t>(i)], row);
       values.clear();

@@ -13,20 +13,20 @@
 
 namespace engrane::solve {
 
-/// The linear systems of Newton's iteration on all stages of a collocation step, each stage with the tangents of its own place
-/// (Hairer and Wanner, Solving Ordinary Differential Equations II, 1996, IV.8). With increments y_i, velocities
+/// Linear systems of Newton's iteration on all stages of a collocation step, each stage with the tangents of its own
+/// configuration (Hairer and Wanner, Solving Ordinary Differential Equations II, 1996, IV.8). With increments y_i, velocities
 /// v_i = T(y_i) Σ_j (A⁻¹)_ij y_j/h and accelerations a_i = Σ_j (A⁻¹)_ij (v_j − v_0)/h the change of y_j enters the balance of
-/// stage i by δ_ij K_i + C_i ∂v_i/∂y_j + M_i ∂a_i/∂y_j: convergence is quadratic. It costs several times what StageSolver does
-/// and is asked where that does not converge: where tangents differ much along a step, and where constraints lose their rank
-/// within it, which are then closed by corrections of the other sign than before.
+/// stage i by δ_ij K_i + C_i ∂v_i/∂y_j + M_i ∂a_i/∂y_j, so that convergence is quadratic. It costs several times as much as
+/// StageSolver and is used where that does not converge: where tangents differ much along a step, and where constraints lose
+/// rank within it and are then closed by corrections of the opposite sign.
 class CoupledStages {
  public:
   CoupledStages(Assembler& assembler, const Collocation& collocation, const std::string& package);
 
-  /// Before the first solution of a step, which owes nothing to those of other steps: a run that is continued has every bit.
+  /// Call before the first solution of a step. Nothing is kept from other steps, so that a continued run gives the same bits.
   void begin();
-  /// Changes of all stages' unknowns that bring the residuals to zero, one vector for each stage, for a step of h with stages at
-  /// `places`, `increments` (by motion slot) from its beginning; false when singular. Residuals are overwritten.
+  /// Finds the changes of all stages' unknowns that bring the residuals to zero, one vector for each stage, for a step of h
+  /// with stages at `places`, `increments` (by motion slot) from its beginning; false if singular.
   bool solve(const std::vector<Configuration>& places, const std::vector<std::vector<double>>& increments, double h,
              const std::vector<Owned<Vec>>& residuals, const std::vector<Owned<Vec>>& changes);
 

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
-/// A drift between fixed steps takes accelerations for constant. Those that follow positions may change the velocity of a
-/// coordinate by this part of what the drift itself does, which is so where something vibrates five times in a step and the drift
-/// is as long as drifts are; what is below this part of the fastest of its kind is rounding.
+/// A drift between fixed steps takes accelerations as constant. Accelerations that depend on positions may change the velocity
+/// of a coordinate by this fraction of what the drift itself does; a vibration with five periods in a step reaches it in the
+/// longest drift. Velocities below the fraction `no_speed` of the fastest of their kind are rounding.
 constexpr double most_change = 0.3, no_speed = 1e-9;
 
 }  // namespace
@@ -81,8 +81,8 @@ const MasslessMotions* Dynamics::massless_at(const Configuration& c) {
 }
 
 void Dynamics::drift(Configuration& c, double h) {
-  // Heun's step. Both accelerations fit the constraints, so their mean does; the constraints open by a third of the cube of
-  // a hundredth of a step at most, and the next step closes them.
+  // Heun's step. Both accelerations satisfy the constraints, so their mean does. The constraints open by at most a third of the
+  // cube of a hundredth of a step, and the next step closes them.
   const auto before = context_.motion.accelerations(c);
   c = glide(c, h);
   const MasslessMotions* massless = massless_at(c);
@@ -111,7 +111,7 @@ double Dynamics::drift_error(const Configuration& c, double h) {
 
 double Dynamics::stiff_drift(const Configuration& c, double h) {
   Configuration moved = glide(c, h), still = c;
-  still.time = moved.time;  // what loads change by themselves a drift follows
+  still.time = moved.time;  // a drift does follow changes of the loads themselves
   const MasslessMotions* massless = massless_at(c);
   context_.start.balance_accelerations(moved, 2, nullptr, massless);
   context_.start.balance_accelerations(still, 2, nullptr, massless);
@@ -145,7 +145,7 @@ void Dynamics::take_over(Configuration& c) {
 }
 
 void Dynamics::refine_grips(Configuration& c) {
-  // multipliers of a step are those of the balance between its ends; the force at which a grip gives way is that of its end
+  // multipliers of a step balance it between its ends; whether a grip gives way depends on the force at its end
   Configuration balanced = c;
   context_.start.balance_accelerations(balanced, 3, nullptr, massless_at(c));
   c.multipliers = std::move(balanced.multipliers);
@@ -185,7 +185,7 @@ bool Dynamics::counts(std::span<const double> changes, double scale, std::span<c
 bool Dynamics::constrained() const { return context_.numbering.slots() > context_.numbering.motion_slots(); }
 
 void Dynamics::scale_for(const Configuration& c, double h, Weights weights) {
-  // controlled steps of many lengths are made with the same matrices (KeptMatrices), which belong to one scale
+  // controlled steps of many lengths share matrices (KeptMatrices), which belong to one scale
   const double far = error_.wanted() ? 10 : 3;
   if (far * h > scaled_for_ && h < far * scaled_for_) return;
   context_.assembler.choose_scale(c, weights, context_.options.scale);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The start of dynamics: positions, velocities and accelerations that fit, of what has mass and of what has none.
+// The start of dynamics: consistent positions, velocities and accelerations, with and without mass.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,9 +42,9 @@ bool Dynamics::soften(Configuration& c, double h, const MasslessMotions* massles
 }
 
 Dynamics::Relaxed Dynamics::relax(Configuration& c, MasslessMotions& massless) {
-  // An implicit Euler step so short that masses hardly move. Springs go to where they balance, however short it is; a damper's
-  // displacement is the step times what its velocity lacks, and a second step from where the first one ended has that again,
-  // while springs then rest: so the two are told apart.
+  // An implicit Euler step so short that masses hardly move. Springs go to where they balance, however short it is. A damper
+  // moves by the step times what its velocity lacks, and does so again in a second step from the end of the first, while
+  // springs then rest: this tells the two apart.
   const double tau = 1e-3 * context_.options.step;
   const Weights weights{1, 1 / tau, 1 / (tau * tau)};
   context_.assembler.choose_scale(c, weights, context_.options.scale);
@@ -79,7 +79,7 @@ Dynamics::Relaxed Dynamics::relax(Configuration& c, MasslessMotions& massless) {
     if (!again) std::swap(first, y);
     if (!again) y.assign(n, 0.0);
   }
-  // the second step taken back, twice: all but the springs then is where it was
+  // the second step taken back twice: everything but the springs is then where it was
   Relaxed relaxed{std::move(first), y};
   const Configuration moved = c;
   for (std::size_t i = 0; i < n; ++i) {
@@ -101,7 +101,7 @@ void Dynamics::settle(Configuration& c, MasslessMotions& massless, StartReport& 
   report.massless = massless.count();
   report.massless_example = massless.example();
   if (const std::string unheld = massless.explain_unheld(context_.assembler, c); !unheld.empty()) throw SolutionFailure(unheld);
-  // positions; velocities where dampers ask for them, each pass nearer by the length of its step over their time of decay
+  // positions, and velocities where dampers determine them; each pass reduces their error by its step over their decay time
   auto v = context_.motion.velocities(c);
   for (int pass = 0; pass < most_passes; ++pass) {
     const Relaxed relaxed = relax(c, massless);
@@ -115,7 +115,7 @@ void Dynamics::settle(Configuration& c, MasslessMotions& massless, StartReport& 
     if (change <= 1e-12 * size) break;
   }
   context_.start.balance_accelerations(c, 12, &report, &massless);
-  // velocities of what springs hold follow from positions a little later, accelerations of all from velocities then
+  // velocities of what springs hold follow from positions a little later, accelerations of everything from velocities then
   const double later = 0.01 * context_.options.step;
   Configuration once = glide(c, later), twice = glide(c, 2 * later);
   MasslessMotions then = massless;

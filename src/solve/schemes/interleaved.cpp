@@ -9,7 +9,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// Numbers of a vector on this rank, for as long as this lives.
+/// Entries of a vector on this rank, for the lifetime of this object.
 class Local {
  public:
   explicit Local(Vec vector) : vector_(vector) {
@@ -53,7 +53,7 @@ Mat new_interleaved_matrix(Mat one, int parts) {
   check_petsc(MatCreate(comm_of(one), &matrix));
   check_petsc(MatSetSizes(matrix, parts * (end - first), parts * (end - first), parts * rows_of(one), parts * rows_of(one)));
   check_petsc(MatSetType(matrix, MATAIJ));
-  // of the two the one that is not of the matrix's type does nothing
+  // the call that does not match the matrix type does nothing
   check_petsc(MatSeqAIJSetPreallocationCSR(matrix, begin.data(), columns.data(), nullptr));
   check_petsc(MatMPIAIJSetPreallocationCSR(matrix, begin.data(), columns.data(), nullptr));
   return matrix;
@@ -77,7 +77,7 @@ void InterleavedRows::write(PetscInt row, int part, std::span<const PetscInt> co
 
 void InterleavedRows::finish() {
   if (next_) {
-    next_ = nullptr;  // PETSc takes back what it has given, whatever stands here
+    next_ = nullptr;  // PETSc takes back its own array, whatever is passed
     check_petsc(MatSeqAIJRestoreArray(whole_, &next_));
   }
   check_petsc(MatAssemblyBegin(whole_, MAT_FINAL_ASSEMBLY));

@@ -8,28 +8,28 @@
 
 namespace engrane::solve {
 
-/// A matrix of several times the rows and columns of `one`: those parts·i to parts·i + parts − 1 stand for its row or column i,
-/// and where it has an entry the matrix has parts × parts of them. Ranks share both in the same way.
+/// Returns a matrix with `parts` times as many rows and columns as `one`: rows and columns parts·i to parts·i + parts − 1 stand
+/// for row or column i, and each entry becomes a block of parts × parts. Ranks share both in the same way.
 Mat new_interleaved_matrix(Mat one, int parts);
 
-/// Writes the rows of such a matrix, each of this rank once and in their order.
+/// Writes the rows of such a matrix: each row of this rank once, in order.
 class InterleavedRows {
  public:
   InterleavedRows(Mat whole, int parts);
 
-  /// Part `part` of row `row`: `parts` values for each of the columns of `one` in that row.
+  /// Writes part `part` of row `row`: `parts` values for each of the columns of `one` in that row.
   void write(PetscInt row, int part, std::span<const PetscInt> columns, std::span<const double> values);
-  /// After the last row.
+  /// Call after the last row.
   void finish();
 
  private:
   Mat whole_;
   int parts_;
-  PetscScalar* next_ = nullptr;  ///< where the next row begins in a matrix of one rank
+  PetscScalar* next_ = nullptr;  ///< start of the next row in a sequential matrix
   std::vector<PetscInt> columns_;
 };
 
-/// The values of `ones`, one of each in turn, as `whole`; and back.
+/// Interleaves the entries of `ones` in `whole`; separate() does the reverse.
 void interleave(std::span<const Vec> ones, Vec whole);
 void separate(Vec whole, std::span<const Vec> ones);
 

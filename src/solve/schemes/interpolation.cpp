@@ -40,7 +40,7 @@ Interpolation::Interpolation(const MotionSlots& motion, const Configuration& fro
   for (std::size_t i = 0; i < n; ++i) {
     first_[i] *= step_;
     second_[i] *= 0.5 * step_ * step_;
-    // what the parabola of the beginning lacks at the end
+    // what the parabola from the beginning lacks at the end
     const double left = end[i] - first_[i] - second_[i], slope = step_ * rate[i] - first_[i] - 2 * second_[i],
                  bend = 0.5 * step_ * step_ * second[i] - second_[i];
     third_[i] = 10 * left - 4 * slope + bend;
@@ -71,7 +71,7 @@ void Interpolation::place(double time, const Motion& m, Configuration& c) const 
     const Vec3 turned(Eigen::Map<const Vec3>(&m.y[6 * i + 3])), turning = rotation(v, i), second = rotation(a, i);
     rotation(v, i) = c.nodes[i].T * turning;
     rotation(a, i) = c.nodes[i].T * second + rotation_tangent_rate(turned, turning, turning);
-    c.nodes[i].T.setIdentity();  // this is no end of a step that has unknowns
+    c.nodes[i].T.setIdentity();  // not the end of a step with unknowns
   }
   motion_.set_velocities(v, c);
   motion_.set_accelerations(a, c);

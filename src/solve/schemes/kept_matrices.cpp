@@ -12,9 +12,9 @@ namespace engrane::solve {
 
 namespace {
 
-/// Not more than this is kept: numbers in all matrices, and sets.
+/// Limits to what is kept: entries of all matrices, and sets.
 constexpr double most_numbers = 4e6, most_sets = 64;
-/// Steps behind an event that have sets of their own.
+/// Number of steps after an event that have sets of their own.
 constexpr int most_steps = 2;
 
 }  // namespace

@@ -10,29 +10,29 @@
 namespace engrane::solve {
 
 /// K, C and M of simplified Newton iterations for steps of any length, one set for each phase between two events: a tooth that
-/// meets the next one again finds the matrices of the last time. A phase is known by the sides that the switches of elements are
-/// on, by those before the event, and by how many steps have been made in it.
+/// meets the next one again reuses the matrices of the last time. A phase is identified by the sides of the elements' switches,
+/// by the sides before the event, and by the number of steps made in it.
 class KeptMatrices {
  public:
   KeptMatrices(Assembler& assembler, StageSolver& solver);
 
-  /// An event leads to these sides of all switches.
+  /// Enters the phase with these sides of all switches, after an event.
   void enter(const std::vector<int>& sides);
-  /// A step has been made since then.
+  /// Counts a step of this phase.
   void step();
-  /// Makes the solver's systems for steps of h from what is kept for this phase; false where there is nothing, or where the
-  /// scales of multipliers have changed.
+  /// Forms the solver's systems for steps of h from the matrices kept for this phase; false if there are none, or if the scales
+  /// of multipliers have changed.
   bool recall(double h);
-  /// Makes them of what they were made of last, which may be of the phase before: behind load().
+  /// Forms them from the set used last, which may be of the phase before; for use after load().
   bool restore(double h);
-  /// Evaluates what is to be kept for this phase, at `c`, and makes the systems for steps of h.
+  /// Evaluates the matrices of this phase at `c`, and forms the systems for steps of h.
   void evaluate(const Configuration& c, double h);
-  /// What is kept for this phase is no good any more.
+  /// Discards the matrices of this phase.
   void drop() { sets_.erase(phase_); }
-  /// The same of all.
+  /// Discards all matrices.
   void clear() { sets_.clear(); }
 
-  /// Where the sets were evaluated; load() evaluates them there again.
+  /// Saves where the sets were evaluated; load() evaluates them there again.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
 
@@ -47,9 +47,9 @@ class KeptMatrices {
 
   Assembler& assembler_;
   StageSolver& solver_;
-  std::size_t most_ = 1;      ///< sets
+  std::size_t most_ = 1;      ///< largest number of sets
   std::vector<int> phase_;    ///< sides, sides before, steps; empty before the first event
-  std::vector<int> current_;  ///< of what the systems were made of last
+  std::vector<int> current_;  ///< phase of the set used last
   std::map<std::vector<int>, Set> sets_;
 };
 

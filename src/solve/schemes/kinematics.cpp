@@ -50,14 +50,14 @@ Kinematics::Sizes Kinematics::sizes(const Configuration& c) const {
 }
 
 Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& to) {
-  constexpr double suspicious = 1e4;  // growth in a step after which a position is looked at from beside
-  constexpr double grown = 10;        // growth in a step from which a position may be close to a singular one
-  constexpr double unknown = 1e-3;    // part of a force that may not be rounding
-  constexpr double singular = 100;    // growth against the position beside it that no motion through it has
+  constexpr double suspicious = 1e4;  // growth in a step above which a neighbouring position is checked
+  constexpr double grown = 10;        // growth in a step above which a position may be close to a singular one
+  constexpr double unknown = 1e-3;    // fraction of a force at which its rounding makes it unknown
+  constexpr double singular = 100;    // growth over the neighbouring position that no motion through it has
   constexpr double beside = 1e-6;     // of a step
   Outcome outcome;
   NewtonReport& report = outcome.newton;
-  // along the motion known so far: near enough to stay in the way the mechanism is assembled
+  // along the motion known so far: close enough to stay on the same branch of assembly
   const auto v = context_.motion.velocities(from), a = context_.motion.accelerations(from);
   std::vector<double> y(context_.motion.size());
   const auto predict = [&](double length, Configuration& c) {
@@ -81,8 +81,8 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
   const Sizes before = sizes(from), now = failure.empty() ? sizes(to) : Sizes{};
   if (failure.empty() && !now.beyond(before, suspicious)) {
     if (!now.beyond(before, grown)) return outcome;
-    // close to a singular position rounding of places is enlarged in positions, velocities, accelerations and forces in turn, and
-    // may be all there is in the forces
+    // close to a singular position the rounding of positions is amplified in positions, velocities, accelerations and forces in
+    // turn, and may be all there is in the forces
     const double enlarged = context_.start.amplification(to);
     if (!(std::pow(enlarged, 4) * std::numeric_limits<double>::epsilon() > unknown)) return outcome;
     throw SolutionFailure(
@@ -91,8 +91,8 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
                     "so close to it, or drive another joint",
                     to.time));
   }
-  // In a singular position (bars in line, a dead point) the equations do not say how the motion goes on. A little farther on they
-  // do; the limit is the same where there is one.
+  // In a singular position (bars in line, a dead point) the equations do not determine how the motion goes on. A little farther
+  // on they do; the limit is the same where there is one.
   Configuration near, farther;
   try {
     predict(h * (1 + 0.1), farther);
@@ -101,14 +101,14 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
     predict(h * (1 + beside), near);
     report.iterations += solve(near);
   } catch (const SolutionFailure&) {
-    // not only in this one position: it is no singular one
+    // it fails at other positions too: this one is not singular
     if (failure.empty()) return outcome;
     report.converged = false;
     report.conflict = true;
     report.reason = failure;
     return outcome;
   }
-  // a shorter step would only come nearer to it
+  // a shorter step would only come closer to it
   if (sizes(near).beyond(sizes(farther), singular))
     throw SolutionFailure(fmt::format(
         "singular position at t = {:.6g}: bars are in line, or a drive is at a dead point, and speeds or forces grow without "

@@ -5,8 +5,8 @@
 
 namespace engrane::solve {
 
-/// Positions, velocities and accelerations from constraints and drives alone; then the multipliers that this motion
-/// needs, inertia and applied forces included. A model with a motion that nothing drives is refused.
+/// Positions, velocities and accelerations from constraints and drives alone; then the multipliers that this motion requires,
+/// including inertia and applied forces. A model with an undriven motion is refused.
 class Kinematics final : public Scheme {
  public:
   explicit Kinematics(SolverContext& context) : Scheme(context) {}
@@ -15,7 +15,7 @@ class Kinematics final : public Scheme {
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
 
  private:
-  /// Closes `to`, which is near, at its time, with all that follows; returns the iterations of the positions.
+  /// Closes `to`, which must be near, at its time, and fits all else to it; returns the number of position iterations.
   int solve(Configuration& to);
   /// Largest velocities, accelerations and multipliers, lengths over the extent and moments over it.
   struct Sizes {

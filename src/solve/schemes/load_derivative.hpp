@@ -5,15 +5,15 @@
 
 namespace engrane::solve {
 
-/// Change of the scaled residual with the loads' time, prescribed displacements moved along, everything else at rest; into `f`.
-/// Differences of second order towards one side, the sign of `step`: a function of time may have a corner where the equilibrium
-/// is. Exact where functions are linear or quadratic. Collective.
+/// Derivative of the scaled residual with respect to the load time, with prescribed displacements moved along and everything
+/// else at rest; find() writes it into `f`. Differences are of second order and one-sided, to the side of the sign of `step`: a
+/// function of time may have a corner at the equilibrium. Exact where functions are linear or quadratic. Collective.
 class LoadDerivative {
  public:
   LoadDerivative(SolverContext& context, double step);
 
   void find(const Configuration& c, Vec f);
-  /// Looks ahead, or back.
+  /// Makes differences look ahead, or back.
   void turn(bool ahead) { step_ = ahead ? std::abs(step_) : -std::abs(step_); }
 
  private:
@@ -23,8 +23,8 @@ class LoadDerivative {
   Configuration moved_;
 };
 
-/// The configuration with every motion slot moved by y, as a place of its own that tangents are symmetric at: the increments of
-/// rotations begin anew there.
+/// Sets `to` to `from` with every motion slot moved by y, as a configuration with symmetric tangents: increments of rotations
+/// start anew there.
 void move_and_rest(const SolverContext& context, const Configuration& from, std::span<const double> y, Configuration& to);
 
 }  // namespace engrane::solve

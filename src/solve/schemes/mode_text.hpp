@@ -8,11 +8,11 @@
 
 namespace engrane::solve {
 
-/// The largest components of a vector by equation: translations of nodes over the largest of them; where there are none,
+/// Names the largest components of a vector by equation: translations of nodes over the largest of them; if there are none,
 /// rotations and scalars. "node 5 (x) 1, node 4 (x) 0.92"
 std::string largest_components(const Numbering& numbering, std::span<const double> vector);
 
-/// Whether an equation is of a node's translation.
+/// Whether an equation belongs to a translation of a node.
 bool is_translation(const Numbering& numbering, std::size_t equation);
 
 }  // namespace engrane::solve

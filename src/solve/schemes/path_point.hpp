@@ -9,23 +9,23 @@ namespace engrane::solve {
 /// An equilibrium at which the tangent is singular.
 struct CriticalPoint {
   enum class Kind : unsigned char {
-    limit,       ///< the loads have an extreme value along the path
+    limit,       ///< the loads have an extremum along the path
     bifurcation  ///< another path of equilibria crosses
   };
   Kind kind = Kind::limit;
   double load_time = 0;
-  int before = 0, after = 0;  ///< directions in which the equilibrium is unstable, before and behind it
-  std::string mode;           ///< the motion that nothing resists, its largest components by name
-  double switched = 0;        ///< the path goes on along the mode, from so large a displacement; 0: it does not
+  int before = 0, after = 0;  ///< number of unstable directions before and behind it
+  std::string mode;           ///< the motion that nothing resists: its largest components by name
+  double switched = 0;        ///< displacement with which the path goes on along the mode; 0: it does not
 };
 
-/// Where a scheme that follows a path has got to.
+/// Progress of a scheme that follows a path.
 struct Course {
-  double next = 0;                        ///< the step to be tried next
+  double next = 0;                        ///< next step to be tried
   bool arrived = false;                   ///< at the end of the path
-  int unstable = 0;                       ///< directions in which the equilibrium is unstable
-  double critical_time = 0;               ///< loads' time of the last critical point so far; 0: none yet
-  std::optional<CriticalPoint> critical;  ///< the last step ended there
+  int unstable = 0;                       ///< number of directions in which the equilibrium is unstable
+  double critical_time = 0;               ///< load time of the last critical point so far; 0: none yet
+  std::optional<CriticalPoint> critical;  ///< where the last step ended, if that is one
 };
 
 }  // namespace engrane::solve

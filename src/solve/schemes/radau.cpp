@@ -17,25 +17,25 @@ namespace engrane::solve {
 namespace {
 
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-/// Corrections that shrink by less than this ask for matrices of the present place: at once, and before the next step.
+/// Contraction above which matrices are evaluated at the present configuration: at once, and before the next step.
 constexpr double slow = 0.3, growing_slow = 0.1;
-/// So many corrections that shrink by less than this end a controlled step.
+/// A controlled step ends after most_idle corrections with a contraction above this.
 constexpr double no_contraction = 1;
 constexpr int most_idle = 3;
-/// With exact tangents corrections shrink by at least this from the third on, or lead nowhere.
+/// With exact tangents the contraction must be below this from the third correction on.
 constexpr double no_newton = 0.5;
-/// Larger models have shorter steps instead: factors of three times the equations would cost more.
+/// Larger models take shorter steps instead: factors of three times as many equations would cost more.
 constexpr int most_coupled = 10'000;
-/// A step that needed tangents for each stage tells nothing of one that is shorter than so many times it.
+/// A step that needed the tangents of each stage says nothing about steps shorter than this fraction of it.
 constexpr double no_shorter = 0.8;
-/// So many steps begin with them, at most, before the other matrices are tried again.
+/// Largest number of steps that begin with these tangents before the other matrices are tried again.
 constexpr int most_untried = 16;
-/// Guesses go through this many ends of steps, and no farther than so many times the distance of two of them.
+/// Predictions go through this many ends of steps, and use only points farther apart than the step over longest_growth.
 constexpr std::size_t points_of_guess = 4;
-/// Iterations may leave so much of the tolerance of a step.
+/// Fraction of the tolerance of a step that the iteration may leave.
 constexpr double share_of_iteration = 0.02;
 constexpr double longest_growth = 3;
-/// Steps that differ by less than this have the same matrices.
+/// Steps that differ by less than this fraction use the same matrices.
 constexpr double same = 1e-6;
 Vec3 rotation_of(std::span<const double> slots, std::size_t node) {
   return {slots[6 * node + 3], slots[6 * node + 4], slots[6 * node + 5]};
@@ -233,7 +233,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
   double contraction = 0, slowest = 0;
   bool evaluated = false;  // in this step
   int uses = 0;            // of the matrices, in this step
-  int idle = 0;            // corrections that were hardly smaller than the one before
+  int idle = 0;            // corrections that did not shrink
   for (int k = 0;; ++k) {
     differentiate(from, h);
     const Imbalance found = evaluate(from);
@@ -244,10 +244,10 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
       report.reason = "the iteration left the range of numbers";
       break;
     }
-    // what acts on a free body may be nothing: its residual is then the rounding of accelerations, differences of increments
+    // nothing may act on a free body: its residual is then the rounding of accelerations, which are differences of increments
     const double changed = std::max(last.motion, last.forces);
     // forces that are small beside stiffness or inertia times the rounding of positions follow that rounding and never settle;
-    // those of stages are no results
+    // forces at stages are no results
     const auto noise = [&] {
       const NewtonRow& before = report.rows[report.rows.size() - 2];
       return std::max(last.motion, before.correction) <= negligible_correction &&
@@ -256,8 +256,8 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
     const bool still =
         k > 1 && (changed <= std::max(no_correction, rounding * increment()) ||
                   (left <= std::sqrt(precision) && (changed * std::min(1.0, contraction) <= negligible_correction || noise())));
-    // What is left of positions is no part of the step's error either: θ/(1 − θ) of the last correction (Hairer and Wanner,
-    // IV.8), with the θ of each unknown: matrices of another place may leave one open while all others converge.
+    // What is left of positions must not count in the step's error: θ/(1 − θ) of the last correction (Hairer and Wanner, IV.8),
+    // with the θ of each unknown, since matrices of another configuration may leave one open while all others converge.
     const auto settled = [&] {
       if (!error_.wanted()) return true;
       std::vector<double> rates = last_change_;
@@ -266,7 +266,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
         const double theta = std::max(contraction, rates[i] == 0 ? 0 : own);
         rates[i] *= std::min(1.0, theta / std::max(1 - theta, 0.5)) / h;
       }
-      // the next step's error takes what joints leave open with the weights of its formula
+      // the error estimate of the next step contains what joints leave open, with the weights of its formula
       return error_.over_tolerance(rates, now_.v.back(), h, StepError::known / weight_of_places_) <= share_of_iteration;
     };
     if ((k > 0 && found.within(precision) && settled()) || still) {
@@ -293,11 +293,11 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
     const double before = last.motion;
     last = correct();
     contraction = k > 0 && before > 0 ? last.motion / before : 1;
-    // the first correction after matrices have changed says nothing of them; what is left of rounding says nothing of new ones
+    // the first correction after a change of matrices says nothing about them, nor does one at rounding level about new ones
     if (++uses < 2 || (evaluated && last.motion <= negligible_correction)) continue;
     slowest = std::max(slowest, contraction);
     renew = !exact && contraction > slow;
-    // across an event corrections go from one law to the other and back: a shorter step costs less than to wait for them
+    // across an event corrections alternate between both laws: a shorter step costs less than waiting for them
     const bool astray =
         exact ? k > 1 && contraction > no_newton : error_.wanted() && contraction > no_contraction && ++idle == most_idle;
     if (astray) {
@@ -369,7 +369,7 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   if (!report.converged) return {std::move(report), {}};
   if (refuse_conflict(to, report)) return {std::move(report), {}};
   const std::optional<double> error = error_.wanted() ? local_error(from, h, to) : std::nullopt;
-  if (error && !(*error <= 1)) return {std::move(report), error};  // it will not stand
+  if (error && !(*error <= 1)) return {std::move(report), error};  // the step will be rejected
   if (constrained() && !complete(to)) {
     report.converged = false;
     report.singular = true;
@@ -397,8 +397,9 @@ bool Radau::restore_balance(Configuration& c) {
   if (!(matrices_step_ > 0)) return false;
   const Configuration before = c;
   const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
-  // What is stiff or rigid finds its place, and what is not its acceleration. The change of places counts as one of accelerations
-  // too, by 13/h² times it, which is more than these were off by: forces are found anew with those of the motion.
+  // Stiff or rigid parts find their positions, the others their accelerations. The change of positions counts as one of
+  // accelerations too, by 13/h² times it, which is more than their error: forces are found again with the accelerations of the
+  // motion.
   const auto found = [&] {
     c = before;
     if (!multipliers_.empty()) multipliers_.at(c.time, 0, c.multipliers);
@@ -408,7 +409,7 @@ bool Radau::restore_balance(Configuration& c) {
     return moved && balance_near(c, 8);
   };
   if (!found()) {
-    // matrices that were good enough for the step may not be for this; the next phase is not to find those of this one
+    // matrices good enough for the step may not be so for this; the next phase must not find those of this one
     const bool again = !fresh_;
     if (again) {
       keep(outside_of_steps(before), matrices_step_);
@@ -427,7 +428,7 @@ bool Radau::restore_balance(Configuration& c) {
 bool Radau::balance_near(Configuration& c, int most) {
   const Numbering& numbering = context_.numbering;
   Assembler& assembler = context_.assembler;
-  // K + (γ/h) C + (γ/h)² M, whose factors the step has left
+  // K + (γ/h) C + (γ/h)² M, with the factors that the step has left
   const double rate = solver_.real_rate() / matrices_step_, precision = context_.options.precision;
   std::vector<double> y(context_.motion.size());
   double left_before = std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What fits the positions at an end of a step of Radau IIA: velocities, accelerations and multipliers.
+// Velocities, accelerations and multipliers that fit the positions at the end of a step of Radau IIA.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -11,13 +11,13 @@ namespace engrane::solve {
 
 namespace {
 
-/// What is left of forces.
+/// Fraction of the first imbalance at which forces count as balanced.
 constexpr double left_open = 1e-8;
-/// A matrix of an earlier place that takes away less than the rest in one correction is made anew: eight corrections lead to
-/// left_open then, which cost about as much.
+/// A matrix of an earlier configuration that leaves more than this after one correction is made anew: left_open would take
+/// eight corrections, which cost about as much.
 constexpr double slow = 0.1;
 constexpr int most_corrections = 12;
-/// Nor are corrections worth a second one where they are less than this part of the precision that steps have.
+/// A correction below this fraction of the precision of steps is not followed by another.
 constexpr double share_of_precision = 1e-3;
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 
@@ -76,7 +76,7 @@ bool Radau::fit_velocities(Configuration& c) {
     const int m = u.slot - numbering.motion_slots();
     if (u.multiplier && !assembler.released(m)) right_side_[e] = rate[static_cast<std::size_t>(m)];
   }
-  // what the stages leave open of the rates lies along the forces that the multipliers have here, and not where the matrix is of
+  // what stages leave of the rates lies along the forces of the multipliers here, not where the matrix was evaluated
   if (!solve_balance(change, found)) return false;
   if (!balance_fits_ && worth(change, v)) {
     renew_balance(c);
@@ -93,7 +93,7 @@ bool Radau::fit_accelerations(Configuration& c) {
   std::vector<double> change;
   std::span<const double> found;
   auto a = context_.motion.accelerations(c);
-  // once where forces are linear in these
+  // one correction if forces are linear in these
   double before = std::numeric_limits<double>::infinity(), first = 0;
   bool settled = false;
   for (int k = 0; k < most_corrections; ++k) {
@@ -108,7 +108,7 @@ bool Radau::fit_accelerations(Configuration& c) {
       renew_balance(c);
     } else if (balanced || (k > 0 && size >= 0.5 * before)) {
       if (!context_.redundancy.share(c)) {
-        // friction may jam: this says so
+        // reports friction that jams
         if (!balanced && has_friction_) context_.start.balance_accelerations(c, most_corrections, nullptr, massless);
         break;
       }
@@ -136,7 +136,7 @@ bool Radau::fit_accelerations(Configuration& c) {
 
 void Radau::drift(Configuration& c, double h) {
   if (!error_.wanted()) return Dynamics::drift(c, h);
-  // Heun's step as there, and what fits behind it, with the matrix that steps keep
+  // Heun's step as there, and what fits after it, with the matrix that steps keep
   const auto before = context_.motion.accelerations(c);
   Configuration later = glide(c, h);
   auto a = context_.motion.accelerations(later);

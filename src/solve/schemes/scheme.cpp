@@ -101,7 +101,7 @@ NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& a
                            Border* border) {
   NewtonReport report;
   int iterations = 0;
-  // where forces depend linearly on the multipliers once is enough
+  // once is enough where forces depend linearly on the multipliers
   for (int pass = 0; pass < 10; ++pass) {
     report = context_.newton.solve(unknowns, weights, keep, apply, to, border);
     iterations += report.iterations;

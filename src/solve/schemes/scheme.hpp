@@ -10,15 +10,15 @@
 
 namespace engrane::solve {
 
-/// What came of an attempt to step.
+/// Result of an attempted step.
 struct Outcome {
   NewtonReport newton;
-  std::optional<double> error;  ///< estimate of the step's local error over its tolerance, where one is asked for
+  std::optional<double> error;  ///< estimated local error of the step over its tolerance, if there is one
 
   bool converged() const { return newton.converged; }
 };
 
-/// The motion between the ends of a step that stands. The ends must live as long.
+/// Motion within an accepted step. Both ends must outlive it.
 class Within {
  public:
   Within(const Configuration& from, const Configuration& to) : from_(from), to_(to) {}
@@ -28,17 +28,17 @@ class Within {
 
   const Configuration& from() const { return from_; }
   const Configuration& to() const { return to_; }
-  /// `c` becomes the motion at a `time` between; its multipliers are a guess.
+  /// Sets `c` to the motion at a `time` in between; its multipliers are a guess.
   virtual void at(double time, Configuration& c) = 0;
-  /// Gives such a configuration the multipliers and accelerations that balance it, and moves what is stiff to where its forces
-  /// do. False where the scheme has no such balance, or does not find it; then `c` is as it was. Collective.
+  /// Gives such a configuration the multipliers and accelerations that balance it, and moves stiff parts to where their forces
+  /// balance. False, with `c` unchanged, if the scheme has no such balance or does not find it. Collective.
   virtual bool balance(Configuration& c) = 0;
 
  private:
   const Configuration &from_, &to_;
 };
 
-/// One way of going from one instant to the next. It tries steps and says what happened; cutting, growth, events and output
+/// A way of advancing from one instant to the next. It tries steps and reports the result; step cuts, growth, events and output
 /// times are the Runner's.
 class Scheme {
  public:
@@ -49,62 +49,62 @@ class Scheme {
 
   /// Makes the given configuration a solution at c.time. Throws SolutionFailure.
   virtual StartReport start(Configuration& c) = 0;
-  /// Tries a step of h from an accepted configuration; `to` is a solution when the outcome is converged.
+  /// Tries a step of h from an accepted configuration; `to` is a solution if the outcome is converged.
   virtual Outcome attempt(const Configuration& from, double h, Configuration& to) = 0;
-  /// The last attempt stands.
+  /// Accepts the last attempt.
   virtual void accept() {}
-  /// Of a scheme that follows a path and knows itself how far; of the last step that stands. nullptr: time leads from begin to
-  /// end.
+  /// Progress after the last accepted step of a scheme that follows a path and knows itself how far; nullptr if time leads from
+  /// begin to end.
   virtual const Course* course() const { return nullptr; }
-  /// The power of the step that Outcome::error grows with.
+  /// Power of the step with which Outcome::error grows.
   virtual int order_of_error() const { return 1; }
-  /// The motion within the step that was accepted last; nullptr where there is none. Valid until the next attempt. `scalars`:
-  /// those of its end before whole turns were counted.
+  /// Motion within the step that was accepted last; nullptr if there is none. Valid until the next attempt. `scalars`: those of
+  /// its end before whole turns were removed.
   virtual std::unique_ptr<Within> within(const Configuration& /*from*/, const Configuration& /*to*/,
                                          std::span<const double> /*scalars*/) {
     return nullptr;
   }
-  /// The accepted configuration is at a corner of a function of time: what lies before it tells little of what follows.
+  /// The accepted configuration is at a corner of a function of time: what lies before it says little about what follows.
   virtual void pass_corner(const Configuration&) {}
   /// Whether steps are to end at the events of the elements' switches; drift() is then defined.
   virtual bool meets_events() const { return false; }
-  /// `c` moved by h with the velocities and accelerations it has: where the next step may lead.
+  /// Returns `c` moved by h with its present velocities and accelerations: where the next step may lead.
   virtual Configuration coast(const Configuration& c, double /*h*/) const { return c; }
-  /// Moves an accepted configuration over a stretch much shorter than a step, past an event; what the scheme
-  /// remembers of earlier steps is forgotten.
+  /// Moves an accepted configuration across an event, over a time much shorter than a step, and discards the scheme's memory of
+  /// earlier steps.
   virtual void drift(Configuration&, double /*h*/) {}
-  /// The local error that drift() would have, over the tolerance of a controlled step. Between fixed steps: by how much something
-  /// stiff would change a velocity on the way, over the most that is borne.
+  /// Local error that drift() would have, over the tolerance of a controlled step. Between fixed steps: the change of a
+  /// velocity that something stiff would cause on the way, over the largest acceptable one.
   virtual double drift_error(const Configuration&, double /*h*/) { return 0; }
-  /// After a controlled step or a drift the switches of elements are on other sides.
+  /// Switches of elements have changed sides in a controlled step or a drift.
   virtual void enter(const std::vector<int>& /*sides*/) {}
 
-  /// Looks at an accepted configuration for frictions that come to rest or give way; true when `c` has been changed to fit what
-  /// they do now, and what the scheme remembers with it.
+  /// Checks an accepted configuration for frictions that come to rest or give way; true if `c` and the memory of the scheme
+  /// have been changed to fit their new state.
   virtual bool settle_friction(Configuration&) { return false; }
-  /// Goes on from a configuration that another kind of analysis may have left.
+  /// Continues from a configuration that another kind of analysis may have left.
   virtual void take_over(Configuration& c) { context_.grips.let_go(c); }
 
-  /// What the scheme remembers of accepted steps, for a restart.
+  /// The scheme's memory of accepted steps, for a restart.
   virtual void save(Snapshot&) const {}
   virtual void load(const Snapshot&) {}
 
  protected:
-  /// Displacements of the prescribed slots between two times, written into a flat step.
+  /// Writes the displacements of the prescribed slots between two times into a flat step.
   void prescribe_step(double from, double to, std::span<double> y) const;
   /// Fails a converged step in which a node turned so far that turns can no longer be counted.
   void refuse_half_turns(std::span<const double> y, NewtonReport& report) const;
-  /// The same before a step of h: nodes that would turn so far at the speeds v. Newton's iteration finds no drive's angle more
-  /// than half a turn away, and would not say why.
+  /// The same before a step of h: fails if nodes would turn so far at the speeds v. Newton's iteration finds no angle of a
+  /// drive more than half a turn away, and could not say why.
   NewtonReport foresee(std::span<const double> v, double h) const;
-  /// Fails a converged step that leaves constraints open which were taken for consequences of the others; true where it does.
+  /// Fails a converged step that leaves constraints open that were taken to be redundant; true if it does.
   bool refuse_conflict(const Configuration& to, NewtonReport& report) const;
-  /// Multipliers of `c` in the scaled unknowns of the solver, and back.
+  /// Converts the multipliers of `c` to the scaled unknowns of the solver, and back.
   void multipliers_to_unknowns(const Configuration& c, std::span<double> unknowns) const;
   void unknowns_to_multipliers(std::span<const double> unknowns, Configuration& c) const;
 
-  /// Newton's method from the unknowns given, with redundant constraints: these are seen to be closed, and their
-  /// multipliers made the least.
+  /// Newton's method from the given unknowns, with redundant constraints: checks that these are closed, and makes their
+  /// multipliers the smallest.
   NewtonReport solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to, bool keep = false,
                      Border* border = nullptr);
 
@@ -116,7 +116,7 @@ void apply_initial_displacements(const SolverContext& context, Configuration& c)
 /// Gives it the initial velocities of the deck.
 void apply_initial_velocities(const SolverContext& context, Configuration& c);
 
-/// The scheme that the options ask for.
+/// Returns the scheme that the options select.
 std::unique_ptr<Scheme> make_scheme(SolverContext& context);
 
 }  // namespace engrane::solve

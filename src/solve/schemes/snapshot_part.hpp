@@ -7,12 +7,12 @@
 
 namespace engrane::solve {
 
-/// What a part has saved goes under names that begin with `prefix`: for those of which a run has several.
+/// Saves what a part has saved in `own` under names that begin with `prefix`, for parts of which a run has several.
 inline void save_part(const Snapshot& own, const std::string& prefix, Snapshot& snapshot) {
   for (const auto& [name, values] : own.arrays()) snapshot.put(prefix + name, values);
 }
 
-/// The same of what `part` saves by itself.
+/// The same for a `part` that saves itself.
 template <class Part>
 void save_part(const Part& part, const std::string& prefix, Snapshot& snapshot) {
   Snapshot own;
@@ -20,7 +20,7 @@ void save_part(const Part& part, const std::string& prefix, Snapshot& snapshot) 
   save_part(own, prefix, snapshot);
 }
 
-/// What save_part() has put under `prefix`, under the part's own names.
+/// Returns what save_part() has put under `prefix`, under the part's own names.
 inline Snapshot part_of(const Snapshot& snapshot, const std::string& prefix) {
   Snapshot own;
   for (const auto& [name, values] : snapshot.arrays())

@@ -13,7 +13,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// Whether MUMPS factors one tangent that is symmetric by construction, so that half of it is enough.
+/// Whether MUMPS factors a single tangent that is symmetric by construction, so that half of it is enough.
 bool half_is_enough(const Model& model, const SolverOptions& options, const Numbering& numbering) {
   return options.package == "MUMPS" && options.analysis == SolverOptions::Analysis::statics && !options.path.follow &&
          !model.commands.buckling && numbering.partition().ranks() == 1 && numbering.slots() == numbering.motion_slots() &&
@@ -61,7 +61,7 @@ void SolverContext::load(const Snapshot& snapshot) {
   assembler.load(snapshot);
   redundancy.load(snapshot);
   solver.load(snapshot);
-  newton.load(snapshot);  // factors with what the solver has taken back
+  newton.load(snapshot);  // factors, with the restored state of the solver
 }
 
 }  // namespace engrane::solve

@@ -9,13 +9,13 @@
 
 namespace engrane::solve {
 
-/// What every scheme works with; made once per run, outlives the schemes.
+/// Objects shared by all schemes; made once per run, outlives the schemes.
 struct SolverContext {
   SolverContext(const Model& model, SolverOptions options, MPI_Comm comm);
-  /// With the options that the model's deck asks for.
+  /// With the options of the model's deck.
   SolverContext(const Model& model, MPI_Comm comm);
 
-  /// Everything here that the next step depends on beside the configuration, for a restart.
+  /// State that the next step depends on besides the configuration, for a restart.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
 

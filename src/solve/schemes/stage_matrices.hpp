@@ -8,7 +8,7 @@
 
 namespace engrane::solve {
 
-/// K, C and M of one place, scaled as the assembler was then (Assembler).
+/// K, C and M at one configuration, scaled as the assembler was then (Assembler).
 struct StageMatrices {
   Owned<Mat> stiffness, damping, mass;
 };
@@ -17,7 +17,7 @@ StageMatrices new_stage_matrices(Assembler& assembler);
 /// Evaluates them at `c`.
 void evaluate_at(Assembler& assembler, const Configuration& c, const StageMatrices& matrices);
 
-/// A row of all three, for as long as this lives.
+/// One row of all three, for the lifetime of this object.
 class RowOfStage {
  public:
   RowOfStage(const StageMatrices& matrices, PetscInt row);
@@ -26,7 +26,7 @@ class RowOfStage {
   RowOfStage& operator=(const RowOfStage&) = delete;
 
   std::span<const PetscInt> columns() const { return {columns_, static_cast<std::size_t>(count_)}; }
-  /// Entries in the k-th of the columns.
+  /// Entries in columns()[k].
   double stiffness(std::size_t k) const { return values_[0][k]; }
   double damping(std::size_t k) const { return values_[1][k]; }
   double mass(std::size_t k) const { return values_[2][k]; }

@@ -62,7 +62,7 @@ void StageSolver::combine_pair(const StageMatrices& matrices, double h, const Sy
   for (PetscInt row = first; row < end; ++row) {
     const RowOfStage from(matrices, row);
     const auto columns = from.columns();
-    // constraints have no imaginary part; that of one that is released is but the 1 of its equation
+    // constraint rows have no imaginary part; the row of a released constraint is only the 1 of its equation
     const double part = numbering.unknown(static_cast<int>(row)).multiplier ? 0 : 1;
     for (auto& values_of_row : pair) values_of_row.resize(2 * columns.size());
     for (std::size_t i = 0; i < columns.size(); ++i) {

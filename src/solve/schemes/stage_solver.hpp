@@ -11,29 +11,28 @@
 
 namespace engrane::solve {
 
-/// The linear systems of a simplified Newton iteration on all stages of a collocation step (Hairer and Wanner, Solving Ordinary
-/// Differential Equations II, 1996, IV.8). With one K, C and M for all stages they fall apart into K + (γ/h) C + (γ/h)² M, one
-/// for each eigenvalue γ of the inverse coefficients. A complex γ = α + iβ makes a real system of twice the size, real and
-/// imaginary parts of an unknown next to each other.
+/// Linear systems of a simplified Newton iteration on all stages of a collocation step (Hairer and Wanner, Solving Ordinary
+/// Differential Equations II, 1996, IV.8). With the same K, C and M for all stages they decouple into K + (γ/h) C + (γ/h)² M,
+/// one for each eigenvalue γ of the inverse coefficients. A complex γ = α + iβ makes a real system of twice the size, with the
+/// real and imaginary parts of an unknown next to each other.
 class StageSolver {
  public:
   StageSolver(Assembler& assembler, const Collocation& collocation, const std::string& package);
 
-  /// The weights of the real eigenvalue, or of the real part of the complex one where there is no real one.
+  /// Weights of the first system, which may be complex: then those of its real part.
   Weights weights(double h) const;
-  /// γ of the real eigenvalue: increments over γ/h and velocities of its system go together.
+  /// The real eigenvalue γ: in its system, velocities change by γ/h times the increments.
   double real_rate() const;
-  /// The systems for steps of h with these. No element is evaluated.
+  /// Forms the systems for steps of h from these matrices. No element is evaluated.
   void combine(const StageMatrices& matrices, double h);
-  /// Changes of all stages' unknowns that bring the residuals, one vector for each stage, to zero; false when singular. Residuals
-  /// are overwritten.
+  /// Finds the changes of all stages' unknowns that bring the residuals to zero, one vector for each stage; false if singular.
   bool solve(const std::vector<Owned<Vec>>& residuals, const std::vector<Owned<Vec>>& changes);
-  /// The same for the system of the real eigenvalue alone, with its factors as they are.
+  /// The same for the system of the real eigenvalue alone, with its present factors. The residual is overwritten.
   bool solve_real(Vec residual, Vec change);
-  /// What the analyses were made for, for a restart.
+  /// State of the linear solvers, for a restart.
   void save(Snapshot& snapshot) const;
   void load(const Snapshot& snapshot);
-  /// Factors the matrices as they stand as the run did that load() has taken over from.
+  /// Factors the matrices as they stand in the same way as the run that load() continues.
   void restore_factors();
 
  private:
@@ -42,9 +41,9 @@ class StageSolver {
     Collocation::Block block;
     Owned<Mat> whole;
     std::unique_ptr<LinearSolver> solver;
-    Owned<Vec> right, solution;  ///< of a complex one
+    Owned<Vec> right, solution;  ///< of a complex block
   };
-  /// That of the real eigenvalue: collocation with an odd number of stages has one.
+  /// That of the real eigenvalue, which collocation with an odd number of stages has.
   const System& real() const;
   /// [Re −Im; Im Re] with rows and columns 2i and 2i + 1 for the two parts of unknown i.
   void combine_pair(const StageMatrices& matrices, double h, const System& system) const;

@@ -12,17 +12,17 @@ namespace engrane::solve {
 
 namespace {
 
-/// A polynomial is continued by a step of at most so many times the distance of its points.
+/// A polynomial uses only points farther apart than the step over this (Extrapolation).
 constexpr double longest_continuation = 4;
-/// A line through the ends of a first step departs so far from a parabola, over how far the line through its beginning and its
-/// middle is from its end.
+/// Largest distance of a parabola from the line through the ends of a first step, over its distance at the end from the line
+/// through its beginning and its middle.
 constexpr double share_of_first = 0.5;
-/// Derivatives that are not the same in both polynomials: an error is up to three times what their comparison tells.
+/// Allows for derivatives that differ between both polynomials: an error is up to three times what their comparison shows.
 constexpr double safety = 3;
 
 }  // namespace
 
-/// On the polynomial through the equilibria; forces are not balanced anew.
+/// On the polynomial through the equilibria; forces are not balanced again.
 class Statics::Inside final : public Within {
  public:
   Inside(Statics& scheme, const Configuration& from, const Configuration& to) : Within(from, to), scheme_(scheme) {}
@@ -84,7 +84,7 @@ StartReport Statics::start(Configuration& c) {
 
 Outcome Statics::attempt(const Configuration& from, double h, Configuration& to) {
   if (!error_.wanted() || path_.empty()) return {find(from, h, to, false), {}};
-  if (has_middle_) begin_path(from.time, from.multipliers);  // of a step that does not stand
+  if (has_middle_) begin_path(from.time, from.multipliers);  // of a step that was rejected
   if (path_.points() == 1 && !find_middle(from, h)) return {find(from, h, to, false), {}};
   if (NewtonReport report = find(from, h, to, true); report.converged) return {std::move(report), error(from, h)};
   return {find(from, h, to, false), error(from, h)};

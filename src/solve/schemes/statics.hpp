@@ -7,11 +7,11 @@
 
 namespace engrane::solve {
 
-/// Equilibrium without inertia and damping, time being only the parameter of loads and drives.
+/// Equilibrium without inertia and damping; time is only the parameter of loads and drives.
 ///
-/// With a tolerance, steps begin on the polynomial through the equilibria before. How far it was from the new one tells what lies
-/// between the two: equilibria themselves are exact, whatever the steps. Displacements of the nodes are added up for it, their
-/// rotation vectors too, each in the node's own axes.
+/// With a tolerance, steps begin on the polynomial through the equilibria before. Its distance from the new one is a measure of
+/// the error in between: equilibria themselves are exact, whatever the steps. Displacements of the nodes are added up for it,
+/// and so are their rotation vectors, each in the node's own axes.
 class Statics : public Scheme {
  public:
   explicit Statics(SolverContext& context);
@@ -32,28 +32,28 @@ class Statics : public Scheme {
   class Inside;
   static constexpr std::size_t points = 4;  ///< of the polynomial
 
-  /// An equilibrium h later; Newton's iteration begins on the path, or where `from` is. `to` may be `from` itself, and is then no
-  /// more what it was where nothing is found.
+  /// Finds the equilibrium after h; Newton's iteration begins on the path (`predicted`), or at `from`. `to` may be `from`
+  /// itself, which is then lost even if nothing is found.
   NewtonReport find(const Configuration& from, double h, Configuration& to, bool predicted);
-  /// The first step of a path has an equilibrium in its middle, for the others to be compared with.
+  /// Finds an equilibrium in the middle of the first step of a path, for the others to be compared with.
   bool find_middle(const Configuration& from, double h);
   std::optional<double> error(const Configuration& from, double h) const;
-  /// Forgets what lies before the equilibrium at way_.
+  /// Discards what lies before the equilibrium at way_.
   void begin_path(double time, std::span<const double> multipliers);
   /// Newton's iteration from the displacements `y` and the multipliers of `to`, which end as the solution.
   NewtonReport balance(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
-  /// Flanks across a gap give no stiffness to find each other by: contacts begin as springs that fade away.
+  /// The same where flanks across a gap have no stiffness towards each other: contacts begin as springs that fade away.
   NewtonReport balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
 
   bool has_contacts_;
   Owned<Vec> unknowns_;
   StepError error_;
   Extrapolation path_, forces_;  ///< displacements since the start by motion slot, and multipliers
-  std::vector<double> way_;      ///< the former at the last equilibrium that stands
+  std::vector<double> way_;      ///< the former at the last accepted equilibrium
   std::vector<double> y_;        ///< the step tried last, its end and its multipliers
   double tried_time_ = 0;
   std::vector<double> tried_forces_;
-  bool has_middle_ = false;  ///< path_ ends with the middle of a step that does not stand yet
+  bool has_middle_ = false;  ///< path_ ends with the middle of a step that is not accepted yet
 };
 
 }  // namespace engrane::solve

@@ -12,11 +12,11 @@ namespace engrane::solve {
 
 namespace {
 
-/// What moves by less than this part of the model, or of a radian, in the whole run is judged as if it moved so far.
+/// Least motion in the whole run by which errors are judged, as a fraction of the model or of a radian.
 constexpr double least_motion = 1e-3;
-/// So is what is slower by this than the fastest of its kind.
+/// Least range of velocities by which errors are judged, as a fraction of the fastest of its kind.
 constexpr double negligible = 1e-3;
-/// Of its tolerance, what a step may leave open for the next.
+/// Fraction of its tolerance that a step may leave open for the next.
 constexpr double share_left_open = 0.1;
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 

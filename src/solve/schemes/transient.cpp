@@ -26,7 +26,7 @@ AlphaScheme AlphaScheme::bossak(double alpha) { return {-alpha, 0, 0.25 * (1 + a
 
 namespace {
 
-/// A step longer than this many times the one before has a memory of its own.
+/// A step longer than this many times the one before restarts the memory.
 constexpr double longest_growth = 3;
 
 AlphaScheme coefficients(const SolverOptions& options) {
@@ -54,7 +54,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   const Weights weights{1, gamma / (beta * h), (1 - am) / ((1 - af) * beta * h * h)};
   scale_for(from, h, weights);
   auto vdot0 = context_.motion.accelerations(from);
-  // a run that continues another kind of analysis has no memory: the accelerations of its configuration begin it
+  // a run that continues another kind of analysis has no memory: the accelerations of its configuration start it
   if (algorithmic_.empty()) {
     algorithmic_ = vdot0;
     step_of_algorithmic_ = h;
@@ -69,8 +69,8 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   const std::size_t n = context_.motion.size();
   std::vector<double> y(n), unknown(n), v(n), vdot(n);
   tried_.resize(n);
-  // A prediction so good that nothing is left to correct keeps its errors: where each iteration has its own tangent, and one
-  // takes away all of them, the last values serve.
+  // A prediction so good that nothing is corrected keeps its errors. Where each iteration has its own tangent, and one removes
+  // all errors, the last values are used.
   const bool keep = context_.options.keep_factors;
   std::vector<double> ahead = a0;
   if (keep && accelerations_.empty()) {
@@ -89,8 +89,9 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   if (!foreseen.converged) return {std::move(foreseen), {}};
   const auto prescribed = context_.motion.prescribed(to.time);
 
-  // Unknowns are what increments differ by from those predicted: accelerations found from increments of short steps would be
-  // rounding. Of steps so long that predictions leave the machine they are the increments, which would be rounding otherwise.
+  // The unknowns are the differences of the increments from the predicted ones: accelerations computed from increments of short
+  // steps would be rounding. For steps so long that predictions leave the machine they are the increments, since the
+  // differences would be rounding.
   const std::vector<double> predicted = y;
   const bool far = leaves(predicted);
   std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
@@ -116,7 +117,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
       tried_[p.slot] = vdot[p.slot] = p.a;
     }
     context_.motion.move(from, y, c);
-    // constraints that are closed by positions do not see what these leave out, and would let it drift
+    // constraints that are closed by positions do not see the remainders, and would let them drift
     if (constrained() && !changes_.any()) std::fill(c.remainders.begin(), c.remainders.end(), 0.0);
     context_.motion.set_velocities(v, c);
     context_.motion.set_accelerations(vdot, c);
@@ -140,7 +141,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
 }
 
 std::optional<double> Transient::local_error(std::span<const double> a0, double h, const Configuration& to) {
-  // with a_n = v̇(t_n + (α_m − α_f) h) a step leaves h² |1/6 − β − (α_m − α_f)/2| |a_{n+1} − a_n| in the position (for Newmark:
+  // with a_n = v̇(t_n + (α_m − α_f) h) a step has the position error h² |1/6 − β − (α_m − α_f)/2| |a_{n+1} − a_n| (for Newmark:
   // Zienkiewicz and Xie 1991)
   const double part = std::abs(1.0 / 6 - scheme_.beta - 0.5 * (scheme_.alpha_m - scheme_.alpha_f));
   std::vector<double> rates(a0.size());

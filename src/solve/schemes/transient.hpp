@@ -22,7 +22,8 @@ struct AlphaScheme {
 };
 
 /// Generalised-α on the Lie group, constraints at index 3 (Arnold and Brüls 2007; Brüls, Cardona and Arnold 2012).
-/// Unknowns of a step are its increments h Δq (rotation vectors, positions, scalars) and λ/k.
+/// The unknowns of a step are λ/k and the corrections of its predicted increments h Δq (rotation vectors, positions, scalars),
+/// or the increments themselves where predictions leave the model.
 class Transient final : public Dynamics {
  public:
   explicit Transient(SolverContext& context);
@@ -34,36 +35,36 @@ class Transient final : public Dynamics {
   void load(const Snapshot& snapshot) override;
 
  private:
-  /// Starts the scheme's memory for steps of h from `c`, whose velocities and accelerations fit; the slope of v̇ is taken over
-  /// `span`.
+  /// Starts the scheme's memory for steps of h from `c`, whose velocities and accelerations are consistent; the slope of v̇ is
+  /// taken over `span`.
   void start_memory(const Configuration& c, double h, double span, const MasslessMotions* massless, bool softened);
   void start_memory(const Configuration& c, const MasslessMotions* massless, bool softened) override;
   void restart_memory(Configuration& c) override;
-  /// d/dt of v̇ at `c`, from what balance gives over the time `span`; of accelerations that are softened for steps of h.
+  /// d/dt of v̇ at `c`, from balances over the time `span`; with `softened`, of accelerations softened for steps of h.
   std::vector<double> slope_of_accelerations(const Configuration& c, double h, double span, const MasslessMotions* massless,
                                              bool softened) const;
 
-  /// The velocities with which a step of h from `from` begins: those of the scheme, which differ from the ones that fit the
-  /// constraints by a part that grows with the square of the step.
+  /// Velocities with which a step of h from `from` begins: those of the scheme, which differ from consistent ones by a part
+  /// that grows with the square of the step.
   std::vector<double> first_velocities(const Configuration& from, double h);
-  /// Starts the memory anew from the end of a step for one that is much longer: differences of the short one are rounding.
+  /// Restarts the memory at the end of a step, for one that is much longer: differences over the short one are rounding.
   /// Returns the accelerations that it begins with.
   std::vector<double> renew_memory(const Configuration& from, double h);
   /// Outcome::error of a converged step of h that began with the scheme's accelerations `a0`.
   std::optional<double> local_error(std::span<const double> a0, double h, const Configuration& to);
-  /// Is an increment as large as the model, or a radian?
+  /// Whether an increment is as large as the model, or a radian.
   bool leaves(std::span<const double> increments) const;
 
   AlphaScheme scheme_;
   ConstraintChanges changes_;
   double step_of_algorithmic_ = 0;   ///< the h that `algorithmic_` belongs to
   std::vector<double> algorithmic_;  ///< a_n of the scheme: v̇ shifted by (α_m − α_f) h
-  /// Velocities that fit where the next step begins, empty where they are the configuration's own; and what the scheme's differ
-  /// by from them, for a step of step_of_algorithmic_. Both empty where nobody has asked.
+  /// Consistent velocities where the next step begins, empty if they are the configuration's own; and the difference of the
+  /// scheme's velocities from them, for a step of step_of_algorithmic_. Both are empty until they are needed.
   std::vector<double> fitting_, offset_;
   std::vector<double> tried_;  ///< `algorithmic_` at the end of the last attempt
   double tried_step_ = 0;
-  Extrapolation accelerations_{3, 2}, multipliers_{3, 2};  ///< of `algorithmic_` and λ, at the ends of steps since the last event
+  Extrapolation accelerations_{3, 2}, multipliers_{3, 2};  ///< of `algorithmic_` and λ, at ends of steps since the last event
   std::vector<double> tried_multipliers_;                  ///< at the end of the last attempt
   double tried_time_ = 0;
 };

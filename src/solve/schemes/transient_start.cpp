@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The memory of generalised-α: where it starts, and where it starts anew.
+// The memory of generalised-α: how it starts, and how it restarts.
 #include <algorithm>
 #include <cmath>
 
@@ -9,9 +9,9 @@ namespace engrane::solve {
 
 namespace {
 
-/// After an event the slope of v̇ is taken over this part of a step, so as not to reach the next event.
+/// After an event the slope of v̇ is taken over this fraction of a step, so as not to reach the next event.
 constexpr double slope_span = 0.01;
-/// Slopes of its two halves that differ by more than this part of the larger are no slopes: a force jumps in one of them.
+/// If the slopes of its two halves differ by more than this fraction of the larger one, a force jumps in one of them.
 constexpr double unlike = 0.5;
 
 }  // namespace
@@ -31,8 +31,8 @@ void Transient::restart_memory(Configuration& c) {
 std::vector<double> Transient::slope_of_accelerations(const Configuration& c, double h, double span,
                                                       const MasslessMotions* massless, bool softened) const {
   // From accelerations half a span and a span ahead, (4 a_½ − 3 a_0 − a_1)/span: of second order, since what glide() leaves out
-  // of the velocities, four times as much at the end as halfway, cancels as well. Over a whole step it is also that of models
-  // whose forces change much faster than a step is long.
+  // of the velocities, four times as much at the end as halfway, cancels as well. Over a whole step it is also the slope for
+  // models whose forces change much faster than a step is long.
   const auto after = [&](double time) {
     Configuration later = glide(c, time);
     context_.start.balance_accelerations(later, span < h ? 1 : 12, nullptr, massless);
@@ -58,17 +58,17 @@ void Transient::start_memory(const Configuration& c, double h, double span, cons
   multipliers_.clear();
   fitting_ = context_.motion.velocities(c);
   const double shift = scheme_.alpha_m - scheme_.alpha_f;
-  if (shift == 0 && !constrained()) return;  // nothing follows from the slope
+  if (shift == 0 && !constrained()) return;  // nothing depends on the slope
   std::vector<double> slope = slope_of_accelerations(c, h, span, massless, softened);
-  // accelerations are differenced over the span, and found to a few digits less than they have
+  // accelerations are differenced over the span, and accurate to a few digits less than they have
   constexpr double known = 1e-11;
   if (!counts(slope, h * h * h, algorithmic_, known / span)) std::fill(slope.begin(), slope.end(), 0.0);
   // a_0 = v̇(t_0 + (α_m − α_f) h) to second order, or multipliers lose an order at first (Arnold, Brüls and Cardona 2015)
   for (std::size_t i = 0; i < slope.size(); ++i) algorithmic_[i] += shift * h * slope[i];
   if (!constrained()) return;
-  // The increments of steps with exact velocities and accelerations open the constraints by h³ B(c v̈ + W × Ẇ/12), the last for
-  // rotations. The scheme closes them by velocities that are off by as much over h; one that begins without this error finds it
-  // in the first step by accelerations, and so multipliers, that are off by a part of h (the same paper, section 5).
+  // With exact velocities and accelerations the increments of steps open the constraints by h³ B(c v̈ + W × Ẇ/12), the last
+  // term for rotations. The scheme closes them by velocities that are off by that over h. If it begins without this error, the
+  // first step makes it by accelerations, and so multipliers, that are off by O(h) (the same paper, section 5).
   const double c_3 = (1 - 3 * shift - 6 * scheme_.beta) / 6;
   std::vector<double> moved = fitting_;
   for (std::size_t i = 0; i < slope.size(); ++i) moved[i] += h * h * c_3 * slope[i];
@@ -95,7 +95,7 @@ std::vector<double> Transient::renew_memory(const Configuration& from, double h)
 std::vector<double> Transient::first_velocities(const Configuration& from, double h) {
   std::vector<double> v = context_.motion.velocities(from);
   const double ratio = h / step_of_algorithmic_;
-  constexpr double same = 1e-6;  // ends of steps at round times make them differ by rounding
+  constexpr double same = 1e-6;  // lengths of steps that end at round times differ by rounding
   if (!constrained() || (offset_.empty() && std::abs(ratio - 1) < same)) return v;
   if (offset_.empty()) {
     fitting_ = fitting_velocities(from);
