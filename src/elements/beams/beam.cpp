@@ -16,17 +16,17 @@ namespace engrane::elements::beams {
 
 namespace {
 
-/// What all pieces of a beam share.
+/// Data shared by all pieces of a beam while they are built.
 struct Plan {
   BeamOptions options;
   SectionLine sections;
   BuildContext& context;
-  Vec3 side;                      ///< of axis 2; of a round section without AXIS2, which turns with the beam, for the next piece
-  double twist = 0;               ///< angle by which axis 2 turns about the beam, from end to end
-  double length = 0, passed = 0;  ///< of the beam, and of its pieces before this one
+  Vec3 side;                      ///< direction towards axis 2; without AXIS2 it is carried along from piece to piece
+  double twist = 0;               ///< rotation of axis 2 about the beam from end to end, rad
+  double length = 0, passed = 0;  ///< length of the beam, and of the pieces before the current one
 };
 
-/// The axes of a section whose first is along `tangent`, as columns; nothing, with an error, where axis 2 would be along it too.
+/// Axes of a section as columns; the first is along `tangent`. Reports an error and returns nothing if `side` is along it, too.
 std::optional<Mat3> section_axes(const BuildContext& context, const Vec3& side, bool given, const Vec3& tangent,
                                  const char* keyword = "AXIS2") {
   const Vec3 first = tangent.normalized();
@@ -48,7 +48,7 @@ template <int Nodes>
 std::optional<BeamPiece<Nodes>> make_piece(Plan& plan, const std::array<Vec3, Nodes>& places) {
   const Vec3 chord = places.back() - places.front();
   const double length = line_length<Nodes>(places);
-  // which part of the beam is passed at ξ
+  // fraction of the beam's length at ξ
   const auto part = [&](double xi) {
     const LineShape<Nodes> shape(xi);
     Vec3 x = Vec3::Zero();
@@ -105,7 +105,7 @@ std::optional<BeamPiece<Nodes>> make_piece(Plan& plan, const std::array<Vec3, No
   return piece;
 }
 
-/// Pieces of so many nodes: the first, and the others into BuildContext::more.
+/// Builds the pieces: returns the first and appends the others to BuildContext::more.
 template <int Nodes, bool Held>
 std::unique_ptr<Element> make_pieces(Plan& plan, const LineNodes& line) {
   BlockStore alone;

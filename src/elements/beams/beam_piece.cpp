@@ -30,7 +30,7 @@ Layout piece_layout(bool inextensible, bool unshearable) {
 
 constexpr std::array<const char*, 2> ends = {"A", "B"};
 
-/// Largest and least normal stress E (ε + κ_2 z − κ_3 y) of a section; not a number where its shape is not known.
+/// Largest and smallest normal stress E (ε + κ_2 z − κ_3 y) of a section; NaN if its shape is not known.
 std::pair<double, double> normal_stress(const BeamSection& section, const Vec6& strain) {
   if (!(section.young > 0) || section.outline.empty()) return {std::nan(""), std::nan("")};
   const auto at = [&](const Eigen::Vector2d& r) { return section.young * (strain[0] + strain[4] * r[1] - strain[5] * r[0]); };
@@ -138,7 +138,7 @@ void Beams<Nodes, Held>::observe(std::size_t e, const State& state, std::span<do
   std::size_t next = 0;
   for (std::size_t end = 0; end < 2; ++end) {
     const std::size_t node = end == 0 ? 0 : Nodes - 1;
-    const double sign = end == 0 ? -1 : 1;  // a section's forces are those on the side that looks along the beam
+    const double sign = end == 0 ? -1 : 1;  // section forces act on the face whose outward normal is along the beam
     const double* at = r.data() + 6 * node;
     const Vec3 force =
         piece.axes[end == 0 ? 0 : Nodes - 1].transpose() * (state.nodes[node].R.transpose() * Vec3(at[0], at[1], at[2]));
@@ -183,7 +183,8 @@ void Beams<Nodes, Held>::evaluate_fields(std::size_t e, const State& state, std:
       values[3 * p + c] = stress[static_cast<Eigen::Index>(c)];
       values[3 * (piece.at.size() + p) + c] = stress[static_cast<Eigen::Index>(3 + c)];
     }
-    if (Held && section.stiffness(0, 0) == 0) strain[0] += stress[0] / section.own_stiffness[0];  // as if it could stretch
+    // the stress of an inextensible beam follows from the stretch that its normal force would cause
+    if (Held && section.stiffness(0, 0) == 0) strain[0] += stress[0] / section.own_stiffness[0];
     const auto [most, least] = normal_stress(section, strain);
     values[6 * piece.at.size() + 2 * p] = most;
     values[6 * piece.at.size() + 2 * p + 1] = least;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A piece of a beam: two or three nodes.
+// A piece of a beam: the finite element with two or three nodes.
 #pragma once
 
 #include <algorithm>
@@ -14,38 +14,40 @@
 
 namespace engrane::elements::beams {
 
-/// Data of a piece, and its residual. Nodes stand along it; the reference node is the first of two, the middle one of three. With
-/// the rotations of the others from it,
+/// Data of a piece and its residual. Nodes are ordered along the piece. The reference node r is the first of two or the middle
+/// one of three. With the rotations relative to it,
 ///
 ///     ψ_i = log(R_rᵀ R_i),   ψ = Σ N_i ψ_i,   y_i = R_rᵀ (x_i − x_r),   h = Σ N_i′ y_i
 ///
-/// strains (BeamStrain) do not change when the piece moves as a body, nor depend on how it came where it is. Stiffness: one point
-/// of Gauss less than nodes, which is free of locking. Inertia: masses consistent with N_i on the line of centres of mass, whose
-/// points the nodes carry; tensors of the sections at the nodes. Momentum, and any motion as a body, are exact.
+/// the strains (BeamStrain) are objective (invariant under rigid-body motion) and path-independent. Stiffness: reduced
+/// integration, with one Gauss point fewer than nodes, which avoids locking. Inertia: consistent mass on the line of centres of
+/// mass, whose points move rigidly with the nodes; inertia tensors of the sections lumped at the nodes. Momentum and rigid-body
+/// motion are exact.
 ///
-/// Strains that the section holds at zero (BeamSection::held) have a multiplier at each point, in the order of points: the force
-/// that holds, of Φ = −strain · length.
+/// Each strain constrained to zero (BeamSection::held) has a multiplier at each Gauss point, ordered by point. The constraint
+/// is Φ = −strain · length and the multiplier is the constraint force.
 template <int Nodes>
 struct BeamPiece {
   static constexpr int points = Nodes - 1;
   static constexpr std::size_t reference = Nodes == 3 ? 1 : 0;
-  /// Half a turn is the end of what a rotation vector tells; before, the shape functions have ceased to follow the beam.
+  /// Limit on |ψ_i|, rad, beyond which the residual is NaN. Rotation vectors are unique up to π, but the interpolation becomes
+  /// inaccurate earlier.
   static constexpr double most_turn = 2;
 
   struct Point {
-    double length = 0;                           ///< of the piece that it stands for, at rest
-    std::array<double, Nodes> shape{}, slope{};  ///< N_i, and their slopes by the length at rest
-    Mat3 axes;                                   ///< of the section at rest, columns
+    double length = 0;                           ///< Gauss weight times Jacobian: its share of the length at rest
+    std::array<double, Nodes> shape{}, slope{};  ///< N_i and their derivatives by arc length at rest
+    Mat3 axes;                                   ///< of the section at rest, as columns
     std::shared_ptr<const BeamSection> section;
   };
   std::array<Point, static_cast<std::size_t>(points)> at{};
   std::shared_ptr<const BeamSection> section;  ///< in the middle of the piece
-  /// Where the nodes are at rest, for small displacements; nullptr: they may have any size.
+  /// Positions of the nodes at rest, for small displacements; nullptr: large displacements.
   std::shared_ptr<const std::array<Vec3, Nodes>> small;
   std::array<Mat3, Nodes> axes;  ///< of the sections at the nodes at rest
   Eigen::Matrix<double, Nodes, Nodes> mass;
-  std::array<Vec3, Nodes> centers;  ///< where each node carries the mass, from the node at rest
-  std::array<Mat3, Nodes> inertia;  ///< about these centres, in axes that are the global ones at rest
+  std::array<Vec3, Nodes> centers;  ///< centre of mass relative to each node, in body axes that are the global ones at rest
+  std::array<Mat3, Nodes> inertia;  ///< about these centres, in the same axes
 
   template <class T>
   void evaluate(const Motion<T, Nodes>& motion, const State& state, Balance<T, Nodes>& balance) const {
@@ -58,9 +60,9 @@ struct BeamPiece {
     if (section->has_mass()) add_inertia(motion, state, balance);
   }
 
-  /// Is there a tangent in closed form? Pieces that hold strains, and small ones, sweep evaluate().
+  /// Whether there is a closed-form tangent. Pieces with held strains or small displacements differentiate evaluate() instead.
   bool has_tangent() const { return !small && section->held.empty(); }
-  /// Residual and tangent in closed form, six unknowns a node.
+  /// Residual and closed-form tangent, with six unknowns per node.
   void tangent(const State& state, Weights weights, std::span<double> r, std::span<double> k) const;
 
   /// Strains ε at a point.
@@ -68,10 +70,10 @@ struct BeamPiece {
     if (small) return map(small_strain(at[point], small_shift(motion), small_turn(motion)));
     return map(BeamStrain<double>(Relative<double>(motion).at(at[point]), at[point].axes).strain());
   }
-  /// Forces and moments of the section at a point, without damping and those that hold; half their product with the strains is
-  /// the energy there.
+  /// Elastic stress resultants at a point, without damping and constraint forces. Half their product with the strains is the
+  /// strain energy per unit length.
   Vec6 stress(std::size_t point, const Vec6& strain) const { return at[point].section->stiffness * strain; }
-  /// The forces that hold strains at a point.
+  /// Stress resultants at a point due to the constraint forces of held strains.
   Vec6 holding(const State& state, std::size_t point) const {
     Vec6 sum = Vec6::Zero();
     const std::vector<Vec6>& held = at[point].section->held;
@@ -93,7 +95,7 @@ struct BeamPiece {
 
   static Vec6 map(const std::array<double, 6>& values) { return Eigen::Map<const Vec6>(values.data()); }
 
-  /// y_i and ψ_i, or their rates; those of the reference node are zero.
+  /// y_i and ψ_i, or their rates. Entries of the reference node are unused: they are zero by definition.
   template <class T>
   struct Arms {
     std::array<Vec3T<T>, Nodes> y, psi;
@@ -159,7 +161,7 @@ struct BeamPiece {
     return BeamStrain<S>(BeamPlace<S>::of(x.data()), point.axes).strain();
   }
 
-  /// States Φ of the strains held at a point, and returns the forces that hold them.
+  /// Adds the constraints Φ of the strains held at a point to the balance; returns their multipliers.
   template <class T>
   std::array<T, 3> hold(std::size_t point, const std::array<T, 6>& strain, Balance<T, Nodes>& balance) const {
     const std::vector<Vec6>& held = at[point].section->held;
@@ -173,7 +175,7 @@ struct BeamPiece {
     return force;
   }
 
-  /// Adds the forces that hold strains.
+  /// Adds the constraint forces of held strains to the stress resultants.
   template <class S>
   static void add_held(const BeamSection& section, const S* force, std::array<S, 6>& stress) {
     for (std::size_t i = 0; i < section.held.size(); ++i)
@@ -181,8 +183,8 @@ struct BeamPiece {
         if (const double part = section.held[i][static_cast<Eigen::Index>(c)]; part != 0) stress[c] += force[i] * part;
   }
 
-  /// Forces on h, ψ, ψ′ of a point; of a damped section by their rates too, which follow them in `x`, and last, of one that holds
-  /// strains, by the forces that hold them.
+  /// Generalised forces conjugate to h, ψ, ψ′ at a point. `x` holds h, ψ, ψ′, then their rates (damped sections), then the
+  /// multipliers (held strains).
   template <bool Damped, bool Held, class S, std::size_t Size>
   std::array<S, BeamPlace<S>::size> forces(const Point& point, const std::array<S, Size>& x) const {
     const BeamStrain<S> strain(BeamPlace<S>::of(x.data()), point.axes);
@@ -221,7 +223,7 @@ struct BeamPiece {
     Arms<T> rates;
     if constexpr (Damped) rates = relative.rates(motion);
     const Vec3T<T> none(T(0), T(0), T(0));
-    std::array<Vec3T<T>, Nodes> force, moment;  // on y_i and ψ_i
+    std::array<Vec3T<T>, Nodes> force, moment;  // conjugate to y_i and ψ_i
     force.fill(none);
     moment.fill(none);
     for (std::size_t p = 0; p < at.size(); ++p) {
@@ -275,7 +277,7 @@ struct BeamPiece {
     return w;
   }
 
-  /// The derivative of the strains at rest: γ = u′ + x′ × θ, k = θ′.
+  /// Strains linearised at rest: γ = u′ + x′ × θ, k = θ′.
   template <class T>
   static std::array<T, 6> small_strain(const Point& point, const Vectors<T>& u, const Vectors<T>& theta) {
     Vec3T<T> slope(T(0), T(0), T(0)), turn = slope, twist = slope;
@@ -289,8 +291,8 @@ struct BeamPiece {
     return {gamma[0], gamma[1], gamma[2], k[0], k[1], k[2]};
   }
 
-  /// Forces linear in the displacements, and moments linear in the rotation vectors: both stand in space, so that equilibrium
-  /// with given forces and moments is a linear system.
+  /// Forces linear in the displacements and moments linear in the rotation vectors. Both are in global axes, so that
+  /// equilibrium with given forces and moments is a linear system.
   template <class T>
   void resist_small(const Motion<T, Nodes>& motion, Balance<T, Nodes>& balance) const {
     const auto u = small_shift(motion), theta = small_turn(motion);
@@ -341,12 +343,12 @@ struct BeamPiece {
   }
 };
 
-/// With room for the multipliers of pieces that hold strains. The others have no use for it, but would need sweeps of their own:
-/// twice as much to compile, for small pieces only.
+/// Includes lanes for the multipliers of held strains, also for pieces without any. Separate sweeps for those would double the
+/// compile time, and only pieces with small displacements would gain.
 template <int Nodes>
 using BeamSweep = TemplatedBlock<BeamPiece<Nodes>, Nodes, 6 * Nodes + 3 * (Nodes - 1)>;
 
-/// All pieces of a model with so many nodes that hold the same strains. `Held`: whether they hold any.
+/// Block of all pieces of a model with this number of nodes and the same held strains. `Held`: whether any strain is held.
 template <int Nodes, bool Held>
 class Beams final : public BeamSweep<Nodes> {
  public:
@@ -378,6 +380,6 @@ extern template class Beams<3, true>;
 
 }  // namespace engrane::elements::beams
 
-// Sweeps of dual numbers take long to compile: once.
+// Instantiated once in beam_piece.cpp: sweeps of dual numbers take long to compile.
 extern template class engrane::TemplatedBlock<engrane::elements::beams::BeamPiece<2>, 2, 15>;
 extern template class engrane::TemplatedBlock<engrane::elements::beams::BeamPiece<3>, 3, 24>;

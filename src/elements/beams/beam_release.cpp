@@ -15,7 +15,7 @@ namespace engrane::elements::beams {
 
 namespace {
 
-/// Components of an end in the axes of the section: N, V2, V3, T, M2, M3.
+/// Force and moment components at an end in the axes of the section: N, V2, V3, T, M2, M3.
 using Components = std::bitset<6>;
 
 struct End {
@@ -33,11 +33,11 @@ std::string in_words(const Components& components) {
   return text;
 }
 
-/// A joint that leaves these components free: its card, and its axes as numbers of those of the section.
+/// Joint that releases certain components: its card, and its axes as indices of section axes (0 to 2).
 struct Fitting {
   const char* card;
   std::size_t axis = 0;
-  std::optional<std::size_t> second;  ///< held by the node of the deck
+  std::optional<std::size_t> second;  ///< second axis, fixed to the node of the deck
 };
 
 std::optional<Fitting> fitting(const Components& released) {
@@ -73,7 +73,7 @@ class ReleaseWriter {
     BeamData beam = data_;
     beam.release_a.clear();
     beam.release_b.clear();
-    // what else is wrong with the beam is found where it is built
+    // other errors of the beam are reported when it is built
     const std::vector<Fitting> joints = is_line() && find_ends() ? fittings() : std::vector<Fitting>{};
     const int pieces = static_cast<int>(LineNodes{data_.nodes, data_.linear}.pieces());
     if (joints.empty() || !form_.has_numbers(pieces + static_cast<int>(joints.size()))) {
@@ -105,7 +105,8 @@ class ReleaseWriter {
     return count == 2 || (count > 2 && (data_.linear || count % 2 == 1));
   }
 
-  /// The released ends with their axes; else with errors, or without where the line has none.
+  /// Collects the released ends with their axes. False if they cannot be determined; unless AXIS2 is missing, building the beam
+  /// reports the reason.
   bool find_ends() {
     for (const auto& [keyword, components, last] :
          {std::tuple{"RELEASE_A", &data_.release_a, false}, {"RELEASE_B", &data_.release_b, true}}) {
@@ -138,7 +139,7 @@ class ReleaseWriter {
     return sense * LineShape<3>(-1).along({at(0), at(1), at(2)});
   }
 
-  /// The joints of the ends; none with an error.
+  /// Joints of the released ends; empty after an error.
   std::vector<Fitting> fittings() const {
     std::vector<Fitting> joints;
     for (const End& end : ends_) {
@@ -160,9 +161,9 @@ class ReleaseWriter {
     return is_held() ? joints : std::vector<Fitting>{};
   }
 
-  /// Whether what both ends take together holds a body against every motion; else with an error.
+  /// Whether the unreleased components of both ends prevent every rigid-body motion; otherwise reports an error.
   bool is_held() const {
-    if (ends_.size() < 2) return true;  // the other end is held
+    if (ends_.size() < 2) return true;  // the other end is rigidly connected
     const Vec3 middle = (ends_[0].place + ends_[1].place) / 2;
     const double length = (ends_[1].place - ends_[0].place).norm();
     Eigen::Matrix<double, 6, Eigen::Dynamic> held(6, 12);

@@ -16,7 +16,7 @@ namespace engrane::elements::beams {
 
 namespace {
 
-/// Stays as it is when turned about axis 1.
+/// Whether the section is invariant under rotation about axis 1.
 bool is_round(const BeamSection& section) {
   const Mat3 turn = Eigen::AngleAxisd(1, Vec3::UnitX()).toRotationMatrix();
   Mat6 both = Mat6::Zero();
@@ -30,7 +30,7 @@ bool is_round(const BeamSection& section) {
   return section.center.isZero(0) && other.norm() <= rounding * section.inertia.norm();
 }
 
-/// Records of `.BPR` by number, and the sections made of them so far.
+/// Records of `.BPR` by number, and a cache of the sections made from them.
 class SectionBook {
  public:
   explicit SectionBook(const std::vector<deck::Record>* records) {
@@ -55,7 +55,7 @@ class SectionBook {
   std::shared_ptr<std::map<SectionChoice, SectionLine>> lines_ = std::make_shared<std::map<SectionChoice, SectionLine>>();
 };
 
-/// σ = C ε of stretch and bending about the centroid, shear and twist about the shear centre.
+/// C of σ = C ε, with stretch and bending about the centroid, shear and twist about the shear centre.
 Mat6 stiffness_of(const SectionShape& shape, double young, double shear) {
   Mat6 own = Mat6::Zero();
   own(0, 0) = young * shape.area;
@@ -67,7 +67,7 @@ Mat6 stiffness_of(const SectionShape& shape, double young, double shear) {
   return own;
 }
 
-/// Strains there by those at the line of the nodes.
+/// Maps strains at the line of nodes to the stretch at the centroid and the shears at the shear centre.
 Mat6 strains_at(const Eigen::Vector2d& centroid, const Eigen::Vector2d& shear_center) {
   Mat6 moved = Mat6::Identity();
   moved(0, 4) = centroid[1];
@@ -77,7 +77,7 @@ Mat6 strains_at(const Eigen::Vector2d& centroid, const Eigen::Vector2d& shear_ce
   return moved;
 }
 
-/// What a shape is made of; nothing of it for a section with a stiffness of its own.
+/// Material of a shape; all zero for a section given by its stiffness.
 struct Stuff {
   double young = 0, poisson = 0, density = 0;
 };
@@ -125,7 +125,7 @@ BeamSection make_section(const deck::ProfileCard& card, const Stuff& stuff, cons
   return section;
 }
 
-/// Numbers between those of two cards of one kind; false where only one of them has some, or they have not as many.
+/// Interpolates linearly from `to` (part 0) to `other` (part 1), in place. False if only one is given or their sizes differ.
 bool mix(double& to, double other, double part) {
   to += part * (other - to);
   return true;
@@ -145,7 +145,7 @@ bool mix(std::optional<V>& to, const std::optional<V>& other, double part) {
   return to.has_value() == other.has_value() && (!to || mix(*to, *other, part));
 }
 
-/// The section at a part of the way from one to the other; nothing where they are not of one kind.
+/// Interpolates between two cards; nothing if they are not of the same kind.
 std::optional<deck::ProfileCard> between(deck::ProfileCard card, const deck::ProfileCard& other, double part) {
   const bool mixed = card.shape.tag == other.shape.tag && mix(card.shape.values, other.shape.values, part) &&
                      mix(card.hole, other.hole, part) && mix(card.offset, other.offset, part) &&

@@ -7,7 +7,7 @@ namespace {
 
 using Mat69 = Eigen::Matrix<double, 6, 9>;
 
-/// Second derivatives by ψ of f(u) ψ·p, with u = ψ·ψ and f′, f″ at it.
+/// Hessian by ψ of f(u) ψ·p with u = ψ·ψ; `f1` and `f2` are f′(u) and f″(u).
 Mat3 second_derivatives(const Vec3& psi, const Vec3& p, double f1, double f2) {
   const Mat3 half = 2 * (f1 * p + f2 * psi.dot(p) * psi) * psi.transpose();
   Mat3 sum = half + half.transpose();
@@ -15,7 +15,7 @@ Mat3 second_derivatives(const Vec3& psi, const Vec3& p, double f1, double f2) {
   return sum;
 }
 
-/// Second derivatives by ψ of f(u) b·(ψ × (ψ × a)) = f(u) ((ψ·a)(ψ·b) − u a·b).
+/// Hessian by ψ of f(u) b·(ψ × (ψ × a)) = f(u) ((ψ·a)(ψ·b) − u a·b).
 Mat3 second_derivatives(const Vec3& psi, const Vec3& a, const Vec3& b, double f, double f1, double f2) {
   const double in_a = psi.dot(a), in_b = psi.dot(b), both = a.dot(b), value = in_a * in_b - psi.squaredNorm() * both;
   const Vec3 slope = a * in_b + b * in_a - 2 * both * psi;
@@ -25,7 +25,7 @@ Mat3 second_derivatives(const Vec3& psi, const Vec3& a, const Vec3& b, double f,
   return sum;
 }
 
-/// What the axes of the section and the strains make of a place: with E = exp(ψ) axes and T = axesᵀ T(ψ),
+/// Axes, strains and their derivatives at a point: with E = exp(ψ) axes and T = axesᵀ T(ψ),
 ///
 ///     δγ = Eᵀ δh + γ × T δψ,   δk = T δψ′ + (T′ + k × T) δψ
 class Point {
@@ -52,7 +52,7 @@ class Point {
     return by;
   }
 
-  /// ∂ε̇/∂x of a motion at rates that stay.
+  /// ∂ε̇/∂x at constant rates.
   Mat69 strain_rate_by(const BeamPlace<double>& rates) const {
     const Mat3 spin = skew(tangent_ * rates.psi);
     // k̇ = T ψ̇′ + Ṫ ψ′
@@ -66,8 +66,8 @@ class Point {
     return by;
   }
 
-  /// Adds to the forces' derivatives what stress that stays does: the second derivatives of n·γ + m·k, which are products of
-  /// φ_1, φ_2, φ_3 with polynomials of ψ.
+  /// Adds the geometric stiffness: the Hessian of n·γ + m·k at constant n and m. Its terms are products of φ_1, φ_2, φ_3 with
+  /// polynomials in ψ.
   void add_stress(const Vec6& stress, BeamStiffness::Mat9& matrix) const {
     const Vec3 n = axes_ * stress.head<3>(), m = axes_ * stress.tail<3>();
     const Mat3 by_h = -turn_ * skew(stress.head<3>()) * tangent_, by_slope = tangent_by_psi(m, 1);
@@ -82,7 +82,7 @@ class Point {
   }
 
  private:
-  /// ∂(T(ψ) v)/∂ψ with `sign` −1, of its transpose with 1.
+  /// ∂(T(ψ) v)/∂ψ for `sign` −1, ∂(T(ψ)ᵀ v)/∂ψ for 1.
   Mat3 tangent_by_psi(const Vec3& v, double sign) const {
     const Vec3 across = cross(psi_, v), twice = cross(psi_, across);
     Mat3 by = -sign * f_.phi[2] * skew(v) + 2 * (sign * f_.first[2] * across + f_.first[3] * twice) * psi_.transpose() +
@@ -90,14 +90,14 @@ class Point {
     by.diagonal().array() += f_.phi[3] * psi_.dot(v);
     return by;
   }
-  /// How T(ψ) changes as ψ does by `d`.
+  /// Directional derivative of T(ψ) along `d`.
   Mat3 tangent_change(const Vec3& d) const {
     const Mat3 spin = skew(psi_), mixed = spin * skew(d);
     const double rate = 2 * psi_.dot(d);
     return -f_.first[2] * rate * spin - f_.phi[2] * skew(d) + f_.first[3] * rate * spin * spin +
            f_.phi[3] * (mixed + mixed.transpose());
   }
-  /// ∂(tangent_change(d) ψ′)/∂ψ, d and ψ′ as they are.
+  /// ∂(tangent_change(d) ψ′)/∂ψ at constant d and ψ′.
   Mat3 tangent_change_by_psi(const Vec3& d) const {
     const double rate = 2 * psi_.dot(d);
     const Mat3 spin = skew(psi_), turning = skew(d), slope = skew(slope_);

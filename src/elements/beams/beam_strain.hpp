@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strains of a beam at a point, and the forces that do work on them.
+// Strains at a point of a beam and the conjugate forces.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace engrane::elements::beams {
 
-/// How a point of a beam stands, in the axes that the reference node carries (Crisfield and Jelenić 1999, Proc. R. Soc. A 455,
-/// eq. 4.6 with the rotations from the reference configuration): sections are turned by exp(ψ) more than that node, the line of
-/// nodes has the slope h, and ′ is by the length at rest.
+/// Kinematics of a point of a beam in the axes of the reference node (Crisfield and Jelenić 1999, Proc. R. Soc. A 455, eq. 4.6,
+/// with rotations from the reference configuration). exp(ψ) is the rotation of the section relative to that node and h the
+/// slope of the line of nodes; ′ is the derivative by arc length at rest.
 template <class T>
 struct BeamPlace {
   Vec3T<T> h, psi, psi_slope;
@@ -24,12 +24,12 @@ struct BeamPlace {
   }
 };
 
-/// Strains of Reissner and Simo (Simo 1985, Comput. Methods Appl. Mech. Eng. 49, eq. 3.6), in the axes of the section as it is
-/// turned from the reference configuration, of which `axes` are those at rest:
+/// Reissner–Simo strains (Simo 1985, Comput. Methods Appl. Mech. Eng. 49, eq. 3.6), in the rotated axes of the section. `axes`
+/// are those at rest:
 ///
 ///     γ = exp(ψ)ᵀ h,   k = T(ψ) ψ′,   ε = (axesᵀ γ − e_1, axesᵀ k)
 ///
-/// with T(ψ) = 1 − φ_2 ψ̂ + φ_3 ψ̂², so that a change δψ turns the section by δθ = T δψ about its own axes.
+/// with T(ψ) = 1 − φ_2 ψ̂ + φ_3 ψ̂², so that a variation δψ rotates the section by δθ = T δψ in its own axes.
 template <class T>
 class BeamStrain {
  public:
@@ -48,7 +48,7 @@ class BeamStrain {
     return {gamma[0] - 1.0, gamma[1], gamma[2], k[0], k[1], k[2]};
   }
 
-  /// ε̇ of a motion at these rates.
+  /// ε̇ for the given rates of h, ψ, ψ′.
   std::array<T, 6> strain_rate(const BeamPlace<T>& rates) const {
     const Vec3T<T> spin = tangent(rates.psi, T(-1));
     const Vec3T<T> gamma_rate = turned(rates.h, T(-1)) + cross(gamma_, spin);
@@ -57,7 +57,7 @@ class BeamStrain {
     return {gamma[0], gamma[1], gamma[2], k[0], k[1], k[2]};
   }
 
-  /// The forces f with f·δ(h, ψ, ψ′) = σ·δε.
+  /// Generalised forces f with f·δ(h, ψ, ψ′) = σ·δε.
   BeamPlace<T> forces(const std::array<T, 6>& stress) const {
     const Vec3T<T> n = rotate(axes_, Vec3T<T>(stress[0], stress[1], stress[2]));
     const Vec3T<T> m = rotate(axes_, Vec3T<T>(stress[3], stress[4], stress[5]));
@@ -66,17 +66,17 @@ class BeamStrain {
   }
 
  private:
-  /// exp(ψ) v with `sign` 1, exp(ψ)ᵀ v with −1.
+  /// exp(ψ) v for `sign` 1, exp(ψ)ᵀ v for −1.
   Vec3T<T> turned(const Vec3T<T>& v, const T& sign) const {
     const Vec3T<T> across = cross(at_.psi, v);
     return v + across * (sign * f_.f1) + cross(at_.psi, across) * f_.f2;
   }
-  /// T(ψ) v with `sign` −1, its transpose with 1.
+  /// T(ψ) v for `sign` −1, T(ψ)ᵀ v for 1.
   Vec3T<T> tangent(const Vec3T<T>& v, const T& sign) const {
     const Vec3T<T> across = cross(at_.psi, v);
     return v + across * (sign * f_.f2) + cross(at_.psi, across) * f_.f3;
   }
-  /// T′ v, or its transpose.
+  /// T′ v for `sign` −1, T′ᵀ v for 1.
   Vec3T<T> tangent_slope(const Vec3T<T>& v, const T& sign) const {
     const Vec3T<T> across = cross(at_.psi, v), across_slope = cross(at_.psi_slope, v);
     return (across * f2_slope_ + across_slope * f_.f2) * sign + cross(at_.psi, across) * f3_slope_ +

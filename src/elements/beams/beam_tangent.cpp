@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tangent of a piece in closed form. What changes with the unknowns is told in the axes that the reference node r carries:
-// with δx in space and δθ about a node's own axes,
+// Closed-form tangent of a piece. Variations are expressed in the axes of the reference node r: with δx in global axes and δθ
+// in the body axes of each node,
 //
 //     δy_i = R_rᵀ (δx_i − δx_r) + y_i × δθ_r,   δφ_i = R_rᵀ R_i δθ_i − δθ_r,   δψ_i = A_i δφ_i
 //
-// where A = 1 − ½ ψ̂ + κ ψ̂² (RotationVector::change). Forces g_i on y_i and moments μ_i on ψ_i make τ_i = A_iᵀ μ_i.
+// where A = 1 − ½ ψ̂ + κ ψ̂² (RotationVector::change). With g_i conjugate to y_i and μ_i conjugate to ψ_i, τ_i = A_iᵀ μ_i.
 #include "elements/beams/beam_piece.hpp"
 #include "elements/beams/beam_stiffness.hpp"
 
@@ -18,7 +18,7 @@ Mat3 change_matrix(const RotationVector<double>& v) {
   return Mat3::Identity() - 0.5 * spin + v.kappa * spin * spin;
 }
 
-/// ∂(A f)/∂ψ with `sign` −1, ∂(Aᵀ f)/∂ψ with 1.
+/// ∂(A f)/∂ψ for `sign` −1, ∂(Aᵀ f)/∂ψ for 1.
 Mat3 change_by_vector(const RotationVector<double>& v, const Vec3& f, double sign) {
   const Vec3 twice = cross(v.theta, Vec3(cross(v.theta, f)));
   Mat3 sum = -0.5 * sign * skew(f) + 2 * v.kappa_slope() * twice * v.theta.transpose() +
@@ -42,17 +42,17 @@ class BeamPiece<Nodes>::Tangent {
 
  private:
   static constexpr Eigen::Index unknowns = 6 * Nodes, others = 6 * (Nodes - 1);
-  using Inner = Eigen::Matrix<double, others, others>;  ///< by y_i and ψ_i, of the nodes but r
+  using Inner = Eigen::Matrix<double, others, others>;  ///< by y_i and ψ_i of the nodes except r
 
-  /// The nodes but r, in their order.
+  /// Index of the `other`-th node, not counting r.
   static constexpr std::size_t node(Eigen::Index other) { return Nodes == 3 ? static_cast<std::size_t>(2 * other) : 1; }
   static constexpr Eigen::Index row(std::size_t node) { return 6 * static_cast<Eigen::Index>(node); }
   template <class M>
-  static auto block(M& matrix, Eigen::Index i, Eigen::Index j) {  // an entry of 3 × 3
+  static auto block(M& matrix, Eigen::Index i, Eigen::Index j) {
     return matrix.template block<3, 3>(i, j);
   }
 
-  /// Adds the second derivatives at a point to those by y_i and ψ_i.
+  /// Transforms the derivatives at a point, by (h, ψ, ψ′), to those by y_i and ψ_i, and adds them to `sum`.
   static void add_point(const Point& point, const BeamStiffness::Mat9& at, Inner& sum) {
     for (Eigen::Index o = 0; o < Nodes - 1; ++o)
       for (Eigen::Index q = 0; q < Nodes - 1; ++q) {
@@ -66,7 +66,7 @@ class BeamPiece<Nodes>::Tangent {
       }
   }
 
-  /// Sums forces, and their derivatives by y_i and ψ_i and, damped, by their rates, over the points.
+  /// Sums the forces over the points, with their derivatives by y_i and ψ_i and, if damped, by the rates of these.
   void sum_points(const Relative<double>& relative, const Arms<double>& rates) {
     force_.setZero();
     by_place_.setZero();
@@ -86,12 +86,12 @@ class BeamPiece<Nodes>::Tangent {
     }
   }
 
-  /// How y, ψ and their rates change with the unknowns of the node i itself, and of r.
+  /// Derivatives of y_i, ψ_i and their rates by the unknowns of node i and of r.
   struct Changes {
     Mat3 change;                 ///< A
     Mat3 place, turn;            ///< y by x_i and ψ by θ_i
     Mat3 arm, counter;           ///< y and ψ by θ_r; y by x_r is −place
-    Mat3 place_rate, turn_rate;  ///< the same of the rates
+    Mat3 place_rate, turn_rate;  ///< the same for ẏ and ψ̇
     Mat3 arm_rate, counter_rate;
     Mat3 phi, phi_counter;  ///< φ by θ_i and by θ_r
   };
@@ -129,7 +129,7 @@ class BeamPiece<Nodes>::Tangent {
     if (damped_) rates = relative.rates(motion);
     sum_points(relative, rates);
 
-    // g_i and μ_i by the unknowns
+    // derivatives of g_i and μ_i by the unknowns
     std::array<Changes, Nodes - 1> all;
     Eigen::Matrix<double, others, unknowns> by;
     auto by_place = by.template middleCols<3>(row(r)), by_turn = by.template middleCols<3>(row(r) + 3);
@@ -165,7 +165,7 @@ class BeamPiece<Nodes>::Tangent {
       r_.template segment<3>(row(r)) -= in_space;
       r_.template segment<3>(row(r) + 3) -= tau + cross(relative.y[i], g);
 
-      // τ_i, then the moment on r, −(τ_i + y_i × g_i), and what r_i and R_iᵀ R_r make of both on i
+      // derivatives of τ_i, then of the moment on r, −(τ_i + y_i × g_i), then of the force and moment on i
       using Rows = Eigen::Matrix<double, 3, unknowns>;
       const auto forces = by.template middleRows<3>(6 * o);
       const Mat3 bend = change_by_vector(relative.vector[i], mu, 1), pull = skew(g);
@@ -233,7 +233,7 @@ class BeamPiece<Nodes>::Tangent {
   Eigen::Map<Eigen::Matrix<double, unknowns, 1>> r_;
   Eigen::Map<Eigen::Matrix<double, unknowns, unknowns, Eigen::RowMajor>> k_;
   Eigen::Matrix<double, others, 1> force_;  ///< g_i and μ_i
-  Inner by_place_, by_rate_;                ///< these by y_i and ψ_i, and by their rates
+  Inner by_place_, by_rate_;                ///< derivatives of `force_` by y_i and ψ_i, and by ẏ_i and ψ̇_i
 };
 
 template <int Nodes>

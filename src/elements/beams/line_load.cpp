@@ -9,7 +9,7 @@ namespace engrane::elements::beams {
 
 namespace {
 
-/// On a piece: forces ∫ N_i N_j ds q_j on its nodes, q_j the load per length at rest at node j.
+/// Load on one piece: nodal forces Σ_j ∫ N_i N_j ds q_j, with q_j the load per unit length at rest at node j.
 template <int Nodes>
 class LineLoad final : public TemplatedElement<LineLoad<Nodes>, Nodes, 6 * Nodes> {
  public:

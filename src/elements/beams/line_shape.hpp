@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines of nodes in pieces of two or three: shape functions, and rules of Gauss along them.
+// Lines of nodes divided into pieces of two or three nodes: shape functions and Gauss rules.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ inline const std::array<GaussPoint, 1> one_point = {{{0, 2}}};
 inline const std::array<GaussPoint, 2> two_points = {{{-std::sqrt(1.0 / 3), 1}, {std::sqrt(1.0 / 3), 1}}};
 inline const std::array<GaussPoint, 3> three_points = {{{-std::sqrt(0.6), 5.0 / 9}, {0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}}};
 
-/// Shape functions of Lagrange and their slopes at ξ from −1 to 1.
+/// Lagrange shape functions and their derivatives by ξ, at ξ in [−1, 1].
 template <int Nodes>
 struct LineShape {
   std::array<double, Nodes> value, slope;
@@ -42,7 +42,7 @@ struct LineShape {
   }
 };
 
-/// ∫ ρ N_i N_j ds by three points, with ρ at ξ by `density`.
+/// ∫ ρ N_i N_j ds by three Gauss points; `density` returns ρ at ξ.
 template <int Nodes, class Density>
 Eigen::Matrix<double, Nodes, Nodes> line_masses(const std::array<Vec3, Nodes>& places, const Density& density) {
   Eigen::Matrix<double, Nodes, Nodes> masses;
@@ -60,22 +60,23 @@ Eigen::Matrix<double, Nodes, Nodes> line_masses(const std::array<Vec3, Nodes>& p
   return line_masses<Nodes>(places, [](double) { return 1.0; });
 }
 
-/// ∫ ds by three points.
+/// ∫ ds by three Gauss points.
 template <int Nodes>
 double line_length(const std::array<Vec3, Nodes>& places) {
   return line_masses<Nodes>(places).sum();
 }
 
-/// Nodes of a line, of a card with the keyword N, in pieces.
+/// Nodes of a line, as listed by the keyword N of a card, and their division into pieces.
 struct LineNodes {
   const std::vector<int>& nodes;
-  bool linear;  ///< pieces of two
+  bool linear;  ///< pieces of two nodes; otherwise of three, unless there are only two
 
   bool of_two() const { return linear || nodes.size() == 2; }
   std::size_t pieces() const { return of_two() ? nodes.size() - 1 : (nodes.size() - 1) / 2; }
-  /// Whether pieces can be made of the nodes, and have free numbers from that of the record on; else with an error.
+  /// Whether the nodes can be divided into pieces and the element numbers of these, from that of the record on, are free.
+  /// Otherwise reports an error.
   bool check(const BuildContext& context) const;
-  /// Nodes of a piece.
+  /// Nodes of piece `p`. Neighbouring pieces share their end nodes.
   template <int Nodes>
   std::array<int, Nodes> piece(std::size_t p) const {
     std::array<int, Nodes> some;
@@ -84,7 +85,7 @@ struct LineNodes {
   }
 };
 
-/// Where the nodes of a piece are; nothing, with an error, where they do not stand along it in turn.
+/// Positions of the nodes of a piece. Reports an error and returns nothing if the piece is folded or has no length.
 template <int Nodes>
 std::optional<std::array<Vec3, Nodes>> line_places(const std::array<int, Nodes>& nodes, const BuildContext& context) {
   std::array<Vec3, Nodes> places;

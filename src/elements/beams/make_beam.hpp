@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What BEAM of `.MCE` and beams among the cells of `.MAI` are made by.
+// Builds beams for BEAM in `.MCE` and for the beam cells of `.MAI`.
 #pragma once
 
 #include <memory>
@@ -12,13 +12,13 @@ namespace engrane::elements::beams {
 
 struct BeamOptions {
   SectionChoice sections;
-  std::optional<Vec3> axis_2, axis_2_end;  ///< of any length; across the beam at its first node and at its last
-  bool small = false;                      ///< displacements are small: forces are linear in them
-  bool lumped = false;                     ///< masses at the nodes
+  std::optional<Vec3> axis_2, axis_2_end;  ///< direction across the beam at its first and last node, of any length
+  bool small = false;                      ///< small displacements: forces are linear in them
+  bool lumped = false;                     ///< lumped instead of consistent masses
 };
 
-/// The pieces of a line of nodes: the first, and the others into BuildContext::more. Faults are reported at the keywords N, BPR,
-/// BPR_END, MAT, AXIS2 and AXIS2_END of the record that is built; nullptr then.
+/// Builds the pieces of a line of nodes. Returns the first and appends the others to BuildContext::more. Returns nullptr after
+/// an error, which is reported at the keyword N, BPR, BPR_END, MAT, AXIS2 or AXIS2_END of the record.
 std::unique_ptr<Element> make_beam(const LineNodes& line, const BeamOptions& options, BuildContext& context);
 
 }  // namespace engrane::elements::beams

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Torsion and shear of any polygon: Laplace's equation by boundary elements. Corners make the warping singular; panels that grow
-// shorter towards them by a constant ratio leave an error of 2e-5 and less.
+// Torsion and shear of arbitrary polygons: Laplace's equation by boundary elements. The warping is singular at corners; panels
+// graded geometrically towards them keep the error below about 2e-5.
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -18,13 +18,13 @@ using Vec2 = SectionShape::Vec2;
 using Mat2 = SectionShape::Mat2;
 using Index = Eigen::Index;
 
-constexpr Index order = 6;  // nodes of a panel: points of Gauss
+constexpr Index order = 6;  // nodes per panel, at the Gauss points
 using Powers = Eigen::Matrix<double, order, 1>;
 
-/// Points of Gauss from −1 to 1, and their weights.
+/// Gauss points on [−1, 1] and their weights.
 struct Rule {
   Powers place, weight;
-  Eigen::Matrix<double, order, order> lagrange;  ///< (k, j): of t^k in the polynomial that is 1 at node j and 0 at the others
+  Eigen::Matrix<double, order, order> lagrange;  ///< (k, j): coefficient of t^k in the Lagrange polynomial of node j
 
   Rule() {
     place << -0.9324695142031521, -0.6612093864662645, -0.2386191860831969, 0.2386191860831969, 0.6612093864662645,
@@ -37,10 +37,10 @@ struct Rule {
   }
 };
 
-/// A straight part of the boundary; the section is on its left.
+/// Straight part of the boundary; the section is on its left.
 struct Panel {
-  Vec2 middle, along;  ///< along it, of length 1
-  double half;         ///< of its length
+  Vec2 middle, along;  ///< midpoint; unit tangent
+  double half;         ///< half its length
 };
 
 std::vector<Panel> panels_of(const std::vector<Loop>& loops) {
@@ -49,7 +49,7 @@ std::vector<Panel> panels_of(const std::vector<Loop>& loops) {
   constexpr std::size_t most_unknowns = 900;  // 40 ms
   constexpr double ratio = 0.25;
   const auto levels = std::clamp<std::size_t>(most_unknowns / order / sides / 2, 1, 5) - 1;
-  std::vector<double> cuts = {0};  // of half a side
+  std::vector<double> cuts = {0};  // of the first half of a side, then mirrored
   for (std::size_t k = levels; k > 0; --k) cuts.push_back(0.5 * std::pow(ratio, static_cast<double>(k)));
   cuts.push_back(0.5);
   for (std::size_t i = cuts.size() - 1; i-- > 0;) cuts.push_back(1 - cuts[i]);
@@ -64,7 +64,7 @@ std::vector<Panel> panels_of(const std::vector<Loop>& loops) {
   return panels;
 }
 
-/// Points of a boundary, weights and outward normals; integrals over the section by those along its boundary.
+/// Quadrature points, weights and outward normals of a boundary. Converts integrals over the section to boundary integrals.
 class Boundary {
  public:
   explicit Boundary(const std::vector<Loop>& loops) : panels_(panels_of(loops)) {
@@ -86,20 +86,20 @@ class Boundary {
   }
 
   Index size() const { return weight_.size(); }
-  Vec2 at(Index i) const { return at_.col(i); }  ///< from the centroid
+  Vec2 at(Index i) const { return at_.col(i); }  ///< relative to the centroid
   Vec2 normal(Index i) const { return normal_.col(i); }
   const Eigen::VectorXd& weight() const { return weight_; }
   double area() const { return area_; }
   const Vec2& centroid() const { return centroid_; }
 
-  /// ∫ f dA of a homogeneous polynomial of this degree, from its values on the boundary.
+  /// ∫ f dA of a homogeneous polynomial of degree `degree`, from its values on the boundary.
   template <class F>
   double integral(int degree, const F& f) const {
     double sum = 0;
     for (Index i = 0; i < size(); ++i) sum += f(at(i)) * outward_[i];
     return sum / (degree + 2);
   }
-  /// ∫ r h dA of a harmonic h with these values and normal slopes: Green's identity with r |r|²/8.
+  /// ∫ r h dA of a harmonic function with boundary values `h` and normal derivatives `slope`: Green's identity with r |r|²/8.
   Vec2 moment(const Eigen::VectorXd& h, const Eigen::VectorXd& slope) const {
     Vec2 sum = Vec2::Zero();
     for (Index i = 0; i < size(); ++i) {
@@ -110,8 +110,8 @@ class Boundary {
     return sum;
   }
 
-  /// Harmonic functions with these normal slopes, one in each column, up to a constant each: ½ u + ∫ u ∂G/∂n ds = ∫ G ∂u/∂n ds,
-  /// G = −log |r|/2π.
+  /// Boundary values of the harmonic functions with the given normal derivatives, one per column, each up to a constant. Solves
+  /// ½ u + ∫ u ∂G/∂n ds = ∫ G ∂u/∂n ds with G = −log |r|/2π.
   Eigen::MatrixXd harmonic(const Eigen::MatrixXd& slopes) const {
     Eigen::MatrixXd on_values(size(), size()), on_slopes(size(), size());
     for (Index p = 0; p < size() / order; ++p)
@@ -121,7 +121,7 @@ class Boundary {
         on_slopes.block<1, order>(i, order * p) = parts.value.transpose();
       }
     on_values.diagonal().array() += 0.5;
-    // the constant: its mean along the boundary is zero
+    // fix the constant: zero mean along the boundary
     on_values.rowwise() += weight_.transpose() / weight_.sum();
     return on_values.partialPivLu().solve(on_slopes * slopes);
   }
@@ -132,8 +132,9 @@ class Boundary {
     Powers value, slope;
   };
 
-  /// With t along the panel and z the place from which it is seen, both by half its length, ∫ t^k/(t − z) dt and
-  /// ∫ t^k log |t − z| dt are known.
+  /// Integrals over a panel for the collocation point `seen`; `own`: the point lies on the panel. With t along the panel and z
+  /// the collocation point, both scaled by half the panel length, ∫ t^k/(t − z) dt and ∫ t^k log |t − z| dt have closed forms.
+  /// Far from the panel the Gauss rule is used.
   Parts integrals(const Panel& panel, const Vec2& seen, bool own) const {
     const Vec2 from = (seen - panel.middle) / panel.half;
     const double s = from.dot(panel.along), aside = own ? 0 : -from.dot(Vec2(panel.along[1], -panel.along[0]));
@@ -150,7 +151,7 @@ class Boundary {
       return parts;
     }
     const double log_1 = std::log(std::abs(1.0 - z)), log_0 = std::log(std::abs(-1.0 - z));
-    double angle = 0;  // under which the panel is seen
+    double angle = 0;  // subtended by the panel at the collocation point
     if (aside != 0) angle = std::copysign(std::atan2(1 - s, std::abs(aside)) + std::atan2(1 + s, std::abs(aside)), aside);
     std::complex<double> pole(log_1 - log_0, angle);
     Powers values, slopes;
@@ -184,8 +185,8 @@ SectionShape polygon_shape(std::vector<Loop> loops, double poisson) {
   shape.outline = std::move(loops.front());
   for (Vec2& corner : shape.outline) corner -= boundary.centroid();
 
-  // Slopes of the warping ω of a twist of 1 (Timoshenko and Goodier 1970, art. 109), and of what the axial displacement by shear
-  // forces 1 along axes 2 and 3 has beside its particular solution −(c·r) r²/4, times E (Cowper 1966)
+  // Normal derivatives of the warping ω for unit twist (Timoshenko and Goodier 1970, art. 109), and of the harmonic part of the
+  // axial displacement for unit shear forces along axes 2 and 3, times E; its particular solution is −(c·r) r²/4 (Cowper 1966)
   const Mat2 inverse = shape.moments.inverse();  // c = inverse · V
   Eigen::MatrixXd slopes(boundary.size(), 3);
   for (Index i = 0; i < boundary.size(); ++i) {
@@ -193,7 +194,7 @@ SectionShape polygon_shape(std::vector<Loop> loops, double poisson) {
     slopes(i, 0) = r[1] * n[0] - r[0] * n[1];
     for (Index k = 0; k < 2; ++k) {
       const Vec2 c = inverse.col(k);
-      const Vec2 across = c.dot(r) * r - r.squaredNorm() / 2 * c;  // −E/ν times what Poisson's ratio makes per length
+      const Vec2 across = c.dot(r) * r - r.squaredNorm() / 2 * c;  // −E/ν times the Poisson contraction per unit length
       const Vec2 particular = -(r.squaredNorm() * c + 2 * c.dot(r) * r) / 4;
       slopes(i, 1 + k) = n.dot(poisson * across - particular);
     }
@@ -203,7 +204,7 @@ SectionShape polygon_shape(std::vector<Loop> loops, double poisson) {
   const Vec2 tilt = inverse * boundary.moment(values.col(0), slopes.col(0));
   shape.shear_center = Vec2(-tilt[1], tilt[0]);
 
-  // E times shears by forces 1: the mean slope of the axial displacement, less the mean of what Poisson's ratio makes
+  // E times the shear strains for unit forces: the mean slope of the axial displacement less the mean Poisson contraction
   Mat2 shears;
   for (Index k = 0; k < 2; ++k) {
     const Vec2 c = inverse.col(k);

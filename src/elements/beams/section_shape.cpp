@@ -12,7 +12,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 using Vec2 = SectionShape::Vec2;
 
-/// A circle with a hole of `ratio` times its diameter; shear factors of Cowper's table 1.
+/// Circle with a concentric hole of diameter `ratio` · `diameter`; shear factors from Cowper's table 1.
 SectionShape tube(double diameter, double ratio, double poisson) {
   SectionShape s;
   const double square = diameter * diameter, m = ratio * ratio;
@@ -35,7 +35,7 @@ SectionShape rectangle(double height, double width, double poisson) {
   s.moments.diagonal() << s.area * height * height / 12, s.area * width * width / 12;
   const double small = std::min(height, width), large = std::max(height, width);
   double sum = 0;
-  constexpr int terms = 41;  // the last below rounding
+  constexpr int terms = 41;  // the last term is below rounding error
   for (int n = terms; n > 0; n -= 2) sum += std::tanh(n * pi * large / (2 * small)) / std::pow(n, 5);
   s.torsion = large * small * small * small / 3 * (1 - 192 / std::pow(pi, 5) * small / large * sum);
   s.shear_factors *= 10 * (1 + poisson) / (12 + 11 * poisson);
@@ -49,7 +49,7 @@ Loop loop_of(const std::vector<double>& numbers) {
   return loop;
 }
 
-/// A loop that runs counterclockwise, or clockwise for a hole.
+/// Orients a loop counterclockwise, or clockwise for a hole.
 Loop turned(Loop loop, bool hole) {
   double area = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constants of the shape of a section: area, moments, torsion and shear.
+// Geometric constants of a cross-section: area, second moments, torsion and shear.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +9,8 @@
 
 namespace engrane::elements::beams {
 
-/// Coordinates are on axes 2 and 3 of the section. Where the deck's card puts the centroid is the business of BeamSection: points
-/// here are from the centroid.
+/// Coordinates are along axes 2 and 3 of the section, relative to its centroid. BeamSection applies the centroid offset of the
+/// deck's card.
 struct SectionShape {
   using Vec2 = Eigen::Vector2d;
   using Mat2 = Eigen::Matrix2d;
@@ -18,23 +18,23 @@ struct SectionShape {
   double area = 0;
   Mat2 moments = Mat2::Zero();            ///< ∫ r rᵀ dA: (0, 0) is the second moment about axis 3, (1, 1) that about axis 2
   double torsion = 0;                     ///< torsion constant
-  Mat2 shear_factors = Mat2::Identity();  ///< shear forces are G A times these, times the shears
-  Vec2 shear_center = Vec2::Zero();       ///< of Trefftz: a force through it does not twist
-  std::vector<Vec2> outline;              ///< corners; of a circle points on it; empty: a shape by its constants
-  double radius = 0;                      ///< of a circle: where stress is extreme
+  Mat2 shear_factors = Mat2::Identity();  ///< shear forces = G A · shear_factors · shear strains
+  Vec2 shear_center = Vec2::Zero();       ///< Trefftz: a force through it causes no twist
+  std::vector<Vec2> outline;              ///< corners, or points on a circle; empty: section given by its constants
+  double radius = 0;                      ///< of a circle, where the bending stress is extreme; otherwise 0
 };
 
-/// A closed line, without its first point again at the end.
+/// A closed polygon; the first point is not repeated at the end.
 using Loop = std::vector<SectionShape::Vec2>;
 
-/// The shape of a card that has one. Shear factors are those of Cowper (1966, J. Appl. Mech. 33), of circles, tubes and
-/// rectangles by his closed forms.
+/// Returns the constants of a card that gives a shape, or an area and moments. Shear factors of shapes are those of Cowper
+/// (1966, J. Appl. Mech. 33), in his closed form for circles, tubes and rectangles, unless the card gives them.
 SectionShape shape_of(const deck::ProfileCard& card, double poisson);
 
-/// The loops of a card whose shape is a polygon: the outer one, then a hole; counterclockwise and clockwise. Empty for others.
+/// Loops of a polygonal shape: the outer boundary, counterclockwise, then the hole if any, clockwise. Empty for other shapes.
 std::vector<Loop> loops_of(const deck::ProfileCard& card);
 
-/// A polygon with holes, torsion and shear by boundary elements.
+/// Constants of a polygon with holes; torsion and shear by boundary elements.
 SectionShape polygon_shape(std::vector<Loop> loops, double poisson);
 
 }  // namespace engrane::elements::beams

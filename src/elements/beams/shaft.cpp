@@ -18,11 +18,11 @@ namespace engrane::elements::beams {
 
 namespace {
 
-/// Places closer than this part of the shaft's length are one.
+/// Positions closer than this fraction of the shaft's length coincide.
 constexpr double near = 1e-6;
-/// Pieces are at most so many diameters long, unless PIECES says how many there are.
+/// Maximum length of a piece in mean diameters, unless PIECES is given.
 constexpr double slender = 3;
-/// More pieces between two places are a slip of a unit.
+/// Maximum number of pieces between two positions; more suggests a wrong unit.
 constexpr int most_pieces = 1000;
 
 class ShaftWriter {
@@ -81,7 +81,7 @@ class ShaftWriter {
     return diameter(step, true) != diameter(step, false) || bore(step, true) != bore(step, false);
   }
 
-  /// Stations in turn on a line; else with errors.
+  /// Whether the stations lie in order on a line; otherwise reports an error.
   bool has_axis() {
     const Vec3 first = form_.nodes.at(data_.nodes.front()), last = form_.nodes.at(data_.nodes.back());
     length_ = (last - first).norm();
@@ -110,7 +110,8 @@ class ShaftWriter {
     return true;
   }
 
-  /// Steps in turn, with walls; else with errors.
+  /// Whether the steps are in order, their bores are below their diameters and PIECES is given if needed; otherwise reports an
+  /// error.
   bool has_steps() const {
     double before = 0;
     for (std::size_t i = 0; i < data_.places.size(); ++i) {
@@ -149,7 +150,7 @@ class ShaftWriter {
     return true;
   }
 
-  /// One value for all, or one for each; none where the keyword need not be given.
+  /// Whether a keyword has one value for all, one for each, or none at all; otherwise reports an error.
   bool counts(const char* keyword, const std::vector<double>& values, std::size_t count, const char* what,
               const char* list) const {
     if (values.size() <= 1 || values.size() == count) {
@@ -177,7 +178,7 @@ class ShaftWriter {
     return false;
   }
 
-  /// What sits on the shaft; else with errors.
+  /// Whether discs, wheels and bearings are complete and consistent; otherwise reports an error.
   bool has_parts() const {
     struct List {
       const char* name;
@@ -217,7 +218,7 @@ class ShaftWriter {
     return true;
   }
 
-  /// The hole of a wheel: by itself the largest diameter of the shaft there.
+  /// Inner diameter of a wheel; default: the largest diameter of the shaft at its station.
   double inner_of(std::size_t wheel) const {
     if (!data_.inner.empty()) return each(data_.inner, wheel);
     double place = 0, largest = 0;
@@ -255,12 +256,12 @@ class ShaftWriter {
     return id;
   }
 
-  /// Of a step: pieces of three nodes between the places where it ends and where stations are.
+  /// Beam of a step: three-node pieces between its ends and the stations within it. Creates the missing nodes.
   BeamData beam_of(std::size_t step) {
     const double from = step_start(step), to = step_end(step);
     struct Stop {
       double place;
-      int node;  ///< 0: none of the deck
+      int node;  ///< 0: no node of the deck
     };
     std::vector<Stop> stops = {{from, 0}};
     for (const Station& station : stations_) {
@@ -272,7 +273,7 @@ class ShaftWriter {
     stops.push_back({to, 0});
     for (const Station& station : stations_)
       if (std::abs(station.place - to) <= near * length_) stops.back() = {station.place, station.node};
-    if (stops.front().node == 0) stops.front().node = last_node_;  // the step before has made it
+    if (stops.front().node == 0) stops.front().node = last_node_;  // created by the previous step
 
     BeamData beam;
     beam.nodes = {stops.front().node};
@@ -326,7 +327,7 @@ class ShaftWriter {
   double length_ = 0;
   std::vector<Station> stations_;
   std::vector<std::pair<int, Vec3>> made_nodes_;
-  int last_node_ = 0;  ///< where the step before ends
+  int last_node_ = 0;  ///< end node of the previous step
 };
 
 void expand(const ShaftData& data, ShortForm& form) { ShaftWriter(data, form).write(); }

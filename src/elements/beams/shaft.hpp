@@ -10,15 +10,15 @@ namespace engrane::elements::beams {
 
 /// Card of a stepped shaft. `SHAFT N n1 … n2 MAT m D d1 d2 … [AT s1 …] [D_END …] [BORE …] [BORE_END …] [PIECES n] …`
 ///
-/// A list with one value holds it for all steps, discs, wheels or bearings.
+/// A list with a single value applies it to all steps, discs, wheels or bearings.
 struct ShaftData {
-  std::vector<int> nodes;                                      ///< stations on the axis in turn, from end to end
+  std::vector<int> nodes;                                      ///< stations along the axis, in order from end to end
   int material = 0;                                            ///< of `.MAT`
-  std::vector<double> places;                                  ///< where steps end, from the first node along the axis
-  std::vector<double> diameter, diameter_end, bore, bore_end;  ///< of steps; at their ends, of cones
-  std::optional<double> shear;                                 ///< factor of all sections
-  std::optional<int> pieces;                                   ///< between two places; by itself by length and diameter
-  double damping = 0;                                          ///< a time
+  std::vector<double> places;                                  ///< boundaries between steps: distances from the first node
+  std::vector<double> diameter, diameter_end, bore, bore_end;  ///< of the steps; `_end`: at the far end of conical steps
+  std::optional<double> shear;                                 ///< shear factor of all sections
+  std::optional<int> pieces;                                   ///< between stations or step ends; default: by slenderness
+  double damping = 0;                                          ///< Kelvin–Voigt damping time
 
   std::vector<int> discs;  ///< stations
   std::vector<double> mass, polar, diametral;
@@ -29,7 +29,7 @@ struct ShaftData {
   std::vector<double> radial_stiffness, axial_stiffness, radial_damping, axial_damping;
 };
 
-/// SHAFT (ARBRE): a stepped shaft with what sits on it, written out as BEAM, INERTIA and BEARING.
+/// SHAFT (ARBRE): a stepped shaft with its discs, wheels and bearings; expands to BEAM, INERTIA and BEARING.
 ElementType shaft_type();
 
 }  // namespace engrane::elements::beams

@@ -9,7 +9,7 @@ namespace engrane::elements::loads {
 
 namespace {
 
-/// Pushes its ends apart along their line.
+/// Force along the line of two ends; positive pushes them apart.
 class LineForce final : public TemplatedElement<LineForce, 2, 6> {
  public:
   LineForce(int id, const LineEnds& ends, double value, const Function* function)
@@ -59,7 +59,7 @@ class LineForce final : public TemplatedElement<LineForce, 2, 6> {
   const Function* function_;
 };
 
-/// Acts on one node, at a point that moves with it.
+/// External force on one node, at a point that moves with it.
 class NodeForce final : public TemplatedElement<NodeForce, 1, 6> {
  public:
   NodeForce(int id, int node, const Vec3& direction, const Vec3& center, const Vec3& offset, bool follow, double value,

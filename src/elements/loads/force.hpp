@@ -13,15 +13,15 @@ namespace engrane::elements::loads {
 /// `FORCE N b DIR x y z V value [NF f] [FOLLOW|FIXED] [AT x y z]` on one.
 struct ForceData {
   std::vector<int> nodes;                          ///< one or two
-  std::optional<std::array<double, 3>> direction;  ///< of one node
+  std::optional<std::array<double, 3>> direction;  ///< for one node only
   double value = 0;                                ///< between two nodes, positive pushes them apart
-  int function = 0;                                ///< factor on the value
-  bool follow = false;                             ///< the direction turns with the node
-  bool fixed = false;                              ///< it does not (default)
-  std::optional<std::array<double, 3>> at;         ///< where it acts, reference configuration; with the ground: the ground's end
+  int function = 0;                                ///< function of time that multiplies the value
+  bool follow = false;                             ///< the direction rotates with the node
+  bool fixed = false;                              ///< the direction is fixed in space (default)
+  std::optional<std::array<double, 3>> at;         ///< point of action, reference configuration; between nodes: ground end
 };
 
-/// FORCE: force between two nodes along their line, or on one node from outside.
+/// FORCE: force between two nodes along their line, or external force on one node.
 ElementType force_type();
 
 }  // namespace engrane::elements::loads

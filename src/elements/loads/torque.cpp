@@ -10,10 +10,10 @@ namespace engrane::elements::loads {
 
 namespace {
 
-/// Always of two nodes: the ground stands for a missing first one.
+/// Moment between two nodes; the ground replaces a missing first one.
 class Torque final : public TemplatedElement<Torque, 2, 6> {
  public:
-  enum class Holder : unsigned char { space, first, last };  ///< what the axis turns with
+  enum class Holder : unsigned char { space, first, last };  ///< what the axis is fixed to
 
   Torque(int id, int first, int last, const Vec3& axis, double value, const Function* function, Holder holder, const Vec3& center)
       : TemplatedElement(id), axis_(axis), value_(value), function_(function), holder_(holder), center_(center) {

@@ -35,7 +35,7 @@ bool is_plane(const Elastic& material) {
 }
 
 Elastic turned(const Elastic& material, const Mat3& axes) {
-  // column j: the components in space of the j-th unit strain along the axes of the material
+  // column j: global components of the j-th unit strain in material axes
   Moduli strain;
   for (Eigen::Index j = 0; j < 6; ++j) {
     Mat3 unit = Mat3::Zero();
@@ -61,7 +61,7 @@ Elasticity law_of(Hypothesis hypothesis, const Elastic& material) {
   }
   law.stiffness = Eigen::LLT<Moduli>(material.compliance).solve(Moduli::Identity());
   if (hypothesis == Hypothesis::plane_strain) {
-    // E_zz = C_zz S_zz + α_zz ΔT = 0 leaves the stress S_zz = −α_zz ΔT/C_zz in a body that is free in the plane
+    // with free in-plane expansion, E_zz = C_zz S_zz + α_zz ΔT = 0 gives S_zz = −α_zz ΔT/C_zz
     law.held = 1 / material.compliance(zz, zz);
     law.growth(in_plane) -= law.held * material.expansion[zz] * material.compliance(in_plane, zz);
   }

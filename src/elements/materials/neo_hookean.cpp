@@ -12,10 +12,10 @@ namespace engrane::elements::materials {
 
 namespace {
 
-/// Strain along z without stress there: C_zz = e^y with μ (e^y − 1) + λ/2 (y + ln d) = 0, d the determinant of C in the plane.
-/// The left side rises and is convex in y, so that Newton's iteration finds its only root from anywhere.
+/// Strain along z for which the stress along z is zero: C_zz = e^y with μ (e^y − 1) + λ/2 (y + ln d) = 0, d the determinant of
+/// the in-plane part of C. The left side is increasing and convex in y, so that Newton's iteration converges from any start.
 double free_strain(const NeoHookean& material, const Voigt& strain) {
-  const double d = 2 * (strain[0] + strain[1]) + 4 * strain[0] * strain[1] - strain[3] * strain[3];  // less 1
+  const double d = 2 * (strain[0] + strain[1]) + 4 * strain[0] * strain[1] - strain[3] * strain[3];  // determinant minus 1
   if (!(d > -1)) return std::numeric_limits<double>::quiet_NaN();
   const double log_d = std::log1p(d), half = material.lambda / 2;
   constexpr int most = 100;
@@ -32,7 +32,7 @@ double free_strain(const NeoHookean& material, const Voigt& strain) {
 }  // namespace
 
 /// Bonet and Wood (2008), Nonlinear Continuum Mechanics for Finite Element Analysis, (6.27) to (6.32):
-/// W = μ/2 (tr C − 3) − μ ln J + λ/2 (ln J)², S = μ (I − C⁻¹) + λ ln J C⁻¹. Written so that small strains lose no digits.
+/// W = μ/2 (tr C − 3) − μ ln J + λ/2 (ln J)², S = μ (I − C⁻¹) + λ ln J C⁻¹. Evaluated without cancellation at small strains.
 Response respond(const NeoHookean& material, Hypothesis hypothesis, Voigt strain) {
   const bool plane_stress = hypothesis == Hypothesis::plane_stress;
   if (plane_stress) strain[2] = free_strain(material, strain);
@@ -60,7 +60,7 @@ Response respond(const NeoHookean& material, Hypothesis hypothesis, Voigt strain
       const Eigen::Index i = component_rows[a], j = component_columns[a], k = component_rows[b], l = component_columns[b];
       response.moduli(a, b) = material.lambda * G(i, j) * G(k, l) + shear * (G(i, k) * G(j, l) + G(i, l) * G(j, k));
     }
-  if (plane_stress) {  // the strain along z follows those in the plane
+  if (plane_stress) {  // eliminate the strain along z
     const Voigt column = response.moduli.col(2);
     response.moduli -= column * column.transpose() / column[2];
     response.stress[2] = 0;

@@ -23,12 +23,12 @@ namespace {
 using structural::CellBook;
 using structural::CellData;
 
-/// Φ = (Σ V_e − V)/A: its multiplier is the pressure over that of the atmosphere, times A.
+/// Multiplier of Φ = (Σ V_e − V)/A: the overpressure p − p₀ times A.
 std::vector<Multiplier> multipliers() {
   return {{{"PRESSURE_FORCE", dimension::length, "enclosed volume less that of the gas, over the reference surface"}}};
 }
 
-/// The gas itself: its volume, over the area A of the surface in the reference configuration, is an unknown of its own.
+/// The gas. Its unknown is the volume V divided by the area A of the surface in the reference configuration.
 class Gas final : public Element {
  public:
   Gas(int id, const GasLaw& law, double area, double volume, double mass)
@@ -93,11 +93,11 @@ class Gas final : public Element {
   Layout layout_;
   GasLaw law_;
   double area_, volume_;
-  double mass_;  ///< at a factor of 1; 0: not given
+  double mass_;  ///< for a function value of 1; 0: not given
 };
 
 struct Edge {
-  std::vector<int> nodes;  ///< its ends in the order of their cell, then the middle
+  std::vector<int> nodes;  ///< ends in the orientation of the cell, then the mid-side node if any
 };
 
 /// The membranes of a group of elements: cells of `.MAI` and elements of `.MCE`.
@@ -105,7 +105,7 @@ class Surface {
  public:
   explicit Surface(const BuildContext& context) : context_(context), book_(CellBook::of(context)) {}
 
-  /// False: something is wrong, and was reported.
+  /// False after an error.
   bool read(const std::vector<std::string>& groups) {
     std::map<int, const MembraneData*> membranes;
     for (const deck::Record& record : *context_.records)
@@ -148,7 +148,7 @@ class Surface {
   bool add_cell(int id) {
     const auto section = book_->section(id);
     const auto cell = structural::connectivity(book_->record(id)->get<CellData>()->nodes);
-    if (!section || !cell) return false;  // it has faults of its own
+    if (!section || !cell) return false;  // reported with the cell
     if (!section->skin) {
       context_.error("GROUP", fmt::format("cell {} is no membrane", id), ".HYP MEMBRANE, without BIDIM");
       return false;
@@ -162,7 +162,7 @@ class Surface {
     if (known && nodes.size() >= 3) cells_.push_back(nodes);
   }
 
-  /// Edges that only one cell has are the rim.
+  /// Edges that belong to one cell only form the rim.
   bool pair_edges() {
     std::map<std::pair<int, int>, Edge> open;
     for (const std::vector<int>& cell : cells_) {
@@ -189,13 +189,14 @@ class Surface {
   std::vector<Edge> rim_;
 };
 
-/// The plane of each edge of the rim, by its normal; nothing, with an error, where one lies in none of those that the card names.
+/// Normal of the cutting plane of each rim edge. Reports an error and returns nothing if an edge lies in none of the card's
+/// planes.
 std::optional<std::vector<Vec3>> planes_of(const Surface& surface, const GasData& data, double size,
                                            const BuildContext& context) {
   std::vector<Vec3> normals, found;
   for (std::size_t i = 0; i + 2 < data.cuts.size(); i += 3) normals.push_back(Vec3(&data.cuts[i]).stableNormalized());
   const Vec3 at = to_vector(data.at);
-  constexpr double rounding = 1e-6;  // of places in a deck
+  constexpr double rounding = 1e-6;  // of coordinates in a deck
   for (const Edge& edge : surface.rim()) {
     const std::vector<Vec3> x = surface.places(edge.nodes);
     const auto holds = [&](const Vec3& n) {
@@ -217,7 +218,8 @@ std::optional<std::vector<Vec3>> planes_of(const Surface& surface, const GasData
   return found;
 }
 
-/// What the card says of the gas, `volume` that of the reference configuration; nothing, with an error, where it makes no sense.
+/// Gas law from the card; `volume` is that of the reference configuration. Reports an error and returns nothing if the card is
+/// inconsistent.
 std::optional<GasLaw> law_of(const GasData& data, double volume, BuildContext& context) {
   GasLaw law;
   law.gamma = data.gamma;
@@ -260,7 +262,7 @@ std::unique_ptr<Element> build(const GasData& data, BuildContext& context) {
   }
   Surface surface(context);
   if (!surface.read(data.groups)) return nullptr;
-  // a closed surface has the same volume from anywhere; from near it loses the fewest digits
+  // the volume of a closed surface does not depend on the origin; one nearby minimises cancellation
   const Vec3 first = surface.places(surface.cells().front()).front();
   double size = 0, area = 0;
   for (const std::vector<int>& cell : surface.cells())
@@ -296,7 +298,7 @@ std::unique_ptr<Element> build(const GasData& data, BuildContext& context) {
   if (volume < rounding * area * size) volume = 0;
   const auto law = law_of(data, volume, context);
   if (!law) return nullptr;
-  // a flat skin begins with the volume that the gas has under the pressure of the atmosphere
+  // a flat skin starts with the volume of the gas at ambient pressure
   if (volume == 0) volume = law->amount * (law->function ? law->function->at(0).f : 1) / law->ambient;
   if (!(volume > 0)) {
     context.error("NF", "a flat surface begins with a mass above 0", "a function that begins above 0");

@@ -14,15 +14,15 @@ namespace engrane::elements::membranes {
 struct GasData {
   std::vector<std::string> groups;  ///< of membranes
   std::optional<double> pressure;   ///< absolute, of the reference configuration
-  double gamma = 1;                 ///< exponent of V
+  double gamma = 1;                 ///< exponent of the volume
   std::optional<double> mass, constant, temperature;
-  int function = 0;  ///< factor of the mass
+  int function = 0;  ///< function of time that multiplies the mass
   double ambient = 0;
   std::vector<double> cuts;  ///< normals of planes, three numbers each
   std::array<double, 3> at{};
 };
 
-/// GAS: a gas that membranes enclose, with one pressure everywhere, which follows from its volume.
+/// GAS: gas enclosed by membranes, with a uniform pressure that follows from its volume.
 ElementType gas_type();
 
 }  // namespace engrane::elements::membranes

@@ -13,8 +13,8 @@ GasLaw::Pressure GasLaw::pressure(double volume, double time) const {
   return {p, -gamma * p / volume};
 }
 
-/// U with −dU/dV = p − p₀: p V/(γ − 1) + p₀ V where no heat flows; where the temperature stays the free energy, which for an
-/// atmosphere of the pressure `rest` is p V (ln(p/rest) − 1) + p₀ V.
+/// U with −∂U/∂V = p − p₀: p V/(γ − 1) + p₀ V for an adiabatic gas, and for an isothermal one the free energy
+/// p V (ln(p/rest) − 1) + p₀ V.
 double GasLaw::energy(double volume, double time) const {
   const double p = pressure(volume, time).value;
   if (gamma != 1) return p * volume / (gamma - 1) + ambient * volume;

@@ -5,22 +5,22 @@
 
 namespace engrane::elements::membranes {
 
-/// p V^γ = c f(t), in an atmosphere of constant pressure; γ is 1 where f is not constant.
+/// p V^γ = c f(t), in an atmosphere of constant pressure. γ must be 1 if f is not constant.
 struct GasLaw {
   double amount = 0;                   ///< c
   double gamma = 1;                    ///< γ
   double ambient = 0;                  ///< p₀
-  double rest = 0;                     ///< pressure at which a gas that keeps its temperature has no energy
-  const Function* function = nullptr;  ///< f; none: 1
+  double rest = 0;                     ///< reference pressure of the isothermal energy (γ = 1)
+  const Function* function = nullptr;  ///< f; nullptr: 1
 
   struct Pressure {
     double value = 0,
-           by_volume = 0;  ///< absolute, and its derivative; not a number where the volume is not above zero or c f below it
+           by_volume = 0;  ///< absolute pressure and its derivative; NaN if the volume is not positive or c f is negative
   };
   Pressure pressure(double volume, double time) const;
-  /// What the gas and the atmosphere can give back.
+  /// Potential energy of the gas and the atmosphere.
   double energy(double volume, double time) const;
-  /// Power of what fills the gas: the derivative of the energy by the time alone.
+  /// Power supplied by filling: ∂energy/∂t at constant volume.
   double filling(double volume, double time) const;
 
  private:

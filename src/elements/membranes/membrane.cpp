@@ -41,7 +41,7 @@ std::unique_ptr<Element> build(const MembraneData& data, BuildContext& context) 
   }
   const Function* function = nullptr;
   const bool found = find_function(context, data.function, function);
-  // a frame at each point of a curved surface gives no axes to a material that needs them
+  // isotropic only: the frames at the points of a curved surface do not define material axes
   if (!isotropic_material(context, data.material, "membranes") || !found) return nullptr;
   const auto material =
       structural::elastic_of(*material_record(context, data.material), materials::Hypothesis::plane_stress, context.diagnostics);

@@ -17,8 +17,8 @@ namespace {
 using structural::CellTraits;
 using structural::tabulate;
 
-/// Membranes of one shape, all of which can wrinkle or none: total Lagrangian, in an orthonormal frame of the reference surface
-/// at each point (Bonet, Wood, Mahaney and Heywood 2000, Comput. Methods Appl. Mech. Eng. 190, 579).
+/// Block of membranes of one shape; either all of them can wrinkle or none. Total Lagrangian, in an orthonormal frame of the
+/// reference surface at each point (Bonet, Wood, Mahaney and Heywood 2000, Comput. Methods Appl. Mech. Eng. 190, 579).
 template <CellShape S>
 class Membranes final : public Block {
   using Traits = CellTraits<S>;
@@ -27,11 +27,11 @@ class Membranes final : public Block {
   using Square = Eigen::Matrix<double, 3 * N, 3 * N, Eigen::RowMajor>;
   using Shape = Eigen::Matrix<double, N, 1>;
 
-  /// A point of the reference surface.
+  /// Quadrature point on the reference surface.
   struct Point {
     Shape value;
-    Eigen::Matrix<double, 2, N> gradient;  ///< of the shape functions along the frame
-    double area;
+    Eigen::Matrix<double, 2, N> gradient;  ///< derivatives of the shape functions along the axes of the frame
+    double area;                           ///< including the quadrature weight
   };
 
   struct Cell {
@@ -40,9 +40,9 @@ class Membranes final : public Block {
     std::shared_ptr<const MembraneSection> section;
   };
 
-  /// What holds at a point now.
+  /// Current state at a point.
   struct Local {
-    Eigen::Matrix<double, 3, 2> F;  ///< of the frame's vectors
+    Eigen::Matrix<double, 3, 2> F;  ///< deformation gradient: images of the frame's vectors
     SkinResponse response;
     Eigen::Matrix2d stress() const {
       const Plane& s = response.stress;
@@ -123,7 +123,7 @@ class Membranes final : public Block {
     const std::size_t count = samples().size();
     for (std::size_t i = 0; i < count; ++i) {
       const Local local = this->local(*cell.section, x, point(cell.places, samples()[i]));
-      // σ = F S Fᵀ/J has the principal values of S FᵀF/J, J the ratio of volumes
+      // σ = F S Fᵀ/J has the same principal values as S FᵀF/J
       const Eigen::Matrix2d C = local.F.transpose() * local.F;
       const Eigen::Matrix2d mixed = local.stress() * C / (local.response.area * local.response.thinning);
       const double middle = mixed.trace() / 2, radius = std::sqrt(std::max(middle * middle - mixed.determinant(), 0.0));
@@ -154,7 +154,7 @@ class Membranes final : public Block {
 
   static Point point(const Places& places, const Sample& s) {
     const Vec3 g1 = places * s.slope.row(0).transpose(), g2 = places * s.slope.row(1).transpose();
-    // e₁ along the first tangent, e₂ across it in the surface
+    // e₁ along the first tangent, e₂ perpendicular to it in the surface
     const double length = g1.norm(), across = g2.dot(g1) / length, height = std::sqrt(g2.squaredNorm() - across * across);
     Point p{s.value, {}, s.weight * length * height};
     p.gradient.row(0) = s.slope.row(0) / length;
@@ -162,7 +162,7 @@ class Membranes final : public Block {
     return p;
   }
 
-  /// Whether its surface has an area, and one side.
+  /// Whether the surface has an area and is not folded.
   static bool is_regular(const Places& places) {
     constexpr double rounding = 1e-9;
     const double size = (places.colwise() - places.col(0)).squaredNorm();
@@ -186,7 +186,7 @@ class Membranes final : public Block {
     return l;
   }
 
-  /// Residual, and where `k` is given the tangent.
+  /// Residual, and the tangent unless `k` is nullptr.
   static void resist(const Cell& cell, const State& state, Weights weights, double* r, double* k) {
     const MembraneSection& section = *cell.section;
     const double pressure = section.pressure_at(state.time), mass = section.density * section.thickness;
@@ -220,14 +220,14 @@ class Membranes final : public Block {
       }
   }
 
-  /// Blocks of two nodes i ≤ j, those of the same j one after the other.
+  /// Blocks of the node pairs i ≤ j, ordered by j, then i.
   using Symmetric = std::array<Mat3, static_cast<std::size_t>(N*(N + 1) / 2)>;
 
-  /// A point's part of the tangent, of stresses and masses; `volume` and `mass` with their weights.
+  /// Adds the contribution of a point's stresses and mass to the tangent. `volume` and `mass` include the factors of Weights.
   static void add_symmetric(const Point& p, const Local& local, const Eigen::Matrix<double, 2, N>& pulled, double volume,
                             double mass, Symmetric& sum) {
     const Mat3 moduli = volume * local.response.moduli;
-    std::array<Mat3, static_cast<std::size_t>(N)> strains;  // by the displacement of a node, as columns 11, 22, 12
+    std::array<Mat3, static_cast<std::size_t>(N)> strains;  // derivatives by a node's displacement; columns 11, 22, 12
     for (Eigen::Index j = 0, at = 0; j < N; ++j) {
       const double d1 = p.gradient(0, j), d2 = p.gradient(1, j);
       Mat3& b = strains[static_cast<std::size_t>(j)];
@@ -244,7 +244,7 @@ class Membranes final : public Block {
     }
   }
 
-  /// That of the pressure: the derivative of the normal f₁ × f₂.
+  /// Adds the tangent of the pressure, from the derivative of the normal f₁ × f₂.
   static void add_pressure(const Point& p, const Local& local, double pressure, double* k) {
     Eigen::Map<Square> out(k);
     const Vec3 f1 = local.F.col(0), f2 = local.F.col(1);

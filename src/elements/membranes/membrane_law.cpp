@@ -14,10 +14,10 @@ namespace {
 using materials::Hypothesis;
 using materials::Voigt;
 
-/// Components 11, 22, 12 among those of Voigt.
+/// Indices of the components 11, 22, 12 in Voigt.
 constexpr std::array<Eigen::Index, 3> in_plane = {0, 1, 3};
 
-/// Of a strain that the skin follows without wrinkles.
+/// Response without wrinkling.
 SkinResponse taut(const MembraneLaw& law, double tension, const Plane& strain) {
   SkinResponse r;
   double transverse;
@@ -44,17 +44,17 @@ SkinResponse taut(const MembraneLaw& law, double tension, const Plane& strain) {
   return r;
 }
 
-/// A strip under tension along its length alone: what a wrinkled skin is along its wrinkles.
+/// Strip in uniaxial tension: the response of a wrinkled skin along its wrinkles.
 struct Strip {
-  double stress = 0;   ///< along it; not above zero: it is slack
-  double modulus = 0;  ///< derivative by the strain along it
-  double energy = 0;   ///< of a slack one that of the skin left to itself
+  double stress = 0;   ///< along the strip; if not positive, the strip is slack
+  double modulus = 0;  ///< derivative of the stress by the strain along the strip
+  double energy = 0;   ///< of a slack strip: that of the stress-free skin
   double thinning = 1;
   double area = 1;
 };
 
-/// ½ D (E₁² + E₂² + 2ν E₁E₂) + s (E₁ + E₂) is ½ D (E₂ + ν E₁ + s/D)² + ½ Y (E₁ − E_n)² + W_n, with D = Y/(1 − ν²): the first
-/// square is gone where E₂ is free. The skin left to itself has E₁ = E₂ = E_n = −(1 − ν) s/Y and the energy W_n.
+/// ½ D (E₁² + E₂² + 2ν E₁E₂) + s (E₁ + E₂) equals ½ D (E₂ + ν E₁ + s/D)² + ½ Y (E₁ − E_n)² + W_n, with D = Y/(1 − ν²). The
+/// first square vanishes if E₂ is free. The stress-free skin has E₁ = E₂ = E_n = −(1 − ν) s/Y and the energy W_n.
 Strip linear_strip(const MembraneLaw& law, double tension, double strain) {
   const double Y = law.young, nu = law.poisson, natural = -(1 - nu) * tension / Y;
   const double along = std::max(strain, natural), across = -nu * along - (1 - nu * nu) * tension / Y;
@@ -68,7 +68,7 @@ Strip linear_strip(const MembraneLaw& law, double tension, double strain) {
   return s;
 }
 
-/// Root of e^y − μ + a + b y, b ≥ 0: the left side rises and is convex, so that Newton's iteration finds it from anywhere.
+/// Root of e^y − μ + a + b y, b ≥ 0. The function is increasing and convex: Newton's iteration converges from any start.
 double root(double shear, double a, double b) {
   constexpr int most = 100;
   constexpr double rounding = 1e-15;
@@ -81,8 +81,8 @@ double root(double shear, double a, double b) {
   return y;
 }
 
-/// S_i = μ + s_i − q/C_i with q = μ − λ ln J; the two free directions have C₂ = q/(μ + s) and C₃ = q/μ, which leaves one equation
-/// for y = ln q: e^y − μ + λ/2 (ln C₁ + 2y − ln μ(μ + s)) = 0. Left to itself the skin has C₁ = C₂ too.
+/// S_i = μ + s_i − q/C_i with q = μ − λ ln J. The two free directions have C₂ = q/(μ + s) and C₃ = q/μ, which leaves one
+/// equation for y = ln q: e^y − μ + λ/2 (ln C₁ + 2y − ln μ(μ + s)) = 0. The stress-free skin also has C₁ = C₂.
 Strip neo_hookean_strip(const materials::NeoHookean& m, double tension, double strain) {
   const double mu = m.shear, pulled = mu + tension, logs = std::log(mu) + std::log(pulled), half = m.lambda / 2;
   double C1 = 1 + 2 * strain;
@@ -101,7 +101,8 @@ Strip neo_hookean_strip(const materials::NeoHookean& m, double tension, double s
   return s;
 }
 
-/// Makes of the answer of a skin that cannot wrinkle, under a tension, that of one that can.
+/// Turns the response without wrinkling under a given tension into that with wrinkling. No change if both principal stresses
+/// are non-negative.
 void relax(const MembraneLaw& law, double tension, const Plane& strain, SkinResponse& r) {
   const double least = (r.stress[0] + r.stress[1]) / 2 - std::hypot((r.stress[0] - r.stress[1]) / 2, r.stress[2]);
   if (!(least < 0)) return;
@@ -118,7 +119,7 @@ void relax(const MembraneLaw& law, double tension, const Plane& strain, SkinResp
   r.state = SkinState::slack;
   if (!(strip.stress > 0)) return;
   r.state = SkinState::wrinkled;
-  // E₁ by the strain, and how its direction turns: the second derivative of E₁ is b bᵀ/radius
+  // a is the gradient of E₁ by the strain, b bᵀ/radius its Hessian
   const double c = half / radius, s = shear / radius;
   const Plane a((1 + c) / 2, (1 - c) / 2, s / 2), b(-s / 2, s / 2, c / 2);
   r.stress += relaxed * strip.stress * a;
@@ -132,15 +133,16 @@ MembraneLaw membrane_law(const materials::Elasticity& material) {
   return {D * (1 - nu * nu), nu, material.neo_hookean, 0, {}};
 }
 
-/// Pipkin (1986), IMA J. Appl. Math. 36, 85; Steigmann (1990), Proc. R. Soc. Lond. A 429, 141: the energy is the least that the
-/// skin can have with wrinkles as fine as it likes. With E₁ ≥ E₂ it is that of the strain where both principal stresses pull,
-/// that of a strip with the strain E₁ where a strip would be pulled, and else that of a skin left to itself.
+/// Relaxed energy of Pipkin (1986), IMA J. Appl. Math. 36, 85, and Steigmann (1990), Proc. R. Soc. Lond. A 429, 141: the
+/// infimum over arbitrarily fine wrinkles. With E₁ ≥ E₂ it is the unrelaxed energy if both principal stresses are tensile,
+/// that of a strip with strain E₁ if the strip is in tension, and otherwise that of the stress-free skin.
 ///
-/// It wrinkles under a pressure c: the same law with the tension s + c, less the energy c (E₁ + E₂). A skin without stress
-/// across, as beside free edges, is taut then, and the change of its moduli is not where Newton's iteration ends.
+/// Wrinkling starts at a small compressive stress c: the law is evaluated with tension s + c, and the energy c (E₁ + E₂) is
+/// subtracted. A skin without transverse stress, as at free edges, is then taut, and the jump of the moduli is away from the
+/// state to which Newton's iteration converges.
 SkinResponse respond(const MembraneLaw& law, const Plane& strain) {
   if (!law.wrinkling) return taut(law, law.tension, strain);
-  constexpr double before = 0.1;  // strain across at which what is left of the stiffness has the same stress
+  constexpr double before = 0.1;  // c is the stress of the remaining stiffness ε Y at this strain
   const double pressure = before * *law.wrinkling * law.young, tension = law.tension + pressure;
   SkinResponse r = taut(law, tension, strain);
   relax(law, tension, strain, r);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Membranes that are cells of a mesh. The room of cells declares make_skin() and knows no more of membranes, which are built on
-// its shape functions and materials.
+// Membranes as cells of a mesh. elements/structural only declares make_skin() and does not depend on membranes, which in turn
+// use its shape functions and materials.
 #include "elements/membranes/membrane_cells.hpp"
 #include "elements/structural/make_cell.hpp"
 

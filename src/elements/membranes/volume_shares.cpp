@@ -26,7 +26,7 @@ std::vector<Vec3> VolumeShares::places(const Piece& piece, const State& state) c
   return x;
 }
 
-/// ⅓ x·(a × b), linear in each of x, a = ∂x/∂ξ and b = ∂x/∂η.
+/// Integrates ⅓ x·(a × b), which is linear in each of x, a = ∂x/∂ξ and b = ∂x/∂η.
 void VolumeShares::add_cell(const Piece&, const std::vector<Vec3>& nodes, bool second, Derivatives& out) const {
   for (const structural::FaceSample& s : samples_) {
     Vec3 x = Vec3::Zero(), a = x, b = x;
@@ -52,7 +52,7 @@ void VolumeShares::add_cell(const Piece&, const std::vector<Vec3>& nodes, bool s
   }
 }
 
-/// ⅓ (m·x) m·(x × x′).
+/// Integrates ⅓ (m·x) m·(x × x′).
 void VolumeShares::add_rim(const Piece& piece, const std::vector<Vec3>& nodes, bool second, Derivatives& out) const {
   const Vec3& m = piece.normal;
   for (const structural::FaceSample& s : samples_) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The volume that a surface encloses, as a sum over its cells: shares of one constraint, which the pressure holds.
+// Volume enclosed by a surface as a sum over its cells: shares of one constraint whose multiplier is the pressure.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,22 @@
 
 namespace engrane::elements::membranes {
 
-/// Shares of Φ = (Σ V_e − V)/A, of cells of so many nodes or of pieces of the rim.
+/// Shares of Φ = (Σ V_e − V)/A: of cells with a given number of nodes, or of edges of the rim.
 ///
-/// By Gauss's theorem a cell has V_e = ⅓ ∫ (x − o)·n dA: the cone from it to the point o. Cones of a rim in a plane through o are
-/// flat, so that planes through o close the surface. Out of its plane a rim of the cones alone would feel the pressure on the
-/// cone: its pieces add ⅓ ∮ h m·((x − o) × dx), with m the normal of the plane and h the height over it, which is zero and leaves
-/// no force in the plane. What is left is the pressure on the cells.
+/// By the divergence theorem a cell contributes V_e = ⅓ ∫ (x − o)·n dA, the volume of the cone from it to the point o. The cone
+/// over a rim in a plane through o is flat, so that planes through o close the surface. With these terms alone, however, a
+/// rim would be loaded normal to its plane by the pressure on that cone. Its edges therefore add ⅓ ∮ h m·((x − o) × dx), with m
+/// the normal of the plane and h the height above it. As long as the rim is in its plane this term and its in-plane forces
+/// vanish. Only the pressure on the cells remains.
 class VolumeShares final : public Block {
  public:
-  /// The layout of the whole constraint's multipliers.
+  /// `multipliers`: those of the whole constraint.
   VolumeShares(std::size_t nodes, bool rim, std::vector<Multiplier> multipliers);
 
   struct Piece {
-    std::vector<int> nodes;      ///< corners, then middles
+    std::vector<int> nodes;      ///< corners, then mid-side nodes
     Vec3 origin;                 ///< o
-    Vec3 normal = Vec3::Zero();  ///< m; of a rim
+    Vec3 normal = Vec3::Zero();  ///< m; only for a rim
     double area = 1;             ///< A
   };
   std::size_t add(Piece piece);
@@ -39,11 +40,11 @@ class VolumeShares final : public Block {
   void constraint_rates(std::size_t e, const State& state, std::span<double> phi, std::span<double> rate,
                         std::span<double> second) const override;
 
-  /// A Φ of a piece whose nodes are at `x`.
+  /// V_e of a piece whose nodes are at `x`.
   double volume(const Piece& piece, const std::vector<Vec3>& x) const;
 
  private:
-  /// V_e with its derivatives by the places of the nodes.
+  /// V_e and its derivatives by the positions of the nodes.
   struct Derivatives {
     double value = 0;
     Eigen::VectorXd gradient;

@@ -12,7 +12,8 @@ namespace engrane::elements::springs {
 
 namespace {
 
-/// Linear in the displacement u of B's point from A's, in axes that A holds, and in the rotation vector θ of B from A in them.
+/// Linear in the displacement u of B's point relative to A's and in the rotation vector θ of B relative to A, both in axes
+/// fixed to A.
 class Bushing final : public TemplatedElement<Bushing, 2, 12> {
  public:
   Bushing(int id, const HeldPoint& place, const Mat6& stiffness, const Mat6& damping)
@@ -88,14 +89,14 @@ class Bushing final : public TemplatedElement<Bushing, 2, 12> {
   template <class T>
   struct Strain {
     HeldPoint::Shift<T> shift;
-    RotationVector<T> turn;  ///< of B from A, in the bush's axes
+    RotationVector<T> turn;  ///< of B relative to A, in the bush's axes
     Vec3T<T> turn_rate;
   };
 
   template <class T>
   Strain<T> strain(const Motion<T, 2>& motion) const {
     Strain<T> s{place_.shift(motion), {}, {}};
-    Mat3T<T> relative;  // the axes held by B in those held by A
+    Mat3T<T> relative;  // axes fixed to B, in those fixed to A
     for (int c = 0; c < 3; ++c)
       relative.col(c) = rotate_back(s.shift.axes, Vec3T<T>(rotate(motion.node[1].R, Vec3(place_.axes.col(c)))));
     s.turn = RotationVector<T>::of(relative);
@@ -115,7 +116,8 @@ class Bushing final : public TemplatedElement<Bushing, 2, 12> {
   Mat6 stiffness_, damping_;
 };
 
-/// The matrix of 6 or 21 values, with an error when it has another number of them or would give energy.
+/// Matrix from 6 or 21 values; zero if there are none. Reports an error and returns nothing if the number of values is wrong or
+/// the matrix is not positive semidefinite.
 std::optional<Mat6> matrix(const BuildContext& context, const char* keyword, const std::vector<double>& values) {
   if (values.empty()) return Mat6(Mat6::Zero());
   const auto m = symmetric_6(values);

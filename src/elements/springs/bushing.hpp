@@ -16,10 +16,10 @@ struct BushingData {
   std::vector<double> damping;    ///< likewise
   std::optional<std::array<double, 3>> at;
   std::optional<std::array<double, 3>> axis;    ///< first axis; default: global x
-  std::optional<std::array<double, 3>> axis_2;  ///< across it, on the side of the second axis; default: any perpendicular
+  std::optional<std::array<double, 3>> axis_2;  ///< across it, towards the second axis; default: any perpendicular
 };
 
-/// BUSHING (SILENTBLOC): 6×6 stiffness and damping between two nodes, in axes held by the first.
+/// BUSHING (SILENTBLOC): 6×6 stiffness and damping between two nodes, in axes fixed to the first.
 ElementType bushing_type();
 
 }  // namespace engrane::elements::springs

@@ -11,7 +11,7 @@ namespace engrane::elements::springs {
 
 namespace {
 
-/// One spring along the line of its ends, exact for any motion; `Law` as SpringLaw.
+/// Spring along the line of its ends, exact for any motion. `Law` has the interface of SpringLaw.
 template <class Law>
 struct SpringOnLine {
   LineEnds ends;
@@ -57,7 +57,7 @@ struct SpringOnLine {
   }
 };
 
-/// With a law of its own.
+/// Spring along a line with a nonlinear law.
 class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
  public:
   LineSpring(int id, const SpringOnLine<SpringLaw>& spring) : TemplatedElement(id), spring_(spring) {
@@ -87,7 +87,7 @@ class LineSpring final : public TemplatedElement<LineSpring, 2, 6> {
   SpringOnLine<SpringLaw> spring_;
 };
 
-/// Force in proportion to elongation and rate: what thousands of springs have.
+/// Force linear in elongation and rate. Such springs share a block, as there may be thousands of them.
 struct LinearLaw {
   double stiffness, damping;
 
@@ -127,7 +127,7 @@ std::unique_ptr<Element> linear_spring(BuildContext& context, const SpringOnLine
   return LinearSprings::add(block, context.record.id, spring.ends.nodes, spring);
 }
 
-/// Three springs in the global directions on the relative displacement: a support, or a joint's compliance.
+/// Three springs on the relative displacement in the global directions, such as a support or the compliance of a joint.
 class DirectionalSpring final : public TemplatedElement<DirectionalSpring, 2, 6> {
  public:
   DirectionalSpring(int id, const std::array<int, 2>& nodes, const Vec3& apart, const Vec3& stiffness, const Vec3& damping)
@@ -188,7 +188,7 @@ class DirectionalSpring final : public TemplatedElement<DirectionalSpring, 2, 6>
   Vec3 stiffness_, damping_;
 };
 
-/// Checks one list of values; false with an error when it has two, or a negative one.
+/// Reports an error and returns false if there are two values.
 bool check_values(const BuildContext& context, std::string_view keyword, const std::vector<double>& values) {
   if (values.size() == 2) {
     context.error(keyword, fmt::format("{} has 2 values", keyword), "give 1 (along the line) or 3 (along x, y and z)");

@@ -13,8 +13,8 @@ namespace {
 template <class T>
 using Nodes = std::array<typename Motion<T, 2>::Node, 2>;
 
-/// The coordinates that a stop limits. Each has `at()`, the coordinate with its rate, and `resist()`, which adds the
-/// generalised force `load` with which the element resists its growth.
+// Coordinates that a stop can limit. `at()` returns the coordinate with its rate. `resist()` adds the generalised force `load`
+// with which the element resists an increase of the coordinate.
 
 /// Distance of two nodes.
 struct DistanceCoordinate {
@@ -45,7 +45,7 @@ struct DistanceCoordinate {
   }
 };
 
-/// Turn of B from A about an axis, whole turns counted.
+/// Rotation of B relative to A about an axis, counting whole turns.
 struct AngleCoordinate {
   std::array<int, 2> ends;
   AxisTriad triad;
@@ -81,11 +81,11 @@ struct AngleCoordinate {
   }
 };
 
-/// Height of a point of B above a plane that A holds.
+/// Height of a point of B above a plane fixed to A.
 struct HeightCoordinate {
   std::array<int, 2> ends;
-  Vec3 normal, plane, point;  ///< reference: the normal; from A to a point of the plane; from B to its point
-  Vec3 mark;                  ///< where it is drawn: B's point, or the plane's when B is the ground
+  Vec3 normal, plane, point;  ///< reference configuration: the normal; from A to a point of the plane; from B to its point
+  Vec3 mark;                  ///< where it is drawn: B's point, or that of the plane if B is the ground
   static constexpr NodeNeed need = NodeNeed::both;
   static constexpr int history = 0;
   static constexpr const char* name = "HEIGHT";
@@ -96,7 +96,7 @@ struct HeightCoordinate {
   template <class T>
   struct At {
     T value, rate;
-    Vec3T<T> normal, reach, arm;  ///< from A to B's point, and from B to it, global
+    Vec3T<T> normal, reach, arm;  ///< global: the normal; from A to B's point; from B to its point
   };
   template <class T>
   At<T> at(const Nodes<T>& node, std::span<const double>) const {
@@ -115,7 +115,7 @@ struct HeightCoordinate {
     const Vec3T<T> force = at.normal * load;
     balance.force(0, Vec3T<T>(-force));
     balance.force(1, force);
-    // the plane turns with A: its force acts at B's point
+    // the plane rotates with A, so that the contact force acts on A at B's point
     balance.moment(0, rotate_back(node[0].R, Vec3T<T>(-cross(at.reach, force))));
     balance.moment(1, rotate_back(node[1].R, cross(at.arm, force)));
   }
@@ -212,7 +212,7 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
   std::vector<Channel> channels_;
 };
 
-/// False, with an error, when a keyword is given that has no meaning for this kind of stop.
+/// Reports an error and returns false if a keyword is given that has no meaning for this kind of stop.
 bool lacks(const BuildContext& context, const char* keyword, bool given, const std::string& kind, const std::string& cure) {
   if (!given) return true;
   context.error(keyword, fmt::format("{} has no meaning for a stop on {}", keyword, kind), cure);

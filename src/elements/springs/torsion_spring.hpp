@@ -14,10 +14,10 @@ struct TorsionSpringData : SpringLawData {
   std::array<double, 3> axis{};
   double stiffness = 0;  ///< per radian
   double damping = 0;
-  double angle0 = 0;  ///< at which the spring is relaxed, degrees
+  double angle0 = 0;  ///< angle of the relaxed spring, degrees
 };
 
-/// TSPRING (RESSORT_TORSION): spring and damper on the turn of node B relative to A about an axis held by A.
+/// TSPRING (RESSORT_TORSION): spring and damper on the rotation of node B relative to A about an axis fixed to A.
 ElementType torsion_spring_type();
 
 }  // namespace engrane::elements::springs

@@ -19,7 +19,7 @@ constexpr const char* how_plane =
 constexpr const char* how_solid =
     "N base 0 top, as 1 2 3 0 4, 1 2 3 0 4 5 6 or 1 2 3 4 0 5 6 7 8; with mid-side nodes N base 0 uprights 0 top";
 
-/// Whether the nodes of a cell exist, and each is named once; else with errors.
+/// Whether all nodes of a cell exist and are distinct; otherwise reports an error.
 bool has_nodes(const std::vector<int>& nodes, BuildContext& context) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const int id = nodes[i];
@@ -38,7 +38,7 @@ bool has_nodes(const std::vector<int>& nodes, BuildContext& context) {
 }
 constexpr const char* how_skin = "its corners must go round it in turn, and a middle of a side must be near the middle";
 
-/// Reports what is wrong with the list of nodes; they are then nothing.
+/// Shape and nodes of a cell. Reports an error and returns nothing if the list of nodes is invalid.
 std::optional<Connectivity> nodes_of(const CellData& data, BuildContext& context) {
   auto cell = connectivity(data.nodes);
   if (!cell) {
@@ -57,7 +57,7 @@ std::optional<Connectivity> nodes_of(const CellData& data, BuildContext& context
   return cell;
 }
 
-/// Whether a plane cell can stand where it is; faults are reported.
+/// Whether the position and shape of a plane cell are valid; otherwise reports an error.
 bool fits_plane(const CellPlan& plan, BuildContext& context) {
   double size = 0;
   for (const Vec3& x : plan.places) size = std::max(size, (x - plan.places.front()).head<2>().norm());
@@ -77,7 +77,7 @@ bool fits_plane(const CellPlan& plan, BuildContext& context) {
   return false;
 }
 
-/// Temperatures of the nodes; nothing where none of them has one.
+/// Temperatures of the nodes; nullptr if none of them has one.
 std::shared_ptr<const std::vector<Warmth>> warmth_of(const std::vector<int>& nodes, const BuildContext& context) {
   if (!context.temperatures || context.temperatures->empty()) return nullptr;
   std::vector<Warmth> found(nodes.size());
@@ -90,7 +90,8 @@ std::shared_ptr<const std::vector<Warmth>> warmth_of(const std::vector<int>& nod
   return any ? std::make_shared<const std::vector<Warmth>>(std::move(found)) : nullptr;
 }
 
-/// Whether the centrifugal load of a cell leaves it in its plane; faults are reported once for all of its cells.
+/// Whether the centrifugal load of a cell has no component out of its plane; otherwise reports an error. Also warns, once per
+/// model, about cells without density.
 bool fits_rotation(const CellPlan& plan, BuildContext& context) {
   const CellRotation& turn = *plan.rotation;
   if (plan.section->law.density == 0)

@@ -8,10 +8,10 @@
 
 namespace engrane::elements::structural {
 
-/// `.MAI I id [AT a 0] N n1 -m12 n2 …`: a cell of a mesh, as connectivity() reads it.
+/// `.MAI I id [AT a 0] N n1 -m12 n2 …`: a cell of a mesh, interpreted by connectivity().
 struct CellData {
-  std::vector<int> attribute;  ///< AT: the attribute; the others mean nothing here
-  std::vector<int> nodes;      ///< as written
+  std::vector<int> attribute;  ///< AT: the first value is the attribute; others are ignored
+  std::vector<int> nodes;      ///< as written in the deck
 };
 
 ElementType cell_type();

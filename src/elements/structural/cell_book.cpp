@@ -21,10 +21,10 @@ namespace {
 
 using materials::Hypothesis;
 
-/// Does the word of a deck begin the word of the language, with three letters or more? No word is a beginning of any.
+/// Whether `word` from the deck abbreviates a word of the language to three or more letters; false if it is empty.
 bool begins(std::string_view language, const std::string& word) { return word.size() >= 3 && begins_with_word(language, word); }
 
-/// The formulations that are here; nothing for another.
+/// Hypothesis of a supported formulation of plane, solid or membrane cells; nothing for others.
 std::optional<Hypothesis> hypothesis_of(const deck::HypothesisCard& card) {
   const auto variant = [&card](std::string_view wanted) { return card.variant.empty() || begins(wanted, card.variant); };
   if (begins("MEMBRANE", card.formulation) && variant("BIDIM")) return Hypothesis::plane_stress;
@@ -40,10 +40,10 @@ bool is_beam_card(const deck::HypothesisCard& card) {
   return (begins("BEAM", card.formulation) || begins("POUTRE", card.formulation)) && card.variant.empty();
 }
 
-/// Membranes in space, not in the plane of x and y.
+/// Whether the formulation is that of membranes in space, as opposed to the x-y plane.
 bool is_skin(const deck::HypothesisCard& card) { return begins("MEMBRANE", card.formulation) && card.variant.empty(); }
 
-/// The card of a formulation that makes membranes in space; nullptr: of another, or of none.
+/// The card of a hypothesis of membranes in space; nullptr if there is none or it is another.
 const deck::HypothesisCard* skin_card(const deck::Record* hypothesis) {
   const auto* card = hypothesis ? hypothesis->get<deck::HypothesisCard>() : nullptr;
   return card && is_skin(*card) ? card : nullptr;
@@ -147,7 +147,7 @@ void CellBook::read_groups(const std::vector<deck::Record>& records) {
     };
     for (std::size_t i = 0; (card->all || card->attribute) && i < cells_.size(); ++i)
       if (chosen(cells_[i])) group.push_back(i);
-    for (const int id : card->ids)  // a group may hold elements that are no cells
+    for (const int id : card->ids)  // a group may also contain elements that are not cells
       if (const std::size_t at = index(id); at < cells_.size()) group.push_back(at);
     for (const std::string& name : card->united)
       if (const auto other = groups_.find(name); other != groups_.end())
@@ -178,7 +178,7 @@ CellBook::Group CellBook::members(const deck::Record& record, const std::vector<
 
 void CellBook::read_properties(const std::vector<deck::Record>& records) {
   std::set<std::string> refused;
-  Diagnostics told;  // faults of frames are reported where the model reads them
+  Diagnostics told;  // discarded: the model itself reports errors of frames
   for (const deck::Record& record : records) {
     if (record.get<deck::MaterialCard>()) materials_[record.id] = &record;
     if (const auto* frame = record.get<deck::FrameCard>()) frames_.add(record, *frame, told);
@@ -259,7 +259,8 @@ void CellBook::assign(const deck::Record& record, const deck::AssignmentCard& as
     if (found == materials_.end())
       diagnostics_.missing(".MAT", record.where("MAT"), fmt::format("material {} does not exist", *assignment.material),
                            fmt::format("declare it with .MAT I {}", *assignment.material));
-    material = found == materials_.end() ? &record : found->second;  // told once: the cells have one, as far as it goes
+    // a placeholder for an unknown material avoids further errors about missing materials
+    material = found == materials_.end() ? &record : found->second;
   }
   for (const std::size_t i : group) {
     Cell& cell = cells_[i];
@@ -344,7 +345,7 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
     return nullptr;
   }
   materials::Elasticity law = materials::law_of(hypothesis, material);
-  if (linear_) law.neo_hookean.reset();  // its derivative at rest is all there is
+  if (linear_) law.neo_hookean.reset();  // small displacements use its tangent at rest, `stiffness`
   const bool has_thickness = hypothesis == Hypothesis::plane_stress || hypothesis == Hypothesis::plane_strain;
   auto section = std::make_shared<CellSection>(
       CellSection{hypothesis, law, has_thickness && cell.thickness > 0 ? cell.thickness : 1.0, linear_, number, lumped_});
@@ -384,10 +385,11 @@ void CellBook::make_sections(const NodePositions& nodes) {
     const bool has_material = cell.material && cell.material->get<deck::MaterialCard>();
     if (is_beam(cell) || !formulation || !fits(cell) || !has_material || (is_stress(cell) && cell.thickness == 0)) continue;
     const deck::Record* skin = skin_card(cell.hypothesis) ? cell.hypothesis : nullptr;
-    const bool alone = !skin && frames_.is_curved(cell.frame);  // with axes of its own
+    const bool alone = !skin && frames_.is_curved(cell.frame);  // axes differ from cell to cell
     const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame, skin};
     Key group = key;
-    if (cell.material->get<deck::MaterialCard>()->young.size() == 1) {  // decks give axes to isotropic cells too, each its own
+    // isotropic: axes, which decks may give cell by cell, do not matter
+    if (cell.material->get<deck::MaterialCard>()->young.size() == 1) {
       std::get<3>(group) = 0;
       std::get<4>(group) = 0;
     }
@@ -402,7 +404,7 @@ void CellBook::make_sections(const NodePositions& nodes) {
   }
 }
 
-/// What is missing of beams, or given to a cell for which it has no meaning.
+/// Reports missing properties of beams, and properties that have no meaning for a cell.
 void CellBook::check_beams(const Temperatures* temperatures) {
   const auto formulated = [](const Cell& cell) {
     return cell.hypothesis && is_beam_card(*cell.hypothesis->get<deck::HypothesisCard>());

@@ -17,65 +17,66 @@
 
 namespace engrane::elements::structural {
 
-/// What makes cells membranes in space: a tension, and whether they wrinkle.
+/// Options of cells that are membranes in space.
 struct SkinOptions {
-  double tension = 0;
+  double tension = 0;  ///< isotropic prestress
   bool wrinkling = false;
-  std::optional<double> slack;  ///< part of the stiffness that is left where they wrinkle; none: the usual
+  std::optional<double> slack;  ///< fraction of the stiffness that remains where they wrinkle; none: the default
 };
 
-/// What cells of one material, hypothesis and thickness share.
+/// Properties shared by cells of one material, hypothesis and thickness.
 struct CellSection {
   materials::Hypothesis hypothesis;
   materials::Elasticity law;
   double thickness = 1;
   bool linear = true;  ///< small displacements
-  /// Which of the sections of the deck: cells of one have the same material, hypothesis and thickness, and axes that are given in
-  /// the same way where they matter. Where these turn from cell to cell, as in a cylindrical frame, each has a struct of its own.
+  /// Number of the section within the deck. Cells with the same number have the same material, hypothesis and thickness and, if
+  /// the material is anisotropic, the same definition of its axes. In a curved frame, such as a cylindrical one, the axes
+  /// differ from cell to cell: each cell then has its own CellSection with this number.
   int number = 0;
-  bool lumped = false;                   ///< masses at the nodes
+  bool lumped = false;                   ///< lumped instead of consistent masses
   std::optional<SkinOptions> skin = {};  ///< membranes in space
 };
 
-/// What a cell that is a beam is made of.
+/// Properties of a cell that is a beam.
 struct BeamCell {
   int profile = 0, material = 0;  ///< of `.BPR` and `.MAT`; 0: not given
   std::optional<Vec3> axis_2;
-  bool linear = true, lumped = false;  ///< small displacements; masses at the nodes
+  bool linear = true, lumped = false;  ///< small displacements; lumped masses
 };
 
-/// A body that turns about an axis, in axes that turn with it.
+/// Steady rotation of a body about an axis, seen in axes that rotate with it: the source of centrifugal loads.
 struct CellRotation {
   const deck::Record* record = nullptr;
-  double speed = 0;  ///< radians per unit of time
+  double speed = 0;  ///< angular velocity, radians per unit of time
   Vec3 axis = Vec3::UnitZ(), point = Vec3::Zero();
-  const Function* function = nullptr;  ///< of time, a factor of the speed
+  const Function* function = nullptr;  ///< function of time that multiplies the speed; nullptr: 1
 
   double speed_at(double time) const { return speed * (function ? function->at(time).f : 1); }
-  /// Across the axis.
+  /// Projection onto the plane normal to the axis.
   Mat3 projection() const { return Mat3::Identity() - axis * axis.transpose(); }
 };
 
-/// What a deck says of its cells in `.HYP`, `.MAT`, `.PHP`, `.AEL` and `.SEL`, looked up by the number of a cell. Faults are
-/// reported while it is made, each once, however many cells have it.
+/// Properties of the cells from `.HYP`, `.MAT`, `.PHP`, `.AEL`, `.SEL` and rotations (ROT), by cell number. The constructor
+/// reports errors, each once for all cells concerned.
 class CellBook {
  public:
   explicit CellBook(const BuildContext& context);
 
-  /// The book of a model; made when the first cell asks for it, and each time where nothing is shared.
+  /// The book of a model, created on first use; created anew on each call if the context shares no notes.
   static std::shared_ptr<const CellBook> of(const BuildContext& context);
 
-  /// The record of `.MAI`; nullptr when there is no such cell.
+  /// The record of `.MAI`; nullptr if the cell does not exist.
   const deck::Record* record(int cell) const;
-  /// Pairs of a cell and its face, counted from 1, of a group of faces; nullptr when there is no such group.
+  /// Alternating cell numbers and face numbers, counted from 1, of a group of faces; nullptr if the group does not exist.
   const std::vector<int>* faces(const std::string& group) const;
-  /// Cells of a group; nothing when there is no such group.
+  /// Cell numbers of a group; empty if the group does not exist.
   std::vector<int> cells(const std::string& group) const;
-  /// nullptr: something is missing, and was reported.
+  /// Section of a plane, solid or membrane cell; nullptr if something is missing, which has been reported.
   std::shared_ptr<const CellSection> section(int cell) const;
-  /// Of a cell of two nodes, or three; nothing: something is missing, and was reported.
+  /// Properties of a beam cell; nothing if something is missing, which has been reported.
   std::optional<BeamCell> beam(int cell) const;
-  /// nullptr: the cell does not turn.
+  /// nullptr: the cell does not rotate.
   std::shared_ptr<const CellRotation> rotation(int cell) const;
 
  private:
@@ -85,14 +86,14 @@ class CellBook {
     const deck::Record* material = nullptr;
     double thickness = 0;                ///< 0: not given
     std::optional<double> theta = {};    ///< degrees
-    int frame = 0;                       ///< 0: the global one
-    const deck::Record* axes = nullptr;  ///< where they were given
-    int profile = 0;                     ///< of a beam; 0: not given
+    int frame = 0;                       ///< 0: global axes
+    const deck::Record* axes = nullptr;  ///< record that gives `theta` or `frame`
+    int profile = 0;                     ///< beams only; 0: not given
     std::optional<Vec3> axis_2 = {};
     std::shared_ptr<const CellSection> section = nullptr;
     std::shared_ptr<const CellRotation> rotation = nullptr;
   };
-  using Group = std::vector<std::size_t>;  ///< indices of cells
+  using Group = std::vector<std::size_t>;  ///< indices into `cells_`
 
   void read_cells(const std::vector<deck::Record>& records);
   void read_groups(const std::vector<deck::Record>& records);
@@ -105,27 +106,28 @@ class CellBook {
   void refuse_warm(const Temperatures& temperatures);
   std::shared_ptr<const CellSection> make_section(const Cell& cell, materials::Hypothesis hypothesis, const Mat3& axes,
                                                   int number);
-  /// Axes of the material of a cell; nothing where its frame does not exist, which is reported.
+  /// Material axes of a cell as columns. Reports an error and returns nothing if its frame does not exist.
   std::optional<Mat3> axes_of(const Cell& cell, const NodePositions& nodes);
 
-  /// Cells of groups, by name or number; an unknown one is an error.
+  /// Cells of groups given by name or number; reports unknown groups.
   Group members(const deck::Record& record, const std::vector<std::string>& groups);
   const Cell* find(int cell) const;
   std::size_t index(int cell) const;
-  /// One error for all cells that lack something.
+  /// Reports one error for all cells for which `lacks` is true.
   template <class Lacks>
   void report_lack(const Lacks& lacks, const std::string& what, const std::string& cure);
 
   static bool is_beam(const Cell& cell);
 
   Diagnostics& diagnostics_;
-  bool linear_, lumped_;     ///< what all cells of the model have
+  bool linear_, lumped_;     ///< for all cells of the model: small displacements, lumped masses
   std::vector<Cell> cells_;  ///< by number
   std::map<std::string, Group> groups_;
   std::map<std::string, std::vector<int>> faces_;
   std::map<int, const deck::Record*> materials_;
-  std::map<std::pair<int, materials::Hypothesis>, std::optional<materials::Elastic>> elastic_;  ///< by material
-  std::set<int> crooked_;  ///< materials whose axes were told to lead out of the plane
+  /// By material number and hypothesis; empty if the material is invalid.
+  std::map<std::pair<int, materials::Hypothesis>, std::optional<materials::Elastic>> elastic_;
+  std::set<int> crooked_;  ///< materials whose axes have been reported as unsuitable for plane cells or membranes
   Frames frames_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Forces and tangent of one cell, summed over its Gauss points, in total Lagrangian form: the linear cell is the derivative of
-// the one with large displacements at rest, by the same lines.
+// Forces and tangent of one cell by Gauss quadrature, total Lagrangian. The same code serves small displacements, as the
+// linearisation at rest.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,16 +17,16 @@
 
 namespace engrane::elements::structural {
 
-/// Cells of four and eight nodes have displacement modes of their own, 1 − ξ², 1 − η² and, of a solid, 1 − ζ², each along all
-/// directions.
+/// Number of incompatible modes per direction. Four-node quadrilaterals have 1 − ξ² and 1 − η², eight-node hexahedra also
+/// 1 − ζ², each in all directions; other shapes have none.
 constexpr int internal_modes(CellShape shape) {
   return shape == CellShape::quadrilateral ? 2 : shape == CellShape::hexahedron ? 3 : 0;
 }
 
-/// x of a x = b in the place of b; a is lost.
+/// Solves a x = b. Overwrites b with x, and a with its factors.
 void solve_in_place(Eigen::Map<Eigen::MatrixXd> a, Eigen::Map<Eigen::MatrixXd> b);
 
-/// `Axi`: round the y axis, where x is the radius. Nodes and internal modes stand side by side as columns.
+/// `Axi`: axisymmetric about the y axis, with x as the radius. Matrices have one column per node, then one per internal mode.
 template <CellShape S, bool Axi>
 class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
  public:
@@ -41,21 +41,21 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
   using typename Local::Deformation, typename Local::Square, typename Local::Stiffness, typename Local::Strain;
 
   using Places = Eigen::Matrix<double, D, N>;
-  using Moves = Eigen::Matrix<double, D, columns>;  ///< displacements of the nodes, amplitudes of the modes
+  using Moves = Eigen::Matrix<double, D, columns>;  ///< displacements of the nodes, then amplitudes of the modes
   using Forces = Moves;
-  /// Columns of a square matrix, one after the other.
+  /// Square matrix in column-major order.
   using Tangent = std::array<double, static_cast<std::size_t>(size* size)>;
   using NodalTangent = std::array<double, static_cast<std::size_t>(nodal* nodal)>;
 
   /// Geometry of a Gauss point in the reference configuration.
   struct Point {
-    double volume = 0;  ///< that the point stands for
+    double volume = 0;  ///< including the quadrature weight
     Eigen::Matrix<double, D, columns> gradient;
-    std::array<double, static_cast<std::size_t>(columns)> hoop;  ///< strain round the axis of each column's displacement along x
+    std::array<double, static_cast<std::size_t>(columns)> hoop;  ///< hoop strain for unit radial displacement of each column
   };
   static constexpr int most_points = S == CellShape::hexahedron20 ? 27 : D == 3 ? 9 : 4;
 
-  /// Round an axis one point would leave the cell of three nodes a motion without strain.
+  /// With one point, the axisymmetric three-node cell would have a zero-energy mode.
   static const QuadratureRule& points() {
     return Axi && S == CellShape::triangle ? Traits::load_points() : Traits::stiffness_points();
   }
@@ -64,16 +64,17 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     static const Samples all = tabulate<S>(points());
     return all;
   }
-  /// Those where stresses are given.
+  /// Samples at the points where stresses are reported.
   static const Samples& result_samples() {
     static const Samples all = tabulate<S>(Traits::result_points() ? *Traits::result_points() : points());
     return all;
   }
 
-  /// `at` other than the points of the stiffness: only of cells without modes, whose mean is that over the cell.
+  /// `at` may differ from the stiffness points only for cells without modes: the mean of the modes is removed over these
+  /// points.
   CellKernel(const Places& places, double thickness, std::span<const typename Traits::Sample> at = samples()) {
     for (const auto& s : at) {
-      const Square jacobian = dyads(s.slope, places);  // rows: along ξ, η, ζ
+      const Square jacobian = dyads(s.slope, places);  // rows: derivatives by ξ, η, ζ
       const Square inverse = jacobian.inverse();
       Point& p = points_[count_];
       for (int n = 0; n < N; ++n) column(p.gradient, n) = inverse * column(s.slope, n);
@@ -108,7 +109,7 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     return d;
   }
 
-  /// The law, with the strain that warmth alone gives at each point.
+  /// The law with the thermal strain at each point.
   struct Law : Local::Law {
     bool is_warm = false;
     std::array<Strain, static_cast<std::size_t>(most_points)> free{};
@@ -116,8 +117,8 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     const Strain* free_at(int point) const { return is_warm ? &free[static_cast<std::size_t>(point)] : nullptr; }
   };
 
-  /// Resisting forces and, where wanted, their derivative, of nodes and modes for any amplitudes of the modes. Of the derivative,
-  /// which is symmetric, only what stands on the diagonal or above it, in the columns from `first` on.
+  /// Internal forces of nodes and modes for given displacements and amplitudes and, unless `k` is nullptr, their tangent. Of
+  /// the symmetric tangent only the upper triangle is computed, in the columns from `first` on.
   void sum(const Law& law, const Moves& moves, Forces& r, Tangent* k, int first = 0) const {
     std::fill_n(r.data(), size, 0);
     if (k) std::fill(k->begin() + size * first, k->end(), 0);
@@ -146,31 +147,31 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     }
   }
 
-  /// What is left of forces and tangent once the modes carry no force.
+  /// Result of static condensation of the modes.
   struct Condensed {
     Moves moves;  ///< with the amplitudes of the modes
     Places forces;
-    NodalTangent tangent;  ///< on the diagonal and above
+    NodalTangent tangent;  ///< upper triangle
   };
 
-  /// Forces on the nodes for their displacements. The modes are found by Newton's iteration, which begins at zero, so that the
-  /// forces are a function of the displacements alone; where it finds no balance the forces are not numbers.
+  /// Condenses the modes: nodal forces for given nodal displacements. The amplitudes of the modes are found by Newton's
+  /// iteration from zero, so that the forces depend on the displacements alone. If it does not converge, the forces are NaN.
   void condense(const Law& law, const Places& displacements, bool wants_tangent, Condensed& out) const {
     std::copy_n(displacements.data(), nodal, out.moves.data());
     if constexpr (modes == 0) {
       sum(law, out.moves, out.forces, wants_tangent ? &out.tangent : nullptr);
     } else {
       constexpr int most = 25;
-      // its square is rounding: the last correction is carried over to the forces to first order
+      // its square is at rounding level: the last correction is applied to the forces to first order
       constexpr double small = 1e-9;
       const double slope = Eigen::Map<const Eigen::VectorXd>(points_[0].gradient.data() + nodal, own).norm();
       std::fill_n(out.moves.data() + nodal, own, 0);
       Forces r;
       Tangent k;
-      double square[own * own], solved[own * (nodal + 1)];  // the last column has the forces of the modes
-      double strain = 1;                                    // by the last correction
+      double square[own * own], solved[own * (nodal + 1)];  // last column: forces of the modes
+      double strain = 1;                                    // strain due to the last correction
       for (int iteration = 0; iteration < most; ++iteration) {
-        // corrections shrink as their squares: only the last tangent is taken of the nodes too, where it is wanted
+        // quadratic convergence predicts the last iteration; only there is the nodal part of the tangent needed
         const bool whole = wants_tangent && (law.linear || strain * strain < small);
         sum(law, out.moves, r, &k, whole ? 0 : nodal);
         for (int m = 0; m < own; ++m) {
@@ -179,7 +180,7 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
           for (int n = 0; n <= m; ++n) square[own * m + n] = square[own * n + m] = above[nodal + n];
           solved[own * nodal + m] = r.data()[nodal + m];
         }
-        double* back = solved + own * nodal;  // the change of the modes with the other sign
+        double* back = solved + own * nodal;  // minus the correction of the modes
         if (whole)
           solve_in_place({square, own, own}, {solved, own, nodal + 1});
         else
@@ -200,8 +201,7 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
   }
 
  private:
-  /// Of the nodes alone: what all unknowns have, less what the modes take. `solved`: columns of their tangent's inverse times
-  /// that of nodes and modes.
+  /// Schur complement of the modes. `solved`: the inverse of the modes' tangent times the coupling of modes and nodes.
   static void take_tangent(const Tangent& k, const double* solved, NodalTangent& out) {
     for (int j = 0; j < nodal; ++j) {
       double* to = out.data() + nodal * j;
@@ -213,8 +213,8 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     }
   }
 
-  /// Ibrahimbegović and Wilson (1991), Commun. Appl. Numer. Methods 7: a constant stress does no work on modes whose gradients
-  /// have no mean, whatever the shape of the cell.
+  /// Removes the mean of the modes' gradients, so that a constant stress does no work on them for any shape of the cell (patch
+  /// test; Ibrahimbegović and Wilson 1991, Commun. Appl. Numer. Methods 7).
   void remove_mean() {
     for (int m = N; m < columns; ++m) {
       double volume = 0, hoop = 0;
@@ -231,8 +231,7 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     }
   }
 
-  /// Adds bᵀ · moduli · b, on the diagonal and above, from column `first` on. Inner loops run along rows of `b` for the vector
-  /// unit.
+  /// Adds the upper triangle of bᵀ · moduli · b from column `first` on. Inner loops run along rows of `b` for vectorisation.
   static void add_material(const double (&b)[strains][size], const Stiffness& moduli, int first, Tangent& k) {
     double c[strains][size] = {};
     for (int n = 0; n < strains; ++n)
@@ -248,7 +247,7 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     }
   }
 
-  /// Stress times the second derivative of the strain; `stress` times the volume.
+  /// Adds the geometric stiffness. `stress` includes the volume.
   static void add_geometric(const Point& p, const Strain& stress, int first, Tangent& k) {
     Square second;
     for (int i = 0; i < D; ++i) second(i, i) = stress[i];

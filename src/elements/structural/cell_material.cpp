@@ -16,7 +16,7 @@ Vec3 along_axes(const std::vector<double>& values) {
   return values.size() == 3 ? Vec3(values[0], values[1], values[2]) : Vec3::Constant(values.empty() ? 0.0 : values.front());
 }
 
-/// The word of a deck begins the word of the language, with three letters or more.
+/// Whether `word` from the deck abbreviates a word of the language to three or more letters.
 bool begins(std::string_view language, const std::string& word) { return word.size() >= 3 && begins_with_word(language, word); }
 
 std::optional<Elastic> isotropic_of(const deck::Record& record, const deck::MaterialCard& card, Hypothesis hypothesis,

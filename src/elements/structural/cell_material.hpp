@@ -8,7 +8,7 @@
 
 namespace engrane::elements::structural {
 
-/// The material of a `.MAT`, in its own axes; nothing where it is faulty, which is reported.
+/// Material of a `.MAT` in its own axes. Reports an error and returns nothing if it is invalid.
 std::optional<materials::Elastic> elastic_of(const deck::Record& record, materials::Hypothesis hypothesis,
                                              Diagnostics& diagnostics);
 

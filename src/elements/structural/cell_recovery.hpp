@@ -25,10 +25,9 @@ constexpr CellShape without_middles(CellShape shape) {
   }
 }
 
-/// From values at points of a cell to those at its nodes (nodes × points): the combination of the shape functions of its corners
-/// that is nearest to the values at the points, least squares. Of several such combinations, where there are fewer points than
-/// corners, the one with the smallest values at the corners; a single point gives its value to all nodes.
-/// `values`: of those functions at the points (points × corners).
+/// Matrix (nodes × points) that extrapolates values at the points of a cell to its nodes: least-squares fit by the shape
+/// functions of the corners. With fewer points than corners it is the minimum-norm fit, so that a single point gives its value
+/// to all nodes. `values`: these shape functions at the points (points × corners).
 Eigen::MatrixXd extrapolation(CellShape shape, const Eigen::MatrixXd& values);
 
 template <CellShape S>

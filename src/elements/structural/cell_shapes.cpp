@@ -9,7 +9,7 @@ namespace engrane::elements::structural {
 
 namespace {
 
-/// Products of a rule with itself.
+/// Tensor product of a rule with itself.
 QuadratureRule squared(const LineRule& rule) {
   QuadratureRule points;
   for (const auto& [eta, of_eta] : rule)
@@ -48,8 +48,8 @@ auto CellTraits<CellShape::triangle6>::sample(const QuadraturePoint& p) -> Sampl
   return quadratic_simplex<CellShape::triangle6>(p);
 }
 
-/// Degree 4 (Dunavant 1985, Int. J. Num. Meth. Eng. 21): products of two quadratic functions. The roots and weights are those of
-/// its table in closed form.
+/// Degree 4, as needed for products of two quadratic functions (Dunavant 1985, Int. J. Num. Meth. Eng. 21). Points and weights
+/// are those of its table in closed form.
 const QuadratureRule& CellTraits<CellShape::triangle6>::mass_points() {
   static const QuadratureRule points = [] {
     const double ten = std::sqrt(10.0), inner = std::sqrt(38 - 44 * std::sqrt(0.4));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape functions and quadrature of cells, tabulated once for each rule.
+// Shape functions and quadrature rules of cells.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,18 +12,18 @@
 
 namespace engrane::elements::structural {
 
-/// A point of the reference cell with its weight: triangle (ξ, η ≥ 0, ξ + η ≤ 1), square (−1 to 1), tetrahedron (ξ, η, ζ ≥ 0,
-/// ξ + η + ζ ≤ 1), wedge (a triangle, ζ from −1 to 1), cube.
+/// Quadrature point of a reference cell: triangle (ξ, η ≥ 0, ξ + η ≤ 1), square [−1, 1]², tetrahedron (ξ, η, ζ ≥ 0,
+/// ξ + η + ζ ≤ 1), wedge (triangle × ζ in [−1, 1]) or cube [−1, 1]³.
 struct QuadraturePoint {
   double xi, eta, weight, zeta = 0;
 };
 using QuadratureRule = std::vector<QuadraturePoint>;
 
-/// Places from −1 to 1, and weights, of the rule of Gauss and Legendre with 2 or 3 points.
+/// Gauss–Legendre rule with 2 or 3 points on [−1, 1]: pairs of position and weight.
 using LineRule = std::vector<std::pair<double, double>>;
 const LineRule& gauss_legendre(int points);
 
-/// What is tabulated at a point: shape functions and their derivatives along ξ, η and, of a solid, ζ.
+/// Shape functions at a point and their derivatives by ξ, η and, for solids, ζ.
 template <int N, int D>
 struct ShapeSample {
   double weight;
@@ -35,11 +35,11 @@ template <int N, int Corners, int D>
 struct CellNodes {
   static constexpr int nodes = N, corners = Corners, dimension = D;
   using Sample = ShapeSample<N, D>;
-  /// Where stresses are given, other than at the points of the stiffness.
+  /// Points at which stresses are reported; nullptr: those of the stiffness.
   static const QuadratureRule* result_points() { return nullptr; }
 };
 
-/// Shape functions and rules of quadrature; the order of nodes is that of CellShape.
+/// Shape functions and quadrature rules of a shape, with nodes in the order of CellShape.
 template <CellShape S>
 struct CellTraits;
 
@@ -120,12 +120,12 @@ struct CellTraits<CellShape::hexahedron20> : CellNodes<20, 8, 3> {
   static Sample sample(const QuadraturePoint& p);
   static const QuadratureRule& stiffness_points() { return load_points(); }
   static const QuadratureRule& load_points() { return CellTraits<CellShape::hexahedron>::load_points(); }
-  /// Where its stresses are best (Barlow 1976, Int. J. Numer. Methods Eng. 10).
+  /// Points of optimal stress accuracy (Barlow 1976, Int. J. Numer. Methods Eng. 10).
   static const QuadratureRule* result_points() { return &CellTraits<CellShape::hexahedron>::stiffness_points(); }
   static const QuadratureRule& mass_points() { return load_points(); }
 };
 
-/// The shape functions of a cell at the points of a rule.
+/// Shape functions of a cell at the points of a rule.
 template <CellShape S>
 std::vector<typename CellTraits<S>::Sample> tabulate(const QuadratureRule& points) {
   std::vector<typename CellTraits<S>::Sample> samples;
@@ -133,13 +133,13 @@ std::vector<typename CellTraits<S>::Sample> tabulate(const QuadratureRule& point
   return samples;
 }
 
-/// Shape functions and slopes of an edge of 2 or 3 nodes (ends, then the middle) at s from −1 to 1.
+/// Shape functions of an edge with 2 or 3 nodes (ends, then the middle) and their derivatives, at s in [−1, 1].
 struct EdgeSample {
   double weight;
   std::array<double, 3> value, slope;
 };
 
-/// Three Gauss points: exact for the pressure on an edge whose middle node is anywhere, also round an axis.
+/// Samples at three Gauss points: exact for pressure on an edge wherever its middle node is, also in axisymmetry.
 std::array<EdgeSample, 3> edge_samples(std::size_t nodes);
 
 }  // namespace engrane::elements::structural

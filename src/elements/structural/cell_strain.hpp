@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a point of a cell in the plane, round an axis or in space answers to its deformation, whatever the shape of the cell.
+// Strain and stress at a point of a plane, axisymmetric or solid cell, independent of the shape of the cell.
 #pragma once
 
 #include <Eigen/LU>
@@ -11,13 +11,13 @@
 
 namespace engrane::elements::structural {
 
-/// `Axi`: round the y axis, where x is the radius.
+/// `Axi`: axisymmetric about the y axis, with x as the radius.
 template <int D, bool Axi>
 struct CellStrain {
   static constexpr int shears = D == 3 ? 3 : 1;
   static constexpr int normals = D == 3 || Axi ? 3 : 2;
   static constexpr int strains = normals + shears;
-  /// Where the strains stand among xx, yy, zz, xy, yz, zx.
+  /// Indices of the strains in xx, yy, zz, xy, yz, zx.
   static constexpr std::array<Eigen::Index, static_cast<std::size_t>(strains)> components = [] {
     std::array<Eigen::Index, static_cast<std::size_t>(strains)> at{};
     for (int i = 0; i < strains; ++i) at[static_cast<std::size_t>(i)] = i < normals ? i : 3 + i - normals;
@@ -31,7 +31,7 @@ struct CellStrain {
   static Stiffness reduced(const materials::Moduli& full) { return full(components, components); }
   static Strain reduced(const materials::Voigt& full) { return full(components); }
 
-  /// Deformation at a point: F and, round an axis, its entry of the circumference.
+  /// Deformation at a point: the gradient F and, in axisymmetry, the circumferential stretch.
   struct Deformation {
     Square F = Square::Identity();
     double hoop = 1;
@@ -39,7 +39,7 @@ struct CellStrain {
     bool is_right_way_round() const { return F.determinant() > 0 && hoop > 0; }
   };
 
-  /// Strain of Green and Lagrange, or its linear part.
+  /// Green–Lagrange strain, or its linear part.
   static Strain strain(const Deformation& d, bool linear) {
     const Square H = d.F - Square::Identity();
     Square E = (H + H.transpose()) / 2;
@@ -54,24 +54,24 @@ struct CellStrain {
     return e;
   }
 
-  /// What the cell is made of: stresses are stiffness · (strain − free).
+  /// Material law: stress = stiffness · (strain − free).
   struct Law {
     Stiffness stiffness;
     bool linear = true;                                  ///< small displacements
-    const materials::NeoHookean* neo_hookean = nullptr;  ///< instead
+    const materials::NeoHookean* neo_hookean = nullptr;  ///< if not nullptr, replaces `stiffness`
     materials::Hypothesis hypothesis = materials::Hypothesis::solid;
   };
 
-  /// The stress at a point, its derivative by the strain, and the energy per volume.
+  /// Second Piola–Kirchhoff stress, its derivative by the strain and the strain energy per unit reference volume.
   struct Response {
     Strain stress;
     Stiffness moduli;
     double energy;
   };
-  /// `free`: the strain that warmth alone gives; nullptr: none.
+  /// `free`: the thermal strain; nullptr: none. With large displacements the response is NaN where the cell is inverted.
   static Response respond(const Law& law, const Strain* free, const Deformation& now) {
     Strain e = strain(now, law.linear);
-    // strains do not tell a body from one turned inside out
+    // the Green–Lagrange strain cannot detect inversion
     if (!law.linear && !now.is_right_way_round()) e.setConstant(std::numeric_limits<double>::quiet_NaN());
     if (law.neo_hookean) {
       materials::Voigt all = materials::Voigt::Zero();

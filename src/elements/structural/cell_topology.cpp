@@ -17,7 +17,7 @@ constexpr std::array<Side, 9> of_wedge{{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, 
 constexpr std::array<Side, 12> of_hexahedron{
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
 
-/// How many corners the base of a solid has.
+/// Number of corners of the base of a solid.
 int base_corners(CellShape shape) { return shape == CellShape::hexahedron || shape == CellShape::hexahedron20 ? 4 : 3; }
 
 bool is_tetrahedron(CellShape shape) { return shape == CellShape::tetrahedron || shape == CellShape::tetrahedron10; }
@@ -27,7 +27,7 @@ struct Polygon {
   std::vector<int> corners, middles;
 };
 
-/// Nothing when corners and mid-side nodes do not alternate.
+/// Nothing if mid-side nodes are given but do not alternate with the corners.
 std::optional<Polygon> polygon(std::span<const int> written) {
   Polygon found;
   for (std::size_t i = 0; i < written.size(); ++i) {
@@ -159,7 +159,7 @@ std::vector<int> face_nodes(CellShape shape, int face) {
   const int base = base_corners(shape), next = face % base;
   if (!is_solid(shape))
     corners = {face, (face + 1) % corner_count(shape)};
-  else if (face == 0)  // seen from outside the base goes round the other way
+  else if (face == 0)  // reversed: seen from outside, the order of the base is clockwise
     for (int i = 0; i < base; ++i) corners.push_back((base - i) % base);
   else if (face > base)
     for (int i = 0; i < base; ++i) corners.push_back(base + i);

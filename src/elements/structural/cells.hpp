@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Blocks of cells of one shape, in the plane, round an axis or in space.
+// Blocks of plane, axisymmetric or solid cells of one shape.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -17,7 +17,7 @@
 
 namespace engrane::elements::structural {
 
-/// Cells of one shape; `Axi`: round the y axis.
+/// Block of cells of one shape. `Axi`: axisymmetric about the y axis.
 template <CellShape S, bool Axi>
 class Cells final : public Block {
   using Kernel = CellKernel<S, Axi>;
@@ -69,7 +69,7 @@ class Cells final : public Block {
       const Cell& cell = cells_[first + i];
       typename Kernel::Condensed sum;
       resist(cell, states[i], true, sum, r.data() + i * D * N);
-      // symmetric, so that rows and columns need no care
+      // symmetric, so that the storage order does not matter
       constexpr std::size_t size = Kernel::nodal;
       double* tangent = k.data() + i * size * size;
       for (std::size_t column = 0; column < size; ++column)
@@ -99,7 +99,7 @@ class Cells final : public Block {
       const auto response = Kernel::respond(law, law.free_at(i), kernel.deformation(kernel.point(i), sum.moves));
       energies.strain += volume * response.energy;
       if (!law.is_warm) continue;
-      // V also depends on the warmth ΔT: its change does the work ∂V/∂ΔT dΔT
+      // the strain energy V also depends on ΔT: a change of temperature supplies ∂V/∂ΔT dΔT
       const Sample& s = Kernel::samples()[static_cast<std::size_t>(i)];
       const double held = section.law.held * section.law.expansion[2] * section.law.expansion[2], warmer = rise(cell, state, s);
       energies.strain += volume / 2 * held * warmer * warmer;
@@ -175,14 +175,14 @@ class Cells final : public Block {
     return &all;
   }
 
-  /// Where displacements are large, the true stress given is taken back by the deformation of each point.
+  /// With large displacements, the given true stresses are pulled back to second Piola–Kirchhoff stresses at each point.
   StressEnergies stress_energies(std::size_t e, const State& state, std::span<const double> at_nodes) const override {
     const Cell& cell = cells_[e];
     const CellSection& section = *cell.section;
     const auto given = [&at_nodes](Eigen::Index node) {
       return Eigen::Map<const Eigen::Matrix<double, width, 1>>(at_nodes.data() + width * node);
     };
-    std::optional<Kernel> kernel;  // of cells with modes; the points are others where there are none
+    std::optional<Kernel> kernel;  // cells with modes only; others use the mass points
     if constexpr (Kernel::modes > 0) kernel.emplace(cell.places, section.thickness);
     typename Kernel::Moves moves;
     if constexpr (Kernel::modes > 0)
@@ -193,7 +193,7 @@ class Cells final : public Block {
     const auto energy = [&moduli](const Stress& stress) {
       return moduli.matrixL().solve(Kernel::reduced(stress)).squaredNorm() / 2;
     };
-    // exact for the square of the difference in straight cells
+    // integrates the squared difference exactly in straight-sided cells
     const auto& samples = Kernel::modes > 0 ? Kernel::samples() : masses();
     StressEnergies sum;
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -218,16 +218,16 @@ class Cells final : public Block {
     std::array<int, static_cast<std::size_t>(N)> nodes;
     Places places;
     std::shared_ptr<const CellSection> section;
-    std::shared_ptr<const std::vector<Warmth>> warmth;  ///< of each node; none: no change of temperature
-    std::shared_ptr<const CellRotation> rotation;       ///< none: it does not turn
+    std::shared_ptr<const std::vector<Warmth>> warmth;  ///< of each node; nullptr: no change of temperature
+    std::shared_ptr<const CellRotation> rotation;       ///< nullptr: it does not rotate
   };
 
-  /// Stresses and strains at a point, in all six components.
+  /// All six components of stress and strain at a point.
   struct AtPoint {
     Stress stress, strain;
-    Stress second;  ///< Piola–Kirchhoff; with small displacements the stress
+    Stress second;  ///< second Piola–Kirchhoff stress; equals `stress` with small displacements
     double energy = 0;
-    Mat3 F;  ///< with the third direction; not set with small displacements
+    Mat3 F;  ///< including the third direction; not set with small displacements
   };
 
   static const std::vector<Sample>& masses() {
@@ -252,7 +252,7 @@ class Cells final : public Block {
     return law;
   }
 
-  /// How much warmer a point is than in the reference configuration, and how fast it gets warmer.
+  /// Temperature rise at a point over the reference configuration, and its rate.
   static double rise(const Cell& cell, const State& state, const Sample& s) {
     return between_nodes(cell, s, [&state](const Warmth& w) { return w.at(state.time); });
   }
@@ -267,7 +267,7 @@ class Cells final : public Block {
     return sum;
   }
 
-  /// Displacements of the nodes with the amplitudes of the modes.
+  /// Displacements of the nodes and amplitudes of the modes.
   static typename Kernel::Moves moves_of(const Cell& cell, const State& state, const Kernel& kernel) {
     if constexpr (Kernel::modes == 0) return displacements(cell, state);
     typename Kernel::Condensed sum;
@@ -296,7 +296,7 @@ class Cells final : public Block {
     if (section.linear) return p;
     p.F.setZero();
     p.F.template topLeftCorner<D, D>() = now.F;
-    // in the plane with the stretch along z that the strain there is
+    // plane cells: the stretch along z follows from the strain along z
     if constexpr (D == 2) p.F(2, 2) = Axi ? now.hoop : std::sqrt(std::max(1 + 2 * p.strain[2], 0.0));
     p.stress = components_of(p.F * symmetric_tensor(shown(p.second)) * p.F.transpose() / p.F.determinant());
     return p;
@@ -316,7 +316,7 @@ class Cells final : public Block {
     return points;
   }
 
-  /// The residual goes to `r`; `sum` has what resists, and its tangent where that is wanted.
+  /// Writes the residual to `r` and the internal forces to `sum`, with their tangent if `wants_tangent`.
   static void resist(const Cell& cell, const State& state, bool wants_tangent, typename Kernel::Condensed& sum, double* r) {
     Eigen::Map<Eigen::VectorXd> out(r, D * N);
     const Places moved = displacements(cell, state);
@@ -325,12 +325,12 @@ class Cells final : public Block {
       kernel.condense(law_of(cell, state), moved, wants_tangent, sum);
       std::copy_n(sum.forces.data(), D * N, r);
     } else {
-      out.setZero();  // as it is asked when masses are found
+      out.setZero();  // shortcut for evaluations at rest, as when masses are determined
     }
     add_inertia_and_weight(cell, state, out);
   }
 
-  /// `use(sample, volume)` at the points of a rule, in the reference configuration.
+  /// Calls `use(sample, volume)` for the points of a rule, in the reference configuration.
   template <class Use>
   static void for_each_point(const Cell& cell, const std::vector<Sample>& samples, const Use& use) {
     for (const Sample& s : samples) {
@@ -341,12 +341,12 @@ class Cells final : public Block {
     }
   }
 
-  /// Weight on the nodes; false when there is none.
+  /// Nodal weight forces; false if there are none.
   static bool weigh(const Cell& cell, const State& state, Places& weight) {
     const double density = cell.section->law.density;
     const Eigen::Matrix<double, D, 1> gravity = state.gravity.template head<D>();
     if (density == 0 || gravity.isZero(0)) return false;
-    // round an axis the radius makes one degree more
+    // in axisymmetry the radius raises the degree by one
     static const auto samples = tabulate<S>(Axi ? Traits::mass_points() : Traits::load_points());
     auto share = zero<Shape>();
     if (cell.section->lumped)
@@ -358,8 +358,8 @@ class Cells final : public Block {
     return true;
   }
 
-  /// Masses at the nodes: the diagonal of the consistent matrix, scaled to the mass of the cell (Hinton, Rock and Zienkiewicz
-  /// 1976, Earthquake Eng. Struct. Dyn. 4).
+  /// Lumped nodal masses: the diagonal of the consistent mass matrix, scaled to the mass of the cell (Hinton, Rock and
+  /// Zienkiewicz 1976, Earthquake Eng. Struct. Dyn. 4).
   static Shape lumped(const Cell& cell) {
     auto diagonal = zero<Shape>();
     double volume = 0;
@@ -371,7 +371,7 @@ class Cells final : public Block {
     return diagonal;
   }
 
-  /// `use(shape functions, mass)` at points that carry the mass: those of a rule, or the nodes where masses are lumped.
+  /// Calls `use(shape functions, mass)` for the points that carry the mass: quadrature points, or nodes if masses are lumped.
   template <class Use>
   static void for_each_mass(const Cell& cell, const Use& use) {
     if (cell.section->lumped) {
@@ -393,7 +393,7 @@ class Cells final : public Block {
     return v;
   }
 
-  /// Adds ∫ N_i ρ ω² P (x − o) dV, with P across the axis and a point o on it; false when the cell does not turn.
+  /// Adds ∫ N_i ρ ω² P (x − o) dV, with P the projection normal to the axis and o a point on it. False if there is none.
   static bool add_centrifugal(const Cell& cell, const State& state, Places& forces) {
     if (!cell.rotation || cell.section->law.density == 0) return false;
     const CellRotation& turn = *cell.rotation;
@@ -421,13 +421,13 @@ class Cells final : public Block {
     for_each_mass(cell, [&](const Shape& shape, double mass) { add_dyad(mass * interpolated(a, shape), shape, r.data()); });
   }
 
-  /// Adds v times each of the shape functions.
+  /// Adds v times each shape function.
   static void add_dyad(const Eigen::Matrix<double, D, 1>& v, const Shape& shape, double* to) {
     for (Eigen::Index n = 0; n < N; ++n)
       for (Eigen::Index i = 0; i < D; ++i) to[D * n + i] += shape[n] * v[i];
   }
 
-  /// Adds the mass matrix times `factor`, with the directions along which it acts.
+  /// Adds `factor` times the mass matrix, with `directions` (3 × 3) as its block for unit mass.
   static void add_mass(const Cell& cell, double factor, const Mat3& directions, double* k) {
     if (cell.section->law.density == 0) return;
     std::array<double, static_cast<std::size_t>(N * N)> matrix{};
@@ -442,7 +442,7 @@ class Cells final : public Block {
             k[D * N * (D * j + b) + D * i + a] += matrix[static_cast<std::size_t>(N * j + i)] * directions(a, b);
   }
 
-  /// The components among the results.
+  /// The components reported as results.
   static std::span<const double> shown(const Stress& s) { return {s.data(), static_cast<std::size_t>(width)}; }
 
   Layout layout_;
@@ -456,7 +456,8 @@ std::unique_ptr<Element> add_cell(const CellPlan& plan, BlockStore* blocks) {
   return std::make_unique<BlockMember>(plan.id, block, block->add(plan));
 }
 
-/// Whether the determinants at the points of a rule have the sign of the first of all, in `sign`, and are none of rounding.
+/// Whether the Jacobian determinants at the points of a rule all have the sign `sign` and are above rounding error. A `sign`
+/// of 0 is set from the first point.
 template <CellShape S>
 bool is_regular(const std::vector<Vec3>& places, const std::vector<typename CellTraits<S>::Sample>& samples, double& sign) {
   constexpr int D = CellTraits<S>::dimension;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Matrices with one column for each node of a cell, taken apart into pieces whose type does not depend on the number of nodes.
-// What is written with them is compiled once for all shapes; as expressions of the whole matrices it took GCC minutes.
+// Access to matrices with one column per node by types that do not depend on the number of nodes. Expressions of these are
+// compiled once for all shapes; with the whole matrices GCC took minutes.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ auto column(Matrix& m, Eigen::Index i) {
   return Eigen::Map<std::conditional_t<std::is_const_v<Matrix>, const Column, Column>>(m.data() + m.rows() * i);
 }
 
-/// All entries, one column after the other.
+/// All entries as a vector, column by column.
 template <class Matrix>
 auto entries(Matrix& m) {
   using Vector = std::conditional_t<std::is_const_v<Matrix>, const Eigen::VectorXd, Eigen::VectorXd>;
@@ -30,7 +30,7 @@ Matrix zero() {
   return m;
 }
 
-/// a bᵀ: the sum over the nodes of the dyads of their columns.
+/// a bᵀ, as the sum over the nodes of the dyads of their columns.
 template <int A, int B, int N>
 Eigen::Matrix<double, A, B> dyads(const Eigen::Matrix<double, A, N>& a, const Eigen::Matrix<double, B, N>& b) {
   Eigen::Matrix<double, A, B> sum = Eigen::Matrix<double, A, B>::Zero();
@@ -38,7 +38,7 @@ Eigen::Matrix<double, A, B> dyads(const Eigen::Matrix<double, A, N>& a, const Ei
   return sum;
 }
 
-/// m v: what the shape functions v make of values at the nodes.
+/// m v: nodal values m interpolated by the shape functions v.
 template <int D, int N>
 Eigen::Matrix<double, D, 1> interpolated(const Eigen::Matrix<double, D, N>& m, const Eigen::Matrix<double, N, 1>& v) {
   Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero();

@@ -28,7 +28,7 @@ std::unique_ptr<Element> build(const GroupPressureData& data, BuildContext& cont
                     "a pressure on other cells is given by .SEL GROUP n FACES");
       continue;
     }
-    std::vector<int> of_skins;  // a membrane has one face
+    std::vector<int> of_skins;  // (cell, face) pairs; a membrane has face 1 only
     for (const int cell : cells) of_skins.insert(of_skins.end(), {cell, 1});
     const std::vector<int>* faces = cells.empty() ? book->faces(name) : &of_skins;
     if (!faces) {

@@ -9,30 +9,30 @@
 
 namespace engrane::elements::structural {
 
-/// All that a cell is made from; nodes and places in the order of CellShape.
+/// Data of a cell to be built; nodes and places are in the order of CellShape.
 struct CellPlan {
   int id = 0;
   CellShape shape = CellShape::none;
   std::vector<int> nodes;
   std::vector<Vec3> places;
   std::shared_ptr<const CellSection> section;
-  std::shared_ptr<const std::vector<Warmth>> warmth = nullptr;  ///< of each node; none: no change of temperature
-  std::shared_ptr<const CellRotation> rotation = nullptr;       ///< none: it does not turn
+  std::shared_ptr<const std::vector<Warmth>> warmth = nullptr;  ///< of each node; nullptr: no change of temperature
+  std::shared_ptr<const CellRotation> rotation = nullptr;       ///< nullptr: it does not rotate
 };
 
-/// Adds a cell to the block of its kind; alone in one where `blocks` is nullptr.
+/// Adds a cell to the block of its kind, or to a block of its own if `blocks` is nullptr.
 std::unique_ptr<Element> make_plane_cell(const CellPlan& plan, BlockStore* blocks);
 std::unique_ptr<Element> make_solid_cell(const CellPlan& plan, BlockStore* blocks);
 
-/// A membrane in space, made where these are: elements/membranes/skin.cpp. nullptr where it is folded or has no area.
+/// The same for a membrane in space; defined in elements/membranes/skin.cpp. Returns nullptr if it is folded or has no area.
 std::unique_ptr<Element> make_skin(const CellPlan& plan, BlockStore* blocks);
 
-/// Whether the cell has an area or a volume: its determinant has one sign at all points where something is evaluated.
+/// Whether the Jacobian determinant has the same sign, and is not zero, at all stiffness and load points.
 bool is_regular_plane(CellShape shape, const std::vector<Vec3>& places);
 bool is_regular_solid(CellShape shape, const std::vector<Vec3>& places);
 
-/// Above zero where the corners of a regular cell go round right-handed: counterclockwise in a plane, the top of a solid above
-/// its base as seen from there.
+/// Positive if a regular cell is right-handed: the corners of a plane cell are counterclockwise, those of a solid's base are
+/// counterclockwise seen from its top.
 double handedness(CellShape shape, const std::vector<Vec3>& places);
 
 }  // namespace engrane::elements::structural

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* cure =
     "name nodes that do not lie on a line, or join single nodes to N by SPHERICAL joints; RIGID_LINK takes any group";
 
-/// The first node of the group: its multipliers are those of the whole link, which makes it speak for it.
+/// Share of the first node of the group. It owns the multipliers of the whole link and provides its results.
 class FirstShare final : public TemplatedElement<FirstShare, 2, 15> {
  public:
   FirstShare(int id, Layout layout, NodeLink share) : TemplatedElement(id), share_(std::move(share)) {
@@ -55,7 +55,7 @@ class FirstShare final : public TemplatedElement<FirstShare, 2, 15> {
   NodeLink share_;
 };
 
-/// The weights as parts of one; nothing, with errors, where they do not fit.
+/// The weights normalised to a sum of 1. Reports an error and returns nothing if their number is wrong.
 std::optional<std::vector<double>> parts_of_one(const MeanLinkData& data, std::size_t count, const BuildContext& context) {
   std::vector<double> weights = data.weights;
   if (weights.empty()) weights.assign(count, 1.0);
@@ -77,13 +77,13 @@ std::unique_ptr<Element> build(const MeanLinkData& data, BuildContext& context) 
   if (!weights) return nullptr;
   Vec3 centre = Vec3::Zero();
   for (std::size_t i = 0; i < count; ++i) centre += (*weights)[i] * group->places[i];
-  // second moments of the places, and the tensor that turns rotations into moments of displacements
+  // weighted second moments of the positions about their centre
   Mat3 spread = Mat3::Zero();
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3 e = group->places[i] - centre;
     spread += (*weights)[i] * e * e.transpose();
   }
-  constexpr double rounding = 1e-12;  // of squares of lengths
+  constexpr double rounding = 1e-12;  // relative, for squared lengths
   const Vec3 extents = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues();
   double far = 0;
   for (const Vec3& place : group->places) far = std::max(far, (context.nodes.at(data.master) + place).squaredNorm());

@@ -13,10 +13,10 @@ namespace engrane::elements::structural {
 
 namespace {
 
-/// What links ask of the cells of a deck.
+/// Properties of the deck's cells that links need.
 struct LinkedMesh {
-  std::unordered_set<int> ids;  ///< nodes of plane cells, which do not move along z
-  bool small = false;           ///< displacements
+  std::unordered_set<int> ids;  ///< nodes of plane cells only, which do not move along z
+  bool small = false;           ///< small displacements
 
   explicit LinkedMesh(const BuildContext& context) {
     if (!context.records) return;
@@ -42,7 +42,7 @@ std::optional<LinkedGroup> linked_group(const LinkData& data, BuildContext& cont
     group.nodes = context.nodes_of(data);
   else
     group.nodes = data.nodes;
-  if (group.nodes.empty()) return {};  // as the group itself was told
+  if (group.nodes.empty()) return {};  // reported when the group was resolved
   if (std::find(group.nodes.begin(), group.nodes.end(), data.master) != group.nodes.end()) {
     context.error("N", fmt::format("node {} belongs to the group that is linked to it", data.master),
                   "link the group to a node of its own, which may be in the same place");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What rigid and mean links between a node and a group of nodes have in common.
+// Common parts of rigid and mean links between a node and a group of nodes.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,25 +21,27 @@ struct LinkData : deck::NodeTarget {
   int master = 0;
 };
 
-/// Share of one node of the group in the constraints of a link:
+/// Contribution of one node of the group to the constraints of a link:
 ///
 ///     Φ = Σ_i A_i g_i,   g_i = R_0ᵀ (x_i − x_0) − d_i
 ///
-/// The gap g_i is how far node i is from where the master would carry it, in the master's material axes. With small displacements
+/// The gap g_i is the displacement of node i relative to its position on the rigid master, in the master's body axes.
+/// With small displacements
 ///
 ///     g_i = x_i − x_0 − d_i − θ × d_i
 ///
-/// in space, with θ the rotation vector of the master: constraints and forces are linear, as those of the cells.
+/// in global axes, with θ the rotation vector of the master: constraints and forces are linear, like those of the cells.
 struct NodeLink {
   using Weights = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor, 6, 3>;
-  Vec3 place;       ///< d_i: of the node in the reference configuration, from the master
-  Weights weights;  ///< A_i: a row for each constraint
-  bool shares = false;
-  bool in_plane = false;  ///< the node does not move along z, which is no unknown of it
-  bool small = false;     ///< displacements are small
+  Vec3 place;             ///< d_i: position of the node relative to the master in the reference configuration
+  Weights weights;        ///< A_i: one row per constraint
+  bool shares = false;    ///< the constraints are sums over several nodes
+  bool in_plane = false;  ///< the node has no unknown along z
+  bool small = false;     ///< small displacements
 
-  /// The residual is −Aᵀλ at the node, and its reaction on the master. A penalty acts on constraints that are whole: of a share
-  /// it would be a stiffness between nodes that may move.
+  /// Residual: −Aᵀλ at the node and its reaction on the master. If the constraint is shared, the penalty term that
+  /// Balance::constraint() includes is removed: on a single share it would act as a stiffness between nodes that are free to
+  /// move relative to each other.
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     const auto& master = motion.node[0];
@@ -61,7 +63,7 @@ struct NodeLink {
   }
 };
 
-/// The first shares of the links of a model, or all others.
+/// Block of the node links of a model that have the same layout.
 class NodeLinks final : public TemplatedBlock<NodeLink, 2, 15> {
  public:
   using TemplatedBlock::TemplatedBlock;
@@ -69,18 +71,18 @@ class NodeLinks final : public TemplatedBlock<NodeLink, 2, 15> {
   bool is_linear(std::size_t e) const override { return data(e).small; }
 };
 
-/// The nodes that a link joins.
+/// The group of nodes that a link joins to its master.
 struct LinkedGroup {
   std::vector<int> nodes;    ///< ids, ascending
-  std::vector<Vec3> places;  ///< of each, from the master
+  std::vector<Vec3> places;  ///< positions relative to the master
   bool in_plane = false;     ///< nodes of plane cells
-  bool small = false;        ///< displacements of the deck's cells are
+  bool small = false;        ///< the deck's cells have small displacements
 };
 
-/// What a card names, where a link can join it; faults are reported.
+/// Group named by a card. Returns nothing, with errors reported, if a link cannot join it.
 std::optional<LinkedGroup> linked_group(const LinkData& data, BuildContext& context);
 
-/// The layout of a share. Nodes are −1: those of a block (Block::layout).
+/// Layout of a share. Node ids are −1, as in blocks (Block::layout).
 Layout link_layout(bool in_plane, std::vector<Multiplier> multipliers);
 
 /// Adds the keywords of LinkData to a card.

@@ -5,7 +5,7 @@
 
 namespace engrane::elements::structural {
 
-/// What a template makes of the shape of a cell with an area: `make.template operator()<S>()`.
+/// Returns `make.template operator()<S>()` for the shape S of a plane cell.
 template <class Make>
 auto with_plane_shape(CellShape shape, const Make& make) {
   switch (shape) {

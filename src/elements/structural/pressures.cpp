@@ -15,7 +15,7 @@ namespace engrane::elements::structural {
 
 namespace {
 
-/// The samples of a plane cell, seen as a face.
+/// Samples of a plane shape used as a face.
 template <CellShape S>
 std::vector<FaceSample> samples_of(const QuadratureRule& rule) {
   std::vector<FaceSample> samples;
@@ -43,7 +43,7 @@ std::vector<FaceSample> face_samples(bool solid, std::size_t nodes) {
     }
     return samples;
   }
-  switch (nodes) {  // of triangles the rule of degree 4, which takes N_i times the normal of a curved face
+  switch (nodes) {  // six-node triangles need degree 4: N_i times the normal of a curved face
     case 3:
       return samples_of<CellShape::triangle>(CellTraits<CellShape::triangle>::load_points());
     case 6:
@@ -74,7 +74,7 @@ void Pressures<D>::push(const Face& face, const State& state, double sign, std::
       for (std::size_t c = 0; c + 1 < D; ++c) along[c] += s.slope[i][c] * x[i];
       radius += s.value[i] * x[i][0];
     }
-    // the normal times the area; its derivative by the place of node j is turn[0] s_j (and turn[1] t_j)
+    // normal times area; its derivative by the position of node j is turn[0] s_j (+ turn[1] t_j), with s_j, t_j the slopes
     Vector normal;
     Square turn[2] = {Square::Zero(), Square::Zero()};
     if constexpr (D == 2) {
@@ -124,7 +124,7 @@ std::unique_ptr<Element> add(const PressureOn& on, const Connectivity& cell, int
   std::vector<Vec3> places;
   for (const int id : cell.nodes) places.push_back(context.nodes.at(id));
   if (section->skin)
-    face.pressure = -face.pressure;  // to the side from which its corners go round counterclockwise
+    face.pressure = -face.pressure;  // acts towards the side from which the corners appear counterclockwise
   else if (handedness(cell.shape, places) < 0)
     face.pressure = -face.pressure;
   const std::size_t count = face.nodes.size();
@@ -145,7 +145,7 @@ std::unique_ptr<Element> make_pressure(const PressureOn& on, int number, const c
   }
   const auto cell = connectivity(record->get<CellData>()->nodes);
   const std::shared_ptr<const CellSection> section = book.section(on.cell);
-  // otherwise the cell has faults of its own
+  // errors of the cell are reported when it is built
   if (!cell || !section) return nullptr;
   for (const int id : cell->nodes)
     if (!context.nodes.contains(id)) return nullptr;

@@ -10,18 +10,19 @@
 
 namespace engrane::elements::structural {
 
-/// Shape functions of a face and their slopes along it, at a Gauss point.
+/// Shape functions of a face and their derivatives at a Gauss point.
 struct FaceSample {
   double weight;
-  std::vector<double> value;                 ///< of each node
-  std::vector<std::array<double, 2>> slope;  ///< along the one or two coordinates of the face
+  std::vector<double> value;                 ///< one per node
+  std::vector<std::array<double, 2>> slope;  ///< derivatives by the one or two coordinates of the face
 };
-/// Of an edge (2 or 3 nodes) or of a solid's face (3, 6, 4 or 8): exact for a pressure on a face whose middles are anywhere.
+/// Samples of an edge (2 or 3 nodes) or of a solid's face (3, 6, 4 or 8 nodes). Exact for pressure on a face wherever its
+/// mid-side nodes are.
 std::vector<FaceSample> face_samples(bool solid, std::size_t nodes);
 
 /// Pressures on edges of plane cells (D = 2) or on faces of solids (D = 3). The force on node i is −p ∫ N_i n dA with n the
-/// outward normal, consistent with the shape functions of the cell. With large displacements it follows the face (thickness as
-/// in the beginning), and then its derivative is not symmetric.
+/// outward normal, consistent with the shape functions of the cell. With large displacements it follows the face (with the
+/// initial thickness), and its tangent is not symmetric.
 template <int D>
 class Pressures final : public Block {
  public:
@@ -33,9 +34,9 @@ class Pressures final : public Block {
   }
 
   struct Face {
-    std::vector<int> nodes;  ///< corners, then middles
+    std::vector<int> nodes;  ///< corners, then mid-side nodes
     std::vector<Vector> places;
-    double pressure = 0;  ///< times −1 where the normal of the nodes' turn points into the cell
+    double pressure = 0;  ///< positive against the normal given by the order of the nodes
     const Function* function = nullptr;
     std::shared_ptr<const CellSection> section;
   };
@@ -84,7 +85,7 @@ class Pressures final : public Block {
  private:
   std::size_t width() const { return D * layout_.nodes.size(); }
 
-  /// `sign` times the forces, and their derivative where `k` is not empty.
+  /// Writes `sign` times the forces to `f` and, unless `k` is empty, their derivative to `k`.
   void push(const Face& face, const State& state, double sign, std::span<double> f, std::span<double> k) const;
 
   Layout layout_;
@@ -92,15 +93,15 @@ class Pressures final : public Block {
   std::vector<Face> faces_;
 };
 
-/// A pressure as a deck gives it.
+/// A pressure as given in a deck.
 struct PressureOn {
-  int cell = 0, face = 0;  ///< the face counted from 1
+  int cell = 0, face = 0;  ///< cell number; face or edge number, counted from 1
   double pressure = 0;     ///< positive against the outward normal
   const Function* function = nullptr;
 };
 
-/// The element of a pressure; nullptr where there is no such face, an error at `keyword`, or where the cell has faults of its
-/// own.
+/// Builds the element of a pressure. Returns nullptr if there is no such face, which is reported at `keyword`, or if the cell
+/// is invalid.
 std::unique_ptr<Element> make_pressure(const PressureOn& pressure, int number, const char* keyword, const CellBook& book,
                                        BuildContext& context);
 

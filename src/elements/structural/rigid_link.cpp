@@ -5,7 +5,7 @@ namespace engrane::elements::structural {
 
 namespace {
 
-/// One element for each node of the group, with multipliers of its own.
+/// Builds one element per node of the group, each with its own multipliers.
 std::unique_ptr<Element> build(const RigidLinkData& data, BuildContext& context) {
   const auto group = linked_group(data, context);
   if (!group) return nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two families of shape functions, in as many dimensions as the cell has.
+// The two families of shape functions, simplex and cube, in two and three dimensions.
 #pragma once
 
 #include "elements/structural/cell_shapes.hpp"
@@ -12,8 +12,8 @@ Eigen::Matrix<double, D, 1> place_of(const QuadraturePoint& p) {
   return Eigen::Vector3d(p.xi, p.eta, p.zeta).head<D>();
 }
 
-/// Quadratic functions of a triangle or a tetrahedron, in its barycentric coordinates l: l (2 l − 1) of a corner, 4 l_i l_j of
-/// the middle of a side.
+/// Quadratic shape functions of a triangle or tetrahedron in barycentric coordinates l: l (2 l − 1) at a corner, 4 l_i l_j at a
+/// mid-side node.
 template <CellShape S>
 typename CellTraits<S>::Sample quadratic_simplex(const QuadraturePoint& p) {
   constexpr int D = CellTraits<S>::dimension, corners = D + 1;
@@ -41,7 +41,7 @@ Eigen::Matrix<double, D, 1> corner_of_cube(int corner) {
   return Eigen::Vector3d(corner % 4 == 1 || corner % 4 == 2 ? 1 : -1, corner % 4 >= 2 ? 1 : -1, corner >= 4 ? 1 : -1).head<D>();
 }
 
-/// A product of one function for each coordinate, and its slope: 1 + c x where c is −1 or 1, and 1 − x² where c is 0.
+/// Product over the coordinates of 1 + c x if c is −1 or 1, or 1 − x² if c is 0, and its gradient.
 template <int D>
 struct Product {
   double value = 1;
@@ -55,7 +55,7 @@ struct Product {
   }
 };
 
-/// The bilinear or trilinear functions.
+/// Bilinear or trilinear shape functions.
 template <CellShape S>
 typename CellTraits<S>::Sample linear_cube(const QuadraturePoint& p) {
   constexpr int D = CellTraits<S>::dimension, corners = 1 << D;
@@ -69,7 +69,7 @@ typename CellTraits<S>::Sample linear_cube(const QuadraturePoint& p) {
   return s;
 }
 
-/// The quadratic functions without nodes inside, serendipity (Zienkiewicz and Taylor 2000, The Finite Element Method 1, 8.6).
+/// Quadratic serendipity shape functions (Zienkiewicz and Taylor 2000, The Finite Element Method 1, 8.6).
 template <CellShape S>
 typename CellTraits<S>::Sample quadratic_cube(const QuadraturePoint& p) {
   constexpr int D = CellTraits<S>::dimension, corners = 1 << D;
@@ -84,7 +84,7 @@ typename CellTraits<S>::Sample quadratic_cube(const QuadraturePoint& p) {
     s.slope.col(i) = (n.slope * bend + n.value * c) / corners;
   }
   Eigen::Index middle = corners;
-  for (const auto& [i, j] : sides(S)) {  // along the side the coordinates of its ends cancel
+  for (const auto& [i, j] : sides(S)) {  // the mean of the end points is 0 in the coordinate along the side
     const Product<D> n((corner_of_cube<D>(i) + corner_of_cube<D>(j)) / 2, x);
     s.value[middle] = n.value / (corners / 2);
     s.slope.col(middle++) = n.slope / (corners / 2);

@@ -42,11 +42,11 @@ std::unique_ptr<Element> make_solid_cell(const CellPlan& plan, BlockStore* block
 double handedness(CellShape shape, const std::vector<Vec3>& places) {
   const auto corner = [&places](int i) { return places[static_cast<std::size_t>(i)]; };
   if (!is_solid(shape)) {
-    double area = 0;  // twice that of the polygon of the corners
+    double area = 0;  // twice the signed area of the polygon of corners
     for (const auto& [a, b] : sides(shape)) area += corner(a)[0] * corner(b)[1] - corner(a)[1] * corner(b)[0];
     return area;
   }
-  Vec3 base = Vec3::Zero(), centre = Vec3::Zero();  // the area of the base, and what lies over its middle
+  Vec3 base = Vec3::Zero(), centre = Vec3::Zero();  // twice the area vector of the base; centre of the corners
   const int corners = corner_count(shape);
   for (int i = 0; i < corners; ++i) centre += corner(i) / corners;
   const std::vector<int> under = face_nodes(shape, 0);

@@ -7,7 +7,7 @@ namespace engrane::elements::structural {
 
 namespace {
 
-/// Products of a rule with itself, twice.
+/// Triple tensor product of a rule.
 QuadratureRule cubed(const LineRule& rule) {
   QuadratureRule points;
   for (const auto& [zeta, of_zeta] : rule)
@@ -16,7 +16,7 @@ QuadratureRule cubed(const LineRule& rule) {
   return points;
 }
 
-/// Of a triangle, along ζ.
+/// Tensor product of a triangle's rule with a line rule along ζ.
 QuadratureRule stacked(const QuadratureRule& triangle, const LineRule& rule) {
   QuadratureRule points;
   for (const auto& [zeta, of_zeta] : rule)
@@ -24,13 +24,13 @@ QuadratureRule stacked(const QuadratureRule& triangle, const LineRule& rule) {
   return points;
 }
 
-/// The four points of a tetrahedron with three coordinates `a`, the fourth what is left.
+/// Adds the four points of a tetrahedron with barycentric coordinates (a, a, a, 1 − 3a) in all orders.
 void add_four(QuadratureRule& points, double a, double weight) {
   const double b = 1 - 3 * a;
   points.insert(points.end(), {{a, a, weight, a}, {b, a, weight, a}, {a, b, weight, a}, {a, a, weight, b}});
 }
 
-/// Coordinates of the triangle of a wedge, and their slopes.
+/// Barycentric coordinates of a wedge's triangle and their derivatives by ξ and η.
 struct Triangle {
   double l[3];
   static constexpr double along[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
@@ -66,8 +66,8 @@ auto CellTraits<CellShape::tetrahedron10>::sample(const QuadraturePoint& p) -> S
   return quadratic_simplex<CellShape::tetrahedron10>(p);
 }
 
-/// Degree 5, 14 points (Walkington 2000, Quadrature on simplices of arbitrary dimension, Carnegie Mellon University): products of
-/// two quadratic functions have degree 4.
+/// Degree 5, 14 points (Walkington 2000, Quadrature on simplices of arbitrary dimension, Carnegie Mellon University). Products
+/// of two quadratic functions need degree 4.
 const QuadratureRule& CellTraits<CellShape::tetrahedron10>::mass_points() {
   static const QuadratureRule points = [] {
     QuadratureRule fourteen;
