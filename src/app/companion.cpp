@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/instants.hpp"
+#include "app/interruption.hpp"
 #include "app/selection.hpp"
 #include "app/writer.hpp"
 #include "output/progress.hpp"
@@ -106,6 +107,8 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     context.out_of_plane.find(whole);
     return whole;
   };
+  int ranks = 1;
+  MPI_Comm_size(comm, &ranks);
   const auto follows = [&](long steps, double time) {
     return static_cast<double>(steps) * loose.longest >= well_below * (time - from);
   };
@@ -118,6 +121,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
     if (schedule.even(c.time)) take(c.time);
     progress.update(c.time, step.step, step.number);
     last = c.time;
+    if (were_interrupted(comm, ranks)) return false;  // the run itself then ends at its start
     return span == Span::whole || c.time < from + early * duration_ || follows(runner.steps(), c.time);
   };
   try {
@@ -147,7 +151,8 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
                         !archive.groups.empty() || !archive.channels.empty();
   std::set<int> asked;
   if (!selected)
-    for (const deck::CheckCard& check : model.commands.checks) asked.insert(checked_channel(observer, check));
+    for (const deck::CheckCard& check : model.commands.checks)
+      if (check.element || check.node) asked.insert(checked_channel(observer, check));
   int at = 0;
   for (const observe::Table& table : observer.tables())
     for (const int id : table.ids)

@@ -201,8 +201,10 @@ observe::Selection select_histories(const Model& model) {
 observe::Selection select_compared(const Model& model) {
   observe::Selection selection = select_histories(model);
   const deck::ArchiveCard& archive = model.commands.archive;
-  if (!selects(archive) && archive.channels.empty() && !model.commands.checks.empty())
-    selection.all_parts = selection.all_nodes = false;
+  const std::vector<deck::CheckCard>& checks = model.commands.checks;
+  const bool names_some =
+      std::any_of(checks.begin(), checks.end(), [](const auto& check) { return check.element || check.node; });
+  if (!selects(archive) && archive.channels.empty() && names_some) selection.all_parts = selection.all_nodes = false;
   return selection;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "assembly/configuration_snapshot.hpp"
 #include "math/rotation.hpp"
@@ -37,6 +38,9 @@ constexpr double share_of_iteration = 0.02;
 constexpr double longest_growth = 3;
 /// Steps that differ by less than this fraction use the same matrices.
 constexpr double same = 1e-6;
+/// Corrections that balance an instant within a step: 2 to 4 with matrices of its place, more with earlier ones.
+constexpr int most_balance_corrections = 12;
+
 Vec3 rotation_of(std::span<const double> slots, std::size_t node) {
   return {slots[6 * node + 3], slots[6 * node + 4], slots[6 * node + 5]};
 }
@@ -227,7 +231,6 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
   const std::vector<double> remembered = references_.memory();
   const double precision = context_.options.precision;
   references_.begin(from);
-  fresh_ = false;
   bool renew = !exact && (!(std::abs(h / kept_step_ - 1) < same) || kept_scale_ != context_.assembler.scale()) && !recall(h);
   Correction last;
   double contraction = 0, slowest = 0;
@@ -316,7 +319,6 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
 
 void Radau::keep(const Configuration& c, double h) {
   kept_.evaluate(c, h);
-  fresh_ = true;
   kept_step_ = matrices_step_ = h;
   kept_scale_ = context_.assembler.scale();
 }
@@ -406,17 +408,14 @@ bool Radau::restore_balance(Configuration& c) {
     const bool moved = balance_near(c, 1);
     context_.motion.set_velocities(v, c);
     context_.motion.set_accelerations(a, c);
-    return moved && balance_near(c, 8);
+    return moved && balance_near(c, most_balance_corrections);
   };
   if (!found()) {
-    // matrices good enough for the step may not be so for this; the next phase must not find those of this one
-    const bool again = !fresh_;
-    if (again) {
-      keep(outside_of_steps(before), matrices_step_);
-      kept_.drop();
-      kept_step_ = 0;
-    }
-    if (!again || !found()) {
+    // Matrices good enough for the step may not be so here; the next phase must not find those of this place.
+    keep(outside_of_steps(before), matrices_step_);
+    kept_.drop();
+    kept_step_ = 0;
+    if (!found()) {
       c = before;
       return false;
     }
@@ -431,17 +430,17 @@ bool Radau::balance_near(Configuration& c, int most) {
   // K + (γ/h) C + (γ/h)² M, with the factors that the step has left
   const double rate = solver_.real_rate() / matrices_step_, precision = context_.options.precision;
   std::vector<double> y(context_.motion.size());
-  double left_before = std::numeric_limits<double>::infinity();
+  // With matrices of another place one correction may enlarge the residual, two in a row must halve it.
+  double left_before = std::numeric_limits<double>::infinity(), left_two_before = left_before;
   for (int k = 0;; ++k) {
     if (most == 1 && k == 1) return true;
     assembler.residual(c, residuals_[0]);
     const Imbalance found = imbalance(assembler, references_, residuals_[0]);
-    const double left = found.largest();
+    const double left = std::max(found.largest(), found.constraint_force);
     if (found.within(precision)) return true;
-    if (k == most || !std::isfinite(left) || (k > 1 && left > 0.5 * left_before) ||
-        !solver_.solve_real(residuals_[0], changes_[0]))
+    if (k == most || !std::isfinite(left) || left > 0.5 * left_two_before || !solver_.solve_real(residuals_[0], changes_[0]))
       return false;
-    left_before = left;
+    left_two_before = std::exchange(left_before, left);
     const auto change = assembler.gather(changes_[0]);
     std::fill(y.begin(), y.end(), 0.0);
     context_.motion.scatter(change, y);

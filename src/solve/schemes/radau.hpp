@@ -119,7 +119,6 @@ class Radau final : public Dynamics {
   double kept_step_ = 0;      ///< for which the systems may be reused; 0: none
   double matrices_step_ = 0;  ///< for which they were last made; 0: never
   std::vector<double> kept_scale_;
-  bool fresh_ = false;  ///< they were evaluated in the last attempt
   bool has_friction_ = false;
   Owned<Mat> balance_matrix_;
   LinearSolver balance_;
