@@ -348,7 +348,8 @@ int Attempt::finish() {
   failure_ = with_causes(std::move(failure_), task_.comm, rank_, ranks_);
   int status = complete_ ? exit_status::fine : exit_status::solution_failed;
   std::string unresolved;
-  if (complete_)
+  // positions of a KINEMATIC analysis do not come from a balance of forces
+  if (complete_ && context_.options.analysis != SolverOptions::Analysis::kinematics)
     unresolved = explain_unresolved(context_.assembler, context_.newton, runner_->now(), observer_.energies().handled());
   if (rank_ == 0) {
     try {

@@ -104,8 +104,8 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   keep_ = keep;
   NewtonReport report;
   // no copy before the first solution, for whose factors a large model needs the memory
-  std::vector<double> before;
-  if (references_.remembers()) before = references_.memory();
+  loads_before_.clear();
+  if (references_.remembers()) loads_before_ = references_.memory();
   references_.begin(work);
   solver_.correct_only(keep);
   rows_.clear();
@@ -114,12 +114,13 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   const PetscErrorCode code = SNESSolve(snes_, nullptr, x);
   solving_ = refined_ = false;
   open_ = 1;
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  if (code == 0) check_petsc(SNESGetConvergedReason(snes_, &reason));
+  report.converged = reason > 0;
+  if (!report.converged) refuse_last();
   if (!failure_.empty()) throw PetscFailure(failure_);
   solver_.rethrow();
   check_petsc(code);
-  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
-  check_petsc(SNESGetConvergedReason(snes_, &reason));
-  report.converged = reason > 0;
   report.singular = reason == SNES_DIVERGED_LINEAR_SOLVE;
   if (reason == SNES_DIVERGED_MAX_IT)
     report.reason = "no convergence in " + std::to_string(rows_.size() - 1) + " iterations";
@@ -134,16 +135,20 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   if (report.converged) {
     const double tried = weights.a > 0 ? 0 : share_of_tried;
     std::vector<double> memory = references_.memory();
-    for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = std::max(before.empty() ? 0.0 : before[i], tried * memory[i]);
+    for (std::size_t i = 0; i < memory.size(); ++i)
+      memory[i] = std::max(loads_before_.empty() ? 0.0 : loads_before_[i], tried * memory[i]);
     references_.restore(std::move(memory));
     references_.take(work, assembler_.carried());
-  } else {
-    before.resize(references_.memory().size());
-    references_.restore(std::move(before));
   }
   report.iterations = std::max(0, static_cast<int>(rows_.size()) - 1);
   report.rows = rows_;
   return report;
+}
+
+/// Beside the forces of an iteration that went astray the next one would count as converged at once.
+void Newton::refuse_last() {
+  loads_before_.resize(references_.memory().size());
+  references_.restore(loads_before_);
 }
 
 PetscErrorCode Newton::form_function(SNES snes, Vec x, Vec f, void* context) {

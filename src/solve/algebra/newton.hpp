@@ -57,6 +57,9 @@ class Newton {
   /// From now on all solutions share one tangent and its factors: that of a linear model never changes.
   void keep_one_tangent() { one_tangent_ = true; }
   bool keeps_one_tangent() const { return one_tangent_; }
+  /// To be called if the last solution is refused although the iteration has converged: its forces are no reference for later
+  /// ones.
+  void refuse_last();
   /// Makes the next solution take at least two corrections. The second costs little, since both share the factors, and recovers
   /// the digits lost to rounding in them. With an iterative solver it would cost as much as the first and is left out.
   void refine_next() { refined_ = true; }
@@ -116,6 +119,7 @@ class Newton {
   Border* border_ = nullptr;
   Weights weights_, weights_of_factors_;
   bool keep_ = false;
+  std::vector<double> loads_before_;  ///< References::memory() before the last solution; empty if it had nothing
   bool one_tangent_ = false;
   bool refined_ = false;
   double open_ = 1;  ///< of close_next()

@@ -93,15 +93,19 @@ Vector equilibrate(Sparse& matrix) {
   return scale;
 }
 
+/// Remainder of a column of length 1 that is rounding.
+constexpr double singular_to_rounding = 1e-12;
+
 /// A vector that the matrix all but annihilates, and the number of such vectors.
 struct NullVector {
   Vector entries;
   Eigen::Index of = 0;
 };
 
-NullVector nearest_null_vector(Sparse matrix) {
+/// `farthest`: largest remainder of a column after the others, which are all of length 1, that counts as none.
+NullVector nearest_null_vector(Sparse matrix, double farthest) {
   const Vector scale = equilibrate(matrix);
-  for (double tolerance = 1e-12; tolerance < 1; tolerance *= 100) {
+  for (double tolerance = singular_to_rounding; tolerance <= farthest; tolerance *= 100) {
     const ColumnBasis basis(matrix, tolerance);
     if (!basis.dependent().empty()) return {Vector(basis.null().col(0)).cwiseProduct(scale), basis.null().cols()};
   }
@@ -157,37 +161,63 @@ bool surely_resolved(const Assembler& assembler, const Newton& newton, double vi
   return std::numeric_limits<double>::epsilon() * stiffest * reach <= visible * load;
 }
 
-}  // namespace
+/// Whether a null vector moves something, and is not of reactions alone.
+bool moves(const Numbering& numbering, const Vector& null) {
+  const double largest = null.cwiseAbs().maxCoeff();
+  for (Eigen::Index e = 0; e < null.size(); ++e)
+    if (!numbering.unknown(static_cast<int>(e)).multiplier && std::abs(null[e]) > 0.1 * largest) return true;
+  return false;
+}
 
-std::string explain_singular(Assembler& assembler, const std::string& what, Resistance resistance) {
+/// `what`, followed by the unknowns of a null vector.
+std::string describe(const Assembler& assembler, const std::string& what, const NullVector& nearest, Resistance resistance) {
   const Numbering& numbering = assembler.numbering();
-  const int n = numbering.equations();
-  if (n == 0) return what;
-  const Sparse matrix = whole_matrix(assembler);
-  if (!Vector::Map(matrix.valuePtr(), matrix.nonZeros()).allFinite()) return what + ": the matrix is not finite";
-  const NullVector nearest = nearest_null_vector(matrix);
-  if (nearest.of == 0) return what;
   const Vector& null = nearest.entries;
-  std::vector<int> order(static_cast<std::size_t>(n));
+  std::vector<int> order(static_cast<std::size_t>(null.size()));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(null[a]) > std::abs(null[b]); });
   const double largest = std::abs(null[order[0]]);
-  bool moves = false;
-  for (const int e : order)
-    if (!numbering.unknown(e).multiplier && std::abs(null[e]) > 0.1 * largest) moves = true;
+  const bool motion = moves(numbering, null);
   std::string names;
   int listed = 0;
   // of reactions also small ones: that of a hinge far away is no less undetermined than the tooth force that causes it
-  const int most = moves ? 6 : 12;
+  const int most = motion ? 6 : 12;
   for (const int e : order) {
-    if (std::abs(null[e]) < (moves ? 0.1 : 1e-3) * largest || listed == most) break;
-    if (!moves && !numbering.unknown(e).multiplier) continue;
+    if (std::abs(null[e]) < (motion ? 0.1 : 1e-3) * largest || listed == most) break;
+    if (!motion && !numbering.unknown(e).multiplier) continue;
     names += fmt::format("{}{}", listed++ ? ", " : "", numbering.describe(e));
   }
   const std::string more = nearest.of > 1 ? fmt::format(" (one of {} such)", nearest.of) : "";
-  return moves ? fmt::format("{}: nothing resists a motion of {}{}{}", what, names, more,
-                             advice(assembler, order, null, resistance))
-               : fmt::format("{}: the reactions {} are not determined{}", what, names, more);
+  return motion ? fmt::format("{}: nothing resists a motion of {}{}{}", what, names, more,
+                              advice(assembler, order, null, resistance))
+                : fmt::format("{}: the reactions {} are not determined{}", what, names, more);
+}
+
+}  // namespace
+
+std::string explain_singular(Assembler& assembler, const std::string& what, Resistance resistance) {
+  if (assembler.numbering().equations() == 0) return what;
+  const Sparse matrix = whole_matrix(assembler);
+  if (!Vector::Map(matrix.valuePtr(), matrix.nonZeros()).allFinite()) return what + ": the matrix is not finite";
+  const NullVector nearest = nearest_null_vector(matrix, 1);
+  return nearest.of == 0 ? what : describe(assembler, what, nearest, resistance);
+}
+
+std::string explain_null_vector(const Assembler& assembler, const std::string& what, std::span<const double> null,
+                                Resistance resistance) {
+  return describe(assembler, what, {Vector::Map(null.data(), static_cast<Eigen::Index>(null.size())), 1}, resistance);
+}
+
+std::string explain_unresisted(Assembler& assembler, const Configuration& equilibrium, const std::string& what) {
+  constexpr int most_equations = 100'000;  // more cost minutes
+  const int n = assembler.numbering().equations();
+  if (n == 0 || n > most_equations) return {};
+  assembler.tangent(outside_of_steps(equilibrium), {1, 0, 0});
+  const Sparse matrix = whole_matrix(assembler);
+  if (!Vector::Map(matrix.valuePtr(), matrix.nonZeros()).allFinite()) return {};
+  const NullVector nearest = nearest_null_vector(matrix, singular_to_rounding);
+  return nearest.of > 0 && moves(assembler.numbering(), nearest.entries) ? describe(assembler, what, nearest, Resistance::at_rest)
+                                                                         : std::string();
 }
 
 std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, int freedom) {
@@ -205,7 +235,7 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
   constexpr double visible = 1e-3, epsilon = std::numeric_limits<double>::epsilon();
   const Numbering& numbering = assembler.numbering();
   const auto& parts = assembler.model().parts;
-  const double least = energy / assembler.model().extent();
+  const double extent = assembler.model().extent(), least = energy / extent;
   if (surely_resolved(assembler, newton, visible, least)) return {};
   struct {
     double part;
@@ -221,6 +251,11 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
     r.assign(n, 0);
     k.assign(n * n, 0);
     element.tangent(assembler.view(p, configuration), {1, 0, 0, 0}, r, k);
+    // rounding in one direction is compared with what the element carries in any: a beam in pure bending has no axial force
+    double carried = 0;
+    for (std::size_t i = 0; i < of_nodes; ++i)
+      if (const int row = numbering.equation(slots[i]); row >= 0)
+        carried = std::max(carried, newton.load(row) / (numbering.unknown(row).measure == Measure::moment ? extent : 1));
     // parts of a mesh that waves have not reached yet carry no forces of interest
     const double elsewhere = element.cell_shape() == CellShape::none ? 0 : newton.largest_force();
     for (std::size_t i = 0; i < of_nodes; ++i) {
@@ -235,8 +270,8 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
       }
       // a machine without loads has no forces to resolve
       if (!(energy > 1e3 * noise * place)) continue;
-      const double size = numbering.unknown(row).measure == Measure::moment ? energy : least;
-      const double part = noise / std::max({newton.load(row), size, elsewhere});
+      const double lever = numbering.unknown(row).measure == Measure::moment ? extent : 1;
+      const double part = noise / std::max(lever * std::max(carried, least), elsewhere);
       if (!(part > worst.part)) continue;
       worst.part = part;
       worst_noise = noise;

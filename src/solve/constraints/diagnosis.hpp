@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "assembly/assembler.hpp"
@@ -14,6 +15,15 @@ enum class Resistance { at_rest, in_motion };
 /// Names the motion or the reactions that make the matrix of `assembler` singular: returns `what`, followed by the unknowns of
 /// the nearest null vector. Collective.
 std::string explain_singular(Assembler& assembler, const std::string& what, Resistance resistance = Resistance::in_motion);
+
+/// The same for a null vector that is known, by equation; on every rank.
+std::string explain_null_vector(const Assembler& assembler, const std::string& what, std::span<const double> null,
+                                Resistance resistance);
+
+/// Names the motion that nothing resists in an equilibrium whose tangent is singular up to rounding: returns `what`, followed by
+/// the motion and advice; empty if the tangent is regular, and for more than 100 000 equations. Overwrites the matrix of
+/// `assembler`. Collective.
+std::string explain_unresisted(Assembler& assembler, const Configuration& equilibrium, const std::string& what);
 
 /// Names a motion that no drive determines, of a mechanism with `freedom` degrees of freedom; empty if there is none.
 std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, int freedom);

@@ -25,6 +25,8 @@ constexpr double first_step = 1e-3, good_step = 1e-2;
 constexpr double same = 1e-3;
 constexpr int most_passes = 8;
 constexpr double precision = 1e-10;
+/// Times farther away than this many runs are rounding.
+constexpr double never = 1e15;
 
 struct Slepc {
   Slepc() { check_petsc(SlepcInitializeNoArguments()); }
@@ -42,6 +44,11 @@ class Problem {
     if (!factors_.factor())
       throw SolutionFailure(
           explain_singular(context.assembler, "no buckling loads: the tangent matrix is singular", Resistance::at_rest));
+    if (singular_to_rounding()) {
+      const std::string free =
+          explain_unresisted(context.assembler, equilibrium, "no buckling loads: the tangent matrix is singular");
+      if (!free.empty()) throw SolutionFailure(free);
+    }
     LoadDerivative derivative(context, first_step * context.options.step);
     derivative.find(base_, loads_);
     factors_.solve(loads_, way_);
@@ -103,14 +110,36 @@ class Problem {
       check_petsc(EPSGetEigenpair(eps, i, &value, &imaginary, real, nullptr));
       // a complex pair is no loss of stability at rest
       if (value == 0 || imaginary != 0) continue;
+      if (std::abs(value) * never * (context_.options.end - context_.options.begin) < 1) continue;  // rounding: nothing buckles
       const auto all = context_.assembler.gather(real);
       pairs.push_back({-1 / value, {all.begin(), all.end()}});
     }
     check_petsc(EPSDestroy(&eps));
+    // of loads ±λ that buckle alike, rounding decides which comes first
+    for (std::size_t i = 1; i < pairs.size(); ++i)
+      if (pairs[i - 1].time < 0 && pairs[i].time > 0 && std::abs(pairs[i - 1].time + pairs[i].time) <= same * pairs[i].time)
+        std::swap(pairs[i - 1], pairs[i]);
     return pairs;
   }
 
  private:
+  /// Whether K has an eigenvalue that is rounding beside its diagonal: K x = b and K y = x lead to the nearest one.
+  bool singular_to_rounding() {
+    constexpr double rounding = 1e-13;
+    Owned<Vec> diagonal;
+    *diagonal.out() = context_.assembler.new_vector();
+    check_petsc(MatGetDiagonal(factors_.matrix(), diagonal));
+    check_petsc(VecAbs(diagonal));
+    fill_probe(product_);
+    factors_.solve(product_, loads_);
+    factors_.solve(loads_, way_);
+    PetscScalar energy = 0, size = 0;
+    check_petsc(VecDot(way_, loads_, &energy));
+    check_petsc(VecPointwiseMult(diagonal, diagonal, way_));
+    check_petsc(VecDot(diagonal, way_, &size));
+    return std::abs(energy) <= rounding * size;
+  }
+
   static PetscErrorCode multiply(Mat shell, Vec x, Vec y) {
     Problem* self = nullptr;
     PetscCall(MatShellGetContext(shell, &self));

@@ -26,9 +26,14 @@ constexpr double crossing = 1.5;
 /// Fraction of H below which reactions would show the noise of rounding.
 constexpr double noisy = 0.1;
 
-std::string failure_text(SolverContext& context, const Configuration& tried, const NewtonReport& report, int number, int cuts) {
+std::string failure_text(SolverContext& context, const Configuration& last, const Configuration& tried,
+                         const NewtonReport& report, int number, int cuts) {
   std::string text = fmt::format("step {}, t = {:.6g}: ", number, tried.time);
   const std::string cut = cuts == 0 ? "" : fmt::format("; the step was cut {} time{}", cuts, cuts == 1 ? "" : "s");
+  if (!context.options.moves() && !report.conflict && !report.singular)
+    if (std::string free = explain_unresisted(context.assembler, last, text + "the stiffness matrix is singular" + cut);
+        !free.empty())
+      return free;
   if (const std::string element = explain_not_finite(context.assembler, tried); !element.empty())
     text += element;
   else if (report.conflict)
@@ -263,7 +268,7 @@ void Runner::cut(double size, double shorter, const NewtonReport& report) {
   // CUTS is a depth below H, whatever made the step as short as it is
   const int depth = depth_of(size, options_.step), most = options_.cuts + (control_.active() ? deeper : 0);
   if (depth >= most || now_.time + shorter == now_.time)
-    throw SolutionFailure(failure_text(context_, next_, report, step_.number + 1, std::max(depth, 0)));
+    throw SolutionFailure(failure_text(context_, now_, next_, report, step_.number + 1, std::max(depth, 0)));
   ++step_.cuts;
   h_ = shorter;
 }

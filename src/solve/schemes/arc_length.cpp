@@ -23,6 +23,8 @@ constexpr int most_iterations = 12;
 /// Angle by which a step of the path should turn, and by which it may.
 constexpr double wished_turn = 6 * std::numbers::pi / 180, most_turn = 45 * std::numbers::pi / 180;
 constexpr double longest_step = 0.1;
+/// Part of the run by which the load time changes in one step at most; the step before expected longest_step.
+constexpr double most_change = 0.25;
 /// Fraction of H below which a step may turn by any angle: at a corner the path turns however short the step is.
 constexpr double corner = 1.0 / 128;
 /// Number of steps after which a path without an end of its own is given up.
@@ -114,11 +116,11 @@ double ArcLength::cosine(const Point& a, const Point& b) const {
   return (along + a.load * b.load) / std::sqrt((1 + a.load * a.load) * (1 + b.load * b.load));
 }
 
-NewtonReport ArcLength::follow(const Configuration& from, double h, Configuration& to) {
+NewtonReport ArcLength::follow(const Configuration& from, double h, Configuration& to, bool at_end) {
   to = from;
   to.time = from.time + h;
   to.h = h;
-  now_ = from.load_time() + here_.load * h;
+  now_ = at_end ? context_.options.end : from.load_time() + here_.load * h;
   load_derivative_.turn(here_.load >= 0);
   const auto before = context_.motion.prescribed(from.load_time());
   std::vector<double> y(context_.motion.size(), 0.0), guess(here_.way.size(), 0.0), normal(here_.way.size());
@@ -143,8 +145,20 @@ NewtonReport ArcLength::follow(const Configuration& from, double h, Configuratio
   };
   context_.assembler.spread(guess, unknowns());
   work_ = &to;
-  NewtonReport report = solve(unknowns(), {1, 0, 0}, apply, to, false, this);
+  NewtonReport report = solve(unknowns(), {1, 0, 0}, apply, to, false, at_end ? nullptr : this);
   refuse_half_turns(y, report);
+  if (!report.converged) context_.newton.refuse_last();
+  return report;
+}
+
+std::optional<NewtonReport> ArcLength::arrive(const Configuration& from, double h, Configuration& to) {
+  const double left = context_.options.end - from.load_time(), way = left / here_.load;
+  if (branching_ || !(way > 0 && way <= h)) return {};
+  NewtonReport report = follow(from, way, to, true);
+  if (!report.converged || !examine(to, &here_, there_) || there_.load <= 0 ||
+      std::acos(std::clamp(cosine(here_, there_), -1.0, 1.0)) > most_turn)
+    return {};
+  next_course_.arrived = true;
   return report;
 }
 
@@ -170,8 +184,25 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
         context_.options.end, most_steps));
   next_course_ = {};
   next_bifurcations_ = bifurcations_;
+  if (std::optional<NewtonReport> report = arrive(from, h, to)) {
+    h = to.h;
+    find_goal(from, h, to, there_);
+    find_critical(from, h, to, there_);
+    return {std::move(*report), {}};
+  }
   NewtonReport report = follow(from, h, to);
   if (!report.converged) return {std::move(report), {}};
+  const double span = context_.options.end - context_.options.begin, passed = std::abs(to.load_time() - from.load_time());
+  if (!(passed <= most_change * span)) {
+    // behind the top of a function of time the same loads stand at another time
+    report.converged = false;
+    report.reason = fmt::format(
+        "the loads hardly change with time at load time {:.6g}, and a path cannot pass such a place: give them a function that "
+        "goes "
+        "on changing, such as EXPR \"T\"",
+        from.load_time());
+    return {std::move(report), {}};
+  }
   if (!examine(to, &here_, there_)) {
     report.converged = false;
     report.singular = true;
@@ -202,7 +233,7 @@ void ArcLength::find_goal(const Configuration& from, double& h, Configuration& t
     next_course_.arrived = true;
   };
   const double end = context_.options.end;
-  seek([end](const Configuration& c) { return c.load_time() - end; });
+  if (!next_course_.arrived) seek([end](const Configuration& c) { return c.load_time() - end; });
   if (path.node > 0)
     seek([&](const Configuration& c) {
       const auto node = static_cast<std::size_t>(path.node);

@@ -51,8 +51,11 @@ class ArcLength final : public Statics, private Border {
     } before, behind;
   };
 
-  /// Finds the equilibrium at the length h from that of here_.
-  NewtonReport follow(const Configuration& from, double h, Configuration& to);
+  /// Finds the equilibrium at the length h from that of here_, or, with `at_end`, at the load time at which the run ends.
+  NewtonReport follow(const Configuration& from, double h, Configuration& to, bool at_end = false);
+  /// Tries to arrive at the end of the run with a step under given loads, of at most h. Beyond the end loads may stay as they
+  /// are, and a step that passes it then has no solution.
+  std::optional<NewtonReport> arrive(const Configuration& from, double h, Configuration& to);
   void complete(Vec x, Vec step) override;
   /// Finds the tangent at an equilibrium, onwards from `before` (nullptr: loads grow); false if the matrix is singular.
   bool examine(const Configuration& c, const Point* before, Point& point);

@@ -71,6 +71,7 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
   predict(h, to);
   report.converged = true;
   refuse_half_turns(y, report);
+  if (!report.converged) context_.newton.refuse_last();
   if (!report.converged) return outcome;
   std::string failure;
   try {

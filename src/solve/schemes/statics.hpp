@@ -45,7 +45,12 @@ class Statics : public Scheme {
   /// The same where flanks across a gap have no stiffness towards each other: contacts begin as springs that fade away.
   NewtonReport balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
 
+  /// Throws SolutionFailure if the stiffness matrix is singular up to rounding, which factors need not notice: a structure
+  /// without enough supports. Once in a run, after the first solution.
+  void require_resistance(double time);
+
   bool has_contacts_;
+  bool resists_ = false;  ///< require_resistance() was passed
   Owned<Vec> unknowns_;
   StepError error_;
   Extrapolation path_, forces_;  ///< displacements since the start by motion slot, and multipliers

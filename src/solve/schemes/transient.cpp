@@ -129,6 +129,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   NewtonReport report = solve(unknowns_, weights, apply, to, keep);
   changes_.end();
   refuse_half_turns(y, report);
+  if (!report.converged) context_.newton.refuse_last();
   if (report.converged && context_.grips.strained(to)) refine_grips(to);
   tried_step_ = h;
   tried_time_ = to.time;
