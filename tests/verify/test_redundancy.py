@@ -257,3 +257,44 @@ def test_supports_are_counted_once(tmp_path):
     assert rows["translations of nodes"] == "6" and rows["rotations of nodes"] == "0"
     assert rows["prescribed by supports"] == "-4"
     assert rows["to be solved for"] == "2" and rows["motions less constraints"] == "2"
+
+
+JACK = """
+.NOE
+ I 1 X 0 0 0
+ I 2 X -0.09 0 -0.03
+ I 3 X -0.09 0 0.2
+.MCE
+ I 1 HINGE N 0 1 AXIS 1 0 0
+ I 2 HINGE N 0 2 AXIS 0 0 1
+ I 3 GEAR N 1 2 KIND BEVEL AXIS 1 0 0 AXISB 0 0 1 Z 15 45 MN 0.004 PLACE 0 0 -1
+ I 4 SCREW N 2 3 AXIS 0 0 1 PITCH -0.005 AT -0.09 0 0 FRICTION CONST 0.12 0.15 RADIUS 0.01 FLANK 15
+ I 5 PRISMATIC N 0 3 AXIS 0 0 1
+ I 6 INERTIA N 1 M 1 J 1E-4
+ I 7 INERTIA N 2 M 1 J 1E-3
+ I 8 INERTIA N 3 M 200
+ I 9 TORQUE N 1 AXIS 1 0 0 V 1 NF 1
+.CLM
+ STRU ACC 0 0 -9.81
+.FCT
+ I 1 TABLE 0 0 1 4 2 -2
+.SAM TYPE DYNAMIC
+.SUB TF 1 H 0.002
+"""
+
+
+def test_friction_on_reactions_that_are_not_unique(tmp_path):
+    """A screw jack with four redundant constraints. Its friction takes the least reactions, whatever the
+    steps; reactions of earlier steps stayed in them before, and the motion depended on the steps."""
+    lifts, forces = [], []
+    for k, card in enumerate((".SUB TF 1 H 0.002", ".SUB TF 1 H 0.0005", ".SUB TF 1 H 0.01 TOL 1E-5")):
+        (tmp_path / "jack.dat").write_text(JACK)
+        command = [BINARY, "jack.dat", "--card", card, "-o", f"jack{k}"]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=True)
+        assert "friction in SCREW 4 depends on these reactions" in done.stderr
+        assert "Friction in SCREW 4 depends on them" in (tmp_path / f"jack{k}.lst").read_text()
+        with Results(tmp_path / f"jack{k}.h5") as results:
+            lifts.append(results.history("element/5/SLIDE")[1][-1])
+            forces.append(results.history("element/4/RADIAL_FORCE")[1][-1])
+    assert lifts == pytest.approx([lifts[1]] * 3, rel=2e-5)
+    assert forces == pytest.approx([forces[1]] * 3, rel=1e-4)

@@ -9,6 +9,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "solve/constraints/constraint_factors.hpp"
@@ -271,6 +272,31 @@ Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const
   return found;
 }
 
+namespace {
+
+/// Whether the element that owns a multiplier has friction.
+bool has_friction(const Assembler& assembler, int multiplier) {
+  const int part = multiplier_unknown(assembler.numbering(), multiplier).part;
+  if (part < 0) return false;
+  const Layout& layout = assembler.model().parts[static_cast<std::size_t>(part)].element->layout();
+  return layout.slides > 0 || !layout.grips.empty();
+}
+
+}  // namespace
+
+std::string friction_on_redundant(const Assembler& assembler, const Mobility& mobility) {
+  std::set<int> parts;
+  for (const RedundantGroup& one : mobility.groups)
+    for (const int m : one.members)
+      if (has_friction(assembler, m)) parts.insert(multiplier_unknown(assembler.numbering(), m).part);
+  std::string text;
+  for (const int p : parts) {
+    const Model::Part& part = assembler.model().parts[static_cast<std::size_t>(p)];
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", part.type, part.element->id());
+  }
+  return text;
+}
+
 std::string describe_mobility(Assembler& assembler, const Configuration& configuration, const Mobility& mobility) {
   if (!mobility.analysed) return "";
   std::string text = fmt::format("  {} ({} free motions, {} independent constraints)\n",
@@ -281,9 +307,15 @@ std::string describe_mobility(Assembler& assembler, const Configuration& configu
   const Configuration c = outside_of_steps(configuration);
   for (const RedundantGroup& one : mobility.groups)
     text += fmt::format("  {} among {}\n", counted(one.redundant, "redundant constraint"), names(assembler, c, one.members));
+  const std::string friction = friction_on_redundant(assembler, mobility);
   text +=
-      "  They agree with one another. The motion and the sums of forces are determined; how these reactions share a load is not "
-      "unique: the least ones are given.\n";
+      friction.empty()
+          ? "  They agree with one another. The motion and the sums of forces are determined; how these reactions share a load "
+            "is not unique: the least ones are given.\n"
+          : fmt::format(
+                "  They agree with one another. How these reactions share a load is not unique: the least ones are "
+                "taken. Friction in {} depends on them, and so does the motion.\n",
+                friction);
   const std::string cure = suggest_releases(assembler, mobility.null);
   return text + fmt::format("  For reactions of a real machine {}.\n", cure.empty() ? usual_cure : cure);
 }
@@ -341,11 +373,14 @@ std::string Redundancy::cure_of(const RedundantGroup& one) const {
 std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<double>& rate, double speed) {
   const Numbering& numbering = assembler_.numbering();
   const Vector relative = relative_open(assembler_, rate);
+  // a speed that opens nothing in the whole run is the rounding of a machine at rest
+  constexpr double opens_never = 1e-12;
+  const double span = assembler_.model().commands.stepping.end - assembler_.model().commands.stepping.start;
   for (const RedundantGroup& one : mobility_.groups)
     for (const int m : one.members) {
       if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
       const Unknown& u = multiplier_unknown(numbering, m);
-      if (relative[m] <= 1e-8 * speed || is_grip(assembler_.model(), u)) continue;
+      if (relative[m] <= 1e-8 * speed || relative[m] * span <= opens_never || is_grip(assembler_.model(), u)) continue;
       const bool length = u.measure == Measure::length;
       return fmt::format("conflicting constraints: {} asks for a speed that the others forbid, by {:.4g} {}; {} among {}: {}",
                          numbering.describe(numbering.equation(u.slot)), std::abs(rate[static_cast<std::size_t>(m)]),
@@ -356,10 +391,17 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
   return {};
 }
 
+ConstraintColumns Redundancy::columns_kind() const {
+  const bool friction = std::any_of(mobility_.groups.begin(), mobility_.groups.end(), [&](const RedundantGroup& one) {
+    return std::any_of(one.members.begin(), one.members.end(), [&](int m) { return has_friction(assembler_, m); });
+  });
+  return friction ? ConstraintColumns::gradients : ConstraintColumns::forces;
+}
+
 std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
   std::vector<Vector> changes;
   if (!active()) return changes;
-  const ConstraintMatrix columns(assembler_, outside_of_steps(c), ConstraintColumns::forces);
+  const ConstraintMatrix columns(assembler_, outside_of_steps(c), columns_kind());
   const Vector weight = constraint_sizes(assembler_) / assembler_.model().extent();
   Eigen::MatrixXd any(weight.size(), 2);
   for (Eigen::Index m = 0; m < any.rows(); ++m)
@@ -383,7 +425,7 @@ bool Redundancy::share(Configuration& c) {
   const Vector weight = constraint_sizes(assembler_) / extent;
   const Vector forces = Eigen::Map<const Vector>(c.multipliers.data(), weight.size()).cwiseProduct(weight);
   if (forces.isZero(0)) return false;
-  const ConstraintMatrix columns(assembler_, here, ConstraintColumns::forces);
+  const ConstraintMatrix columns(assembler_, here, columns_kind());
   const Vector least =
       RowSpace(with_columns_scaled(columns.matrix, weight.cwiseInverse()), rank_tolerance, columns.rows.first_rows).part(forces);
   Configuration shared = here;

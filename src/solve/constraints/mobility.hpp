@@ -8,6 +8,7 @@
 
 #include "assembly/assembler.hpp"
 #include "base/snapshot.hpp"
+#include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/motion.hpp"
 
 namespace engrane::solve {
@@ -45,6 +46,10 @@ constexpr double consistent = 1e-8;
 /// collective: every rank finds the same.
 Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const Configuration& configuration, double tolerance);
 
+/// Elements with friction among those whose reactions are not unique, by name; empty if there is none. The friction depends on
+/// how the reactions share the load, and so does the motion.
+std::string friction_on_redundant(const Assembler& assembler, const Mobility& mobility);
+
 /// Paragraph on mobility for the listing and for `engrane check`.
 std::string describe_mobility(Assembler& assembler, const Configuration& configuration, const Mobility& mobility);
 
@@ -66,8 +71,8 @@ class Redundancy {
   std::string rate_conflict(const Configuration& c, const std::vector<double>& rate, double speed);
 
   /// Replaces the multipliers of `c` by the smallest ones (forces, and moments over the extent, in the mean square) with the
-  /// same effect on all that moves. True if forces depend on them nonlinearly, so that the balance must be solved again with
-  /// the released multipliers as they are now.
+  /// same effect on all that moves, friction apart. True if other forces depend on them, as friction does, so that the balance
+  /// must be solved again with the released multipliers as they are now.
   bool share(Configuration& c);
 
   /// Forces and moments that could be added to the multipliers of `c` without any effect on what moves: reactions changed by
@@ -80,6 +85,10 @@ class Redundancy {
   void load(const Snapshot& snapshot);
 
  private:
+  /// What multipliers are combined by: the forces that they cause, or, where friction depends on those that are not unique, the
+  /// gradients of the constraints. Self-stress that changes friction has an effect, and would stay as it has come about.
+  ConstraintColumns columns_kind() const;
+
   /// "make the places and axes agree, or make HINGE 3 a SPHERICAL": the end of a message about conflicting constraints.
   std::string cure_of(const RedundantGroup& one) const;
 

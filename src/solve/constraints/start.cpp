@@ -85,6 +85,7 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
     // nothing joins the parts, or moves them from where the deck has put them
     redundancy_.analyse(c);
     report.redundant = redundancy_.mobility().redundant();
+    report.friction = friction_on_redundant(assembler_, redundancy_.mobility());
     report.mobility = describe_mobility(assembler_, c, redundancy_.mobility());
     return;
   }
@@ -117,6 +118,7 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
       if (conflict = redundancy_.conflict(c); !conflict.empty()) throw SolutionFailure(conflict);
     }
     report.redundant = redundancy_.mobility().redundant();
+    report.friction = friction_on_redundant(assembler_, redundancy_.mobility());
     report.mobility = describe_mobility(assembler_, c, redundancy_.mobility());
   } else {
     const Closing closing = close(c, {}, {});

@@ -48,6 +48,7 @@ struct StartReport {
   std::string massless_example;  ///< "node 2 (x)"
 
   int redundant = 0;     ///< constraints that follow from others
+  std::string friction;  ///< elements whose friction depends on reactions that are not unique (friction_on_redundant())
   std::string mobility;  ///< degrees of freedom and redundant constraints, as a paragraph
 };
 
