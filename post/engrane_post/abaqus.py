@@ -34,6 +34,9 @@ FACES = {
     "triangle": ((0, 1), (1, 2), (2, 0)),
     "quad": ((0, 1), (1, 2), (2, 3), (3, 0)),
 }
+#: keywords that make nodes or elements from others
+GENERATED = dict.fromkeys(("NGEN", "NFILL", "NCOPY", "NMAP"), "makes nodes from others")
+GENERATED |= dict.fromkeys(("ELGEN", "ELCOPY"), "makes elements from others")
 BASIC = {"tetra10": "tetra", "wedge15": "wedge", "hexahedron20": "hexahedron", "triangle6": "triangle"}
 BASIC |= {"quad8": "quad"}
 
@@ -161,14 +164,27 @@ def _sections(path: Path, depth: int) -> Iterator[_Section]:
         if keyword == "INCLUDE":
             yield from _sections(path.parent / parameters.get("INPUT", ""), depth + 1)
             continue
-        data = [s for s in lines[begin + 1 : end] if s.strip() and not s.startswith("**")]
+        rows = lines[begin + 1 : end]
+        if "INPUT" in parameters:
+            source = path.parent / parameters["INPUT"]
+            if not source.is_file():
+                raise UserError(f"{path}: there is no file {source}, which *{keyword} reads.")
+            rows = source.read_text(encoding="latin-1").splitlines()
+        data = [s for s in rows if s.strip() and not s.startswith("**")]
         yield _Section(keyword, parameters, data)
 
 
 def _take(section: _Section, found: _Found, path: Path) -> None:
     p = section.parameters
+    if section.keyword in GENERATED or (section.keyword == "SYSTEM" and section.lines):
+        what = GENERATED.get(section.keyword, "moves or turns nodes")
+        raise UserError(
+            f"{path}: *{section.keyword} {what}, which is not read: write the whole mesh, in global "
+            "coordinates."
+        )
     if section.keyword == "NODE" and section.lines:
         labels, coordinates = _nodes(section.lines)
+        coordinates = _cartesian(coordinates, p.get("SYSTEM", "R").upper())
         found.labels.append(labels)
         found.points.append(coordinates)
         _into(found, found.node_sets, p.get("NSET"), [found.labels[-1]])
@@ -205,6 +221,18 @@ def _nodes(lines: list[str]) -> tuple[np.ndarray, np.ndarray]:
         rows = [[w.strip() or "0" for w in line.split(",")] for line in lines]
         table = np.array([[*row, "0", "0", "0"][:4] for row in rows], float)
     return table[:, 0].astype(np.int64), table[:, 1:]
+
+
+def _cartesian(table: np.ndarray, system: str) -> np.ndarray:
+    """Of *NODE, SYSTEM=C (r, θ, z) or S (r, θ, φ above the plane), angles in degrees."""
+    if system == "C":
+        radius, angle = table[:, 0], np.radians(table[:, 1])
+        return np.column_stack((radius * np.cos(angle), radius * np.sin(angle), table[:, 2]))
+    if system == "S":
+        radius, angle, height = table[:, 0], np.radians(table[:, 1]), np.radians(table[:, 2])
+        flat = radius * np.cos(height)
+        return np.column_stack((flat * np.cos(angle), flat * np.sin(angle), radius * np.sin(height)))
+    return table
 
 
 def _into(found: _Found, sets: dict[str, list[np.ndarray]], name: str | None, more: list[np.ndarray]) -> None:

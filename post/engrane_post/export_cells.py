@@ -165,7 +165,9 @@ def _by_meshio(
     held = HELD.get(suffix)
     left = [] if held else sorted([*nodes, *own])
     tables = [(k, t[:, k.mirror] if suffix == ".med" and k.dimension == 3 else t) for k, t in cells.blocks]
-    mesh = meshio.Mesh(cells.points, [(k.name, t) for k, t in tables])
+    # what rounding leaves of a zero has more characters than a field of Nastran
+    points = np.where(np.abs(cells.points) < 1e-12 * np.abs(cells.points).max(initial=0), 0, cells.points)
+    mesh = meshio.Mesh(points, [(k.name, t) for k, t in tables])
     if held == "some":  # numbers, vectors and full tensors
         nodes, own = (_split(data, fields) for data in (nodes, own))
     if held:
@@ -186,7 +188,7 @@ def _by_meshio(
         meshio.write(path, mesh, file_format="gmsh22" if suffix == ".msh" else None)
     except (Exception, SystemExit) as error:
         raise UserError(
-            f"The cells cannot be written as {suffix}: {error or type(error).__name__}."
+            f"The cells cannot be written as {suffix}: {str(error) or type(error).__name__}."
         ) from None
     return left
 

@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import redirect_stdout
 from dataclasses import dataclass, field
 from io import StringIO
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -74,7 +76,7 @@ def open_mesh(path: str | Path) -> Any:
         with np.errstate(over="ignore"), redirect_stdout(StringIO()):
             if suffix in NASTRAN:
                 return meshio.read(_bulk_data(Path(path)), file_format="nastran")
-            return meshio.read(path)
+            return _read_vtk(path, meshio) if suffix == ".vtk" else meshio.read(path)
     except UserError:
         raise
     except (Exception, SystemExit) as error:  # meshio ends the program on a format that it does not know
@@ -83,9 +85,36 @@ def open_mesh(path: str | Path) -> Any:
         raise UserError(f"{path} is no mesh that can be read ({hint}).") from None
 
 
+def _read_vtk(path: str | Path, meshio: Any) -> Any:
+    """A legacy VTK file by meshio, or by VTK itself, which writes kinds of it that meshio does not know."""
+    try:
+        return meshio.read(path)
+    except (Exception, SystemExit):
+        import pyvista
+
+        with TemporaryDirectory() as folder:
+            copy = Path(folder) / "mesh.vtu"
+            pyvista.read(path).cast_to_unstructured_grid().save(copy)
+            return meshio.read(copy)
+
+
 def _bulk_data(path: Path) -> StringIO:
     """Of a Nastran file, which other programs also write without the line that begins it."""
     text = path.read_text(encoding="latin-1")
+    for line in text.splitlines():
+        if not re.match(r"(?i)(GRID|GRDSET)\b", line):
+            continue
+        if "," in line:
+            fields = line.split(",")
+        else:
+            wide = 16 if line[:8].rstrip().endswith("*") else 8
+            fields = [line[:8], line[8 : 8 + wide], line[8 + wide : 8 + 2 * wide]]
+        if len(fields) > 2 and fields[2].strip() not in ("", "0"):
+            raise UserError(
+                f"{path}: {' '.join(f.strip() for f in fields[:2])} has its place in the coordinate system "
+                f"{fields[2].strip()} (field CP), and only the basic one is read: write the mesh in that."
+            )
+    text = re.sub(r"(?i)(?<=[\d.])D(?=[+-]?\d)", "E", text)  # 2.D+1
     return StringIO(text if "BEGIN BULK" in text.upper() else f"BEGIN BULK\n{text}")
 
 
