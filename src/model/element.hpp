@@ -3,6 +3,7 @@
 
 #include <array>
 #include <concepts>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,6 +52,8 @@ struct Channel : Named {
     step     ///< value of the later instant: refers to the whole step
   };
   Course course = Course::smooth;
+  /// Limits of the value: polynomials across the corner where it reaches one do not exceed it.
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
 };
 
 /// An internal unknown of an element.

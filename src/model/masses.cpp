@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/masses.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "model/element_at_rest.hpp"
 
@@ -11,6 +13,17 @@ namespace {
 
 /// Inertia of a point mass about a point at the distance `away` (parallel-axis term).
 Mat3 steiner(double mass, const Vec3& away) { return mass * (away.squaredNorm() * Mat3::Identity() - away * away.transpose()); }
+
+/// Acceleration whose inertia forces are as large as the forces at rest, by those for an acceleration of 1; at least 1. Thermal
+/// and prestressed elements have forces at rest beside which those of 1 would be rounding.
+double acceleration_beside(std::span<const double> still, std::span<const double> moved) {
+  double rest = 0, inertia = 0;
+  for (std::size_t i = 0; i < still.size(); ++i) {
+    rest = std::max(rest, std::abs(still[i]));
+    inertia = std::max(inertia, std::abs(moved[i] - still[i]));
+  }
+  return inertia > 0 ? std::max(1.0, rest / inertia) : 1.0;
+}
 
 /// Resultant force of an element's residual, and moment about the first node.
 struct Resistance {
@@ -28,11 +41,13 @@ class Shaken {
   }
 
   const Vec3& origin() const { return body_.nodes.front().x; }
+  /// From now on accelerates so strongly that forces at rest leave no rounding; after a first call of under().
+  void accelerate() { unit_ = acceleration_beside(still_, moved_); }
 
   Resistance under(const Vec3& acceleration, const Vec3& turning) {
     for (NodeState& node : body_.nodes) {
-      node.a = acceleration + turning.cross(Vec3(node.x - origin()));
-      node.A = turning;  // no rotation has occurred yet
+      node.a = unit_ * (acceleration + turning.cross(Vec3(node.x - origin())));
+      node.A = unit_ * turning;  // no rotation has occurred yet
     }
     element_.residual(body_.view(), moved_);
     Resistance sum;
@@ -40,8 +55,9 @@ class Shaken {
     for (std::size_t i = 0; i < body_.nodes.size(); ++i) {
       const auto at = [&](int slot) {
         return slot < 0 ? Vec3(Vec3::Zero())
-                        : Vec3(Eigen::Map<const Vec3>(&moved_[static_cast<std::size_t>(slot)]) -
-                               Eigen::Map<const Vec3>(&still_[static_cast<std::size_t>(slot)]));
+                        : Vec3((Eigen::Map<const Vec3>(&moved_[static_cast<std::size_t>(slot)]) -
+                                Eigen::Map<const Vec3>(&still_[static_cast<std::size_t>(slot)])) /
+                               unit_);
       };
       const Vec3 force = at(layout.node_slot(i, NodeNeed::translation));
       sum.force += force;
@@ -54,6 +70,7 @@ class Shaken {
   const Element& element_;
   ElementAtRest body_;
   std::vector<double> still_, moved_;
+  double unit_ = 1;  ///< of accelerations
 };
 
 /// Mass properties of a cell whose nodes move along x and y only, with equal mass in both directions. Nodal accelerations 1, x
@@ -65,6 +82,7 @@ MassProperties plane_mass_properties(const Model& model, const Model::Part& part
   std::vector<double> still(2 * count), moved(2 * count);
   part.element->residual(body.view(), still);
   MassProperties found;
+  double unit = 1;          // of accelerations
   Eigen::Matrix3d moments;  // of the functions 1, x and y with one another
   const Vec3 origin = body.nodes.front().x;
   const auto function = [&](std::size_t i, Eigen::Index of) { return of == 0 ? 1 : body.nodes[i].x[of - 1] - origin[of - 1]; };
@@ -72,16 +90,21 @@ MassProperties plane_mass_properties(const Model& model, const Model::Part& part
   const auto moment = [&](Eigen::Index row, std::size_t direction) {
     double sum = 0;
     for (std::size_t i = 0; i < count; ++i) sum += function(i, row) * (moved[2 * i + direction] - still[2 * i + direction]);
-    return sum;
+    return sum / unit;
   };
-  for (std::size_t i = 0; i < count; ++i) body.nodes[i].a = Vec3(1, mass_alone ? 0 : function(i, 1), 0);
-  part.element->residual(body.view(), moved);
+  const auto accelerate = [&](Eigen::Index along_x, Eigen::Index along_y) {
+    for (std::size_t i = 0; i < count; ++i)
+      body.nodes[i].a = unit * Vec3(function(i, along_x), along_y < 0 ? 0 : function(i, along_y), 0);
+    part.element->residual(body.view(), moved);
+  };
+  accelerate(0, mass_alone ? -1 : 1);
+  unit = acceleration_beside(still, moved);
+  if (unit > 1) accelerate(0, mass_alone ? -1 : 1);
   found.mass = moment(0, 0);
   if (mass_alone || found.mass == 0) return found;
   for (Eigen::Index row = 0; row < 3; ++row)
     for (const std::size_t direction : {0U, 1U}) moments(row, static_cast<Eigen::Index>(direction)) = moment(row, direction);
-  for (std::size_t i = 0; i < count; ++i) body.nodes[i].a = Vec3(function(i, 2), 0, 0);
-  part.element->residual(body.view(), moved);
+  accelerate(2, -1);
   for (Eigen::Index row = 0; row < 3; ++row) moments(row, 2) = moment(row, 0);
   const Eigen::Vector2d from = moments.block<2, 1>(1, 0) / found.mass;
   const Eigen::Matrix2d second = moments.block<2, 2>(1, 1) - found.mass * from * from.transpose();
@@ -111,6 +134,7 @@ MassProperties mass_properties(const Model& model, const Model::Part& part) {
   // most elements of a large model have no mass: one evaluation shows this
   const Resistance any = shaken.under(Vec3(0.83, -0.51, 0.22), Vec3(-0.37, 0.61, 0.7));
   if (any.force.isZero(0) && any.moment.isZero(0)) return found;
+  shaken.accelerate();
   Vec3 first = Vec3::Zero();  // mass times position of the centre relative to the first node
   Mat3 about;
   for (int k = 0; k < 3; ++k) {

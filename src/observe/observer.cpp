@@ -228,6 +228,7 @@ void Observer::between(const Configuration& c) {
         values_[i] = end_[i];
         break;
     }
+    values_[i] = std::clamp(values_[i], ways_[i].low, ways_[i].high);
   }
 }
 
@@ -266,7 +267,9 @@ void Observer::find_fields(const Configuration& c, const Configuration& from, co
 
 std::vector<Observer::Way> Observer::ways() const {
   std::vector<Way> all;
-  const auto append = [&all](const Channel& channel) { all.push_back({channel.course, of_motion(channel.dimension)}); };
+  const auto append = [&all](const Channel& channel) {
+    all.push_back({channel.course, of_motion(channel.dimension), channel.low, channel.high});
+  };
   for (const Table& table : histories_.tables())
     for (std::size_t owner = 0; owner < table.owners.size(); ++owner)
       for (const Channel& channel : table.channels) append(channel);

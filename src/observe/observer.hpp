@@ -112,7 +112,8 @@ class Observer {
   /// How a value is interpolated between two step ends.
   struct Way {
     Channel::Course course;
-    bool moves;  ///< it may be evaluated from the interpolated motion
+    bool moves;        ///< it may be evaluated from the interpolated motion
+    double low, high;  ///< Channel::low, Channel::high
   };
   std::vector<Way> ways() const;
   /// Adds values() to the interpolation points.

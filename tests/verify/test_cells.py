@@ -300,3 +300,33 @@ def test_loads_of_any_size(tmp_path: Path) -> None:
     expected = tip_of_one_cell(1e4, tmp_path)
     for load in (1.0, 1e8):
         assert tip_of_one_cell(load, tmp_path) == pytest.approx(expected, rel=1e-11)
+
+
+WARM = """
+.NOE
+ I 1 X 0 0
+ I 2 X 0.1 0
+ I 3 X 0.1 0.1
+ I 4 X 0 0.1
+.MAI
+ I 1 N 1 2 3 4
+.MAT
+ I 1 BEHA "ELASTIC" YT 2.1E5 NT 0.3 M 7.85E-9 A 1.2E-5
+.HYP MEMB BIDIM
+.SEL
+ GROUP 1 NOM "a" MAILLES TOUT
+.PHP
+ GROUP 1 THICK VAL 1.
+.AEL
+ I 1 MAT 1
+.CLM
+ FIX NOEUD 1 4 C 1 2
+ TEMP NOEUD 1 A 4 V 80
+.CHK
+ RUN MASS V 7.85E-11 RTOL 1E-12
+"""
+
+
+def test_mass_of_a_warm_mesh(tmp_path: Path) -> None:
+    """Masses are found from forces of inertia, beside thermal forces that are 1e11 times as large."""
+    run(WARM, tmp_path)  # with its check

@@ -142,7 +142,8 @@ Schema analysis_card() {
   card.add("SCALE", &AnalysisCard::scale, "scale factor of the constraint equations; automatic when not given")
       .synonyms({"ECHELLE"})
       .positive();
-  card.add("PENALTY", &AnalysisCard::penalty, "penalty of the constraint equations; automatic when not given")
+  card.add("PENALTY", &AnalysisCard::penalty,
+           "penalty p of the constraint equations, beside the multipliers; none when not given")
       .synonyms({"PENALITE"})
       .at_least(0);
   card.add("RESTART", &AnalysisCard::restart,

@@ -151,6 +151,16 @@ std::unique_ptr<CamCurve> table_curve(const CamData& data, const BuildContext& c
       return nullptr;
     }
     if (repeats) radius.back() = radius.front(), angle.back() = angle.front() + turn;
+    double widest = 0;
+    for (std::size_t k = 0; k + 1 < n; ++k) widest = std::max(widest, angle[k + 1] - angle[k]);
+    if (!repeats && turn - reach > 3 * widest) {
+      context.error("POLAR",
+                    fmt::format("the profile does not close: no points between {} and {} degrees, and no others are more than "
+                                "{:.6g} degrees apart",
+                                number(angle.back() / degree), number(angle.front() / degree + 360), widest / degree),
+                    "give points all round the cam");
+      return nullptr;
+    }
     if (n < 4) {
       context.error("POLAR", fmt::format("{} points are not enough for a profile", n), "give at least 4, better 30 and more");
       return nullptr;
@@ -357,7 +367,9 @@ ElementType cam_type() {
           "profile is a closed smooth curve through a TABLE of points or POLAR radii, or the one that gives the follower a "
           "MOTION when the cam turns: segments of cam angle with the lift at their ends, equal lifts a dwell, on the base circle "
           "BASE. Without K the follower is held to the profile (a groove, a second cam); with K it rests on it as a STOP does, "
-          "and may leave it. The contact acts in the plane of the cam; along the axis the follower is free.")
+          "and may leave it. A roller or a flat face with K on a TABLE or POLAR profile with hollows touches at up to three "
+          "places at "
+          "once, such as both flanks of a notch. The contact acts in the plane of the cam; along the axis the follower is free.")
       .example(
           "I 5 CAM N 1 2  AXIS 0 0 1  BASE 0.03  MOTION 90 0.01 60 0.01 90 0 120 0  LAW CYCLOIDAL  $\n"
           "      FOLLOWER ROLLER 0.008  DIRECTION 0 1 0")

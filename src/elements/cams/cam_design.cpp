@@ -103,9 +103,21 @@ bool check_roller(const BuildContext& context, const char* keyword, const CamFoo
                                             "one of {:.6g} at cam angle {:.4g}",
                                             number(parts.radius), 1 / sharp.curvature, std::fmod(sharp.s / degree + 720, 360)),
                                 "a larger BASE, a wider segment or a smaller roller; the path is followed all the same");
-  if (parts.law || !(hollow.curvature < 0) || !(-1 / hollow.curvature <= out)) return true;
+  constexpr double nearly_fits = 1.02;
+  const double room = -1 / hollow.curvature;
+  if (!(hollow.curvature < 0) || !(room <= out)) return true;
+  if (parts.law) {
+    if (out <= nearly_fits * room)
+      context.diagnostics.warning(context.record.where(keyword),
+                                  fmt::format("a roller of radius {} nearly fits into the hollow of radius {:.6g} at ({}, {})",
+                                              number(parts.radius), room, number(hollow.p[0]), number(hollow.p[1])),
+                                  "its two contacts there are so close that they count as one, and the force jumps where they "
+                                  "part: make it fit, or clearly "
+                                  "larger");
+    return true;
+  }
   const std::string what = fmt::format("a roller of radius {} does not fit into the hollow of radius {:.6g} at ({}, {})",
-                                       number(parts.radius), -1 / hollow.curvature, number(hollow.p[0]), number(hollow.p[1]));
+                                       number(parts.radius), room, number(hollow.p[0]), number(hollow.p[1]));
   context.error(keyword, what, "a smaller roller, or a profile with wider hollows; or give K: it then touches both sides");
   return false;
 }

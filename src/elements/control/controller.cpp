@@ -150,6 +150,10 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
                  {"LIMITED", command, "the command within its limits"},
                  {"EFFORT", out.effort_dimension(), "force or torque along the output's coordinate"},
                  {"POWER", dimension::power, "power given to the mechanism"}};
+    Channel &limited = channels_[4], &effort = channels_[5];
+    limited.low = output.low;
+    limited.high = output.high;
+    if (output.kind == Kind::effort) effort.low = output.low, effort.high = output.high;
     for (int i = 0; i < law.order(); ++i) channels_.push_back({fmt::format("STATE_{}", i + 1), command, "state of the law"});
   }
 

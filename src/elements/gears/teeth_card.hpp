@@ -128,7 +128,11 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .positive();
   c.add("XI", &TeethData::damping_ratio, "damping ratio of the teeth against the inertia of both wheels").at_least(0);
   c.add("CM", &TeethData::damping, "tooth damping along the circumference, instead of XI").unit(dimension::damping).at_least(0);
-  c.add("JEU", &TeethData::backlash, "backlash along the circumference").synonyms({"BACKLASH"}).unit(length).at_least(0);
+  c.add("JEU", &TeethData::backlash,
+        "backlash along the circumference, in the normal section: the transverse one times cos(helix)")
+      .synonyms({"BACKLASH"})
+      .unit(length)
+      .at_least(0);
   c.add("JEUN", &TeethData::normal_backlash, "backlash normal to the flanks, instead of JEU")
       .synonyms({"NORMAL_BACKLASH"})
       .unit(length)
