@@ -185,6 +185,7 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
   next_course_ = {};
   next_bifurcations_ = bifurcations_;
   if (std::optional<NewtonReport> report = arrive(from, h, to)) {
+    next_course_.next = h;  // of a restart with a later end
     h = to.h;
     find_goal(from, h, to, there_);
     find_critical(from, h, to, there_);
