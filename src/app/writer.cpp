@@ -147,10 +147,8 @@ void Writer::started(const StartReport& start) {
         fmt::format("engrane: {} redundant constraint{}: how some reactions share a load is not unique (see the listing)",
                     start.redundant, start.redundant == 1 ? "" : "s"));
   if (!start.friction.empty())
-    progress_.note(
-        fmt::format("engrane: friction in {} depends on these reactions, and so does the motion: the least ones are "
-                    "taken",
-                    start.friction));
+    progress_.note(fmt::format(
+        "engrane: friction in {} depends on these reactions, and so does the motion: the least ones are taken", start.friction));
   if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
 }
 

@@ -2,6 +2,7 @@
 #include "solve/algebra/probe.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace engrane::solve {
 
@@ -18,6 +19,18 @@ void fill_probe(Vec vector) {
   check_petsc(VecGetArrayWrite(vector, &x));
   for (PetscInt i = first; i < end; ++i) x[i - first] = probe_value(static_cast<std::size_t>(i));
   check_petsc(VecRestoreArrayWrite(vector, &x));
+}
+
+double relative_stiffness(Mat matrix, Vec motion, Vec load) {
+  Owned<Vec> weighted;
+  check_petsc(VecDuplicate(motion, weighted.out()));
+  check_petsc(MatGetDiagonal(matrix, weighted));
+  check_petsc(VecAbs(weighted));
+  check_petsc(VecPointwiseMult(weighted, weighted, motion));
+  PetscScalar energy = 0, size = 0;
+  check_petsc(VecDot(motion, load, &energy));
+  check_petsc(VecDot(motion, weighted, &size));
+  return size > 0 ? std::abs(energy) / size : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace engrane::solve

@@ -10,4 +10,8 @@ namespace engrane::solve {
 double probe_value(std::size_t place);
 void fill_probe(Vec vector);
 
+/// Stiffness of a motion x beside the diagonal D of the matrix K: |xᵀKx| / xᵀDx, with `load` = K x; infinite if D is zero there.
+/// With fill_probe() for the load, x is all but the softest motion. Collective.
+double relative_stiffness(Mat matrix, Vec motion, Vec load);
+
 }  // namespace engrane::solve

@@ -199,8 +199,7 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
     report.converged = false;
     report.reason = fmt::format(
         "the loads hardly change with time at load time {:.6g}, and a path cannot pass such a place: give them a function that "
-        "goes "
-        "on changing, such as EXPR \"T\"",
+        "goes on changing, such as EXPR \"T\"",
         from.load_time());
     return {std::move(report), {}};
   }
