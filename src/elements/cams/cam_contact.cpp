@@ -52,9 +52,9 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
   if (parts_.law) channels_.push_back({"SPRING_ENERGY", dimension::energy, "energy stored in the contact"});
   if (parts_.law || parts_.friction) channels_.push_back({"POWER_LOST", dimension::power, "by damping and friction"});
   if (parts_.several) {
-    channels_[0].help = "of the cam on the follower, where it touches deepest; positive pushes it away";
-    channels_.push_back({"NORMAL_FORCE_2", dimension::force, "the same where it touches second deepest"});
-    channels_.push_back({"NORMAL_FORCE_3", dimension::force, "the same at a third place"});
+    channels_[0].help = "normal force at the deepest contact; positive pushes the follower away";
+    channels_.push_back({"NORMAL_FORCE_2", dimension::force, "normal force at the second deepest contact"});
+    channels_.push_back({"NORMAL_FORCE_3", dimension::force, "normal force at the third deepest contact"});
   }
 }
 

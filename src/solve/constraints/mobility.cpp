@@ -226,6 +226,14 @@ Vector change_of_forces(Assembler& assembler, const Configuration& from, const C
   return change;
 }
 
+/// Whether the element that owns a multiplier has friction.
+bool has_friction(const Assembler& assembler, int multiplier) {
+  const int part = multiplier_unknown(assembler.numbering(), multiplier).part;
+  if (part < 0) return false;
+  const Layout& layout = assembler.model().parts[static_cast<std::size_t>(part)].element->layout();
+  return layout.slides > 0 || !layout.grips.empty();
+}
+
 constexpr const char* usual_cure =
     "leave one of these directions free in one of the joints, or give it a stiffness instead (KM for teeth)";
 
@@ -271,18 +279,6 @@ Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const
     }
   return found;
 }
-
-namespace {
-
-/// Whether the element that owns a multiplier has friction.
-bool has_friction(const Assembler& assembler, int multiplier) {
-  const int part = multiplier_unknown(assembler.numbering(), multiplier).part;
-  if (part < 0) return false;
-  const Layout& layout = assembler.model().parts[static_cast<std::size_t>(part)].element->layout();
-  return layout.slides > 0 || !layout.grips.empty();
-}
-
-}  // namespace
 
 std::string friction_on_redundant(const Assembler& assembler, const Mobility& mobility) {
   std::set<int> parts;
