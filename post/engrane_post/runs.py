@@ -50,8 +50,9 @@ class Run:
 
     @property
     def reason(self) -> str:
-        """Why it was not solved, in one line."""
-        return self.message.splitlines()[0] if self.message else self.outcome
+        """Why it was not solved, in one line; the messages of MPI begin with a line of dashes."""
+        lines = (line for line in self.message.splitlines() if line.strip("- "))
+        return next(lines, self.outcome)
 
     @property
     def numbers(self) -> dict[str, float | None]:

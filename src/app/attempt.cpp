@@ -93,11 +93,25 @@ std::string energy_failure(const SolverContext& context, const observe::Observer
           : "");
 }
 
+/// A warning where the equilibria of a run are not on one path; empty where they are.
+std::string jump_remark(const SolverContext& context, const observe::EnergyBalance& balance) {
+  constexpr double small = 1e-3;
+  const observe::Jump& jump = balance.jump;
+  // what cannot be deformed does not snap: drives that turn far within a step are all that the works differ by
+  if (balance.handled() <= small * jump.lost) return {};
+  if (jump.lost <= small * balance.handled() || counts_as_none(jump.lost, context)) return {};
+  return fmt::format(
+      "between t = {:.6g} and {:.6g} the structure snapped to a distant equilibrium: {:.3g} {} of energy went into a motion that "
+      "statics leave out. Smaller steps H show at which load; .PATH follows the equilibria in between, TYPE DYNAMIC the motion",
+      jump.begin, jump.end, jump.lost, context.model.units.label(dimension::energy));
+}
+
 /// A warning where a run that has come to its end has lost or won more energy than results should; empty where it has not.
 std::string energy_remark(const SolverContext& context, const observe::Observer& observer) {
   constexpr double much = 0.05;
   const observe::EnergyBalance& balance = observer.energies();
   const double off = balance.largest_error;
+  if (balance.jump.lost > 0) return jump_remark(context, balance);
   if (!judges_energies(context.options) || off <= much * balance.handled() || counts_as_none(off, context)) return {};
   return fmt::format(
       "the energy balance was off by up to {:.3g} {}, {:.0f} % of what was in the machine or passed through it: "

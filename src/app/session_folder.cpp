@@ -20,12 +20,18 @@ namespace fs = std::filesystem;
 
 constexpr const char* beginning = "engrane-run-";
 
-/// Whether this process was started as one of several, or the user told Open MPI where to put its folders.
-bool is_placed() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "SLURM_PROCID",
-                           "OMPI_MCA_orte_tmpdir_base"})
+constexpr const char* setting = "OMPI_MCA_orte_tmpdir_base";
+
+bool is_one_of_several() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "SLURM_PROCID"})
     if (std::getenv(name)) return true;
   return false;
+}
+
+/// The value of an environment variable; empty if it is not set.
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
 }
 
 /// Opens and locks a folder; returns -1 if a running process holds the lock. The lock is released however the process ends. It
@@ -59,16 +65,22 @@ void remove_abandoned(const fs::path& where) {
 }  // namespace
 
 SessionFolder::SessionFolder() {
-  if (is_placed()) return;
-  // the folder holds sockets, whose paths are limited to about a hundred characters, so TMPDIR must not be long
-  const char* wanted = std::getenv("TMPDIR");
-  const std::string where = wanted && *wanted && std::string(wanted).size() < 40 ? wanted : "/tmp";
+  if (is_one_of_several()) return;
+  // the folder holds sockets, whose paths are limited to about a hundred characters
+  constexpr std::size_t longest = 40;
+  users_ = environment(setting);
+  if (users_.size() >= longest) return;
+  const std::string temporary = environment("TMPDIR");
+  std::string where = users_;
+  if (where.empty()) where = temporary.empty() || temporary.size() >= longest ? "/tmp" : temporary;
+  std::error_code error;
+  fs::create_directories(where, error);
   remove_abandoned(where);
   std::string path = where + "/" + beginning + "XXXXXX";
   if (!mkdtemp(path.data())) return;
   path_ = path;
   lock_ = lock_folder(path_);
-  setenv("OMPI_MCA_orte_tmpdir_base", path_.c_str(), 1);
+  setenv(setting, path_.c_str(), 1);
   // a single process needs neither a daemon nor a network, which would take longer to start than everything else
   setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   setenv("OMPI_MCA_pml", "ob1", 0);
@@ -79,7 +91,7 @@ SessionFolder::SessionFolder() {
 
 SessionFolder::~SessionFolder() {
   if (path_.empty()) return;
-  unsetenv("OMPI_MCA_orte_tmpdir_base");
+  users_.empty() ? unsetenv(setting) : setenv(setting, users_.c_str(), 1);
   std::error_code error;
   fs::remove_all(path_, error);
   if (lock_ >= 0) close(lock_);

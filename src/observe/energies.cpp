@@ -44,20 +44,39 @@ Energies total_energies(Assembler& assembler, const Configuration& c) {
   return {sums[0], sums[1], sums[2], sums[3], sums[4]};
 }
 
-double static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to) {
-  if (!(to.time > from.time)) return 0;
+double StaticWork::lost(double change) const {
+  constexpr double allowed = 0.05;
+  const double gap = std::min(first, second) - change;
+  return !dissipates && gap > 0.5 * varied + allowed * std::max(handled, std::abs(change)) ? gap : 0;
+}
+
+StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to) {
+  StaticWork work;
+  if (!(to.time > from.time)) return work;
   // along an equilibrium path, load time may decrease or stand still, and the drives follow it
   const double loads = to.load_time() - from.load_time(), least = stand_still * (to.time - from.time);
   const double time = std::abs(loads) > least ? loads : least;
   // saves a copy: configurations of large meshes take much memory
   Configuration& c = from;
-  const auto half_the_work = [&](const std::vector<Reaction>& reactions) {
-    double power = total_energies(assembler, c).external;
-    for (const Reaction& reaction : reactions) power += reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]);
-    return 0.5 * time * power;
+  double dissipated = 0;
+  const auto works_of_elements = [&] {
+    std::vector<double> works;
+    works.reserve(assembler.own_parts().size());
+    for (const int p : assembler.own_parts()) {
+      const Energies rates = assembler.model().parts[static_cast<std::size_t>(p)].element->energies(assembler.view(p, c));
+      works.push_back(time * rates.external);
+      dissipated += std::abs(rates.dissipated);
+    }
+    return works;
+  };
+  const auto works_of = [&](const std::vector<Reaction>& reactions) {
+    std::vector<double> works;
+    for (const Reaction& reaction : reactions)
+      works.push_back(time * reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]));
+    return works;
   };
   // reactions of the equilibria themselves: with the velocities set below, dampers would contribute
-  const std::vector<Reaction> first = supports.at(from), last = supports.at(to);
+  const std::vector<Reaction> first = supports.at(from), second = supports.at(to);
   for (std::size_t i = 0; i < c.nodes.size(); ++i) {
     const Vec3 v = (to.nodes[i].x - from.nodes[i].x) / time;
     // the rotation vector between the two orientations has the same components in either
@@ -68,7 +87,7 @@ double static_work(Assembler& assembler, Reactions& supports, Configuration from
   for (std::size_t i = 0; i < c.scalars.size(); ++i) c.scalar_rates[i] = (to.scalars[i] - from.scalars[i]) / time;
   // evaluate functions of time just inside the step: they may have a corner at its ends
   c.lead += 1e-8 * time;
-  double work = half_the_work(first);
+  const std::vector<double> first_of_elements = works_of_elements(), first_of_supports = works_of(first);
 
   for (std::size_t i = 0; i < c.nodes.size(); ++i) {
     NodeState end = to.nodes[i];
@@ -84,8 +103,21 @@ double static_work(Assembler& assembler, Reactions& supports, Configuration from
   c.remainders = to.remainders;
   c.multipliers = to.multipliers;
   c.history = to.history;
-  work += half_the_work(last);
+  work.add(first_of_elements, works_of_elements());
+  double sums[5] = {work.first, work.second, work.varied, work.handled, dissipated};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, assembler.comm());
+  work = {sums[0], sums[1], sums[2], sums[3], sums[4] > 0};
+  work.add(first_of_supports, works_of(second));
   return work;
+}
+
+void StaticWork::add(const std::vector<double>& with_first, const std::vector<double>& with_second) {
+  for (std::size_t i = 0; i < with_first.size(); ++i) {
+    first += with_first[i];
+    second += with_second[i];
+    varied += std::abs(with_second[i] - with_first[i]);
+    handled += std::max(std::abs(with_first[i]), std::abs(with_second[i]));
+  }
 }
 
 EnergyLedger::EnergyLedger(Assembler& assembler, Reactions& supports, bool moves)
@@ -102,7 +134,10 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
     initial_potential_ = sum.potential;
     if (smooth_) powers_.add(c.time, std::array{sum.external, sum.dissipated});
   } else if (!moves_) {
-    balance_.external_work += static_work(assembler_, supports_, before_.unpacked(), c);
+    const StaticWork work = static_work(assembler_, supports_, before_.unpacked(), c);
+    balance_.external_work += work.mean();
+    if (const double lost = work.lost(sum.potential - last_potential_); lost > balance_.jump.lost)
+      balance_.jump = {last_time_, c.time, lost};
   } else {
     const double step = c.time - last_time_, half = 0.5 * step;
     // do not interpolate across an event: a force that jumps has no slope there
@@ -127,6 +162,7 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
   balance_.largest_error = std::max(balance_.largest_error, std::abs(balance_.error()));
   external_power_ = sum.external;
   dissipated_power_ = sum.dissipated;
+  last_potential_ = sum.potential;
   last_time_ = c.time;
   if (!moves_) before_ = PackedConfiguration(c);
 }
@@ -137,9 +173,10 @@ void EnergyLedger::begin_anew() {
 }
 
 void EnergyLedger::save(Snapshot& snapshot) const {
-  snapshot.put("observe/energies", {balance_.kinetic, balance_.potential, balance_.external_work, balance_.dissipated,
-                                    balance_.initial, balance_.largest_error, external_power_, dissipated_power_, last_time_,
-                                    balance_.passed, balance_.exchanged, initial_potential_});
+  snapshot.put("observe/energies",
+               {balance_.kinetic, balance_.potential, balance_.external_work, balance_.dissipated, balance_.initial,
+                balance_.largest_error, external_power_, dissipated_power_, last_time_, balance_.passed, balance_.exchanged,
+                initial_potential_, balance_.jump.begin, balance_.jump.end, balance_.jump.lost});
   if (smooth_) powers_.save(snapshot, "observe/powers");
 }
 
@@ -158,6 +195,8 @@ void EnergyLedger::load(const Snapshot& snapshot) {
   balance_.passed = state.at(9);
   balance_.exchanged = state.at(10);
   initial_potential_ = state.at(11);
+  balance_.jump = {state.at(12), state.at(13), state.at(14)};
+  last_potential_ = balance_.potential;
   started_ = true;
   if (smooth_ && snapshot.has("observe/powers")) powers_.load(snapshot, "observe/powers");
   if (moves_) return;

@@ -12,6 +12,13 @@
 
 namespace engrane::observe {
 
+/// A load step between two equilibria that no path of equilibria joins: the structure snapped through or fell over in between,
+/// and lost energy that statics do not show.
+struct Jump {
+  double begin = 0, end = 0;  ///< times of the equilibria
+  double lost = 0;            ///< energy; 0: there was no jump
+};
+
 /// Energies of the whole model, and the work done since the start.
 struct EnergyBalance {
   double kinetic = 0, potential = 0;
@@ -21,6 +28,7 @@ struct EnergyBalance {
   double largest_error = 0;  ///< largest |error()| so far
   double passed = 0;         ///< integral of the absolute values of all power in and out
   double exchanged = 0;      ///< largest change of the potential energy since the start
+  Jump jump;                 ///< statics: the one that lost most
 
   /// Upper bound for a plausible error(): the initial energy, the energy that passed through the model, and the largest change
   /// of the potential energy.
@@ -32,8 +40,24 @@ struct EnergyBalance {
 /// Sum over all elements, on every rank; each rank evaluates its own. Collective.
 Energies total_energies(Assembler& assembler, const Configuration& c);
 
-/// Work of loads and supports between two equilibria, by the trapezoidal rule along the straight line between them.
-double static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to);
+/// Work of loads, drives and supports along the straight line between two equilibria, with the forces of the first and with
+/// those of the second.
+struct StaticWork {
+  double first = 0, second = 0;
+  double varied = 0;        ///< sum of the differences between both, each taken as positive
+  double handled = 0;       ///< sum of the works, each taken as positive
+  bool dissipates = false;  ///< elements that resist velocities would take part of it
+
+  /// Adds the works of one load each.
+  void add(const std::vector<double>& with_first, const std::vector<double>& with_second);
+  /// By the trapezoidal rule.
+  double mean() const { return 0.5 * (first + second); }
+  /// Energy lost in a jump, if the potential energy has changed by `change`; 0 if a path of equilibria may lead from one to the
+  /// other. Along a path, forces lie between those of both equilibria, and so do the work and the change of the energy: the
+  /// rest of the smaller work is lost. Since paths are not straight, half the differences are allowed.
+  double lost(double change) const;
+};
+StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to);
 
 /// Keeps the energy balance from step to step. The work during motion is the integral of the power: by the trapezoidal rule,
 /// or, with error-controlled and therefore possibly long steps, by a polynomial through the last few values of the power.
@@ -61,7 +85,7 @@ class EnergyLedger {
   bool moves_;
   bool started_ = false;
   EnergyBalance balance_;
-  double initial_potential_ = 0;
+  double initial_potential_ = 0, last_potential_ = 0;
   double external_power_ = 0, dissipated_power_ = 0, last_time_ = 0;
   bool smooth_ = false;
   Extrapolation powers_;        ///< external and dissipated power

@@ -43,13 +43,21 @@ Function::Jet ContactGeometry::flank_opening(double opening) const {
           lead * (c * bend - s * turn * turn)};
 }
 
-std::vector<std::string> ToothContact::remarks(double deflection) const {
+std::vector<std::string> ToothContact::remarks(double deflection, double opening) const {
+  std::vector<std::string> list;
   // a flank pressed in by w/2 or more follows (28); up to four widths the rounding still shows in the peaks
-  if (deflection == 0 || deflection >= 4 * law_.onset) return {};
-  return {
-      fmt::format("the teeth were pressed in by {:.3g} at most, and SMOOTH lets contact come on over {:.3g}: such a light load "
-                  "follows the rounded onset, not KM; leave SMOOTH out, or give {:.1g}",
-                  deflection, law_.onset, 0.01 * deflection)};
+  if (deflection > 0 && deflection < 4 * law_.onset)
+    list.push_back(
+        fmt::format("the teeth were pressed in by {:.3g} at most, and SMOOTH lets contact come on over {:.3g}: such a light load "
+                    "follows the rounded onset, not KM; leave SMOOTH out, or give {:.1g}",
+                    deflection, law_.onset, 0.01 * deflection));
+  if (opening > geometry_.reach)
+    list.push_back(fmt::format(
+        "the wheels moved apart by {:.3g}, and their teeth overlap by only {:.3g}: they were out of mesh, which this element "
+        "does not model. It went on to transmit forces, and results since then are wrong; make the supports stiffer or hold "
+        "the wheels at their distance",
+        opening, geometry_.reach));
+  return list;
 }
 
 std::vector<SwitchNames> ToothContact::switch_names() const {

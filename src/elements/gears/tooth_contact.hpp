@@ -30,6 +30,7 @@ struct ContactGeometry {
   /// rack, whose pressure angle is constant.
   double base_radii = 0;
   double center_distance = 0;  ///< of the reference configuration
+  double reach = 0;            ///< sum of both addenda, from the working pitch surfaces: tips overlap by it
   double side = 1;             ///< κ: 1 external, −1 internal
   double axle_sense = 1;       ///< σ: ξ₁ = σ μ₁
   /// Path of contact from the pitch point, in the direction in which A moves: front flanks touch from −approach to recess. For
@@ -161,8 +162,9 @@ class ToothContact {
   bool rounds_contact() const { return elastic() && law_.exponent == 1 && law_.crown == 0 && law_.onset > 0; }
   /// Force along the circumference of the more loaded flank, divided by k_m.
   double deflection(const ContactReport& report) const { return std::max(law_.flank(report.front).f, law_.flank(report.back).f); }
-  /// Remarks for a run in which no flank was ever pressed in by more than `deflection`.
-  std::vector<std::string> remarks(double deflection) const;
+  /// Remarks for a run in which no flank was ever pressed in by more than `deflection` and the wheels moved apart by
+  /// `opening` at most.
+  std::vector<std::string> remarks(double deflection, double opening) const;
   double cos_alpha() const { return cos_alpha_; }
   double sin_alpha() const { return sin_alpha_; }
 

@@ -174,7 +174,6 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
         loads.frame_moment[1][i] -= -geometry_.axle_sense * turn_b[i] + follow_b[i];
       }
     }
-    if (report) report->opening = value_of(opening);
   }
 
   if (contact_homotopy > 0) {

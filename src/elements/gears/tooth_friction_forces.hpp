@@ -133,6 +133,8 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
   if (!radial && !options_.friction && !report) return;
   const T load = abs(force_1);
   const ToothMeeting<T> at(a, b, gap);
+  const T opening = -dot(gap, at.across);
+  if (report) report->opening = value_of(opening);
   const auto add = [&](const Vec3T<T>& force, const Vec3T<T>& from_a, const Vec3T<T>& from_b) {
     loads.body_force += force;
     loads.body_moment[0] += cross(from_a, force);
@@ -147,10 +149,8 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
   if (radial) {  // (34, 35); does no work on ψ
     T size = sin_alpha_ * load;
     if (options_.running) {
-      const T opening = -dot(gap, at.across);
       const Function::Jet d = geometry_.flank_opening(value_of(opening));
       size = cos_alpha_ * load * compose(opening, d.d1, d.d2, d.d3);
-      if (report) report->opening = value_of(opening);
     }
     for (int k = 0; k < 3; ++k) separating[k] = -size * at.across[k];
     add_here(separating);

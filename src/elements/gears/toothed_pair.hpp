@@ -36,7 +36,7 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20> {
     layout.multipliers = {{"TOOTH", dimension::length, "tooth contact, phi_1: its multiplier is the normal force", Role::tooth},
                           {"MESH", dimension::length, "contact points along the circumference, phi_2"},
                           {"TRIAD", dimension::angle, "tooth triads about the tooth, phi_3"}};
-    layout.history = history + (contact_.rounds_contact() ? 1 : 0);
+    layout.history = history + extremes;
     layout.switches = contact_.switch_names();
     if (contact_.options().friction && !contact_.grips()) layout.slides = 1;
     if (contact_.grips()) add_grip(layout, {"GRIP", dimension::length, "friction at rest between the flanks"});
@@ -48,18 +48,18 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20> {
     self().mesh(motion, state, balance, nullptr);
   }
 
-  /// Also stores the largest deflection of a flank whose contact onset is rounded: the last history entry before the grips.
+  /// Also stores, in the last history entries before the grips, the largest distance by which the wheels moved apart and the
+  /// largest deflection of a flank whose contact onset is rounded.
   void commit(const State& state, std::span<double> scalars, std::span<double> history) const override {
-    const double pressed = contact_.rounds_contact() ? contact_.deflection(report(state)) : 0;  // counting turns may shift ψ
+    const ContactReport now = report(state);  // counting turns may shift ψ
     self().count_turns(state, scalars, history);
-    if (contact_.rounds_contact()) {
-      const std::size_t at = deepest(history.size());
-      history[at] = std::max(state.history[at], pressed);
-    }
+    const std::size_t at = first_extreme(history.size());
+    history[at] = std::max(state.history[at], now.opening);
+    if (contact_.rounds_contact()) history[at + 1] = std::max(state.history[at + 1], contact_.deflection(now));
   }
   std::vector<std::string> remarks(std::span<const double> history) const override {
-    if (!contact_.rounds_contact()) return {};
-    return contact_.remarks(history[deepest(history.size())]);
+    const std::size_t at = first_extreme(history.size());
+    return contact_.remarks(history[at + 1], history[at]);
   }
 
   const ToothLaw& teeth() const { return contact_.law(); }
@@ -106,9 +106,11 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20> {
   }
 
  private:
+  static constexpr int extremes = 2;  ///< history entries: largest opening, largest deflection
+
   const Derived& self() const { return static_cast<const Derived&>(*this); }
-  std::size_t deepest(std::size_t history) const {
-    return history - 1 - static_cast<std::size_t>(contact_.grips() ? GripState::history({}) : 0);
+  std::size_t first_extreme(std::size_t history) const {
+    return history - static_cast<std::size_t>(extremes + (contact_.grips() ? GripState::history({}) : 0));
   }
 
   std::vector<Channel> channels_;
