@@ -52,15 +52,31 @@ double radius_of_gyration(const Model& model, const Model::Part& part) {
   return mass > 0 ? std::sqrt(moment / mass) : 0;
 }
 
-/// The largest length known to an element; 0 if there is none.
-double largest_length(const Model& model) {
-  double largest = 0;
+/// Whether the lengths known to an element only bound a motion, which may never reach them: "no lower limit" is often written as
+/// MIN -1E9.
+bool knows_bounds_only(const Model::Part& part) { return part.type == "STOP"; }
+
+/// The lengths known to elements.
+struct KnownLengths {
+  double largest = 0;                                      ///< of sizes; 0 if there is none
+  double bound = std::numeric_limits<double>::infinity();  ///< the least bound that is not zero
+};
+
+KnownLengths known_lengths(const Model& model) {
+  KnownLengths known;
   for (const Model::Part& part : model.parts) {
-    largest = std::max(largest, radius_of_gyration(model, part));
-    for (const Derived& d : part.element->derived())
-      if (d.dimension == dimension::length && std::isfinite(d.value)) largest = std::max(largest, std::abs(d.value));
+    known.largest = std::max(known.largest, radius_of_gyration(model, part));
+    const bool bounds = knows_bounds_only(part);
+    for (const Derived& d : part.element->derived()) {
+      const double length = std::abs(d.value);
+      if (d.dimension != dimension::length || !std::isfinite(length)) continue;
+      if (!bounds)
+        known.largest = std::max(known.largest, length);
+      else if (length > 0)
+        known.bound = std::min(known.bound, length);
+    }
   }
-  return largest;
+  return known;
 }
 
 }  // namespace
@@ -86,8 +102,10 @@ bool Model::jumps_at(double time) const {
 
 void Model::measure() {
   extent_ = size_of_nodes(*this);
-  if (extent_ == 0) extent_ = largest_length(*this);
-  if (extent_ == 0) extent_ = 1;
+  if (extent_ > 0) return;
+  const KnownLengths known = known_lengths(*this);
+  // A bound can only tell that motions are small. An unreachable one thus has no effect.
+  extent_ = known.largest > 0 ? known.largest : std::min(1.0, known.bound);
 }
 
 double mass_at_first_node(const Model& model, const Model::Part& part) {

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include "math/sparse_qr.hpp"
 #include "model/model.hpp"
@@ -30,21 +33,51 @@ struct Probe {
   double homotopy = 0;
 };
 
+/// When functions of time are largest, and when they change fastest: a load or a drive may act for a short part of the run.
+std::set<double> busiest_times(const Model& model) {
+  constexpr int samples = 500;
+  constexpr std::size_t most_corners = 1'000'000;
+  const double begin = model.commands.stepping.start, end = begin + span_of(model.commands.stepping);
+  std::set<double> busiest;
+  for (const Function* function : model.of_time) {
+    std::vector<double> times = function->corners(begin, end, most_corners);
+    for (int i = 0; i <= samples; ++i) times.push_back(begin + (end - begin) * i / samples);
+    std::sort(times.begin(), times.end());
+    const std::size_t count = times.size();
+    for (std::size_t i = 1; i < count; ++i) times.push_back(0.5 * (times[i - 1] + times[i]));
+    double largest = 0, steepest = 0;
+    std::optional<double> at_largest, at_steepest;
+    for (const double t : times) {
+      const Function::Jet f = function->at(t);
+      if (std::abs(f.f) > largest) std::tie(largest, at_largest) = std::pair(std::abs(f.f), t);
+      if (std::abs(f.d1) > steepest) std::tie(steepest, at_steepest) = std::pair(std::abs(f.d1), t);
+    }
+    for (const auto& time : {at_largest, at_steepest})
+      if (time) busiest.insert(*time);
+  }
+  return busiest;
+}
+
 /// Configurations as different as in a run: the reference with open gaps and with all contacts closed, one near it, and two far
-/// away.
+/// away; and the reference whenever loads and drives do most.
 std::vector<Probe> probes(const Model& model, int normal) {
   struct Shape {
     double move, turn, homotopy;
   };
-  constexpr std::array shapes{Shape{0, 0, 0}, Shape{0, 0, 1}, Shape{1e-3, 0.02, 0}, Shape{0.1, 0.7, 1}, Shape{0.2, 3, 0}};
+  const std::set<double> busiest = busiest_times(model);
+  std::vector<Shape> shapes{{0, 0, 0}, {0, 0, 1}, {1e-3, 0.02, 0}, {0.1, 0.7, 1}, {0.2, 3, 0}};
+  const std::size_t others = shapes.size();
+  shapes.resize(others + busiest.size(), {0, 0, 0});
   std::mt19937 generator(5);  // fixed seed: the same in every run
   std::uniform_real_distribution<double> any(-1, 1);
   const deck::SteppingCard& stepping = model.commands.stepping;
   const double span = span_of(stepping), extent = model.extent(), rate = 10 / span;
   const int first = (normal + 1) % 3, second = (normal + 2) % 3;
   std::vector<Probe> all;
+  auto busy = busiest.begin();
   for (const Shape& shape : shapes) {
     Probe probe{std::vector<NodeState>(model.nodes.size()), stepping.start, shape.homotopy};
+    if (all.size() >= others) probe.time = *busy++;
     if (shape.move > 0) probe.time += 0.5 * (1 + any(generator)) * span;
     for (std::size_t i = 0; i < probe.nodes.size(); ++i) {
       NodeState& node = probe.nodes[i];

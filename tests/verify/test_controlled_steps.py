@@ -369,3 +369,41 @@ def test_checks_of_the_run_alone_leave_all_histories_to_be_judged(tmp_path: Path
     text = pendulum("ACCURACY FAST", "").replace(".FIN 1", ".CHK\n RUN ENERGY_ERROR T 4 V 0 ATOL 1\n.FIN 1")
     accuracy = dial(text, tmp_path)["accuracy"]
     assert 0 < accuracy["estimated_error"] < 1e-2
+
+
+KICKED = """.UNIT SI
+.NOE
+ I 1 X 0 0 0
+ I 2 X 0.5 0 0
+.MCE
+ I 1 INERTIA N 1 M 2
+ I 2 SPRING N 0 1 K 20000 0 0
+ I 3 INERTIA N 2 M 2
+{stop}
+.FCT
+ I 1 TABLE 0 0 1 0 1.003 100
+.CLM
+ NOEUD 1 CHA C 1 V 1 NF 1
+ FIX NOEUD 1 C 2 3
+ FIX NOEUD 2 C 1 2 3
+.SAM TYPE DYNAMIC SCHEME {scheme} PLANE NO
+.SUB TF 1.5 H 0.01 TOL {tolerance}
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize(("scheme", "tolerance"), [("RADAU", 1e-5), ("RADAU", 1e-6), ("CHUNG RHO 0.8", 1e-5)])
+def test_two_corners_close_together(tmp_path: Path, scheme: str, tolerance: float) -> None:
+    """A load that rises within a hundredth of the step before, in a model with events: the way between its
+    corners is solved, and not taken for one without forces."""
+    spin, rise, stiffness = 100.0, 0.003, 2e4
+
+    def ramp(t: np.ndarray) -> np.ndarray:
+        return 100 / rise * (t - np.sin(spin * t) / spin) / stiffness * (t > 0)
+
+    errors = []
+    for stop in (" I 4 STOP N 1 2 MIN 0.3 K 1E6", ""):
+        done = run(KICKED.format(scheme=scheme, tolerance=tolerance, stop=stop), tmp_path)
+        exact = ramp(done.t - 1) - ramp(done.t - 1 - rise)
+        errors.append(np.sqrt(np.mean((done["node/1/UX"] - exact) ** 2)) / np.ptp(exact))
+    assert errors[0] < 1.2 * errors[1] < 300 * tolerance

@@ -131,3 +131,44 @@ def test_a_hoist_stops_and_starts(tmp_path: Path) -> None:
     assert abs(lifted) > 0.1
     again = turned[-1] - turned[rest][-1]
     assert again == pytest.approx(lifted, rel=1e-2)
+
+
+DRIVEN = """.UNIT LENGTH 0.001 MASS 1000 TIME 1
+.NOE
+ I 1 X 0 0 0
+ I 2 X 120 0 0
+.MCE
+ I 1 GEAR N 1 2 KIND SPUR Z 20 60 MN 3 AXIS 0 0 1 {teeth} FRICTION CONST 0.06 SLIDING PROFILE {friction}
+ I 2 HINGE N 0 1 AXIS 0 0 1 DRIVE SPEED NF 1
+ I 3 HINGE N 0 2 AXIS 0 0 1
+ I 4 TORQUE N 2 AXIS 0 0 1 V {load}
+ I 5 INERTIA N 2 M 0.003 J 5
+ I 6 INERTIA N 1 M 0.001 J 0.2
+.FCT
+ I 1 {function}
+.SAM TYPE DYNAMIC {start}
+.SUB TF 0.1 H 2E-4
+.FIN 1
+"""
+GENTLE, DWELL = "STEP 0 0 0.05 50", "TABLE 0 0 0.02 0 0.07 50"
+
+
+@pytest.mark.parametrize(
+    ("teeth", "start", "load", "function"),
+    [
+        ("", "START STATIC", "1E5", GENTLE),
+        ("KM 4E5 CM 30", "", "1E5", GENTLE),
+        ("KM 4E5 CM 30", "", "5E4", GENTLE),
+        ("", "START STATIC", "1E5", DWELL),
+    ],
+)
+def test_a_drive_that_begins_gently(tmp_path: Path, teeth: str, start: str, load: str, function: str) -> None:
+    """At rest the teeth hold what the drive holds, too, and their shares of the load mean nothing. They slide
+    as the drive turns them; afterwards friction is that of sliding speeds (VREG)."""
+    words = {"teeth": teeth, "start": start, "load": load, "function": function}
+    sticking = run(DRIVEN.format(friction="", **words), tmp_path)
+    smooth = run(DRIVEN.format(friction="VREG 1E-3", **words), tmp_path, name="smooth")
+    t = np.linspace(0.03, 0.1, 351)
+    torques = [np.interp(t, r.t, r["2/DRIVE_TORQUE"]) for r in (sticking, smooth)]
+    assert np.abs(torques[0] - torques[1]).max() < 1e-2 * np.abs(torques[1]).max()
+    assert np.abs(sticking["2/DRIVE_TORQUE"]).max() < 1.2 * np.abs(smooth["2/DRIVE_TORQUE"]).max()

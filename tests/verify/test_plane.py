@@ -92,3 +92,43 @@ def test_what_leads_out_of_the_plane_is_refused(name: str, tmp_path: Path) -> No
     done = solve(name, "XY", "MUMPS", "", tmp_path)
     assert done.returncode == 1, done.stdout + done.stderr
     assert "plane XY" in done.stderr
+
+
+SIDEWAYS = """.UNIT SI
+.NOE
+ I 1 X 0 -1 0
+.MCE
+ I 1 INERTIA N 1 M 2
+ I 2 SPRING N 0 1 K 5000 AT 0 0 0
+.FCT
+ I 1 {function}
+.CLM
+ STRU ACC 0 -9.81 0
+ NOEUD 1 CHA C 3 V 10 NF 1
+.INI
+ VIT NOEUD 1 C 1 V 1
+.SAM TYPE DYNAMIC {sam}
+.SUB TF 10 H 0.02
+.FIN 1
+"""
+SHORT = [
+    "TABLE 0 0 1 0 1.05 1 4.95 1 5 0",
+    "TABLE 0 0 3 0 3.001 1 3.003 1 3.004 0",
+    "TABLE 0 0 8 0 8.5 1 9 0",
+    'EXPR "max(0, 0.1 - abs(T - 2.34))"',
+]
+
+
+@pytest.mark.parametrize("function", SHORT)
+def test_a_load_that_leaves_the_plane_for_a_while(tmp_path: Path, function: str) -> None:
+    """Whenever it acts: at the start and at the end there is none of it."""
+    (tmp_path / "deck.dat").write_text(SIDEWAYS.format(function=function, sam="ACCURACY NORMAL"))
+    command = [os.environ["ENGRANE"], "deck.dat", "-q", "-o", "deck"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    with Results(tmp_path / "deck.h5") as results:
+        assert np.abs(results.history("node/1/UZ")[1]).max() > 1e-3
+    (tmp_path / "deck.dat").write_text(SIDEWAYS.format(function=function, sam="PLANE XY"))
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert "CHA 3 is not of the plane XY" in done.stderr

@@ -173,10 +173,11 @@ void Grips::settle(Configuration& c, bool massless) {
   assembler_.count_turns(c);  // a place of rest may be that of the last count
   std::vector<Seen> grips = look(c);
   // those at rest may hold, or slide in any direction; the others slide on
-  std::vector<bool> at_rest(count_);
+  std::vector<bool> at_rest(count_), turned(count_);
   for (std::size_t i = 0; i < count_; ++i) {
     Seen& grip = grips[i];
     GripState& state = grip.state;
+    turned[i] = turns_back(grip);
     at_rest[i] = state.mode == GripState::free ? rests(grip) : stops(grip) || state.mode == GripState::holding;
     if (dragged(grip)) {
       state = GripState::slides_towards(grip.speed, state.held);
@@ -209,7 +210,11 @@ void Grips::settle(Configuration& c, bool massless) {
           state = GripState::slides_towards(grip.acceleration, state.held);
         else if (dragged(grip))
           state = GripState::slides_towards(grip.speed, state.held);
-        else if (overloaded(grip))
+        else if (overloaded(grip) && grip.redundant && turned[i]) {
+          // a drive turns it back: how it and the drive share the load says nothing of where it slides
+          state = GripState::slides_towards(grips[i].speed, state.held);
+          at_rest[i] = false;
+        } else if (overloaded(grip))
           state = GripState::slides_towards(-grip.force, state.held);
         else
           continue;

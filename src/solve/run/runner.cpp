@@ -175,8 +175,12 @@ bool Runner::reach(double target) {
     const double left = target - now_.time;
     if (control_.active()) locator_.step_is(h_);
     if (locator_.active() && left < locator_.shortest()) {
-      if (!drift(left, target)) return false;
-      continue;
+      if (drifts(left)) {
+        if (!drift(left, target)) return false;
+        continue;
+      }
+      h_ = left;  // the last step was chosen for a motion that has ended, as at a corner of a load
+      locator_.step_is(h_);
     }
     double size = next_size(left);
     if (control_.active()) size = locator_.foresee(now_, size);
@@ -246,10 +250,13 @@ double Runner::before_event(double drift) const {
   return before > locator_.tolerance() ? before : 0;
 }
 
+/// May so short a way be left to a drift?
+bool Runner::drifts(double way) { return !control_.active() || !(scheme_.drift_error(now_, way) > 1); }
+
 /// Drifts across an event, and on to the target if a step would be too short to get there.
 bool Runner::drift(double time, double target) {
   const double left = target - now_.time;
-  const bool arrives = left - time < locator_.shortest();
+  const bool arrives = left - time < locator_.shortest() && drifts(left);
   const double size = arrives ? left : time;
   // a drift takes the mean of the forces at its ends: a force that jumps at the event must act only after it
   if (const double before = before_event(size); before > 0) {

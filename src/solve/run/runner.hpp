@@ -61,6 +61,7 @@ class Runner {
   bool drift(double time, double target);
   /// The part of a drift that lies before the event, under the present force law; 0: too short to be divided.
   double before_event(double drift) const;
+  bool drifts(double way);
   /// Processes a newly accepted now_: of a step (`solved`), whose beginning is next_, or of a drift.
   bool accepted(double size, bool regular, bool solved);
   /// Length of an attempt towards a point `left` ahead: equal parts of it, as long as h_ allows.
