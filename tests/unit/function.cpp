@@ -32,14 +32,14 @@ std::unique_ptr<Function> make(deck::FunctionCard card) {
   return function;
 }
 
-std::string fault(deck::FunctionCard card) {
+std::string fault_of(deck::FunctionCard card) {
   Diagnostics diagnostics;
   EXPECT_EQ(make_function(record(std::move(card)), diagnostics), nullptr);
   EXPECT_EQ(diagnostics.errors(), 1);
   return diagnostics.errors() == 1 ? diagnostics.all()[0].message : "";
 }
 
-deck::FunctionCard formula(std::string text) {
+deck::FunctionCard formula_card(std::string text) {
   deck::FunctionCard card;
   card.expression = std::move(text);
   return card;
@@ -114,7 +114,7 @@ TEST(Function, RampAndStep) {
 TEST(Function, FormulaIntegralIsExactToRounding) {
   const double pi = std::numbers::pi;
   const auto expect = [](const std::string& text, double x, double value, double tolerance) {
-    EXPECT_NEAR(make(formula(text))->integral(x), value, tolerance) << text << " to " << x;
+    EXPECT_NEAR(make(formula_card(text))->integral(x), value, tolerance) << text << " to " << x;
   };
   expect("T", 3, 4.5, 1e-14);
   expect("exp(-T)", 10, 1 - std::exp(-10.0), 1e-14);
@@ -142,10 +142,10 @@ TEST(Function, FormulaIntegralIsExactToRounding) {
       expect(text, -x * unit, 0.5 * x * x * unit, 1e-14 * x * x * unit);
     }
   }
-  EXPECT_TRUE(std::isnan(make(formula("sqrt(1-T)"))->integral(2)));
-  EXPECT_NEAR(make(formula("if(T < 0.37, 0, 1)"))->integral(1), 0.63, 1e-9);
-  EXPECT_NEAR(make(formula("sign(T - 1) + 3*(T > 2)"))->integral(3), 4, 1e-9);
-  for (const double x : {-2.0, 0.3, 1.0, 5.0}) expect_consistent(*make(formula("cos(T)*exp(-T/3)")), x);
+  EXPECT_TRUE(std::isnan(make(formula_card("sqrt(1-T)"))->integral(2)));
+  EXPECT_NEAR(make(formula_card("if(T < 0.37, 0, 1)"))->integral(1), 0.63, 1e-9);
+  EXPECT_NEAR(make(formula_card("sign(T - 1) + 3*(T > 2)"))->integral(3), 4, 1e-9);
+  for (const double x : {-2.0, 0.3, 1.0, 5.0}) expect_consistent(*make(formula_card("cos(T)*exp(-T/3)")), x);
 }
 
 TEST(Function, IntegralOfWhatIsKnownByValuesOnly) {
@@ -157,7 +157,7 @@ TEST(Function, IntegralOfWhatIsKnownByValuesOnly) {
 }
 
 TEST(Function, IntegralDoesNotDependOnTheOrderOfQuestions) {
-  const auto once = make(formula("sin(50*T)+T**2")), often = make(formula("sin(50*T)+T**2"));
+  const auto once = make(formula_card("sin(50*T)+T**2")), often = make(formula_card("sin(50*T)+T**2"));
   const double late = once->integral(7.3);
   for (int i = 0; i < 730; ++i) often->integral(0.01 * i);
   EXPECT_EQ(often->integral(7.3), late);
@@ -165,29 +165,29 @@ TEST(Function, IntegralDoesNotDependOnTheOrderOfQuestions) {
 }
 
 TEST(Function, Faults) {
-  EXPECT_NE(fault({}).find("gives no values"), std::string::npos);
+  EXPECT_NE(fault_of({}).find("gives no values"), std::string::npos);
   deck::FunctionCard two = table({0, 0, 1, 1});
   two.expression = "T";
-  EXPECT_NE(fault(two).find("TABLE and EXPR"), std::string::npos);
-  EXPECT_NE(fault(table({0, 0, 1})).find("lacks its ordinate"), std::string::npos);
-  EXPECT_NE(fault(table({0, 0, 1, 1, 1, 2})).find("point 3 at 1"), std::string::npos);
-  EXPECT_NE(fault(table({0, 0, 1, 1}, false, 0.5)).find("shorter"), std::string::npos);
-  EXPECT_NE(fault(table({0, 0, 1, 1}, false, -1)).find("positive"), std::string::npos);
-  EXPECT_NE(fault(table({0, 0, 1, 1}, true, 1)).find("end where it began"), std::string::npos);
-  deck::FunctionCard card = formula("T");
+  EXPECT_NE(fault_of(two).find("TABLE and EXPR"), std::string::npos);
+  EXPECT_NE(fault_of(table({0, 0, 1})).find("lacks its ordinate"), std::string::npos);
+  EXPECT_NE(fault_of(table({0, 0, 1, 1, 1, 2})).find("point 3 at 1"), std::string::npos);
+  EXPECT_NE(fault_of(table({0, 0, 1, 1}, false, 0.5)).find("shorter"), std::string::npos);
+  EXPECT_NE(fault_of(table({0, 0, 1, 1}, false, -1)).find("positive"), std::string::npos);
+  EXPECT_NE(fault_of(table({0, 0, 1, 1}, true, 1)).find("end where it began"), std::string::npos);
+  deck::FunctionCard card = formula_card("T");
   card.spline = true;
-  EXPECT_NE(fault(card).find("SPLINE"), std::string::npos);
+  EXPECT_NE(fault_of(card).find("SPLINE"), std::string::npos);
   card = {};
   card.sinus = {1};
-  EXPECT_NE(fault(card).find("two to four"), std::string::npos);
+  EXPECT_NE(fault_of(card).find("two to four"), std::string::npos);
   card = {};
   card.step = {1, 0, 1, 2};
-  EXPECT_NE(fault(card).find("end after it starts"), std::string::npos);
-  EXPECT_NE(fault(formula("2*U")).find("column 3"), std::string::npos);
+  EXPECT_NE(fault_of(card).find("end after it starts"), std::string::npos);
+  EXPECT_NE(fault_of(formula_card("2*U")).find("column 3"), std::string::npos);
 }
 
 TEST(Function, FaultsPointIntoTheText) {
-  deck::Record r = record(formula("2*U"));
+  deck::Record r = record(formula_card("2*U"));
   r.field_locations = {{function_schema().find("EXPR"), {0, 4, 20, 5}}};
   Diagnostics diagnostics;
   make_function(r, diagnostics);
@@ -200,7 +200,7 @@ TEST(Function, FaultsPointIntoTheText) {
 }
 
 TEST(Function, ThroughDifferentiatedNumbers) {
-  const auto f = make(formula("T**3"));
+  const auto f = make(formula_card("T**3"));
   Dual<2> x(2.0);
   x.d = {1, 3};
   const Dual<2> y = evaluate(*f, x), dy = evaluate(*f, x, 1), area = evaluate_integral(*f, x);

@@ -7,13 +7,13 @@
 #include <numbers>
 #include <random>
 
+#include "math/angle.hpp"
+
 namespace engrane {
 
 using namespace elements::gears;
 
 namespace {
-
-constexpr double deg = std::numbers::pi / 180;
 
 double largest(const Mat3& m) { return m.cwiseAbs().maxCoeff(); }
 
@@ -21,9 +21,9 @@ GearDesign design(std::array<int, 2> teeth, double module, std::array<double, 2>
   GearDesign d;
   d.teeth = teeth;
   d.normal_module = module;
-  d.pressure_angle = 20 * deg;
-  d.cone = {cone[0] * deg, cone[1] * deg};
-  d.helix = {paper_helix(helix[0] * deg, d.cone[0]), paper_helix(helix[1] * deg, d.cone[1])};
+  d.pressure_angle = 20 * degree;
+  d.cone = {cone[0] * degree, cone[1] * degree};
+  d.helix = {paper_helix(helix[0] * degree, d.cone[0]), paper_helix(helix[1] * degree, d.cone[1])};
   return d;
 }
 
@@ -35,7 +35,7 @@ Vec3 place_of_b(const GearDesign& d, const Mat3& mu) {
 TEST(GearGeometry, ToothAxesAreRotations) {
   for (const double cone : {0.0, 30.0, -79.0, 180.0, 150.0})
     for (const double helix : {0.0, 25.0, -60.0}) {
-      const Mat3 Y = tooth_axes(cone * deg, helix * deg), Y_b = mating_tooth_axes(cone * deg, helix * deg);
+      const Mat3 Y = tooth_axes(cone * degree, helix * degree), Y_b = mating_tooth_axes(cone * degree, helix * degree);
       EXPECT_LT(largest(Y * Y.transpose() - Mat3::Identity()), 1e-15);
       EXPECT_NEAR(Y.determinant(), 1, 1e-15);
       EXPECT_NEAR(Y_b.determinant(), 1, 1e-15);
@@ -45,10 +45,10 @@ TEST(GearGeometry, ToothAxesAreRotations) {
 TEST(GearGeometry, RightHandToothIsARightHandScrew) {
   // a right-hand screw: going out along the axle, the tooth turns in the positive sense about the way it goes
   for (const double cone : {0.0, 40.0, -40.0}) {
-    const Vec3 tooth = tooth_axes(cone * deg, paper_helix(20 * deg, cone * deg)).col(0);
+    const Vec3 tooth = tooth_axes(cone * degree, paper_helix(20 * degree, cone * degree)).col(0);
     EXPECT_GT(tooth[0] * tooth[2], 0) << cone;
   }
-  const Vec3 ring = tooth_axes(180 * deg, paper_helix(20 * deg, 180 * deg)).col(0);
+  const Vec3 ring = tooth_axes(180 * degree, paper_helix(20 * degree, 180 * degree)).col(0);
   EXPECT_GT(ring[0] * ring[2], 0);
 }
 
@@ -76,8 +76,8 @@ TEST(GearGeometry, RandomCrossedPairsClose) {
     GearDesign d;
     d.teeth = {5 + static_cast<int>(40 * std::abs(u(random))), 5 + static_cast<int>(40 * std::abs(u(random)))};
     d.normal_module = 1 + u(random) / 2;
-    d.cone = {80 * deg * u(random), 80 * deg * u(random)};
-    d.helix = {60 * deg * u(random), 60 * deg * u(random)};
+    d.cone = {80 * degree * u(random), 80 * degree * u(random)};
+    d.helix = {60 * degree * u(random), 60 * degree * u(random)};
     const Mat3 mu = Eigen::Quaterniond(u(random), u(random), u(random), u(random)).normalized().toRotationMatrix();
     const Vec3 x_a(u(random), u(random), u(random)), x_b = x_a + place_of_b(d, mu), axle = mu.col(0);
     const Closure c = closure(d, x_a, x_b, axle);
@@ -103,12 +103,12 @@ TEST(GearGeometry, CentreDistances) {
   EXPECT_NEAR(closure(design({60, 20}, 2, {180, 0}, {0, 0}), {0, 0, 0}, {1, 0, 0}, z).distance_needed, 40, 1e-13);
   EXPECT_NEAR(closure(design({25, 25}, 2, {0, 180}, {0, 0}), {0, 0, 0}, {1, 0, 0}, z).distance_needed, 0, 1e-13);
   // helical: m_n (z_A + z_B)/(2 cosβ)
-  EXPECT_NEAR(closure(design({20, 40}, 2, {0, 0}, {15, -15}), {0, 0, 0}, {1, 0, 0}, z).distance_needed, 60 / std::cos(15 * deg),
-              1e-13);
+  EXPECT_NEAR(closure(design({20, 40}, 2, {0, 0}, {15, -15}), {0, 0, 0}, {1, 0, 0}, z).distance_needed,
+              60 / std::cos(15 * degree), 1e-13);
 }
 
 TEST(GearGeometry, PaperBevelCloses) {
-  const auto d = design({50, 10}, 0.2, {-std::atan(5) / deg, -std::atan(0.2) / deg}, {0, 0});
+  const auto d = design({50, 10}, 0.2, {-std::atan(5) / degree, -std::atan(0.2) / degree}, {0, 0});
   EXPECT_NEAR(d.radius(0), 5, 1e-15);
   const Closure c = closure(d, {0, 0, 0}, {0, 1, 5}, {0, 1, 0});
   EXPECT_LT(c.misfit(), 1e-15);
@@ -119,18 +119,18 @@ TEST(GearGeometry, PaperBevelCloses) {
 }
 
 TEST(GearGeometry, ConesOfShaftAngle) {
-  const auto right = cones_of_shaft_angle(90 * deg, {50, 10});
+  const auto right = cones_of_shaft_angle(90 * degree, {50, 10});
   EXPECT_NEAR(right[0], std::atan(5), 1e-15);
   EXPECT_NEAR(right[1], std::atan(0.2), 1e-15);
   for (const double shaft : {40.0, 75.0, 110.0, 150.0}) {
-    const auto g = cones_of_shaft_angle(shaft * deg, {17, 31});
-    EXPECT_NEAR(g[0] + g[1], shaft * deg, 1e-15);
+    const auto g = cones_of_shaft_angle(shaft * degree, {17, 31});
+    EXPECT_NEAR(g[0] + g[1], shaft * degree, 1e-15);
     EXPECT_NEAR(std::sin(g[0]) / std::sin(g[1]), 17.0 / 31, 1e-15);
   }
 }
 
 TEST(GearGeometry, ShaftAngleOfAxles) {
-  EXPECT_NEAR(shaft_angle_of_axles({0, 0, 0}, {0, 1, 0}, {0, 1, 5}, {0, 0, 1}).value(), 90 * deg, 1e-15);
+  EXPECT_NEAR(shaft_angle_of_axles({0, 0, 0}, {0, 1, 0}, {0, 1, 5}, {0, 0, 1}).value(), 90 * degree, 1e-15);
   const Vec3 b(std::sin(2), 0, std::cos(2));
   EXPECT_NEAR(shaft_angle_of_axles({0, 0, 3}, {0, 0, 1}, 2 * b, b).value(), 2, 1e-14);
   EXPECT_NEAR(shaft_angle_of_axles({0, 0, 3}, {0, 0, 1}, 2 * b, -b).value(), 2, 1e-14);
@@ -144,16 +144,16 @@ TEST(GearGeometry, ContactRatios) {
     return z * (std::tan(std::acos(z * std::cos(alpha) / (z + 2))) - std::tan(alpha));
   };
   const double two_pi = 2 * std::numbers::pi;
-  EXPECT_NEAR(contact_ratio(design({20, 40}, 3, {0, 0}, {0, 0})).value(), (half(20, 20 * deg) + half(40, 20 * deg)) / two_pi,
-              1e-14);
+  EXPECT_NEAR(contact_ratio(design({20, 40}, 3, {0, 0}, {0, 0})).value(),
+              (half(20, 20 * degree) + half(40, 20 * degree)) / two_pi, 1e-14);
   const auto ring = [](double z, double alpha) {
     return z * (std::tan(alpha) - std::tan(std::acos(z * std::cos(alpha) / (z - 2))));
   };
-  EXPECT_NEAR(contact_ratio(design({20, 60}, 3, {0, 180}, {0, 0})).value(), (half(20, 20 * deg) + ring(60, 20 * deg)) / two_pi,
-              1e-14);
+  EXPECT_NEAR(contact_ratio(design({20, 60}, 3, {0, 180}, {0, 0})).value(),
+              (half(20, 20 * degree) + ring(60, 20 * degree)) / two_pi, 1e-14);
   // a bevel pair by its virtual wheels of z/cos 45 teeth; axles that pass each other have none
-  EXPECT_NEAR(contact_ratio(design({20, 20}, 3, {45, 45}, {0, 0})).value(), half(20 * std::sqrt(2), 20 * deg) / std::numbers::pi,
-              1e-14);
+  EXPECT_NEAR(contact_ratio(design({20, 20}, 3, {45, 45}, {0, 0})).value(),
+              half(20 * std::sqrt(2), 20 * degree) / std::numbers::pi, 1e-14);
   EXPECT_FALSE(contact_ratio(design({20, 20}, 3, {0, 0}, {30, 40})));
 }
 

@@ -12,6 +12,7 @@
 #include "elements/gears/gear_report.hpp"
 #include "elements/gears/hypoid_cones.hpp"
 #include "gear_deck.hpp"
+#include "math/angle.hpp"
 
 namespace engrane {
 
@@ -20,12 +21,11 @@ using namespace elements::gears;
 namespace {
 
 using gear_deck::Deck;
-constexpr double deg = std::numbers::pi / 180;
 
 /// One pair at a skew place, B placed.
 Deck one(const std::string& card) { return {"I 1 X 3 -2 5\nI 2", "I 1 GEAR N 1 2 AXIS 0.3 -0.2 0.9 PLACE 1 1 0 " + card}; }
 
-double trade(const GearDesign& d, std::size_t wheel) { return paper_helix(d.helix[wheel], d.cone[wheel]) / deg; }
+double trade(const GearDesign& d, std::size_t wheel) { return paper_helix(d.helix[wheel], d.cone[wheel]) / degree; }
 
 TEST(GearKinds, EveryPlacedPairCloses) {
   for (const char* card :
@@ -50,16 +50,16 @@ TEST(GearKinds, ParallelAxles) {
   EXPECT_NEAR(one("KIND SPUR Z 20 40 DISTANCE 90").pair(1).design().normal_module, 3, 1e-15);
   EXPECT_NEAR(one("KIND INTERNAL Z 20 60 DISTANCE 60").pair(1).design().normal_module, 3, 1e-15);
   const GearDesign right = one("KIND HELICAL Z 20 40 MN 2 DISTANCE 65").pair(1).design();
-  EXPECT_NEAR(trade(right, 0), std::acos(60.0 / 65) / deg, 1e-12);
+  EXPECT_NEAR(trade(right, 0), std::acos(60.0 / 65) / degree, 1e-12);
   EXPECT_NEAR(trade(right, 1), -trade(right, 0), 1e-12);
-  EXPECT_NEAR(trade(one("KIND HELICAL Z 20 40 MN 2 MT 2.5 HAND LEFT").pair(1).design(), 0), -std::acos(0.8) / deg, 1e-12);
+  EXPECT_NEAR(trade(one("KIND HELICAL Z 20 40 MN 2 MT 2.5 HAND LEFT").pair(1).design(), 0), -std::acos(0.8) / degree, 1e-12);
   const GearDesign ring = one("KIND INTERNAL Z 20 60 MN 2 DISTANCE 45").pair(1).design();
-  EXPECT_NEAR(trade(ring, 0), std::acos(40.0 / 45) / deg, 1e-12);
+  EXPECT_NEAR(trade(ring, 0), std::acos(40.0 / 45) / degree, 1e-12);
   EXPECT_NEAR(trade(ring, 1), trade(ring, 0), 1e-12);  // equal hands in a ring
-  EXPECT_NEAR(one("KIND HELICAL Z 20 40 MT 2 HELIX 30").pair(1).design().normal_module, 2 * std::cos(30 * deg), 1e-15);
+  EXPECT_NEAR(one("KIND HELICAL Z 20 40 MT 2 HELIX 30").pair(1).design().normal_module, 2 * std::cos(30 * degree), 1e-15);
   // the helix may come from where the nodes are
   const Deck nodes("I 1\nI 2 X 65", "I 1 GEAR N 1 2 AXIS 0 0 1 KIND HELICAL Z 20 40 MN 2");
-  EXPECT_NEAR(trade(nodes.pair(1).design(), 0), std::acos(60.0 / 65) / deg, 1e-12);
+  EXPECT_NEAR(trade(nodes.pair(1).design(), 0), std::acos(60.0 / 65) / degree, 1e-12);
 }
 
 TEST(GearKinds, BevelSideFollowsTheNodes) {
@@ -80,9 +80,9 @@ TEST(GearKinds, CrossedHelices) {
 TEST(GearKinds, WormFromAnyTwoSizes) {
   // 2 threads, 30 teeth, transverse pitch 6 per inch, worm of 2 in (Shigley & Uicker): lead angle 9.46232221°
   const double lambda = std::atan(1.0 / 6), mx = 1.0 / 6, mn = mx * std::cos(lambda);
-  EXPECT_NEAR(lambda / deg, 9.46232221, 5e-9);
+  EXPECT_NEAR(lambda / degree, 9.46232221, 5e-9);
   const std::vector<std::pair<std::string, double>> sizes{
-      {"LAMBDA", lambda / deg},       {"Q", 12},       {"MN", mn},       {"MX", mx},
+      {"LAMBDA", lambda / degree},    {"Q", 12},       {"MN", mn},       {"MX", mx},
       {"LEAD", std::numbers::pi / 3}, {"DIAMETER", 2}, {"DISTANCE", 3.5}};
   int pairs = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i)
@@ -94,8 +94,8 @@ TEST(GearKinds, WormFromAnyTwoSizes) {
       const GearDesign& d = deck.pair(1).design();
       EXPECT_NEAR(d.radius(0), 1, 1e-13) << card;
       EXPECT_NEAR(d.radius(1), 2.5, 1e-13) << card;
-      EXPECT_NEAR(trade(d, 0), 90 - lambda / deg, 1e-11) << card;
-      EXPECT_NEAR(trade(d, 1), lambda / deg, 1e-11) << card;
+      EXPECT_NEAR(trade(d, 0), 90 - lambda / degree, 1e-11) << card;
+      EXPECT_NEAR(trade(d, 1), lambda / degree, 1e-11) << card;
       ++pairs;
     }
   EXPECT_EQ(pairs, 19);
@@ -103,7 +103,7 @@ TEST(GearKinds, WormFromAnyTwoSizes) {
   EXPECT_NEAR(trade(left, 0) + trade(left, 1), -80, 1e-12);
   // one size and the places of the nodes
   const Deck nodes("I 1\nI 2 X 3.5", "I 1 GEAR N 1 2 AXIS 0 0 1 KIND WORM STARTS 2 Z 30 DIAMETER 2");
-  EXPECT_NEAR(trade(nodes.pair(1).design(), 1), lambda / deg, 1e-10);
+  EXPECT_NEAR(trade(nodes.pair(1).design(), 1), lambda / degree, 1e-10);
 }
 
 /// The point of the line x + t e that is nearest to the line y + s f, and the distance of the lines.
@@ -123,9 +123,9 @@ TEST(GearKinds, HypoidMeetsItsConditions) {
         const GearPair& pair = deck.pair(1);
         const GearDesign& d = pair.design();
         EXPECT_NEAR(d.radius(1), 85, 1e-12) << card;
-        EXPECT_NEAR(d.radius(0), 11 * d.normal_module / (2 * std::cos(50 * deg)), 1e-12) << card;
+        EXPECT_NEAR(d.radius(0), 11 * d.normal_module / (2 * std::cos(50 * degree)), 1e-12) << card;
         const Vec3 e_p = pair.frames().mu.col(0), e_g = pair.frames().xi.col(0);
-        EXPECT_NEAR(std::acos(e_p.dot(e_g)) / deg, shaft, 1e-11) << card;
+        EXPECT_NEAR(std::acos(e_p.dot(e_g)) / degree, shaft, 1e-11) << card;
         // from the places of the nodes alone: offset, and the apex of the ring's pitch cone on its axle
         const auto [foot, distance] = nearest_point(deck.node(2), e_g, deck.node(1), e_p);
         EXPECT_NEAR(distance, std::abs(offset), 1e-11) << card;
@@ -150,10 +150,10 @@ TEST(GearKinds, HypoidExample) {
   HypoidDesign h;
   h.pinion_teeth = 11;
   h.ring_teeth = 43;
-  h.shaft_angle = 90 * deg;
-  h.pinion_spiral = 50 * deg;
+  h.shaft_angle = 90 * degree;
+  h.pinion_spiral = 50 * degree;
   h.ring_radius = 85;
-  h.ring_spiral = 31.5 * deg;
+  h.ring_spiral = 31.5 * degree;
   const auto first = hypoid_cones(h);
   ASSERT_TRUE(first);
   h.offset = first->offset;
@@ -163,13 +163,13 @@ TEST(GearKinds, HypoidExample) {
   h.ring_spiral = {};
   const auto second = hypoid_cones(h);
   ASSERT_TRUE(second);
-  EXPECT_NEAR(second->ring_spiral / deg, 31.5, 1e-11);
+  EXPECT_NEAR(second->ring_spiral / degree, 31.5, 1e-11);
   EXPECT_NEAR(second->ring_cone, first->ring_cone, 1e-13);
   // at right angles tanγ_P = cos(ψ_P − ψ_G)/tanγ_G
-  h.ring_cone = 70 * deg;
+  h.ring_cone = 70 * degree;
   h.offset = {};
-  h.ring_spiral = 31.5 * deg;
-  EXPECT_NEAR(hypoid_cones(h)->pinion_cone, std::atan(std::cos(18.5 * deg) / std::tan(70 * deg)), 1e-13);
+  h.ring_spiral = 31.5 * degree;
+  EXPECT_NEAR(hypoid_cones(h)->pinion_cone, std::atan(std::cos(18.5 * degree) / std::tan(70 * degree)), 1e-13);
 }
 
 TEST(GearKinds, HypoidWithoutOffsetIsTheSpiralBevelPair) {
@@ -243,7 +243,7 @@ TEST(GearReport, TipsOfInternalPairs) {
         GearDesign d;
         d.teeth = {ring - difference, ring};
         d.cone = {0, std::numbers::pi};
-        d.pressure_angle = alpha * deg;
+        d.pressure_angle = alpha * degree;
         EXPECT_EQ(internal_clearance(d)->tips < 0, tips_strike(ring - difference, ring, d.pressure_angle))
             << ring << " - " << difference << " at " << alpha;
       }
@@ -252,14 +252,14 @@ TEST(GearReport, TipsOfInternalPairs) {
 TEST(GearReport, InvoluteInterferenceOfInternalPairs) {
   // The path of contact ends where the line of action touches the pinion's base circle, r₁ sinα from the pitch point. With
   // addendum m that asks for z₁ ≥ z₂ − √(z₂² − 4 (z₂ − 1)/sin²α): 20.2 teeth in 60 at 20 degrees.
-  const double s = std::sin(20 * deg) * std::sin(20 * deg);
+  const double s = std::sin(20 * degree) * std::sin(20 * degree);
   for (const int ring : {50, 60, 80, 120}) {
     const double least = ring - std::sqrt(ring * ring - 4 * (ring - 1) / s);
     for (const int pinion : {static_cast<int>(std::floor(least)), static_cast<int>(std::ceil(least))}) {
       GearDesign d;
       d.teeth = {pinion, ring};
       d.cone = {0, std::numbers::pi};
-      d.pressure_angle = 20 * deg;
+      d.pressure_angle = 20 * degree;
       EXPECT_EQ(internal_clearance(d)->involute < 0, pinion < least) << pinion << " in " << ring;
     }
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gear_deck.hpp"
+#include "math/angle.hpp"
 
 namespace engrane {
 
@@ -20,7 +21,6 @@ using namespace elements::gears;
 namespace {
 
 using gear_deck::Deck;
-constexpr double deg = std::numbers::pi / 180;
 
 /// Difference of two phases, a turn being nothing.
 double difference(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
@@ -33,7 +33,7 @@ struct Numbers {
 Deck planetary(const std::vector<double>& angles, const Numbers& z, const std::string& teeth = "", bool planet_first = true) {
   std::string nodes, elements;
   for (std::size_t i = 0; i < angles.size(); ++i) {
-    const double r = z.sun + z.planet, a = angles[i] * deg;  // module 2
+    const double r = z.sun + z.planet, a = angles[i] * degree;  // module 2
     nodes += fmt::format("I {} X ({:.17g}) ({:.17g}) 0\n", i + 1, r * std::cos(a), r * std::sin(a));
     elements += fmt::format("I {} GEAR N 0 {} KIND SPUR Z {} {} MN 2 AXIS 0 0 1 {}\n", i + 1, i + 1, z.sun, z.planet, teeth);
     elements +=
@@ -55,7 +55,7 @@ TEST(ToothPhases, PlanetsAsParkerAndLin) {
     EXPECT_EQ(mesh(deck, 1).phase, 0);
     for (std::size_t i = 0; i < angles.size(); ++i) {
       const int id = static_cast<int>(i) + 1;
-      const double phi = angles[i] * deg;
+      const double phi = angles[i] * degree;
       EXPECT_NEAR(difference(mesh(deck, id).phase - mesh(deck, 1).phase, -z.sun * phi), 0, 1e-10);
       // counted on the ring, about +z; a planet's phase and its ring's add up to half a pitch, about opposite axles
       const double ring = planet_first ? std::numbers::pi - mesh(deck, id + 10).phase : mesh(deck, id + 10).phase;
@@ -86,7 +86,7 @@ TEST(ToothPhases, MisfitOfMisplacedPlanets) {
     const Deck deck = planetary({0, 120 + off, 240}, z, "KM 1e5");
     EXPECT_FALSE(deck.diagnostics.has_errors());
     EXPECT_TRUE(deck.warned("miss each other"));
-    EXPECT_NEAR(std::abs(mesh(deck, 12).misfit), (z.sun + z.ring) * std::abs(off) * deg * 2 / 2, 1e-10);
+    EXPECT_NEAR(std::abs(mesh(deck, 12).misfit), (z.sun + z.ring) * std::abs(off) * degree * 2 / 2, 1e-10);
     EXPECT_EQ(mesh(deck, 11).misfit, 0);
     EXPECT_EQ(mesh(deck, 13).misfit, 0);
     EXPECT_EQ(mesh(deck, 12).misfit < 0, mesh(planetary({0, 120 + 2 * off, 240}, z, "KM 1e5"), 12).misfit < 0);
@@ -102,7 +102,7 @@ TEST(ToothPhases, MisfitOfMisplacedPlanets) {
 TEST(ToothPhases, BevelDifferential) {
   // Two side gears of 18 teeth and pinions of 12: (18 + 18)·angle/360 must be an integer
   const auto differential = [](double angle) {
-    const double a = angle * deg;
+    const double a = angle * degree;
     return Deck(fmt::format("I 1 Z 24\nI 2 Z -24\nI 3 X 36\nI 4 X ({:.17g}) ({:.17g}) 0", 36 * std::cos(a), 36 * std::sin(a)),
                 "I 1 GEAR N 1 3 KIND BEVEL Z 18 12 MN 4 AXIS 0 0 1\nI 2 GEAR N 1 4 KIND BEVEL Z 18 12 MN 4 AXIS 0 0 1\n"
                 "I 3 GEAR N 2 3 KIND BEVEL Z 18 12 MN 4 AXIS 0 0 1\nI 4 GEAR N 2 4 KIND BEVEL Z 18 12 MN 4 AXIS 0 0 1\n");

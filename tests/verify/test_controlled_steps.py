@@ -407,3 +407,50 @@ def test_two_corners_close_together(tmp_path: Path, scheme: str, tolerance: floa
         exact = ramp(done.t - 1) - ramp(done.t - 1 - rise)
         errors.append(np.sqrt(np.mean((done["node/1/UX"] - exact) ** 2)) / np.ptp(exact))
     assert errors[0] < 1.2 * errors[1] < 300 * tolerance
+
+
+STOPPED = """.UNIT SI
+.NOE
+ I 1 X 0 0 0
+.MCE
+ I 1 INERTIA N 1 M 2
+ I 2 SPRING N 0 1 {spring}
+ I 3 STOP N 0 1 NORMAL 1 0 0 MIN {lower} MAX {upper} K 1E6
+.CLM
+ FIX NOEUD 1 C 2 3
+.INI
+ VIT NOEUD 1 C 1 V {speed}
+.SAM TYPE DYNAMIC SCHEME {scheme} PLANE NO
+.SUB TF 2 H 0.01 TOL {tolerance}
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize("spring", ["K 200 AT -1 0 0", "K 200 0 0"], ids=["length", "no_length"])
+@pytest.mark.parametrize(("scheme", "tolerance"), [("RADAU", 1e-6), ("CHUNG", 1e-5)])
+def test_limits_of_stops_that_are_out_of_reach(
+    tmp_path: Path, scheme: str, tolerance: float, spring: str
+) -> None:
+    """A limit that says there is none is no length of the model, and changes neither steps nor results."""
+    places = []
+    for lower in ("-1E3", "-1E9"):
+        deck = STOPPED.format(
+            spring=spring, lower=lower, upper=5, speed=1, scheme=scheme, tolerance=tolerance
+        )
+        done = run(deck, tmp_path)
+        places.append(done["node/1/UX"])
+        error = np.sqrt(np.mean((places[-1] - 0.1 * np.sin(10 * done.t)) ** 2)) / 0.2
+        assert error < 100 * tolerance
+        assert "so stiff" not in (tmp_path / "deck.lst").read_text(encoding="utf-8")
+        assert np.array_equal(places[-1], places[0])
+
+
+@pytest.mark.parametrize("upper", [1e-6, 1e9])
+def test_small_limits_of_stops_tell_that_motions_are_small(tmp_path: Path, upper: float) -> None:
+    """Motions of a tenth of a gap, in a model without another length."""
+    deck = STOPPED.format(
+        spring="K 200 0 0", lower=-1e-6, upper=upper, speed=1e-6, scheme="RADAU", tolerance=1e-6
+    )
+    done = run(deck, tmp_path)
+    error = done["node/1/UX"] - 1e-7 * np.sin(10 * done.t)
+    assert np.sqrt(np.mean(error**2)) < 1e-6 * 2e-7

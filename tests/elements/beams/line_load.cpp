@@ -18,7 +18,7 @@ FunctionMap waves() {
 }
 
 const FunctionMap functions = waves();
-const NodeMap bow = {{1, {0, 0, 0}}, {2, {0.9, 0.3, -0.2}}, {3, {1.6, 0.9, 0.1}}};
+const NodeMap arc = {{1, {0, 0, 0}}, {2, {0.9, 0.3, -0.2}}, {3, {1.6, 0.9, 0.1}}};
 
 LineLoadData load_on(std::vector<int> nodes, const Vec3& load, bool follow) {
   LineLoadData data;
@@ -33,11 +33,11 @@ TEST(LineLoad, Suite) {
     for (const bool follow : {false, true}) {
       Subject s;
       s.name = std::to_string(nodes.size()) + " nodes" + (follow ? ", follower" : "");
-      for (const int id : nodes) s.nodes[id] = bow.at(id);
+      for (const int id : nodes) s.nodes[id] = arc.at(id);
       s.build = [=](const Mat3& Q) {
         LineLoadData data = load_on(nodes, Q * Vec3(3, -1, 2), follow);
         data.function = 1;
-        return build(line_load_type(), data, turned(bow, Q), {.functions = &functions});
+        return build(line_load_type(), data, turned(arc, Q), {.functions = &functions});
       };
       s.skip[Check::lagrange] = "an applied force has no potential";
       s.skip[Check::zero] = "an applied force acts at rest";

@@ -15,7 +15,7 @@ namespace {
 
 using namespace suite;
 
-Mat3 tensor() {
+Mat3 body_tensor() {
   Mat3 J;
   J << 2.1, 0.2, -0.3, 0.2, 1.7, 0.4, -0.3, 0.4, 2.6;
   return J;
@@ -32,7 +32,7 @@ Subject subject(std::string name, const std::vector<int>& nodes, double mass = 0
     data.nodes = nodes;
     if (mass > 0) {
       data.mass = {mass};
-      const Mat3 t = mass * size * size * Q * tensor() * Q.transpose();
+      const Mat3 t = mass * size * size * Q * body_tensor() * Q.transpose();
       data.tensor = {t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0)};
       const Vec3 center = size * Q * Vec3(0.2, 0.3, -0.1);
       data.centers = {center[0], center[1], center[2]};

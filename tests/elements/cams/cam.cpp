@@ -11,6 +11,7 @@
 #include "elements/cams/profiles.hpp"
 #include "elements/jets.hpp"
 #include "elements/suite.hpp"
+#include "math/angle.hpp"
 #include "math/rotation.hpp"
 
 namespace engrane::elements::cams {
@@ -18,7 +19,7 @@ namespace {
 
 using namespace suite;
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+using std::numbers::pi;
 std::array<double, 3> list(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 std::vector<double> oval_table() {

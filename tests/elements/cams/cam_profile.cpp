@@ -15,7 +15,7 @@ namespace {
 
 using namespace suite;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 CamProfile star_profile() {
   const std::vector<double> polar = star();

@@ -8,14 +8,13 @@
 
 #include "elements/grip_states.hpp"
 #include "elements/suite.hpp"
+#include "math/angle.hpp"
 #include "math/rotation.hpp"
 
 namespace engrane::elements::gears {
 namespace {
 
 using namespace suite;
-
-constexpr double deg = std::numbers::pi / 180;
 
 struct Case {
   std::string name;
@@ -24,7 +23,7 @@ struct Case {
 
   double radius() const {
     const double helix = data.helix.empty() ? 0 : data.helix[0];
-    return 0.5 * data.teeth * data.normal_module / std::cos(helix * deg);
+    return 0.5 * data.teeth * data.normal_module / std::cos(helix * degree);
   }
   std::unique_ptr<Element> build(const Mat3& Q, const BuildOptions& options = {}) const {
     RackData turned = data;
@@ -49,7 +48,7 @@ Case rack(std::string name, std::vector<double> helix, bool reversed = false) {
   c.data.helix = helix;
   c.data.axis = {0, 0, 1};
   // crossed helices turn the rack in the pitch plane by their sum
-  const double sum = helix.size() > 1 ? (helix[0] + helix[1]) * deg : 0;
+  const double sum = helix.size() > 1 ? (helix[0] + helix[1]) * degree : 0;
   c.data.direction = {std::cos(sum), 0, -std::sin(sum)};
   if (reversed)
     for (double& d : c.data.direction) d = -d;

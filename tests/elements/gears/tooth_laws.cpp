@@ -10,13 +10,14 @@
 #include "elements/gears/mesh_stiffness.hpp"
 #include "elements/jets.hpp"
 #include "elements/suite.hpp"
+#include "math/angle.hpp"
 
 namespace engrane::elements::gears {
 namespace {
 
 using test::expect_jet, test::slope;
 
-constexpr double pi = std::numbers::pi, deg = pi / 180;
+using std::numbers::pi;
 
 MeshStiffness square(double contact_ratio, double edge) {
   MeshStiffness course;
@@ -62,13 +63,13 @@ TEST(MeshStiffness, FourierAndTable) {
 TEST(MeshStiffness, Iso6336) {
   IsoMesh mesh;
   mesh.teeth = {40, 20};  // the pinion may be either wheel
-  mesh.pressure_angle = 20 * deg;
+  mesh.pressure_angle = 20 * degree;
   mesh.contact_ratio = 1.6353;
   mesh.width = 0.02;
   mesh.E = {206e9, 206e9};
   // by hand: q' = 0.04723 + 0.15551/20 + 0.25791/40 = 0.06145325 mm µm/N, c' = 0.8·0.975/q' = 12.6926 N/(mm µm), within a
   // tenth of the 14 that the norm gives for a first estimate; c_γ = c' (0.75·1.6353 + 0.25) = 18.7402
-  EXPECT_NEAR(iso_mesh_stiffness(mesh), 18.7402e9 * 0.02 * std::pow(std::cos(20 * deg), 2), 1e-5 * 18.7e9 * 0.02);
+  EXPECT_NEAR(iso_mesh_stiffness(mesh), 18.7402e9 * 0.02 * std::pow(std::cos(20 * degree), 2), 1e-5 * 18.7e9 * 0.02);
   const double steel = iso_mesh_stiffness(mesh);
   mesh.E[1] = 206e9 / 3;  // 2 E₁E₂/(E₁ + E₂) = E/2
   EXPECT_NEAR(iso_mesh_stiffness(mesh), steel / 2, 1e-9 * steel);
@@ -79,9 +80,9 @@ TEST(MeshStiffness, Iso6336) {
   EXPECT_GT(iso_mesh_stiffness(mesh), steel / 1000);
   // helical: cosβ/q′(z_n) along the line of action, (cosα_t/cosβ)² along the circumference
   mesh.ring = {false, false};
-  mesh.helix = 30 * deg;
-  const double c = std::cos(30 * deg), q = 0.04723 + 0.15551 * c * c * c / 20 + 0.25791 * c * c * c / 40;
-  const double alpha_t = std::atan(std::tan(20 * deg) / c);
+  mesh.helix = 30 * degree;
+  const double c = std::cos(30 * degree), q = 0.04723 + 0.15551 * c * c * c / 20 + 0.25791 * c * c * c / 40;
+  const double alpha_t = std::atan(std::tan(20 * degree) / c);
   const double expected = 0.78 * c / q * (0.75 * 1.6353 + 0.25) * 1e3 * 20 * std::pow(std::cos(alpha_t) / c, 2);
   EXPECT_NEAR(iso_mesh_stiffness(mesh), expected, 1e-9 * expected);
 }
@@ -106,9 +107,9 @@ TEST(ToothLaws, FlanksOpenByTheInvolute) {
   GearDesign design;
   design.teeth = {20, 40};
   design.normal_module = 2;
-  design.pressure_angle = 20 * deg;
+  design.pressure_angle = 20 * degree;
   for (const bool internal : {false, true})
-    for (const double helix : {0.0, 18 * deg}) {
+    for (const double helix : {0.0, 18 * degree}) {
       design.cone = {0, internal ? pi : 0};
       design.helix = {helix, -helix};
       const ContactGeometry g = contact_geometry(design, 20);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "elements/loads/waves.hpp"
 #include "elements/suite.hpp"
 #include "math/rotation.hpp"
 
@@ -11,13 +12,6 @@ namespace {
 
 using namespace suite;
 
-FunctionMap waves() {
-  FunctionMap functions;
-  functions[1] = std::make_unique<Wave>(0.3, 0.7, 1.9, 0.4);
-  return functions;
-}
-
-const FunctionMap functions = waves();
 const NodeMap places = {{0, Vec3::Zero()}, {1, {1, 0.2, -0.3}}, {2, {-0.5, 0.4, 0.8}}};
 
 std::array<double, 3> components(const Vec3& v) { return {v[0], v[1], v[2]}; }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "elements/loads/waves.hpp"
 #include "elements/suite.hpp"
 #include "math/rotation.hpp"
 
@@ -12,14 +13,6 @@ namespace {
 using namespace suite;
 
 const Vec3 axis(0.3, -0.5, 0.7);
-
-FunctionMap waves() {
-  FunctionMap functions;
-  functions[1] = std::make_unique<Wave>(0.3, 0.7, 1.9, 0.4);
-  return functions;
-}
-
-const FunctionMap functions = waves();
 
 Subject subject(const std::vector<int>& ends, bool follow, bool fixed) {
   Subject s;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "elements/common/rotation_vector.hpp"
+#include "elements/springs/places.hpp"
 #include "elements/suite.hpp"
 #include "math/rotation.hpp"
 
@@ -13,8 +14,6 @@ namespace engrane::elements::springs {
 namespace {
 
 using namespace suite;
-
-const NodeMap places = {{0, Vec3::Zero()}, {1, {1, 0.2, -0.3}}, {2, {-0.5, 0.4, 0.8}}};
 
 /// A positive matrix that couples everything: L Lᵀ of a lower triangle, as the upper triangle by rows.
 std::vector<double> coupled(double size) {
@@ -28,8 +27,6 @@ std::vector<double> coupled(double size) {
     for (Eigen::Index j = i; j < 6; ++j) values.push_back(m(i, j));
   return values;
 }
-
-std::array<double, 3> list(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 Subject subject(std::array<int, 2> ends, const std::vector<double>& stiffness, const std::vector<double>& damping) {
   Subject s;

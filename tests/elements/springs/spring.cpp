@@ -5,14 +5,13 @@
 
 #include <cmath>
 
+#include "elements/springs/places.hpp"
 #include "elements/suite.hpp"
 
 namespace engrane::elements::springs {
 namespace {
 
 using namespace suite;
-
-const NodeMap places = {{0, Vec3::Zero()}, {1, {1, 0.2, -0.3}}, {2, {-0.5, 0.4, 0.8}}};
 
 Subject line(std::array<int, 2> ends, double stiffness, double damping, double size = 1) {
   Subject s;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "elements/common/stop_law.hpp"
+#include "elements/springs/places.hpp"
 #include "elements/suite.hpp"
 #include "math/rotation.hpp"
 
@@ -15,10 +16,7 @@ namespace {
 
 using namespace suite;
 
-const NodeMap places = {{0, Vec3::Zero()}, {1, {1, 0.2, -0.3}}, {2, {-0.5, 0.4, 0.8}}};
-
 enum class Kind { distance, angle, height };
-std::array<double, 3> list(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 /// Limits so far out that every state is pressed against them (`pressed`) or against none.
 Subject subject(Kind kind, std::array<int, 2> ends, double exponent, const deck::Tagged& damping, bool pressed, bool upper) {
