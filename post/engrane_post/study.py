@@ -16,6 +16,7 @@ from .reading import text
 from .results import Results
 from .runs import Pool, Run
 from .study_deck import (
+    Card,
     Deck,
     Ladder,
     Rung,
@@ -175,7 +176,7 @@ class Study:
         """The settings and steps to try."""
         texts = list(self.args.schemes or SCHEMES)
         if not self.args.schemes and self.deck.scheme not in ("CHUNG", "RADAU"):
-            texts.append(self.deck.title)
+            texts.append(self.deck.setting)
         out = []
         for words in texts:
             setting = setting_of(words)
@@ -216,11 +217,20 @@ class Study:
     def attempt(self, ladder: Ladder, rung: Rung, solver: str, interval: float) -> Attempt:
         """A run to be made."""
         sam, sub = self.deck.sam_card(ladder.sam, solver), self.deck.sub_card(rung)
-        cards = (sam, sub, self.deck.sai_card(interval, self.keep))
+        return self._attempt(ladder, rung, solver, (sam, sub), self.deck.sai_card(interval, self.keep))
+
+    def own_attempt(self, own: Ladder, solver: str, interval: float) -> Attempt:
+        """A run of the deck as it is, with this solver."""
+        cards = (self.deck.own_sam_card(solver), self.deck.sub)
+        return self._attempt(own, own.rungs[0], solver, cards, self.deck.own_sai_card(interval, self.keep))
+
+    def _attempt(
+        self, ladder: Ladder, rung: Rung, solver: str, cards: tuple[Card, Card], samples: Card
+    ) -> Attempt:
         self.count += 1
-        words = [*self.words, *(w for card in cards for w in ("--card", card.text))]
+        words = [*self.words, *(w for card in (*cards, samples) for w in ("--card", card.text))]
         run = Run(f"{ladder.title}, {rung.title}, {solver}", words, self.folder / f"{self.count:03}")
-        return Attempt(ladder, rung, solver, (sam, sub), run)
+        return Attempt(ladder, rung, solver, cards, run)
 
     def measure(self, attempts: Sequence[Attempt], what: str) -> None:
         """Makes the runs; short ones again, in turn, for the least time."""
@@ -333,7 +343,7 @@ def run(args: argparse.Namespace) -> int:
             study.try_settings(ladders, solvers[0])
         interval = study.find_interval(ladders)
         own = study.deck.own()
-        attempts = [study.attempt(own, own.rungs[0], solver, interval) for solver in solvers]
+        attempts = [study.own_attempt(own, solver, interval) for solver in solvers]
         study.measure(attempts, "solvers ")
         good = [a for a in attempts if a.run.solved] or attempts[:1]
         solver = min(good, key=lambda a: a.seconds).solver
@@ -356,7 +366,7 @@ def run(args: argparse.Namespace) -> int:
     introduce(study, truth)
     study_report.print_table(attempts, truth)
     targets = sorted({*TARGETS, args.error}, reverse=True)
-    study_report.print_recommendation(attempts, truth, targets, best, args.error)
+    study_report.print_recommendation(attempts, truth, targets, best, args.error, study.deck.accuracy)
     print()
     study_report.write_table(output + ".csv", attempts, truth)
     from . import study_plot  # matplotlib takes a while to load

@@ -17,6 +17,8 @@ from .errors import UserError
 
 #: keywords of .SAM that a setting speaks of, each with one value
 SETTING = ("SCHEME", "RHO", "ALPHA", "TANGENT", "SOLVER")
+#: keyword of .SAM by which the program chooses scheme, steps and solver; it goes where a setting is given
+ACCURACY = "ACCURACY"
 DAMPING = ("RHO", "ALPHA")
 #: keywords of .SUB about steps that the program chooses; they go where steps are given
 CHOSEN_STEPS = ("TOL", "HMAX")
@@ -86,6 +88,23 @@ def read_card(deck_text: str, name: str, schema: Schema) -> Card | None:
     return Card(name, tuple(items.items()))
 
 
+def read_defaults(deck_text: str, name: str, schema: Schema) -> Card:
+    """What the program chose where the card says nothing: the comments `! by default:` below it."""
+    words: list[str] = [name]
+    inside = listed = False
+    for line in deck_text.splitlines():
+        bare = line.lstrip()
+        if line.startswith("."):
+            inside, listed = line.split(" ")[0] == name, False
+        elif inside and bare.startswith("!"):
+            listed = listed or bare.startswith("! by default:")
+            if listed:
+                words.append(bare.removeprefix("!").strip().removeprefix("by default:"))
+        else:
+            listed = False
+    return Card(name, tuple(_items(" ".join(words), schema[name])))
+
+
 def _items(words: str, keywords: dict) -> list[tuple[str, tuple[str, ...]]]:
     """Keywords of a card with their values."""
     items: list[tuple[str, list[str]]] = []
@@ -108,7 +127,7 @@ class Rung:
 
     @property
     def title(self) -> str:
-        return " ".join(f"{word} {value}" for word, value in self.sub.items())
+        return " ".join(f"{word} {value}" for word, value in self.sub.items()) or "chosen"
 
 
 @dataclass(frozen=True)
@@ -151,7 +170,7 @@ def setting_of(text: str) -> dict[str, str]:
             f"--schemes: `{text}` is not a scheme and keywords of .SAM, such as CHUNG TANGENT KEPT."
         )
     pairs = dict(zip(words[1::2], words[2::2], strict=True))
-    wrong = [word for word in pairs if word in ("TYPE", "SOLVER", "SCHEME")]
+    wrong = [word for word in pairs if word in ("TYPE", "SOLVER", "SCHEME", ACCURACY, "EXACTITUDE")]
     if wrong:
         raise UserError(
             f"--schemes: {wrong[0]} is no part of a setting"
@@ -221,6 +240,7 @@ class Deck:
 
     def __init__(self, text: str, schema: Schema) -> None:
         self.sam = read_card(text, ".SAM", schema) or Card(".SAM")
+        self.chosen = read_defaults(text, ".SAM", schema)
         self.sub = read_card(text, ".SUB", schema) or Card(".SUB", (("TF", ("1",)), ("H", ("0.1",))))
         self.sai = read_card(text, ".SAI", schema) or Card(".SAI")
 
@@ -230,11 +250,17 @@ class Deck:
 
     @property
     def scheme(self) -> str:
-        return self.sam.get("SCHEME") or "CHUNG"
+        return self.sam.get("SCHEME") or self.chosen.get("SCHEME") or "CHUNG"
 
     @property
     def solver(self) -> str:
-        return self.sam.get("SOLVER") or "MUMPS"
+        return self.sam.get("SOLVER") or self.chosen.get("SOLVER") or "MUMPS"
+
+    @property
+    def accuracy(self) -> str:
+        """`ACCURACY NORMAL`; empty for a deck that sets its steps itself."""
+        value = self.sam.get(ACCURACY)
+        return f"{ACCURACY} {value}" if value else ""
 
     @property
     def step(self) -> float:
@@ -253,19 +279,44 @@ class Deck:
         return self.end - self.start
 
     @property
+    def setting(self) -> str:
+        """The deck's scheme with its keywords, as --schemes takes them."""
+        given = [(word, self.sam.get(word)) for word in SETTING[1:-1] if self.sam.get(word)]
+        return " ".join([self.scheme, *(f"{word} {value}" for word, value in given)])
+
+    @property
     def title(self) -> str:
-        """What the deck itself says of scheme and solver."""
-        given = [(word, self.sam.get(word)) for word in SETTING if word != "SOLVER" and self.sam.get(word)]
-        return " ".join(f"{w} {v}" if w != "SCHEME" else v for w, v in given) or self.scheme
+        """What the deck itself says of scheme and accuracy."""
+        if not self.accuracy:
+            return self.setting
+        says = any(self.sam.get(word) for word in SETTING[:-1])
+        return f"{self.setting} {self.accuracy}" if says else self.accuracy
 
     def own(self) -> Ladder:
-        """What the deck says, as a ladder of one run."""
-        sam = {word: self.sam.get(word) for word in SETTING[:-1] if self.sam.get(word)}
-        rung = {word: self.sub.get(word) for word in ("H", "TOL") if self.sub.get(word)}
-        return Ladder(f"the deck: {self.title}", {"SCHEME": self.scheme} | sam, [Rung(rung, self.step)])
+        """What the deck says, as a ladder of one run. With ACCURACY, H is no step."""
+        words = ("TOL",) if self.accuracy else ("H", "TOL")
+        rung = {word: self.sub.get(word) for word in words if self.sub.get(word)}
+        return Ladder(f"the deck: {self.title}", {"SCHEME": self.scheme}, [Rung(rung, self.step)])
+
+    def own_sam_card(self, solver: str) -> Card:
+        """The deck's .SAM as it is, but for the solver."""
+        return self.sam if solver == self.solver else self.sam.replaced(SOLVER=solver)
+
+    def own_sai_card(self, sample: float, keep: str | None) -> Card:
+        """Where the deck is run as it is. ACCURACY judges what is kept, at the instants where it is kept: it
+        stays so as far as samples at these intervals allow."""
+        if not self.accuracy:
+            return self.sai_card(sample, keep)
+        chosen = Card(".SAI", (("KEEP", (keep,)),)) if keep == "ALL" else self.sai.only(*SELECTION)
+        history = self.sai.only("HISTORY")
+        multiple = sample / self.step
+        if keep != "NONE" and (history.items or abs(multiple - round(multiple)) > 1e-6 or multiple < 0.5):
+            history = Card(".SAI", (("HISTORY", ("DT", number(sample))),))
+        return Card(".SAI", (("FIELDS", ("DT", number(self.span))), *history.items, *chosen.items))
 
     def sam_card(self, setting: dict[str, str], solver: str) -> Card:
-        """The deck's .SAM with another setting. Damping stays where the scheme does."""
+        """The deck's .SAM with another setting. Damping stays where the scheme does. ACCURACY goes, since
+        with it H is no step; the plane that it chose stays, which changes costs and not errors."""
         kept = [
             w for w in DAMPING if setting["SCHEME"] == self.scheme and w not in setting and self.sam.get(w)
         ]
@@ -273,7 +324,10 @@ class Deck:
         words |= {w: v for w, v in setting.items() if not (w == "TANGENT" and v == "FULL")}
         if solver != "MUMPS" or self.sam.get("SOLVER"):
             words["SOLVER"] = solver
-        rest = self.sam.without(*SETTING, *words)
+        plane = self.chosen.get("PLANE")
+        if self.accuracy and plane and not self.sam.get("PLANE"):
+            words.setdefault("PLANE", plane)
+        rest = self.sam.without(*SETTING, ACCURACY, *words)
         first = [("TYPE", ("DYNAMIC",)), *((w, (v,)) for w, v in words.items())]
         return Card(".SAM", (*first, *rest.without("TYPE").items))
 

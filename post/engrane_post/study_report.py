@@ -186,9 +186,15 @@ def write_table(path: str, attempts: Sequence[Attempt], truth: Truth) -> None:
 
 
 def print_recommendation(
-    attempts: Sequence[Attempt], truth: Truth, targets: Sequence[float], chosen: Attempt | None, target: float
+    attempts: Sequence[Attempt],
+    truth: Truth,
+    targets: Sequence[float],
+    chosen: Attempt | None,
+    target: float,
+    accuracy: str = "",
 ) -> None:
-    """The cheapest setting for each error, and the two cards of the chosen one."""
+    """The cheapest setting for each error, and the two cards of the chosen one, which have no ACCURACY where
+    the deck has."""
     print("\nThe cheapest setting for an error of at most\n")
     rows = []
     own = attempts[0]
@@ -218,6 +224,8 @@ def print_recommendation(
     print(f"\nFor an error of {short(target)}, in the place of the deck's own cards:\n")
     for card in chosen.cards:
         print(card.text)
+    if accuracy:
+        print(f"\nThey set scheme and steps in the place of {accuracy}, and estimate no error.")
     if "TOL" in chosen.rung.sub:
         return
     print()

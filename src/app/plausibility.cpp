@@ -7,8 +7,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "model/solver_options.hpp"
 
 namespace engrane::app {
 
@@ -117,7 +120,48 @@ void look_at_gravity(const deck::Deck& deck, const Model& model, double extent, 
   }
 }
 
+/// A corner of a function where its value lies outside those at the ends of the step around it.
+struct Pulse {
+  double time = 0, value = 0;
+  double before = 0, after = 0;  ///< times of the ends of the step
+};
+
+/// The largest pulse of a function that lasts less than a step, if there is one.
+std::optional<Pulse> missed_pulse(const Function& function, const deck::SteppingCard& stepping) {
+  constexpr double small = 0.1;        // of the largest value
+  constexpr std::size_t most = 10000;  // corners; more are a measured curve, sampled as it may be
+  const std::vector<double> corners = function.corners(stepping.start, stepping.end, most);
+  std::optional<Pulse> found;
+  double largest = 0, outside = 0;
+  for (const double t : corners) {
+    const double h = stepping.step, k = std::floor((t - stepping.start) / h);
+    const Pulse pulse{t, function.at(t).f, stepping.start + k * h, std::min(stepping.start + (k + 1) * h, stepping.end)};
+    const double a = function.at(pulse.before).f, b = function.at(pulse.after).f;
+    largest = std::max({largest, std::abs(pulse.value), std::abs(a), std::abs(b)});
+    const double beyond = std::max(pulse.value - std::max(a, b), std::min(a, b) - pulse.value);
+    if (beyond <= outside) continue;
+    outside = beyond;
+    found = pulse;
+  }
+  return outside > small * largest ? found : std::nullopt;
+}
+
 }  // namespace
+
+void warn_of_short_pulses(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  const deck::SteppingCard& stepping = model.commands.stepping;
+  if (stepping.tolerance || accuracy_rung(model.commands.analysis) || !(stepping.end - stepping.start > stepping.step)) return;
+  for (const deck::Record& record : deck.records) {
+    if (!record.get<deck::FunctionCard>()) continue;
+    const auto function = model.functions.find(record.id);
+    if (function == model.functions.end() || !model.of_time.contains(function->second.get())) continue;
+    if (const auto pulse = missed_pulse(*function->second, stepping))
+      diagnostics.warning(record.location,
+                          fmt::format("function {} is {:.4g} at {:.6g}, and the step from {:.6g} to {:.6g} passes over that",
+                                      record.id, pulse->value, pulse->time, pulse->before, pulse->after),
+                          "take a shorter H, or TOL: steps that follow their error end at corners of functions");
+  }
+}
 
 void warn_of_unit_slips(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   const double extent = look_at_nodes(deck, model, diagnostics);

@@ -11,4 +11,8 @@ namespace engrane::app {
 /// size of bodies against that of the mechanism, single nodes far away from all others, and gravity.
 void warn_of_unit_slips(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics);
 
+/// Warns about functions of time with a pulse so short that steps of the length H pass over it. Steps that follow their error
+/// end at its corners.
+void warn_of_short_pulses(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics);
+
 }  // namespace engrane::app

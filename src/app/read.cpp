@@ -93,6 +93,7 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
   if (!building.has_errors()) {
     warn_of_undamped_constraints(reading.deck, reading.model, building);
     warn_of_undamped_beams(reading.deck, reading.model, building);
+    warn_of_short_pulses(reading.deck, reading.model, building);
   }
   if (syntax_good && !building.has_errors()) warn_of_unit_slips(reading.deck, reading.model, building);
   // errors that only result from unreadable records are dropped; errors in records that were read are still reported

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import math
 import os
 import re
@@ -81,11 +82,10 @@ def of_setting(rows: list[dict[str, str]], setting: str) -> list[dict[str, str]]
 
 # Cards
 
+OF_SAM = ("TYPE", "SCHEME", "RHO", "TANGENT", "SOLVER", "START", "PREC", "EVENTS", "RESTART")
 SCHEMA = {
-    ".SAM": {
-        w: {} for w in ["TYPE", "SCHEME", "RHO", "TANGENT", "SOLVER", "START", "PREC", "EVENTS", "RESTART"]
-    },
-    ".SUB": {"TF": {}, "H": {}, "TI": {}},
+    ".SAM": {w: {} for w in (*OF_SAM, "ACCURACY", "PLANE")},
+    ".SUB": {"TF": {}, "H": {}, "TI": {}, "TOL": {}, "HMAX": {}},
     ".SAI": {"FIELDS": {}, "NOEUD": {}, "CHANNEL": {}, "NEWTON": {"type": "boolean"}, "RESTART": {}},
 }
 
@@ -119,12 +119,47 @@ def test_a_ladder_of_tolerances_stands_beside_one_of_steps() -> None:
         ".SUB TF 1 H 0.01 TOL 1e-05",
     ]
     # and a deck with a tolerance loses it where steps are studied
-    given = {**SCHEMA, ".SUB": {**SCHEMA[".SUB"], "TOL": {}, "HMAX": {}}}
-    with_tolerance = Deck(".SUB TF 1 H 0.1 TOL 1e-03 HMAX 0.2 TI 0.5", given)
+    with_tolerance = Deck(".SUB TF 1 H 0.1 TOL 1e-03 HMAX 0.2 TI 0.5", SCHEMA)
     assert with_tolerance.sub_card(Rung({"H": "0.05"}, 0.05)).text == ".SUB TF 1 H 0.05 TI 0.5"
     other = with_tolerance.sub_card(Rung({"H": "0.05", "TOL": "1e-4"}, 1e-4))
     assert other.text == ".SUB TF 1 H 0.05 TOL 1e-4 HMAX 0.2 TI 0.5"
     assert with_tolerance.own().rungs[0].sub == {"H": "0.1", "TOL": "1e-03"}
+
+
+# as the program writes it out
+WITH_ACCURACY = """.SAM TYPE DYNAMIC ACCURACY NORMAL PREC 1e-10
+  ! by default: SCHEME RADAU SOLVER AUTO START AS_GIVEN TANGENT FULL
+  ! PLANE AUTO EVENTS YES"""
+
+
+def test_accuracy_is_of_the_deck_as_it_is() -> None:
+    deck = a_deck(WITH_ACCURACY, ".SUB TF 1 H 0.01 TOL 1e-04\n  ! by default: TI 0")
+    assert (deck.scheme, deck.solver, deck.accuracy) == ("RADAU", "AUTO", "ACCURACY NORMAL")
+    assert deck.own().title == "the deck: ACCURACY NORMAL" and deck.own().rungs[0].title == "TOL 1e-04"
+    assert deck.own_sam_card("AUTO").text == ".SAM TYPE DYNAMIC ACCURACY NORMAL PREC 1e-10"
+    assert deck.own_sam_card("KLU").text == ".SAM TYPE DYNAMIC ACCURACY NORMAL PREC 1e-10 SOLVER KLU"
+    # with another setting H is the step
+    chung = deck.sam_card({"SCHEME": "CHUNG"}, "KLU")
+    assert chung.text == ".SAM TYPE DYNAMIC SCHEME CHUNG SOLVER KLU PLANE AUTO PREC 1e-10"
+    assert deck.sam_card({"SCHEME": "RADAU", "PLANE": "NO"}, "MUMPS").get("PLANE") == "NO"
+    assert deck.sub_card(Rung({"H": "0.01"}, 0.01)).text == ".SUB TF 1 H 0.01"
+    damped = a_deck(".SAM TYPE DYNAMIC RHO 0.9 ACCURACY FINE\n  ! by default: SCHEME CHUNG SOLVER AUTO")
+    assert (damped.setting, damped.title) == ("CHUNG RHO 0.9", "CHUNG RHO 0.9 ACCURACY FINE")
+    assert damped.own().rungs[0].title == "chosen"
+    assert damped.own_sam_card("AUTO").get("SCHEME") is None, "the deck leaves it to the program"
+    assert damped.sam_card({"SCHEME": "CHUNG"}, "MUMPS").text == ".SAM TYPE DYNAMIC SCHEME CHUNG RHO 0.9"
+    # the defaults of another card are no defaults of .SAM
+    other = a_deck(".SAM TYPE DYNAMIC", ".SUB TF 1 H 0.1\n  ! by default: SCHEME RADAU")
+    assert other.scheme == "CHUNG"
+
+
+def test_accuracy_judges_what_the_deck_keeps() -> None:
+    deck = a_deck(WITH_ACCURACY, ".SUB TF 1 H 0.01", ".SAI FIELDS 0.1 NOEUD 1")
+    assert deck.own_sai_card(1, "NONE").text == ".SAI FIELDS DT 1 NOEUD 1"
+    assert deck.own_sai_card(0.08, None).text == ".SAI FIELDS DT 1 NOEUD 1", "0.08 is among its samples"
+    assert deck.own_sai_card(0.015, None).text == ".SAI FIELDS DT 1 HISTORY DT 0.015 NOEUD 1"
+    assert deck.own_sai_card(0.08, "ALL").text == ".SAI FIELDS DT 1 KEEP ALL"
+    assert a_deck(".SAM TYPE DYNAMIC").own_sai_card(1, "NONE").text.endswith("HISTORY DT 1 KEEP NONE")
 
 
 def test_samples_are_of_what_the_deck_selects() -> None:
@@ -149,7 +184,7 @@ def test_the_program_s_own_schema_has_the_keywords(program) -> None:
 def test_settings_and_steps() -> None:
     assert setting_of("scheme chung rho 0.5") == {"SCHEME": "CHUNG", "RHO": "0.5"}
     assert setting_of("RADAU") == {"SCHEME": "RADAU"}
-    for wrong in ("", "SCHEME", "RADAU PREC", "CHUNG SOLVER KLU", "CHUNG TYPE STATIC"):
+    for wrong in ("", "SCHEME", "RADAU PREC", "CHUNG SOLVER KLU", "RADAU ACCURACY FINE"):
         with pytest.raises(UserError):
             setting_of(wrong)
     assert steps_of("1e-3, 5D-4", 1) == [1e-3, 5e-4]
@@ -335,6 +370,54 @@ def test_runs_that_fail_are_told_and_passed_over(deck: Path, command) -> None:
     good = of_setting(rows, "CHUNG")
     assert all(r["outcome"] == "complete" and float(r["error"]) > 0 for r in good)
     assert re.search(r"\.SAM TYPE DYNAMIC SCHEME CHUNG.*\n\.SUB TF 0\.2 H 0\.0025", out)
+
+
+def test_a_deck_with_accuracy_runs_as_it_is_and_its_ladders_without(deck: Path, command, program) -> None:
+    own = OSCILLATOR.replace("SCHEMA CHUNG $ ! a comment", "EXACTITUDE NORMAL $").replace(" RHO 0.9", "")
+    Path("dial.dat").write_text(own)
+    words = ("study", "dial", "--solvers", "KLU", "--runs", "1", "--steps", "H:H/4")
+    status, out, err = command(*words)
+    assert (status, err) == (0, "")
+    rows = table("dial")
+    done = subprocess.run([program, "dial.dat", "-q", "--json"], capture_output=True, text=True)
+    plain = json.loads(done.stdout)["runs"][0]
+    assert rows[0]["setting"] == "the deck: ACCURACY NORMAL"
+    assert "ACCURACY NORMAL" in rows[0]["SAM"] and "SCHEME" not in rows[0]["SAM"]
+    assert [int(rows[0][k]) for k in ("steps", "iterations")] == [plain[k] for k in ("steps", "iterations")]
+    # steps are those of the ladders, and their errors fall with the order of the scheme
+    assert all("ACCURACY" not in row["SAM"] for row in rows[1:])
+    chung = of_setting(rows, "CHUNG TANGENT FULL")
+    assert [int(row["steps"]) for row in chung] == [629, 1257, 2514]
+    assert [float(row["slope"]) for row in chung[1:]] == pytest.approx([2, 2], abs=0.1)
+    assert {row["believed"] for row in chung} == {"yes"}
+    # the closed form is the judge of the deck's own error too
+    told = float(rows[0]["NODE 1 UX at t = 20"])
+    checks = {c["name"]: c["value"] for c in plain["checks"]}
+    exact = 1 - math.cos(20)
+    assert told == pytest.approx(abs(checks["NODE 1 UX at t = 20"] - exact) / exact, rel=0.06, abs=1e-8)
+    cards = [line for line in out.splitlines() if line.startswith((".SAM", ".SUB"))]
+    assert len(cards) == 2 and "ACCURACY" not in cards[0]
+    assert "in the place of ACCURACY NORMAL" in out
+    # pasted, they make the run of the table
+    text = own[: own.index(".ANALYSE")] + own[own.index(".CHK") :]
+    Path("pasted.dat").write_text(text + "\n".join(cards) + "\n")
+    done = subprocess.run([program, "pasted.dat", "-q", "--json"], capture_output=True, text=True)
+    pasted = [row for row in rows if [row["SAM"], row["SUB"]] == cards]
+    assert int(pasted[0]["steps"]) == json.loads(done.stdout)["runs"][0]["steps"]
+
+
+@pytest.mark.parametrize("words", [(), ("--channels", "1.UX"), ("--steps", "0.03,0.015")])
+def test_histories_of_a_deck_with_accuracy(deck: Path, command, words) -> None:
+    """Samples at instants common with the ladders, also where these are none of the deck's own."""
+    text = PENDULUM.replace(".SAM TYPE DYNAMIC", ".SAM TYPE DYNAMIC ACCURACY NORMAL")
+    Path("dial.dat").write_text(text.replace("TF 0.2", "TF 0.3"))
+    status, _, err = command(
+        "study", "dial", "--solvers", "AUTO", "--runs", "1", "--schemes", "RADAU", *words
+    )
+    assert (status, err) == (0, "")
+    rows = table("dial")
+    assert rows[0]["setting"] == "the deck: ACCURACY NORMAL" and rows[0]["outcome"] == "complete"
+    assert 0 <= float(rows[0]["error"]) < 1e-2
 
 
 @pytest.mark.parametrize(

@@ -329,6 +329,58 @@ TEST(ProfileShift, StiffnessOfIso6336) {
               1000 * 0.8 * 0.975 / terms(20, 1e300, 0.2, 0), 1e-6);
 }
 
+// Outside the range of the formula the result is an estimate, and the deck says so.
+TEST(ProfileShift, RangeOfIso6336) {
+  const auto pair = [](const std::string& data) {
+    return Deck(" I 1\n I 2\n", " I 1 GEAR N 1 2 AXIS 0 0 1 PLACE 1 0 0 WIDTH 30 E 206000 STIFF ISO MN 2 " + data);
+  };
+  EXPECT_TRUE(pair("Z 24 25 ADDENDUM 0.7").warned("contact ratio 1.181: the formula of STIFF ISO is given for 1.2 or more"));
+  EXPECT_TRUE(pair("Z 50 60 X 1.2 1.1").warned("a sum of profile shifts of 2.3: the formula of STIFF ISO"));
+  EXPECT_TRUE(pair("Z 50 60 X -0.3 -0.4").warned("a sum of profile shifts of -0.7: the formula of STIFF ISO"));
+  for (const char* inside : {"Z 24 25", "Z 50 60 X 1 1", "Z 50 60 X -0.3 -0.2", "Z 20 60 INTERNAL X 0.2 -1"})
+    EXPECT_FALSE(pair(inside).warned("STIFF ISO")) << inside;
+}
+
+// The conversions of backlash can be checked: j_bn = j cosα_nw, whichever of them the card gives.
+TEST(ProfileShift, BacklashIsListed) {
+  for (const char* given : {"JEU 0.05", "JEUN 0.05", "JEUA 0.05", "ASN -0.03 -0.02"}) {
+    Deck deck(" I 1\n I 2\n",
+              std::string(" I 1 GEAR N 1 2 Z 17 40 MN 3 HELIX 20 X 0.4 0.3 AXIS 0 0 1 PLACE 1 0 0 KM 1E8 ") + given);
+    const GearPair& pair = deck.pair(1);
+    EXPECT_EQ(said(pair, "backlash along the circumference"), pair.teeth().backlash);
+    EXPECT_NEAR(said(pair, "backlash normal to the flanks"), pair.teeth().backlash * std::cos(pair.design().pressure_angle),
+                1e-15);
+  }
+  Deck none(" I 1\n I 2\n", " I 1 GEAR N 1 2 Z 17 40 MN 3 AXIS 0 0 1 PLACE 1 0 0 KM 1E8");
+  for (const Derived& d : none.pair(1).derived()) EXPECT_EQ(d.name.find("backlash"), std::string::npos);
+}
+
+// The reach of the tips on the line of centres, and teeth without cut data, which are those of X 0 0.
+TEST(ProfileShift, TipsThatReachEachOther) {
+  const std::string pair = " I 1 GEAR N 1 2 AXIS 0 0 1 PLACE 1 0 0 MN 3 ";
+  const auto overlap = [&](const std::string& data) {
+    return Deck(" I 1\n I 2\n", pair + data).pair(1).design().cut->tip_overlap();
+  };
+  EXPECT_NEAR(overlap("Z 20 60 X 0 0"), 6, 1e-12);
+  EXPECT_NEAR(overlap("Z 20 60 X 0 0 INTERNAL"), 6, 1e-12);
+  EXPECT_NEAR(overlap("Z 60 20 X 0 0 INTERNAL"), 6, 1e-12);
+  EXPECT_NEAR(overlap("Z 20 60 TIP 60.4 180.2"), 0.3, 1e-12);
+  for (const char* apart : {"Z 20 60 TIP 54 174", "Z 20 60 INTERNAL TIP 56 178"}) {
+    Deck deck(" I 1\n I 2\n", pair + apart);
+    EXPECT_THROW(deck.pair(1), std::runtime_error) << apart;
+  }
+  Deck within(" I 1\n I 2\n", pair + "Z 20 60 TIP 56.2 186");
+  EXPECT_TRUE(within.warned("wheel A: its tip diameter 56.2 is within its base circle, 56.38155725"));
+  EXPECT_TRUE(within.pair(1).design().cut->without_involute(0));
+  for (const char* shift : {"", " X 0 0"}) {
+    Deck pointed(" I 1\n I 2\n", pair + "Z 20 60 ALPHA 40" + shift);
+    EXPECT_THROW(pointed.pair(1), std::runtime_error) << shift;
+    Deck thin(" I 1\n I 2\n", pair + "Z 23 25 ALPHA 33" + shift);
+    EXPECT_TRUE(thin.warned("the tips of wheel A are 0.1")) << shift;
+  }
+  EXPECT_FALSE(Deck(" I 1\n I 2\n", pair + "Z 23 25 ALPHA 33").pair(1).design().cut) << "the check makes no cut pair of it";
+}
+
 // A_sn of ISO 21771: j_bn = −ΣA_sn cosα_n, against the thinner teeth on the base circles.
 TEST(ProfileShift, ThicknessAllowancesMakeBacklash) {
   Deck deck(" I 1\n I 2\n", " I 1 GEAR N 1 2 Z 17 40 MN 3 HELIX 20 X 0.4 0.3 AXIS 0 0 1 PLACE 1 0 0 KM 1E8 ASN -0.05 -0.08");

@@ -35,10 +35,18 @@ std::vector<std::pair<std::string_view, bool>> given_cut_keywords(const CutData&
 CutTeeth reference_cut(const GearDesign& reference, const CutData& data);
 
 /// Sets the tip radii from TIP, TIPALTER or the factors, once shifts and working pressure angle are known. Reports an error for
-/// pointed tips and for tips inside the root circle. `names` are the wheels in messages; a rack is skipped.
+/// pointed tips, for tips inside the root circle and for teeth that do not reach each other. `names` are the wheels in messages;
+/// a rack is skipped.
 bool set_tips(CutTeeth& cut, const CutData& data, const std::array<std::string, 2>& names, const BuildContext& context);
 
-/// Warns of undercut, tips thinner than 0.2 m_n (DIN 3960, 3.9) and tips that reach the mate's root, each with a remedy.
+/// The same checks for parallel wheels whose card does not describe the cut, so that they have addendum m_n and no shift.
+bool check_plain_tips(const GearDesign& design, const std::array<std::string, 2>& names, const BuildContext& context);
+
+/// Warns of tips of such wheels that are thinner than 0.2 m_n.
+void warn_about_plain_tips(const GearDesign& design, const std::array<std::string, 2>& names, const BuildContext& context);
+
+/// Warns of undercut, tips thinner than 0.2 m_n (DIN 3960, 3.9), tips within the base circle and tips that reach the mate's
+/// root, each with a remedy.
 void warn_about_cut(const CutTeeth& cut, const CutData& data, const std::array<std::string, 2>& names,
                     const BuildContext& context);
 

@@ -240,6 +240,8 @@ std::optional<Intention> intention(const GearData& data, const BuildContext& con
     const auto cut = cut_design(*design, data, i.site, context);
     if (!cut) return {};
     i.design = *cut;
+  } else if (design->parallel_kind() != 0 && !check_plain_tips(*design, {"wheel A", "wheel B"}, context)) {
+    return {};
   }
   return i;
 }

@@ -116,6 +116,12 @@ std::string drawn_cut(const CutTeeth& cut, std::size_t wheel, double radius) {
          format_number(cut.working_pressure_angle / degree);
 }
 
+void put_backlash(std::vector<Derived>& list, const ToothLaw& teeth, double pressure_angle) {
+  if (!(teeth.backlash > 0)) return;
+  list.push_back({"backlash along the circumference", teeth.backlash, dimension::length});
+  list.push_back({"backlash normal to the flanks", teeth.backlash * std::cos(pressure_angle), dimension::length});
+}
+
 std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth, double width) {
   using namespace dimension;
   std::vector<Derived> list;
@@ -179,6 +185,7 @@ std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& fr
       put("mesh stiffness per face width, c_gamma", teeth.iso.mesh, pressure);
     }
     put("tooth damping", teeth.damping, damping);
+    put_backlash(list, teeth, design.pressure_angle);
     if (teeth.backlash > 0) put("onset of contact", teeth.onset, length);
   }
   if (std::abs(teeth.mesh.phase) > 1e-9) put("phase of the mesh, of a tooth of 360 degrees", teeth.mesh.phase, angle);
@@ -221,9 +228,11 @@ void warn_about_undercut(const GearDesign& design, std::size_t wheel, const std:
 
 void warn_about_contact_ratio(double usable, const BuildContext& context) {
   if (usable >= 1) return;
-  context.diagnostics.warning(context.record.where("Z"),
-                              fmt::format("contact ratio {:.3g}, undercut considered: at times no teeth would touch", usable),
-                              "take more teeth; the model passes the motion on all the same");
+  context.diagnostics.warning(
+      context.record.where("Z"),
+      usable > 0 ? fmt::format("contact ratio {:.3g}, undercut considered: at times no teeth would touch", usable)
+                 : "contact ratio 0, undercut considered: no teeth would touch",
+      "take more teeth; the model passes the motion on all the same");
 }
 
 void warn_about_teeth(const GearDesign& design, const GearData& data, const BuildContext& context) {
@@ -234,6 +243,7 @@ void warn_about_teeth(const GearDesign& design, const GearData& data, const Buil
   if (design.cut) warn_about_cut(*design.cut, data, {"wheel A", "wheel B"}, context);
   for (const std::size_t i : wheels)
     if (!is_ring(design, i) && !design.cut) warn_about_undercut(design, i, fmt::format("wheel {}", name_of(i)), context);
+  if (!design.cut && design.parallel_kind() != 0) warn_about_plain_tips(design, {"wheel A", "wheel B"}, context);
   const bool internal = design.parallel_kind() < 0;
   const auto clearance = internal_clearance(design);
   if (internal && !clearance)

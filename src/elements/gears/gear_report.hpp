@@ -18,6 +18,9 @@ void put_cut(std::vector<Derived>& list, const CutTeeth& cut, const std::array<s
 /// Additional drawing data of a wheel with the given working pitch radius: `, "addendum": …`.
 std::string drawn_cut(const CutTeeth& cut, std::size_t wheel, double radius);
 
+/// Adds the backlash along the circumference and normal to the flanks, if there is any; `pressure_angle` is the working α_n.
+void put_backlash(std::vector<Derived>& list, const ToothLaw& teeth, double pressure_angle);
+
 /// All quantities derived from the card. `width` is the face width, 0 if not given.
 std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& frames, const ToothLaw& teeth, double width);
 
@@ -48,7 +51,7 @@ std::optional<double> usable_contact_ratio(const GearDesign& design);
 
 /// Warns if a wheel has too few teeth; `who` is its name in the message: "wheel A".
 void warn_about_undercut(const GearDesign& design, std::size_t wheel, const std::string& who, const BuildContext& context);
-/// Warns if the contact ratio is below 1, so that at times no teeth touch.
+/// Warns if the contact ratio is below 1, so that at times, or if it is not positive never, teeth touch.
 void warn_about_contact_ratio(double usable, const BuildContext& context);
 
 /// Warns of undercut, contact ratio below 1 and interference of internal pairs, each with a remedy. Of several equal pairs in a

@@ -65,6 +65,17 @@ double CutTeeth::tip_clearance(std::size_t wheel) const {
   return distance() - tip[wheel] - root_radius(mate);
 }
 
+double CutTeeth::tip_overlap() const {
+  if (teeth[1] == 0) return tip[0] - reference_radius(0) + normal_module * (addendum[1] - shift[0]);
+  if (ring[0]) return distance() + tip[1] - tip[0];
+  if (ring[1]) return distance() + tip[0] - tip[1];
+  return tip[0] + tip[1] - distance();
+}
+
+bool CutTeeth::without_involute(std::size_t wheel) const {
+  return teeth[wheel] != 0 && !ring[wheel] && tip[wheel] <= base_radius(wheel);
+}
+
 double CutTeeth::tip_alteration(std::size_t wheel) const {
   return outward(wheel) * (tip[wheel] - reference_radius(wheel)) / normal_module - addendum[wheel] - shift[wheel];
 }

@@ -52,6 +52,11 @@ struct CutTeeth {
   double tip_thickness(std::size_t wheel) const;
   /// Distance between the wheel's tip circle and the mate's root circle.
   double tip_clearance(std::size_t wheel) const;
+  /// How far the tips reach past each other on the line of centres; not positive: the teeth do not reach each other. The tips of
+  /// a rack are at h_aP − x from the plane that rolls on the pinion's reference circle.
+  double tip_overlap() const;
+  /// Whether the tip circle of an external wheel lies within its base circle, so that no part of its flank is an involute.
+  bool without_involute(std::size_t wheel) const;
   /// k: tip radius beyond that of addendum x + h_aP, in units of m_n.
   double tip_alteration(std::size_t wheel) const;
   /// Smallest shift without undercut by a rack tool: x = h − z sin²α_t/(2cosβ), where h = h_fP − 0.25 is the straight part of

@@ -150,6 +150,7 @@ std::vector<Derived> RackPinion::derived() const {
     list.push_back({"tooth stiffness", contact_.law().stiffness, dimension::stiffness});
     list.push_back({"tooth damping", contact_.law().damping, dimension::damping});
   }
+  put_backlash(list, contact_.law(), d.pressure_angle);
   return list;
 }
 

@@ -77,6 +77,28 @@ bool set_wheel_errors(ToothLaw& law, const TeethData& data, const BuildContext& 
   return good;
 }
 
+/// Contact ratio of the path of contact; 0 if a wheel has no involute between its base and tip circles.
+double contact_ratio_of(const TeethOwner& owner) {
+  if (owner.cut && (owner.cut->without_involute(0) || owner.cut->without_involute(1))) return 0;
+  return (owner.geometry.approach + owner.geometry.recess) / owner.geometry.base_pitch;
+}
+
+/// Warns of teeth outside the range for which the formulas of ISO 6336-1, 9.3, are given.
+void warn_of_iso_range(const IsoMesh& mesh, const BuildContext& context) {
+  constexpr double least_ratio = 1.2, least_shift = -0.5, most_shift = 2;
+  const auto warn = [&](std::string message, std::string hint) {
+    context.diagnostics.warning(context.record.where("STIFF"), std::move(message), std::move(hint));
+  };
+  if (mesh.contact_ratio < least_ratio)
+    warn(fmt::format("contact ratio {:.4g}: the formula of STIFF ISO is given for {} or more", mesh.contact_ratio, least_ratio),
+         "below that the teeth can be up to a tenth softer: give KM if it matters");
+  const double sum = mesh.shift[0] + mesh.shift[1];
+  if (!mesh.ring[0] && !mesh.ring[1] && (sum < least_shift - 1e-9 || sum > most_shift + 1e-9))
+    warn(fmt::format("a sum of profile shifts of {}: the formula of STIFF ISO is given for {} to {}", number(sum), least_shift,
+                     most_shift),
+         "give the tooth stiffness KM itself if it matters");
+}
+
 /// Sets the mean stiffness by ISO 6336-1.
 bool set_iso(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   const auto refuse = [&](std::string_view keyword, std::string message, std::string hint) {
@@ -94,7 +116,7 @@ bool set_iso(ToothLaw& law, const TeethData& data, const TeethOwner& owner, cons
   mesh.ring = {owner.ring[0], owner.ring[1] || owner.teeth[1] == 0};
   mesh.helix = g.helix;
   mesh.pressure_angle = g.pressure_angle;
-  mesh.contact_ratio = (g.approach + g.recess) / g.base_pitch;
+  mesh.contact_ratio = contact_ratio_of(owner);
   mesh.width = *data.width;
   mesh.E = {data.moduli.front(), data.moduli.back()};
   if (!(mesh.contact_ratio > 1))
@@ -107,6 +129,7 @@ bool set_iso(ToothLaw& law, const TeethData& data, const TeethOwner& owner, cons
     mesh.working_helix = g.helix;
     mesh.working_pressure_angle = g.transverse_pressure_angle;
   }
+  warn_of_iso_range(mesh, context);
   law.stiffness = iso_mesh_stiffness(mesh);
   law.iso = iso_stiffness(mesh);
   return true;
@@ -175,7 +198,7 @@ bool set_course(ToothLaw& law, const TeethData& data, const TeethOwner& owner, c
       context.error("STIFF", "the contact ratio of these teeth is not known", "give it: STIFF SQUARE eps");
       return false;
     }
-    course.contact_ratio = values.empty() ? (g.approach + g.recess) / g.base_pitch : values[0];
+    course.contact_ratio = values.empty() ? contact_ratio_of(owner) : values[0];
     if (!(course.contact_ratio >= 1)) {
       context.error("STIFF", fmt::format("contact ratio {:.4g}: between two teeth nothing would touch", course.contact_ratio),
                     "a pair that runs has 1 or more: choose more teeth, or STIFF CONST");
@@ -211,6 +234,22 @@ void warn_of_wide_backlash(const ToothLaw& law, const TeethData& data, const Tee
                               "is it in the deck's unit of length? Teeth have backlash of a few hundredths of the module");
 }
 
+/// The backlash that vanishes when the wheels come closer by `closing` across the teeth: each flank then opens by −b/2. With
+/// axles that are not parallel 2Δa tanα_n.
+std::optional<double> backlash_of_closing(double closing, const TeethOwner& owner, const BuildContext& context) {
+  const ContactGeometry& g = owner.geometry;
+  if (!owner.parallel) return 2 * closing * std::tan(g.pressure_angle);
+  // inside a ring the centre distance grows when the teeth come closer, and a rack has no base circle
+  if (const double room = g.center_distance - g.base_radii; g.base_radii > 0 && closing >= room) {
+    context.error(
+        "JEUA",
+        fmt::format("wheels that come closer by {} have base circles that meet, from {} on", number(closing), number(room)),
+        "JEUA is the reduction of the centre distance that takes the backlash up, a few hundredths of the module");
+    return {};
+  }
+  return -2 * g.flank_opening(-closing).f;
+}
+
 /// Sets the backlash along the circumference, however it is given.
 bool set_backlash(ToothLaw& law, const TeethData& data, const TeethOwner& owner, const BuildContext& context) {
   const int ways = (data.backlash ? 1 : 0) + (data.normal_backlash ? 1 : 0) + (data.center_backlash ? 1 : 0) +
@@ -225,9 +264,11 @@ bool set_backlash(ToothLaw& law, const TeethData& data, const TeethOwner& owner,
   const double alpha = owner.geometry.pressure_angle;
   if (data.backlash) law.backlash = *data.backlash;
   if (data.normal_backlash) law.backlash = *data.normal_backlash / std::cos(alpha);
-  if (data.center_backlash)
-    law.backlash =
-        2 * (owner.parallel ? owner.geometry.flank_opening(*data.center_backlash).f : *data.center_backlash * std::tan(alpha));
+  if (data.center_backlash) {
+    const auto backlash = backlash_of_closing(*data.center_backlash, owner, context);
+    if (!backlash) return false;
+    law.backlash = *backlash;
+  }
   if (const auto& a = data.thickness_allowance; !a.empty()) {
     const double cut_alpha = owner.cut ? owner.cut->pressure_angle : alpha;
     law.backlash = -(a.front() + a.back()) * std::cos(cut_alpha) / std::cos(alpha);  // j_bn = −ΣA_sn cosα_n
@@ -335,6 +376,11 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
     context.error("ROLLING", "rolling resistance is regularised: it needs VREG", "VREG v, well below the speeds of interest");
     return false;
   }
+  if (law.rests && owner.teeth[1] == 0 && !owner.parallel) {
+    context.error("FRICTION", "the teeth of an oblique rack slide along each other; friction at rest is not modelled there",
+                  "give VREG v, well below the speeds of interest");
+    return false;
+  }
   if (law.rests && !friction.profile && g.slip_per_turn == 0) {
     context.error("FRICTION", "these teeth do not slide at the pitch point: there is nothing to hold",
                   owner.path_known ? "with SLIDING PROFILE flanks slide before and behind it" : "give VREG");
@@ -345,11 +391,9 @@ bool set_friction(ContactOptions& options, const TeethData& data, const TeethOwn
                   "SLIDING PITCH slides at the pitch point, as most of the sliding of such teeth does");
     return false;
   }
-  if (friction.profile && !(g.approach + g.recess > 1.01 * g.base_pitch)) {
-    context.error(
-        "SLIDING",
-        fmt::format("contact ratio {:.4g}: some flanks must touch at all times", (g.approach + g.recess) / g.base_pitch),
-        "choose more teeth");
+  if (friction.profile && !(contact_ratio_of(owner) > 1.01)) {
+    context.error("SLIDING", fmt::format("contact ratio {:.4g}: some flanks must touch at all times", contact_ratio_of(owner)),
+                  "choose more teeth");
     return false;
   }
   options.friction = friction;
@@ -434,8 +478,8 @@ bool set_relief(ToothLaw& law, const TeethData& data, const TeethOwner& owner, c
       return refuse("CROWN", "CROWN does not go with a stiffness that depends on the deflection", "keep one of them");
   }
   if (!relief.active()) return true;
-  if (!(relief.contact_ratio() > 1))
-    return refuse(first, fmt::format("contact ratio {:.4g}: between two teeth nothing would touch", relief.contact_ratio()),
+  if (!(contact_ratio_of(owner) > 1))
+    return refuse(first, fmt::format("contact ratio {:.4g}: between two teeth nothing would touch", contact_ratio_of(owner)),
                   "choose more teeth");
   relief.edge = std::min(0.05 * g.base_pitch, 0.5 * (path - g.base_pitch));
   for (const auto& [keyword, given] : {std::pair<std::string_view, bool>{"RUNNING", data.running},

@@ -137,7 +137,8 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .synonyms({"NORMAL_BACKLASH"})
       .unit(length)
       .at_least(0);
-  c.add("JEUA", &TeethData::center_backlash, "backlash as the change of centre distance that would take it up, instead of JEU")
+  c.add("JEUA", &TeethData::center_backlash,
+        "backlash as the reduction of the centre distance (in a ring its increase) that takes it up, instead of JEU")
       .synonyms({"CENTRE_BACKLASH", "CENTER_BACKLASH"})
       .unit(length)
       .at_least(0);

@@ -208,12 +208,20 @@ TEST(GearTeeth, BacklashInThreeWays) {
   c.data.normal_backlash = 0.01;
   EXPECT_NEAR(backlash(), 0.01 / std::cos(20 * deg), 1e-16);
   c.data.normal_backlash = {};
-  c.data.center_backlash = 0.003;  // taken up by moving the wheels together: twice what each flank opens by
+  c.data.center_backlash = 0.003;  // taken up by moving the wheels together: twice what each flank then closes by
   const double helix = 23 * deg, alpha = std::atan(std::tan(20 * deg) / std::cos(helix));
-  const double a0 = (21 + 34) * 0.02 / std::cos(helix), running = std::acos(a0 / (a0 + 0.003) * std::cos(alpha));
+  const double a0 = (21 + 34) * 0.02 / std::cos(helix), running = std::acos(a0 / (a0 - 0.003) * std::cos(alpha));
   const auto involute = [](double t) { return std::tan(t) - t; };
-  EXPECT_NEAR(backlash(), 2 * std::cos(helix) * a0 * (involute(running) - involute(alpha)), 1e-14);
+  EXPECT_NEAR(backlash(), 2 * std::cos(helix) * a0 * (involute(alpha) - involute(running)), 1e-14);
   EXPECT_NEAR(backlash(), 2 * 0.003 * std::tan(20 * deg), 2e-5) << "for small changes 2 Δa tan α_n";
+  // inside a ring the teeth come closer when the centre distance grows
+  c = internal();
+  c.data.stiffness = 1e4;
+  c.data.center_backlash = 0.003;
+  const double ring_helix = 12 * deg, ring_alpha = std::atan(std::tan(20 * deg) / std::cos(ring_helix));
+  const double a1 = (51 - 17) * 0.02 / std::cos(ring_helix), ring_running = std::acos(a1 / (a1 + 0.003) * std::cos(ring_alpha));
+  EXPECT_NEAR(backlash(), 2 * std::cos(ring_helix) * a1 * (involute(ring_running) - involute(ring_alpha)), 1e-14);
+  EXPECT_NEAR(backlash(), 2 * 0.003 * std::tan(20 * deg), 5e-5);
   c = bevel();
   c.data.stiffness = 1e4;
   c.data.center_backlash = 0.003;

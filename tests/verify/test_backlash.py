@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""JEUA is what it says: wheels that come closer by it, with RUNNING, have just no play left."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from math import radians, tan
+from pathlib import Path
+
+import pytest
+from engrane_post import Results
+
+CLOSING = 0.4
+# the torque pushes one way up to time 1 and the other way from time 3 on
+DECK = """
+.NOE
+ I 1 X 0 0 0
+ I 2
+.MCE
+ I 1 GEAR N 1 2 {pair} MN 2 WIDTH 20 AXIS 0 0 1 PLACE 1 0 0 KM 4E8 JEUA {given} RUNNING
+ I 2 HINGE N 0 1 AXIS 0 0 1
+ I 3 PRISMATIC N 0 2 AXIS 1 0 0 DRIVE SLIDE NF 2
+ I 4 TORQUE N 1 AXIS 0 0 1 V 100 NF 1
+.FCT
+ I 1 TABLE 0 1 1 1 3 -1 4 -1
+ I 2 TABLE 0 {closer} 1 {closer}
+.SAM TYPE STATIC
+.SUB TF 4 H 0.1
+.FIN 1
+"""
+# B's teeth come closer to A's when it moves along -x; inside the ring the centres then move apart
+PAIRS = {"spur": "Z 23 47", "helical": "Z 23 47 HELIX -15 X 0.3 0.2", "ring": "Z 23 71 INTERNAL"}
+
+
+def play(folder: Path, pair: str, given: float, closer: float) -> float:
+    """How far the teeth move along the circumference when the torque changes sides."""
+    (folder / "deck.dat").write_text(DECK.format(pair=pair, given=given, closer=closer))
+    command = [os.environ["ENGRANE"], "deck.dat", "-q", "-o", "deck"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    with Results(folder / "deck.h5") as run:
+        error = run.history("1/TRANSMISSION_ERROR")[1]
+    return float(abs(error[-1] - error[0]))
+
+
+@pytest.mark.parametrize("kind", PAIRS)
+def test_no_play_when_closer_by_jeua(tmp_path: Path, kind: str) -> None:
+    pair = PAIRS[kind]
+    full = play(tmp_path, pair, CLOSING, 0)
+    assert full == pytest.approx(2 * CLOSING * tan(radians(20)), rel=0.15)
+    # were the backlash that of wheels moved apart, 5 per cent of it would be left
+    assert play(tmp_path, pair, CLOSING, -0.999 * CLOSING) == pytest.approx(0.001 * full, rel=0.1)
+    assert play(tmp_path, pair, CLOSING, -1.001 * CLOSING) < 1e-6 * full
