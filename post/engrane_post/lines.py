@@ -20,8 +20,8 @@ EXAMPLES = """  engrane spectrum run 7/NORMAL_FORCE
   engrane spectrum rigid.h5 flexible.h5 7/NORMAL_FORCE -o compare.png
 
 The spectrum is single-sided and scaled so that a sine of amplitude 1 shows 1; the mean is taken off.
-Leave the starting transient out with --from. Resolution is about 2/(length of the span) with the hann
-window."""
+Leave the starting transient out with --from. Resolution is 2/(length of the span) with the hann window,
+2.3/span with blackman, 1.21/span with none: closer lines show as one."""
 FEWEST = 8
 
 
@@ -86,11 +86,11 @@ def run(args: argparse.Namespace) -> None:
         _draw(results, channels, spectra, marks, args, path)
 
 
-def harmonic(frequency: float, marks: list[ToothFrequency], resolution: float) -> str:
-    """`2 x GEAR 7` when a line lies on a harmonic within the resolution."""
+def harmonic(frequency: float, marks: list[ToothFrequency], bin_width: float) -> str:
+    """`2 x GEAR 7` when a line lies on a harmonic within a bin."""
     for m in marks:
         order = round(frequency / m.frequency) if m.frequency > 0 else 0
-        if order >= 1 and abs(frequency - order * m.frequency) <= max(resolution, 2e-3 * frequency):
+        if order >= 1 and abs(frequency - order * m.frequency) <= max(bin_width, 2e-3 * frequency):
             return f"{order} x {m.title}"
     return ""
 
@@ -101,7 +101,7 @@ def _print(result: Results, channel: Channel, s: Spectrum, marks: list[ToothFreq
     rate = frequency_unit(result)
     steps = "resampled to even steps" if s.resampled else "even steps"
     print(f"{result.path}  {channel.name} ({channel.owner}), mean {s.mean:.6g} {unit}")
-    print(f"  {len(s.samples)} samples, step {s.step:.4g}, {steps}, resolution {1 / duration:.4g} {rate}")
+    print(f"  {len(s.samples)} samples, step {s.step:.4g}, {steps}, resolution {s.resolution:.4g} {rate}")
     for m in marks:
         print(
             f"  tooth frequency of {m.title}: {m.frequency:.6g} {rate} (from {m.source})"

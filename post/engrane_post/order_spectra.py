@@ -57,17 +57,19 @@ def turns_of(t: np.ndarray, angle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.asarray(t, float)[keep], turns[keep]
 
 
-def over_angle(t: np.ndarray, y: np.ndarray, angle: np.ndarray) -> OverAngle:
+def over_angle(t: np.ndarray, y: np.ndarray, angle: np.ndarray, whole: bool = False) -> OverAngle:
     """Resamples a history over the turn of a wheel, finely enough for what its steps in time hold at the
     lowest speed, so that nothing folds back to a lower order (up to MOST_SAMPLES samples: a wheel that
-    starts from rest would need any number)."""
+    starts from rest would need any number). `whole` takes the last whole turns, where the span has one: the
+    events of the wheel then fall on bins, where a window leaks least."""
     rising = np.r_[np.diff(t) > 0, True]  # a restart or an event repeats a time: the last value counts
     t, y, angle = (np.asarray(v, float)[rising] for v in (t, y, angle))
     when, turns = turns_of(t, angle)
     steps = np.diff(turns)
     most = min(MOST_SAMPLES, 16 * len(when))
     count = int(min(most, max(FEWEST, np.ceil(turns[-1] / steps.min()))))
-    even = np.linspace(0, turns[-1], count + 1)
+    cut = turns[-1] - np.floor(turns[-1] + 1e-6) if whole and turns[-1] > 1 - 1e-6 else 0.0
+    even = np.linspace(max(0.0, cut), turns[-1], count + 1)
     at = scipy.interpolate.PchipInterpolator(turns, when)(even)
     # The monotone interpolant is a start; where the wheel moves, the spline of its turn is nearer to the
     # motion.
@@ -84,7 +86,10 @@ def over_angle(t: np.ndarray, y: np.ndarray, angle: np.ndarray) -> OverAngle:
 
 def order_spectrum(samples: OverAngle, window: str = "hann") -> Spectrum:
     """Amplitude against order: the `frequency` of this spectrum counts events per turn of the wheel."""
-    return spectrum(samples.turns, samples.values, window)
+    turns = samples.turns[-1] - samples.turns[0]
+    # of whole turns the last sample is the first of the next one
+    last = -1 if turns > 0.5 and abs(turns - round(turns)) < 1e-9 * turns else None
+    return spectrum(samples.turns[:last], samples.values[:last], window)
 
 
 def order_map(

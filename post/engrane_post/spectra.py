@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy  # whose parts load where they are used: they take half a second, and most commands use none
 
+from .spectral_lines import RESOLUTION, Fit, Line, leak
+
 WINDOWS = ("hann", "none", "blackman")
 
 
@@ -23,6 +25,7 @@ class Spectrum:
     resampled: bool
     samples: np.ndarray
     window: np.ndarray
+    window_name: str
 
     def at(self, frequency: float) -> float:
         """Amplitude at any frequency (the transform evaluated there, not interpolated)."""
@@ -30,29 +33,45 @@ class Spectrum:
         phase = np.exp(-2j * np.pi * frequency * self.step * np.arange(n))
         return float(2 * abs(np.dot(self.samples * self.window, phase)) / self.window.sum())
 
+    @property
+    def resolution(self) -> float:
+        """Lines closer than this show as one; in units of `frequency`."""
+        return RESOLUTION[self.window_name] / (self.step * len(self.samples))
+
     def peaks(self, count: int, floor: float = 1e-4) -> list[tuple[float, float]]:
         """(frequency, amplitude) of the largest lines, largest first, none below `floor` times the largest.
 
-        Lines are local maxima among the plain bins, where the side lobes of a window make none, and are then
-        refined between the bins; without that a line halfway would show 15 % less (hann)."""
+        A line is listed only where it stands clear of the leakage of all larger ones (spectral_lines.py). Its
+        amplitude is the largest value of the transform near it, between the bins, without the leakage of the
+        other lines."""
         n = len(self.samples)
-        a = np.abs(np.fft.rfft(self.samples * self.window)) * 2 / self.window.sum()
-        hz = np.fft.rfftfreq(n, self.step)
-        inner = np.flatnonzero((a[1:-1] > a[:-2]) & (a[1:-1] >= a[2:])) + 1
-        if len(inner) == 0:
-            return []
-        inner = inner[a[inner] >= floor * a[inner].max()]
-        inner = inner[np.argsort(-a[inner])][:count]
+        total = self.window.sum()
+        alternating = np.where(np.arange(n // 2 + 1) % 2, -1.0, 1.0)  # counts the time from the middle
+        peak = float(np.abs(self.samples).max())
+        fit = Fit(np.fft.rfft(self.samples * self.window) / total * alternating, self.window_name, n, peak)
+        fit.add_lines(2 * count + 4, 0.5 * floor)
+        tapered = self.samples * self.window / total
+        phase = -2j * np.pi / n * (np.arange(n) - n / 2)
         out = []
-        for i in inner:
+        for line in fit.listed()[:count]:
+            others = fit.others(line)
+            mirror = Line(-line.place, np.conj(line.height))
+
+            def shown(place: float, others=others, mirror=mirror) -> float:
+                at = np.array([place])
+                own = np.dot(tapered, np.exp(phase * place)) - leak(fit.kernel, others, at)[0]
+                own -= mirror.height * fit.kernel(at - mirror.place)[0] + fit.mean * fit.kernel(at)[0]
+                return 2 * float(abs(own))
+
             best = scipy.optimize.minimize_scalar(
-                lambda f: -self.at(f),
-                bounds=(hz[i - 1], hz[i + 1]),
+                lambda p, shown=shown: -shown(p),
+                bounds=(max(line.place - 0.5, 1.0), line.place + 0.5),
                 method="bounded",
-                options={"xatol": 1e-4 * hz[1]},
+                options={"xatol": 1e-4},
             )
-            out.append((float(best.x), float(-best.fun)))
-        return sorted(out, key=lambda p: -p[1])
+            out.append((float(best.x) / (n * self.step), float(-best.fun)))
+        out.sort(key=lambda p: -p[1])
+        return [p for p in out if p[1] >= floor * out[0][1]]
 
 
 def uniform(t: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, bool]:
@@ -80,4 +99,4 @@ def spectrum(t: np.ndarray, y: np.ndarray, window: str = "hann", padding: int = 
     samples = values - mean
     length = n * padding if n * padding < 2**24 else n
     a = np.abs(np.fft.rfft(samples * w, length)) * 2 / w.sum()
-    return Spectrum(np.fft.rfftfreq(length, step), a, mean, step, resampled, samples, w)
+    return Spectrum(np.fft.rfftfreq(length, step), a, mean, step, resampled, samples, w, window)
