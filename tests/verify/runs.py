@@ -49,3 +49,12 @@ def run(
     if output:
         output.write_text(done.stdout)
     return Run(folder / f"{name}.h5")
+
+
+def said(text: str, folder: Path) -> str:
+    """What the terminal shows of a run that ends with status 0."""
+    (folder / "deck.dat").write_text(text)
+    command = [os.environ["ENGRANE"], "deck.dat", "-q", "-o", "deck"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stderr

@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
 from pathlib import Path
 
 import pytest
+from runs import said
 
 MODULE = 0.004
 PAIR = f"""
@@ -49,14 +48,6 @@ RACK = f"""
 .SUB TF 1 H 0.002
 .FIN 1
 """
-
-
-def said(text: str, folder: Path) -> str:
-    (folder / "deck.dat").write_text(text)
-    command = [os.environ["ENGRANE"], "deck.dat", "-q", "-o", "deck"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stderr
 
 
 @pytest.mark.parametrize("options", ["", "RUNNING", "JEU 1E-4", "FRICTION CONST 0.1 SLIDING PROFILE"])

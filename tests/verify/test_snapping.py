@@ -5,14 +5,12 @@ is long enough finds it. The run ends with status 0, and a warning tells the ene
 
 from __future__ import annotations
 
-import os
 import re
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from runs import run
+from runs import run, said
 from scipy.optimize import brentq
 
 STIFFNESS, HALF, RISE = 1e5, 1.0, 0.1
@@ -38,15 +36,6 @@ ARCH = f"""
 """
 
 
-def warning(text: str, folder: Path) -> str:
-    """What the terminal shows of a run that ends with status 0."""
-    (folder / "deck.dat").write_text(text)
-    command = [os.environ["ENGRANE"], "deck.dat", "-q", "-o", "deck"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stderr
-
-
 def energy(y: float) -> float:
     """Of both springs, with the top at height y."""
     return STIFFNESS * (np.hypot(HALF, y) - LENGTH) ** 2
@@ -59,9 +48,9 @@ def load(y: float) -> float:
 
 @pytest.mark.parametrize("step", [0.13, 0.19, 0.25])
 def test_a_step_through_the_limit_load(tmp_path: Path, step: float) -> None:
-    said = warning(ARCH.format(load="100*T", step=step), tmp_path)
-    found = re.search(r"between t = (\S+) and (\S+) the structure snapped.*?: (\S+) ", said)
-    assert found, said
+    text = said(ARCH.format(load="100*T", step=step), tmp_path)
+    found = re.search(r"between t = (\S+) and (\S+) the structure snapped.*?: (\S+) ", text)
+    assert found, text
     before, after, lost = map(float, found.groups())
     limit = max(load(y) for y in np.linspace(0, RISE, 1001))
     assert 100 * before < limit < 100 * after
@@ -73,12 +62,12 @@ def test_a_step_through_the_limit_load(tmp_path: Path, step: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "step"),
+    ("formula", "step"),
     [("30*T", 0.25), ("30*T", 1.0), ("30*sin(5*T)", 0.1), ("-1e4*T", 0.25), ("-1e4*sin(7*T)", 0.2)],
 )
-def test_long_steps_on_one_path(tmp_path: Path, text: str, step: float) -> None:
+def test_long_steps_on_one_path(tmp_path: Path, formula: str, step: float) -> None:
     """Below the limit load, and where springs are pulled to half their length more, nothing snaps."""
-    assert not warning(ARCH.format(load=text, step=step), tmp_path)
+    assert not said(ARCH.format(load=formula, step=step), tmp_path)
 
 
 def test_the_path_is_not_a_jump(tmp_path: Path) -> None:
