@@ -12,8 +12,8 @@
 
 namespace engrane::observe {
 
-/// A load step between two equilibria that no path of equilibria joins: the structure snapped through or fell over in between,
-/// and lost energy that statics do not show.
+/// A load step between two equilibria that no path of stable equilibria joins: the structure snapped through or fell over in
+/// between, and lost energy that statics do not show.
 struct Jump {
   double begin = 0, end = 0;  ///< times of the equilibria
   double lost = 0;            ///< energy; 0: there was no jump

@@ -42,7 +42,7 @@ void add_contact_channels(std::vector<Channel>& list, const ToothContact& contac
   }
   if (contact.options().running) list.push_back({"PRESSURE_ANGLE", angle, "working pressure angle, transverse"});
   if (contact.elastic()) {
-    list.push_back({"U_M", length, "what the wheels turn apart from the ratio, along the circumference, u_m"});
+    list.push_back({"U_M", length, "departure of the wheels from their ratio, along the circumference, u_m"});
     list.push_back({"TRANSMISSION_ERROR", length,
                     "approach of the teeth, u_m + x_err; with errors of the teeth u_m is the transmission error"});
     list.push_back({"CONTACT", none, "contact: 1 where A drives, -1 on the other flank, 0 apart", Channel::Course::state});

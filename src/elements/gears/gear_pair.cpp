@@ -68,10 +68,7 @@ ContactGeometry contact_geometry(const GearDesign& design, double width) {
   g.teeth = design.teeth[0];
   g.radius = design.radius(0);
   g.width = width;
-  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
-    const double outward = std::cos(design.cone[i]) < 0 ? -1 : 1;
-    g.reach += design.cut ? outward * (design.cut->tip[i] - design.radius(i)) : design.normal_module;
-  }
+  g.reach = design.cut ? design.cut->tip_overlap() : 2 * design.normal_module;
   const int kind = design.parallel_kind();
   if (kind == 0) {
     // intersecting axles: the virtual wheels at the middle of the face (Tredgold), which roll as the cones do

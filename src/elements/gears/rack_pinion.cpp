@@ -50,7 +50,7 @@ ContactGeometry contact_geometry(const RackPinion::Geometry& g, double width) {
   const double height = design.cut ? design.cut->addendum[1] - design.cut->shift[0] : 1;
   c.approach = height * design.normal_module / std::sin(c.transverse_pressure_angle);
   c.recess = path_of_contact(design, 0).value_or(0);
-  c.reach = tip_radius(design, 0) - design.radius(0) + height * design.normal_module;
+  c.reach = design.cut ? design.cut->tip_overlap() : 2 * design.normal_module;
   if (design.cut) c.flank = design.cut->thickness(0) / (2 * std::numbers::pi * design.normal_module);
   return c;
 }

@@ -30,7 +30,7 @@ struct ContactGeometry {
   /// rack, whose pressure angle is constant.
   double base_radii = 0;
   double center_distance = 0;  ///< of the reference configuration
-  double reach = 0;            ///< sum of both addenda, from the working pitch surfaces: tips overlap by it
+  double reach = 0;            ///< by which the tips overlap: as cut (CutTeeth::tip_overlap()), else two addenda of m_n
   double side = 1;             ///< κ: 1 external, −1 internal
   double axle_sense = 1;       ///< σ: ξ₁ = σ μ₁
   /// Path of contact from the pitch point, in the direction in which A moves: front flanks touch from −approach to recess. For
