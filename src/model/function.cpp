@@ -143,9 +143,9 @@ class FormulaFunction final : public Function {
 };
 
 /// Checks one record and builds its function.
-class Builder {
+class FunctionBuilder {
  public:
-  Builder(const deck::Record& record, Diagnostics& diagnostics, const FunctionSetting& setting)
+  FunctionBuilder(const deck::Record& record, Diagnostics& diagnostics, const FunctionSetting& setting)
       : record_(record), card_(*record.get<deck::FunctionCard>()), diagnostics_(diagnostics), setting_(setting) {}
 
   std::unique_ptr<Function> build() {
@@ -260,7 +260,7 @@ class Builder {
 }  // namespace
 
 std::unique_ptr<Function> make_function(const deck::Record& record, Diagnostics& diagnostics, const FunctionSetting& setting) {
-  return Builder(record, diagnostics, setting).build();
+  return FunctionBuilder(record, diagnostics, setting).build();
 }
 
 }  // namespace engrane

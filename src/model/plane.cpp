@@ -24,7 +24,7 @@ double span_of(const deck::SteppingCard& stepping) {
 }
 
 /// Residues of cancelling terms below this fraction of them are rounding errors.
-constexpr double rounding = 1e-12;
+constexpr double residue = 1e-12;
 
 /// A configuration in the plane: every node displaced within it by a random amount, with a random velocity.
 struct Probe {
@@ -108,8 +108,8 @@ struct Parts {
     double& largest = leaves ? out : in;
     largest = std::max(largest, std::abs(size));
   }
-  bool acts_in() const { return in > rounding * out; }
-  bool acts_out() const { return out > rounding * in; }
+  bool acts_in() const { return in > residue * out; }
+  bool acts_out() const { return out > residue * in; }
 };
 
 /// Examines one element after another.
@@ -159,11 +159,11 @@ class Examination {
                           v.velocity ? "velocity" : "displacement", node_name(v.node), name(), v.component + 1),
               "leave that component out");
     for (const InitialSpin& s : model_.initial_spins)
-      if (!(std::hypot(s.omega[(normal_ + 1) % 3], s.omega[(normal_ + 2) % 3]) <= rounding * s.omega.norm()))
+      if (!(std::hypot(s.omega[(normal_ + 1) % 3], s.omega[(normal_ + 2) % 3]) <= residue * s.omega.norm()))
         fault({}, fmt::format("the initial spin of {} leads out of the plane {}", node_name(s.node), name()),
               fmt::format("its AXIS must be along {}", axis()));
     for (const Gravity& g : model_.gravity)
-      if (std::abs(g.acceleration[normal_]) > rounding * g.acceleration.norm())
+      if (std::abs(g.acceleration[normal_]) > residue * g.acceleration.norm())
         fault({}, fmt::format("gravity has a component normal to the plane {}", name()), "leave that component out");
   }
 

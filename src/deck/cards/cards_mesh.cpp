@@ -8,11 +8,11 @@ namespace engrane::deck {
 
 namespace {
 
-constexpr const char* chapter = "Meshes";
+constexpr const char* mesh_chapter = "Meshes";
 
 Schema hypothesis_card() {
   Card<HypothesisCard> card(".HYP", {".HYPOTHESIS", ".HYPOTHESE"}, "Which formulation the cells of a group get");
-  card.chapter(chapter);
+  card.chapter(mesh_chapter);
   card.describe(
       "`MEMB BIDIM` (or `CONT PLAN`) is plane stress, `DEFO PLAN` plane strain, `AXIS` axisymmetric about the global y axis with "
       "radius x; `MEMBRANE` alone makes cells in space membranes, as the element MEMBRANE; solids have VOLUME, also without a "
@@ -41,7 +41,7 @@ Schema hypothesis_card() {
 
 Schema property_card() {
   Card<PropertyCard> card(".PHP", {".PROPERTIES"}, "Physical properties of cells");
-  card.chapter(chapter);
+  card.chapter(mesh_chapter);
   card.add("GROUP", &PropertyCard::groups, "groups of cells: names or numbers")
       .refers(Reference::group)
       .values(1, any_number)
@@ -59,7 +59,7 @@ Schema property_card() {
 
 Schema assignment_card() {
   Card<AssignmentCard> card(".AEL", {".ASSIGN"}, "Materials and material axes of cells");
-  card.chapter(chapter);
+  card.chapter(mesh_chapter);
   card.add("I", &AssignmentCard::cells, "cells: one, or a range `I 1 J 72 K 1`").refers(Reference::element).at_least(1).leads();
   card.add("GROUP", &AssignmentCard::groups, "groups of cells: names or numbers")
       .refers(Reference::group)

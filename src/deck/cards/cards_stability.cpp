@@ -7,11 +7,11 @@ namespace engrane::deck {
 
 namespace {
 
-constexpr const char* analysis_chapter = "Analysis";
+constexpr const char* stability_chapter = "Analysis";
 
 Schema path_card() {
   Card<PathCard> card(".PATH", {".RIKS"}, "Equilibria are followed by the length of their path, past limit loads");
-  card.chapter(analysis_chapter).once();
+  card.chapter(stability_chapter).once();
   card.describe(
       "Of a STATIC analysis. The time of functions is one more unknown, and may fall: channel LOAD_TIME of the run. The time of "
       "the "
@@ -53,7 +53,7 @@ Schema path_card() {
 
 Schema buckling_card() {
   Card<BucklingCard> card(".BUCKLING", {".FLAMBEMENT"}, "Linearised buckling: the loads that make the tangent singular");
-  card.chapter(analysis_chapter).once();
+  card.chapter(stability_chapter).once();
   card.describe(
       "Of a STATIC analysis. The tangent matrix is continued along the loads as it changes at one equilibrium, and the times of "
       "functions "

@@ -26,7 +26,7 @@ std::string roff(const std::string& text) {
   return (out.starts_with('.') || out.starts_with('\'') ? "\\&" : "") + out;
 }
 
-void append_card(std::string& out, const Schema& card) {
+void append_words(std::string& out, const Schema& card) {
   out += ".SS " + roff(card.name) + "\n" + roff(card.summary) + ".\n";
   for (const Field& field : card.fields) {
     out += ".TP\n.B " + roff(join(spellings(field), ", ")) + "\n" + roff(field.help);
@@ -84,9 +84,9 @@ std::string man_page(const Catalogue& catalogue, const std::string& version, con
     start = end + 1;
   }
   out += ".fi\n.SH COMMANDS OF A DECK\n";
-  for (const Schema* card : catalogue.commands) append_card(out, *card);
+  for (const Schema* card : catalogue.commands) append_words(out, *card);
   out += ".SH ELEMENTS\nAn element is given in .MCE as I <number> <TYPE> N <nodes> <keyword values>.\n";
-  for (const Schema* card : catalogue.elements) append_card(out, *card);
+  for (const Schema* card : catalogue.elements) append_words(out, *card);
   return out;
 }
 

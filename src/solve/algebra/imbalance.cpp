@@ -10,7 +10,7 @@ namespace engrane::solve {
 namespace {
 
 /// A constraint counts as closed up to this fraction of its length.
-constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+constexpr double closed = 64 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -42,7 +42,7 @@ Imbalance imbalance(const Assembler& assembler, const References& references, Ve
       const auto m = static_cast<std::size_t>(u.slot - numbering.motion_slots());
       value /= assembler.scale()[m];
       reference = references.length(equation);
-      if (value > (assembler.stated.has(m) ? assembler.stated.rounding[m] : reference * rounding))
+      if (value > (assembler.stated.has(m) ? assembler.stated.rounding[m] : reference * closed))
         worst[4] = std::max(worst[4], as_force);
     }
     double relative = value / reference;

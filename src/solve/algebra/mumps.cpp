@@ -25,7 +25,7 @@ double infog(Mat factors, PetscInt index) {
 }
 
 /// A count from MUMPS, which gives large ones in millions, as negative numbers.
-double count(double value) { return value < 0 ? -1e6 * value : value; }
+double entries(double value) { return value < 0 ? -1e6 * value : value; }
 
 }  // namespace
 
@@ -134,7 +134,7 @@ SolverWork Mumps::work() const {
   if (!factors_) return {};
   PetscReal operations = 0;
   check_petsc(MatMumpsGetRinfog(factors_, 3, &operations));
-  return mumps_work(static_cast<double>(rows_of(matrix_)), count(infog(factors_, 29)), operations);
+  return mumps_work(static_cast<double>(rows_of(matrix_)), entries(infog(factors_, 29)), operations);
 }
 
 double Mumps::bytes() const { return factors_ ? megabyte * infog(factors_, 19) : 0; }  // of all ranks, in the factorisation

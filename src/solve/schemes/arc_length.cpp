@@ -24,7 +24,7 @@ constexpr int most_iterations = 12;
 constexpr double wished_turn = 6 * std::numbers::pi / 180, most_turn = 45 * std::numbers::pi / 180;
 constexpr double longest_step = 0.1;
 /// Part of the run by which the load time changes in one step at most; the step before expected longest_step.
-constexpr double most_change = 0.25;
+constexpr double most_path_change = 0.25;
 /// Fraction of H below which a step may turn by any angle: at a corner the path turns however short the step is.
 constexpr double corner = 1.0 / 128;
 /// Number of steps after which a path without an end of its own is given up.
@@ -33,7 +33,7 @@ constexpr int most_steps = 10000;
 /// to a bifurcation what Newton's method leaves of forces is a visible displacement along the mode.
 constexpr double sharp = 1e-4, narrow = 1e-9;
 /// If there is no solution, the next trial is nearer to the beginning by this fraction of the way.
-constexpr double aside = 1e-3;
+constexpr double nearer_by = 1e-3;
 constexpr int most_nearer = 4;
 /// A small value is accepted only if the bracket is shorter than this fraction of the step.
 constexpr double near = 0.1;
@@ -194,7 +194,7 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
   NewtonReport report = follow(from, h, to);
   if (!report.converged) return {std::move(report), {}};
   const double span = context_.options.end - context_.options.begin, passed = std::abs(to.load_time() - from.load_time());
-  if (!(passed <= most_change * span)) {
+  if (!(passed <= most_path_change * span)) {
     // behind the top of a function of time the same loads stand at another time
     report.converged = false;
     report.reason = fmt::format(
@@ -256,7 +256,7 @@ ArcLength::Bracket ArcLength::locate(const Configuration& from, double& h, Confi
     Point point;
     bool solved = false;
     // next to a bifurcation the tangent may be too close to singular
-    for (int nearer = 0; !solved && nearer < most_nearer; ++nearer, h_try -= aside * (h_try - low))
+    for (int nearer = 0; !solved && nearer < most_nearer; ++nearer, h_try -= nearer_by * (h_try - low))
       if (follow(from, h_try, tried).converged && examine(tried, &here_, point)) {
         solved = true;
         break;

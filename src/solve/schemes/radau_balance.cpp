@@ -15,11 +15,11 @@ namespace {
 constexpr double left_open = 1e-8;
 /// A matrix of an earlier configuration that leaves more than this after one correction is made anew: left_open would take
 /// eight corrections, which cost about as much.
-constexpr double slow = 0.1;
+constexpr double slow_balance = 0.1;
 constexpr int most_corrections = 12;
 /// A correction below this fraction of the precision of steps is not followed by another.
 constexpr double share_of_precision = 1e-3;
-constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+constexpr double least_change = 64 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -53,7 +53,7 @@ bool Radau::worth(std::span<const double> change, std::span<const double> rates)
   return changed > least_correction() * most;
 }
 
-double Radau::least_correction() const { return std::max(rounding, share_of_precision * context_.options.precision); }
+double Radau::least_correction() const { return std::max(least_change, share_of_precision * context_.options.precision); }
 
 bool Radau::complete(Configuration& c) {
   if (balance_kept_)
@@ -104,7 +104,7 @@ bool Radau::fit_accelerations(Configuration& c) {
     if (!std::isfinite(size)) return false;
     if (k == 0) first = size;
     const bool balanced = size <= left_open * first;
-    if (!balanced && !balance_fits_ && size > slow * before) {
+    if (!balanced && !balance_fits_ && size > slow_balance * before) {
       renew_balance(c);
     } else if (balanced || (k > 0 && size >= 0.5 * before)) {
       if (!context_.redundancy.share(c)) {
