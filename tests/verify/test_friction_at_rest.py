@@ -4,6 +4,7 @@ event-driven integration by scipy."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -61,6 +62,36 @@ def test_a_block_stops_on_a_slope_and_slides_back(tmp_path: Path) -> None:
     assert np.abs(result["node/1/UX"] - expected).max() < 3e-8
     lost = 0.2 * 2 * 9 * (stop / 2 + down * (1 - stop) ** 2 / 2)
     assert result["run/DISSIPATED_ENERGY"][-1] == pytest.approx(lost, rel=1e-6)
+
+
+BREAKING_AWAY = """
+.NOE
+ I 1
+.FCT
+ I 1 TABLE 0 0 1 20
+.MCE
+ I 1 PRISMATIC N 0 1 AXIS 1 0 0 FRICTION CONST 0.2 0.3 STICK K 300
+ I 2 INERTIA N 1 M 2 J 0.1
+ I 3 FORCE N 1 DIR 0 0 -1 V 20
+ I 4 FORCE N 1 DIR 1 0 0 V 1 NF 1
+.SAM TYPE DYNAMIC SCHEME RADAU
+.SUB TF 1 H 0.01 TOL {tolerance}
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize("tolerance", [1e-6, 1e-9, 1e-12])
+def test_every_change_is_an_event(tolerance: float, tmp_path: Path) -> None:
+    """Also one that is met so sharply that its switch is at rounding level."""
+    run(BREAKING_AWAY.format(tolerance=tolerance), tmp_path)
+    events = re.findall(r"t = (\S+) +PRISMATIC 1: (.*)", (tmp_path / "deck.lst").read_text())
+    assert [what for _, what in events] == ["breaks away", "comes to rest", "breaks away"]
+    # from 20 t = 6 on, 2 x'' + 300 x = 2 + 20 (t - 0.3), until x' = 0; then 20 t - 300 x = 6
+    w = np.sqrt(150)
+    phase = 2 * (np.pi - np.arctan(w / 10))
+    x = (2 + 20 * phase / w - 2 * np.cos(phase) - 20 / w * np.sin(phase)) / 300
+    expected = [0.3, 0.3 + phase / w, (6 + 300 * x) / 20]
+    assert [float(t) for t, _ in events] == pytest.approx(expected, rel=max(3e-9, tolerance))
 
 
 def test_a_rotor_is_braked_to_rest(tmp_path: Path) -> None:

@@ -115,12 +115,18 @@ std::vector<Event> Switches::take(const Configuration& c) {
   return events;
 }
 
-void Switches::renew(const Configuration& c) {
+std::vector<Event> Switches::renew(const Configuration& c) {
+  std::vector<Event> late;
+  const std::vector<Switch> now = at(c);
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Layout& layout = context_.model.parts[static_cast<std::size_t>(places_[i].part)].element->layout();
-    if (places_[i].index >= static_cast<int>(layout.switches.size() - 2 * layout.grips.size())) side_[i] = 0;
+    if (places_[i].index < static_cast<int>(layout.switches.size() - 2 * layout.grips.size())) continue;
+    const bool unclear = taken_[i].size != 0 && std::abs(taken_[i].value) <= rounding * taken_[i].size;
+    if (side_[i] != 0 && unclear && now[i].size == 0) late.push_back({places_[i].part, places_[i].index, side_[i] < 0});
+    side_[i] = 0;
   }
   take(c);
+  return late;
 }
 
 void Switches::complete(std::vector<Switch>& from, std::vector<Switch>& to, double h) {

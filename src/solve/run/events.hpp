@@ -30,8 +30,9 @@ class Switches {
   /// its side.
   std::vector<Event> take(const Configuration& c);
 
-  /// Determines the sides of the grips anew: their meaning changes when friction comes to rest or gives way.
-  void renew(const Configuration& c);
+  /// Determines the sides of the grips anew, whose meaning changes when friction comes to rest or gives way; after take() at
+  /// the same time. Returns the changes that take() left open: friction has changed where a switch was at rounding level.
+  std::vector<Event> renew(const Configuration& c);
 
   /// Sides: 1, −1, or 0 for a switch that has no meaning at present.
   const std::vector<int>& sides() const { return side_; }

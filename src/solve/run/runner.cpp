@@ -285,7 +285,10 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   context_.assembler.commit(now_);
   step_.events.clear();
   if (locator_.active()) step_.events = locator_.switches().take(now_);
-  if (scheme_.settle_friction(now_) && locator_.active()) locator_.switches().renew(now_);
+  if (scheme_.settle_friction(now_) && locator_.active()) {
+    const std::vector<Event> late = locator_.switches().renew(now_);
+    step_.events.insert(step_.events.end(), late.begin(), late.end());
+  }
   if (control_.active() && !step_.events.empty()) {
     h_ = control_.enter(locator_.switches().sides(), h_);
     scheme_.enter(locator_.switches().sides());
