@@ -204,13 +204,24 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
   }
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
   std::vector<double> diagonal(motion, 0.0);
+  // largest entry in the row of each multiplier, which several parts may share: all of a part's entries may be rounding
+  std::vector<double> steepest(scale_.size(), 0.0);
   for_each_tangent(configuration, weights, [&](std::size_t at, std::span<const double> local) {
     if (is_ghost(at)) return;
     const auto slots = numbering_.part_slots(evaluated(at));
-    for (std::size_t i = 0; i < slots.size(); ++i)
-      if (const auto slot = static_cast<std::size_t>(slots[i]); slot < motion) diagonal[slot] += local[i * slots.size() + i];
+    const std::size_t n = slots.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto slot = static_cast<std::size_t>(slots[i]);
+      if (slot < motion) {
+        diagonal[slot] += local[i * n + i];
+        continue;
+      }
+      double& most = steepest[slot - motion];
+      for (const double entry : local.subspan(i * n, n)) most = std::max(most, std::abs(entry));
+    }
   });
   MPI_Allreduce(MPI_IN_PLACE, diagonal.data(), static_cast<int>(motion), MPI_DOUBLE, MPI_SUM, comm_);
+  MPI_Allreduce(MPI_IN_PLACE, steepest.data(), static_cast<int>(steepest.size()), MPI_DOUBLE, MPI_MAX, comm_);
 
   std::vector<double> k(scale_.size(), 0.0);
   for_each_tangent(configuration, weights, [&](std::size_t at, std::span<const double> local) {
@@ -218,18 +229,14 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
     const auto slots = numbering_.part_slots(part);
     const std::size_t n = slots.size();
     for (std::size_t i = n - element(part).layout().multipliers.size(); i < n; ++i) {
-      double steepest = 0;
-      for (std::size_t j = 0; j < n; ++j) steepest = std::max(steepest, std::abs(local[i * n + j]));
-      double size = 0;
+      const std::size_t multiplier = static_cast<std::size_t>(slots[i]) - motion;
       for (std::size_t j = 0; j < n; ++j) {
         const auto slot = static_cast<std::size_t>(slots[j]);
-        const double b = std::abs(local[i * n + j]) / std::max(std::abs(weights.q), 1e-300);
+        const double entry = std::abs(local[i * n + j]);
         // a slot that the constraint hardly affects says nothing about the size of the constraint force
-        if (slot < motion && numbering_.equation(slots[j]) >= 0 && b > 1e-6 * steepest)
-          size = std::max(size, std::abs(diagonal[slot]) / b);
+        if (slot < motion && numbering_.equation(slots[j]) >= 0 && entry > 1e-6 * steepest[multiplier])
+          k[multiplier] = std::max(k[multiplier], std::abs(diagonal[slot]) / (entry / std::max(std::abs(weights.q), 1e-300)));
       }
-      double& largest = k[static_cast<std::size_t>(slots[i]) - motion];
-      largest = std::max(largest, size);
     }
   });
   MPI_Allreduce(MPI_IN_PLACE, k.data(), static_cast<int>(k.size()), MPI_DOUBLE, MPI_MAX, comm_);
