@@ -43,17 +43,40 @@ void solve_cyclic(std::vector<double> d, const std::vector<double>& e, std::vect
 
 }  // namespace
 
+double Curve::Piece::value(double x) const {
+  const double s = x - origin;
+  return c0 + s * (c1 + s * (c2 + s * c3));
+}
+
+double Curve::Piece::slope(double x) const {
+  const double s = x - origin;
+  return c1 + s * (2 * c2 + 3 * s * c3);
+}
+
+double Curve::Piece::integral(double x) const {
+  const double s = x - origin;
+  return area + s * (c0 + s * (c1 / 2 + s * (c2 / 3 + s * c3 / 4)));
+}
+
 void Curve::sum_areas(double end) {
-  double area = 0;
-  for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    Piece& p = pieces_[i];
-    p.area = area;
-    const double s = (i + 1 < pieces_.size() ? pieces_[i + 1].x0 : end) - p.x0;
-    area += s * (p.c0 + s * (p.c1 / 2 + s * (p.c2 / 3 + s * p.c3 / 4)));
+  // outwards from the piece that begins at the anchor or contains it
+  std::size_t first = 0;
+  if (period_ || pieces_.front().x0 > 0) {
+    const double x0 = pieces_[0].x0;
+    pieces_[0].area = (period_ ? 0 : x0 * pieces_[0].value(x0)) - pieces_[0].integral(x0);
+  } else {
+    first = static_cast<std::size_t>(find(0).piece - pieces_.data());
+    pieces_[first].area = -pieces_[first].integral(0);
   }
-  area_of_period_ = area;
-  from_start_to_zero_ = 0;
-  from_start_to_zero_ = from_start(0);
+  const auto meet = [this](std::size_t i, std::size_t known, double x) {
+    pieces_[i].area = 0;
+    pieces_[i].area = pieces_[known].integral(x) - pieces_[i].integral(x);
+  };
+  for (std::size_t i = first + 1; i < pieces_.size(); ++i) meet(i, i - 1, pieces_[i].x0);
+  for (std::size_t i = first; i-- > 0;) meet(i, i + 1, pieces_[i + 1].x0);
+  if (!period_) return;
+  area_of_period_ = pieces_.back().integral(end);
+  from_anchor_to_zero_ = from_anchor(0);
 }
 
 Curve Curve::lines(std::span<const double> x, std::span<const double> y, std::optional<double> period) {
@@ -61,12 +84,22 @@ Curve Curve::lines(std::span<const double> x, std::span<const double> y, std::op
   const std::size_t n = x.size();
   Curve curve;
   curve.period_ = period;
-  for (std::size_t i = 0; i + 1 < n; ++i) curve.pieces_.push_back({x[i], y[i], (y[i + 1] - y[i]) / (x[i + 1] - x[i])});
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double slope = (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
+    if (period || x[i] >= 0) {
+      curve.pieces_.push_back({x[i], x[i], y[i], slope});
+    } else if (x[i + 1] <= 0) {
+      curve.pieces_.push_back({x[i], x[i + 1], y[i + 1], slope});
+    } else {  // y(0) = 0 exactly where the points are opposite
+      const double middle = y[i] + (y[i + 1] - y[i]) * (-x[i] / (x[i + 1] - x[i]));
+      curve.pieces_.push_back({x[i], 0, middle, slope});
+    }
+  }
   const double gap = period ? *period - (x[n - 1] - x[0]) : 0;
   if (!period || (n == 1 && closes(gap, *period)))
-    curve.pieces_.push_back({x[n - 1], y[n - 1]});
+    curve.pieces_.push_back({x[n - 1], x[n - 1], y[n - 1]});
   else if (!closes(gap, *period))
-    curve.pieces_.push_back({x[n - 1], y[n - 1], (y[0] - y[n - 1]) / gap});
+    curve.pieces_.push_back({x[n - 1], x[n - 1], y[n - 1], (y[0] - y[n - 1]) / gap});
   curve.sum_areas(period ? x[0] + *period : x[n - 1]);
   return curve;
 }
@@ -74,10 +107,11 @@ Curve Curve::lines(std::span<const double> x, std::span<const double> y, std::op
 Curve Curve::hermite(std::span<const double> x, std::span<const double> y, std::span<const double> slope) {
   Curve curve;
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
-    const double h = x[i + 1] - x[i];
-    const double secant = (y[i + 1] - y[i]) / h;
-    curve.pieces_.push_back(
-        {x[i], y[i], slope[i], (3 * secant - 2 * slope[i] - slope[i + 1]) / h, (slope[i] + slope[i + 1] - 2 * secant) / (h * h)});
+    const std::size_t near = std::abs(x[i + 1]) < std::abs(x[i]) ? i + 1 : i, far = 2 * i + 1 - near;
+    const double h = x[far] - x[near];
+    const double secant = (y[far] - y[near]) / h;
+    curve.pieces_.push_back({x[i], x[near], y[near], slope[near], (3 * secant - 2 * slope[near] - slope[far]) / h,
+                             (slope[near] + slope[far] - 2 * secant) / (h * h)});
   }
   return curve;
 }
@@ -99,7 +133,7 @@ Curve Curve::natural_spline(std::span<const double> x, std::span<const double> y
   }
   solve_tridiagonal(d, e, m);
   Curve curve = hermite(x, y, m);
-  curve.pieces_.push_back({x[n - 1], y[n - 1]});
+  curve.pieces_.push_back({x[n - 1], x[n - 1], y[n - 1]});
   curve.sum_areas(x[n - 1]);
   return curve;
 }
@@ -160,15 +194,15 @@ Curve::Place Curve::find(double x) const {
   auto after = std::upper_bound(pieces_.begin(), pieces_.end(), x, [](double v, const Piece& p) { return v < p.x0; });
   if (after != pieces_.begin()) --after;
   place.piece = &*after;
-  place.s = x - after->x0;
+  place.x = x;
   return place;
 }
 
 Jet Curve::at(double x) const {
-  const auto [p, s, turns] = find(x);
-  if (s < 0) return {p->c0, 0, 0, 0};  // before the first point
-  return {p->c0 + s * (p->c1 + s * (p->c2 + s * p->c3)), p->c1 + s * (2 * p->c2 + 3 * s * p->c3), 2 * p->c2 + 6 * s * p->c3,
-          6 * p->c3};
+  const Place place = find(x);
+  const Piece& p = *place.piece;
+  if (place.x < p.x0) return {p.value(p.x0), 0, 0, 0};  // before the first point
+  return {p.value(place.x), p.slope(place.x), 2 * p.c2 + 6 * (place.x - p.origin) * p.c3, 6 * p.c3};
 }
 
 std::vector<double> Curve::corners(double from, double to, std::size_t most) const {
@@ -177,22 +211,22 @@ std::vector<double> Curve::corners(double from, double to, std::size_t most) con
   struct Side {
     double value, slope;
   };
-  std::vector<Side> ends(n);  // limits of each piece at the start of the next one
+  std::vector<Side> starts(n), ends(n);  // limits of each piece at its start and at that of the next one
   double height = 0, steepest = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Piece& p = pieces_[i];
-    const double s = i + 1 < n ? pieces_[i + 1].x0 - p.x0 : period_ ? first + *period_ - p.x0 : 0;
-    ends[i] = {p.c0 + s * (p.c1 + s * (p.c2 + s * p.c3)), p.c1 + s * (2 * p.c2 + 3 * s * p.c3)};
-    height = std::max({height, std::abs(p.c0), std::abs(ends[i].value)});
-    steepest = std::max({steepest, std::abs(p.c1), std::abs(ends[i].slope)});
+    const double end = i + 1 < n ? pieces_[i + 1].x0 : period_ ? first + *period_ : p.x0;
+    starts[i] = {p.value(p.x0), p.slope(p.x0)};
+    ends[i] = {p.value(end), p.slope(end)};
+    height = std::max({height, std::abs(starts[i].value), std::abs(ends[i].value)});
+    steepest = std::max({steepest, std::abs(starts[i].slope), std::abs(ends[i].slope)});
   }
   std::vector<double> corners;
   for (std::size_t i = 0; i < n; ++i) {
-    const Piece& p = pieces_[i];
-    const Side before = i > 0 ? ends[i - 1] : period_ ? ends[n - 1] : Side{p.c0, 0};
+    const Side after = starts[i], before = i > 0 ? ends[i - 1] : period_ ? ends[n - 1] : Side{after.value, 0};
     // smaller differences are rounding errors
-    if (std::abs(p.c0 - before.value) > 1e-12 * height || std::abs(p.c1 - before.slope) > 1e-9 * steepest)
-      corners.push_back(p.x0);
+    if (std::abs(after.value - before.value) > 1e-12 * height || std::abs(after.slope - before.slope) > 1e-9 * steepest)
+      corners.push_back(pieces_[i].x0);
   }
   std::vector<double> found;
   if (corners.empty() || (period_ && !std::isfinite(to - from))) return found;
@@ -206,10 +240,11 @@ std::vector<double> Curve::corners(double from, double to, std::size_t most) con
   }
 }
 
-double Curve::from_start(double x) const {
-  const auto [p, s, turns] = find(x);
-  if (s < 0) return s * p->c0;
-  return turns * area_of_period_ + p->area + s * (p->c0 + s * (p->c1 / 2 + s * (p->c2 / 3 + s * p->c3 / 4)));
+double Curve::from_anchor(double x) const {
+  const Place place = find(x);
+  const Piece& p = *place.piece;
+  if (place.x < p.x0) return p.integral(p.x0) + (place.x - p.x0) * p.value(p.x0);
+  return place.turns * area_of_period_ + p.integral(place.x);
 }
 
 }  // namespace engrane

@@ -28,7 +28,7 @@ class Curve {
 
   Jet at(double x) const;
   /// ∫ from 0 to x, exact up to rounding.
-  double integral(double x) const { return from_start(x) - from_start_to_zero_; }
+  double integral(double x) const { return from_anchor(x) - from_anchor_to_zero_; }
   /// 0 if not periodic.
   double period() const { return period_.value_or(0); }
   /// Abscissas of jumps and corners in (from, to), ascending. Empty if there are more than `most`, or if the curve is periodic
@@ -36,28 +36,32 @@ class Curve {
   std::vector<double> corners(double from, double to, std::size_t most) const;
 
  private:
-  /// y = c0 + s (c1 + s (c2 + s c3)), s = x - x0.
+  /// y = c0 + s (c1 + s (c2 + s c3)), s = x - origin, from x0 to the next piece. The origin is the end nearer to 0: in a table
+  /// that goes far out, as -1E9 -1E15 0 0 1E9 1E15, a distance from there would leave few digits of a small x.
   struct Piece {
-    double x0 = 0;
+    double x0 = 0, origin = 0;
     double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
-    double area = 0;  ///< integral from the curve's first abscissa to x0
+    double area = 0;  ///< integral from the anchor to the origin: from 0, or from the first abscissa of a periodic curve
+    double value(double x) const;
+    double slope(double x) const;
+    double integral(double x) const;  ///< from the anchor
   };
-  /// A piece and the position s in it, after `turns` whole periods.
+  /// A piece and the abscissa in it, after `turns` whole periods.
   struct Place {
     const Piece* piece = nullptr;
-    double s = 0;
+    double x = 0;
     double turns = 0;
   };
   static Curve hermite(std::span<const double> x, std::span<const double> y, std::span<const double> slope);
 
   Place find(double x) const;
-  double from_start(double x) const;
+  double from_anchor(double x) const;
   void sum_areas(double end);
 
   std::vector<Piece> pieces_;  ///< the first and last extend to infinity unless the curve is periodic
   std::optional<double> period_;
   double area_of_period_ = 0;
-  double from_start_to_zero_ = 0;
+  double from_anchor_to_zero_ = 0;
 };
 
 }  // namespace engrane

@@ -38,6 +38,37 @@ TEST(Curve, LinesHoldTheirEnds) {
   EXPECT_EQ(Curve::lines(std::vector{4.0}, std::vector{2.0}).integral(10), 20);
 }
 
+TEST(Curve, ATableThatGoesFarOutKeepsTheDigitsOfSmallAbscissas) {
+  const double far = 1e9, x = 1.1e-3;
+  const Curve two = Curve::lines(std::vector{-far, far}, std::vector{-2 * far, 2 * far});
+  const Curve three = Curve::lines(std::vector{-far, 0.0, far}, std::vector{-2 * far, 0.0, 2 * far});
+  for (const Curve& line : {two, three})
+    for (const double at : {x, -x}) {
+      EXPECT_DOUBLE_EQ(line.at(at).f, 2 * at);
+      EXPECT_DOUBLE_EQ(line.integral(at), at * at);
+      EXPECT_EQ(line.at(at).d1, 2);
+    }
+  EXPECT_TRUE(two.corners(-1, 1, 10).empty());
+  const Curve spline = Curve::natural_spline(std::vector{-far, 0.0, far}, std::vector{-2 * far, 0.0, 2 * far});
+  for (const double at : {x, -x}) EXPECT_NEAR(spline.integral(at), at * at, 1e-12 * x * x);
+}
+
+TEST(Curve, AreasOnBothSidesOfZero) {
+  const std::vector<double> x{-3, -1.5, -0.4, 0.7, 2}, y{2, -1, 0.5, 3, -2};
+  for (const double beside : {-7.0, 0.0, 7.0}) {  // points before, about and behind 0
+    std::vector<double> at = x;
+    for (double& one : at) one += beside;
+    for (const Curve& curve : {Curve::lines(at, y), Curve::natural_spline(at, y)})
+      for (const double from : {-4.0, -2.2, -1.0, 1.1, 3.5})
+        EXPECT_NEAR(curve.integral(from + beside) - curve.integral(at[0]), quadrature(curve, at[0], from + beside, 40000), 3e-8);
+  }
+  std::vector<double> closed = y;
+  closed.back() = closed.front();
+  const Curve turning = Curve::periodic_spline(x, closed, 5);
+  EXPECT_NEAR(turning.integral(6.3), quadrature(turning, 0, 6.3, 40000), 1e-8);
+  EXPECT_NEAR(turning.integral(-8.1), quadrature(turning, 0, -8.1, 40000), 1e-8);
+}
+
 TEST(Curve, PeriodicLines) {
   const Curve triangle = Curve::lines(std::vector{0.0, 1.0}, std::vector{0.0, 1.0}, 2.0);  // a line closes the gap
   EXPECT_EQ(triangle.at(1.5).f, 0.5);
@@ -68,7 +99,7 @@ TEST(Curve, NaturalSplineIsSmoothAndExactOnLines) {
   EXPECT_NEAR(spline.at(std::nextafter(3.0, 0)).d2, 0, 1e-13);
   EXPECT_EQ(spline.at(5).f, 3);
   EXPECT_EQ(spline.at(3).d1, 0);
-  EXPECT_EQ(spline.at(-3).f, 1);
+  EXPECT_DOUBLE_EQ(spline.at(-3).f, 1);
   EXPECT_EQ(spline.at(-3).d1, 0);
   for (const double t : {-2.5, -0.5, 0.25, 1.0, 2.5, 4.0})
     EXPECT_NEAR(spline.integral(t), t < 0 ? -quadrature(spline, t, 0, 400) : quadrature(spline, 0, t, 400), 1e-12) << t;
