@@ -6,6 +6,7 @@
 
 #include <filesystem>
 
+#include "app/mesh_plausibility.hpp"
 #include "app/mesh_records.hpp"
 #include "app/plausibility.hpp"
 #include "app/selection.hpp"
@@ -95,7 +96,10 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
     warn_of_undamped_beams(reading.deck, reading.model, building);
     warn_of_short_pulses(reading.deck, reading.model, building);
   }
-  if (syntax_good && !building.has_errors()) warn_of_unit_slips(reading.deck, reading.model, building);
+  if (syntax_good && !building.has_errors()) {
+    warn_of_unit_slips(reading.deck, reading.model, building);
+    warn_of_mesh_slips(reading.deck, reading.model, building);
+  }
   // errors that only result from unreadable records are dropped; errors in records that were read are still reported
   for (const Diagnostic& d : building.all())
     if (!is_echo(d, reading.deck)) reading.diagnostics.add(d);

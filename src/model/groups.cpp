@@ -82,12 +82,16 @@ std::vector<int> NodeGroups::resolve(const deck::Record& record, const deck::Nod
       diagnostics_.missing(".NOE", record.where("NOEUD"), fmt::format("node {} does not exist", id));
   }
   ++searches_;
+  bool known = true;
   for (const std::string& name : target.groups) {
-    if (const auto group = find(name))
+    if (const auto group = find(name)) {
       append(*group, ids);
-    else
+    } else {
       report_unknown_group(record, "GROUP", name);
+      known = false;
+    }
   }
+  if (known && ids.empty() && target.nodes.empty() && !target.groups.empty()) report_no_nodes(record, target);
   sort_and_unite(ids);
   return ids;
 }
@@ -106,6 +110,16 @@ void NodeGroups::append(std::size_t group, std::vector<int>& ids) {
         if (node.id != 0) ids.push_back(node.id);
     open.insert(open.end(), g.united.begin(), g.united.end());
   }
+}
+
+/// Warns about a record that applies to no node, as its groups are empty. An archive without them keeps other histories.
+void NodeGroups::report_no_nodes(const deck::Record& record, const deck::NodeTarget& target) const {
+  if (record.get<deck::ArchiveCard>()) return;
+  const std::string_view key = record.schema->key();
+  const bool one = target.groups.size() == 1;
+  diagnostics_.warning(record.where("GROUP"), fmt::format("{} \"{}\" {} no nodes: this {} has no effect",
+                                                          one ? "group" : "groups", fmt::join(target.groups, "\", \""),
+                                                          one ? "has" : "have", key.empty() ? record.schema->name : key));
 }
 
 std::optional<std::size_t> NodeGroups::find(const std::string& name) const {

@@ -21,7 +21,8 @@ class NodeGroups {
 
   void add(const deck::Record& record, const deck::GroupCard& card);
 
-  /// Returns the node ids of a target, ascending and unique. Unknown nodes and groups are errors at the record's keywords.
+  /// Returns the node ids of a target, ascending and unique. Unknown nodes and groups are errors at the record's keywords; groups
+  /// that are all empty are a warning there.
   std::vector<int> resolve(const deck::Record& record, const deck::NodeTarget& target);
 
  private:
@@ -37,6 +38,7 @@ class NodeGroups {
   std::optional<std::size_t> find(const std::string& name) const;
   std::vector<int> nodes_in(const std::vector<double>& box);
   void append(std::size_t group, std::vector<int>& ids);
+  void report_no_nodes(const deck::Record& record, const deck::NodeTarget& target) const;
   void report_unknown_group(const deck::Record& record, std::string_view keyword, const std::string& name) const;
 
   const NodePositions& nodes_;

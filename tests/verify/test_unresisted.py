@@ -110,6 +110,73 @@ def test_a_mesh_without_supports_on_several_ranks(tmp_path: Path) -> None:
     assert "nothing resists a motion of node" in refused(plate("NOEUD 1 FIX C 1 2"), tmp_path, ranks=3)
 
 
+def halves(corner: int, middle: int, support: str = "NOEUD 1 4 FIX C 1 2", link: str = "") -> str:
+    """Two cells side by side. Nodes 12 and 13 are in the places of 2 and 3; the right cell is on `corner` and
+    `middle`."""
+    return f"""
+.NOE
+ I 1 X 0 Y 0
+ I 2 X 1 Y 0
+ I 3 X 1 Y 1
+ I 4 X 0 Y 1
+ I 5 X 2 Y 0
+ I 6 X 2 Y 1
+ I 12 X 1 Y 0
+ I 13 X 1 Y 1
+ I 20 X 1 Y 0.5
+.MAI
+ I 1 N 1 2 3 4
+ I 2 N {corner} 5 6 {middle}
+.SEL
+ GROUP 1 NOM "plate" MAILLES TOUT
+.MAT
+ I 1 YT 2.1E11 NT 0.3 M 7850.
+.HYP DEFO PLAN
+.AEL
+ GROUP "plate" MAT 1
+.CLM
+ {support}
+ NOEUD 5 6 CHA C 1 V 500.
+{link}
+.FIN 1
+"""
+
+
+LINK = ".MCE\n I 50 RIGID_LINK N 20 MEMBERS 2 3 12 13"
+
+
+@pytest.mark.parametrize(
+    ("corner", "middle", "pair", "more"),
+    [
+        (
+            12,
+            13,
+            "Nodes 2 and 12 are in one place",
+            "(the first of 2 such pairs)",
+        ),  # nothing joins the halves
+        (
+            2,
+            13,
+            "Nodes 3 and 13 are in one place",
+            "takes them apart: cells",
+        ),  # the right one turns about node 2
+    ],
+)
+def test_nodes_in_one_place_that_are_not_shared(
+    corner: int, middle: int, pair: str, more: str, tmp_path: Path
+) -> None:
+    """Only a support was asked for, of a mesh that has enough of them."""
+    said = refused(halves(corner, middle), tmp_path)
+    assert pair in said and more in said and "engrane import --merge 1e-6" in said
+
+
+@pytest.mark.parametrize(("corner", "middle", "link"), [(2, 3, ""), (12, 13, LINK)])
+def test_nodes_in_one_place_that_move_together(corner: int, middle: int, link: str, tmp_path: Path) -> None:
+    """What is missing is a support, whether or not there are nodes in one place."""
+    said = refused(halves(corner, middle, "NOEUD 1 FIX C 1", link), tmp_path)
+    assert "nothing resists a motion of" in said and "in one place" not in said
+
+
 def test_a_mesh_with_supports(tmp_path: Path) -> None:
     run(plate("NOEUD 1 FIX C 1 2\n NOEUD 4 FIX C 1"), tmp_path)
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "solve/constraints/column_basis.hpp"
 #include "solve/constraints/constraint_factors.hpp"
@@ -112,12 +114,55 @@ NullVector nearest_null_vector(Sparse matrix, double farthest) {
   return {};
 }
 
+/// Names nodes of cells in one place that a motion takes apart, with advice; empty if there are none. `null`: the motion, by
+/// equation.
+std::string unshared_nodes(const Assembler& assembler, const Vector& null) {
+  constexpr double apart = 1e-3;  // of the largest translation
+  constexpr double near = 1e-6;   // of the model's extent, as in docs/meshes.md
+  const Model& model = assembler.model();
+  std::vector<Vec3> motion(model.nodes.size(), Vec3::Zero());
+  double largest = 0;
+  for (Eigen::Index e = 0; e < null.size(); ++e) {
+    const Unknown& u = assembler.numbering().unknown(static_cast<int>(e));
+    if (u.multiplier || u.node < 0 || u.item > 2) continue;
+    motion[static_cast<std::size_t>(u.node)][u.item] = null[e];
+    largest = std::max(largest, std::abs(null[e]));
+  }
+  std::vector<bool> of_cells(model.nodes.size(), false);
+  for (const Model::Part& part : model.parts)
+    if (part.element->cell_shape() != CellShape::none)
+      for (const int node : part.nodes) of_cells[static_cast<std::size_t>(node)] = true;
+  // sorted along a direction that is none of a regular mesh: few nodes have neighbours within the tolerance there
+  const Vec3 along = Vec3(0.83, -0.51, 0.22).normalized();
+  std::vector<std::pair<double, std::size_t>> sorted;
+  for (std::size_t i = 0; i < of_cells.size(); ++i)
+    if (of_cells[i]) sorted.emplace_back(along.dot(model.nodes[i].x), i);
+  std::sort(sorted.begin(), sorted.end());
+  const double tolerance = near * model.extent();
+  int pairs = 0;
+  std::pair<int, int> first{std::numeric_limits<int>::max(), 0};
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].first - sorted[i].first <= tolerance; ++j) {
+      const std::size_t a = sorted[i].second, b = sorted[j].second;
+      if ((model.nodes[a].x - model.nodes[b].x).norm() > tolerance || !((motion[a] - motion[b]).norm() > apart * largest))
+        continue;
+      ++pairs;
+      first = std::min(first, std::minmax({model.nodes[a].id, model.nodes[b].id}));
+    }
+  if (pairs == 0) return {};
+  return fmt::format(
+      ". Nodes {} and {} are in one place, and this motion takes them apart{}: cells are joined only by nodes that they share; "
+      "name the same node in both, or join such nodes of a mesh file by engrane import --merge 1e-6",
+      first.first, first.second, pairs > 1 ? fmt::format(" (the first of {} such pairs)", pairs) : "");
+}
+
 /// Advice on a motion that nothing resists; `order`: equations, those that move most first.
 std::string advice(const Assembler& assembler, const std::vector<int>& order, const Vector& null, Resistance resistance) {
   const Model& model = assembler.model();
   const double largest = std::abs(null[order[0]]);
   if (resistance == Resistance::at_rest)
-    return ". Statics needs something that holds every motion: a support (.CLM FIX), a joint, a spring or a drive; what is to "
+    return unshared_nodes(assembler, null) +
+           ". Statics needs something that holds every motion: a support (.CLM FIX), a joint, a spring or a drive; what is to "
            "move freely needs TYPE DYNAMIC";
   std::vector<bool> bodies(model.nodes.size(), false);
   for (const Model::Part& part : model.parts)

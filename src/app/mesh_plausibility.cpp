@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/mesh_plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "deck/cards/mesh_cards.hpp"
+#include "elements/structural/cell_book.hpp"
+
+namespace engrane::app {
+
+namespace {
+
+using elements::structural::CellBook;
+
+bool is_cell(const Model::Part& part) { return part.type == "MAI"; }
+
+/// The groups of cells of a deck, read again: the model does not keep them.
+std::vector<int> cells_of(const CellBook& book, const std::vector<std::string>& groups) {
+  std::vector<int> all;
+  for (const std::string& group : groups) {
+    const std::vector<int> cells = book.cells(group);
+    all.insert(all.end(), cells.begin(), cells.end());
+  }
+  return all;
+}
+
+/// Number of cells of each material, by the record of the material.
+std::unordered_map<const deck::Record*, std::size_t> cells_by_material(const deck::Deck& deck, const Model& model,
+                                                                       const CellBook& book) {
+  std::unordered_map<int, const deck::Record*> materials;  // by number; the last of several with one number counts
+  for (const deck::Record& record : deck.records)
+    if (record.get<deck::MaterialCard>()) materials[record.id] = &record;
+  std::unordered_map<int, const deck::Record*> of_cell;
+  for (const deck::Record& record : deck.records) {
+    const auto* card = record.get<deck::AssignmentCard>();
+    if (!card || !card->material || !materials.contains(*card->material)) continue;
+    const deck::Record* material = materials.at(*card->material);
+    for (const int cell : cells_of(book, card->groups)) of_cell[cell] = material;
+    for (const int cell : card->cells) of_cell[cell] = material;
+  }
+  std::unordered_map<const deck::Record*, std::size_t> count;
+  for (const Model::Part& part : model.parts)
+    if (const auto found = of_cell.find(part.element->id()); is_cell(part) && found != of_cell.end()) ++count[found->second];
+  return count;
+}
+
+/// Warns about materials without density whose cells should have inertia or weight. ROT warns of them by itself.
+void look_at_densities(const deck::Deck& deck, const Model& model, const CellBook& book, Diagnostics& diagnostics) {
+  const bool moves = !model.commands.analysis.type.is("STATIC");
+  const bool weighs =
+      std::any_of(model.gravity.begin(), model.gravity.end(), [](const Gravity& g) { return !g.acceleration.isZero(0); });
+  const auto count = cells_by_material(deck, model, book);
+  for (const deck::Record& record : deck.records) {
+    const auto* card = record.get<deck::MaterialCard>();
+    if (!card || card->density.value_or(0) > 0) continue;
+    const auto found = count.find(&record);
+    if (found == count.end()) continue;
+    diagnostics.warning(record.location,
+                        fmt::format("material {}{} has no density: its {} no {}", record.id,
+                                    card->name.empty() ? "" : fmt::format(" \"{}\"", card->name),
+                                    found->second == 1 ? "cell has" : fmt::format("{} cells have", found->second),
+                                    moves && weighs ? "inertia and no weight"
+                                    : moves         ? "inertia"
+                                                    : "weight"),
+                        "M of .MAT is the density");
+  }
+}
+
+/// Whether densities count in a deck, and one is missing.
+bool misses_density(const deck::Deck& deck, const Model& model) {
+  if (model.commands.analysis.type.is("STATIC") &&
+      std::all_of(model.gravity.begin(), model.gravity.end(), [](const Gravity& g) { return g.acceleration.isZero(0); }))
+    return false;
+  return std::any_of(deck.records.begin(), deck.records.end(), [](const deck::Record& record) {
+    const auto* card = record.get<deck::MaterialCard>();
+    return card && !(card->density.value_or(0) > 0);
+  });
+}
+
+/// Warns about rotations that turn no cells.
+void look_at_rotations(const deck::Deck& deck, const CellBook& book, Diagnostics& diagnostics) {
+  for (const deck::Record& record : deck.records)
+    if (const auto* card = record.get<deck::RotationCard>(); card && cells_of(book, card->groups).empty())
+      diagnostics.warning(record.where("GROUP"),
+                          fmt::format("group \"{}\" has no cells: this ROT has no effect", fmt::join(card->groups, "\", \"")));
+}
+
+/// A number that depends on the set of nodes, in any order. Different sets may have the same.
+std::uint64_t mark_of(std::span<const int> nodes) {
+  std::uint64_t sum = 0;
+  for (const int node : nodes) {
+    auto x = static_cast<std::uint64_t>(node);  // mixed as by SplitMix64 (Steele, Lea and Flood 2014)
+    x += 0x9e3779b97f4a7c15U;
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
+    sum += x ^ (x >> 31U);
+  }
+  return sum;
+}
+
+/// Warns about cells on the same nodes, in any order: stiffness and mass add up.
+void look_for_cells_twice(const Model& model, Diagnostics& diagnostics) {
+  using Marked = std::pair<std::uint64_t, std::size_t>;  // of a part
+  std::vector<Marked> marked;
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    if (is_cell(model.parts[p])) marked.emplace_back(mark_of(model.parts[p].element->node_ids()), p);
+  std::sort(marked.begin(), marked.end());
+  // nodes and part of the cells with one mark: sorted, those on the same nodes are neighbours
+  std::vector<std::pair<std::vector<int>, std::size_t>> alike;
+  std::size_t pairs = 0;
+  std::pair<std::size_t, std::size_t> first{model.parts.size(), 0};
+  for (std::size_t begin = 0, end = 0; begin < marked.size(); begin = end) {
+    while (end < marked.size() && marked[end].first == marked[begin].first) ++end;
+    if (end == begin + 1) continue;
+    alike.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto nodes = model.parts[marked[i].second].element->node_ids();
+      alike.emplace_back(std::vector<int>(nodes.begin(), nodes.end()), marked[i].second);
+      std::sort(alike.back().first.begin(), alike.back().first.end());
+    }
+    std::sort(alike.begin(), alike.end());
+    for (std::size_t i = 1, before = 0; i < alike.size(); ++i) {
+      before = alike[i].first == alike[i - 1].first ? before + 1 : 0;
+      pairs += before;  // with each of those before it
+      if (before == 1) first = std::min(first, {alike[i - 1].second, alike[i].second});
+    }
+  }
+  if (pairs == 0) return;
+  const Model::Part &one = model.parts[first.first], &other = model.parts[first.second];
+  diagnostics.warning(other.location,
+                      fmt::format("cells {} and {} are on the same nodes{}: stiffness and mass of both count", one.element->id(),
+                                  other.element->id(), pairs > 1 ? fmt::format(" (the first of {} such pairs)", pairs) : ""),
+                      "leave one of them out, unless both are meant");
+}
+
+}  // namespace
+
+void warn_of_mesh_slips(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
+  if (std::none_of(model.parts.begin(), model.parts.end(), is_cell)) return;
+  look_for_cells_twice(model, diagnostics);
+  const bool misses = misses_density(deck, model);
+  const bool turns = std::any_of(deck.records.begin(), deck.records.end(),
+                                 [](const deck::Record& record) { return record.get<deck::RotationCard>(); });
+  if (!misses && !turns) return;
+  const NodePositions nodes(model.nodes);
+  Diagnostics told;  // discarded: building the model has reported these faults
+  const BuildContext context{nodes, model.functions, told, deck.records.front(), nullptr, &deck.records};
+  const CellBook book(context);
+  if (misses) look_at_densities(deck, model, book, diagnostics);
+  if (turns) look_at_rotations(deck, book, diagnostics);
+}
+
+}  // namespace engrane::app
