@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/function_failure.hpp"
@@ -25,6 +26,25 @@ const Expression* find_formula(const BuildContext& context, const std::string& k
     context.error(keyword, fmt::format("function {} is no formula of D or V", id),
                   "LAW TABLE takes a function of one variable, LAW EXPR a formula such as \"2E4*D*(1 + 0.3*V)\"");
   return it->second->law();
+}
+
+/// By how much a force jumps upwards where the rate passes through 0, as dry friction does; 0 if it does not.
+template <class F>
+double jump_at_rest(const F& force) {
+  constexpr double slow = 1e-20, slower = 1e-24, same = 1e-3;
+  const double jump = force(slow) - force(-slow), nearer = force(slower) - force(-slower);
+  return std::isfinite(jump) && jump > 0 && std::abs(nearer - jump) < same * jump ? jump : 0;
+}
+
+/// Warns about a law that is meant as dry friction: bodies cannot stick by it.
+void warn_of_friction(const BuildContext& context, const std::string& keyword, double jump) {
+  if (jump > 0)
+    context.diagnostics.warning(
+        context.record.where(keyword),
+        fmt::format("the force jumps by {} with the sign of the rate: no motion satisfies this law at rest, and the run fails or "
+                    "creeps in tiny steps",
+                    number(jump)),
+        "FRICTION of a joint with STICK comes to rest and holds; TANH(V/v) in the formula instead of SIGN(V) slides slowly");
 }
 
 }  // namespace
@@ -56,6 +76,10 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
       if (!law.formula) return {};
       law.formula_id_ = static_cast<int>(id);
       law.corners = LawCorners(*law.formula);
+      double most = 0;
+      for (const double stretch : {0.0, scale, -scale})
+        most = std::max(most, jump_at_rest([&](double rate) { return law.formula->law(stretch, rate, 0).value; }));
+      warn_of_friction(context, "LAW" + suffix, most);
       if (!law.formula->uses_time())
         law.of_formula_ = std::make_shared<PanelIntegral>([f = law.formula](double e) { return f->law(e, 0, 0).value; },
                                                           [f = law.formula](double e) { return f->rounding(0, e); });
@@ -81,6 +105,7 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
     law.of_rate = context.function(data.damping_law, "CLAW" + suffix);
     if (!law.of_rate) return {};
     law.corners_of_rate = LawCorners(*law.of_rate);
+    warn_of_friction(context, "CLAW" + suffix, jump_at_rest([&](double rate) { return law.of_rate->at(rate).f; }));
   }
   return law;
 }
