@@ -142,7 +142,7 @@ Attempt::Attempt(const Task& task, const Trial& trial, std::optional<Companion>&
 }
 
 Verdict Attempt::make() {
-  if (!open_results()) return {exit_status::solution_failed, {}};
+  if (!open_results()) return {exit_status::wrong_deck, {}};
   if (task_.reading.is_one_solution()) task_.reading.forget_mesh();
   announce();
   run();
@@ -305,6 +305,7 @@ void Attempt::write(const Write& write) {
     write();
   } catch (const OutputError& e) {
     failure_ = e.what();
+    unwritten_ = true;
   }
 }
 
@@ -375,14 +376,17 @@ int Attempt::finish() {
       status = writer_->finish(complete_ ? RunStatus::complete : RunStatus::failed, failure_, times_.split(context_.solver));
     } catch (const OutputError& e) {
       failure_ = e.what();
+      unwritten_ = true;
       status = exit_status::solution_failed;
     }
     const Options& options = task_.options;
     task_.summary.failure = failure_;
     task_.summary.files = writer_->paths();
-    if (!failure_.empty())
-      std::cerr << "engrane: " << terminal_text(failure_) << "\n         results up to there are in " << writer_->path() << '\n';
-    else if (const std::string advice = times_.advice(context_.solver, ranks_); !advice.empty() && !options.quiet)
+    if (!failure_.empty()) {
+      std::cerr << "engrane: " << terminal_text(failure_) << '\n';
+      if (writer_->holds_samples() || !unwritten_)
+        std::cerr << "         results up to there are in " << terminal_text(writer_->path()) << '\n';
+    } else if (const std::string advice = times_.advice(context_.solver, ranks_); !advice.empty() && !options.quiet)
       std::cerr << advice;
     if (!options.quiet && !options.json && options.decks.size() == 1) std::cout << terminal_text(writer_->closing_lines());
   }

@@ -80,12 +80,13 @@ class Attempt {
   std::optional<Writer> writer_;  ///< of rank 0
   std::unique_ptr<solve::Scheme> scheme_;
   std::optional<solve::Runner> runner_;
-  Configuration whole_;    ///< in_space()
-  double last_time_ = 0;   ///< of the last accepted step
-  std::string failure_;    ///< what stopped the run; empty when nothing did
-  bool complete_ = false;  ///< the run came to its end
-  bool unsolved_ = false;  ///< no solution was found at some step
-  bool wrong_ = false;     ///< energies say that solutions are none
+  Configuration whole_;     ///< in_space()
+  double last_time_ = 0;    ///< of the last accepted step
+  std::string failure_;     ///< what stopped the run; empty when nothing did
+  bool complete_ = false;   ///< the run came to its end
+  bool unsolved_ = false;   ///< no solution was found at some step
+  bool wrong_ = false;      ///< energies say that solutions are none
+  bool unwritten_ = false;  ///< results could not be written
 };
 
 }  // namespace engrane::app

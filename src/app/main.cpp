@@ -13,6 +13,7 @@
 #include "app/read.hpp"
 #include "app/session_folder.hpp"
 #include "app/solve_deck.hpp"
+#include "app/standard_output.hpp"
 #include "app/version.hpp"
 #include "assembly/petsc.hpp"
 #include "base/foreign.hpp"
@@ -122,14 +123,16 @@ int main(int argc, char** argv) {
   using namespace engrane;
   using namespace engrane::app;
   int status = exit_status::our_error;
+  open_standard_files();
   try {
     // help and the like need neither MPI nor PETSc, which take a while to start; checking a deck needs the solver
     {
       const char* of_several = std::getenv("OMPI_COMM_WORLD_RANK");
       const bool first = !of_several || std::string_view(of_several) == "0";
       const auto early = parse_command_line(argc, argv, first, status);
-      if (!early) return status;
-      if (early->task != Options::Task::run && early->task != Options::Task::check) return perform(*early, true);
+      if (!early) return after_standard_output(status);
+      if (early->task != Options::Task::run && early->task != Options::Task::check)
+        return after_standard_output(perform(*early, true));
     }
     output::hdf5::prepare();  // before MPI
     const SessionFolder folder;
@@ -146,6 +149,7 @@ int main(int argc, char** argv) {
       if (size > 1) MPI_Abort(PETSC_COMM_WORLD, exit_status::our_error);
       status = exit_status::our_error;
     }
+    status = after_standard_output(status);  // before PetscFinalize, which flushes it too
   } catch (const std::exception& e) {
     std::fprintf(stderr, "engrane: internal error: %s\n", e.what());
   }

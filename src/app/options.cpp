@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -52,6 +53,15 @@ void add_definition(Options& options, const std::string& text) {
   options.wishes.overrides.definitions[(slash ? "" : "/") + text.substr(0, sign)] = text.substr(sign + 1);
 }
 
+/// Refuses what reads as a number but is no time: nan, inf and 1e999.
+const CLI::Validator finite(
+    [](const std::string& text) {
+      double value = 0;
+      const bool number = CLI::detail::lexical_cast(text, value);
+      return number && !std::isfinite(value) ? "takes a finite number, not " + text : std::string();
+    },
+    "");
+
 /// Reports decks that would write the same files.
 void check_prefixes(const Options& options) {
   if (options.decks.size() < 2) return;
@@ -94,7 +104,9 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
       "  engrane template GEAR         a card to fill in\n"};
   app.name("engrane");
   app.footer(
-      "Exit status: 0 fine, 1 the deck is wrong, 2 the solution failed, 3 a fault of the program, 4 a .CHK failed.\n"
+      "Exit status: 0 fine, 1 the deck or the command is wrong or files cannot be written, and nothing was solved, 2 the "
+      "solution\n"
+      "failed, 3 a fault of the program, 4 a .CHK failed, 139 a crash in a user routine (128 and the signal).\n"
       "PETSc's options (-snes_monitor, -ksp_view, -mat_mumps_icntl_14 80, -log_view ...) reach PETSc unchanged.\n"
       "Under MPI: mpiexec -n 2 engrane deck.dat");
   app.set_version_flag("--version", std::string("engrane ") + version);
@@ -117,11 +129,12 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
       ->allow_extra_args(false);
   app.add_flag("--condition", options.condition,
                "the listing also gives the condition of the last linear system, and a bound on the error of its solution");
-  app.add_option("--until", options.until, "stop at this time; --restart continues from there")->type_name("TIME");
+  app.add_option("--until", options.until, "stop at this time; --restart continues from there")->type_name("TIME")->check(finite);
   auto* restart =
       app.add_option("--restart", options.restart, "continue these results, as .SAM RESTART does")->type_name("PREFIX");
   app.add_option("--restart-at", options.restart_time, "continue from the last restart point up to this time")
       ->type_name("TIME")
+      ->check(finite)
       ->needs(restart);
   app.add_option("deck", options.decks, "the decks to solve");
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <vector>
 
+#include "app/layout.hpp"
 #include "app/schedule.hpp"
 #include "app/selection.hpp"
 #include "observe/observer.hpp"
@@ -57,13 +58,88 @@ std::string size_text(double bytes) {
                        : fmt::format("{:.3g} GB", bytes / 1e9);
 }
 
+/// What HDF5 1.10 adds, in bytes, as measured in files of this program: the header of an array with its entry in the group, the
+/// index of an array in chunks, and a group.
+constexpr double array_bytes = 370, index_bytes = 2100, group_bytes = 1100;
+/// Arrays above this size are stored in chunks and compressed (hdf5::Place).
+constexpr double small = 4096;
+/// What compression leaves of arrays of computed values, and of texts.
+constexpr double values_left = 0.75, text_left = 0.25;
+
+/// An array in the file. `left`: what compression leaves of it.
+double array_size(double bytes, double left) { return array_bytes + (bytes <= small ? bytes : index_bytes + left * bytes); }
+
+double numbers_size(std::size_t count, double left = values_left) { return array_size(8.0 * static_cast<double>(count), left); }
+
+/// A list of texts, all stored with the length of the longest.
+template <class Text>
+double texts_size(const output::HistoryTable& table, const Text& text) {
+  std::size_t width = 1;
+  for (const Channel& channel : table.channels) width = std::max(width, text(channel).size());
+  return array_size(static_cast<double>(width * table.channels.size()), text_left);
+}
+
+double histories_size(const output::ResultsLayout& layout, std::size_t samples) {
+  double sum = array_bytes + index_bytes + 8.0 * static_cast<double>(samples);  // times
+  for (const output::HistoryTable& table : layout.history) {
+    sum += group_bytes + array_size(4.0 * static_cast<double>(table.ids.size()), text_left);
+    sum += texts_size(table, [](const Channel& channel) -> const std::string& { return channel.name; });
+    sum += texts_size(table, [](const Channel& channel) -> const std::string& { return channel.help; });
+    sum += texts_size(table, [&](const Channel& channel) { return layout.units.label(channel.dimension); });
+    sum += array_bytes + index_bytes + 8.0 * static_cast<double>(table.columns() * samples);
+  }
+  return sum;
+}
+
+/// The groups of the fields, each with two or three attributes, and what belongs to all instants.
+double field_groups_size(const output::ResultsLayout& layout) {
+  constexpr double attributes = 300;
+  const std::size_t groups =
+      layout.node_fields.size() + layout.cell_fields.size() + layout.point_fields.size() + layout.averages.size();
+  double sum = static_cast<double>(groups) * (group_bytes + attributes);
+  for (const output::PointField& field : layout.point_fields)
+    sum += 2 * array_size(4.0 * static_cast<double>(field.rows()), text_left);
+  return sum;
+}
+
+/// The fields of one instant.
+double frame_size(const output::ResultsLayout& layout) {
+  constexpr double few_left = 0.02;  // of arrays that are almost all zero
+  const std::size_t points = layout.points.size();
+  const bool only_cells = std::none_of(layout.cells.begin(), layout.cells.end(),
+                                       [](const output::Cell& cell) { return cell.shape == CellShape::none; });
+  double sum = 8;
+  for (const Named& field : layout.node_fields) {
+    const bool turns = field.name.find("rotation") != std::string::npos || field.name.starts_with("angular");
+    const bool sparse = field.name.starts_with("reaction") || (turns && only_cells);
+    sum += numbers_size(3 * points, sparse ? few_left : values_left);
+  }
+  for (const output::CellField& field : layout.averages) sum += numbers_size(points * field.width());
+  for (const output::CellField& field : layout.cell_fields) sum += numbers_size(layout.cells.size() * field.width());
+  for (const output::PointField& field : layout.point_fields) sum += numbers_size(field.rows() * field.field.width());
+  return sum;
+}
+
+double restart_size(const output::ResultsLayout& layout, const ResultCounts& counts) {
+  // arrays of a point and their groups; most hold one number to five
+  constexpr double arrays = 75, groups = 13, in_chunks = 3, few = 100;
+  // positions, rates and accelerations of a node with its frame; peaks of channels; energies of frames; the matrix twice
+  const double numbers = few + 50.0 * static_cast<double>(layout.points.size()) +
+                         2.0 * static_cast<double>(layout.channel_count()) + 6.0 * static_cast<double>(counts.frames) +
+                         2.0 * counts.nonzeros;
+  return arrays * array_bytes + groups * group_bytes + in_chunks * index_bytes + values_left * 8 * numbers;
+}
+
 }  // namespace
 
-double expected_result_bytes(std::size_t channels, std::size_t samples, std::size_t nodes, std::size_t frames) {
-  constexpr std::size_t components = 6;  // displacement and rotation of a node
-  constexpr double description = 1.5e5;  // the deck, the model, names and restart data
-  return description + 8.0 * (static_cast<double>(channels + 1) * static_cast<double>(samples) +
-                              static_cast<double>(components * nodes) * static_cast<double>(frames));
+double expected_result_bytes(const output::ResultsLayout& layout, const ResultCounts& counts) {
+  constexpr double rest = 12e3;  // groups and attributes of the file, units, checks
+  const double description = array_size(static_cast<double>(layout.deck_text.size()), text_left) +
+                             array_size(static_cast<double>(layout.model_json.size()), text_left) +
+                             numbers_size(3 * layout.points.size()) + numbers_size(4 * layout.cells.size(), text_left);
+  return rest + description + histories_size(layout, counts.samples) + field_groups_size(layout) +
+         frame_size(layout) * static_cast<double>(counts.frames) +
+         restart_size(layout, counts) * static_cast<double>(counts.restarts);
 }
 
 std::string describe_price(const Reading& reading, solve::SolverContext& context, const Configuration& c) {
@@ -142,14 +218,16 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   else
     text += "\n  the matrix is singular in the first position: no time is foreseen\n";
   const observe::Observer observer(context.assembler, moves(model), select_histories(model));
-  std::size_t channels = observer.run_channels().size();
-  for (const observe::Table& one : observer.tables()) channels += one.ids.size() * one.channels.size();
   const std::size_t samples = Schedule(stepping, model.commands.archive).expected_samples();
+  const output::ResultsLayout layout = results_layout(reading, observer, samples);
   const double frame_step = model.commands.archive.field_step.value_or((stepping.end - stepping.start) / 200);
   const auto frames =
       steps == 0 ? 1 : static_cast<std::size_t>(std::min(steps, (stepping.end - stepping.start) / frame_step)) + 1;
-  return text + fmt::format("  results: {} channels, {} samples, {} frames: a file of about {}\n", channels, samples, frames,
-                            size_text(expected_result_bytes(channels, samples, model.nodes.size() - 1, frames)));
+  ResultCounts counts{samples, frames, reading.is_one_solution() ? 0U : 1U, whole};
+  if (const std::optional<double> interval = model.commands.archive.restart_step; interval && *interval > 0)
+    counts.restarts += static_cast<std::size_t>((stepping.end - stepping.start) / *interval);
+  return text + fmt::format("  results: {} channels, {} samples, {} frames: a file of about {}\n", layout.channel_count(),
+                            samples, frames, size_text(expected_result_bytes(layout, counts)));
 }
 
 }  // namespace engrane::app

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/read.hpp"
+#include "output/results_layout.hpp"
 #include "solve/schemes/solver_context.hpp"
 
 namespace engrane::app {
@@ -17,8 +18,15 @@ namespace engrane::app {
 /// events and contact cost more.
 std::string describe_price(const Reading& reading, solve::SolverContext& context, const Configuration& c);
 
-/// Size of the result file in bytes, to a factor of two: channels times samples, fields of nodes times frames, and the
-/// description of the model.
-double expected_result_bytes(std::size_t channels, std::size_t samples, std::size_t nodes, std::size_t frames);
+/// What the size of a result file follows from, beside its layout.
+struct ResultCounts {
+  std::size_t samples = 0, frames = 0;
+  std::size_t restarts = 0;  ///< restart points, of which a run leaves at least one
+  double nonzeros = 0;       ///< of the matrix, which restart points hold
+};
+
+/// Size of the result file in bytes: histories, fields, restart points, the description of the model, and what HDF5 adds to each
+/// of them. Small files are met to about 15 per cent; how far large fields can be compressed is not known before.
+double expected_result_bytes(const output::ResultsLayout& layout, const ResultCounts& counts);
 
 }  // namespace engrane::app

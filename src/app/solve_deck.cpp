@@ -85,6 +85,24 @@ Companion first_companion(const Reading& reading, Trial& trial, MPI_Comm comm, b
   return Companion(reading, trial.options, comm, quiet, nullptr);
 }
 
+/// Why the files of the results cannot be made; empty if they can. Collective.
+std::string unwritable_place(const std::string& prefix, MPI_Comm comm, int rank) {
+  std::string trouble;
+  if (rank == 0) try {
+      test_places(prefix);
+    } catch (const OutputError& e) {
+      trouble = e.what();
+    }
+  return text_of_rank(0, std::move(trouble), comm);
+}
+
+/// Why `--until` does not fit the run; empty if it does.
+std::string wrong_until(const Options& options, double start) {
+  constexpr double start_alone = -1e300;  // as `engrane study` asks for it, which does not know when a deck starts
+  if (!options.until || *options.until >= start || *options.until <= start_alone) return {};
+  return fmt::format("--until {:.10g} lies before the start of the run, t = {:.10g}", *options.until, start);
+}
+
 /// The mesh of the deck that bears the name of the results; empty when none does.
 std::string mesh_in_the_way(const Reading& reading, const std::string& prefix) {
   std::error_code error;
@@ -112,20 +130,23 @@ int solve_deck(Reading& reading, const Options& options, const std::string& pref
   heed_interruptions();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end of the program
 
-  if (const std::string mesh = mesh_in_the_way(reading, prefix); !mesh.empty()) {
-    summary.failure = fmt::format("the results would take the place of the mesh {}: -o gives them another name", mesh);
+  const auto refuse = [&](std::string why) {
+    summary.failure = std::move(why);
     if (rank == 0) std::cerr << "engrane: " << terminal_text(summary.failure) << '\n';
     return exit_status::wrong_deck;
-  }
+  };
+  if (const std::string mesh = mesh_in_the_way(reading, prefix); !mesh.empty())
+    return refuse(fmt::format("the results would take the place of the mesh {}: -o gives them another name", mesh));
+  if (std::string trouble = unwritable_place(prefix, comm, rank); !trouble.empty()) return refuse(std::move(trouble));
   leave_at_once(true);
   std::unique_ptr<Resumption> resumption;
   try {
     resumption = find_resumption(reading, options);
   } catch (const RestartError& e) {
-    summary.failure = e.what();
-    if (rank == 0) std::cerr << "engrane: " << terminal_text(e.what()) << '\n';
-    return exit_status::wrong_deck;
+    return refuse(e.what());
   }
+  const double start = resumption ? resumption->point.time : reading.model.commands.stepping.start;
+  if (std::string wrong = wrong_until(options, start); !wrong.empty()) return refuse(std::move(wrong));
   if (resumption) keep_plane(reading.model, resumption->point.memory);
   const Task task{reading, options, prefix, resumption.get(), summary, comm};
   Trial trial{.options = solver_options(reading.model)};
@@ -137,7 +158,9 @@ int solve_deck(Reading& reading, const Options& options, const std::string& pref
     if (estimates && !companion) companion.emplace(reading, trial.options, comm, options.quiet, resumption.get());
     trial.may_repeat = trial.may_repeat && repeats < most_repeats;
     Verdict verdict = solve_once(task, trial, companion);
-    if (!verdict.again) return verdict.status;
+    // "nothing was solved" does not hold for a run whose files could be opened the first time only
+    if (!verdict.again)
+      return repeats > 0 && verdict.status == exit_status::wrong_deck ? exit_status::solution_failed : verdict.status;
     trial = std::move(*verdict.again);
     if (!trial.keeps_companion) companion.reset();
   }

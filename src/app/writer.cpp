@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "app/terminal.hpp"
 #include "app/trial.hpp"
 #include "app/version.hpp"
+#include "base/text.hpp"
 
 namespace engrane::app {
 
@@ -311,12 +313,20 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
 
 std::string Writer::stem() const { return path().substr(0, path().size() - std::string_view(".h5").size()); }
 
-std::vector<std::string> Writer::paths() const { return {path(), stem() + ".xdmf", stem() + ".lst"}; }
+std::vector<std::string> Writer::paths() const {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const std::string& file : {path(), stem() + ".xdmf", listing_.path()})
+    if (std::filesystem::exists(file, error)) files.push_back(file);
+  return files;
+}
 
 std::string Writer::closing_lines() const {
   const std::vector<std::string> files = paths();
   const std::string prefix = stem();
-  std::string text = fmt::format("results in {}, {} and {}\n", files[0], files[1], files[2]);
+  if (files.empty()) return {};
+  if (!holds_samples()) return fmt::format("no results; written: {}\n", join(files));
+  std::string text = fmt::format("results in {}\n", join(files));
   const std::string picture = fmt::format("engrane picture {0} --both -o {0}.png", prefix);
   // prefer a table of elements other than loads, whose values are known
   const auto tells = [](const HistoryTable& one) { return !one.type.empty() && one.type != "CHA"; };
@@ -328,7 +338,9 @@ std::string Writer::closing_lines() const {
         fmt::format("engrane plot {0} {1}/{2} -o {0}.png", prefix, table->owner(0), table->channels.front().name);
     text += fmt::format("  {:<{}}  plots a channel; --list shows all of them\n", plot, picture.size());
   }
-  return text + fmt::format("  {}  draws the mechanism before and after; ParaView opens {}\n", picture, files[1]);
+  const std::string index = stem() + ".xdmf";
+  if (std::find(files.begin(), files.end(), index) == files.end()) return text;
+  return text + fmt::format("  {}  draws the mechanism before and after; ParaView opens {}\n", picture, index);
 }
 
 GroundRow Writer::ground(double time) const {

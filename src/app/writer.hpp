@@ -54,9 +54,11 @@ class Writer {
   int finish(output::RunStatus status, const std::string& failure, const output::TimeSplit& times);
 
   const std::string& path() const { return results_.path(); }
-  /// Current names of the results, their index and the listing.
+  bool holds_samples() const { return results_.holds_samples(); }
+  /// Current names of the results, their index and the listing, without those that do not exist: a run without frames has no
+  /// index, nor has one whose disk was full.
   std::vector<std::string> paths() const;
-  /// The files written, and commands that show them.
+  /// The files written, and commands that show what they hold.
   std::string closing_lines() const;
   void note(const std::string& text) { progress_.note(text); }
   /// Modes of linearised buckling at an equilibrium.

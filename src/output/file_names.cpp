@@ -2,12 +2,16 @@
 #include "output/file_names.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -29,6 +33,49 @@ bool worth_keeping(const std::string& path) {
   if (file.id() < 0) return true;
   return hdf5::read_text_attribute(file.id(), "format") != "engrane" ||
          hdf5::read_text_attribute(file.id(), "status") == "complete";
+}
+
+namespace {
+
+/// The longest of the names that a run may give to a file: see OutputName and replace_text().
+constexpr std::string_view longest_ending = ".partial.xdmf~";
+
+/// Throws OutputError if something else than a file has the name.
+void refuse_other_than_file(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISCHR(status.st_mode)) return;
+  throw OutputError(path, S_ISDIR(status.st_mode) ? std::strerror(EISDIR) : "it is no regular file");
+}
+
+}  // namespace
+
+void test_places(const std::string& prefix) {
+  const std::string shown = prefix + ".h5", name = std::filesystem::path(prefix).filename().string();
+  std::string folder = std::filesystem::path(prefix).parent_path().string();
+  if (folder.empty()) folder = ".";
+  struct stat status {};
+  if (stat(folder.c_str(), &status) != 0)
+    throw OutputError(shown, errno == ENOENT ? "there is no folder " + folder : std::strerror(errno));
+  if (!S_ISDIR(status.st_mode)) throw OutputError(shown, folder + " is no folder");
+  const long limit = pathconf(folder.c_str(), _PC_NAME_MAX);
+  const auto most = (limit > 0 ? static_cast<std::size_t>(limit) : NAME_MAX) - longest_ending.size();
+  if (name.size() > most)
+    throw OutputError(
+        shown, fmt::format("its name without ending has {} bytes, and {} are possible: -o gives another", name.size(), most));
+  refuse_other_than_file(shown);  // first, as OutputName opens it
+  const OutputName names(prefix);
+  for (const char* extension : {".h5", ".h5~", ".xdmf", ".xdmf~", ".lst"}) {
+    refuse_other_than_file(names.path(extension));
+    refuse_other_than_file(names.final_path(extension));
+  }
+  // the listing is written in place, the others replace what has their names
+  const std::string listing = names.path(".lst");
+  if (access(listing.c_str(), W_OK) != 0 && errno != ENOENT) fail(listing);
+  std::string trial = folder + "/.engrane-XXXXXX";
+  const int file = mkostemp(trial.data(), O_CLOEXEC);
+  if (file < 0) fail(shown);
+  unlink(trial.c_str());
+  ::close(file);
 }
 
 OutputName::OutputName(std::string prefix) : prefix_(std::move(prefix)), partial_(worth_keeping(prefix_ + ".h5")) {}

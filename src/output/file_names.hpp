@@ -27,6 +27,10 @@ class OutputName {
 /// written by this program; false for a partial result, an empty file, and if there is no file.
 bool worth_keeping(const std::string& path);
 
+/// Whether the files of a run with this prefix can be made, judged before the run: the folder exists and files can be made in
+/// it, no folder bears a name that is needed, and the names are not too long. Throws OutputError if not. Leaves nothing behind.
+void test_places(const std::string& prefix);
+
 /// Prevents a second run from writing the same files: holds an advisory lock on a file during its lifetime.
 class FileLock {
  public:

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/text.hpp"
 #include "output/error.hpp"
 
 namespace engrane::output::hdf5 {
@@ -160,6 +161,24 @@ Handle write_array(const Place& place, const std::string& name, hid_t type, cons
 
 }  // namespace
 
+std::string utf8(std::string_view text) {
+  const auto beyond = std::find_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+  std::string result(text.begin(), beyond);
+  if (beyond == text.end()) return result;  // as nearly always, and quickly: decks of meshes are long
+  result.reserve(text.size());
+  for (std::size_t i = result.size(); i < text.size();) {
+    const std::size_t size = character_size(text, i);
+    if (const auto c = static_cast<unsigned char>(text[i]); size == 1 && c >= 0x80) {
+      result += static_cast<char>(0xc0 | (c >> 6));
+      result += static_cast<char>(0x80 | (c & 0x3f));
+    } else {
+      result += text.substr(i, size);
+    }
+    i += size;
+  }
+  return result;
+}
+
 Handle Place::group(const std::string& name) const {
   const Handle links(check(H5Pcreate(H5P_LINK_CREATE), file));
   check(H5Pset_create_intermediate_group(links.id(), 1), file);
@@ -168,7 +187,8 @@ Handle Place::group(const std::string& name) const {
 
 void Place::attribute(const char* name, const std::string& content) const {
   const Handle type = text_type();
-  const char* text = content.c_str();
+  const std::string converted = utf8(content);
+  const char* text = converted.c_str();
   write_attribute(*this, name, type.id(), &text);
 }
 void Place::attribute(const char* name, double number) const { write_attribute(*this, name, H5T_NATIVE_DOUBLE, &number); }
@@ -187,16 +207,19 @@ Handle fixed_text_type(std::size_t width, const std::string& file) {
 }  // namespace
 
 Handle Place::text(const std::string& name, const std::string& content) const {
-  const Handle type = fixed_text_type(content.size(), file);
+  const std::string converted = utf8(content);
+  const Handle type = fixed_text_type(converted.size(), file);
   const hsize_t shape[1] = {1};
-  return write_array(*this, name, type.id(), content.c_str(), shape);  // an empty text has one byte, its null terminator
+  return write_array(*this, name, type.id(), converted.c_str(), shape);  // an empty text has one byte, its null terminator
 }
 
 Handle Place::texts(const std::string& name, std::span<const std::string> contents) const {
+  std::vector<std::string> converted;
+  for (const std::string& text : contents) converted.push_back(utf8(text));
   std::size_t width = 1;
-  for (const std::string& text : contents) width = std::max(width, text.size());
+  for (const std::string& text : converted) width = std::max(width, text.size());
   std::string block(width * contents.size(), '\0');
-  for (std::size_t i = 0; i < contents.size(); ++i) contents[i].copy(block.data() + i * width, width);
+  for (std::size_t i = 0; i < contents.size(); ++i) converted[i].copy(block.data() + i * width, width);
   const Handle type = fixed_text_type(width, file);
   const hsize_t shape[1] = {contents.size()};
   return write_array(*this, name, type.id(), block.data(), shape);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -65,8 +66,12 @@ Status check(Status status, const std::string& path) {
   return status;
 }
 
+/// Valid UTF-8 with the same characters: a byte that is not part of any is read as Latin-1, as decks may be. Unlike printable(),
+/// it keeps control characters, so that a deck read back is the same.
+std::string utf8(std::string_view text);
+
 /// A location in a file (a group, or an object with attributes) for writing small items. `file` is the file name for messages.
-/// All members throw OutputError on failure.
+/// All members throw OutputError on failure. Texts are stored as UTF-8, whatever the deck is in.
 ///
 /// Arrays and texts larger than 4 KiB are compressed (shuffle, deflate) where this saves enough; smaller ones are stored in the
 /// header of their object.

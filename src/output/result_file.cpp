@@ -390,9 +390,12 @@ void ResultFile::write_checks(std::span<const CheckResult> checks) {
     double value, expected, tolerance;
     std::int32_t passed;
   };
+  std::vector<std::string> texts;
+  for (const CheckResult& c : checks) texts.push_back(hdf5::utf8(c.text));
   std::vector<Row> rows;
   rows.reserve(checks.size());
-  for (const CheckResult& c : checks) rows.push_back({c.text.c_str(), c.value, c.expected, c.tolerance, c.passed ? 1 : 0});
+  for (const CheckResult& c : checks)
+    rows.push_back({texts[rows.size()].c_str(), c.value, c.expected, c.tolerance, c.passed ? 1 : 0});
   const Handle text(check(H5Tcopy(H5T_C_S1), path_));
   check(H5Tset_size(text.id(), H5T_VARIABLE), path_);
   check(H5Tset_cset(text.id(), H5T_CSET_UTF8), path_);

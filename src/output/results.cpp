@@ -48,7 +48,7 @@ void Results::create(const RestartFile* earlier, const RestartPoint* from) {
     ResultFile file(spare_path(), layout_, path_, ResultFile::Mode::create);
     if (earlier) {
       frame_times_ = file.copy_from(earlier->id(), from->samples, from->frames);
-      samples_ = from->samples;
+      samples_ = shown_samples_ = from->samples;
       frames_ = frame_times_.size();
       file.write_latest(*from, false);
     }
@@ -166,6 +166,7 @@ void Results::write_batch() {
   if (gathered_->empty() && !latest_) return;
   write_spare(nullptr);
   exchange_names(path_, spare_path());
+  shown_samples_ = samples_;
   std::swap(shown_lock_, spare_lock_);
   std::swap(marked_shown_, marked_spare_);
   std::swap(last_, gathered_);
@@ -192,6 +193,7 @@ void Results::finish(RunStatus status) {
     const std::string after = complete ? name_.final_path(".h5") : before;
     const std::string index_after = complete ? name_.final_path(".xdmf") : index_before;
     rename_over(spare_path(), after);
+    shown_samples_ = samples_;
     has_spare_ = false;
     over_ = true;
     if (after != before) {

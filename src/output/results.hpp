@@ -65,6 +65,8 @@ class Results {
   /// Writes the rest and the status. A complete result gets the final name; a failed one keeps the partial name.
   void finish(RunStatus status);
 
+  /// Whether the file with the result's name holds samples.
+  bool holds_samples() const { return shown_samples_ > 0; }
   /// Current name of the HDF5 file.
   const std::string& path() const { return path_; }
   const OutputName& name() const { return name_; }
@@ -98,6 +100,7 @@ class Results {
   std::unique_ptr<Batch> last_;      ///< in the shown file, not yet in the spare
   std::unique_ptr<RestartPoint> latest_;
   std::size_t samples_ = 0, frames_ = 0;  ///< added so far
+  std::size_t shown_samples_ = 0;         ///< in the shown file
   std::vector<double> frame_times_;       ///< of all frames in the shown file
   std::size_t indexed_frames_ = 0, indexed_modes_ = 0;
   std::vector<CheckResult> checks_;

@@ -30,10 +30,19 @@ def price(deck: Path, folder: Path) -> str:
 
 
 @pytest.mark.parametrize(
-    "name", ["mechanisms/plane_slider_crank", "gears/spur", "mechanisms/four_bar", "elements/joints/hinge"]
+    "name",
+    [
+        "mechanisms/plane_slider_crank",
+        "mechanisms/four_bar",
+        "gears/spur",
+        "gears/clearance_oscillator_linear",
+        "trains/planetary_5_ring_held",
+        "elements/joints/hinge",
+        "elements/structural/cell_ring",
+    ],
 )
 def test_counts_and_file(name: str, tmp_path: Path) -> None:
-    """Channels and samples are those of the results, and the file is what was foreseen to a factor of two."""
+    """Channels and samples are those of the results, and the file is what was foreseen to 15 per cent."""
     deck = DECKS / f"{name}.dat"
     said = price(deck, tmp_path)
     call(str(deck), "-q", "-o", "done", folder=tmp_path)
@@ -44,7 +53,7 @@ def test_counts_and_file(name: str, tmp_path: Path) -> None:
         assert int(channels) == len(results.channels)
         assert abs(int(samples) - len(results.times())) <= 1
     foreseen = float(size) * {"kB": 1e3, "MB": 1e6}[unit]
-    assert foreseen / 2 < (tmp_path / "done.h5").stat().st_size < 2 * foreseen
+    assert foreseen == pytest.approx((tmp_path / "done.h5").stat().st_size, rel=0.15)
 
 
 def test_equations_and_shares(tmp_path: Path) -> None:

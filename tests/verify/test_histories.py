@@ -104,7 +104,8 @@ def test_size_of_a_large_result(tmp_path):
 @pytest.mark.parametrize("limit", [1000, 20_000, 60_000, 200_000, 1_000_000])
 def test_a_limit_of_file_size_ends_with_a_message(tmp_path, limit):
     ended = run(row(10, ".SAI KEEP ALL FIELDS DT 0.01", end=40), tmp_path, "-q", limit=limit)
-    assert ended.returncode == 2, (ended.returncode, ended.stderr)
+    # 1: nothing was solved, as not even the start of the files had room
+    assert ended.returncode == (1 if limit <= 20_000 else 2), (ended.returncode, ended.stderr)
     assert "Cannot write" in ended.stderr and "File too large" in ended.stderr
     assert not list(tmp_path.glob("*~"))
 
@@ -125,7 +126,7 @@ def test_a_full_disk_ends_with_a_message(tmp_path, size):
         if size == 0:
             (disk / "filler").write_bytes(b"x" * 4096)
         ended = run(row(10, ".SAI KEEP ALL FIELDS DT 0.01", end=40), tmp_path, "-q", "-o", "disk/deck")
-        assert ended.returncode == 2, (ended.returncode, ended.stderr)
+        assert ended.returncode == (1 if size <= 16 else 2), (ended.returncode, ended.stderr)
         assert "Cannot write" in ended.stderr and "No space left" in ended.stderr
     finally:
         subprocess.run(["umount", str(disk)], check=True)
