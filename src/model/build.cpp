@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -211,8 +212,7 @@ class Builder {
   /// The function of an NF keyword. nullptr for 0 (constant) and, with an error, for one that does not exist.
   const Function* function(const deck::Record& record, int id) {
     if (id == 0) return nullptr;
-    const auto it = model_.functions.find(id);
-    if (it != model_.functions.end()) {
+    if (const auto it = model_.functions.find(id); it != model_.functions.end()) {
       if (!is_function_of_one_variable(it->second.get(), record.where("NF"), diagnostics_)) return nullptr;
       model_.of_time.insert(it->second.get());
       return it->second.get();
@@ -231,13 +231,11 @@ class Builder {
         diagnostics_.error(record.where("C"), fmt::format("component {}: components are 1 to 6", c),
                            "1 2 3 are translations along, 4 5 6 rotations about x y z");
     std::vector<double> out(components.size(), values.empty() ? 0.0 : values.front());
-    if (values.size() > 1) {
-      if (values.size() != components.size())
-        diagnostics_.error(record.where("V"), fmt::format("{} values for {} components", values.size(), components.size()),
-                           "give one value for all components, or one for each");
-      else
-        out = values;
-    }
+    if (values.size() == components.size())
+      out = values;
+    else if (values.size() > 1)
+      diagnostics_.error(record.where("V"), fmt::format("{} values for {} components", values.size(), components.size()),
+                         "give one value for all components, or one for each");
     for (std::size_t i = 0; degrees && i < out.size(); ++i)
       if (components[i] > 3) out[i] *= degree;
     return out;
@@ -535,7 +533,12 @@ class Builder {
     return good;
   }
 
+  /// Infinite if all rotations of the node are supported.
   double inertia_about(int node, const Vec3& axis) {
+    if (!support_of_.empty()) {
+      const auto held = support_of_[static_cast<std::size_t>(nodes_.index(node))].begin();
+      if (std::count(held + 3, held + 6, none) == 0) return std::numeric_limits<double>::infinity();
+    }
     for (; indexed_ < model_.parts.size(); ++indexed_)
       for (const int id : model_.parts[indexed_].element->layout().nodes) parts_at_[id].push_back(indexed_);
     double sum = 0;

@@ -304,6 +304,10 @@ bool set_damping(ToothLaw& law, const TeethData& data, const TeethOwner& owner, 
                               node, wheel == 0 ? "A" : "B"),
                   "give the damper itself with CM, or the wheel's inertia with INERTIA");
   }
+  if (good && std::isinf(inertia[0]) && std::isinf(inertia[1])) {
+    context.error("XI", "XI needs a wheel that can turn: the ground or supports hold both", "give the damper itself with CM");
+    good = false;
+  }
   if (good)
     law.damping = tooth_damping(*data.damping_ratio, law.stiffness, inertia[0], inertia[1], owner.lever[0], owner.lever[1]);
   return good;
