@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import os
 import sys
 from collections.abc import Sequence
 
-from .errors import UserError
+from .errors import Terminated, UserError
 
+CTRL_C, TERMINATED = 130, 143  # as the shell tells of commands that signals ended
 DESCRIPTION = (
     "Shows the results of engrane. A result is named by its file (run.h5), prefix (run) or deck (run.dat)."
 )
@@ -74,7 +76,8 @@ def parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs one command. Exit status 0, or 1 after a sentence on standard error."""
+    """Runs one command. Exit status 0, or 1 after a sentence on standard error, or as the shell
+    has it after Ctrl-C and SIGTERM."""
     words = list(sys.argv[1:] if arguments is None else arguments)
     args = parser().parse_args(words[:1] if words[:1] == ["figures"] else words)
     try:
@@ -89,18 +92,36 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"engrane {args.command}: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        return 130  # as the shell tells of a command that Ctrl-C ended
+        return CTRL_C
+    except Terminated:
+        return TERMINATED
     except BrokenPipeError:
-        # `engrane plot run --list | head`: the reader has seen enough. Point stdout elsewhere or Python
-        # complains at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except PermissionError as error:
-        print(f"engrane {args.command}: {error.filename} may not be written or read.", file=sys.stderr)
-        return 1
-    except FileNotFoundError as error:
-        print(f"engrane {args.command}: the folder of {error.filename} does not exist.", file=sys.stderr)
+        _drop_output()  # `engrane plot run --list | head`: the reader has seen enough
+    except OSError as error:
+        print(f"engrane {args.command}: {_sentence(error)}", file=sys.stderr)
+        _drop_output()
         return 1
     return 0
+
+
+def _sentence(error: OSError) -> str:
+    """What the system refuses."""
+    name = error.filename or "the output"
+    if isinstance(error, PermissionError):
+        return f"{name} may not be written or read."
+    if isinstance(error, FileNotFoundError):
+        return f"the folder of {name} does not exist."
+    if error.errno in (errno.ENOSPC, errno.EDQUOT):
+        return f"{name} cannot be written: the disk is full."
+    return f"{name} cannot be written or read: {error.strerror or error}."
+
+
+def _drop_output() -> None:
+    """Points the standard output elsewhere if it takes no more, or Python complains at exit."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 if __name__ == "__main__":

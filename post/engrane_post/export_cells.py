@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -131,6 +132,7 @@ def write_frame(cells: Cells, frame: Frame, path: Path) -> list[str]:
     nodes, own = cells.fields(frame)
     if suffix in (".vtu", ".vtk"):
         from .graphics import pv
+        from .vtu import save
 
         mesh = cells.mesh()
         rows = np.insert(mesh.connectivity, mesh.offsets[:-1], np.diff(mesh.offsets))
@@ -141,7 +143,7 @@ def write_frame(cells: Cells, frame: Frame, path: Path) -> list[str]:
             for name in found:
                 for k, component in enumerate(cells.result.fields[name].components):
                     data.GetArray(name).SetComponentName(k, component)
-        grid.save(path)
+        save(grid, path)
         return []
     if suffix == ".inp":
         abaqus.write(
@@ -153,7 +155,7 @@ def write_frame(cells: Cells, frame: Frame, path: Path) -> list[str]:
                 for (kind, table), ids in zip(cells.blocks, cells.by_block(cells.cell_ids), strict=True)
             ],
         )
-        return sorted([*nodes, *own])
+        return sorted({*nodes, *own})
     return _by_meshio(cells, nodes, own, path)
 
 
@@ -163,7 +165,7 @@ def _by_meshio(
     meshio = meshio_library()
     suffix, fields = path.suffix.lower(), cells.result.fields
     held = HELD.get(suffix)
-    left = [] if held else sorted([*nodes, *own])
+    left = [] if held else sorted({*nodes, *own})
     tables = [(k, t[:, k.mirror] if suffix == ".med" and k.dimension == 3 else t) for k, t in cells.blocks]
     # what rounding leaves of a zero has more characters than a field of Nastran
     points = np.where(np.abs(cells.points) < 1e-12 * np.abs(cells.points).max(initial=0), 0, cells.points)
@@ -185,7 +187,14 @@ def _by_meshio(
             for n in [*mesh.point_data, *mesh.cell_data]
         ]
     try:
-        meshio.write(path, mesh, file_format="gmsh22" if suffix == ".msh" else None)
+        if suffix == ".med":  # in memory first: see h5_writing.py
+            memory = BytesIO()
+            meshio.med.write(memory, mesh)
+            path.write_bytes(memory.getbuffer())
+        else:
+            meshio.write(path, mesh, file_format="gmsh22" if suffix == ".msh" else None)
+    except OSError:
+        raise
     except (Exception, SystemExit) as error:
         raise UserError(
             f"The cells cannot be written as {suffix}: {str(error) or type(error).__name__}."

@@ -4,15 +4,18 @@
 from __future__ import annotations
 
 import argparse
+import textwrap
 from contextlib import ExitStack
 
 import numpy as np
 
 from . import options
 from .errors import UserError
-from .results import Channel, Results, bracketed
+from .results import AXIS_WIDTH, Channel, Results, bracketed, described
 
 MOST_PANELS = 12
+MOST_NAMES = 4  # of channels beside one axis
+WIDE_ENTRY = 65  # characters of a legend's entry, of which two do not fit beside each other
 EXAMPLES = """  engrane plot run --list
   engrane plot run element/7/NORMAL_FORCE
   engrane plot run 7.normal_force 7.u_m --from 0.01 --to 0.012
@@ -64,9 +67,19 @@ def legend_text(result: Results, channel: Channel, several_files: bool, several_
     """Only what tells the curves apart."""
     parts = [result.name] if several_files else []
     if several_channels:
-        what = f"{channel.owner}: {channel.label}" if channel.owner and channel.label else channel.name
-        parts.append(what + channel.remark)
+        parts.append(f"{channel.owner} {channel.description}{channel.remark}".strip())
     return ", ".join(parts)
+
+
+def shared_label(channels: list[Channel]) -> str:
+    """Of an axis for channels of one unit: `UX, UY, UZ: displacement [m]`."""
+    if len(channels) == 1:
+        return channels[0].axis_label()
+    names = list(dict.fromkeys(c.component for c in channels))
+    labels = {c.label for c in channels}
+    name = ", ".join(names[:MOST_NAMES]) + (" ..." if len(names) > MOST_NAMES else "")
+    text = described(name, labels.pop()) if len(labels) == 1 else name
+    return "\n".join(textwrap.wrap(f"{text} {bracketed(channels[0].unit)}".strip(), 2 * AXIS_WIDTH))
 
 
 def draw(
@@ -115,21 +128,21 @@ def draw(
             )
             color += 1
         if not together:
-            axis.set_ylabel(channel.axis_label)
+            axis.set_ylabel(channel.axis_label())
             axis.set_title(channel.owner, fontsize=9, loc="left", color="#444444")
             if len(results) > 1:
                 axis.legend(fontsize=8, loc="best")
     if together:
         for unit, axis in shared.items():
-            labels = list(dict.fromkeys(c.label or c.name for c in channels if c.unit == unit))
-            axis.set_ylabel(
-                f"{', '.join(labels[:2])}{' ...' if len(labels) > 2 else ''} {bracketed(unit)}".strip()
-            )
+            axis.set_ylabel(shared_label([c for c in channels if c.unit == unit]))
         handles = [h for a in shared.values() for h in a.get_legend_handles_labels()[0]]
         if handles and (len(results) > 1 or len(channels) > 1):
-            axes[0].legend(handles=handles, fontsize=8, loc="lower left", bbox_to_anchor=(0, 1.0), ncols=2)
+            columns = 2 if max(len(h.get_label()) for h in handles) < WIDE_ENTRY else 1
+            axes[0].legend(
+                handles=handles, fontsize=8, loc="lower left", bbox_to_anchor=(0, 1.0), ncols=columns
+            )
     time = f"time {bracketed(results[0].time_unit)}".strip()
-    axes[-1].set_xlabel(f"{abscissa.axis_label} ({abscissa.owner})" if abscissa else time)
+    axes[-1].set_xlabel(f"{abscissa.owner} {abscissa.axis_label(width=80)}".strip() if abscissa else time)
     for axis in axes:
         axis.margins(x=0.01)
     text = title if title is not None else results[0].title

@@ -11,7 +11,7 @@ import numpy as np
 from . import options
 from .errors import UserError
 from .results import Channel, Results, bracketed
-from .spectra import WINDOWS, Spectrum, spectrum
+from .spectra import WINDOWS, Spectrum, no_lines, spectrum
 from .tooth import ToothFrequency, tooth_frequencies
 
 EXAMPLES = """  engrane spectrum run 7/NORMAL_FORCE
@@ -108,9 +108,10 @@ def _print(result: Results, channel: Channel, s: Spectrum, marks: list[ToothFreq
             if m.source != "given"
             else f"  mark at {m.frequency:g} {rate}"
         )
-    peaks = s.peaks(count)
+    peaks, below = s.lines(count)
+    if below or not peaks:
+        print(f"  {no_lines(s, below)}")
     if not peaks:
-        print("  no lines: the history is constant or has no oscillation in this span")
         return
     print(f"  {'frequency ' + bracketed(rate):>20}  {'amplitude ' + bracketed(unit):>20}  share  order")
     for f, a in peaks:
@@ -192,7 +193,7 @@ def _draw(
                     color="#666666",
                 )
         axis.set_xlim(0, limit)
-        axis.set_ylabel(f"amplitude of {channel.axis_label}")
+        axis.set_ylabel(channel.axis_label("amplitude of"))
         axis.set_title(channel.owner, fontsize=9, loc="left", color="#444444")
         if len(results) > 1:
             axis.legend(fontsize=8)

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import logging
 import re
-from contextlib import redirect_stdout
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import dataclass, field
 from io import StringIO
 from pathlib import Path
@@ -72,17 +74,20 @@ def open_mesh(path: str | Path) -> Any:
             from . import abaqus, unv
 
             return (unv if suffix == ".unv" else abaqus).read(path)
-        # its guess whether an STL is binary may overflow; it writes empty lines
-        with np.errstate(over="ignore"), redirect_stdout(StringIO()):
+        # its guess whether an STL is binary may overflow; it writes empty lines, and what it could not read
+        with np.errstate(over="ignore"), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
             if suffix in NASTRAN:
                 return meshio.read(_bulk_data(Path(path)), file_format="nastran")
             return _read_vtk(path, meshio) if suffix == ".vtk" else meshio.read(path)
     except UserError:
         raise
     except (Exception, SystemExit) as error:  # meshio ends the program on a format that it does not know
-        reason = str(error) or type(error).__name__
-        hint = next((h for sign, h in HINTS.items() if sign in reason), reason)
-        raise UserError(f"{path} is no mesh that can be read ({hint}).") from None
+        hint = next((h for sign, h in HINTS.items() if sign in str(error)), "")
+        if "deduce file format" in str(error):
+            hint = f"files that end in {suffix} are not known" if suffix else "its name has no ending"
+        elif not hint:
+            hint = f"it is no {suffix} file, or a damaged one, or has what is not known here"
+        raise UserError(f"{path} is no mesh that can be read: {hint}.") from None
 
 
 def _read_vtk(path: str | Path, meshio: Any) -> Any:
@@ -90,12 +95,29 @@ def _read_vtk(path: str | Path, meshio: Any) -> Any:
     try:
         return meshio.read(path)
     except (Exception, SystemExit):
-        import pyvista
+        with open(path, "rb") as file:
+            if not file.read(64).lower().startswith(b"# vtk datafile"):
+                raise
+        from .graphics import pv
 
-        with TemporaryDirectory() as folder:
+        with TemporaryDirectory() as folder, _silence():
             copy = Path(folder) / "mesh.vtu"
-            pyvista.read(path).cast_to_unstructured_grid().save(copy)
+            pv.read(path).cast_to_unstructured_grid().save(copy)
             return meshio.read(copy)
+
+
+@contextmanager
+def _silence() -> Iterator[None]:
+    """VTK and pyvista write no messages of their own."""
+    from vtkmodules.vtkCommonCore import vtkLogger
+
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    logging.disable(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logging.disable(logging.NOTSET)
+        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_INFO)
 
 
 def _bulk_data(path: Path) -> StringIO:
@@ -122,6 +144,7 @@ def read(path: str | Path) -> FileMesh:
     """Points, cells and groups of a file."""
     source = open_mesh(path)
     given = np.asarray(source.points, float)
+    given = given if given.ndim == 2 else given.reshape(-1, 3)
     points = np.zeros((len(given), 3))
     points[:, : given.shape[1]] = given
     if not np.isfinite(points).all():

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 from .cell_mesh import CellMesh
+from .h5_writing import new_file
 
 SUFFIX = ".mesh.h5"
 VERSION = 1
@@ -17,7 +17,7 @@ KINDS = {"NOEUDS": "NODES", "MAILLES": "ELEMENTS", "FACES": "FACES"}
 
 def write(path: Path, mesh: CellMesh, source: str) -> None:
     """All of the mesh. `source` says where it is from."""
-    with h5py.File(path, "w") as file:
+    with new_file(path) as file:
         file.attrs["engrane_mesh"] = VERSION
         file.attrs["source"] = source
         file["nodes/numbers"] = np.arange(1, len(mesh.points) + 1, dtype=np.int32)

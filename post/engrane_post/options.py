@@ -126,12 +126,27 @@ def default_output(result: Results, words: list[str], suffix: str) -> str:
 
 
 @contextmanager
+def named(path: Path) -> Iterator[None]:
+    """While this file is written: errors of the system name it, and it goes away."""
+    try:
+        yield
+    except OSError as error:
+        error.filename = str(path)
+        if not isinstance(error, PermissionError | FileNotFoundError | IsADirectoryError):
+            path.unlink(missing_ok=True)
+        raise
+
+
+@contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
     """A name beside `path` to write to: it takes the place of what is there once all is written."""
     part = path.with_name(f"{path.stem}.part{path.suffix}")
     try:
         yield part
         part.replace(path)
+    except OSError as error:
+        error.filename = str(path)
+        raise
     finally:
         part.unlink(missing_ok=True)
 

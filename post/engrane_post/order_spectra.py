@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 
 from .errors import UserError
-from .spectra import Spectrum, spectrum
+from .spectra import ROUNDING, Spectrum, spectrum
 
 MOST_SAMPLES = 2**21
 FEWEST = 8
@@ -113,8 +113,9 @@ def order_map(
     speed, amplitude = [], []
     for start in starts:
         part = samples.values[start : start + n]
-        part = part - np.average(part, weights=w)
-        amplitude.append(np.abs(np.fft.rfft(part * w, length))[shown] * 2 / w.sum())
+        mean = np.average(part, weights=w)
+        row = np.abs(np.fft.rfft((part - mean) * w, length))[shown] * 2 / w.sum()
+        amplitude.append(row if row.max() > ROUNDING * abs(mean) else 0 * row)
         speed.append(np.average(pace[start : start + n], weights=w))
     rank = np.argsort(speed, kind="stable")
     return OrderMap(order[shown], np.array(speed)[rank], np.array(amplitude)[rank], n * step)

@@ -15,7 +15,7 @@ from .errors import UserError
 from .lines import harmonic
 from .order_spectra import OrderMap, OverAngle, order_map, order_spectrum, over_angle
 from .results import Channel, Results, bracketed
-from .spectra import WINDOWS, Spectrum
+from .spectra import WINDOWS, Spectrum, no_lines
 from .tooth import ToothFrequency, tooth_frequencies
 
 EXAMPLES = """  engrane orders run 7/NORMAL_FORCE                      over the turn of wheel A of the pair
@@ -176,9 +176,11 @@ def _print(
     print(f"  resolution {s.resolution:.4g}, orders up to {samples.highest:.4g} at the highest speed")
     for m in marks:
         print(f"  tooth order of {m.title}: {m.frequency:.6g}")
-    peaks = [p for p in s.peaks(count) if p[0] <= samples.highest]
+    peaks, below = s.lines(count)
+    peaks = [p for p in peaks if p[0] <= samples.highest]
+    if below or not peaks:
+        print(f"  {no_lines(s, below)}")
     if not peaks:
-        print("  no lines: the history is constant or has no oscillation in this span")
         return
     print(f"  {'order':>12}  {'amplitude ' + bracketed(unit):>20}  share  tooth order")
     for o, a in peaks:
@@ -278,7 +280,7 @@ def _draw(
             axis.set_ylim(0, biggest * 1.1 or 1)
         _mark(axis, marks, args.harmonics, limit, "#666666", "#999999")
         axis.set_xlim(0, limit)
-        axis.set_ylabel(f"amplitude of {channel.axis_label}")
+        axis.set_ylabel(channel.axis_label("amplitude of"))
         axis.set_title(channel.owner, fontsize=9, loc="left", color="#444444", pad=14)
     axes[-1].set_xlabel(f"order (per turn of {wheel.name})")
     if result.title:
@@ -325,7 +327,7 @@ def _draw_map(
     axis.set_xlabel(f"order (per turn of {wheel.name})")
     axis.set_title(channel.owner, fontsize=9, loc="left", color="#444444", pad=14)
     bar = figure.colorbar(image, ax=axis, pad=0.02, aspect=30)
-    bar.set_label(f"amplitude of {channel.axis_label}")
+    bar.set_label(channel.axis_label("amplitude of"))
     bar.outline.set_visible(False)
     if not args.log:
         bar.formatter.set_useMathText(True)

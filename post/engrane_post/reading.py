@@ -32,7 +32,12 @@ def text(value: Any) -> str:
     """A string attribute or dataset of one string, however it was stored."""
     if isinstance(value, np.ndarray):
         value = value.item() if value.size == 1 else b"".join(value.ravel().tolist())
-    words = value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+    # h5py hands out strings that are no UTF-8 with a surrogate for each byte it cannot read
+    raw = value if isinstance(value, bytes) else str(value).encode("utf-8", "surrogateescape")
+    try:
+        words = raw.decode("utf-8")
+    except UnicodeDecodeError:  # a deck written in an old editor
+        words = raw.decode("latin-1")
     # a title must not steer the terminal that it is printed on
     return CONTROL.sub("?", words)
 

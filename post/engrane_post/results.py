@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import re
 import textwrap
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -21,6 +22,7 @@ from .reading import GrowingFile, text
 
 T = TypeVar("T")
 AXIS_WIDTH = 36  # characters along the shortest diagram
+LONG_LABEL = 2 * AXIS_WIDTH  # characters of a label that is cut to its first clause in diagrams
 
 
 @dataclass(frozen=True)
@@ -38,10 +40,23 @@ class Channel:
     column: int = 0
 
     @property
-    def axis_label(self) -> str:
-        """Text for a plot's axis: the label with the unit in brackets, broken so that neither is cut off."""
-        text = f"{self.label or self.name} {bracketed(self.unit)}{self.remark}".strip()
-        return "\n".join(textwrap.wrap(text, AXIS_WIDTH))
+    def component(self) -> str:
+        """The name without its owner: `NORMAL_FORCE`."""
+        return self.name.rpartition("/")[2]
+
+    @property
+    def description(self) -> str:
+        """`UX: displacement`, in a line of a diagram."""
+        words = self.label
+        if len(words) > LONG_LABEL:
+            words = re.split("[,;] ", words)[0]
+        return described(self.component, words)
+
+    def axis_label(self, before: str = "", width: int = AXIS_WIDTH) -> str:
+        """Text for a plot's axis: these words, name, label and unit in brackets, broken so that nothing is
+        cut off."""
+        text = f"{before} {self.description} {bracketed(self.unit)}{self.remark}".strip()
+        return "\n".join(textwrap.wrap(text, width))
 
     @property
     def remark(self) -> str:
@@ -87,6 +102,14 @@ class Element:
     def title(self) -> str:
         """`GEAR 7` or `GEAR 7 "output pair"`."""
         return f'{self.type} {self.id} "{self.name}"' if self.name else f"{self.type} {self.id}"
+
+
+def described(name: str, label: str) -> str:
+    """A name with the label that explains it: `UX: displacement`, `DRIVE_TORQUE of the drive on B`."""
+    if label.lower() in ("", name.lower().replace("_", " ")):
+        return name
+    continues = label.startswith(("of ", "to ", "about ", "from ", "along ", "on "))
+    return f"{name} {label}" if continues else f"{name}: {label}"
 
 
 def bracketed(unit: str) -> str:

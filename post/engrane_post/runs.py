@@ -15,17 +15,18 @@ import tempfile
 import threading
 from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from . import options
-from .errors import UserError
+from .errors import Terminated, UserError
 
 # from fine to worst: as the program ranks the statuses of several decks
 STATUSES = (0, 4, 1, 2, 3)
 SOLVED = (0, 4)
+PATIENCE = 10.0  # seconds that a run may take to end after it was told to
 # whose faults are those of the command, not of the deck
 OPTIONS = ("--result", "--card")
 
@@ -42,6 +43,11 @@ class Run:
     message: str = ""
     summary: dict[str, Any] = field(default_factory=dict)  # what --json tells of it
     cpu: float = 0.0  # seconds of processor time of the whole process
+
+    @property
+    def short(self) -> bool:
+        """The run is to stop before its end."""
+        return any(w.startswith("--until") for w in self.words)
 
     @property
     def solved(self) -> bool:
@@ -83,19 +89,22 @@ class Pool:
                 for task in finished:
                     task.result()
             except BaseException:
-                self.stop()
+                self.stop(signal.SIGTERM)
+                if wait(tasks, timeout=PATIENCE).not_done:
+                    self.stop(signal.SIGKILL)
                 raise
             finally:
                 pool.shutdown(cancel_futures=True)
                 if self.shown:
                     print("\r\033[K", end="", file=sys.stderr, flush=True)
 
-    def stop(self) -> None:
+    def stop(self, how: signal.Signals) -> None:
         """Ends the runs that are going on and lets no other begin."""
         with self.lock:
             self.stopped = True
             for process in self.running:
-                os.kill(process, signal.SIGTERM)
+                with suppress(ProcessLookupError):  # just ended
+                    os.kill(process, how)
 
     def _tell(self, run: Run) -> None:
         self.begun += 1
@@ -128,6 +137,8 @@ class Pool:
             for file in (out, errors):
                 file.seek(0)
                 texts.append(file.read().decode("utf-8", "replace"))
+        if self.stopped and process.returncode not in SOLVED:
+            return
         run.cpu = usage.ru_utime + usage.ru_stime
         read_summary(run, process.returncode, *texts)
 
@@ -139,7 +150,11 @@ def read_summary(run: Run, status: int, out: str, errors: str) -> None:
     try:
         run.summary = json.loads(out)["runs"][0]
     except (ValueError, LookupError):
-        run.outcome = f"ended by signal {-status}" if status < 0 else "no summary"
+        if "interrupted at the start" not in errors:
+            run.outcome = f"ended by signal {-status}" if status < 0 else "no summary"
+        return
+    if run.summary.get("failure", "").startswith("interrupted at ") and not run.short:
+        run.summary = {}  # Ctrl-C reaches the runs, too
         return
     run.outcome = run.summary["outcome"]
     faults = [d for d in run.summary["diagnostics"] if d["severity"] == "error"]
@@ -179,12 +194,18 @@ def output_prefix(given: str | None, deck: str, suffix: str) -> str:
 
 @contextmanager
 def result_folder(kept: str | None) -> Iterator[Path]:
-    """A folder for the results of runs; it goes away unless it was named."""
+    """A folder for the results of runs; it goes away unless it was named, after SIGTERM too."""
+
+    def terminate(*_: object) -> None:
+        raise Terminated
+
+    before = signal.signal(signal.SIGTERM, terminate)
     folder = Path(kept or tempfile.mkdtemp(prefix="engrane_runs"))
     folder.mkdir(parents=True, exist_ok=True)
     try:
         yield folder
     finally:
+        signal.signal(signal.SIGTERM, before)
         if not kept:
             shutil.rmtree(folder, ignore_errors=True)
 

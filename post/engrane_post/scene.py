@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from . import belts, cells, linkage, shapes
+from . import belts, cells, linkage, loads, shapes
 from .graphics import pv
 from .results import Element, Frame, Results
 from .wheels import collect
@@ -62,6 +62,7 @@ class Scene:
 
     def __init__(self, result: Results) -> None:
         self.result = result
+        self.loads = loads.Loads(result)
         self.ids = [int(i) for i in result.node_ids]
         self.row = {n: i for i, n in enumerate(self.ids)}
         self.points = {n: result.points[i] for n, i in self.row.items()}
@@ -451,6 +452,10 @@ class Scene:
             self.items[-1].points = np.unique(np.concatenate([t.ravel() for t in tables]))
             self.items[-1].smooth = False
         self._name(first, "cell")
+        if faces:
+            for row in loads.supported(self.result, self.items[-1].points):
+                mesh = shapes.box(self.result.points[row], 0.014 * self.size)
+                self.items.append(Item(mesh, GROUND, self.ids[row], smooth=False, kind="ground"))
 
     def _grounds(self) -> None:
         """A small stand where an element is tied to the ground."""
@@ -533,7 +538,10 @@ class Stage:
     def show(self, frame: Frame) -> None:
         """Moves everything to a frame."""
         positions = self.scene.positions(frame)
+        idle = self.scene.loads.idle(frame)
         for item, mesh, actor in self.actors:
+            if item.kind == "load":
+                actor.visibility = item.element not in idle
             if item.remake is not None:
                 mesh.copy_from(item.remake(positions))
                 if self.field and item.cells is not None:

@@ -10,6 +10,7 @@ import scipy  # whose parts load where they are used: they take half a second, a
 
 from .spectral_lines import RESOLUTION, Fit, Line, leak
 
+ROUNDING = 1e-12  # of its mean: a history all of whose lines are smaller is constant
 WINDOWS = ("hann", "none", "blackman")
 
 
@@ -37,6 +38,18 @@ class Spectrum:
     def resolution(self) -> float:
         """Lines closer than this show as one; in units of `frequency`."""
         return RESOLUTION[self.window_name] / (self.step * len(self.samples))
+
+    @property
+    def constant(self) -> bool:
+        """The history does not vary, but for rounding."""
+        return not self.samples.any()
+
+    def lines(self, count: int) -> tuple[list[tuple[float, float]], bool]:
+        """The largest `peaks` above the resolution, and whether there is something below: about one period
+        in the span cannot be told from a drift."""
+        found = self.peaks(count + 2) if not self.constant else []
+        clear = [p for p in found if p[0] >= self.resolution * (1 - 1e-9)]
+        return clear[:count], len(clear) < len(found)
 
     def peaks(self, count: int, floor: float = 1e-4) -> list[tuple[float, float]]:
         """(frequency, amplitude) of the largest lines, largest first, none below `floor` times the largest.
@@ -88,6 +101,14 @@ def uniform(t: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, bool]
     return even, scipy.interpolate.CubicSpline(t, y)(even), True
 
 
+def no_lines(s: Spectrum, below: bool) -> str:
+    """Why a table has no lines, or fewer than the diagram."""
+    if s.constant:
+        return "no lines: the history is constant to rounding"
+    slow = f"left out: what has less than {RESOLUTION[s.window_name]:g} periods in this span, as a drift has"
+    return slow if below else "no lines: the history has no oscillation in this span"
+
+
 def spectrum(t: np.ndarray, y: np.ndarray, window: str = "hann", padding: int = 4) -> Spectrum:
     """Spectrum of a history (at least 8 samples). `padding` lengthens the transform with zeros, for a smooth
     curve."""
@@ -99,4 +120,6 @@ def spectrum(t: np.ndarray, y: np.ndarray, window: str = "hann", padding: int = 
     samples = values - mean
     length = n * padding if n * padding < 2**24 else n
     a = np.abs(np.fft.rfft(samples * w, length)) * 2 / w.sum()
+    if a.max() <= ROUNDING * abs(mean):
+        samples, a = np.zeros(n), np.zeros(len(a))
     return Spectrum(np.fft.rfftfreq(length, step), a, mean, step, resampled, samples, w, window)

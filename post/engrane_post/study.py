@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from . import options, runs, study_errors, study_report
-from .errors import UserError
+from .errors import Terminated, UserError
 from .program import find_program
 from .reading import text
 from .results import Results
@@ -234,18 +234,20 @@ class Study:
 
     def measure(self, attempts: Sequence[Attempt], what: str) -> None:
         """Makes the runs; short ones again, in turn, for the least time."""
-        self.pool.run([a.run for a in attempts], what)
-        least = {id(a): a.run.cpu for a in attempts}
-        for _ in range((self.args.runs or SHORT_RUNS) - 1):
-            again = [a for a in attempts if a.run.solved and (self.args.runs or a.run.cpu < SHORT_RUN)]
-            if not again:
-                break
-            repeats = [Run(a.run.title, a.run.words, a.run.prefix) for a in again]
-            self.pool.run(repeats, what + "again ")
-            for a, one in zip(again, repeats, strict=True):
-                least[id(a)] = min(least[id(a)], one.cpu)
-        for a in attempts:
-            a.seconds = max(least[id(a)] - self.start_cpu, study_report.SHORTEST)
+        times: dict[int, list[float]] = {id(a): [] for a in attempts}
+        try:
+            self.pool.run([a.run for a in attempts], what)
+            for _ in range((self.args.runs or SHORT_RUNS) - 1):
+                again = [a for a in attempts if a.run.solved and (self.args.runs or a.run.cpu < SHORT_RUN)]
+                if not again:
+                    break
+                repeats = [Run(a.run.title, a.run.words, a.run.prefix) for a in again]
+                self.pool.run(repeats, what + "again ")
+                for a, one in zip(again, repeats, strict=True):
+                    times[id(a)].append(one.cpu)
+        finally:  # also when Ctrl-C ends the runs
+            for a in attempts:
+                a.seconds = max(min([a.run.cpu, *times[id(a)]]) - self.start_cpu, study_report.SHORTEST)
 
     def values(self, a: Attempt, interval: float) -> Values:
         found = study_errors.read(a.run, self.channels, interval, self.deck.start, self.deck.end)
@@ -349,8 +351,12 @@ def run(args: argparse.Namespace) -> int:
         solver = min(good, key=lambda a: a.seconds).solver
         truth = study.find_truth(ladders, interval, solver, attempts[0].run)
         climbed = [study.attempt(ladder, r, solver, interval) for ladder in ladders for r in ladder.rungs]
-        study.measure(climbed, "")
         attempts += climbed
+        try:
+            study.measure(climbed, "")
+        except (KeyboardInterrupt, Terminated):
+            report_finished(study, attempts, truth, interval, output + ".csv")
+            raise
         find_errors(study, attempts, truth, interval)
         if not any(a.tells for a in climbed):
             raise UserError(f"no run has a result. {climbed[0].title}: {climbed[0].failure}")
@@ -373,6 +379,19 @@ def run(args: argparse.Namespace) -> int:
 
     study_plot.draw(output + ".png", attempts, truth, study.deck.step, args.error, best, Path(deck_file).stem)
     return 0
+
+
+def report_finished(
+    study: Study, attempts: Sequence[Attempt], truth: Truth, interval: float, path: str
+) -> None:
+    """The table of a study that was stopped, without a recommendation."""
+    done = [a for a in attempts if a.run.outcome != "not run"]
+    find_errors(study, done, truth, interval)
+    study_report.find_slopes(done, truth.floor)
+    introduce(study, truth)
+    study_report.print_table(done, truth)
+    study_report.write_table(path, attempts, truth)
+    print(f"engrane study: stopped after {len(done)} of {len(attempts)} runs", file=sys.stderr)
 
 
 def find_errors(study: Study, attempts: Sequence[Attempt], truth: Truth, interval: float) -> None:

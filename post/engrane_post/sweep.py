@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import options, runs
-from .errors import UserError
+from .errors import Terminated, UserError
 from .program import find_program
 from .runs import Run
 
@@ -111,7 +111,12 @@ def run(args: argparse.Namespace) -> int:
         for i, variant in enumerate(variants):
             words = [f"-D{name}={value}" for name, value in variant.values.items()]
             variant.run = Run(variant.title, wanted + words, folder / f"{i + 1:0{width}}")
-        runs.Pool(find_program(), deck, args.jobs or runs.all_cores()).run([v.run for v in variants])
+        pool = runs.Pool(find_program(), deck, args.jobs or runs.all_cores())
+        try:
+            pool.run([v.run for v in variants])
+        except (KeyboardInterrupt, Terminated):
+            write_finished(output + ".csv", variants)
+            raise
     names = list(dict.fromkeys(name for v in variants for name in v.run.numbers))
     bad = [v for v in variants if not v.run.solved]
     if len(bad) == len(variants):
@@ -119,12 +124,22 @@ def run(args: argparse.Namespace) -> int:
     if not names:
         raise UserError("Name a number by --result; the deck has no .CHK.")
     write_table(output + ".csv", variants, names)
+    print(f"wrote {output}.csv")
     draw(output + ".png", variants, names, Path(deck).stem)
     for variant in bad[:5]:
         print(f"{variant.title}: {variant.run.reason}", file=sys.stderr)
     if bad:
         print(f"{len(bad)} of {len(variants)} variants have no result", file=sys.stderr)
     return max((v.run.status for v in variants), key=runs.STATUSES.index)
+
+
+def write_finished(path: str, variants: list[Variant]) -> None:
+    """The table of a sweep that was stopped; those that have not run have no numbers."""
+    count = sum(v.run.outcome != "not run" for v in variants)
+    if count:
+        write_table(path, variants, list(dict.fromkeys(name for v in variants for name in v.run.numbers)))
+    what = f"wrote {path}" if count else "nothing to write"
+    print(f"engrane sweep: stopped after {count} of {len(variants)} variants; {what}", file=sys.stderr)
 
 
 def write_table(path: str, variants: list[Variant], names: list[str]) -> None:
@@ -136,7 +151,6 @@ def write_table(path: str, variants: list[Variant], names: list[str]) -> None:
             numbers = ["" if v.run.numbers.get(n) is None else repr(v.run.numbers[n]) for n in names]
             seconds = v.run.summary.get("seconds", 0)
             table.writerow([*v.values.values(), *numbers, v.run.outcome, f"{seconds:.3f}"])
-    print(f"wrote {path}")
 
 
 def number(text: str) -> float | None:

@@ -13,6 +13,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from . import options
+from .h5_writing import new_file
 from .mesh import Mesh, Step
 
 VERSION = (2, 0)  # the first with steps
@@ -23,7 +25,7 @@ BLOCK = 65536  # rows of an array that are compressed together, at most
 def write(path: Path, mesh: Mesh, times: np.ndarray, steps: Iterable[Step]) -> None:
     """Writes one step after the other, so that no more than one is held in memory."""
     count = len(times)
-    with h5py.File(path, "w") as file:
+    with new_file(path) as file:
         root = _head(file, VERSION)
         _cells(root, mesh)
         for name, rows in mesh.point_data.items():
@@ -108,7 +110,8 @@ def write_series(path: Path) -> Path:
             _one_step(folder / name, source, f"../{path.name}", k)
             entries.append({"name": f"{folder.name}/{name}", "time": float(time)})
     series = path.with_suffix(".hdf.series")  # ParaView 5.11 knows no other ending
-    series.write_text(json.dumps({"file-series-version": "1.0", "files": entries}, indent=1) + "\n")
+    with options.named(series):
+        series.write_text(json.dumps({"file-series-version": "1.0", "files": entries}, indent=1) + "\n")
     return series
 
 
@@ -119,7 +122,7 @@ def _one_step(path: Path, source: h5py.Group, origin: str, k: int) -> None:
     views = {"Points": (int(steps["PointOffsets"][k]), count["Points"])}
     for data, size in (("PointData", count["Points"]), ("CellData", count["Cells"])):
         views |= {f"{data}/{n}": (int(steps[f"{data}Offsets/{n}"][k]), size) for n in source[data]}
-    with h5py.File(path, "w") as file:
+    with new_file(path) as file:
         root = _head(file, (1, 0))
         for name in ("NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"):
             root[name] = source[name][()]

@@ -8,9 +8,29 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
+from vtkmodules.vtkIOLegacy import vtkUnstructuredGridWriter
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
+from . import options
 from .graphics import pv
 from .mesh import Mesh, Step
+
+
+def save(grid: pv.UnstructuredGrid, path: Path) -> None:
+    """As .vtu or .vtk. VTK writes into memory: on a full disk its own writers crash or say nothing."""
+    legacy = path.suffix.lower() == ".vtk"
+    writer = vtkUnstructuredGridWriter() if legacy else vtkXMLUnstructuredGridWriter()
+    writer.SetInputData(grid)
+    writer.SetWriteToOutputString(True)
+    if legacy:
+        writer.SetFileTypeToBinary()
+    else:
+        writer.SetDataModeToBinary()
+    writer.Write()
+    # numbers of a legacy file as they are in memory, which Python gets as bytes
+    text = writer.GetOutputStdString() if legacy else writer.GetOutputString()
+    with options.named(path):
+        path.write_bytes(text.encode() if isinstance(text, str) else text)
 
 
 def write_collection(prefix: Path, mesh: Mesh, steps: Iterable[Step]) -> tuple[Path, int]:
@@ -29,7 +49,7 @@ def write_collection(prefix: Path, mesh: Mesh, steps: Iterable[Step]) -> tuple[P
         grid.cell_data.update(mesh.cell_data | step.cell_data)
         grid.point_data.update(mesh.point_data | step.point_data)
         path = folder / f"{k:06d}.vtu"
-        grid.save(path)
+        save(grid, path)
         size += path.stat().st_size
         ElementTree.SubElement(
             collection,
@@ -39,5 +59,6 @@ def write_collection(prefix: Path, mesh: Mesh, steps: Iterable[Step]) -> tuple[P
             file=f"{folder.name}/{path.name}",
         )
     path = prefix.with_name(prefix.name + ".pvd")
-    ElementTree.ElementTree(root).write(path, xml_declaration=True, encoding="utf-8")
+    with options.named(path):
+        path.write_bytes(ElementTree.tostring(root, xml_declaration=True, encoding="utf-8"))
     return path, size + path.stat().st_size

@@ -340,7 +340,7 @@ def test_med(command, tmp_path: Path) -> None:
 
 def test_what_is_there_is_not_lost(command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A file that cannot be written to its end leaves the one of its name, and nothing beside it."""
-    path, file = row_of_cells(tmp_path / "row.h5"), tmp_path / "out.med"
+    path, file = row_of_cells(tmp_path / "row.h5"), tmp_path / "out.msh"
     file.write_text("from before")
 
     def fails(name, *_, **__):
@@ -349,9 +349,9 @@ def test_what_is_there_is_not_lost(command, tmp_path: Path, monkeypatch: pytest.
 
     monkeypatch.setattr(meshio, "write", fails)
     status, _, err = command("export", path, "--mesh", file)
-    assert status != 0 and "cannot be written as .med: the disk is full" in err
+    assert status != 0 and "cannot be written as .msh: the disk is full" in err
     assert file.read_text() == "from before"
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["out.med", "row.h5"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["out.msh", "row.h5"]
 
 
 def check_solids(file: Path) -> None:

@@ -37,7 +37,7 @@ def test_channels(two: Path) -> None:
     with Results(two) as r:
         assert next(iter(r.channels)) == "element/7/NORMAL_FORCE"
         c = r.channels["element/7/NORMAL_FORCE"]
-        assert (c.unit, c.axis_label, c.owner) == ("N", "normal force [N]", 'GEAR 7 "pair"')
+        assert (c.unit, c.axis_label(), c.owner) == ("N", "NORMAL_FORCE [N]", 'GEAR 7 "pair"')
         for name in (
             "element/7/NORMAL_FORCE",
             "ELEMENT/7/normal_force",

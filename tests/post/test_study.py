@@ -8,7 +8,10 @@ import json
 import math
 import os
 import re
+import signal
 import subprocess
+import sys
+import time
 from itertools import pairwise
 from pathlib import Path
 
@@ -33,6 +36,7 @@ from engrane_post.study_errors import Truth, Values
 from engrane_post.study_report import Attempt, cheapest, find_slopes
 from small_decks import PENDULUM
 
+POST = Path(__file__).resolve().parents[2] / "post"
 # a mass on a spring: x = 1 - cos t, with the cards in their French names and over several lines
 OSCILLATOR = """.NOE
  I 1 X 0 0 0
@@ -453,3 +457,33 @@ def test_wrong_commands(deck: Path, command, words, sentence) -> None:
     assert status == 1
     assert sentence in err
     assert not list(Path().glob("*.csv"))
+
+
+def test_stopped_by_a_signal(tmp_path: Path, monkeypatch) -> None:
+    """The runs that are finished are in the table."""
+    if not Path(os.environ.get("ENGRANE", "")).is_file():
+        pytest.skip("the variable ENGRANE names no program")
+    monkeypatch.chdir(tmp_path)
+    Path("pendulum.dat").write_text(PENDULUM + "NODE 1 VZ V -1 ATOL 100\n")
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    words = ["study", "pendulum.dat", "--reference", "check", "--runs", "1", "--solvers", "KLU"]
+    words += ["--schemes", "RADAU", "--steps", "0.01,0.005,1e-8"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "engrane_post", *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"TMPDIR": str(temporary), "PYTHONPATH": str(POST)},
+    )
+    until = time.monotonic() + 60
+    while time.monotonic() < until and not list(temporary.glob("engrane_runs*/*5.h5")):
+        time.sleep(0.1)
+    process.send_signal(signal.SIGTERM)
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, err) == (143, "engrane study: stopped after 3 of 4 runs\n")
+    assert out.endswith("wrote pendulum_study.csv\n")
+    rows = table("pendulum")
+    assert [bool(r["error"]) for r in rows] == [True, True, True, False]
+    assert rows[-1]["outcome"] == "not run"
+    assert not list(temporary.iterdir())

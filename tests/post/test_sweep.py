@@ -5,12 +5,18 @@ from __future__ import annotations
 
 import csv
 import os
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
 from engrane_post.errors import UserError
 from engrane_post.sweep import combinations, values_of
 from small_decks import PENDULUM
+
+POST = Path(__file__).resolve().parents[2] / "post"
 
 
 @pytest.fixture
@@ -101,3 +107,31 @@ def test_wrong_commands(deck: Path, command, words, sentence) -> None:
 def test_a_deck_that_is_not_there(deck: Path, command) -> None:
     status, _, err = command("sweep", "other", "-D", "A=1")
     assert (status, "There is no deck other" in err) == (1, True)
+
+
+@pytest.mark.parametrize(("how", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_stopped_by_a_signal(deck: Path, how: signal.Signals, status: int, monkeypatch) -> None:
+    """Variants that are finished are in the table; nothing is left running or lying about."""
+    text = deck.read_text().replace("TF 0.05", "TF /TF").replace("ABRE", "ABRE '/TF' '0.05'\nABRE", 1)
+    deck.write_text(text)
+    temporary = deck.parent / "temporary"
+    temporary.mkdir()
+    words = ["sweep", str(deck), "-D", "TF=0.05,1E5,1E6", "--result", "NODE 1 VZ MIN", "-j", "2"]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "engrane_post", *words],
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"TMPDIR": str(temporary), "PYTHONPATH": str(POST)},
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    until = time.monotonic() + 60
+    while time.monotonic() < until and not list(temporary.glob("engrane_runs*/3.h5")):
+        time.sleep(0.1)
+    process.send_signal(how)
+    _, err = process.communicate(timeout=60)
+    assert process.returncode == status
+    assert err == "engrane sweep: stopped after 1 of 3 variants; wrote pendulum_sweep.csv\n"
+    rows = table(Path("pendulum_sweep.csv"))
+    assert [r["outcome"] for r in rows] == ["complete", "not run", "not run"]
+    assert [bool(r["MIN of NODE 1 VZ"]) for r in rows] == [True, False, False]
+    assert not list(temporary.iterdir())

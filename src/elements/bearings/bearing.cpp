@@ -154,11 +154,11 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
     const auto add = [&](const char* name, std::initializer_list<int> axes, Dimension dimension, const char* help) {
       for (const int axis : axes) all.push_back({fmt::format("{}_{}", name, axis), dimension, help});
     };
-    add("DISPLACEMENT", {1, 2, 3}, dimension::length, "of B's point from A's, in the bearing's axes: 1 is along it");
-    add("TILT", {2, 3}, dimension::angle, "of B's axis from A's, about the bearing's axes");
-    all.push_back({"SPEED", dimension::angular_velocity, "of B relative to A about the axis"});
-    add("FORCE", {1, 2, 3}, dimension::force, "of the bearing on B, in its axes");
-    add("MOMENT", {1, 2, 3}, dimension::moment, "of the bearing on B, at its point, in its axes");
+    add("DISPLACEMENT", {1, 2, 3}, dimension::length, "displacement of B's point from A's, in the bearing's axes: 1 is along it");
+    add("TILT", {2, 3}, dimension::angle, "tilt of B's axis from A's, about the bearing's axes");
+    all.push_back({"SPEED", dimension::angular_velocity, "speed of B relative to A about the axis"});
+    add("FORCE", {1, 2, 3}, dimension::force, "force of the bearing on B, in its axes");
+    add("MOMENT", {1, 2, 3}, dimension::moment, "moment of the bearing on B, at its point, in its axes");
     all.push_back({"SPRING_ENERGY", dimension::energy, "energy stored"});
     all.push_back({"DAMPER_POWER", dimension::power, "power lost"});
     if (rolling) {

@@ -18,7 +18,7 @@ Energies BodyInertia::energies(const NodeState& node, const Vec3& gravity) const
 }
 
 std::vector<Channel> body_channels(const BodyInertia& body) {
-  std::vector<Channel> all = {{"KINETIC_ENERGY", dimension::energy, "of translation and rotation"}};
+  std::vector<Channel> all = {{"KINETIC_ENERGY", dimension::energy, "energy of translation and rotation"}};
   if (!body.turns()) return all;
   const Dimension angular{2, 1, -1, 0};
   const char* letters[3] = {"X", "Y", "Z"};
@@ -27,7 +27,7 @@ std::vector<Channel> body_channels(const BodyInertia& body) {
     all.push_back({fmt::format("SPIN_{}", c), dimension::angular_velocity,
                    "angular velocity in the body's axes, which are the global ones in the reference configuration"});
   for (const char* c : letters)
-    all.push_back({fmt::format("ANGULAR_MOMENTUM_{}", c), angular, "about the centre of mass, global"});
+    all.push_back({fmt::format("ANGULAR_MOMENTUM_{}", c), angular, "angular momentum about the centre of mass, global"});
   return all;
 }
 

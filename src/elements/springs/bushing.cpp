@@ -54,10 +54,10 @@ class Bushing final : public TemplatedElement<Bushing, 2, 12> {
       const auto three = [&](const std::string& name, Dimension dimension, const std::string& help) {
         for (const char* axis : {"_1", "_2", "_3"}) list.push_back({name + axis, dimension, help});
       };
-      three("DISPLACEMENT", dimension::length, "of B's point from A's, in the bush's axes");
+      three("DISPLACEMENT", dimension::length, "displacement of B's point from A's, in the bush's axes");
       three("ROTATION", dimension::angle, "rotation vector of B from A, in the bush's axes");
-      three("FORCE", dimension::force, "of the bush on B, in its axes");
-      three("MOMENT", dimension::moment, "of the bush on B, at its point, in its axes");
+      three("FORCE", dimension::force, "force of the bush on B, in its axes");
+      three("MOMENT", dimension::moment, "moment of the bush on B, at its point, in its axes");
       list.push_back({"SPRING_ENERGY", dimension::energy, "energy stored"});
       list.push_back({"DAMPER_POWER", dimension::power, "power lost"});
       return list;

@@ -34,7 +34,7 @@ struct SpringOnLine {
     static const std::vector<Channel> all = {{"LENGTH", dimension::length, "distance of the ends"},
                                              {"ELONGATION", dimension::length, "length less natural length"},
                                              {"SPEED", dimension::velocity, "rate of the length"},
-                                             {"FORCE", dimension::force, "of spring and damper, positive in tension"},
+                                             {"FORCE", dimension::force, "force of spring and damper, positive in tension"},
                                              {"SPRING_ENERGY", dimension::energy, "energy stored"},
                                              {"DAMPER_POWER", dimension::power, "power lost in the damper"}};
     return all;
@@ -157,14 +157,15 @@ class DirectionalSpring final : public TemplatedElement<DirectionalSpring, 2, 6>
   }
 
   const std::vector<Channel>& channels() const override {
-    static const std::vector<Channel> all = {{"ELONGATION_X", dimension::length, "displacement of b relative to a, global"},
-                                             {"ELONGATION_Y", dimension::length, "displacement of b relative to a, global"},
-                                             {"ELONGATION_Z", dimension::length, "displacement of b relative to a, global"},
-                                             {"FORCE_X", dimension::force, "of spring and damper, positive in tension, global"},
-                                             {"FORCE_Y", dimension::force, "of spring and damper, positive in tension, global"},
-                                             {"FORCE_Z", dimension::force, "of spring and damper, positive in tension, global"},
-                                             {"SPRING_ENERGY", dimension::energy, "energy stored"},
-                                             {"DAMPER_POWER", dimension::power, "power lost in the damper"}};
+    static const std::vector<Channel> all = {
+        {"ELONGATION_X", dimension::length, "displacement of b relative to a, global"},
+        {"ELONGATION_Y", dimension::length, "displacement of b relative to a, global"},
+        {"ELONGATION_Z", dimension::length, "displacement of b relative to a, global"},
+        {"FORCE_X", dimension::force, "force of spring and damper, positive in tension, global"},
+        {"FORCE_Y", dimension::force, "force of spring and damper, positive in tension, global"},
+        {"FORCE_Z", dimension::force, "force of spring and damper, positive in tension, global"},
+        {"SPRING_ENERGY", dimension::energy, "energy stored"},
+        {"DAMPER_POWER", dimension::power, "power lost in the damper"}};
     return all;
   }
 

@@ -89,7 +89,7 @@ struct HeightCoordinate {
   static constexpr NodeNeed need = NodeNeed::both;
   static constexpr int history = 0;
   static constexpr const char* name = "HEIGHT";
-  static constexpr const char* help = "of B's point above the plane";
+  static constexpr const char* help = "height of B's point above the plane";
   static constexpr Dimension measure = dimension::length, rate_measure = dimension::velocity, load_measure = dimension::force;
 
   const std::array<int, 2>& nodes() const { return ends; }
@@ -142,11 +142,12 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
     layout.history = Coordinate::history;
     range_.name_switches(layout.switches, "");
     this->set_layout(std::move(layout));
+    const bool turns = Coordinate::load_measure == dimension::moment;
     channels_ = {{Coordinate::name, Coordinate::measure, Coordinate::help},
-                 {"SPEED", Coordinate::rate_measure, "its rate"},
-                 {"GAP", Coordinate::measure, "to the nearer limit; negative: pressed together"},
-                 {Coordinate::load_measure == dimension::moment ? "TORQUE" : "FORCE", Coordinate::load_measure,
-                  "of the contact; positive pushes the coordinate up"},
+                 {"SPEED", Coordinate::rate_measure, fmt::format("rate of {}", Coordinate::name)},
+                 {"GAP", Coordinate::measure, "gap to the nearer limit; negative: pressed together"},
+                 {turns ? "TORQUE" : "FORCE", Coordinate::load_measure,
+                  fmt::format("{} of the contact; positive pushes the coordinate up", turns ? "torque" : "force")},
                  {"SPRING_ENERGY", dimension::energy, "energy stored"},
                  {"DAMPER_POWER", dimension::power, "power lost"}};
   }
