@@ -19,7 +19,8 @@ double ErrorEstimate::seconds_at(double other) const {
 double ErrorEstimate::tolerance_for(double target) const { return tolerance * std::pow(0.5 * target / error, 1 / order); }
 
 double ErrorEstimate::tolerance_of(const AccuracyRung& rung) const {
-  return begins_looser && error_at(rung.first) <= rung.target ? rung.first : rung.tolerance;
+  if (begins_looser && error_at(rung.first) <= rung.target) return rung.first;
+  return error_at(rung.tolerance) <= rung.target ? rung.tolerance : std::min(rung.tolerance, tolerance_for(rung.target));
 }
 
 std::string ErrorEstimate::describe(double target) const {

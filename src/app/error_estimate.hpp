@@ -26,7 +26,7 @@ struct ErrorEstimate {
   double seconds_at(double other) const;
   /// A tolerance that is expected to give half of an error.
   double tolerance_for(double target) const;
-  /// The one that another setting would end with.
+  /// The one that another setting would end with: runs that miss its target are made again (Attempt::sharper()).
   double tolerance_of(const AccuracyRung& rung) const;
   /// For the listing, beside the `target` that was asked for.
   std::string describe(double target) const;

@@ -313,6 +313,39 @@ def test_the_dial_says_when_it_has_not_met_its_error(tmp_path: Path) -> None:
     assert "more than the 1e-08 asked for" in found["said"]
 
 
+BEAM = """
+.NOE
+ I 3 X 0 0 0
+ I 4 X 0.5 0 0
+ I 5 X 1 0 0
+.BPR
+ I 1 EA 2E7 GA 8E6 8E6 GJ 800 EI 1000 1000 M 1 J 1E-4
+.FCT
+ I 1 STEP 0 0 0.2 1
+.MCE
+ I 2 BEAM N 3 4 5 BPR 1 AXIS2 0 1 0 DAMPING 1E-4
+ I 3 INERTIA N 5 M 2 J 0.01
+ I 11 HINGE N 0 3 AXIS 0 0 1 K 300 C 0.3
+ I 18 TORQUE N 3 AXIS 0 0 1 V 20 NF 1
+.SAM TYPE DYNAMIC ACCURACY NORMAL
+.SUB TF 0.3 H 0.005
+.FIN 1
+"""
+
+
+def test_other_settings_are_told_to_meet_their_errors(tmp_path: Path) -> None:
+    """They repeat runs that do not. By the law of errors alone they were told to miss them, by 2e3 times in
+    decks with more contacts."""
+    dial(BEAM, tmp_path)
+    rows = re.findall(r"ACCURACY (\S+) +error about (\S+), about (\S+) s", listing_of(tmp_path))
+    targets = {"FAST": 1e-2, "FINE": 1e-5, "REFERENCE": 1e-8}
+    assert [name for name, *_ in rows] == list(targets)
+    assert all(0 < float(error) <= targets[name] for name, error, _ in rows)
+    assert float(rows[-1][1]) == 5e-9  # its own TOL would leave 1.1e-8
+    seconds = [float(s) for *_, s in rows]
+    assert seconds == sorted(seconds)
+
+
 def test_where_radau_cannot_the_dial_goes_on_with_generalised_alpha(tmp_path: Path) -> None:
     """A node that is turned about one axis and free about another."""
     deck = """.NOE
