@@ -14,6 +14,8 @@ namespace engrane {
 
 namespace {
 
+using Code = Expression::Instruction::Code;
+
 constexpr int looks = 1000;
 
 using Decisions = std::vector<signed char>;
@@ -21,7 +23,7 @@ using Decisions = std::vector<signed char>;
 Decisions all_decisions(const std::vector<Expression::Instruction>& program, double x) {
   Decisions found;
   evaluate_program<Series>(program, {Series{x, 1, 0, 0}, Series{0}, Series{0}},
-                           [&found](Expression::Instruction::Code code, const Series* operands) {
+                           [&found](Code code, const Series* operands) {
                              if (decides(code)) found.push_back(decision(code, operands));
                            });
   return found;
@@ -29,8 +31,7 @@ Decisions all_decisions(const std::vector<Expression::Instruction>& program, dou
 
 /// Calls `see` with each pair of operands whose difference decides an operation by its sign.
 template <class See>
-void see_differences(Expression::Instruction::Code code, const Series* operands, See&& see) {
-  using Code = Expression::Instruction::Code;
+void see_differences(Code code, const Series* operands, See&& see) {
   static constexpr Series zero;
   if (!decides(code) || code == Code::equal || code == Code::not_equal) return;
   if (operand_count(code) == 1 || code == Code::transfer_sign) see(operands[0], zero);
@@ -38,8 +39,7 @@ void see_differences(Expression::Instruction::Code code, const Series* operands,
   if (operand_count(code) == 2 && code != Code::transfer_sign) see(operands[0], operands[1]);
 }
 
-std::string word(Expression::Instruction::Code code) {
-  using Code = Expression::Instruction::Code;
+std::string word(Code code) {
   switch (code) {
     case Code::absolute:
       return "abs";
