@@ -22,10 +22,9 @@ using Decisions = std::vector<signed char>;
 
 Decisions all_decisions(const std::vector<Expression::Instruction>& program, double x) {
   Decisions found;
-  evaluate_program<Series>(program, {Series{x, 1, 0, 0}, Series{0}, Series{0}},
-                           [&found](Code code, const Series* operands) {
-                             if (decides(code)) found.push_back(decision(code, operands));
-                           });
+  evaluate_program<Series>(program, {Series{x, 1, 0, 0}, Series{0}, Series{0}}, [&found](Code code, const Series* operands) {
+    if (decides(code)) found.push_back(decision(code, operands));
+  });
   return found;
 }
 
