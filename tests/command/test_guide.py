@@ -76,6 +76,7 @@ def place(tmp_path):
     long_steps = text[: text.index(".CHK")].replace("H 2D-6", "H 1D-5") + ".FIN 1\n"
     (paper / "spur_transmission_a.dat").write_text(long_steps, encoding="utf-8")
     assert "`ABRE '/KM' '1.477E7'`" in GUIDE and "`KM /KM`" in GUIDE
+    assert "Delete `.CHK` and the lines below it, up to `.FIN`" in GUIDE, "as is done below"
     mine = "ABRE '/KM' '1.477E7'\n" + text.replace("KM 1.477E7", "KM /KM")
     assert mine.count("/KM") == 2
     # the guide's run is long, and is made above from the deck itself
