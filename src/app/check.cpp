@@ -31,7 +31,8 @@ int print_model(const Reading& reading, std::ostream& out) {
   if (!model.title.empty()) out << printable(model.title) << '\n';
   out << describe_analysis(context) << "\n\n" << listing_built(summarize(model, context.numbering)) << describe_geometry(model);
   if (const std::string masses = describe_masses(model, most_shown_bodies); !masses.empty()) out << "\nMasses\n" << masses;
-  if (!model.commands.checks.empty()) out << fmt::format("\n  {} checks (.CHK) will be made\n", model.commands.checks.size());
+  if (!model.commands.checks.empty())
+    out << fmt::format("\n  {} (.CHK) will be made\n", counted(model.commands.checks.size(), "check"));
   for (const std::string& file : user::Library::loaded())
     out << terminal_text(fmt::format("\n  user routines were loaded from {}, and tried\n", file));
   if (const std::string text = reading.assumptions(); !text.empty()) out << fmt::format("\n  {}\n", text);

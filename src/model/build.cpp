@@ -135,8 +135,7 @@ class Builder {
     if (const auto* archive = record.get<deck::ArchiveCard>()) {
       add_archive(record, *archive);
       if (!archive->codes.empty())
-        diagnostics_.warning_once("STYP", record.where("STYP"),
-                                  "STYP selects nothing in this version: all fields and histories are archived");
+        diagnostics_.warning_once("STYP", record.where("STYP"), "STYP selects nothing in this version: all fields are archived");
     }
     if (!has_mesh_)
       if (const char* what = record.get<deck::MaterialCard>() && !names_material_ ? "material"

@@ -56,3 +56,47 @@ def test_the_pages_name_files_that_exist():
             )
             missing += [f"{page.name}: {path}" for one in choices if not any(root.glob("".join(one)))]
     assert not missing
+
+
+def keyword_help(engrane, card: str, keyword: str) -> str:
+    """What `engrane help card` says about one keyword, on one line."""
+    text = engrane("help", *card.split()).stdout
+    found = re.search(rf"^  {keyword}\b.*\n(?:      .*\n)*", text, re.MULTILINE)
+    assert found, f"{card} has no {keyword}"
+    return " ".join(found[0].split())
+
+
+def test_help_tells_ranges_of_numbers_that_are_given(engrane):
+    """No range of a function, which would read as that of its values, and no default outside the range."""
+    for card, keyword in (("HINGE", "NF"), ("HINGE", "CLAW"), ("GEAR", "PITCHA"), (".CLM CHA", "NF")):
+        assert "at least" not in keyword_help(engrane, card, keyword)
+    for card, keyword in (("HINGE", "KSTOP"), ("BEAM", "BPR_END"), ("BEAM", "MAT")):
+        said = keyword_help(engrane, card, keyword)
+        assert "default" not in said and ("greater than 0" in said or "at least 1" in said)
+    assert "default 1" in keyword_help(engrane, "HINGE", "EXP")
+
+
+def test_help_names_words_that_may_stand_before_a_value(engrane):
+    assert "DT may stand before the value" in keyword_help(engrane, ".SAI", "FIELDS")
+    assert "VAL or V may stand before the value" in keyword_help(engrane, ".CLM STRU", "ACC")
+
+
+def test_help_of_rack_and_cam_offers_what_they_take(engrane):
+    rack = engrane("help", "RACK").stdout
+    assert "wheel B" not in rack and "ECCB" not in rack and "PITCHB" not in rack
+    for keyword in ("X", "TIP", "TIPALTER"):
+        assert " a number " in keyword_help(engrane, "RACK", keyword)
+        assert "1 to 2 numbers" in keyword_help(engrane, "GEAR", keyword)
+    friction = keyword_help(engrane, "CAM", "FRICTION")
+    assert (
+        "STICK" not in friction and "CONSTANT), 1 value: mu STRIBECK" in friction and "needs VREG" in friction
+    )
+    assert "STIFF ISO and SLICES need it" in keyword_help(engrane, "GEAR", "WIDTH")
+
+
+def test_check_counts_the_expected_results(engrane, pendulum):
+    text = (engrane.folder / pendulum).read_text()
+    (engrane.folder / "one.dat").write_text(
+        text.replace(".FIN", ".CHK\n RUN ENERGY_ERROR V 0 ATOL 1\n.FIN", 1)
+    )
+    assert "1 check (.CHK) will be made" in engrane("check", "one.dat").stdout

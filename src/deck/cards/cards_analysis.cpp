@@ -60,7 +60,7 @@ Schema analysis_card() {
   card.add("ACCURACY", &AnalysisCard::accuracy,
            "how accurate a DYNAMIC analysis is to be: chooses scheme, TOL of .SUB, PREC, solver and PLANE where the deck does "
            "not; "
-           "a run with longer steps before it tells the error of what is asked for, over its range")
+           "a preliminary run with longer steps estimates the error of the requested results, relative to their range")
       .synonyms({"EXACTITUDE"})
       .option({"FAST", {"RAPIDE"}, "1E-2"})
       .option({"NORMAL", {}, "1E-3"})
@@ -99,7 +99,7 @@ Schema analysis_card() {
            "how often a DYNAMIC analysis computes and factors the tangent of Newton's iterations")
       .synonyms({"TANGENTE", "JACOBIAN"})
       .option({"FULL", {"COMPLET"}, "in each iteration: convergence is quadratic, and ends far below PREC"})
-      .option({"KEPT", {"MODIFIED", "MODIFIE"}, "the factors serve as many steps as they save time; iterations end at PREC"});
+      .option({"KEPT", {"MODIFIED", "MODIFIE"}, "factors are reused for as long as this saves time; iterations end at PREC"});
   card.add("ITMA", &AnalysisCard::iterations, "most Newton iterations before a step is cut")
       .synonyms({"ITMAX", "ITERATIONS"})
       .at_least(1)
@@ -148,8 +148,9 @@ Schema analysis_card() {
       .at_least(0);
   card.add("RESTART", &AnalysisCard::restart,
            "continue these results (a path without .h5) from a restart point; `.SUB`, `.SAM`, `.SAI`, "
-           "checks, loads "
-           "and functions may differ from the run that wrote them, the model may not")
+           "checks, loads (`.CLM`) "
+           "and functions may differ from the run that wrote them; the model may not, and elements of `.MCE` such as FORCE are "
+           "part of it. Drives must begin where the restart point stands")
       .synonyms({"REPRISE"});
   card.add("T", &AnalysisCard::restart_time,
            "RESTART: time of the restart point, the last one up to then; the last of all when not given")
@@ -302,7 +303,7 @@ void check_check(CheckCard& check, Record& record, Diagnostics& diagnostics) {
 }
 
 Schema check_card() {
-  Card<CheckCard> card(".CHK", {".CHECK", ".VERIFICATION"}, "What the run must give");
+  Card<CheckCard> card(".CHK", {".CHECK", ".VERIFICATION"}, "Expected results");
   card.chapter(result_chapter);
   card.describe(
       "A check compares one number of the results with a known value. The run prints each check with PASS or FAIL; a failed one "

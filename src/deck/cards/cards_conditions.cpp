@@ -114,11 +114,11 @@ Schema temperature_card() {
   Card<TemperatureCard> card(".CLM TEMP", {".BOUNDARY", "TEMPERATURE"}, "Temperatures of the nodes of a mesh");
   card.chapter(chapter).redefines();
   card.describe(
-      "Between the nodes of a cell the temperature is what its shape functions make of it; a node without a record is as warm as "
-      "where bodies are free of stress. Materials expand by A of `.MAT` times the value. Of several records on a node the last "
+      "Between the nodes of a cell the shape functions interpolate the temperature; nodes without a record have no temperature "
+      "rise. Materials expand by A of `.MAT` times the value. Of several records on a node the last "
       "holds.");
   add_target(card);
-  card.add("V", &TemperatureCard::rise, "how much warmer the nodes are than where bodies are free of stress, in degrees")
+  card.add("V", &TemperatureCard::rise, "temperature rise above the stress-free temperature, in degrees")
       .synonyms({"VAL"})
       .required();
   card.add("NF", &TemperatureCard::function, "number of the function of time, a factor; 0: constant").refers(Reference::function);
@@ -198,8 +198,8 @@ Schema function_card() {
       .synonyms({"PARAMETRES", "PARAMETERS"})
       .values(1, 10000);
   card.add("SCALE", &FunctionCard::scale,
-           "over how much the arguments of a USER routine change its result, for derivatives by differences; 0: as the element "
-           "thinks fit, and 50 steps H for functions of time")
+           "of a USER routine: range of each argument over which the result changes; sets the step of the differences; 0: "
+           "chosen by the element, and 50 steps H for functions of time")
       .synonyms({"ECHELLE"})
       .values(1, 3)
       .at_least(0);

@@ -78,7 +78,7 @@ std::string filled(const Schema& schema, const Field& field) {
 
 std::string explanation(const Field& field) {
   std::string text = field.help;
-  for (const std::string& part : {range_text(field).empty() ? deck_unit(field.dimension) : range_text(field)})
+  for (const std::string& part : {documented_range(field).empty() ? deck_unit(field.dimension) : documented_range(field)})
     if (!part.empty()) text += "; " + part;
   if (field.type != FieldType::choice) return text;
   std::vector<std::string> names;
@@ -114,10 +114,11 @@ std::string help_card(const Schema& schema) {
     while (out.back() == ' ') out.pop_back();
     out += "\n";
     std::string help = field.help;
-    if (const std::string range = range_text(field); !range.empty())
+    if (const std::string range = documented_range(field); !range.empty())
       help += "; " + range;
     else if (const std::string unit = deck_unit(field.dimension); !unit.empty())
       help += "; " + unit;
+    if (const std::string fillers = filler_text(field); !fillers.empty()) help += "; " + fillers;
     if (field.positional) help += "; the keyword may be left out";
     append_wrapped(out, help, "      ");
     for (const Option& option : field.options) {

@@ -55,7 +55,8 @@ std::string property(const Schema& schema, const Field& field) {
   std::vector<std::string> members{member("description", json_string(field.help))};
   if (const std::string unit = deck_unit(field.dimension); !unit.empty()) members.push_back(member("unit", json_string(unit)));
   const Field::Values defaults = field.load(schema.make());
-  if (defaults.present && !field.required) members.push_back(member("default", json_value(field, defaults)));
+  if (defaults.present && !field.required && within_range(field, defaults))
+    members.push_back(member("default", json_value(field, defaults)));
   if (field.type == FieldType::flag) {
     members.push_back(member("type", "\"boolean\""));
   } else if (field.type == FieldType::choice) {

@@ -87,6 +87,7 @@ std::string codes(const std::vector<std::string>& words) {
 
 std::string meaning(const Field& field) {
   std::string text = field.help;
+  if (const std::string fillers = filler_text(field); !fillers.empty()) text += "; " + fillers;
   if (field.positional) text += "; the keyword may be left out";
   if (field.heading) text += "; may stand before the first record and then holds for all";
   for (const Option& option : field.options) {
@@ -106,7 +107,7 @@ std::string meaning(const Field& field) {
 /// The range without its unit, which has its own column.
 std::string bare_range(Field field) {
   field.dimension = {};
-  return range_text(field);
+  return documented_range(field);
 }
 
 void append_card(std::string& out, const Schema& schema) {

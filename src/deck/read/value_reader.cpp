@@ -91,6 +91,10 @@ std::string range_text(const Field& field) {
   return text.empty() || unit.empty() ? text : text + " " + unit;
 }
 
+std::string documented_range(const Field& field) {
+  return field.reference == Reference::function ? std::string() : range_text(field);
+}
+
 FieldReading& ValueReader::read(const Field& field, const Schema& schema, const RecordKeys& keys, Location keyword) {
   reading_.values.numbers.clear();
   reading_.values.texts.clear();

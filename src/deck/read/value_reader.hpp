@@ -91,5 +91,7 @@ std::string expected_count(int least, int most);
 
 /// `greater than 0`, `from 0 to 1`, with the unit; empty if there is no limit.
 std::string range_text(const Field& field);
+/// The same for help and manual: none for a function, where it would read as the range of the function's values.
+std::string documented_range(const Field& field);
 
 }  // namespace engrane::deck

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/schema/field_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -90,10 +91,18 @@ void for_each_deck_word(const Field& field, const Field::Values& values, bool ra
   for_each_number(values.numbers, ranges, use);
 }
 
+bool within_range(const Field& field, const Field::Values& values) {
+  return std::all_of(values.numbers.begin(), values.numbers.end(), [&field](double value) {
+    const bool low = field.lower_open ? value <= field.lower : value < field.lower;
+    const bool high = field.upper_open ? value >= field.upper : value > field.upper;
+    return !low && !high;
+  });
+}
+
 bool has_default(const Field& field, const Field::Values& defaults) {
   if (!defaults.present || field.type == FieldType::flag) return false;
   const bool none = field.reference != Reference::nothing && defaults.numbers == std::vector<double>{0};
-  return !none && !field.required;
+  return !none && within_range(field, defaults) && !field.required;
 }
 
 std::string default_text(const Schema& schema, const Field& field) {
@@ -103,6 +112,13 @@ std::string default_text(const Schema& schema, const Field& field) {
   std::string text;
   for (std::size_t i = 1; i < words.size(); ++i) text += (i > 1 ? " " : "") + words[i];
   return text;
+}
+
+std::string filler_text(const Field& field) {
+  if (field.fillers.empty()) return {};
+  std::string words;
+  for (const std::string& word : field.fillers) words += (words.empty() ? "" : " or ") + word;
+  return words + " may stand before the value";
 }
 
 namespace {

@@ -24,8 +24,15 @@ void for_each_deck_word(const Field& field, const Field::Values& values, bool ra
 /// The default in deck spelling, without the keyword; empty if there is none.
 std::string default_text(const Schema& schema, const Field& field);
 
-/// Whether there is a default worth showing: not an absent option, an empty list or the reference 0 (none).
+/// Whether all numbers are within the field's range.
+bool within_range(const Field& field, const Field::Values& values);
+
+/// Whether there is a default worth showing: not an absent option, an empty list, the reference 0 (none) or a value outside the
+/// field's own range, which stands for none.
 bool has_default(const Field& field, const Field::Values& defaults);
+
+/// `DT may stand before the value`; empty if the field has no fillers.
+std::string filler_text(const Field& field);
 
 /// Appends the values as JSON: `20`, `[1, 2]`, `"SPEED"`, `{"COS": [0.004]}`, `true`.
 void append_json(std::string& json, const Field& field, const Field::Values& values);

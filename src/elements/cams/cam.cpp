@@ -423,8 +423,9 @@ ElementType cam_type() {
       .positive();
   card.add("EXP", &CamData::exponent, "exponent of the penetration").synonyms({"EXPOSANT"}).at_least(1);
   add_stop_damping(card.add("DAMP", &CamData::damping, "damping of the contact; none when not given").synonyms({"AMOR"}));
-  add_friction_options(card.add("FRICTION", &CamData::friction, "friction of a knife edge or a flat face"));
-  card.add("VREG", &CamData::friction_width, "sliding speed below which friction is regularised")
+  add_friction_options(card.add("FRICTION", &CamData::friction, "friction of a knife edge or a flat face; needs VREG"), false);
+  card.add("VREG", &CamData::friction_width,
+           "sliding speed below which FRICTION is regularised: surfaces that should stick creep")
       .synonyms({"V0"})
       .unit(dimension::velocity)
       .positive();

@@ -94,7 +94,7 @@ bool set_tips(CutTeeth& cut, const CutData& data, const std::array<std::string, 
     const std::size_t needed = rack ? 1 : 2;
     if (data.tip_diameter.size() != needed) {
       context.error("TIP", fmt::format("{} tip diameters are needed, {} given", needed, data.tip_diameter.size()),
-                    rack ? "give that of the pinion" : "give those of A and of B");
+                    "give those of A and of B");
       return false;
     }
     for (std::size_t i = 0; i < needed; ++i) cut.tip[i] = 0.5 * data.tip_diameter[i];

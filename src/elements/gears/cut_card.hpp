@@ -50,13 +50,16 @@ void warn_about_plain_tips(const GearDesign& design, const std::array<std::strin
 void warn_about_cut(const CutTeeth& cut, const CutData& data, const std::array<std::string, 2>& names,
                     const BuildContext& context);
 
-/// Adds the keywords of CutData to a card.
+/// Adds the keywords of CutData to a card. With `rack`, A is a pinion and B a rack, which has no profile shift and no tip circle.
 template <class Data>
-void add_cut_keywords(deck::Card<Data>& c) {
+void add_cut_keywords(deck::Card<Data>& c, bool rack = false) {
   using namespace dimension;
-  c.add("X", &CutData::shift, "profile shift factors; of a pair one value is A's, and the centre distance decides B's")
+  const int most = rack ? 1 : 2;
+  c.add("X", &CutData::shift,
+        rack ? "profile shift factor of the pinion"
+             : "profile shift factors; of a pair one value is A's, and the centre distance decides B's")
       .synonyms({"DEPORT", "SHIFT"})
-      .values(1, 2)
+      .values(1, most)
       .above(-5)
       .below(5);
   c.add("ADDENDUM", &CutData::addendum, "addendum of the basic rack in modules; 1 when not given")
@@ -67,15 +70,18 @@ void add_cut_keywords(deck::Card<Data>& c) {
       .synonyms({"CREUX"})
       .values(1, 2)
       .positive();
-  c.add("TIP", &CutData::tip_diameter, "tip diameters, instead of those that follow from X and ADDENDUM")
+  c.add("TIP", &CutData::tip_diameter,
+        rack ? "tip diameter of the pinion, instead of that which follows from X and ADDENDUM"
+             : "tip diameters, instead of those that follow from X and ADDENDUM")
       .synonyms({"DIAMETRE_TETE", "TIPDIAMETER"})
       .unit(length)
-      .values(1, 2)
+      .values(1, most)
       .positive();
   c.add("TIPALTER", &CutData::tip_alteration,
-        "tip alteration k in modules; when not given, outside what keeps the tip clearance, in a ring 0")
+        rack ? "tip alteration k of the pinion in modules; 0 when not given"
+             : "tip alteration k in modules; when not given, outside what keeps the tip clearance, in a ring 0")
       .synonyms({"TRONCATURE"})
-      .values(1, 2);
+      .values(1, most);
 }
 
 }  // namespace engrane::elements::gears

@@ -93,7 +93,8 @@ const deck::Card<GearData>& gear_card() {
         .synonyms({"RAYONS", "RADII"})
         .unit(length)
         .positive();
-    c.add("PLACE", &GearData::place, "direction from A's centre to the contact point: B's node is put where the pair closes")
+    c.add("PLACE", &GearData::place,
+          "direction from A's centre to the contact point: node B is positioned so that the wheels mesh")
         .synonyms({"PLACER"});
     add_cut_keywords(c);
     add_teeth_keywords(c);

@@ -156,7 +156,7 @@ std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& fr
     put("lead angle" + of, lead_angle, angle);
     put("lead" + of, 2 * std::numbers::pi * design.radius(i) * std::tan(lead_angle), length);
     put("diameter quotient" + of, design.teeth[i] / std::tan(lead_angle), none);
-    put("locks itself from a coefficient of friction", std::cos(design.pressure_angle) * std::tan(lead_angle), none);
+    put("self-locking at friction coefficients of at least", std::cos(design.pressure_angle) * std::tan(lead_angle), none);
   }
 
   const Vec3 a = frames.contact - design.radius(0) * frames.mu.col(1), b = frames.contact - design.radius(1) * frames.xi.col(1);
@@ -186,7 +186,7 @@ std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& fr
     }
     put("tooth damping", teeth.damping, damping);
     put_backlash(list, teeth, design.pressure_angle);
-    if (teeth.backlash > 0) put("onset of contact", teeth.onset, length);
+    if (teeth.backlash > 0) put("rounding width of the contact law (SMOOTH)", teeth.onset, length);
   }
   if (std::abs(teeth.mesh.phase) > 1e-9) put("phase of the mesh, of a tooth of 360 degrees", teeth.mesh.phase, angle);
   if (teeth.mesh.misfit != 0) put("misfit of the teeth along the circumference", teeth.mesh.misfit, length);

@@ -181,7 +181,7 @@ const deck::Card<RackData>& rack_card() {
         "A pinion at a node that is its centre, and a rack carried by a node anywhere on its body: the ground (0), a guided or a "
         "free body. The pitch plane of the rack touches the pitch circle; AT is a point of it, or with profile shift X of the "
         "reference plane, X modules further out. The rack passes the tooth force, guides and bearings are other elements. "
-        "Everything about the teeth is as in GEAR; X and TIP are the pinion's.");
+        "Everything about the teeth is as in GEAR; X, TIP and TIPALTER are the pinion's.");
     c.add("N", &RackData::nodes, "centre of the pinion, and body of the rack")
         .synonyms({"NOEUDS", "NODES", "NOEUD"})
         .refers(deck::Reference::node)
@@ -202,8 +202,8 @@ const deck::Card<RackData>& rack_card() {
     c.add("AT", &RackData::at, "a point of the rack's reference plane; the rack's node when not given")
         .synonyms({"POINT"})
         .unit(length);
-    add_cut_keywords(c);
-    add_teeth_keywords(c);
+    add_cut_keywords(c, true);
+    add_teeth_keywords(c, true);
     c.example("I 1 RACK N 1 2 AXIS 0 0 1 DIR 1 0 0 Z 20 MN 2");
     c.example("I 3 RACK N 1 2 AXIS 0 0 1 DIR 1 0 0 AT 0 -19.8 0 Z 12 MN 3 X 0.6");
     c.example("I 2 RACK N 1 0 AXIS 0 0 1 DIR 1 0 0 AT 0 -20 0 Z 20 MN 2 HELIX 15 KM 1D8");
@@ -222,10 +222,6 @@ bool cut_rack(GearDesign& design, const RackData& data, const BuildContext& cont
         context.error(keyword,
                       fmt::format("{} is for a rack straight across the pinion's axle, and this one runs obliquely", keyword),
                       "leave it out: such wheels have addendum m_n and no shift");
-    return false;
-  }
-  if (data.shift.size() > 1) {
-    context.error("X", "a rack has no profile shift: X has two values", "give that of the pinion");
     return false;
   }
   CutTeeth cut = reference_cut(design, data);

@@ -69,16 +69,23 @@ std::optional<Teeth> read_teeth(const TeethData& data, const TeethOwner& owner, 
 /// Warns of a pressure angle, in degrees, that was probably given in radians.
 void warn_of_radians(double alpha, const BuildContext& context);
 
-/// Adds the keywords of TeethData to a card.
+/// Adds the keywords of TeethData to a card. With `rack`, A is a pinion and B a rack: its errors are not functions of an angle,
+/// so that `ECCB` and `PITCHB` are left out.
 template <class Data>
-void add_teeth_keywords(deck::Card<Data>& c) {
+void add_teeth_keywords(deck::Card<Data>& c, bool rack = false) {
   using namespace dimension;
-  c.add("WIDTH", &TeethData::width, "face width; 10 m_n when not given").synonyms({"LARGEUR"}).unit(length).positive();
+  const char *const a = rack ? "the pinion" : "A", *const b = rack ? "the rack" : "B";
+  const char *const wheel_a = rack ? "the pinion" : "wheel A", *const both = rack ? "pinion and rack" : "both wheels";
+  c.add("WIDTH", &TeethData::width,
+        "face width: STIFF ISO and SLICES need it; for overlap ratio and drawing 10 m_n when not given")
+      .synonyms({"LARGEUR"})
+      .unit(length)
+      .positive();
   c.add("KM", &TeethData::stiffness, "tooth stiffness along the circumference")
       .synonyms({"RAIDEUR"})
       .unit(dimension::stiffness)
       .positive();
-  c.add("STIFF", &TeethData::course, "course of the tooth stiffness while teeth come and go")
+  c.add("STIFF", &TeethData::course, "variation of the mesh stiffness over a tooth pitch")
       .synonyms({"RIGIDITE", "STIFFNESS"})
       .option({"CONST", {"CONSTANT"}, "KM at all times"})
       .option({"ISO", {}, "constant, computed by ISO 6336-1 (method B) from geometry, WIDTH and E instead of KM"})
@@ -95,7 +102,9 @@ void add_teeth_keywords(deck::Card<Data>& c) {
                "a pitch; KM is the mean",
                0,
                2});
-  c.add("E", &TeethData::moduli, "Young's modulus, of both wheels or of A and B, for STIFF ISO")
+  c.add("E", &TeethData::moduli,
+        rack ? "Young's modulus, one of both or those of pinion and rack, for STIFF ISO"
+             : "Young's modulus, of both wheels or of A and B, for STIFF ISO")
       .synonyms({"YT", "YOUNG"})
       .unit(dimension::pressure)
       .values(1, 2)
@@ -106,27 +115,30 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .positive();
   const char* const relief =
       "C L [p]: {} relief of {}, C normal to the flank over L of the path of contact, growing with power p (2)";
-  c.add("TIPRELA", &TeethData::tip_relief_a, fmt::format(fmt::runtime(relief), "tip", "A"))
+  c.add("TIPRELA", &TeethData::tip_relief_a, fmt::format(fmt::runtime(relief), "tip", a))
       .synonyms({"DEPOUILLE_TETE_A"})
       .values(2, 3)
       .positive();
-  c.add("TIPRELB", &TeethData::tip_relief_b, fmt::format(fmt::runtime(relief), "tip", "B"))
+  c.add("TIPRELB", &TeethData::tip_relief_b, fmt::format(fmt::runtime(relief), "tip", b))
       .synonyms({"DEPOUILLE_TETE_B"})
       .values(2, 3)
       .positive();
-  c.add("ROOTRELA", &TeethData::root_relief_a, fmt::format(fmt::runtime(relief), "root", "A"))
+  c.add("ROOTRELA", &TeethData::root_relief_a, fmt::format(fmt::runtime(relief), "root", a))
       .synonyms({"DEPOUILLE_PIED_A"})
       .values(2, 3)
       .positive();
-  c.add("ROOTRELB", &TeethData::root_relief_b, fmt::format(fmt::runtime(relief), "root", "B"))
+  c.add("ROOTRELB", &TeethData::root_relief_b, fmt::format(fmt::runtime(relief), "root", b))
       .synonyms({"DEPOUILLE_PIED_B"})
       .values(2, 3)
       .positive();
-  c.add("CROWN", &TeethData::crown, "crowning of both wheels together, normal to the flank at the ends of the face")
+  c.add("CROWN", &TeethData::crown, fmt::format("crowning of {} together, normal to the flank at the ends of the face", both))
       .synonyms({"BOMBE"})
       .unit(length)
       .positive();
-  c.add("XI", &TeethData::damping_ratio, "damping ratio of the teeth against the inertia of both wheels").at_least(0);
+  c.add("XI", &TeethData::damping_ratio,
+        rack ? "damping ratio against the inertia of two wheels: refused with a rack, give CM"
+             : "damping ratio of the teeth against the inertia of both wheels")
+      .at_least(0);
   c.add("CM", &TeethData::damping, "tooth damping along the circumference, instead of XI").unit(dimension::damping).at_least(0);
   c.add("JEU", &TeethData::backlash,
         "backlash along the circumference, in the normal section: the transverse one times cos(helix)")
@@ -138,12 +150,15 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .unit(length)
       .at_least(0);
   c.add("JEUA", &TeethData::center_backlash,
-        "backlash as the reduction of the centre distance (in a ring its increase) that takes it up, instead of JEU")
+        rack ? "backlash as the way of the rack towards the pinion that takes it up, instead of JEU"
+             : "backlash as the reduction of the centre distance (in a ring its increase) that takes it up, instead of JEU")
       .synonyms({"CENTRE_BACKLASH", "CENTER_BACKLASH"})
       .unit(length)
       .at_least(0);
   c.add("ASN", &TeethData::thickness_allowance,
-        "tooth-thickness allowances A_sn of A and B, or one of both: normal, at the reference circle, negative; instead of JEU")
+        fmt::format("tooth-thickness allowances A_sn of {} and {}, or one of both: normal, at the reference circle, negative; "
+                    "instead of JEU",
+                    a, b))
       .synonyms({"ALLOWANCE", "ECART_EPAISSEUR"})
       .unit(length)
       .values(1, 2)
@@ -161,17 +176,25 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .option({"COS", {}, "X: X (1 - cos z_A psi_A)", 1, 1, length})
       .option({"FOURIER", {}, "a1 b1 a2 b2 ...: sum of a_n cos(n z_A psi_A) + b_n sin(n z_A psi_A)", 2, 200, length})
       .option({"TABLE", {"FCT", "NF"}, "f: function f of psi_A in degrees, repeating with the turn", 1, 1});
-  c.add("ECCA", &TeethData::eccentricity_a, "e [phase]: runout of wheel A, e sin of its turn, along the circumference; degrees")
+  c.add("ECCA", &TeethData::eccentricity_a,
+        fmt::format("e [phase]: runout of {}, e (a length) times the sine of its turn and the phase (degrees), along the "
+                    "circumference",
+                    wheel_a))
       .synonyms({"EXCENTRICITE_A", "ECCENTRICITY_A"})
       .values(1, 2);
-  c.add("ECCB", &TeethData::eccentricity_b, "e [phase]: runout of wheel B")
-      .synonyms({"EXCENTRICITE_B", "ECCENTRICITY_B"})
-      .values(1, 2);
-  c.add("PITCHA", &TeethData::pitch_a, "function of the cumulative pitch error of wheel A over its turn in degrees, PERIOD 360")
+  if (!rack)
+    c.add("ECCB", &TeethData::eccentricity_b, "e [phase]: runout of wheel B")
+        .synonyms({"EXCENTRICITE_B", "ECCENTRICITY_B"})
+        .values(1, 2);
+  c.add("PITCHA", &TeethData::pitch_a,
+        fmt::format("function of the cumulative pitch error of {} over its turn in degrees, PERIOD 360", wheel_a))
       .synonyms({"PAS_A"})
       .refers(deck::Reference::function);
-  c.add("PITCHB", &TeethData::pitch_b, "the same of wheel B").synonyms({"PAS_B"}).refers(deck::Reference::function);
-  c.add("PHASE", &TeethData::phase, "mesh phase at the start, 360 per tooth; follows from the train when not given").unit(angle);
+  if (!rack) c.add("PITCHB", &TeethData::pitch_b, "the same of wheel B").synonyms({"PAS_B"}).refers(deck::Reference::function);
+  c.add("PHASE", &TeethData::phase,
+        rack ? "mesh phase at the start, 360 per tooth; 0 when not given"
+             : "mesh phase at the start, 360 per tooth; follows from the train when not given")
+      .unit(angle);
   add_friction_options(c.add("FRICTION", &TeethData::friction, "sliding friction between the flanks"));
   c.add("VREG", &TeethData::friction_width, "regularises friction below this sliding speed: flanks that should stick creep")
       .synonyms({"V0"})
@@ -184,10 +207,13 @@ void add_teeth_keywords(deck::Card<Data>& c) {
       .option({"PITCH", {"PRIMITIF"}, "at the pitch point: axles that cross or pass each other"})
       .option({"PROFILE", {"PROFIL"}, "each pair of flanks along the path of contact (axles that are parallel or meet)"});
   c.add("ROLLING", &TeethData::rolling, "lever of the rolling resistance").synonyms({"ROULEMENT"}).unit(length).at_least(0);
-  c.add("SEPARATION", &TeethData::separation, "the radial part of the tooth force, which pushes the wheels apart")
+  c.add("SEPARATION", &TeethData::separation,
+        fmt::format("the radial part of the tooth force, which pushes {} apart", rack ? both : "the wheels"))
       .option({"YES", {"OUI"}, "with it"})
       .option({"NO", {"NON"}, "without: tangential and axial parts only"});
-  c.add("RUNNING", &TeethData::running, "pressure angle and flanks follow the running centre distance (parallel axles)")
+  c.add("RUNNING", &TeethData::running,
+        rack ? "flanks and radial force follow the running distance of the rack from the pinion"
+             : "pressure angle and flanks follow the running centre distance (parallel axles)")
       .synonyms({"ENTRAXE_COURANT"});
   c.add("SLICES", &TeethData::slices, "slices along WIDTH that see the tilt of the axles (parallel axles, elastic teeth)")
       .synonyms({"TRANCHES"})

@@ -5,9 +5,9 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"radius of the shaft; default 0: turning does not rub", "",
-                                   "distance of the two bushes that carry bending moments; default: these press nothing", false,
-                                   false};
+const FrictionWords friction_words{"radius of the shaft; 0: turning causes no friction", "",
+                                   "distance of the two bushes that carry bending moments; 0: bending moments cause no friction",
+                                   false, false};
 
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "cylindrical joint", PointRule::on_axis);

@@ -5,9 +5,9 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"radius of the pin", "radius at which its collar rubs; default: it does not",
-                                   "distance of the two bushes that carry bending moments; default: these press nothing", false,
-                                   true};
+const FrictionWords friction_words{"radius of the pin", "friction radius of the thrust collar; 0: no collar friction",
+                                   "distance of the two bushes that carry bending moments; 0: bending moments cause no friction",
+                                   false, true};
 
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "hinge", PointRule::one_place);

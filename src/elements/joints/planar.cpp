@@ -5,7 +5,7 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"radius at which the face rubs when it spins; default 0: spinning does not rub", "", "", false,
+const FrictionWords friction_words{"friction radius of the face about its normal; 0: spinning causes no friction", "", "", false,
                                    false};
 
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {

@@ -7,7 +7,7 @@ namespace {
 
 const FrictionWords friction_words{
     "lever at which a key or two rails hold the slider from turning; default: their friction is left out", "",
-    "distance of the two shoes that carry bending moments; default: these press nothing", false, false};
+    "distance of the two shoes that carry bending moments; 0: bending moments cause no friction", false, false};
 
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "prismatic joint", PointRule::at_b);

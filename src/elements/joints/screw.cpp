@@ -10,9 +10,9 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"mean radius of the thread", "",
-                                   "distance of the two ends of the nut that carry bending moments; default: these press nothing",
-                                   true, true};
+const FrictionWords friction_words{
+    "mean radius of the thread", "",
+    "distance of the two ends of the nut that carry bending moments; 0: bending moments cause no friction", true, true};
 
 std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "screw", PointRule::on_axis);

@@ -9,7 +9,7 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"radius of the pins", "radius at which the ends of the pins rub; default: they do not",
+const FrictionWords friction_words{"radius of the pins", "friction radius of the ends of the pins; 0: these have no friction",
                                    "distance of the two bearings of either pin; default: the torque presses nothing", false,
                                    true};
 

@@ -93,7 +93,7 @@ ElementType membrane_type() {
   card.add("THICK", &MembraneData::thickness, "thickness").synonyms({"EPAISSEUR"}).unit(dimension::length).positive().required();
   card.add("TENSION", &MembraneData::tension, "stress in all directions of the surface, in the reference configuration")
       .unit(dimension::pressure);
-  card.add("WRINKLING", &MembraneData::wrinkling, "it wrinkles instead of being pressed").synonyms({"PLIS"});
+  card.add("WRINKLING", &MembraneData::wrinkling, "carries no compression: it wrinkles").synonyms({"PLIS"});
   card.add("SLACK", &MembraneData::slack, "part of its stiffness that is left where it wrinkles").at_least(0).at_most(1);
   card.add("PRESSURE", &MembraneData::pressure, "pressure that follows the surface").synonyms({"PRE"}).unit(dimension::pressure);
   card.add("NF", &MembraneData::function, "function of time that PRESSURE is multiplied by; default: none")

@@ -266,8 +266,8 @@ ElementType stop_type() {
       .chapter("Stiffeners, dampers, transfer functions")
       .describe(
           "Keeps the distance of two nodes, with AXIS the turn of node b from node a about an axis that a holds, or with NORMAL "
-          "the height of a point of b above a plane that a holds, above MIN and below MAX. Beyond a limit by d it pushes "
-          "back with K d**EXP and damping; it never pulls. In dynamics steps end where it touches and parts.")
+          "the height of a point of b above a plane that a holds, above MIN and below MAX. At a penetration d beyond "
+          "a limit the force is K d**EXP, and damping; it never pulls. In dynamics steps end where it touches and parts.")
       .example("I 9 STOP N 0 2  NORMAL 0 0 1  MIN 0.05  K 1D8 EXP 1.5  DAMP REST 0.8 2.0")
       .example("I 10 STOP N 3 4  AXIS 0 0 1  MIN -30 MAX 45  K 2D3  DAMP LINEAR 1.5")
       .example("I 11 STOP N 4 5  MAX 0.25  K 1D6");
