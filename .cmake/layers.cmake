@@ -26,7 +26,8 @@ function(engrane_layer name)
   target_include_directories(engrane_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(engrane_${name} PUBLIC ${layer_USES} ${layer_WITH} PRIVATE engrane_options)
   engrane_precompiled(engrane_${name})
-  # Elements take their time to optimise, not to read headers: alone, they spread better over the processors.
+  # Files of a layer are compiled eight at a time, so that what their anonymous namespaces define needs names of its own within
+  # a layer. Elements take their time to optimise, not to read headers: alone, they spread better over the processors.
   if(NOT name STREQUAL "elements")
     set_target_properties(engrane_${name} PROPERTIES UNITY_BUILD ${ENGRANE_UNITY} UNITY_BUILD_BATCH_SIZE 8)
   endif()

@@ -34,6 +34,14 @@ std::string name_of(const deck::Record& record) {
   return record.id > 0 ? fmt::format("{} {}", record.schema->name, record.id) : record.schema->name;
 }
 
+/// Advice where an element that is a load is one of the differences.
+std::string advice(const deck::Record& record) {
+  if (!is_load(*record.schema)) return {};
+  return " (as an element of .MCE it belongs to the model: its values may change, but only loads of .CLM CHA may come and go)";
+}
+std::string lost(const deck::Record& record) { return name_of(record) + " was there and is not now" + advice(record); }
+std::string added(const deck::Record& record) { return name_of(record) + " is new" + advice(record); }
+
 /// The records that define the model, by card and number; records without a number keep their order.
 std::multimap<std::pair<std::string_view, int>, const deck::Record*> model_records(const deck::Deck& deck) {
   std::multimap<std::pair<std::string_view, int>, const deck::Record*> all;
@@ -61,16 +69,16 @@ std::string model_difference(const deck::Deck& before, const deck::Deck& now) {
   auto was = old_records.begin();
   auto is = new_records.begin();
   while (was != old_records.end() && is != new_records.end()) {
-    if (was->first < is->first) return name_of(*was->second) + " was there and is not now";
-    if (is->first < was->first) return name_of(*is->second) + " is new";
+    if (was->first < is->first) return lost(*was->second);
+    if (is->first < was->first) return added(*is->second);
     if (!is_load(*is->second->schema))
       if (const std::string difference = keyword_difference(*was->second, *is->second); !difference.empty())
         return fmt::format("{}: {}", name_of(*is->second), difference);
     ++was;
     ++is;
   }
-  if (was != old_records.end()) return name_of(*was->second) + " was there and is not now";
-  if (is != new_records.end()) return name_of(*is->second) + " is new";
+  if (was != old_records.end()) return lost(*was->second);
+  if (is != new_records.end()) return added(*is->second);
   return {};
 }
 

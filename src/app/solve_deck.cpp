@@ -46,10 +46,12 @@ std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Option
                     "functions of time",
                     earlier.path(), difference));
   RestartPoint point = earlier.load(time);
-  if (!reading.model.commands.path && point.time >= reading.model.commands.stepping.end)
+  if (!reading.model.commands.path && point.time >= reading.model.commands.stepping.end) {
+    const std::string newer = earlier.advice_on_newer_partial();
     throw RestartError(fmt::format(
-        "{} would be continued from t = {:.10g}, but .SUB ends at TF = {:.10g}: give a later TF, or RESTART with an earlier T",
-        earlier.path(), point.time, reading.model.commands.stepping.end));
+        "{} would be continued from t = {:.10g}, but .SUB ends at TF = {:.10g}: give a later TF, or RESTART with an earlier T{}",
+        earlier.path(), point.time, reading.model.commands.stepping.end, newer.empty() ? newer : ". " + newer));
+  }
   return std::make_unique<Resumption>(std::move(earlier), std::move(point));
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
+#include <system_error>
 
 #include "base/text.hpp"
 
@@ -77,6 +79,22 @@ std::vector<double> RestartFile::times() const {
   std::vector<double> times;
   for (const Entry& entry : entries(file_.id())) times.push_back(entry.time);
   return times;
+}
+
+std::string RestartFile::advice_on_newer_partial() const {
+  constexpr std::string_view ending = ".h5", partial_ending = ".partial.h5";
+  if (!path_.ends_with(ending) || path_.ends_with(partial_ending)) return {};
+  const std::string stem = path_.substr(0, path_.size() - ending.size()) + ".partial", partial = stem + std::string(ending);
+  std::error_code missing, unknown;
+  const auto written = std::filesystem::last_write_time(partial, missing), own = std::filesystem::last_write_time(path_, unknown);
+  if (missing || unknown || written <= own) return {};
+  const hdf5::Handle file(hdf5::open_for_reading(partial));
+  if (file.id() < 0) return {};
+  const std::vector<Entry> points = entries(file.id());
+  if (points.empty()) return {};
+  return fmt::format(
+      "The newer {}, of a run that was not completed, can be continued from t = {}: --restart {}, or RESTART \"{}\"", partial,
+      format_number(points.back().time), stem, stem);
 }
 
 RestartPoint RestartFile::load(std::optional<double> time) const {

@@ -34,6 +34,10 @@ class RestartFile {
   /// available times.
   RestartPoint load(std::optional<double> time = {}) const;
 
+  /// Sentence on the partial result of a newer run of the same name, which the prefix did not choose, and on how to continue it;
+  /// empty if there is none with a restart point.
+  std::string advice_on_newer_partial() const;
+
   hid_t id() const { return file_.id(); }
 
  private:

@@ -25,19 +25,19 @@ TEST(Rotation, ExponentialIsARotation) {
 }
 
 TEST(Rotation, LogarithmUndoesTheExponential) {
-  const double pi = std::numbers::pi;
-  for (const double angle : {0.0, 1e-200, 1e-12, 1e-8, 1e-3, 0.3, 1.0, 3.0, pi - 1e-3, pi - 1e-8}) {
+  const double half_turn = std::numbers::pi;
+  for (const double angle : {0.0, 1e-200, 1e-12, 1e-8, 1e-3, 0.3, 1.0, 3.0, half_turn - 1e-3, half_turn - 1e-8}) {
     const Vec3 y = angle * direction;
     EXPECT_LT((rotation_log(rotation_exp(y)) - y).norm(), 4e-15 * std::max(angle, 1e-200) + (angle < 1e-10 ? 1e-24 : 0)) << angle;
   }
-  EXPECT_NEAR(rotation_log(rotation_exp(pi * direction)).norm(), pi, 1e-15 * 4);
+  EXPECT_NEAR(rotation_log(rotation_exp(half_turn * direction)).norm(), half_turn, 1e-15 * 4);
   // half a turn is one vector, whichever side rounding falls on
-  const Vec3 below = rotation_log(rotation_exp((pi - 1e-13) * direction)),
-             above = rotation_log(rotation_exp((pi + 1e-13) * direction));
+  const Vec3 below = rotation_log(rotation_exp((half_turn - 1e-13) * direction)),
+             above = rotation_log(rotation_exp((half_turn + 1e-13) * direction));
   EXPECT_LT((below - above).norm(), 1e-12);
-  EXPECT_LT((rotation_exp(below) - rotation_exp((pi - 1e-13) * direction)).norm(), 1e-14);
-  EXPECT_NEAR(rotation_log(rotation_exp((2 * pi + 0.1) * direction)).dot(direction), 0.1, 4e-15);
-  EXPECT_NEAR(rotation_log(rotation_exp(4.0 * direction)).norm(), 2 * pi - 4, 4e-15);
+  EXPECT_LT((rotation_exp(below) - rotation_exp((half_turn - 1e-13) * direction)).norm(), 1e-14);
+  EXPECT_NEAR(rotation_log(rotation_exp((2 * half_turn + 0.1) * direction)).dot(direction), 0.1, 4e-15);
+  EXPECT_NEAR(rotation_log(rotation_exp(4.0 * direction)).norm(), 2 * half_turn - 4, 4e-15);
 }
 
 TEST(Rotation, TangentIsTheDerivative) {

@@ -31,17 +31,17 @@ struct Numbers {
 
 /// Sun at node 0, planets at 1, 2, …; pairs 1, 2, … with the sun and 11, 12, … with the ring at node 0.
 Deck planetary(const std::vector<double>& angles, const Numbers& z, const std::string& teeth = "", bool planet_first = true) {
-  std::string nodes, elements;
+  std::string places, elements;
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const double r = z.sun + z.planet, a = angles[i] * degree;  // module 2
-    nodes += fmt::format("I {} X ({:.17g}) ({:.17g}) 0\n", i + 1, r * std::cos(a), r * std::sin(a));
+    places += fmt::format("I {} X ({:.17g}) ({:.17g}) 0\n", i + 1, r * std::cos(a), r * std::sin(a));
     elements += fmt::format("I {} GEAR N 0 {} KIND SPUR Z {} {} MN 2 AXIS 0 0 1 {}\n", i + 1, i + 1, z.sun, z.planet, teeth);
     elements +=
         planet_first
             ? fmt::format("I {} GEAR N {} 0 KIND INTERNAL Z {} {} MN 2 AXIS 0 0 1 {}\n", i + 11, i + 1, z.planet, z.ring, teeth)
             : fmt::format("I {} GEAR N 0 {} KIND INTERNAL Z {} {} MN 2 AXIS 0 0 -1 {}\n", i + 11, i + 1, z.ring, z.planet, teeth);
   }
-  return {nodes, elements};
+  return {places, elements};
 }
 
 const MeshPhase& mesh(const Deck& deck, int id) { return deck.pair(id).teeth().mesh; }

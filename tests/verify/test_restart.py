@@ -221,6 +221,170 @@ def test_pressures_and_temperatures_may_change(tmp_path):
     assert ".CLM ARETE: I was" in run(tmp_path, "rest.dat", status=1)
 
 
+PENDULUM = """.NOE
+ I 1 X 0 0 0
+ I 2 X 1 0 0
+.FCT
+ I 1 EXPR "{drive}"
+ I 2 EXPR "20*max(T-0.5,0)"
+.MCE
+ I 1 RIGID N 1 2  M 1 J 1 CG 0.5 0 0
+ I 2 HINGE N 0 1  AXIS 0 0 1  {joint}
+ I 3 FORCE N 2  DIR 0 -1 0  V 10
+.CLM
+ STRU ACC VAL 0 -10 0
+{load}.SAM TYPE {sam}
+.SUB TF {end} H 0.01 {tol}
+.FIN 1
+"""
+SPRING, DRIVEN = "K 100 C 0.1", "DRIVE ANGLE NF 1"
+
+
+def pendulum(
+    folder: Path, name: str, sam: str, joint=SPRING, drive="sin(3*T)", load="", tol="", end=1.0
+) -> str:
+    text = PENDULUM.format(drive=drive, joint=joint, load=load, sam=sam, tol=tol, end=end)
+    (folder / f"{name}.dat").write_text(text, encoding="utf-8")
+    return f"{name}.dat"
+
+
+def test_a_kinematic_run_does_not_take_over_free_motions(tmp_path):
+    """Without RESTART the deck is refused. The motion went on, with status 0."""
+    run(tmp_path, pendulum(tmp_path, "swings", "DYNAMIC"), "--until", "0.5", status=2)
+    alone = run(tmp_path, pendulum(tmp_path, "alone", "KINEMATIC"), status=2)
+    message = run(tmp_path, pendulum(tmp_path, "goes_on", 'KINEMATIC RESTART "swings"'), status=2)
+    for text in (alone, message):
+        assert "a KINEMATIC analysis needs drives that leave no freedom, but 1 motion is free" in text
+
+
+@pytest.mark.parametrize("after", ["DYNAMIC", "KINEMATIC"])
+@pytest.mark.parametrize("before", ["DYNAMIC", "KINEMATIC"])
+def test_a_driven_motion_goes_on_in_another_analysis(tmp_path, before, after):
+    run(tmp_path, pendulum(tmp_path, "whole", "KINEMATIC", DRIVEN))
+    run(tmp_path, pendulum(tmp_path, "first", before, DRIVEN), "--until", "0.5", status=2)
+    run(tmp_path, pendulum(tmp_path, "second", f'{after} RESTART "first"', DRIVEN))
+    with Results(tmp_path / "whole.h5") as whole, Results(tmp_path / "second.h5") as second:
+        expected, found = (r.history("element/2/ANGLE")[1] for r in (whole, second))
+        assert np.allclose(found, expected, atol=1e-9)
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize(
+    ("sam", "tol"), [("", ""), ("SCHEME RADAU", ""), ("TANGENT KEPT", ""), ("SCHEME RADAU", "TOL 1E-6")]
+)
+def test_loads_on_nodes_come_and_go(tmp_path, sam, tol, ranks):
+    """The load is zero before the restart, so that the whole run has it from the start. Newton's memory was
+    one of so many elements: "the restart point has another number of nodes"."""
+    added = " CHA NOEUD 2 C 2 V 3 NF 2\n CHA NOEUD 1 C 1 V 1 NF 2\n"
+
+    def make(name, load, restart="", end=1.0):
+        restart = f' RESTART "{restart}"' if restart else ""
+        return pendulum(tmp_path, name, f"DYNAMIC {sam}{restart}", load=load, tol=tol, end=end)
+
+    for load, name in (("", "free"), (added, "loaded")):
+        run(tmp_path, make(name, load), ranks=ranks)
+        run(tmp_path, make(f"{name}_part", load, end=0.5), ranks=ranks)
+    run(tmp_path, make("put_on", added, "free_part"), ranks=ranks)
+    run(tmp_path, make("taken_off", "", "loaded_part"), ranks=ranks)
+    run(tmp_path, make("same", added, "loaded_part"), ranks=ranks)
+    if not tol:  # the last of controlled steps is cut to the end of the first part
+        assert tables(tmp_path / "same.h5") == tables(tmp_path / "loaded.h5")
+
+    def last(name):
+        with Results(tmp_path / f"{name}.h5") as results:
+            return results.history("element/2/ANGLE")[1][-1]
+
+    assert abs(last("free") - last("loaded")) > 1e-3
+    near = 1e-5 if tol else 1e-9
+    assert last("put_on") == pytest.approx(last("loaded"), rel=near)
+    assert last("taken_off") == pytest.approx(last("free"), rel=near)
+
+
+@pytest.mark.parametrize("after", ["DYNAMIC", "DYNAMIC ACCURACY FAST", "KINEMATIC"])
+def test_a_drive_that_jumps_is_refused_by_name(tmp_path, after):
+    """It ended with "the energy balance is off by 994 … Take a smaller step H"; KINEMATIC with status 0."""
+    run(tmp_path, pendulum(tmp_path, "first", "KINEMATIC", DRIVEN), "--until", "0.5", status=2)
+    sam = f'{after} RESTART "first"'
+    message = run(tmp_path, pendulum(tmp_path, "jumps", sam, DRIVEN, "sin(3*T)+0.2"), status=2)
+    assert "HINGE 2 stands at 0.997495 rad and its drive asks for 1.19749 rad at t = 0.5" in message
+    assert "energy" not in message and "again" not in message
+    smooth = "sin(1.5)+3*cos(1.5)*(T-0.5)"
+    run(tmp_path, pendulum(tmp_path, "smooth", sam.replace(" ACCURACY FAST", ""), DRIVEN, smooth))
+
+
+def test_in_statics_a_jump_is_one_more_load_step(tmp_path):
+    run(tmp_path, pendulum(tmp_path, "first", "STATIC", DRIVEN), "--until", "0.5", status=2)
+    run(tmp_path, pendulum(tmp_path, "jumps", 'STATIC RESTART "first"', DRIVEN, "sin(3*T)+0.2"))
+    with Results(tmp_path / "jumps.h5") as results:
+        assert results.history("element/2/ANGLE")[1][-1] == pytest.approx(np.sin(3) + 0.2, abs=1e-9)
+
+
+CARRIAGE = """.NOE
+ I 1 X 0 0 0
+ I 2 X 1 0 0
+ I 3 X 0 0 1
+.FCT
+ I 1 EXPR "{slide}"
+ I 2 EXPR "{speed}"
+ I 3 EXPR "{support}"
+.MCE
+ I 1 RIGID N 1 2  M 1 J 1 CG 0.5 0 0
+ I 2 CYLINDRICAL N 0 1  AXIS 0 0 1  DRIVE SLIDE NF 1  TURN SPEED NFT 2
+ I 3 INERTIA N 3  M 1 J 1 1 1
+.CLM
+ DEP NOEUD 3 C 1 V 1 NF 3
+ FIX NOEUD 3 C 2 3 4 5 6
+.SAM TYPE DYNAMIC {restart}
+.SUB TF 1 H 0.01
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"slide": "T+0.3"}, "CYLINDRICAL 2 stands at 0.5 [length] and its drive asks for 0.8 [length]"),
+        ({"speed": "30"}, "CYLINDRICAL 2 stands at 10 rad and its drive asks for 15 rad"),
+        (
+            {"support": "2*T"},
+            "support of node 3 (x) stands at 0.5 [length] and its function asks for 1 [length]",
+        ),
+        ({"speed": "20+5*max(T-0.5,0)"}, ""),
+    ],
+)
+def test_other_motions_that_jump(tmp_path, change, words):
+    functions = {"slide": "T", "speed": "20", "support": "T"}
+    (tmp_path / "first.dat").write_text(CARRIAGE.format(restart="", **functions), encoding="utf-8")
+    run(tmp_path, "first.dat", "--until", "0.5", status=2)
+    text = CARRIAGE.format(restart='RESTART "first"', **functions | change)
+    (tmp_path / "then.dat").write_text(text, encoding="utf-8")
+    assert words in run(tmp_path, "then.dat", status=2 if words else 0)
+
+
+def test_elements_that_are_loads_belong_to_the_model(tmp_path):
+    run(tmp_path, pendulum(tmp_path, "first", "DYNAMIC"), "--until", "0.5", status=2)
+    then = tmp_path / pendulum(tmp_path, "then", 'DYNAMIC RESTART "first"')
+    text = then.read_text(encoding="utf-8")
+    then.write_text(text.replace(".CLM\n", " I 4 FORCE N 1  DIR 1 0 0  V 1\n.CLM\n", 1), encoding="utf-8")
+    message = run(tmp_path, "then.dat", status=1)
+    assert "FORCE 4 is new" in message and "only loads of .CLM CHA may come and go" in message
+    then.write_text(text.replace("DIR 0 -1 0  V 10", "DIR 0 -1 0  V 20"), encoding="utf-8")
+    run(tmp_path, "then.dat")
+
+
+def test_a_run_interrupted_beside_a_complete_result_goes_on(tmp_path):
+    path = str(deck(tmp_path, "run", end=0.5))
+    run(tmp_path, path)
+    whole = tables(tmp_path / "run.h5")
+    run(tmp_path, path, "--until", "0.2", status=2)
+    message = run(tmp_path, path, "--restart", "run", status=1)
+    assert "run.h5 would be continued from t = 0.5, but .SUB ends at TF = 0.5" in message
+    assert "newer run.partial.h5" in message and "from t = 0.2: --restart run.partial" in message
+    run(tmp_path, path, "--restart", "run.partial")
+    assert tables(tmp_path / "run.h5") == whole
+    assert not (tmp_path / "run.partial.h5").exists()
+
+
 def test_a_file_of_another_version_is_refused(tmp_path):
     run(tmp_path, str(deck(tmp_path, "begin", end=0.1)))
     with h5py.File(tmp_path / "begin.h5", "r+") as file:

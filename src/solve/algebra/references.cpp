@@ -197,11 +197,15 @@ void References::save(Snapshot& snapshot) const {
 void References::load_memory(const Snapshot& snapshot) {
   const std::vector<double>&largest = snapshot.array("newton/largest"), &reach = snapshot.array("newton/reach");
   const std::vector<double>& loads = snapshot.array("newton/loads");
-  if (largest.size() != largest_of_slot_.size() || reach.size() != reach_.size() || loads.size() != 2 * pairs_.size())
+  if (largest.size() != largest_of_slot_.size() || reach.size() != reach_.size() || loads.size() < 2 * (spans_.size() + 1))
     throw std::out_of_range("the restart point has another number of nodes");
   largest_of_slot_ = largest;
   reach_ = reach;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) pairs_[i] = {loads[2 * i], loads[2 * i + 1]};
+  // Loads on nodes are the last parts (.CLM CHA), and the run that is continued may have had others. What a new one carries is
+  // taken with the first residual.
+  const std::size_t before = loads.size() / 2;
+  for (std::size_t i = 0; i + 1 < std::min(before, pairs_.size()); ++i) pairs_[i] = {loads[2 * i], loads[2 * i + 1]};
+  everywhere() = {loads[2 * before - 2], loads[2 * before - 1]};
   find_lengths();
 }
 

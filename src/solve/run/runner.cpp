@@ -5,10 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "assembly/configuration_snapshot.hpp"
 #include "solve/constraints/diagnosis.hpp"
+#include "solve/run/restart_jump.hpp"
 
 namespace engrane::solve {
 
@@ -26,6 +31,11 @@ constexpr double crossing = 1.5;
 /// Fraction of H below which reactions would show the noise of rounding.
 constexpr double noisy = 0.1;
 
+/// Advice where load steps come to an end although they are as short as they may be.
+constexpr const char* beyond_limit =
+    ". Equilibria near the last one may have come to an end, as at the largest load that a structure bears before it snaps "
+    "through: .PATH follows them beyond it, TYPE DYNAMIC the motion";
+
 std::string failure_text(SolverContext& context, const Configuration& last, const Configuration& tried,
                          const NewtonReport& report, int number, int cuts) {
   std::string text = fmt::format("step {}, t = {:.6g}: ", number, tried.time);
@@ -34,18 +44,17 @@ std::string failure_text(SolverContext& context, const Configuration& last, cons
     if (std::string free = explain_unresisted(context.assembler, last, text + "the stiffness matrix is singular" + cut);
         !free.empty())
       return free;
-  if (const std::string element = explain_not_finite(context.assembler, tried); !element.empty())
-    text += element;
-  else if (report.conflict)
-    text += report.reason;
-  else if (report.singular)
+  const bool loads = context.options.analysis == SolverOptions::Analysis::statics && !context.options.path.follow;
+  if (const std::string element = explain_not_finite(context.assembler, tried); !element.empty()) return text + element + cut;
+  if (report.conflict) return text + report.reason + cut;
+  if (report.singular)
     return explain_singular(context.assembler, text + report.reason + cut,
                             context.options.moves() ? Resistance::in_motion : Resistance::at_rest);  // ends with advice
-  else if (const std::string where = explain_residual(context.assembler, tried, report); !where.empty())
+  if (const std::string where = explain_residual(context.assembler, tried, report); !where.empty())
     text += report.reason + "; " + where;
   else
     text += report.reason;
-  return text + cut;
+  return text + cut + (loads ? beyond_limit : "");
 }
 
 /// Number of halvings of H that make a step. Steps that divide the rest equally are some hundredths longer than the halvings.
@@ -81,6 +90,9 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   load_configuration(snapshot, now_);
   next_ = now_;
   context_.load(snapshot);
+  // where a function jumps at this very instant the run itself is open there; equilibria need not be neighbours
+  if (options_.moves() && !context_.model.jumps_at(now_.time))
+    if (const std::string jump = explain_jump(context_, now_); !jump.empty()) throw std::out_of_range(jump);
   scheme_.load(snapshot);
   locator_.load(snapshot);
   scheme_.take_over(now_);
@@ -205,15 +217,23 @@ bool Runner::reach(double target) {
       }
     }
     const NewtonReport& report = outcome.newton;
+    bool jumps = false;
     if (!report.converged && found.kind != Kind::drift) {
       // other constraints may be redundant here than at the start
       if (renew(report)) continue;
       control_.refused();
-      cut(size, (control_.active() ? aside : 0.5) * size, report);
-      continue;
+      const double shorter = (control_.active() ? aside : 0.5) * size;
+      const double way = shortest(size, shorter) ? find_beyond(size, left, outcome) : 0;
+      if (way == 0) {
+        cut(size, shorter, report);
+        continue;
+      }
+      size = way;
+      jumps = true;
     }
     const double error = outcome.error.value_or(0);
-    if (control_.active() && found.kind != Kind::drift && !(error <= 1)) {
+    if (control_.active() && found.kind != Kind::drift && !(error <= 1) && !jumps) jumps = jumps_at(size, error);
+    if (control_.active() && found.kind != Kind::drift && !(error <= 1) && !jumps) {
       NewtonReport inaccurate = report;
       inaccurate.reason = fmt::format("the step's error is {:.3g} times the tolerance TOL", error);
       cut(size, control_.retry(size, error), inaccurate);
@@ -232,8 +252,10 @@ bool Runner::reach(double target) {
       h_ = control_.active() ? control_.after(size, error, h_, landing) : std::min(options_.step, 2 * h_);
       step_.newton = &report;
       if (control_.active() && found.kind == Kind::none) locator_.new_target();
+      if (jumps) pass_jump();
       pending_drift_ = found.kind == Kind::land && now_.time < target ? found.drift : 0;
-      if (!accepted(size, found.kind == Kind::none || now_.time == target, true)) return false;
+      // between the ends of a jump there is no motion
+      if (!accepted(size, found.kind == Kind::none || now_.time == target, !jumps)) return false;
       if (pending_drift_ > 0 && !drift(std::exchange(pending_drift_, 0), target)) return false;
     } else if (!drift(found.drift, target)) {
       return false;
@@ -271,11 +293,45 @@ bool Runner::drift(double time, double target) {
   return accepted(size, arrives, false);
 }
 
-void Runner::cut(double size, double shorter, const NewtonReport& report) {
+bool Runner::shortest(double size, double shorter) const {
   // CUTS is a depth below H, whatever made the step as short as it is
-  const int depth = depth_of(size, options_.step), most = options_.cuts + (control_.active() ? deeper : 0);
-  if (depth >= most || now_.time + shorter == now_.time)
-    throw SolutionFailure(failure_text(context_, now_, next_, report, step_.number + 1, std::max(depth, 0)));
+  const int most = options_.cuts + (control_.active() ? deeper : 0);
+  return depth_of(size, options_.step) >= most || now_.time + shorter == now_.time;
+}
+
+bool Runner::jumps_at(double size, double error) {
+  return options_.analysis == SolverOptions::Analysis::statics && control_.stays(now_.time, size, error);
+}
+
+double Runner::find_beyond(double size, double left, Outcome& outcome) {
+  constexpr double longer = 4;
+  if (!control_.active() || options_.analysis != SolverOptions::Analysis::statics || outcome.newton.conflict) return 0;
+  // results at multiples of H must not lie within the jump
+  const double gone = (now_.time - options_.begin) / options_.step;
+  const double most = std::min(left, (std::floor(gone * (1 + 1e-12)) + 1) * options_.step - (now_.time - options_.begin));
+  Configuration tried = next_;
+  for (double way = size; way < most;) {
+    way = longer * way < 0.5 * most ? longer * way : most;
+    Outcome found = scheme_.attempt(now_, way, next_);
+    if (!found.converged()) continue;
+    outcome = std::move(found);
+    return way;
+  }
+  next_ = std::move(tried);
+  return 0;
+}
+
+void Runner::pass_jump() {
+  jumped_at_ = now_.time;
+  scheme_.pass_corner(now_);
+  control_.begin_anew();
+  h_ = std::min(options_.step, control_.longest());
+}
+
+void Runner::cut(double size, double shorter, const NewtonReport& report) {
+  if (shortest(size, shorter))
+    throw SolutionFailure(
+        failure_text(context_, now_, next_, report, step_.number + 1, std::max(depth_of(size, options_.step), 0)));
   ++step_.cuts;
   h_ = shorter;
 }
@@ -296,7 +352,7 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   ++step_.number;
   step_.step = size;
   step_.regular = regular;
-  step_.corner = now_.time == corner_;
+  step_.corner = now_.time == corner_ || jumped_at_ == now_.time;
   step_.course = scheme_.course();
   step_.last = over();
   step_.within = nullptr;

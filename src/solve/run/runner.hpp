@@ -15,7 +15,7 @@ struct StepReport {
   int number = 0;       ///< from 1; 0 is the start
   double step = 0;      ///< h
   int cuts = 0;         ///< failed attempts before this one
-  bool corner = false;  ///< a function of time has a corner at the end of the step
+  bool corner = false;  ///< a function of time has a corner at the end of the step, or equilibria have jumped within it
   bool regular = true;  ///< false: the step ended for an event, not at a multiple of H or after a cut
   /// Returns the motion within the step; set with a tolerance only, and empty if the step is but a drift across an event.
   std::function<std::unique_ptr<Within>()> within;
@@ -66,6 +66,15 @@ class Runner {
   bool accepted(double size, bool regular, bool solved);
   /// Length of an attempt towards a point `left` ahead: equal parts of it, as long as h_ allows.
   double next_size(double left) const;
+  /// Would a step `shorter` than one of `size` be shorter than CUTS allows?
+  bool shortest(double size, double shorter) const;
+  /// Do equilibria jump within a load step whose error is too large?
+  bool jumps_at(double size, double error);
+  /// Where equilibria near now_ have come to an end, as at a limit load, and no shorter step finds one: seeks next_ by steps
+  /// longer than `size`, to the next multiple of H at most. Returns the length of the one that `outcome` is then of, or 0.
+  double find_beyond(double size, double left, Outcome& outcome);
+  /// now_ is the end of such a jump: what lies before it says nothing about what follows.
+  void pass_jump();
   /// Prepares the next attempt, with `shorter`, after a failed one of `size`; throws after too many cuts.
   void cut(double size, double shorter, const NewtonReport& report);
 
@@ -79,10 +88,11 @@ class Runner {
   std::vector<double> ended_;  ///< scalars of now_ before whole turns were counted
   double h_;
   bool started_ = false;
-  int resumed_at_ = 0;            ///< number of the step after which the run was resumed
-  bool renewed_ = false;          ///< constraints have been analysed again on the way to the present target
-  std::optional<double> corner_;  ///< corner of a function of time that is being approached
-  double pending_drift_ = 0;      ///< time to drift across the event just before which the last step ended
+  int resumed_at_ = 0;               ///< number of the step after which the run was resumed
+  bool renewed_ = false;             ///< constraints have been analysed again on the way to the present target
+  std::optional<double> corner_;     ///< corner of a function of time that is being approached
+  std::optional<double> jumped_at_;  ///< end of the last jump of equilibria
+  double pending_drift_ = 0;         ///< time to drift across the event just before which the last step ended
   StepReport step_;
 };
 

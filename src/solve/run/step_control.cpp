@@ -18,6 +18,9 @@ constexpr double worthwhile = 1.2;
 constexpr double fading = 0.8;
 /// Errors below this fraction of the tolerance count as none.
 constexpr double least_error = 1e-6;
+/// An error is that of a jump if it is the same, but for this factor, for steps of which one is so many times as long as another.
+/// Where a path has a corner it falls with the step, and near a limit load with its square root, to a tenth.
+constexpr double same_error = 2, many_times = 100;
 /// Largest number of combinations of sides for which steps after events are kept.
 constexpr std::size_t most_sides = 1000;
 
@@ -77,8 +80,29 @@ double StepControl::retry(double size, double error) {
   return size * factor;
 }
 
+bool StepControl::stays(double begin, double size, double error) {
+  std::erase_if(inaccurate_, [begin](const Attempt& a) { return a.end <= begin; });
+  inaccurate_.push_back({begin + size, size, error});
+  // from the shortest on; attempts much longer than needed may have had other errors beside
+  for (auto a = inaccurate_.rbegin(); a != inaccurate_.rend(); ++a) {
+    if (!(a->error <= same_error * error && error <= same_error * a->error)) return false;
+    if (a->size >= many_times * size) return true;
+  }
+  return false;
+}
+
+void StepControl::begin_anew() {
+  error_before_ = 1;
+  size_before_ = 0;
+  refused_ = false;
+  inaccurate_.clear();
+}
+
 void StepControl::save(Snapshot& snapshot) const {
   snapshot.put("runner/error", {error_before_, size_before_, refused_ ? 1.0 : 0.0});
+  std::vector<double> inaccurate;
+  for (const Attempt& a : inaccurate_) inaccurate.insert(inaccurate.end(), {a.end, a.size, a.error});
+  snapshot.put("runner/inaccurate_attempts", std::move(inaccurate));
   std::vector<double> steps;
   for (const auto& [sides, step] : steps_) {
     steps.insert(steps.end(), sides.begin(), sides.end());
@@ -93,6 +117,11 @@ void StepControl::load(const Snapshot& snapshot, std::size_t sides) {
   error_before_ = snapshot.array("runner/error").at(0);
   size_before_ = snapshot.array("runner/error").at(1);
   refused_ = snapshot.array("runner/error").at(2) != 0;
+  inaccurate_.clear();
+  if (snapshot.has("runner/inaccurate_attempts")) {
+    const std::vector<double>& all = snapshot.array("runner/inaccurate_attempts");
+    for (std::size_t i = 0; i + 2 < all.size(); i += 3) inaccurate_.push_back({all[i], all[i + 1], all[i + 2]});
+  }
   if (!snapshot.has("runner/entered")) return;
   const auto whole = [](double side) { return static_cast<int>(side); };
   const std::vector<double>&entered = snapshot.array("runner/entered"), &steps = snapshot.array("runner/steps_behind_events");

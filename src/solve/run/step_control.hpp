@@ -25,6 +25,11 @@ class StepControl {
   double after(double size, double error, double asked, Landing landing = Landing::none);
   /// Returns the length to try after a step of `size` with too large an error.
   double retry(double size, double error);
+  /// To be called for an attempt from `begin` with too large an error, before retry(): whether the error is the same as that of
+  /// attempts which were a hundred times longer. What the steps are to follow then jumps there, and shorter ones do not help.
+  bool stays(double begin, double size, double error);
+  /// Discards what is known of earlier steps.
+  void begin_anew();
   /// A step has been rejected for another reason.
   void refused() { refused_ = true; }
   /// An event has led to other `sides` of the switches: returns the step to begin with there, learnt from the first steps there
@@ -35,6 +40,9 @@ class StepControl {
   void load(const Snapshot& snapshot, std::size_t sides);  ///< `sides`: number of switches
 
  private:
+  struct Attempt {
+    double end, size, error;
+  };
   double next(double size, double error, double asked);
   /// Learns from the first step after an event, of `size`, for later ones there; `step`: the proposed next one.
   void remember(double size, double step, Landing landing);
@@ -43,6 +51,7 @@ class StepControl {
   double longest_, order_;
   double error_before_ = 1, size_before_ = 0;  ///< of the last accepted step; 0: none yet
   bool refused_ = false;                       ///< an attempt was rejected since then: no growth
+  std::vector<Attempt> inaccurate_;            ///< those noted by stays() that reach beyond the last accepted step
   std::map<std::vector<int>, double> steps_;   ///< first steps after events, by the sides there
   std::vector<int> entered_;                   ///< sides with which no step has been made yet
 };

@@ -17,13 +17,32 @@ StartReport Kinematics::start(Configuration& c) {
   StartReport report;
   apply_initial_displacements(context_, c);
   context_.start.assemble(c, report);
-  if (const std::string free = explain_free_motion(context_.assembler, c, context_.redundancy.mobility().freedom());
-      !free.empty())
-    throw SolutionFailure(free);
+  refuse_free_motion(c);
   apply_initial_velocities(context_, c);
   context_.start.fit_velocities(c, Assembler::Metric::geometric, report);
   context_.start.balance_accelerations(c, 12, &report);
   return report;
+}
+
+void Kinematics::refuse_free_motion(const Configuration& c) {
+  if (const std::string free = explain_free_motion(context_.assembler, c, context_.redundancy.mobility().freedom());
+      !free.empty())
+    throw SolutionFailure(free);
+  driven_ = true;
+}
+
+void Kinematics::take_over(Configuration& c) {
+  Scheme::take_over(c);
+  if (driven_) return;
+  // a run of another kind may have moved what nothing drives, and its frictions may have held it
+  context_.redundancy.analyse(c);
+  refuse_free_motion(c);
+}
+
+void Kinematics::save(Snapshot& snapshot) const { snapshot.put("kinematics/driven", driven_ ? 1 : 0); }
+
+void Kinematics::load(const Snapshot& snapshot) {
+  driven_ = snapshot.has("kinematics/driven") && snapshot.number("kinematics/driven") != 0;
 }
 
 int Kinematics::solve(Configuration& to) {

@@ -13,8 +13,13 @@ class Kinematics final : public Scheme {
 
   StartReport start(Configuration& c) override;
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
+  void take_over(Configuration& c) override;
+  void save(Snapshot& snapshot) const override;
+  void load(const Snapshot& snapshot) override;
 
  private:
+  /// Throws SolutionFailure if a motion is left that no drive determines, according to the last analysis of the constraints.
+  void refuse_free_motion(const Configuration& c);
   /// Closes `to`, which must be near, at its time, and fits all else to it; returns the number of position iterations.
   int solve(Configuration& to);
   /// Largest velocities, accelerations and multipliers, lengths over the extent and moments over it.
@@ -26,6 +31,8 @@ class Kinematics final : public Scheme {
     }
   };
   Sizes sizes(const Configuration& c) const;
+
+  bool driven_ = false;  ///< no motion is free: this run has been checked for that, or the one that it continues
 };
 
 }  // namespace engrane::solve

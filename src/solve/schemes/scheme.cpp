@@ -57,10 +57,15 @@ void Scheme::refuse_half_turns(std::span<const double> y, NewtonReport& report) 
     const double turn = Vec3(y[6 * i + 3], y[6 * i + 4], y[6 * i + 5]).norm();
     if (turn < std::numbers::pi) continue;
     report.converged = false;
+    // far more than speeds in a wrong unit would make
+    constexpr double undetermined = 1e4;
     report.reason = fmt::format(
         "node {} turned by {:.4g} degrees in one step; half a turn is the most that can be followed: take a smaller step H, at "
-        "most {:.2g} of this one, or see whether a speed is given in the wrong unit",
-        context_.model.nodes[i].id, turn / degree, 0.9 * std::numbers::pi / turn);
+        "most {:.2g} of this one, or see whether a speed is given in the wrong unit{}",
+        context_.model.nodes[i].id, turn / degree, 0.9 * std::numbers::pi / turn,
+        turn < undetermined ? ""
+                            : ". So large a turn also comes of a dead position, as of bars in line, where speeds are not "
+                              "determined: choose steps that do not land on it, or drive another joint");
     return;
   }
 }

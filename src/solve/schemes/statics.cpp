@@ -32,14 +32,16 @@ class Statics::Inside final : public Within {
   void at(double time, Configuration& c) override {
     const std::size_t slots = scheme_.way_.size();
     std::vector<double> y(slots);
-    scheme_.path_.at(time, 0, y);
+    // points closer than the step over longest_continuation lie on the other side of a jump, or nearly so
+    const double h = to().time - from().time;
+    scheme_.path_.at(time, h, y);
     for (std::size_t i = 0; i < slots; ++i) y[i] -= scheme_.way_[i] - scheme_.y_[i];
     scheme_.prescribe_step(from().time, time, y);
     c = from();
     c.time = time;
     c.h = time - from().time;
     scheme_.context_.motion.move(from(), y, c);
-    scheme_.forces_.at(time, 0, c.multipliers);
+    scheme_.forces_.at(time, h, c.multipliers);
   }
 
   bool balance(Configuration&) override { return false; }
@@ -61,6 +63,12 @@ Statics::Statics(SolverContext& context)
   if (std::all_of(context.model.parts.begin(), context.model.parts.end(),
                   [](const Model::Part& part) { return part.element->is_linear(); }))
     context_.newton.keep_one_tangent();
+  watched_ = may_be_singular();
+}
+
+bool Statics::may_be_singular() const {
+  return !error_.wanted() && !context_.newton.keeps_one_tangent() && context_.solver.direct() &&
+         context_.numbering.slots() > context_.numbering.motion_slots();
 }
 
 StartReport Statics::start(Configuration& c) {
@@ -91,7 +99,11 @@ StartReport Statics::start(Configuration& c) {
 }
 
 Outcome Statics::attempt(const Configuration& from, double h, Configuration& to) {
-  if (!error_.wanted() || path_.empty()) return {find(from, h, to, false), {}};
+  if (!error_.wanted() || path_.empty()) {
+    NewtonReport report = find(from, h, to, false);
+    if (watched_) stay_on_branch(from, h, report, to);
+    return {std::move(report), {}};
+  }
   if (has_middle_) begin_path(from.time, from.multipliers);  // of a step that was rejected
   if (path_.points() == 1 && !find_middle(from, h)) return {find(from, h, to, false), {}};
   if (NewtonReport report = find(from, h, to, true); report.converged) return {std::move(report), error(from, h)};
@@ -132,6 +144,42 @@ NewtonReport Statics::find(const Configuration& from, double h, Configuration& t
   return report;
 }
 
+void Statics::probe_start() {
+  Owned<Vec> load, motion;
+  for (Owned<Vec>* vector : {&load, &motion}) *vector->out() = context_.assembler.new_vector();
+  fill_probe(load);
+  if (!context_.solver.solve(load, motion)) {
+    response_ = std::numeric_limits<double>::infinity();
+    return;
+  }
+  PetscReal size = 0;
+  check_petsc(VecNorm(motion, NORM_2, &size));
+  response_ = std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
+}
+
+void Statics::stay_on_branch(const Configuration& from, double h, NewtonReport& report, Configuration& to) {
+  // The response grows with the reciprocal of the distance from the position. Measured for four bars: 1e15 in it, 18 to 717
+  // elsewhere.
+  constexpr double singular = 1e8;
+  tried_h_ = h;
+  if (last_y_.empty() || !(last_response_ > 0) || !(response_ > singular * last_response_)) return;
+  std::vector<double> found = y_;
+  Configuration other = from;
+  other.time = from.time + h;
+  other.h = h;
+  for (std::size_t i = 0; i < y_.size(); ++i) y_[i] = h / last_h_ * last_y_[i];
+  prescribe_step(from.time, other.time, y_);
+  NewtonReport again = balance(MotionSlots::Origin(from), y_, other);
+  again.iterations += report.iterations;
+  response_ = last_response_;
+  if (again.converged) {
+    to = std::move(other);
+    report = std::move(again);
+  } else {
+    y_ = std::move(found);
+  }
+}
+
 bool Statics::find_middle(const Configuration& from, double h) {
   Configuration middle;
   if (!find(from, h / 2, middle, false).converged) return false;
@@ -155,6 +203,11 @@ std::optional<double> Statics::error(const Configuration& from, double h) const 
 }
 
 void Statics::accept() {
+  if (watched_) {
+    last_y_ = y_;
+    last_h_ = tried_h_;
+    if (response_ > 0 && std::isfinite(response_)) last_response_ = response_;
+  }
   if (!error_.wanted()) return;
   for (std::size_t i = 0; i < way_.size(); ++i) way_[i] += y_[i];
   path_.add(tried_time_, way_);
@@ -181,6 +234,10 @@ std::unique_ptr<Within> Statics::within(const Configuration& from, const Configu
 
 void Statics::save(Snapshot& snapshot) const {
   error_.save(snapshot);
+  if (watched_) {
+    snapshot.put("scheme/last_step", last_y_);
+    snapshot.put("scheme/last_length_and_response", {last_h_, last_response_});
+  }
   if (!error_.wanted()) return;
   path_.save(snapshot, "scheme/path");
   forces_.save(snapshot, "scheme/forces");
@@ -189,6 +246,11 @@ void Statics::save(Snapshot& snapshot) const {
 
 void Statics::load(const Snapshot& snapshot) {
   error_.load(snapshot);
+  if (watched_ && snapshot.has("scheme/last_step")) {
+    last_y_ = snapshot.array("scheme/last_step");
+    last_h_ = snapshot.array("scheme/last_length_and_response").at(0);
+    last_response_ = snapshot.array("scheme/last_length_and_response").at(1);
+  }
   if (!error_.wanted() || !snapshot.has("scheme/way")) return;
   path_.load(snapshot, "scheme/path");
   forces_.load(snapshot, "scheme/forces");
@@ -196,7 +258,11 @@ void Statics::load(const Snapshot& snapshot) {
 }
 
 NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
+  int evaluations = 0;
+  response_ = 0;
   const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
+    // the factors are still those of the first correction
+    if (watched_ && ++evaluations == 2) probe_start();
     context_.motion.scatter(unknowns, y);
     context_.motion.move(from, y, c);
     unknowns_to_multipliers(unknowns, c);

@@ -45,12 +45,26 @@ class Statics : public Scheme {
   /// The same where flanks across a gap have no stiffness towards each other: contacts begin as springs that fade away.
   NewtonReport balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
 
+  /// Whether Newton's iteration is to be watched for a start in a singular position: where constraints lose their rank, as with
+  /// bars in line, the first correction leads to either of two assembly branches, as rounding decides.
+  bool may_be_singular() const;
+  /// Solves for the probe with the factors of the step's first correction; how large the solution is tells whether the step
+  /// begins in a singular position.
+  void probe_start();
+  /// Repeats a step that began in a singular position from the displacements of the last one, which stay on its branch.
+  void stay_on_branch(const Configuration& from, double h, NewtonReport& report, Configuration& to);
+
   /// Throws SolutionFailure if the stiffness matrix is singular up to rounding, which factors need not notice: a structure
   /// without enough supports. Once in a run, after the first solution.
   void require_resistance(double time);
 
   bool has_contacts_;
   bool resists_ = false;  ///< require_resistance() was passed
+  bool watched_;          ///< may_be_singular()
+  /// Size of the solution for the probe at the beginning of the step tried last, and of the last accepted step; 0: unknown.
+  double response_ = 0, last_response_ = 0;
+  std::vector<double> last_y_;  ///< displacements of the last accepted step, of length last_h_; empty before the first
+  double tried_h_ = 0, last_h_ = 0;
   Owned<Vec> unknowns_;
   StepError error_;
   Extrapolation path_, forces_;  ///< displacements since the start by motion slot, and multipliers

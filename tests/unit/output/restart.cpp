@@ -91,6 +91,27 @@ TEST(Restart, ErrorsAreSentences) {
             "Cannot restart from " + (scratch / "old.h5") + ": its format has version 1, this program's has 2.");
 }
 
+TEST(Restart, NewerPartialResultsAreTold) {
+  const Scratch scratch;
+  write_run(scratch / "run", all_steps);
+  EXPECT_EQ(RestartFile(scratch / "run").advice_on_newer_partial(), "");
+  write_run(scratch / "run", 20, RunStatus::failed);  // beside the complete one
+  const std::string partial = scratch / "run.partial.h5";
+  const auto own = std::filesystem::last_write_time(scratch / "run.h5");
+  std::filesystem::last_write_time(partial, own + std::chrono::seconds(1));
+  const RestartFile complete(scratch / "run");
+  EXPECT_EQ(complete.load().time, 0.039);
+  EXPECT_EQ(complete.advice_on_newer_partial(),
+            fmt::format("The newer {0}.h5, of a run that was not completed, can be continued from t = 0.019: --restart {0}, or "
+                        "RESTART \"{0}\"",
+                        scratch / "run.partial"));
+  EXPECT_EQ(RestartFile(scratch / "run.partial").advice_on_newer_partial(), "");
+  std::filesystem::last_write_time(partial, own - std::chrono::seconds(1));
+  EXPECT_EQ(complete.advice_on_newer_partial(), "");
+  std::ofstream(partial) << "dear diary";
+  EXPECT_EQ(complete.advice_on_newer_partial(), "");
+}
+
 TEST(Restart, TheContinuedFileIsThatOfTheUncutRun) {
   for (const bool in_place : {false, true}) {
     const Scratch scratch;
