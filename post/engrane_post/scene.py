@@ -455,7 +455,7 @@ class Scene:
         if faces:
             for row in loads.supported(self.result, self.items[-1].points):
                 mesh = shapes.box(self.result.points[row], 0.014 * self.size)
-                self.items.append(Item(mesh, GROUND, self.ids[row], smooth=False, kind="ground"))
+                self.items.append(Item(mesh, GROUND, self.ids[row], smooth=False, kind="support"))
 
     def _grounds(self) -> None:
         """A small stand where an element is tied to the ground."""

@@ -28,6 +28,7 @@ KINDS = (
     "load",
     "ground",
     "cell",
+    "support",
 )
 
 

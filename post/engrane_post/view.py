@@ -56,10 +56,12 @@ def direction(scene: Scene, frames: list[Frame]) -> tuple[np.ndarray, np.ndarray
 
 
 def plane_mesh(scene: Scene) -> bool:
-    """Whether there are cells, all in the plane XY, with nothing but loads on them."""
+    """Whether there are cells, all in the plane XY, with nothing but loads and supports on them."""
     meshes = [item.mesh.points for item in scene.items if item.cells is not None]
     others = {item.kind for item in scene.items if item.cells is None}
-    return bool(meshes) and others <= {"load"} and all(np.ptp(points[:, 2]) == 0 for points in meshes)
+    return (
+        bool(meshes) and others <= {"load", "support"} and all(np.ptp(points[:, 2]) == 0 for points in meshes)
+    )
 
 
 def eye_of(view: str) -> np.ndarray:

@@ -249,7 +249,7 @@ def test_supports_of_a_mesh_are_drawn(tmp_path: Path) -> None:
         for k in range(2):
             file[f"fields/reaction_force/{k:06d}"] = force
     with Results(path) as result:
-        grounds = [i for i in Scene(result).items if i.kind == "ground"]
+        grounds = [i for i in Scene(result).items if i.kind == "support"]
         assert [i.node for i in grounds] == [int(n) for n in result.node_ids[1:3]]
         assert np.allclose([i.mesh.center for i in grounds], result.points[1:3])
         assert len(loads.supported(result, np.array([1, 2, 3]))) == 2
