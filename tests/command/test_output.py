@@ -15,6 +15,18 @@ import pytest
 FULL = Path("/dev/full")
 
 
+def ran(engrane, words, stdout, **more):
+    return subprocess.run(
+        [os.environ["ENGRANE"], *words],
+        cwd=engrane.folder,
+        stdout=stdout,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=120,
+        **more,
+    )
+
+
 @pytest.mark.skipif(not FULL.exists(), reason="no /dev/full")
 @pytest.mark.parametrize(
     "words",
@@ -33,14 +45,7 @@ FULL = Path("/dev/full")
 )
 def test_standard_output_is_full(engrane, pendulum, words):
     with FULL.open("w") as full:
-        done = subprocess.run(
-            [os.environ["ENGRANE"], *words],
-            cwd=engrane.folder,
-            stdout=full,
-            stderr=subprocess.PIPE,
-            text=True,
-            timeout=120,
-        )
+        done = ran(engrane, words, full)
     assert done.returncode == 1
     last = [line for line in done.stderr.replace("\r", "\n").splitlines() if line][-1]
     assert last == "engrane: cannot write standard output: No space left on device"
@@ -62,13 +67,10 @@ def test_a_full_standard_output_does_not_hide_another_status(engrane, pendulum):
 def test_a_closed_pipe_is_silent(engrane, pendulum, words, ignored):
     read, write = os.pipe()
     os.close(read)
-    done = subprocess.run(
-        [os.environ["ENGRANE"], *words],
-        cwd=engrane.folder,
-        stdout=write,
-        stderr=subprocess.PIPE,
-        text=True,
-        timeout=120,
+    done = ran(
+        engrane,
+        words,
+        write,
         preexec_fn=(lambda: signal.signal(signal.SIGPIPE, signal.SIG_IGN)) if ignored else None,
         restore_signals=not ignored,
     )

@@ -144,16 +144,16 @@ NewtonReport Statics::find(const Configuration& from, double h, Configuration& t
   return report;
 }
 
-void Statics::probe_start() {
-  Owned<Vec> load, motion;
+bool Statics::answer_probe(Owned<Vec>& load, Owned<Vec>& motion) {
   for (Owned<Vec>* vector : {&load, &motion}) *vector->out() = context_.assembler.new_vector();
   fill_probe(load);
-  if (!context_.solver.solve(load, motion)) {
-    response_ = std::numeric_limits<double>::infinity();
-    return;
-  }
-  PetscReal size = 0;
-  check_petsc(VecNorm(motion, NORM_2, &size));
+  return context_.solver.solve(load, motion);
+}
+
+void Statics::probe_start() {
+  Owned<Vec> load, motion;
+  PetscReal size = std::numeric_limits<double>::infinity();
+  if (answer_probe(load, motion)) check_petsc(VecNorm(motion, NORM_2, &size));
   response_ = std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
 }
 
@@ -290,9 +290,7 @@ void Statics::require_resistance(double time) {
   resists_ = true;
   if (!context_.solver.direct()) return;
   Owned<Vec> load, motion;
-  for (Owned<Vec>* vector : {&load, &motion}) *vector->out() = context_.assembler.new_vector();
-  fill_probe(load);
-  if (!context_.solver.solve(load, motion)) return;
+  if (!answer_probe(load, motion)) return;
   if (!(relative_stiffness(context_.assembler.matrix(), motion, load) <= rounding)) return;
   throw SolutionFailure(explain_null_vector(context_.assembler,
                                             fmt::format("t = {:.6g}: the stiffness matrix is singular up to rounding", time),

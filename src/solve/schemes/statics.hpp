@@ -48,8 +48,10 @@ class Statics : public Scheme {
   /// Whether Newton's iteration is to be watched for a start in a singular position: where constraints lose their rank, as with
   /// bars in line, the first correction leads to either of two assembly branches, as rounding decides.
   bool may_be_singular() const;
-  /// Solves for the probe with the factors of the step's first correction; how large the solution is tells whether the step
-  /// begins in a singular position.
+  /// Solves for the probe (fill_probe()) with the factors at hand; false if that fails.
+  bool answer_probe(Owned<Vec>& load, Owned<Vec>& motion);
+  /// To be called with the factors of the step's first correction: how large the solution for the probe is tells
+  /// whether the step begins in a singular position.
   void probe_start();
   /// Repeats a step that began in a singular position from the displacements of the last one, which stay on its branch.
   void stay_on_branch(const Configuration& from, double h, NewtonReport& report, Configuration& to);
