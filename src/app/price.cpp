@@ -60,7 +60,7 @@ std::string size_text(double bytes) {
 
 /// What HDF5 1.10 adds, in bytes, as measured in files of this program: the header of an array with its entry in the group, the
 /// index of an array in chunks, and a group.
-constexpr double array_bytes = 370, index_bytes = 2100, group_bytes = 1100;
+constexpr double array_bytes = 240, index_bytes = 2100, group_bytes = 1100;
 /// Arrays above this size are stored in chunks and compressed (hdf5::Place).
 constexpr double small = 4096;
 /// What compression leaves of arrays of computed values, and of texts.

@@ -114,6 +114,9 @@ bool shrinks(const double* values, std::size_t count) {
 Handle storage(const Place& place, std::span<const hsize_t> shape, std::size_t size, bool compressed) {
   Handle creation(check(H5Pcreate(H5P_DATASET_CREATE), place.file));
   check(H5Pset_obj_track_times(creation.id(), false), place.file);
+  // Headers without room for attributes: with it, a third of the headers is free space, and how much depends on the batches in
+  // which a run writes.
+  check(H5Pset_dset_no_attrs_hint(creation.id(), true), place.file);
   hsize_t count = 1;
   for (const hsize_t n : shape) count *= n;
   if (count * size <= small) {

@@ -227,6 +227,25 @@ TEST(Results, AFullDiskLeavesTheStepsWrittenBefore) {
   EXPECT_EQ(file.numbers("/history/element/GEAR/values").size(), 20 * samples);
 }
 
+TEST(Results, TheSizeDependsLittleOnTheBatches) {
+  // a slow machine writes in more batches than a fast one; what is foreseen of the size holds for both
+  const auto size = [](std::size_t batch) {
+    const Scratch scratch;
+    {
+      Results results(scratch / "run", sample_layout());
+      results.set_pace({batch, 1 << 30, std::chrono::hours(1)});
+      for (std::size_t s = 0; s < 500; ++s) {
+        write_sample(results, s);
+        if (s % 2 == 0) write_frame(results, s / 2);
+      }
+      results.finish(RunStatus::complete);
+    }
+    return static_cast<double>(std::filesystem::file_size(scratch / "run.h5"));
+  };
+  const double once = size(1000);
+  for (const std::size_t batch : {200, 50}) EXPECT_NEAR(size(batch) / once, 1, 0.05) << batch;
+}
+
 TEST(Results, AKilledRunLeavesAWholeFile) {
   // Batches of a few samples follow each other without a pause, so that nearly every kill falls into a write.
   const int kills = std::getenv("ENGRANE_KILLS") ? std::atoi(std::getenv("ENGRANE_KILLS")) : 30;
