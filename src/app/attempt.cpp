@@ -259,7 +259,7 @@ void Attempt::find_buckling_modes(const Configuration& solved, const StepReport&
   std::vector<double> times;
   for (const BucklingMode& mode : modes) times.push_back(mode.load_time);
   observer_.set_buckling_times(std::move(times));
-  if (rank_ == 0) writer_->buckling(modes, solved);
+  if (rank_ == 0) writer_->buckling(modes, wanted->modes, solved);
 }
 
 Schedule::Due Attempt::show(const Configuration& solved, const StepReport& step) {

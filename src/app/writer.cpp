@@ -403,7 +403,7 @@ void Writer::note_critical(const CriticalPoint& point) {
         fmt::format("    the path goes on along the mode, with a displacement of {:g} in its first step\n", point.switched);
 }
 
-void Writer::buckling(const std::vector<BucklingMode>& modes, const Configuration& equilibrium) {
+void Writer::buckling(const std::vector<BucklingMode>& modes, int asked, const Configuration& equilibrium) {
   buckling_ =
       fmt::format("  the tangent at load time {:.9g} continued as it changes there is singular at\n\n", equilibrium.load_time());
   buckling_ += fmt::format("  {:>6}{:>20}   {}\n", "mode", "load time", "largest displacements");
@@ -423,6 +423,8 @@ void Writer::buckling(const std::vector<BucklingMode>& modes, const Configuratio
     };
     modes_.push_back({mode.load_time, rows(mode.displacement), rows(mode.rotation)});
   }
+  if (!modes.empty() && modes.size() < static_cast<std::size_t>(asked))
+    buckling_ += fmt::format("\n  {} were asked for; at no other load time is the tangent singular\n", asked);
   progress_.note(modes.empty() ? "engrane: no buckling loads"
                                : fmt::format("engrane: buckling at load time {:.6g} (linearised)", modes.front().load_time));
 }

@@ -61,8 +61,8 @@ class Writer {
   /// The files written, and commands that show what they hold.
   std::string closing_lines() const;
   void note(const std::string& text) { progress_.note(text); }
-  /// Modes of linearised buckling at an equilibrium.
-  void buckling(const std::vector<solve::BucklingMode>& modes, const Configuration& equilibrium);
+  /// Modes of linearised buckling at an equilibrium, of `asked` ones wanted.
+  void buckling(const std::vector<solve::BucklingMode>& modes, int asked, const Configuration& equilibrium);
   /// A warning for the terminal and for the remarks of the listing.
   void warn(const std::string& text);
 

@@ -233,6 +233,38 @@ def test_linearised(tmp_path: Path) -> None:
     assert off[1] < 0.05 * off[0] + 1e-9
 
 
+@pytest.mark.parametrize("load", [1, 100])
+def test_only_modes_that_are(tmp_path: Path, load: float) -> None:
+    """Two links on torsion springs buckle in two ways: k = [[k1 + k2, -k2], [-k2, k2]] against the lengths.
+    Rounding made three more times, of 1e10 to 1e14."""
+    lengths, stiff = (0.7, 0.6), (1000.0, 1130.0)
+    x = [0.0, lengths[0], sum(lengths)]
+    direction = (0.6, 0.8, 0.0)
+    points = [" ".join(f"{v * s!r}" for v in direction) for s in x]
+    force = "\n".join(f" CHA NOEUD 2 C {i + 1} V {-load * direction[i]!r} NF 1" for i in (0, 1))
+    text = f""".NOE
+ I 1 X {points[1]}
+ I 2 X {points[2]}
+.MCE
+ I 1 HINGE N 0 1 AT {points[0]} AXIS 0 0 1 K {stiff[0]!r}
+ I 2 HINGE N 1 2 AT {points[1]} AXIS 0 0 1 K {stiff[1]!r}
+.CLM
+{force}
+.FCT
+ I 1 TABLE 0 0 1 1
+.SAM TYPE STATIC
+.SUB TF 1 H 1
+.BUCKLING MODES 5
+.FIN 1
+"""
+    found = run(text, tmp_path)
+    k = np.array([[stiff[0] + stiff[1], -stiff[1]], [-stiff[1], stiff[1]]])
+    exact = np.sort(np.linalg.eigvals(k / np.array(lengths)[:, None]).real) / load
+    with h5py.File(found.file) as file:
+        assert file["modes/load_time"][()] == pytest.approx(exact, rel=1e-9)
+    assert "5 were asked for; at no other load time" in found.file.with_suffix(".lst").read_text()
+
+
 def test_lost_loads(tmp_path: Path) -> None:
     """Nothing that grows: an error that says so, not a path of nothing."""
     line = Line(straight(LENGTH, (0, 1, 0)), 2)

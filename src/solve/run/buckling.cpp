@@ -23,6 +23,8 @@ namespace {
 constexpr double first_step = 1e-3, good_step = 1e-2;
 /// Times that change by more than this fraction with another difference are rounding.
 constexpr double same = 1e-3;
+/// The same for modes after the first, whose difference is not chosen for them.
+constexpr double alike = 1e-2;
 constexpr int most_passes = 8;
 constexpr double precision = 1e-10;
 /// Times farther away than this many runs are rounding.
@@ -164,6 +166,16 @@ class Problem {
   std::vector<double> along_;
 };
 
+/// Removes the times that another difference of the tangent does not give: a system that buckles in fewer ways than were asked
+/// for has rounding in their place.
+void keep_confirmed(std::vector<Problem::Pair>& found, const std::vector<Problem::Pair>& again) {
+  std::erase_if(found, [&](const Problem::Pair& pair) {
+    return std::none_of(again.begin(), again.end(), [&](const Problem::Pair& other) {
+      return std::abs(other.time - pair.time) <= alike * std::abs(pair.time);
+    });
+  });
+}
+
 }  // namespace
 
 std::vector<BucklingMode> find_buckling(SolverContext& context, const Configuration& equilibrium, int count) {
@@ -183,6 +195,10 @@ std::vector<BucklingMode> find_buckling(SolverContext& context, const Configurat
     before = nearest;
     step = good_step * nearest;
     if (pass + 1 == most_passes) return {};  // rounding
+  }
+  if (found.size() > 1) {
+    problem.differentiate(step / 2);
+    keep_confirmed(found, problem.solve(count));
   }
   std::vector<BucklingMode> modes;
   for (const Problem::Pair& pair : found) {
