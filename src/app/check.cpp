@@ -47,8 +47,7 @@ int print_model(const Reading& reading, std::ostream& out) {
     context.start.fit_velocities(c, Assembler::Metric::geometric, report, moves);
     if (!moves) report.velocities_fitted = false;
     if (context.options.analysis == SolverOptions::Analysis::kinematics)
-      if (const std::string free = explain_free_motion(context.assembler, c, context.redundancy.mobility().freedom());
-          !free.empty())
+      if (const std::string free = explain_free_motion(context.assembler, c, context.redundancy.mobility()); !free.empty())
         throw SolutionFailure(free);
     if (context.options.analysis == SolverOptions::Analysis::dynamics)
       if (const std::string unheld = MasslessMotions(context.assembler, c).explain_unheld(context.assembler, c); !unheld.empty())

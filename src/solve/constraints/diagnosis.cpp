@@ -13,6 +13,7 @@
 
 #include "solve/constraints/column_basis.hpp"
 #include "solve/constraints/constraint_factors.hpp"
+#include "solve/constraints/mobility.hpp"
 
 namespace engrane::solve {
 
@@ -265,14 +266,22 @@ std::string explain_unresisted(Assembler& assembler, const Configuration& equili
                                                                          : std::string();
 }
 
-std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, int freedom) {
+std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, const Mobility& mobility) {
+  const int freedom = mobility.freedom();
   if (freedom <= 0) return {};
   const ConstraintFactors factors(assembler, outside_of_steps(configuration), ConstraintColumns::gradients, 1e-9);
-  return fmt::format(
+  std::string text = fmt::format(
       "a KINEMATIC analysis needs drives that leave no freedom, but {} free here, for example that of {}: give a joint a DRIVE, "
       "prescribe a displacement, or use TYPE DYNAMIC",
       freedom == 1 ? "1 motion is" : fmt::format("{} motions are", freedom),
       factors.motions().largest_part(assembler.numbering(), factors.possible_motion(factors.motions().any())));
+  bool driven = false;
+  for (int m = 0; m < static_cast<int>(configuration.multipliers.size()) && !driven; ++m)
+    driven = is_drive(assembler.model(), multiplier_unknown(assembler.numbering(), m));
+  // links in line take a freedom that the drive has elsewhere, and leave one to the rest
+  if (driven && mobility.redundant() > 0)
+    text += "; if the drives move everything elsewhere, this is a dead position, with links in line: start a little beside it";
+  return text;
 }
 
 std::string explain_unresolved(const Assembler& assembler, const Newton& newton, const Configuration& configuration,

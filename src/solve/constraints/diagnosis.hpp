@@ -9,6 +9,8 @@
 
 namespace engrane::solve {
 
+struct Mobility;
+
 /// What resists a motion: only forces that depend on the position, or inertia too.
 enum class Resistance { at_rest, in_motion };
 
@@ -25,8 +27,8 @@ std::string explain_null_vector(const Assembler& assembler, const std::string& w
 /// `assembler`. Collective.
 std::string explain_unresisted(Assembler& assembler, const Configuration& equilibrium, const std::string& what);
 
-/// Names a motion that no drive determines, of a mechanism with `freedom` degrees of freedom; empty if there is none.
-std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, int freedom);
+/// Names a motion that no drive determines, of a mechanism with this mobility; empty if there is none.
+std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, const Mobility& mobility);
 
 /// Says where a Newton iteration got stuck: "largest residual at node 57 (rz) from HINGE 3".
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report);

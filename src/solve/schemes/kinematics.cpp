@@ -25,8 +25,7 @@ StartReport Kinematics::start(Configuration& c) {
 }
 
 void Kinematics::refuse_free_motion(const Configuration& c) {
-  if (const std::string free = explain_free_motion(context_.assembler, c, context_.redundancy.mobility().freedom());
-      !free.empty())
+  if (const std::string free = explain_free_motion(context_.assembler, c, context_.redundancy.mobility()); !free.empty())
     throw SolutionFailure(free);
   driven_ = true;
 }
