@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import csv
 import itertools
+import json
 import re
 import sys
 from dataclasses import dataclass
@@ -18,6 +19,8 @@ from .runs import Run
 
 MOST_VARIANTS = 100_000
 MOST_LINES = 10
+RECORD = "sweep.json"  # beside kept results: the sweep that they are of
+KEPT = re.compile(r"\d+(\.partial)?\.(h5|lst|xdmf)")  # files of a variant
 EXAMPLES = """  engrane sweep gear.dat -D KM=1E8:1E9:1E8 --result "ELEMENT 7 NORMAL_FORCE MAX"
   engrane sweep gear.dat -D JEU=0,1E-5,1E-4 -D SPEED=100:500:50 --result "ELEMENT 7 TE RMS WINDOW 0.1 0.2"
   engrane sweep gear.dat -D KM=1E8:1E9:1E8 -D J=0.3 -j 2 --keep runs
@@ -37,6 +40,11 @@ class Variant:
     @property
     def title(self) -> str:
         return ", ".join(f"{name} = {value}" for name, value in self.values.items())
+
+    @property
+    def file(self) -> str:
+        """The result file that its run has written; an older one in the folder is not of this run."""
+        return next((f for f in self.run.summary.get("files", []) if f.endswith(".h5")), "")
 
 
 def add(commands: argparse._SubParsersAction) -> None:
@@ -71,7 +79,10 @@ def values_of(text: str) -> tuple[str, list[str]]:
     if ":" not in values:
         if "(" in values:  # commas between arguments
             return name, [values]
-        return name, [v.strip() for v in values.split(",") if v.strip()]
+        listed = [v.strip() for v in values.split(",")]
+        if "" in listed:
+            raise UserError(f"-D {text}: value {listed.index('') + 1} of the list is empty.")
+        return name, listed
     try:
         first, last, step = (float(re.sub("[dD]", "e", v)) for v in values.split(":"))
     except ValueError:
@@ -107,6 +118,8 @@ def run(args: argparse.Namespace) -> int:
     output = runs.output_prefix(args.output, deck, "_sweep")
     wanted = [f"--result={result}" for result in args.result]
     width = len(str(len(variants)))
+    if args.keep:
+        record_in(Path(args.keep), deck, variants)
     with runs.result_folder(args.keep) as folder:
         for i, variant in enumerate(variants):
             words = [f"-D{name}={value}" for name, value in variant.values.items()]
@@ -115,15 +128,17 @@ def run(args: argparse.Namespace) -> int:
         try:
             pool.run([v.run for v in variants])
         except (KeyboardInterrupt, Terminated):
-            write_finished(output + ".csv", variants)
+            write_finished(output + ".csv", variants, bool(args.keep))
             raise
+    for variant in variants:
+        demand_summary(variant.run)
     names = list(dict.fromkeys(name for v in variants for name in v.run.numbers))
     bad = [v for v in variants if not v.run.solved]
     if len(bad) == len(variants):
         raise UserError(f"no variant was solved. {bad[0].title}:\n{bad[0].run.message}")
     if not names:
         raise UserError("Name a number by --result; the deck has no .CHK.")
-    write_table(output + ".csv", variants, names)
+    write_table(output + ".csv", variants, names, bool(args.keep))
     print(f"wrote {output}.csv")
     draw(output + ".png", variants, names, Path(deck).stem)
     for variant in bad[:5]:
@@ -133,24 +148,53 @@ def run(args: argparse.Namespace) -> int:
     return max((v.run.status for v in variants), key=runs.STATUSES.index)
 
 
-def write_finished(path: str, variants: list[Variant]) -> None:
+def record_in(folder: Path, deck: str, variants: list[Variant]) -> None:
+    """Notes in the folder which sweep its results will be of. Those of another are not mixed with them; the
+    same sweep may be repeated, as after it was stopped."""
+    sweep = {"deck": str(Path(deck).resolve()), "variants": [v.values for v in variants]}
+    record = folder / RECORD
+    try:
+        same = json.loads(record.read_text(encoding="utf-8")) == sweep
+    except (OSError, ValueError):
+        same = False
+    there = [] if same or not folder.is_dir() else sorted(p.name for p in folder.iterdir())
+    if old := next((name for name in there if KEPT.fullmatch(name)), None):
+        raise UserError(
+            f"--keep {folder}: the folder holds results of another sweep, {old} for one. Name another "
+            "folder, or empty this one. Only a sweep of the same deck with the same values may be repeated."
+        )
+    folder.mkdir(parents=True, exist_ok=True)
+    record.write_text(json.dumps(sweep, indent=1) + "\n", encoding="utf-8")
+
+
+def demand_summary(run: Run) -> None:
+    """A run without a summary is none that was solved, whatever its exit status."""
+    if run.solved and not run.summary:
+        run.status = 3
+        run.message = (
+            run.message or "the program ended early and said nothing, as when a user routine ends it"
+        )
+
+
+def write_finished(path: str, variants: list[Variant], kept: bool) -> None:
     """The table of a sweep that was stopped; those that have not run have no numbers."""
     count = sum(v.run.outcome != "not run" for v in variants)
     if count:
-        write_table(path, variants, list(dict.fromkeys(name for v in variants for name in v.run.numbers)))
+        names = list(dict.fromkeys(name for v in variants for name in v.run.numbers))
+        write_table(path, variants, names, kept)
     what = f"wrote {path}" if count else "nothing to write"
     print(f"engrane sweep: stopped after {count} of {len(variants)} variants; {what}", file=sys.stderr)
 
 
-def write_table(path: str, variants: list[Variant], names: list[str]) -> None:
-    """A column for each name and result, and what came of the run."""
+def write_table(path: str, variants: list[Variant], names: list[str], kept: bool) -> None:
+    """A column for each name and result, what came of the run, and its file when that is kept."""
     with open(path, "w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow([*variants[0].values, *names, "outcome", "seconds"])
+        table.writerow([*variants[0].values, *names, "outcome", "seconds", *["file"] * kept])
         for v in variants:
             numbers = ["" if v.run.numbers.get(n) is None else repr(v.run.numbers[n]) for n in names]
             seconds = v.run.summary.get("seconds", 0)
-            table.writerow([*v.values.values(), *numbers, v.run.outcome, f"{seconds:.3f}"])
+            table.writerow([*v.values.values(), *numbers, v.run.outcome, f"{seconds:.3f}", *[v.file] * kept])
 
 
 def number(text: str) -> float | None:

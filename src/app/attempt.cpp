@@ -44,7 +44,14 @@ std::string with_causes(std::string failure, MPI_Comm comm, int rank, int ranks)
   const std::string routine = first_text(user::last_failure(), comm, rank, ranks);
   const std::string function = first_text(last_function_failure(), comm, rank, ranks);
   if (failure.empty()) return failure;
-  if (!routine.empty()) failure += ". The user routine " + routine;
+  if (!routine.empty()) {
+    // a routine that reports an error may have given finite numbers: what it says replaces the general sentence
+    const std::string general = std::string(" ") + gives_not_finite;
+    if (const auto at = failure.find(general); at != std::string::npos)
+      failure.replace(at, general.size(), ": the user routine " + routine);
+    else
+      failure += ". The user routine " + routine;
+  }
   if (function.empty()) return failure;
   // what a formula without a value was part of is not finite either, and not to blame
   const bool consequence = failure.find("finite") != std::string::npos || failure.find("nan") != std::string::npos;
@@ -281,7 +288,7 @@ Schedule::Due Attempt::show_instants(Instants& instants, const Configuration& so
 
 void Attempt::observe(const Configuration& seen, const StepReport& step, const Schedule::Due& due) {
   const int iterations = step.newton ? step.newton->iterations : 0;
-  observe::Step observed{step.step, iterations, step.events.size(), step.corner};
+  observe::Step observed{step.step, iterations, step.events.size(), step.corner, step.impulse};
   if (step.course) {
     observed.unstable = step.course->unstable;
     observed.critical_time = step.course->critical_time;

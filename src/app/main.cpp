@@ -7,6 +7,7 @@
 #include <iostream>
 #include <string_view>
 
+#include "app/agreement.hpp"
 #include "app/check.hpp"
 #include "app/interruption.hpp"
 #include "app/options.hpp"
@@ -14,6 +15,7 @@
 #include "app/session_folder.hpp"
 #include "app/solve_deck.hpp"
 #include "app/standard_output.hpp"
+#include "app/terminal.hpp"
 #include "app/version.hpp"
 #include "assembly/petsc.hpp"
 #include "base/foreign.hpp"
@@ -84,7 +86,10 @@ int perform(const std::string& deck, const Options& options, bool talk, RunSumma
   for (Diagnostic& d : run.diagnostics)
     if (d.location.known() && reading.sources.foreign(d.location.file)) d.message = without_quotes(d.message);
   for (int file = 0; file < reading.sources.size(); ++file) run.sources.push_back(reading.sources.path(file));
-  if (!reading.good()) return exit_status::wrong_deck;
+  bool agreed = false;
+  run.failure = deck_disagreement(deck, reading, PETSC_COMM_WORLD, agreed);
+  if (talk && !run.failure.empty()) std::cerr << "engrane: " << terminal_text(run.failure) << '\n';
+  if (!agreed) return exit_status::wrong_deck;
   if (run.diagnostics.empty()) reading.sources = {};  // no more lines of the deck will be shown
   run.time = reading.model.commands.stepping.start;
   run.end = reading.model.commands.stepping.end;

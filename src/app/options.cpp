@@ -106,7 +106,8 @@ std::optional<Options> parse_command_line(int argc, char** argv, bool talk, int&
   app.footer(
       "Exit status: 0 fine, 1 the deck or the command is wrong or files cannot be written, and nothing was solved, 2 the "
       "solution\n"
-      "failed, 3 a fault of the program, 4 a .CHK failed, 139 a crash in a user routine (128 and the signal).\n"
+      "failed, 3 a fault of the program, 4 a .CHK failed, 139 a user routine crashed (128 and the signal)\n"
+      "or ended the program.\n"
       "PETSc's options (-snes_monitor, -ksp_view, -mat_mumps_icntl_14 80, -log_view ...) reach PETSc unchanged.\n"
       "Under MPI: mpiexec -n 2 engrane deck.dat");
   app.set_version_flag("--version", std::string("engrane ") + version);

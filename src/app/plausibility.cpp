@@ -8,10 +8,13 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "model/solver_options.hpp"
+#include "model/speed_jumps.hpp"
 
 namespace engrane::app {
 
@@ -126,6 +129,10 @@ struct Pulse {
   double before = 0, after = 0;  ///< times of the ends of the step
 };
 
+bool has_steps_by_error(const Model& model) {
+  return model.commands.stepping.tolerance || accuracy_rung(model.commands.analysis);
+}
+
 /// The largest pulse of a function that lasts less than a step, if there is one.
 std::optional<Pulse> missed_pulse(const Function& function, const deck::SteppingCard& stepping) {
   constexpr double small = 0.1;        // of the largest value
@@ -148,9 +155,29 @@ std::optional<Pulse> missed_pulse(const Function& function, const deck::Stepping
 
 }  // namespace
 
+void warn_of_speed_jumps(const Model& model, Diagnostics& diagnostics) {
+  const deck::SteppingCard& stepping = model.commands.stepping;
+  if (!model.commands.analysis.type.is("DYNAMIC") || has_steps_by_error(model)) return;
+  std::set<std::string> told;
+  for (const double t : model.corners(stepping.start, stepping.end))
+    if (const auto jump = speed_jump(model, t)) {
+      const std::string what = jump->drive
+                                   ? fmt::format("the drive of {} {}", jump->drive->type, jump->drive->element->id())
+                                   : fmt::format("the support of node {}", model.nodes[static_cast<std::size_t>(jump->node)].id);
+      if (!told.insert(what).second) continue;
+      const bool turns = jump->dimension.length == 0;
+      diagnostics.warning(jump->drive ? jump->drive->location : Location{},
+                          fmt::format("the speed of {} jumps by {:.4g} {} at t = {:.6g}: the {} there is infinite, and that of a "
+                                      "step grows as H falls",
+                                      what, jump->change, model.units.label(jump->dimension), t, turns ? "moment" : "force"),
+                          "round the function off (SPLINE, or STEP of the speed), or give TOL: such steps end there, and "
+                          "velocities change as in an impact");
+    }
+}
+
 void warn_of_short_pulses(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   const deck::SteppingCard& stepping = model.commands.stepping;
-  if (stepping.tolerance || accuracy_rung(model.commands.analysis) || !(stepping.end - stepping.start > stepping.step)) return;
+  if (has_steps_by_error(model) || !(stepping.end - stepping.start > stepping.step)) return;
   for (const deck::Record& record : deck.records) {
     if (!record.get<deck::FunctionCard>()) continue;
     const auto function = model.functions.find(record.id);

@@ -15,4 +15,8 @@ void warn_of_unit_slips(const deck::Deck& deck, const Model& model, Diagnostics&
 /// end at its corners.
 void warn_of_short_pulses(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics);
 
+/// Warns about drives and supports whose speed jumps, which takes an infinite force for an instant, where steps do not end
+/// there. Steps that follow their error pass it as an impact without rebound.
+void warn_of_speed_jumps(const Model& model, Diagnostics& diagnostics);
+
 }  // namespace engrane::app

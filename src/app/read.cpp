@@ -95,6 +95,7 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
     warn_of_undamped_constraints(reading.deck, reading.model, building);
     warn_of_undamped_beams(reading.deck, reading.model, building);
     warn_of_short_pulses(reading.deck, reading.model, building);
+    warn_of_speed_jumps(reading.model, building);
   }
   if (syntax_good && !building.has_errors()) {
     warn_of_unit_slips(reading.deck, reading.model, building);

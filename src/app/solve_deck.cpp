@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/agreement.hpp"
 #include "app/attempt.hpp"
 #include "app/interruption.hpp"
 #include "app/model_difference.hpp"
@@ -28,10 +29,22 @@ namespace {
 /// With ACCURACY a run may be repeated so often with another tolerance, or another scheme.
 constexpr int most_repeats = 3;
 
-/// Opens what `.SAM RESTART` names, on every rank. Throws RestartError, also when its model is another than that of `reading`.
-std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Options& options) {
+/// Whether a result is that of this very deck, killed before its first restart point: nothing of it is lost by starting anew.
+bool has_not_begun(const RestartFile& earlier, const Reading& reading) {
+  return earlier.is_empty() && earlier.deck_text() == deck::canonical_text(reading.deck);
+}
+
+/// Opens what `.SAM RESTART` or `--restart` names; nothing if that run had not begun, of which `note` tells. Throws RestartError,
+/// also when its model is another than that of `reading`.
+std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Options& options, std::string& note) {
   const deck::AnalysisCard& card = reading.model.commands.analysis;
-  const bool overruled = !options.restart.empty();
+  bool overruled = !options.restart.empty();
+  if (overruled && !options.restart_time)
+    if (const RestartFile earlier(options.restart); has_not_begun(earlier, reading)) {
+      note = fmt::format("{} holds no restart point yet: starting from {}", earlier.path(),
+                         card.restart.empty() ? "the beginning" : card.restart + ", as the deck says");
+      overruled = false;
+    }
   const std::string& prefix = overruled ? options.restart : card.restart;
   const std::optional<double> time = overruled ? options.restart_time : card.restart_time;
   if (prefix.empty()) return nullptr;
@@ -53,6 +66,27 @@ std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Option
         earlier.path(), point.time, reading.model.commands.stepping.end, newer.empty() ? newer : ". " + newer));
   }
   return std::make_unique<Resumption>(std::move(earlier), std::move(point));
+}
+
+/// As find_resumption(), on every rank. Collective: all ranks throw if one does, or if they find other restart points than rank
+/// 0.
+std::unique_ptr<Resumption> agreed_resumption(const Reading& reading, const Options& options, std::string& note, MPI_Comm comm) {
+  std::unique_ptr<Resumption> found;
+  Account own;
+  try {
+    found = find_resumption(reading, options, note);
+    ContentHash hash;
+    if (found) hash.add(fmt::format("{} {} {}", found->point.time, found->point.samples, found->point.frames));
+    own.contents = hash.value();
+  } catch (const RestartError& e) {
+    own.trouble = e.what();
+  }
+  const Agreement agreement = agree(std::move(own), comm);
+  if (agreement.reached()) return found;
+  if (agreement.first_failed) throw RestartError(agreement.trouble);
+  throw RestartError(fmt::format(
+      "rank {} {}. Every rank reads the results to restart from: keep them on a file system that all nodes see", agreement.rank,
+      agreement.failed > 0 ? "cannot read them: " + agreement.trouble : "finds another restart point than rank 0"));
 }
 
 /// Where the deck leaves the plane to the program, a run goes on in the one that it began in, or in space.
@@ -137,13 +171,15 @@ int solve_deck(Reading& reading, const Options& options, const std::string& pref
     if (rank == 0) std::cerr << "engrane: " << terminal_text(summary.failure) << '\n';
     return exit_status::wrong_deck;
   };
-  if (const std::string mesh = mesh_in_the_way(reading, prefix); !mesh.empty())
+  if (const std::string mesh = text_of_rank(0, mesh_in_the_way(reading, prefix), comm); !mesh.empty())
     return refuse(fmt::format("the results would take the place of the mesh {}: -o gives them another name", mesh));
   if (std::string trouble = unwritable_place(prefix, comm, rank); !trouble.empty()) return refuse(std::move(trouble));
   leave_at_once(true);
   std::unique_ptr<Resumption> resumption;
   try {
-    resumption = find_resumption(reading, options);
+    std::string note;
+    resumption = agreed_resumption(reading, options, note, comm);
+    if (rank == 0 && !note.empty()) std::cerr << "engrane: " << terminal_text(note) << '\n';
   } catch (const RestartError& e) {
     return refuse(e.what());
   }

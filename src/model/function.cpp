@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -18,6 +20,8 @@
 namespace engrane {
 
 namespace {
+
+double number_before(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
 
 class CurveFunction final : public Function {
  public:
@@ -257,10 +261,43 @@ class FunctionBuilder {
   const FunctionSetting& setting_;
 };
 
+/// A function with a corner where the run ends: its slopes there are those of the run, not of what would follow. A TABLE that
+/// ends with the run would otherwise stop the drive in the last instant.
+class SmoothToTheEnd final : public Function {
+ public:
+  SmoothToTheEnd(std::unique_ptr<Function> function, double end)
+      : function_(std::move(function)), end_(end), before_(function_->at(number_before(end))) {}
+  Jet at(double x) const override {
+    Jet jet = function_->at(x);
+    if (x == end_) jet = {jet.f, before_.d1, before_.d2, before_.d3};
+    return jet;
+  }
+  double integral(double x) const override { return function_->integral(x); }
+  std::vector<double> corners(double from, double to, std::size_t most) const override {
+    return function_->corners(from, to, most);
+  }
+  double period() const override { return function_->period(); }
+  const Expression* formula() const override { return function_->formula(); }
+  const Expression* law() const override { return function_->law(); }
+
+ private:
+  std::unique_ptr<Function> function_;
+  double end_;
+  Jet before_;
+};
+
+/// Whether the function has a corner at x.
+bool turns_at(const Function& function, double x) {
+  const double way = 1e-12 * std::abs(x);
+  return !function.corners(x - way, x + way, 10).empty();
+}
+
 }  // namespace
 
 std::unique_ptr<Function> make_function(const deck::Record& record, Diagnostics& diagnostics, const FunctionSetting& setting) {
-  return FunctionBuilder(record, diagnostics, setting).build();
+  auto function = FunctionBuilder(record, diagnostics, setting).build();
+  if (!function || !turns_at(*function, setting.end)) return function;
+  return std::make_unique<SmoothToTheEnd>(std::move(function), setting.end);
 }
 
 }  // namespace engrane

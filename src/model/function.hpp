@@ -51,7 +51,7 @@ struct FunctionSetting {
 /// TABLE joins its points by straight lines, or with SPLINE by a natural cubic spline, and keeps its first and last ordinate
 /// outside them; with PERIOD either repeats. SINUS is mean + amplitude sin(2π frequency x + phase). RAMP and STEP lead from
 /// (t0, y0) to (t1, y1), by a straight line or by the polynomial of degree five with continuous value, slope and curvature, and
-/// are constant outside.
+/// are constant outside. At a corner where the run ends, the slopes are those of the run, not of what would follow.
 std::unique_ptr<Function> make_function(const deck::Record& record, Diagnostics& diagnostics,
                                         const FunctionSetting& setting = {});
 

@@ -162,9 +162,27 @@ class Examination {
       if (!(std::hypot(s.omega[(normal_ + 1) % 3], s.omega[(normal_ + 2) % 3]) <= residue * s.omega.norm()))
         fault({}, fmt::format("the initial spin of {} leads out of the plane {}", node_name(s.node), name()),
               fmt::format("its AXIS must be along {}", axis()));
+    for (const InitialCoordinate& one : model_.initial_coordinates)
+      if (one.value != 0) look_at_coordinate(one);
     for (const Gravity& g : model_.gravity)
       if (std::abs(g.acceleration[normal_]) > residue * g.acceleration.norm())
         fault({}, fmt::format("gravity has a component normal to the plane {}", name()), "leave that component out");
+  }
+
+  /// A coordinate whose rate is zero whatever the velocities in the plane are can only change out of it.
+  void look_at_coordinate(const InitialCoordinate& one) {
+    const Model::Part& part = model_.parts[static_cast<std::size_t>(one.part)];
+    const auto channel = static_cast<std::size_t>(one.channel);
+    const std::vector<Channel>& channels = part.element->channels();
+    prepare(part);
+    std::vector<double> values(channels.size());
+    part.element->observe(view(part, probes_.front()), values);
+    const double size = channels[channel].dimension.length == 0 ? 1 : model_.extent();
+    if (!(std::abs(values[channel + 1]) <= residue * size / span_of(model_.commands.stepping))) return;
+    fault(one.location,
+          fmt::format("the initial {} of {} {} leads out of the plane {}", channels[channel + (one.velocity ? 1 : 0)].name,
+                      part.type, part.element->id(), name()),
+          "leave it out, or solve in space (PLANE NO)");
   }
 
   State view(const Model::Part& part, const Probe& probe) const {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "assembly/configuration_snapshot.hpp"
 #include "math/rotation.hpp"
@@ -123,10 +124,10 @@ void StaticWork::add(const std::vector<double>& with_first, const std::vector<do
 EnergyLedger::EnergyLedger(Assembler& assembler, Reactions& supports, bool moves)
     : assembler_(assembler), supports_(supports), moves_(moves), powers_(points_of_powers, longest_beside) {}
 
-void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reactions) {
+void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reactions, bool impulse) {
   Energies sum = total_energies(assembler_, c);
   for (const Reaction& reaction : reactions) sum.external += reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]);
-  balance_.kinetic = sum.kinetic;
+  const double kinetic_before = std::exchange(balance_.kinetic, sum.kinetic);
   balance_.potential = sum.potential;
   balance_.strain = sum.strain;
   if (!started_) {
@@ -138,6 +139,10 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
     balance_.external_work += work.mean();
     if (const double lost = work.lost(sum.potential - last_potential_); lost > balance_.jump.lost)
       balance_.jump = {last_time_, c.time, lost};
+  } else if (impulse) {
+    const double work = balance_.kinetic - kinetic_before;
+    balance_.external_work += work;
+    balance_.passed += std::abs(work);
   } else {
     const double step = c.time - last_time_, half = 0.5 * step;
     // do not interpolate across an event: a force that jumps has no slope there

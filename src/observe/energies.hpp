@@ -66,8 +66,9 @@ class EnergyLedger {
   /// `moves`: the analysis has velocities; otherwise the work is computed between equilibria.
   EnergyLedger(Assembler& assembler, Reactions& supports, bool moves);
 
-  /// Adds the next accepted configuration; the first one is the start. Collective.
-  void add(const Configuration& c, const std::vector<Reaction>& reactions);
+  /// Adds the next accepted configuration; the first one is the start. `impulse`: speeds of drives have jumped since the last
+  /// one; the change of the kinetic energy is their work, as joints do none. Collective.
+  void add(const Configuration& c, const std::vector<Reaction>& reactions, bool impulse = false);
   void integrate_smoothly() { smooth_ = true; }
   /// Discards the previous powers, as after an event: the power may jump.
   void forget() { powers_.clear(); }

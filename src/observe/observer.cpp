@@ -118,7 +118,7 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
       ends_.clear();
     ledger_.forget();
   }
-  ledger_.add(c, last_reactions_);
+  ledger_.add(c, last_reactions_, step.impulse);
   events_ += static_cast<double>(step.events);
   if (fields) find_fields(c);
   if (histories || keeps_ends_) evaluate_histories(c, step);

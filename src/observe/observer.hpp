@@ -20,6 +20,7 @@ struct Step {
   int iterations = 0;      ///< Newton iterations
   std::size_t events = 0;  ///< number of events in the step
   bool corner = false;     ///< a function of time has a corner at its end
+  bool impulse = false;    ///< the speed of a drive has jumped, and the velocities with it
   // along an equilibrium path
   int unstable = 0;          ///< number of unstable directions at this equilibrium
   double critical_time = 0;  ///< load time of the last critical point

@@ -81,6 +81,12 @@ std::vector<double> RestartFile::times() const {
   return times;
 }
 
+bool RestartFile::is_empty() const {
+  const std::vector<hsize_t> samples = hdf5::read_shape(file_.id(), "history/time");
+  return hdf5::read_text_attribute(file_.id(), "status") == "running" && entries(file_.id()).empty() &&
+         (samples.empty() || samples[0] == 0);
+}
+
 std::string RestartFile::advice_on_newer_partial() const {
   constexpr std::string_view ending = ".h5", partial_ending = ".partial.h5";
   if (!path_.ends_with(ending) || path_.ends_with(partial_ending)) return {};
@@ -99,7 +105,10 @@ std::string RestartFile::advice_on_newer_partial() const {
 
 RestartPoint RestartFile::load(std::optional<double> time) const {
   const std::vector<Entry> points = entries(file_.id());
-  if (points.empty()) throw RestartError(fmt::format("Cannot restart from {}: it holds no restart point.", path_));
+  if (points.empty())
+    throw RestartError(fmt::format(
+        "Cannot restart from {}: it holds no restart point. Without --restart or RESTART the run starts from the beginning.",
+        path_));
   // a time given with fewer digits means the same restart point, as times are sums of steps
   const auto after = [&](double t) { return t > *time + 1e-9 * std::max(std::abs(t), std::abs(*time)); };
   const Entry* chosen = nullptr;

@@ -30,6 +30,8 @@ class RestartFile {
   std::string model_json() const;
   /// Times of all restart points, ascending.
   std::vector<double> times() const;
+  /// Whether the run was killed before it solved anything: it neither ended nor wrote a sample or a restart point.
+  bool is_empty() const;
   /// Returns the last restart point not after `time`, or the last of all. Throws RestartError if there is none, naming the
   /// available times.
   RestartPoint load(std::optional<double> time = {}) const;

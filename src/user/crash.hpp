@@ -19,7 +19,11 @@ class Running {
   Running& operator=(const Running&) = delete;
 };
 
-/// Installs signal handlers that report a crash inside a user routine by name and then restore the previous handlers.
+/// Exit status if a user routine ends the program by STOP or exit(): that of a routine which crashes, 128 + SIGSEGV.
+inline constexpr int status_of_ended = 139;
+
+/// Installs signal handlers that report a crash inside a user routine by name and then restore the previous handlers, and an exit
+/// handler that reports a routine which ends the program, with an error status.
 void watch_for_crashes();
 
 }  // namespace engrane::user

@@ -48,6 +48,9 @@ def test_values() -> None:
     for wrong in ("A", "=1", "A=", "A=1:2", "A=1:2:x", "A=1:2:-1", "A=1:2:0", "A=0:1:1e-9"):
         with pytest.raises(UserError):
             values_of(wrong)
+    for wrong, place in (("A=0.1,,0.3", 2), ("A=1,2,", 3), ("A=,", 1)):
+        with pytest.raises(UserError, match=f"value {place} of the list is empty"):
+            values_of(wrong)
     with pytest.raises(UserError, match="twice"):
         combinations(["A=1", "A=2"])
     with pytest.raises(UserError, match="most"):
@@ -77,6 +80,58 @@ def test_checks_are_the_results_and_runs_are_kept(deck: Path, command) -> None:
     assert (
         len([r for r in table(Path("table.csv")) if abs(float(r["RUN ENERGY_ERROR at the end"])) < 1e-3]) == 2
     )
+
+
+def test_the_table_names_the_kept_files(deck: Path, command) -> None:
+    words = ("-D", "M=1,-1,2", "--result", "NODE 1 VZ MIN", "--keep", "runs")
+    command("sweep", deck, *words)
+    rows = table(Path("pendulum_sweep.csv"))
+    assert [r["file"] for r in rows] == ["runs/1.h5", "", "runs/3.h5"], "a wrong deck has no results"
+    assert all(Path(r["file"]).is_file() for r in rows if r["file"])
+    command("sweep", deck, *words[:-2])
+    assert "file" not in table(Path("pendulum_sweep.csv"))[0]
+
+
+def test_sweeps_are_not_mixed_in_a_folder(deck: Path, command) -> None:
+    more = ("--result", "NODE 1 VZ MIN", "--keep", "runs")
+    assert command("sweep", deck, "-D", "L=0.1,0.2", *more)[0] == 0
+    kept = {p.name: p.read_bytes() for p in Path("runs").iterdir()}
+    for values in ("L=0.1:1:0.1", "L=0.1,0.3"):
+        status, _, err = command("sweep", deck, "-D", values, *more)
+        assert status == 1
+        assert "--keep runs: the folder holds results of another sweep, 1.h5 for one." in err
+        assert {p.name: p.read_bytes() for p in Path("runs").iterdir()} == kept
+    other = deck.with_name("other.dat")
+    other.write_text(deck.read_text())
+    assert command("sweep", other, "-D", "L=0.1,0.2", *more)[0] == 1
+    # the same again, as after it was stopped
+    assert command("sweep", deck, "-D", "L=0.1,0.2", *more)[0] == 0
+    # results of earlier versions have no record of their sweep
+    Path("runs/sweep.json").unlink()
+    assert command("sweep", deck, "-D", "L=0.1,0.2", *more)[0] == 1
+
+
+def test_a_folder_with_other_files_or_a_wrong_command_is_free(deck: Path, command) -> None:
+    Path("runs").mkdir()
+    Path("runs/notes.txt").write_text("mine")
+    more = ("--result", "NODE 1 VZ MIN", "--keep", "runs")
+    assert command("sweep", deck, "-D", "LENGTH=0.1,0.2", *more)[0] == 1
+    status, _, err = command("sweep", deck, "-D", "L=0.1,0.2", *more)
+    assert (status, err) == (0, "")
+    assert Path("runs/notes.txt").read_text() == "mine"
+
+
+def test_a_run_without_a_summary_has_failed(deck: Path, command, monkeypatch) -> None:
+    """As when a user routine ends the program with status 0."""
+    program = deck.parent / "engrane"
+    program.write_text("#!/bin/sh\nexit 0\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("ENGRANE", str(program))
+    status, _, err = command("sweep", deck, "-D", "L=1,2", "--result", "NODE 1 VZ MIN")
+    assert status == 1
+    assert "no variant was solved. L = 1:\nthe program ended early and said nothing" in err
+    assert "Name a number by --result" not in err
+    assert not list(deck.parent.glob("*.csv"))
 
 
 def test_a_variant_that_fails_leaves_a_gap(deck: Path, command) -> None:

@@ -230,3 +230,27 @@ def test_a_restart_knows_its_mesh(tmp_path: Path) -> None:
     with h5py.File(tmp_path / "mesh.mesh.h5", "r+") as file:
         file["nodes/places"][6, 0] += 0.1
     assert ".NOE 7: X was" in refused(again, tmp_path)
+
+
+def test_ranks_that_read_different_meshes_do_not_run(tmp_path: Path) -> None:
+    """The decks are the same, a node of the mesh of rank 1 is elsewhere."""
+    for rank in range(2):
+        (folder := tmp_path / f"node{rank}").mkdir()
+        (folder / "bar.dat").write_text(imported(folder, "--binary"))
+    script = tmp_path / "on_node.sh"
+    script.write_text('cd "node$OMPI_COMM_WORLD_RANK" && exec "$@" bar.dat\n')
+
+    def solved() -> subprocess.CompletedProcess[str]:
+        command = on_ranks(2, ["sh", str(script), os.environ["ENGRANE"]])
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+
+    assert solved().returncode == 0
+    with h5py.File(tmp_path / "node1" / "mesh.mesh.h5", "r+") as file:
+        file["nodes/places"][6, 0] += 1e-3
+    done = solved()
+    assert done.returncode == 1
+    assert "rank 1 reads another deck bar.dat than rank 0, or other files that it names" in done.stderr
+    (tmp_path / "node1" / "mesh.mesh.h5").unlink()
+    done = solved()
+    assert done.returncode == 1
+    assert "rank 1 cannot read the deck: bar.dat:" in done.stderr and "there is no file" in done.stderr

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from engrane_post import Results
+from runs import run
 
 DECKS = Path(__file__).resolve().parents[2] / "decks"
 
@@ -92,6 +93,36 @@ def test_what_leads_out_of_the_plane_is_refused(name: str, tmp_path: Path) -> No
     done = solve(name, "XY", "MUMPS", "", tmp_path)
     assert done.returncode == 1, done.stdout + done.stderr
     assert "plane XY" in done.stderr
+
+
+@pytest.mark.parametrize(("value", "channel"), [("VIT", "SPEED"), ("DEP", "ANGLE")])
+def test_initial_coordinate_of_a_joint(value: str, channel: str, tmp_path: Path) -> None:
+    """A rotor spins about an axis in the plane in which its frame turns. The initial value takes the model
+    out of it: AUTO solves in space, and a plane that the deck asks for is refused."""
+    text = f""".NOE
+ I 1 X 1 2 3
+ I 2 X 1 2 3
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 1 0 DRIVE ANGLE NF 1
+ I 2 HINGE N 1 2 AXIS 1 0 0
+ I 3 INERTIA N 2 M 1 J 0.02 0.01 0.01
+.FCT
+ I 1 EXPR "2*T"
+.INI
+ {value} ELEMENT 2 V 30
+.SAM TYPE DYNAMIC SCHEME RADAU PLANE AUTO
+.SUB TF 0.1 H 0.002
+.FIN 1
+"""
+    found = run(text, tmp_path)
+    start = 30 if value == "VIT" else np.radians(30)
+    assert found[f"2/{channel}"][0] == pytest.approx(start, rel=1e-9)
+    (tmp_path / "plane.dat").write_text(text.replace("PLANE AUTO", "PLANE ZX"), encoding="utf-8")
+    done = subprocess.run(
+        [os.environ["ENGRANE"], "plane.dat", "-q"], cwd=tmp_path, capture_output=True, text=True, timeout=60
+    )
+    assert done.returncode == 1
+    assert f"the initial {channel} of HINGE 2 leads out of the plane ZX" in done.stderr
 
 
 SIDEWAYS = """.UNIT SI

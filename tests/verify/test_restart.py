@@ -444,3 +444,54 @@ def test_kills_lose_nothing(tmp_path):
     run(tmp_path, whole, "--until", repr(last), status=2)
     run(tmp_path, path, "-o", "ended", "--restart", name, "--until", repr(last), status=2)
     assert tables(tmp_path / "whole.h5") == tables(tmp_path / "ended.h5")
+
+
+def unbegun(path: Path) -> None:
+    """The file as it is made before the first batch, which is what is left of a run that was killed then."""
+    with h5py.File(path, "r+") as file:
+        file.attrs["status"] = "running"
+        for name in list(file["restart"]):
+            del file[f"restart/{name}"]
+        times = file["history/time"]
+        times.resize((0, *times.shape[1:]))
+
+
+def test_a_run_killed_before_its_first_restart_point_begins_again(tmp_path):
+    """A chain of jobs says --restart when there is a file; all jobs after such a kill failed."""
+    path = str(deck(tmp_path, "chain", end=0.2))
+    run(tmp_path, path, "-o", "whole")
+    for ranks in (1, 2):
+        run(tmp_path, path, "-o", "chain", "--until", "0.05", status=2)
+        unbegun(tmp_path / "chain.h5")
+        said = run(tmp_path, path, "-o", "chain", "--restart", "chain", ranks=ranks)
+        assert said == "engrane: chain.h5 holds no restart point yet: starting from the beginning\n"
+        if ranks == 1:
+            assert tables(tmp_path / "whole.h5") == tables(tmp_path / "chain.h5")
+        (tmp_path / "chain.h5").unlink()
+
+
+def test_a_continuation_killed_before_its_first_restart_point_begins_again(tmp_path):
+    """The deck itself continues another result: so does the run that begins again."""
+    run(tmp_path, str(deck(tmp_path, "first", end=0.1)))
+    path = str(deck(tmp_path, "then", end=0.2, sam='RESTART "first"'))
+    run(tmp_path, path)
+    whole = tables(tmp_path / "then.h5")
+    unbegun(tmp_path / "then.h5")
+    said = run(tmp_path, path, "--restart", "then")
+    assert "then.h5 holds no restart point yet: starting from first, as the deck says" in said
+    assert tables(tmp_path / "then.h5") == whole
+
+
+def test_only_a_run_of_the_same_deck_begins_again(tmp_path):
+    """A result without restart points that another analysis was to continue is no reason to leave it out."""
+    path = str(deck(tmp_path, "first", end=0.1))
+    run(tmp_path, path)
+    unbegun(tmp_path / "first.h5")
+    longer = str(deck(tmp_path, "longer", end=0.2))
+    advice = "it holds no restart point. Without --restart or RESTART the run starts from the beginning"
+    assert advice in run(tmp_path, longer, "--restart", "first", status=1)
+    assert advice in run(tmp_path, path, "-o", "next", "--restart", "first", "--restart-at", "0.05", status=1)
+    assert advice in run(tmp_path, str(deck(tmp_path, "named", end=0.1, sam='RESTART "first"')), status=1)
+    with h5py.File(tmp_path / "first.h5", "r+") as file:
+        file.attrs["status"] = "failed"
+    assert advice in run(tmp_path, path, "-o", "next", "--restart", "first", status=1)

@@ -111,7 +111,9 @@ void check_profile(ProfileCard& card, Record& record, Diagnostics& diagnostics) 
                       "6 (the diagonal: EA GA2 GA3 GJ EI2 EI3) or 21 (the upper triangle, row by row)");
   else if (!(definiteness(*matrix) > least))
     diagnostics.error(record.where("K"), "the matrix K is not positive: some deformation would cost no energy",
-                      "every row's diagonal must outweigh what couples it to the others");
+                      fmt::format("its eigenvalues must be positive: the least is {:.6g} times the largest in size, with rows "
+                                  "scaled to a unit diagonal",
+                                  definiteness(*matrix)));
 }
 
 }  // namespace

@@ -213,7 +213,9 @@ std::optional<SpeedMatrices> matrices(const BuildContext& context, const char* k
     constexpr double rounding = 1e-9;
     if (m == m.transpose() && !m.isZero(0) && definiteness(m) < -rounding) {
       context.error(keyword, fmt::format("the matrix of {} is not positive: some motion would gain energy from it", keyword),
-                    "every row's diagonal must outweigh what couples it to the others");
+                    fmt::format("none of its eigenvalues may be negative: the least is {:.6g} times the largest in size, with "
+                                "rows scaled to a unit diagonal",
+                                definiteness(m)));
       return {};
     }
   }

@@ -310,7 +310,10 @@ std::unique_ptr<Element> build(const CamData& data, BuildContext& context) {
     parts.guide.kind = CamGuide::Kind::arm;
     parts.guide.pivot = to_vector(*data.pivot) - at_b;
     if (cross(*axis, to_pivot).norm() <= 1e-9 * to_pivot.norm() || same_place(to_vector(*data.pivot), point)) {
-      context.error("PIVOT", "no arm: its pivot is on the cam's axis or at the follower", "the place of the arm's pivot");
+      const bool on_face = parts.flat && same_place(to_vector(*data.pivot), point);
+      context.error("PIVOT", "no arm: its pivot is on the cam's axis or at the follower",
+                    on_face ? "AT may be anywhere on the flat face: move it along the face, away from the pivot"
+                            : "the place of the arm's pivot");
       return nullptr;
     }
   }
@@ -337,7 +340,7 @@ std::unique_ptr<Element> build(const CamData& data, BuildContext& context) {
       return nullptr;
     }
     const auto lift = find_motion(data, context, data.pivot.has_value());
-    if (!lift) return nullptr;
+    if (!lift || !check_side(context, plan, parts, *lift)) return nullptr;
     curve = design_curve(data, context, *lift, plan, parts);
   } else {
     curve = table_curve(data, context);
@@ -353,6 +356,7 @@ std::unique_ptr<Element> build(const CamData& data, BuildContext& context) {
   if (!check_design(context, plan, parts)) return nullptr;
 
   if (!find_friction(data, context, parts)) return nullptr;
+  if (motion) check_place(context, plan, parts);
   return std::make_unique<Cam>(context.record.id, std::move(parts));
 }
 

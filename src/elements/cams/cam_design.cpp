@@ -122,7 +122,89 @@ bool check_roller(const BuildContext& context, const char* keyword, const CamFoo
   return false;
 }
 
+/// Where the follower of a motion is, and where its profile has it at cam angle zero.
+struct FollowerPlace {
+  double given = 0, agreed = 0;  ///< distance from the centre; of a flat face along its normal
+  Vec2 point = Vec2::Zero();     ///< the follower's point where it agrees
+  double base = 0;               ///< the base circle that agrees with the place given; not positive: none does
+};
+
+/// The inverse of the curves of cam_curve.hpp at cam angle zero.
+FollowerPlace find_place(const CamPlan& plan, const CamParts& parts, double lift) {
+  const double start = plan.base + parts.radius;
+  if (parts.flat) {
+    const double slope = plan.face.dot(plan.direction), height = plan.point.dot(plan.face), agreed = plan.base + slope * lift;
+    return {height, agreed, plan.point + (agreed - height) / slope * plan.direction, height - slope * lift};
+  }
+  FollowerPlace place;
+  place.given = plan.point.norm();
+  if (parts.guide.kind == CamGuide::Kind::slide) {
+    const double offset = plane_cross(plan.direction, plan.point), along = plan.point.dot(plan.direction);
+    const double way = std::sqrt(start * start - offset * offset) + lift;
+    place.point = plan.point + (std::copysign(way, along) - along) * plan.direction;
+    if (std::abs(along) > lift) place.base = std::hypot(std::abs(along) - lift, offset) - parts.radius;
+  } else {
+    const double between = plan.pivot.norm(), arm = (plan.point - plan.pivot).norm();
+    const double cosine = (start * start - between * between - arm * arm) / (2 * between * arm);
+    const double side = plane_cross(plan.pivot, plan.point) > 0 ? 1 : -1;
+    const Vec2 out = plan.pivot / between;
+    const auto end = [&](double angle) {
+      return Vec2(plan.pivot + arm * (std::cos(angle) * out + side * std::sin(angle) * turned_left(out)));
+    };
+    place.point = end(std::acos(cosine) - lift);
+    const double on_base = angle_between(plan.pivot, plan.point - plan.pivot) + lift;
+    if (on_base < std::numbers::pi) place.base = end(on_base).norm() - parts.radius;
+  }
+  place.agreed = place.point.norm();
+  return place;
+}
+
 }  // namespace
+
+bool check_side(const BuildContext& context, const CamPlan& plan, const CamParts& parts, const CamMotion& motion) {
+  constexpr double rounding = 1e-9;
+  if (parts.flat) {
+    const double height = plan.point.dot(plan.face);
+    if (height >= -rounding * plan.base) return true;
+    const bool normal = context.record.given("NORMAL");
+    context.error(normal ? "NORMAL" : "DIRECTION",
+                  fmt::format("the flat face looks into the cam: it is {:.6g} behind the cam's centre", -height),
+                  normal ? "NORMAL points away from the cam: turn it round, or move AT to the other side of the centre"
+                         : "the face lifts along DIRECTION: turn it round, or move AT to the other side of the centre");
+    return false;
+  }
+  if (parts.guide.kind != CamGuide::Kind::slide) return true;
+  // a follower that never lifts is on a circle, which looks the same from all sides
+  if (std::none_of(motion.segments().begin(), motion.segments().end(), [](const auto& s) { return s.to > 0; })) return true;
+  const double along = plan.point.dot(plan.direction);
+  if (along >= -rounding * plan.base) return true;
+  context.error("DIRECTION",
+                fmt::format("DIRECTION points into the cam: along it the follower is {:.6g} behind the cam's centre", -along),
+                "the follower lifts along DIRECTION: turn it round, or move AT to the other side of the centre");
+  return false;
+}
+
+void check_place(const BuildContext& context, const CamPlan& plan, const CamParts& parts) {
+  constexpr double tolerance = 1e-3;  // of the base circle: places are often given by four digits
+  constexpr double lash = 0.1;        // a follower that rests on its cam may have play: valves have up to a few per cent
+  const FollowerPlace place = find_place(plan, parts, parts.profile->curve().motion()->at(0).f);
+  const double gap = place.given - place.agreed;
+  if (std::abs(gap) <= tolerance * plan.base || (parts.law && gap > 0 && gap <= lash * plan.base)) return;
+  Vec3 at = parts.follower;
+  const Vec2 shift = place.point - plan.point;
+  at += shift[0] * parts.axes.col(0) + shift[1] * parts.axes.col(1);
+  for (double& x : at)
+    if (std::abs(x) < 1e-9 * plan.base) x = 0;
+  const std::string base = place.base > 0 ? fmt::format(", and so does BASE {:.6g}", place.base) : "";
+  context.diagnostics.warning(context.record.where("BASE"),
+                              fmt::format("the {} is {:.6g} from the cam's centre{}, and {:.6g} on the profile at cam angle 0",
+                                          parts.flat         ? "flat face"
+                                          : parts.radius > 0 ? "roller's centre"
+                                                             : "knife edge",
+                                          place.given, parts.flat ? " along its normal" : "", place.agreed),
+                              fmt::format("AT {:.6g} {:.6g} {:.6g} agrees with BASE{}{}", at[0], at[1], at[2],
+                                          parts.radius > 0 ? " and the roller" : "", base));
+}
 
 bool check_design(const BuildContext& context, const CamPlan& plan, CamParts& parts) {
   const CamProfile& profile = *parts.profile;

@@ -16,6 +16,13 @@ struct CamPlan {
   double base = 0;                ///< radius of the base circle of a motion
 };
 
+/// Reports an error if the follower of a motion is on the side of the centre to which it cannot lift. An arm cannot be there:
+/// its profile is made for the side on which it is.
+bool check_side(const BuildContext& context, const CamPlan& plan, const CamParts& parts, const CamMotion& motion);
+
+/// Warns if the follower of a motion is not on its profile in the reference configuration, where the cam angle is zero.
+void check_place(const BuildContext& context, const CamPlan& plan, const CamParts& parts);
+
 /// Checks the profile by itself and against its follower. Reports errors if it is no valid profile, and warnings if the
 /// follower would not fit. Fills parts.derived.
 bool check_design(const BuildContext& context, const CamPlan& plan, CamParts& parts);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/function_failure.hpp"
 #include "model/user_function.hpp"
@@ -45,6 +46,24 @@ void warn_of_friction(const BuildContext& context, const std::string& keyword, d
                     "creeps in tiny steps",
                     number(jump)),
         "FRICTION of a joint with STICK comes to rest and holds; TANH(V/v) in the formula instead of SIGN(V) slides slowly");
+}
+
+/// Warns about a damper that drives: the power that it takes, force times rate, is negative at a point of its table.
+void warn_of_drive(const BuildContext& context, const std::string& keyword, const Function& law) {
+  constexpr double infinity = std::numeric_limits<double>::infinity(), rounding = 1e-12;
+  constexpr std::size_t most = 100000;
+  const std::vector<double> rates = law.corners(-infinity, infinity, most);
+  double greatest = 0, worst = 0, worst_rate = 0;
+  for (const double rate : rates) {
+    const double force = law.at(rate).f;
+    greatest = std::max(greatest, std::abs(force));
+    if (force * rate < worst) worst = force * rate, worst_rate = rate;
+  }
+  if (!(worst < 0) || std::abs(law.at(worst_rate).f) <= rounding * greatest) return;
+  context.diagnostics.warning(
+      context.record.where(keyword),
+      fmt::format("the damper supplies power: at a rate of {} its force is {}", number(worst_rate), number(law.at(worst_rate).f)),
+      "a damper takes power where its force and its rate have the same sign: see to the signs of the function");
 }
 
 }  // namespace
@@ -106,6 +125,7 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
     if (!law.of_rate) return {};
     law.corners_of_rate = LawCorners(*law.of_rate);
     warn_of_friction(context, "CLAW" + suffix, jump_at_rest([&](double rate) { return law.of_rate->at(rate).f; }));
+    warn_of_drive(context, "CLAW" + suffix, *law.of_rate);
   }
   return law;
 }

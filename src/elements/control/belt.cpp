@@ -308,6 +308,12 @@ std::unique_ptr<Element> build(const BeltData& data, BuildContext& context) {
         fmt::format("a distance of more than {:.6g} is needed", std::max({least, shape.r1, shape.r2})));
     return nullptr;
   }
+  // R is measured to the middle of the belt: pulleys may overlap by its thickness, so that this is no error
+  if (!data.crossed && distance < shape.r1 + shape.r2)
+    context.diagnostics.warning(
+        context.record.where("R"),
+        fmt::format("the pulleys overlap: their radii sum to {:.6g}, and they are {:.6g} apart", shape.r1 + shape.r2, distance),
+        "R takes radii, not diameters, and the nodes are the centres; the belt is followed all the same");
   if (data.stiffness && data.rigidity) {
     context.error("EA", "K and EA both give the stiffness of the spans", "keep one of them");
     return nullptr;

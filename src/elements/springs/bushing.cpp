@@ -129,7 +129,9 @@ std::optional<Mat6> matrix(const BuildContext& context, const char* keyword, con
   constexpr double rounding = 1e-9;
   if (definiteness(*m) >= -rounding || m->isZero(0)) return m;
   context.error(keyword, fmt::format("the matrix of {} is not positive: some motion would gain energy from it", keyword),
-                "every row's diagonal must outweigh what couples it to the others");
+                fmt::format("none of its eigenvalues may be negative: the least is {:.6g} times the largest in size, with rows "
+                            "scaled to a unit diagonal",
+                            definiteness(*m)));
   return {};
 }
 

@@ -389,8 +389,7 @@ std::string explain_not_finite(Assembler& assembler, const Configuration& config
     if (std::all_of(r.begin(), r.end(), finite) && std::all_of(k.begin(), k.end(), finite)) continue;
     const std::string kind = element.cell_shape() == CellShape::none ? parts[p].type : "cell";
     const std::string why = element.why_not_finite();
-    return fmt::format("{} {} {}", kind, element.id(),
-                       why.empty() ? "gives a force or a slope of it that is not a finite number" : why);
+    return fmt::format("{} {} {}", kind, element.id(), why.empty() ? gives_not_finite : why);
   }
   return {};
 }

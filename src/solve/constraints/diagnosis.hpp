@@ -38,6 +38,9 @@ std::string explain_residual(Assembler& assembler, const Configuration& configur
 std::string explain_unresolved(const Assembler& assembler, const Newton& newton, const Configuration& configuration,
                                double energy);
 
+/// What is said of an element whose forces are not finite, after its name, if the element knows no reason.
+inline constexpr const char* gives_not_finite = "gives a force or a slope of it that is not a finite number";
+
 /// Names the first element whose forces or tangent are not finite numbers; empty when all are.
 std::string explain_not_finite(Assembler& assembler, const Configuration& configuration);
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "assembly/configuration_snapshot.hpp"
+#include "model/speed_jumps.hpp"
 #include "solve/constraints/diagnosis.hpp"
 #include "solve/run/restart_jump.hpp"
 
@@ -151,13 +152,15 @@ bool Runner::march() {
   if (control_.active()) {
     for (const double corner : context_.model.corners(now_.time, end)) {
       // a step that ends at a jump must not see what follows
-      const bool jumps = scheme_.meets_events() && context_.model.jumps_at(corner);
+      const bool impulse = scheme_.meets_events() && speed_jump(context_.model, corner);
+      const bool jumps = impulse || (scheme_.meets_events() && context_.model.jumps_at(corner));
       const double before = jumps ? std::nextafter(corner, begin) : corner, least = shortest_way * (end - begin);
       const bool there = jumps && now_.time == before;  // where a resumed run begins
       if (!there && (corner - now_.time < least || end - corner < least)) continue;
       corner_ = before;
       if (!reach(before)) return false;
       corner_ = corner;
+      step_.impulse = impulse;
       if (jumps && !drift(corner - before, corner)) return false;
       scheme_.pass_corner(now_);
     }
@@ -360,6 +363,7 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   step_.chatter = locator_.chatters();
   const bool go_on = (*observer_)(now_, step_);
   step_.cuts = step_.locating = 0;
+  step_.impulse = false;
   return go_on;
 }
 

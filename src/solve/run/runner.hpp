@@ -12,11 +12,12 @@ namespace engrane::solve {
 
 /// Report on each accepted step.
 struct StepReport {
-  int number = 0;       ///< from 1; 0 is the start
-  double step = 0;      ///< h
-  int cuts = 0;         ///< failed attempts before this one
-  bool corner = false;  ///< a function of time has a corner at the end of the step, or equilibria have jumped within it
-  bool regular = true;  ///< false: the step ended for an event, not at a multiple of H or after a cut
+  int number = 0;        ///< from 1; 0 is the start
+  double step = 0;       ///< h
+  int cuts = 0;          ///< failed attempts before this one
+  bool corner = false;   ///< a function of time has a corner at the end of the step, or equilibria have jumped within it
+  bool impulse = false;  ///< the speed of a drive has jumped, and the velocities with it
+  bool regular = true;   ///< false: the step ended for an event, not at a multiple of H or after a cut
   /// Returns the motion within the step; set with a tolerance only, and empty if the step is but a drift across an event.
   std::function<std::unique_ptr<Within>()> within;
   int locating = 0;           ///< attempts spent on locating an event before this step

@@ -505,6 +505,50 @@ TEST(Cam, FaultsOfTheCard) {
             "the profile is hollow or straight at (0.0");
 }
 
+TEST(Cam, FollowerBehindTheCam) {
+  EXPECT_EQ(message([](CamData& d) {
+              d.direction = {{0, -1, 0}};
+            }),
+            "DIRECTION points into the cam: along it the follower is 0.04 behind the cam's centre");
+  EXPECT_EQ(message([](CamData& d) {
+              d.follower = {"FLAT", {}};
+              d.at = {{0.02, -0.03, 0}};
+            }),
+            "the flat face looks into the cam: it is 0.03 behind the cam's centre");
+  // on a circle, nothing is behind
+  EXPECT_EQ(message(
+                [](CamData& d) {
+                  d.direction = {{0, -1, 0}};
+                  d.motion = {360, 0};
+                },
+                true),
+            "");
+}
+
+TEST(Cam, FollowerOffItsBaseCircle) {
+  const auto off = [](double circle, std::optional<double> stiffness = {}) {
+    return message([&](CamData& d) { d.base = circle, d.stiffness = stiffness; }, true);
+  };
+  EXPECT_EQ(off(0.025), "the roller's centre is 0.04 from the cam's centre, and 0.035 on the profile at cam angle 0");
+  EXPECT_EQ(off(0.0299), "the roller's centre is 0.04 from the cam's centre, and 0.0399 on the profile at cam angle 0");
+  EXPECT_EQ(off(0.02998), "");
+  // one that rests on its cam may have some play, and may not be pressed in
+  EXPECT_EQ(off(0.029, 1e6), "");
+  EXPECT_EQ(off(0.025, 1e6), off(0.025));
+  EXPECT_EQ(off(0.031, 1e6), "the roller's centre is 0.04 from the cam's centre, and 0.041 on the profile at cam angle 0");
+  // half up the rise that follows cam angle -45; the offset 0.024 leaves sqrt(0.04^2 - 0.024^2) = 0.032 on the base circle
+  const auto lifted = [](double y) {
+    return message(
+        [&](CamData& d) {
+          d.phase = -45;
+          d.at = {{0.024, y, 0.1}};
+        },
+        true);
+  };
+  EXPECT_EQ(lifted(0.037), "");
+  EXPECT_EQ(lifted(0.032), "the roller's centre is 0.04 from the cam's centre, and 0.0441022 on the profile at cam angle 0");
+}
+
 TEST(Cam, Undercut) {
   // a flat face: base + s + s'' must stay positive; the rise is 2 pi h/b^2 steep in its second half
   EXPECT_EQ(message([](CamData& d) {

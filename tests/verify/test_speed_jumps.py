@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drives whose speed jumps, as that of an angle given by a TABLE does at its corners."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from runs import run, said
+
+CRANK, RADIUS, MASS, INERTIA, ARM = 3.0, 0.4, 2.0, 0.05, 0.15
+CORNER, SPEED = 0.253, 1 / 0.747
+
+
+def deck(analysis: str, stepping: str) -> str:
+    """A crank and, in line with it, a free link: the drive starts both within an instant."""
+    return f""".NOE
+ I 1 X 0 0 0
+ I 2 X {RADIUS + ARM!r} 0 0
+.MCE
+ I 1 INERTIA N 1 M 1 J {CRANK!r}
+ I 2 INERTIA N 2 M {MASS!r} J {INERTIA!r}
+ I 3 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 4 HINGE N 1 2 AXIS 0 0 1 AT {RADIUS!r} 0 0
+.FCT
+ I 1 TABLE 0 0 {CORNER} 0 1 1
+.SAM TYPE DYNAMIC {analysis}
+.SUB TF 1 H 0.01 {stepping}
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize(
+    ("analysis", "stepping"),
+    [("", "TOL 1E-6"), ("SCHEME RADAU", "TOL 1E-6"), ("ACCURACY NORMAL", ""), ("ACCURACY FINE", "")],
+)
+def test_impulse(analysis: str, stepping: str, tmp_path: Path) -> None:
+    """What the link's hinge feels of it is m_e = 1/(1/m + a²/J): the work of the drive is half the sum of
+    (J_c + m_e r²) ω². The energies close, and the run ends with the speed it had."""
+    found = run(deck(analysis, stepping), tmp_path)
+    work = 0.5 * (CRANK + RADIUS**2 / (1 / MASS + ARM**2 / INERTIA)) * SPEED**2
+    times = found.t
+    after = int((times <= CORNER).sum())
+    assert found["run/KINETIC_ENERGY"][after - 1] == 0
+    assert found["run/EXTERNAL_WORK"][after] == pytest.approx(work, rel=3e-3)  # the sample is a little later
+    assert abs(found["run/ENERGY_ERROR"]).max() < 1e-4 * work
+    assert found["element/3/SPEED"][-1] == pytest.approx(SPEED, rel=1e-6)
+
+
+def test_said_of_fixed_steps(tmp_path: Path) -> None:
+    """Such steps do not end at the corner, and the torque is what H makes it: one warning for the drive."""
+    text = said(deck("", ""), tmp_path)
+    assert text.count("warning") == 1
+    assert f"the speed of the drive of HINGE 3 jumps by {SPEED:.4g} [rad/time] at t = {CORNER}" in text
+    assert "warning" not in said(deck("", "TOL 1E-4"), tmp_path)
