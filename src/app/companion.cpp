@@ -250,7 +250,9 @@ double Companion::noise_of(const Column& column, const std::vector<Largest>& all
   const Dimension& own = column.dimension;
   const bool is_place = own.mass == 0 && own.time == 0, is_acceleration = own.mass == 0 && own.time == -2;
   double noise = no_range * column.size();
-  if (is_place) noise = std::max(noise, no_size * std::pow(extent_, own.length));
+  // rates that lead no farther in the whole run are no more than such places
+  if (own.mass == 0 && own.time <= 0)
+    noise = std::max(noise, no_size * std::pow(extent_, own.length) * std::pow(duration_, own.time));
   for (const Largest& other : all) {
     if (other.dimension == own) noise = std::max(noise, no_range * other.range);
     // an angular velocity and a velocity, a force and a moment are of one kind but for a lever

@@ -34,6 +34,20 @@ class Times {
   std::string advice(const solve::LinearSolver& solver, int ranks) const;
 
  private:
+  struct Sum {
+    double time = 0;
+    int count = 0;
+  };
+  /// An event of PETSc's log, which counts since the program started, over earlier decks and attempts too.
+  struct Event {
+    const char* name;
+    Sum before{};
+    Sum now() const;
+    Sum since() const;
+  };
+  void leave_out_the_rest();
+
+  Event residuals_{"Residual"}, tangents_{"Tangent"}, factorisations_{"MatLUFactorNum"}, solutions_{"MatSolve"};
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   double output_ = 0;
 };

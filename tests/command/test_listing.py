@@ -132,3 +132,16 @@ def test_condition(ranks, engrane):
     assert (
         "linear_system" not in done.stdout and "condition" not in (engrane.folder / "springs.lst").read_text()
     )
+
+
+def test_times_are_of_one_run(engrane) -> None:
+    """PETSc counts from the start of the program: what earlier decks of the call took is not of this one."""
+    names = [f"{k}.dat" for k in range(8)]
+    for name in names:
+        (engrane.folder / name).write_text(TWO_BODIES)
+    done = engrane(*names)
+    assert done.returncode == 0, done.stderr
+    rows = section((engrane.folder / "7.lst").read_text(), "Effort")
+    shares = [float(row[2]) for row in rows if len(row) == 3 and re.fullmatch(r"[\d.]+", row[2])]
+    assert len(shares) == 6
+    assert sum(shares) == pytest.approx(100, abs=1)

@@ -195,6 +195,32 @@ def test_states_and_ratios_between_steps(setting: str, tmp_path: Path) -> None:
     assert int(re.findall(r"\n  (\d+) steps,", listing)[0]) < {"FAST": 100, "FINE": 1000}[setting]
 
 
+def test_rates_of_what_stands_still_are_not_judged(tmp_path: Path) -> None:
+    """A worm that holds its wheel by friction: all speeds are rounding, with none to compare them with."""
+    text = """.NOE
+ I 1 X 0 0 0
+ I 2 X 0 0.05 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 1 0 0
+ I 2 HINGE N 0 2 AXIS 0 0 1
+ I 3 GEAR N 1 2 KIND WORM STARTS 1 Z 40 MX 0.002 Q 10 AXIS 1 0 0 FRICTION CONST 0.12 STICK
+ I 4 TORQUE N 2 AXIS 0 0 1 V -100
+ I 5 TORQUE N 1 AXIS 1 0 0 V -6 NF 1
+ I 11 INERTIA N 1 M 1 J 1D-3
+ I 12 INERTIA N 2 M 1 J 0.05
+.FCT
+ I 1 TABLE 0 0 0.1 0 0.3 2 1 2
+.SAM TYPE DYNAMIC ACCURACY NORMAL
+.SUB TF 0.13 H 0.005
+.FIN 1
+"""
+    found = run(text, tmp_path)
+    assert abs(found["3/SLIDING_SPEED"]).max() < 1e-20
+    listing = found.file.with_suffix(".lst").read_text()
+    error = re.search(r"estimated error +(\S+), (\S+);", listing)
+    assert float(error[1]) < 1e-9 and "SPEED" not in error[2]
+
+
 def test_a_wheel_that_only_turns_has_no_error_of_its_place(tmp_path: Path) -> None:
     """Its node moves by rounding, and so do all others: there is no length beside it but the model's size."""
     text = TEETH.replace("3 GEAR N 1 2 Z 30 60 MN 0.002 HELIX 0 AXIS 0 0 1 KM 1D6 XI 0.05 WIDTH 0.02", BELT)
