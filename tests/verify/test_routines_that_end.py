@@ -6,30 +6,14 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import h5py
 import pytest
 from ranks import on_ranks
+from user_law import deck
 
 BINARY = os.environ.get("ENGRANE", "")
 
 pytestmark = pytest.mark.skipif(not Path(BINARY).is_file(), reason="the variable ENGRANE names no program")
-
-# A mass at unit speed on a spring; its law ends the program at a place that is reached at t = 0.52, or in
-# the calls before the run.
-DECK = """.NOE
- I 1 X 2 0 0
-.FCT
- I 1 USER "ending" "ending" PARAM {end}
-.MCE
- I 1 SPRING N 0 1 LAW USER 1
- I 2 INERTIA N 1 M 1
-.CLM
- FIX NOEUD 1 C 2 3
-.INI
- VIT NOEUD 1 C 1 V 1
-.SAM TYPE DYNAMIC
-.SUB TF 1 H 0.01
-.FIN 1
-"""
 
 FORTRAN = """      SUBROUTINE ENDING(IVERS, KIND, X, P, NP, Y, ISTAT)
       INTEGER IVERS, KIND, NP, ISTAT
@@ -72,7 +56,7 @@ def compile_routine(folder: Path, suffix: str, end: str) -> None:
 )
 def test_ending_the_program_is_no_success(tmp_path: Path, suffix: str, end: str, ranks: int) -> None:
     compile_routine(tmp_path, suffix, end)
-    (tmp_path / "deck.dat").write_text(DECK.format(end=0.5))
+    (tmp_path / "deck.dat").write_text(deck("ending", "ending", 0.5))
     command = on_ranks(ranks, [BINARY, "deck.dat", "-q"])
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
     assert done.returncode == 139, done.stderr
@@ -81,13 +65,14 @@ def test_ending_the_program_is_no_success(tmp_path: Path, suffix: str, end: str,
     )
     assert "return an error status instead" in done.stderr
     assert "the last words" in done.stdout
-    assert not (tmp_path / "deck.xdmf").exists(), "the run did not come to its end"
+    with h5py.File(tmp_path / "deck.h5") as results:
+        assert results.attrs["status"] == "running"
 
 
 @pytest.mark.parametrize("task", [["check"], []])
 def test_ending_the_program_before_the_run(tmp_path: Path, task: list[str]) -> None:
     compile_routine(tmp_path, ".c", "exit(0);")
-    (tmp_path / "deck.dat").write_text(DECK.format(end=-1))
+    (tmp_path / "deck.dat").write_text(deck("ending", "ending", -1))
     command = [BINARY, *task, "deck.dat"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
     assert done.returncode == 139, done.stderr

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from ranks import on_ranks
 from runs import run
+from user_law import deck
 
 BINARY = os.environ.get("ENGRANE", "")
 LIBRARIES = Path(os.environ.get("ENGRANE_USER_PATH", "."))
@@ -15,23 +16,6 @@ LIBRARIES = Path(os.environ.get("ENGRANE_USER_PATH", "."))
 pytestmark = pytest.mark.skipif(
     not (LIBRARIES / "libwrong_laws.so").is_file(), reason="ENGRANE_USER_PATH has no libwrong_laws.so"
 )
-
-# A mass at unit speed on a spring that is good up to an elongation of 0.5, reached at t = 0.52.
-DECK = """.NOE
- I 1 X 2 0 0
-.FCT
- I 1 USER "wrong_laws" "{routine}" PARAM 0.5
-.MCE
- I 1 SPRING N 0 1 LAW USER 1
- I 2 INERTIA N 1 M 1
-.CLM
- FIX NOEUD 1 C 2 3
-.INI
- VIT NOEUD 1 C 1 V 1
-.SAM TYPE DYNAMIC
-.SUB TF 1 H 0.01
-.FIN 1
-"""
 
 
 @pytest.mark.parametrize("ranks", [1, 2])
@@ -46,7 +30,7 @@ DECK = """.NOE
     ],
 )
 def test_failure_names_the_routine(tmp_path: Path, routine: str, words: str, ranks: int) -> None:
-    (tmp_path / "deck.dat").write_text(DECK.format(routine=routine))
+    (tmp_path / "deck.dat").write_text(deck("wrong_laws", routine, 0.5))
     command = on_ranks(ranks, [BINARY, "deck.dat"])
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.returncode == 2, done.stderr
@@ -56,7 +40,7 @@ def test_failure_names_the_routine(tmp_path: Path, routine: str, words: str, ran
 
 
 def test_crash_names_the_routine(tmp_path: Path) -> None:
-    (tmp_path / "deck.dat").write_text(DECK.format(routine="crashes"))
+    (tmp_path / "deck.dat").write_text(deck("wrong_laws", "crashes", 0.5))
     done = subprocess.run([BINARY, "deck.dat"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.returncode != 0
     assert "the user routine crashes of libwrong_laws.so crashed" in done.stderr

@@ -189,7 +189,7 @@ void check_place(const BuildContext& context, const CamPlan& plan, const CamPart
   constexpr double lash = 0.1;        // a follower that rests on its cam may have play: valves have up to a few per cent
   const FollowerPlace place = find_place(plan, parts, parts.profile->curve().motion()->at(0).f);
   const double gap = place.given - place.agreed;
-  if (std::abs(gap) <= tolerance * plan.base || (parts.law && gap > 0 && gap <= lash * plan.base)) return;
+  if (!(std::abs(gap) > tolerance * plan.base) || (parts.law && gap > 0 && gap <= lash * plan.base)) return;
   Vec3 at = parts.follower;
   const Vec2 shift = place.point - plan.point;
   at += shift[0] * parts.axes.col(0) + shift[1] * parts.axes.col(1);
