@@ -9,7 +9,8 @@ whose friction came and went within the path of contact. Nor have the joints' de
 VREG (hinge, prismatic, cylindrical, screw, spherical): steps failed then, and were cut, where something comes
 to rest. universal_drives ends at half a turn, whose rotation vector has the other sign now. mesh_stiffness
 has backlash, whose corner was rounded then; whether the flanks of gear_pair_elastic touch at the start
-(CONTACT) was decided by 1e-21.
+(CONTACT) was decided by 1e-21. Drives stood still in the last sample where their TABLE ends with the
+run: the file has today's values there, and those of 0.3.0 before it.
 
     decks.py --binary engrane --mpiexec mpiexec --work folder deck.dat
 
