@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -15,13 +14,12 @@
 #include "math/spline.hpp"
 #include "model/function_failure.hpp"
 #include "model/function_integral.hpp"
+#include "model/jump.hpp"
 #include "model/user_function.hpp"
 
 namespace engrane {
 
 namespace {
-
-double number_before(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
 
 class CurveFunction final : public Function {
  public:

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/element_at_rest.hpp"
+#include "model/jump.hpp"
 #include "model/user_function.hpp"
 
 namespace engrane {
@@ -90,13 +91,10 @@ std::vector<double> Model::corners(double from, double to) const {
 }
 
 bool Model::jumps_at(double time) const {
-  constexpr double rounding = 1e-12;
-  const double just_before = std::nextafter(time, -std::numeric_limits<double>::infinity());
+  const double just_before = number_before(time);
   return std::any_of(of_time.begin(), of_time.end(), [&](const Function* function) {
     const Function::Jet before = function->at(just_before), after = function->at(time);
-    const double slope = std::abs(before.d1) + std::abs(after.d1);
-    return std::abs(after.f - before.f) >
-           100 * slope * (time - just_before) + rounding * std::max(std::abs(before.f), std::abs(after.f));
+    return jumps({before.f, before.d1}, {after.f, after.d1}, time - just_before);
   });
 }
 

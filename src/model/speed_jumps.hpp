@@ -10,7 +10,7 @@ namespace engrane {
 /// A drive or a support whose imposed speed jumps, as a displacement by a TABLE does at its corners.
 struct SpeedJump {
   const Model::Part* drive = nullptr;  ///< nullptr: a support
-  int node = 0, component = 0;         ///< of the support, as in Support
+  int node = 0;                        ///< of the support, as in Support
   double change = 0;                   ///< of the speed; [length/time] or [rad/time]
   Dimension dimension;                 ///< of `change`
 };
