@@ -93,8 +93,9 @@ std::string energy_failure(const SolverContext& context, const observe::Observer
   const std::string unit = context.model.units.label(dimension::energy);
   return fmt::format(
       "the energy balance is off by {:.4g} {} at t = {:.6g}, more than {}the {:.4g} {} that were in the machine or passed "
-      "through it: the results went wrong some time before this. Take a smaller step H{}; ENERGY 0 in .SAM lets the run continue",
+      "through it: the results went wrong some time before this. Take a smaller {}{}; ENERGY 0 in .SAM lets the run continue",
       balance.error(), unit, c.time, allowed == 1 ? "" : fmt::format("{:g} of ", allowed), balance.handled(), unit,
+      context.options.tolerance > 0 ? "TOL or HMAX" : "step H",
       context.options.family == SolverOptions::Family::newmark || context.options.damping > 0.99
           ? ", or a scheme with damping (RHO below 1): without it, rounding errors in the constraints grow"
           : "");
@@ -352,7 +353,8 @@ std::string Attempt::looser_before() const {
   if (!task_.resumption || !trial_.complete) return {};
   return fmt::format(
       "the part before t = {:.6g} was solved with a TOL that proved too loose for the rest: its error may be larger than asked "
-      "for. Run it again from the start if that part matters",
+      "for, and the error of the state there, from which the rest starts, is not in the estimate. Run it again from the start if "
+      "that matters",
       task_.resumption->point.time);
 }
 

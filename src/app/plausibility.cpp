@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/pulses.hpp"
 #include "model/solver_options.hpp"
 #include "model/speed_jumps.hpp"
 
@@ -123,7 +124,7 @@ void look_at_gravity(const deck::Deck& deck, const Model& model, double extent, 
   }
 }
 
-/// A corner of a function where its value lies outside those at the ends of the step around it.
+/// A corner of a function, or an instant of a smooth pulse, where its value lies outside those at the ends of the step around it.
 struct Pulse {
   double time = 0, value = 0;
   double before = 0, after = 0;  ///< times of the ends of the step
@@ -137,10 +138,12 @@ bool has_steps_by_error(const Model& model) {
 std::optional<Pulse> missed_pulse(const Function& function, const deck::SteppingCard& stepping) {
   constexpr double small = 0.1;        // of the largest value
   constexpr std::size_t most = 10000;  // corners; more are a measured curve, sampled as it may be
-  const std::vector<double> corners = function.corners(stepping.start, stepping.end, most);
+  std::vector<double> times = function.corners(stepping.start, stepping.end, most);
+  const std::vector<double> pulses = short_pulses(function, stepping.start, stepping.end, stepping.step);
+  times.insert(times.end(), pulses.begin(), pulses.end());
   std::optional<Pulse> found;
   double largest = 0, outside = 0;
-  for (const double t : corners) {
+  for (const double t : times) {
     const double h = stepping.step, k = std::floor((t - stepping.start) / h);
     const Pulse pulse{t, function.at(t).f, stepping.start + k * h, std::min(stepping.start + (k + 1) * h, stepping.end)};
     const double a = function.at(pulse.before).f, b = function.at(pulse.after).f;
@@ -186,7 +189,7 @@ void warn_of_short_pulses(const deck::Deck& deck, const Model& model, Diagnostic
       diagnostics.warning(record.location,
                           fmt::format("function {} is {:.4g} at {:.6g}, and the step from {:.6g} to {:.6g} passes over that",
                                       record.id, pulse->value, pulse->time, pulse->before, pulse->after),
-                          "take a shorter H, or TOL: steps that follow their error end at corners of functions");
+                          "take a shorter H, or TOL: steps that follow their error end at corners and pulses of functions");
   }
 }
 

@@ -50,7 +50,7 @@ class Builder {
       if (record.get<deck::FunctionCard>()) add_function(record);
     for (const ElementRecord& element : elements_) place_node(element);
     for (const deck::Record& record : deck_.records) add_command(record);
-    settle_tolerance();
+    settle_tolerance(deck_, model_.commands, diagnostics_);
     if (has_mesh_) model_.commands.analysis.displacements.tag = deck::has_small_displacements(deck_.records) ? "SMALL" : "LARGE";
     others_are_asked_for_ =
         std::any_of(elements_.begin(), elements_.end(), [](const ElementRecord& e) { return e.type->stage == 1; });
@@ -194,18 +194,6 @@ class Builder {
     if (card.end <= card.start)
       diagnostics_.error(record.where("TF"), fmt::format("the end TF = {} is not after the start TI = {}", card.end, card.start));
     model_.commands.stepping = card;
-  }
-
-  /// Sets TOL if ACCURACY determines it, and removes it where it has no effect.
-  void settle_tolerance() {
-    Commands& commands = model_.commands;
-    const AccuracyRung* rung = accuracy_rung(commands.analysis);
-    if (!commands.stepping.tolerance && rung) commands.stepping.tolerance = rung->tolerance;
-    if (!commands.stepping.tolerance || !commands.analysis.type.is("KINEMATIC")) return;
-    commands.stepping.tolerance.reset();
-    for (const deck::Record& record : deck_.records)
-      if (record.get<deck::SteppingCard>())
-        diagnostics_.warning(record.where("TOL"), "TOL has no effect on a " + commands.analysis.type.tag + " analysis");
   }
 
   /// The function of an NF keyword. nullptr for 0 (constant) and, with an error, for one that does not exist.

@@ -8,6 +8,7 @@
 
 #include "model/element_at_rest.hpp"
 #include "model/jump.hpp"
+#include "model/pulses.hpp"
 #include "model/user_function.hpp"
 
 namespace engrane {
@@ -83,10 +84,14 @@ KnownLengths known_lengths(const Model& model) {
 }  // namespace
 
 std::vector<double> Model::corners(double from, double to) const {
-  constexpr std::size_t most = 100;  // a function with more is a measured curve, not smoother between its corners
+  constexpr double part_of_pulses = 0.1;  // longer ones take several of the longest steps
+  constexpr std::size_t most = 100;       // a function with more is a measured curve, not smoother between its corners
   std::set<double> all;
-  for (const Function* function : of_time)
+  for (const Function* function : of_time) {
     for (const double x : function->corners(from, to, most)) all.insert(x);
+    const std::vector<double> pulses = short_pulses(*function, from, to, part_of_pulses * (to - from));
+    all.insert(pulses.begin(), pulses.end());
+  }
   return {all.begin(), all.end()};
 }
 

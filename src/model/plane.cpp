@@ -13,6 +13,7 @@
 
 #include "math/sparse_qr.hpp"
 #include "model/model.hpp"
+#include "model/pulses.hpp"
 
 namespace engrane {
 
@@ -41,6 +42,7 @@ std::set<double> busiest_times(const Model& model) {
   std::set<double> busiest;
   for (const Function* function : model.of_time) {
     std::vector<double> times = function->corners(begin, end, most_corners);
+    for (const double t : short_pulses(*function, begin, end, end - begin)) times.push_back(t);
     for (int i = 0; i <= samples; ++i) times.push_back(begin + (end - begin) * i / samples);
     std::sort(times.begin(), times.end());
     const std::size_t count = times.size();

@@ -26,6 +26,21 @@ const AccuracyRung* accuracy_rung(const deck::AnalysisCard& analysis) {
   return nullptr;
 }
 
+void settle_tolerance(const deck::Deck& deck, Commands& commands, Diagnostics& diagnostics) {
+  deck::SteppingCard& stepping = commands.stepping;
+  const AccuracyRung* rung = accuracy_rung(commands.analysis);
+  if (!stepping.tolerance && rung) stepping.tolerance = rung->tolerance;
+  const bool idle = stepping.tolerance && commands.analysis.type.is("KINEMATIC");
+  for (const deck::Record& record : deck.records) {
+    if (!record.get<deck::SteppingCard>()) continue;
+    if (stepping.longest && !stepping.tolerance)
+      diagnostics.error(record.where("HMAX"), "HMAX limits steps that TOL or ACCURACY chooses, and neither is given",
+                        "give one of them, or leave HMAX out");
+    if (idle) diagnostics.warning(record.where("TOL"), "TOL has no effect on a " + commands.analysis.type.tag + " analysis");
+  }
+  if (idle) stepping.tolerance.reset();
+}
+
 double event_tolerance_for(double tolerance) { return std::min(share_of_event * tolerance, bluntest_event); }
 
 SolverOptions solver_options(const Model& model) {

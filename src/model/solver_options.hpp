@@ -63,6 +63,9 @@ inline constexpr std::array<AccuracyRung, 4> accuracy_rungs{
 /// Level of a dynamic analysis; nullptr if it requests no accuracy.
 const AccuracyRung* accuracy_rung(const deck::AnalysisCard& analysis);
 
+/// Sets TOL where ACCURACY determines it, removes it where it has no effect, and refuses HMAX without it.
+void settle_tolerance(const deck::Deck& deck, Commands& commands, Diagnostics& diagnostics);
+
 SolverOptions solver_options(const Model& model);
 
 /// Default tolerance for locating events with error-controlled steps, as a fraction of the step: half of TOL, limited from

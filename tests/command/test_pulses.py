@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Steps of a fixed length pass over pulses of functions that are shorter; a warning says so."""
 
+import math
+
+import numpy as np
 import pytest
+from engrane_post import Results
 
 DECK = """.NOE
  I 1 X 1 0 0
@@ -10,27 +14,66 @@ DECK = """.NOE
 .CLM
  CHA NOEUD 1 C 1 V 1 NF 1
 .FCT
- I 1 TABLE {table}
+ I 1 {function}
 .SAM TYPE DYNAMIC {sam}
 .SUB TF 1 H 0.01 {sub}
 .FIN 1
 """
+SMOOTH = "3*exp(-((T-0.3037)/0.0005)**2)"
 PULSE = "0 0 0.302 0 0.303 5 0.304 5 0.305 0"
 
 
 @pytest.mark.parametrize(
-    ("table", "sam", "sub", "said"),
+    ("function", "sam", "sub", "said"),
     [
-        (PULSE, "", "", True),
-        (PULSE.replace("5", "-5").replace("30-5", "305"), "", "", True),
-        (PULSE, "", "TOL 1E-4", False),
-        (PULSE, "ACCURACY FAST", "", False),
-        ("0 0 0.302 0 0.3021 5", "", "", False),  # a jump, which the next steps see
-        ("0 0 0.302 0 0.402 5 0.502 0", "", "", False),
+        (f"TABLE {PULSE}", "", "", True),
+        (f"TABLE {PULSE.replace('5', '-5').replace('30-5', '305')}", "", "", True),
+        (f"TABLE {PULSE}", "", "TOL 1E-4", False),
+        (f"TABLE {PULSE}", "ACCURACY FAST", "", False),
+        ("TABLE 0 0 0.302 0 0.3021 5", "", "", False),  # a jump, which the next steps see
+        ("TABLE 0 0 0.302 0 0.402 5 0.502 0", "", "", False),
+        (f'EXPR "{SMOOTH}"', "", "", True),
+        (f'EXPR "sin(9*T)+{SMOOTH}"', "", "", True),
+        (f'EXPR "{SMOOTH}"', "", "TOL 1E-4", False),
+        ('EXPR "3*sin(700*T)"', "", "", False),
     ],
 )
-def test_short_pulses(engrane, table, sam, sub, said):
-    (engrane.folder / "x.dat").write_text(DECK.format(table=table, sam=sam, sub=sub), encoding="utf-8")
+def test_short_pulses(engrane, function, sam, sub, said):
+    (engrane.folder / "x.dat").write_text(DECK.format(function=function, sam=sam, sub=sub), encoding="utf-8")
     done = engrane("check", "x.dat")
     assert done.returncode == 0, done.stderr
     assert ("the step from 0.3 to 0.31 passes over that" in done.stdout + done.stderr) == said
+
+
+@pytest.mark.parametrize("level", ["FAST", "NORMAL", "FINE"])
+@pytest.mark.parametrize("shape", ["", "0.1*sin(9*T)+"])
+def test_steps_that_follow_their_error_do_not_miss_smooth_pulses(engrane, level, shape):
+    """The run and its companion both stepped over it: no motion, and an error estimated at nothing. The body
+    of mass 1 ends with the impulse as its velocity, the integral of the force."""
+    deck = DECK.format(function=f'EXPR "{shape}{SMOOTH}"', sam=f"ACCURACY {level}", sub="")
+    (engrane.folder / "x.dat").write_text(deck, encoding="utf-8")
+    done = engrane("x.dat", "-q")
+    assert done.returncode == 0, done.stderr
+    impulse = 3 * 0.0005 * math.sqrt(math.pi)
+    if shape:
+        impulse += 0.1 * (1 - math.cos(9)) / 9
+    with Results(engrane.folder / "x.h5") as results:
+        assert results.history("node/1/VX")[1][-1] == pytest.approx(impulse, rel=1e-3)
+
+
+def test_a_longest_step_beside_accuracy(engrane):
+    """HMAX was refused: "there is no TOL", which ACCURACY chooses."""
+    deck = DECK.format(function='EXPR "1"', sam="ACCURACY FAST", sub="HMAX 0.004")
+    (engrane.folder / "x.dat").write_text(deck, encoding="utf-8")
+    assert engrane("x.dat", "-q").returncode == 0
+    with Results(engrane.folder / "x.h5") as results:
+        assert np.max(results.history("run/STEP")[1]) <= 0.004
+
+
+def test_a_smooth_pulse_out_of_the_plane_is_seen(engrane):
+    """PLANE AUTO looks at the times when functions are largest."""
+    deck = DECK.format(function=f'EXPR "{SMOOTH}"', sam="PLANE AUTO", sub="TOL 1E-4")
+    (engrane.folder / "x.dat").write_text(deck.replace("NOEUD 1 C 1", "NOEUD 1 C 3"), encoding="utf-8")
+    assert engrane("x.dat", "-q").returncode == 0
+    with Results(engrane.folder / "x.h5") as results:
+        assert abs(results.history("node/1/UZ")[1][-1]) > 1e-4

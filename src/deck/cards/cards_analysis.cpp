@@ -181,14 +181,11 @@ Schema stepping_card() {
       .synonyms({"TOLERANCE"})
       .positive()
       .below(1);
-  card.add("HMAX", &SteppingCard::longest, "longest step with TOL; a 50th of the time span when not given")
+  card.add("HMAX", &SteppingCard::longest, "longest step with TOL or ACCURACY; a 50th of the time span when not given")
       .unit(dimension::time)
       .positive();
   card.add("TI", &SteppingCard::start, "initial time").unit(dimension::time);
   card.finish([](SteppingCard& stepping, Record& record, Diagnostics& diagnostics) {
-    if (stepping.longest && !stepping.tolerance)
-      diagnostics.error(record.where("HMAX"), "HMAX limits steps that TOL chooses, and there is no TOL",
-                        "give TOL, or leave HMAX out");
     if ((stepping.end - stepping.start) / stepping.step > 1e9)
       diagnostics.error(record.where("H"), "H makes more than 1e9 steps");
     // a thousand times the spacing of numbers at that time: steps are cut and accumulate
