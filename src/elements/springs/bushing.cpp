@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+#include <numbers>
+
 #include "elements/common/held_point.hpp"
 #include "elements/common/rotation_vector.hpp"
 #include "math/matrix6.hpp"
@@ -13,7 +17,7 @@ namespace engrane::elements::springs {
 namespace {
 
 /// Linear in the displacement u of B's point relative to A's and in the rotation vector θ of B relative to A, both in axes
-/// fixed to A.
+/// fixed to A. The history is θ at the end of the last step: where it changes sign, at half a turn, a stiff bush has no forces.
 class Bushing final : public TemplatedElement<Bushing, 2, 12> {
  public:
   Bushing(int id, const HeldPoint& place, const Mat6& stiffness, const Mat6& damping)
@@ -21,14 +25,16 @@ class Bushing final : public TemplatedElement<Bushing, 2, 12> {
     Layout layout;
     layout.nodes.assign(place.nodes.begin(), place.nodes.end());
     layout.needs = {NodeNeed::both, NodeNeed::both};
+    layout.history = 3;
     set_layout(std::move(layout));
   }
 
   template <class T>
-  void evaluate(const Motion<T, 2>& motion, const State&, Balance<T, 2>& balance) const {
+  void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     const Strain<T> strain = this->strain(motion);
+    const T start(passes_half_a_turn(strain, state) ? std::numeric_limits<double>::quiet_NaN() : 0.0);
     const auto load = [&](int row) {
-      T sum(0);
+      T sum = start;
       for (int c = 0; c < 6; ++c) {
         const T &q = c < 3 ? strain.shift.value[c] : strain.turn.theta[c - 3],
                 &rate = c < 3 ? strain.shift.rate[c] : strain.turn_rate[c - 3];
@@ -38,6 +44,13 @@ class Bushing final : public TemplatedElement<Bushing, 2, 12> {
     };
     HeldPoint::resist(strain.shift, Vec3T<T>(load(0), load(1), load(2)), strain.turn.moment(Vec3T<T>(load(3), load(4), load(5))),
                       motion, balance);
+  }
+
+  void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
+    Eigen::Map<Vec3>(history.data()) = strain(motion<double>(state)).turn.theta;
+  }
+  const char* why_not_finite() const override {
+    return "passes half a turn, where its moment would change sign: BUSHING is for smaller rotations, TSPRING counts turns";
   }
 
   Energies energies(const State& state) const override {
@@ -102,6 +115,14 @@ class Bushing final : public TemplatedElement<Bushing, 2, 12> {
     s.turn = RotationVector<T>::of(relative);
     s.turn_rate = s.turn.change(rotate_back(s.shift.axes, s.shift.spin));
     return s;
+  }
+
+  template <class T>
+  bool passes_half_a_turn(const Strain<T>& strain, const State& state) const {
+    const Vec3 before = Eigen::Map<const Vec3>(state.history.data());
+    double moved = 0;
+    for (int c = 0; c < 3; ++c) moved += std::pow(value_of(strain.turn.theta[c]) - before[c], 2);
+    return moved > std::numbers::pi * std::numbers::pi && !stiffness_.rightCols<3>().isZero(0);
   }
 
   std::pair<Vec6, Vec6> coordinates(const State& state) const {
