@@ -8,7 +8,9 @@
 
 namespace engrane::elements {
 
-/// Two nodes along the motion in `state`, to second order in time: positions and orientations.
+/// A node along its motion, to second order in time: position and orientation, not velocities.
+Motion<Taylor, 2>::Node along_motion(const NodeState& state);
+/// The two nodes of a state.
 std::array<Motion<Taylor, 2>::Node, 2> along_motion(const State& state);
 
 }  // namespace engrane::elements

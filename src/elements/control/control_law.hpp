@@ -27,6 +27,15 @@ struct ControlLaw {
 
   explicit ControlLaw(int order);
 
+  /// y, with `x(i)` the states.
+  template <class T, class States>
+  T command(const T& r, const T& m, const States& x) const {
+    T y = d_r * r + d_m * m;
+    for (int i = 0; i < order(); ++i)
+      if (c[i] != 0) y += c[i] * x(i);
+    return y;
+  }
+
   struct Pid {
     double proportional = 0, integral = 0, derivative = 0;
     double filter = 0;          ///< time constant of the derivative

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "deck/cards/cards.hpp"
+#include "elements/common/along_motion.hpp"
 #include "elements/common/building.hpp"
 #include "elements/control/control_law.hpp"
 #include "elements/control/joint_coordinate.hpp"
@@ -56,9 +59,7 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
     const T r = reference<T>(motion.time);
     const T& m = speed_ ? in.rate : in.measured.value;
     const auto x = [&](int i) { return T(motion.scalar_rate[at(i)] + law_.pace[i] * motion.scalar[at(i)]); };
-    T y = law_.d_r * r + law_.d_m * m;
-    for (int i = 0; i < law_.order(); ++i)
-      if (law_.c[i] != 0) y += law_.c[i] * x(i);
+    const T y = law_.command(r, m, x);
     const T limited = limit(y);
     for (int i = 0; i < law_.order(); ++i) {
       T rate = law_.b_r[i] * r + law_.b_m[i] * m;
@@ -92,6 +93,25 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
   void count_turns(const State& state, std::span<double>, std::span<double> history) const override {
     input_.commit(state, history);
     output_.commit(state, history);
+  }
+
+  /// The command reaches a limit, or comes back from it.
+  void switches(const State& state, std::span<Switch> values) const override {
+    if (values.empty()) return;
+    std::array<Motion<Taylor, 2>::Node, 4> nodes;
+    for (std::size_t i = 0; i < state.nodes.size(); ++i) nodes[i] = along_motion(state.nodes[i]);
+    Taylor m = input_.read<Taylor>(nodes, state).measured.value;
+    if (speed_) m = {m.d1, m.d2, 0};
+    const Taylor r = reference<Taylor>({state.time, 1, 0});
+    const auto x = [&](int i) {
+      const double acceleration = state.scalar_accelerations[at(i)];
+      return Taylor(law_state(state, i), acceleration + law_.pace[i] * state.scalar_rates[at(i)], 0);
+    };
+    const Taylor y = law_.command(r, m, x);
+    double size = std::abs(law_.d_r * r.value) + std::abs(law_.d_m * m.value);
+    for (int i = 0; i < law_.order(); ++i) size += std::abs(law_.c[i] * law_state(state, i));
+    values[0] = {output_law_.high - y.value, -y.d1, size + std::abs(output_law_.high)};
+    values[1] = {y.value - output_law_.low, y.d1, size + std::abs(output_law_.low)};
   }
 
   Energies energies(const State& state) const override {
@@ -141,6 +161,10 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
       layout.multipliers = {
           {"EFFORT", out.dimension(), out.is_angle() ? "torque of the drive" : "force of the drive", Role::drive}};
     }
+    if (std::isfinite(output.low))
+      for (const char* limit : {"upper", "lower"})
+        layout.switches.push_back(
+            {fmt::format("command leaves the {} limit", limit), fmt::format("command reaches the {} limit", limit)});
     set_layout(std::move(layout));
     const Dimension measured = input.speed ? in.rate_dimension() : in.dimension();
     channels_ = {{"MEASURED", measured, "what the controller measures"},
@@ -171,9 +195,8 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
   double law_state(const State& state, int i) const { return state.scalar_rates[at(i)] + law_.pace[i] * state.scalars[at(i)]; }
   double command(const State& state) const {
     const auto in = input_.read<double>(state.nodes, state);
-    double y = law_.d_r * reference<double>(state.time) + law_.d_m * (speed_ ? in.rate : in.measured.value);
-    for (int i = 0; i < law_.order(); ++i) y += law_.c[i] * law_state(state, i);
-    return y;
+    return law_.command(reference<double>(state.time), speed_ ? in.rate : in.measured.value,
+                        [&](int i) { return law_state(state, i); });
   }
   double effort(const State& state) const {
     if (output_law_.kind == ControllerOutput::Kind::effort) return limit(command(state));
