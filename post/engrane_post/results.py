@@ -425,10 +425,16 @@ class Results:
         return Frame(float(times[number - 1]), 0.1 * size * u, 0.1 * size * r)
 
     def frame_at(self, time: float) -> Frame:
-        """The frame nearest to a time."""
-        if len(self.frame_times) == 0:
+        """The frame nearest to a time between the first and the last."""
+        times = self.frame_times
+        if len(times) == 0:
             return self.frame(0)
-        return self.frame(int(np.argmin(np.abs(self.frame_times - time))))
+        rounding = 1e-9 * max(abs(times[0]), abs(times[-1]))
+        if not times[0] - rounding <= time <= times[-1] + rounding:
+            raise UserError(
+                f"{self.path} has no frame at t = {time:g}: they are from {times[0]:g} to {times[-1]:g}."
+            )
+        return self.frame(int(np.argmin(np.abs(times - time))))
 
 
 def _component_names(fields: dict[str, list[str]]) -> list[str]:

@@ -82,6 +82,8 @@ def test_frames(two: Path) -> None:
         assert r.frame_at(0.0).time == 0
         with pytest.raises(UserError, match="frames 0 to 8; there is no frame 9"):
             r.frame(9)
+        with pytest.raises(UserError, match="no frame at t = 5: they are from 0 to"):
+            r.frame_at(5)
 
 
 def test_missing(tmp_path: Path) -> None:
