@@ -323,7 +323,7 @@ std::optional<Trial> Attempt::sharper() {
   const bool kept = companion_->serves(tolerance);
   if (kept) companion_->succeed(runner_->steps(), tolerance);
   const SolverOptions next = trial_.settled ? *trial_.settled : with_tolerance(task_.reading.model, trial_.options, tolerance);
-  return Trial{.options = next, .complete = trial_.options, .keeps_companion = kept};
+  return Trial{.options = next, .complete = trial_.options, .keeps_companion = kept, .differences = differences_};
 }
 
 double Attempt::sharper_tolerance() {
@@ -331,8 +331,13 @@ double Attempt::sharper_tolerance() {
   const SolverOptions& wanted = trial_.options;
   double tolerance = 0;
   if (rank_ == 0) {
-    const ErrorEstimate estimate = companion_->estimate(runner_->steps());
-    if (trial_.may_repeat && estimate.trouble.empty() && estimate.error > wanted.target) {
+    ErrorEstimate estimate = companion_->estimate(runner_->steps());
+    if (estimate.trouble.empty()) {
+      estimate.follow(trial_.differences);
+      differences_ = trial_.differences;
+      differences_.push_back(estimate.difference());
+    }
+    if (trial_.may_repeat && estimate.trouble.empty() && estimate.falls && estimate.error > wanted.target) {
       tolerance = std::max(estimate.tolerance_for(wanted.target), most_at_once * wanted.tolerance);
       // what was looser than the setting's own TOL goes on to that
       if (const AccuracyRung* rung = accuracy_rung(task_.reading.model.commands.analysis))

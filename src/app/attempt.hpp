@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/companion.hpp"
 #include "app/instants.hpp"
@@ -71,6 +72,7 @@ class Attempt {
 
   const Task& task_;
   const Trial& trial_;
+  std::vector<double> differences_;  ///< Trial::differences, and that of this run; on rank 0
   std::optional<Companion>& companion_;
   int rank_ = 0, ranks_ = 1;
   Times times_;

@@ -77,6 +77,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   observe::Observer observer(context.assembler, moves(model), select_compared(model));
   observer.keep_ends();
   choose_columns(observer, model);
+  judges_run_ = std::any_of(columns_.begin(), columns_.end(), [](const Column& column) { return column.owner == "run"; });
   const Schedule shown(model.commands.stepping, model.commands.archive);
   const std::size_t expected = shown.expected_samples(), most = std::min(most_instants, most_values / (columns_.size() + 1));
   start_ = options.begin;
@@ -115,7 +116,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   const solve::Observer seen = [&](const Configuration& c, const StepReport& step) {
     std::optional<Instants> instants;
     if (step.number > 0) instants.emplace(schedule, observer, in_space, last, c, step);
-    if (instants) instants->observe_inside();
+    if (instants) instants->observe_inside(judges_run_);
     observer.observe(in_space(c), {step.step, 0, step.events.size(), step.corner}, true, false);
     if (instants) instants->show([&](double time, const Schedule::Due&) { take(time); });
     if (schedule.even(c.time)) take(c.time);
@@ -149,22 +150,27 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
   const deck::ArchiveCard& archive = model.commands.archive;
   const bool selected = !archive.elements.empty() || !archive.kinds.empty() || !archive.nodes.empty() ||
                         !archive.groups.empty() || !archive.channels.empty();
-  std::set<int> asked;
+  std::set<int> asked, asked_of_run;
   if (!selected)
     for (const deck::CheckCard& check : model.commands.checks)
-      if (check.element || check.node) asked.insert(checked_channel(observer, check));
+      (check.element || check.node ? asked : asked_of_run).insert(checked_channel(observer, check));
+  const auto choose = [this](int at, const std::string& owner, const Channel& channel) {
+    if (channel.course == Channel::Course::smooth || channel.course == Channel::Course::size)
+      columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at), owner, channel.name, channel.dimension, 0,
+                          std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+  };
   int at = 0;
   for (const observe::Table& table : observer.tables())
     for (const int id : table.ids)
       for (const Channel& channel : table.channels) {
-        if ((channel.course == Channel::Course::smooth || channel.course == Channel::Course::size) &&
-            (asked.empty() || asked.count(at) > 0))
-          columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at),
-                              table.path.substr(0, table.path.find('/') + 1) + std::to_string(id), channel.name,
-                              channel.dimension, 0, std::numeric_limits<double>::infinity(),
-                              -std::numeric_limits<double>::infinity()});
+        if (asked.empty() || asked.count(at) > 0)
+          choose(at, table.path.substr(0, table.path.find('/') + 1) + std::to_string(id), channel);
         ++at;
       }
+  for (const Channel& channel : observer.run_channels()) {
+    if (asked_of_run.count(at) > 0 && channel.name != "ENERGY_ERROR") choose(at, "run", channel);  // that is an error itself
+    ++at;
+  }
   placed_ = asked.empty();  // else the run has more histories than this one
 }
 
@@ -198,6 +204,7 @@ void Companion::compare(double time, const observe::Observer& observer) {
   if (!std::exchange(placed_, true))
     for (Column& column : columns_) column.at = static_cast<std::size_t>(observer.channel(column.owner, column.channel));
   const std::vector<double>& values = observer.values();
+  handled_ = observer.energies().handled();
   ++compared_;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     Column& column = columns_[c];
@@ -250,6 +257,8 @@ double Companion::noise_of(const Column& column, const std::vector<Largest>& all
   const Dimension& own = column.dimension;
   const bool is_place = own.mass == 0 && own.time == 0, is_acceleration = own.mass == 0 && own.time == -2;
   double noise = no_range * column.size();
+  // work that loads and drives do on one another, and nothing else
+  if (column.owner == "run" && own == dimension::energy) noise = std::max(noise, no_range * handled_);
   // rates that lead no farther in the whole run are no more than such places
   if (own.mass == 0 && own.time <= 0)
     noise = std::max(noise, no_size * std::pow(extent_, own.length) * std::pow(duration_, own.time));
@@ -283,6 +292,7 @@ ErrorEstimate Companion::estimate(long steps) const {
     const double error = share * std::sqrt(column.squares / static_cast<double>(compared_)) / column.range();
     if (error >= found.error) {
       found.error = error;
+      found.share = share;
       found.channel = column.owner + "/" + column.channel;
     }
   }

@@ -47,7 +47,8 @@ class Companion {
   bool follows_tolerance() const { return follows_tolerance_; }
 
  private:
-  /// Those that are smooth: a state that changes at another instant, or a ratio without bound, says nothing of the run.
+  /// Those that are smooth: a state that changes at another instant, or a ratio without bound, says nothing of the run. Of the
+  /// channels of the whole model only those that `.CHK` names: work may be a small difference of what comes and goes.
   void choose_columns(const observe::Observer& observer, const Model& model);
   void record(double time, const std::vector<double>& values);
   /// Place of an instant among those kept; empty for the others.
@@ -76,6 +77,8 @@ class Companion {
   double noise_of(const Column& column, const std::vector<Largest>& all) const;
   std::vector<Column> columns_;
   bool placed_ = true;        ///< Column::at is known
+  bool judges_run_ = false;   ///< a channel of the whole model is compared
+  double handled_ = 0;        ///< energy that has passed through the model of the run itself
   double extent_, duration_;  ///< of the model, and of the run
   double start_, interval_;
   std::size_t rows_ = 0, compared_ = 0;

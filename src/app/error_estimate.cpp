@@ -8,6 +8,15 @@
 
 namespace engrane::app {
 
+void ErrorEstimate::follow(const std::vector<double>& differences) {
+  constexpr std::size_t enough = 2;
+  constexpr double falling = 0.5;
+  if (differences.size() < enough || difference() < falling * differences.front()) return;
+  falls = false;
+  error = difference();
+  share = 1;
+}
+
 double ErrorEstimate::error_at(double other) const { return error * std::pow(other / tolerance, order); }
 
 double ErrorEstimate::seconds_at(double other) const {
@@ -23,17 +32,36 @@ double ErrorEstimate::tolerance_of(const AccuracyRung& rung) const {
   return error_at(rung.tolerance) <= rung.target ? rung.tolerance : std::min(rung.tolerance, tolerance_for(rung.target));
 }
 
+std::string ErrorEstimate::warning(double target, const std::string& sharper_failed) const {
+  if (!trouble.empty()) return "the error is not estimated: " + trouble;
+  if (error <= target) return {};
+  if (!falls)
+    return fmt::format(
+        "runs with TOL {:.1g} and {:.1g} differ by {:.2g} of the range of {}, hardly less than with the TOL before: a smaller "
+        "one "
+        "will not make this motion certain. That is so where it is chaotic, or after many impacts; means over time may be right "
+        "all the same",
+        companion_tolerance, tolerance, error, channel);
+  return fmt::format("the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: {}", error, channel,
+                     target,
+                     sharper_failed.empty() ? fmt::format("take TOL {:.1g} in .SUB", tolerance_for(target)) : sharper_failed);
+}
+
 std::string ErrorEstimate::describe(double target) const {
   std::string text =
       fmt::format("  asked for          {:g} of the range of each channel, root of the mean square over time\n", target);
   if (!trouble.empty()) return text + "  estimated error    none: " + trouble + "\n";
-  text += fmt::format("  estimated error    {:.2g}, {}; by a second run with TOL {:.2g}, where this one has {:.2g}\n", error,
-                      channel, companion_tolerance, tolerance);
-  if (since) text += fmt::format("  estimated from     t = {:.6g} on, where the run was continued\n", *since);
+  text += fmt::format("  estimated error    {:.2g}, {}; by a second run with TOL {:.2g}, where this one has {:.2g}{}\n", error,
+                      channel, companion_tolerance, tolerance, falls ? "" : "; it does not fall with TOL");
+  if (since)
+    text += fmt::format(
+        "  estimated from     t = {:.6g} on, where the run was continued; the error of the state there, from which it "
+        "starts, is not included\n",
+        *since);
   text +=
       fmt::format("  processor time     {:.2g} s, and {:.2g} s for the estimate\n", seconds, companion_seconds + earlier_seconds);
   for (const AccuracyRung& rung : accuracy_rungs)
-    if (rung.target != target)
+    if (falls && rung.target != target)
       text += fmt::format("  ACCURACY {:<10}error about {:.1g}, about {:.2g} s\n", rung.name, error_at(tolerance_of(rung)),
                           seconds_at(tolerance_of(rung)));
   return text;

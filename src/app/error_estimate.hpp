@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/solver_options.hpp"
 
@@ -12,6 +13,8 @@ namespace engrane::app {
 struct ErrorEstimate {
   double error = 0;     ///< the largest of all channels asked for: root of the mean square over time, over the channel's range
   std::string channel;  ///< that has it
+  double share = 1;     ///< of the difference between the run and its companion, which is taken as the error
+  bool falls = true;    ///< smaller TOL make the difference smaller; else all of it is the error
   double tolerance = 0, companion_tolerance = 0;  ///< TOL of the run and of its companion
   double seconds = 0, companion_seconds = 0;
   double earlier_seconds = 0;   ///< of runs before the companion
@@ -21,6 +24,10 @@ struct ErrorEstimate {
   std::optional<double> since;  ///< where both runs went on from an earlier one, of which the estimate knows nothing
   std::string trouble;          ///< why there is no estimate
 
+  /// What the two runs differ by, as `error`.
+  double difference() const { return error / share; }
+  /// Compares with the differences of earlier pairs of runs with larger TOL, the first one first: sets `falls`.
+  void follow(const std::vector<double>& differences);
   /// Error and processor time that another tolerance is expected to have.
   double error_at(double other) const;
   double seconds_at(double other) const;
@@ -28,6 +35,9 @@ struct ErrorEstimate {
   double tolerance_for(double target) const;
   /// The one that another setting would end with: runs that miss its target are made again (Attempt::sharper()).
   double tolerance_of(const AccuracyRung& rung) const;
+  /// Where there is no estimate, or it is more than the `target`; empty otherwise. `sharper_failed`: why the run was not made
+  /// again with a smaller tolerance; empty if that may help.
+  std::string warning(double target, const std::string& sharper_failed) const;
   /// For the listing, beside the `target` that was asked for.
   std::string describe(double target) const;
 };

@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/instants.hpp"
 
-#include <array>
 #include <utility>
 
 namespace engrane::app {
-
-namespace {
-
-/// Inner points of Lobatto quadrature, as fractions of the step. The error of the second derivatives of the motion is h⁴ times
-/// its sixth derivative in general, but not at these points.
-constexpr std::array points{0.2763932022500210, 0.7236067977499790};
-
-}  // namespace
 
 Instants::Instants(Schedule& schedule, observe::Observer& observer, InSpace in_space, double from, const Configuration& end,
                    const solve::StepReport& step)
@@ -22,17 +13,22 @@ Instants::Instants(Schedule& schedule, observe::Observer& observer, InSpace in_s
       end_(end),
       step_(step),
       times_(schedule.between(from, end.time)) {
-  if (step.within && !times_.empty()) within_ = step.within();
+  if (step.within && (!times_.empty() || observer.moves())) within_ = step.within();
 }
 
-void Instants::observe_inside() {
-  if (!within_) return;
+void Instants::observe_inside(bool work) {
+  // an event, as a friction that gives way, may have changed the accelerations at the end of the step
+  if (!within_ || (times_.empty() && (!work || !step_.events.empty()))) return;
   const double begin = within_->from().time;
-  for (const double part : points) {
+  // in general the error of the second derivatives of the motion is h⁴ times its sixth derivative, but not at these points
+  for (const double part : observe::lobatto_points) {
     const double time = begin + part * (end_.time - begin);
     within_->at(time, c_);
     if (!within_->balance(c_)) return;
-    observer_.observe_inside(in_space_(c_));
+    if (times_.empty())
+      observer_.integrate_inside(in_space_(c_));
+    else
+      observer_.observe_inside(in_space_(c_));
   }
 }
 

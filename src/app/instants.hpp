@@ -21,8 +21,9 @@ class Instants {
   Instants(Schedule& schedule, observe::Observer& observer, InSpace in_space, double from, const Configuration& end,
            const solve::StepReport& step);
 
-  /// Observes two instants in equilibrium, if the step contains output instants.
-  void observe_inside();
+  /// Observes two instants in equilibrium. In a step without output instants only their power counts: nothing is done there
+  /// without `work`.
+  void observe_inside(bool work = true);
   /// Calls `take` for every output instant within the step: the observer then has its histories, and its fields if a frame is
   /// due. Returns what is due at the end of the step; a restart point due within the step is moved to its end.
   Schedule::Due show(const std::function<void(double, const Schedule::Due&)>& take);

@@ -149,7 +149,7 @@ std::optional<Pulse> missed_pulse(const Function& function, const deck::Stepping
     const double a = function.at(pulse.before).f, b = function.at(pulse.after).f;
     largest = std::max({largest, std::abs(pulse.value), std::abs(a), std::abs(b)});
     const double beyond = std::max(pulse.value - std::max(a, b), std::min(a, b) - pulse.value);
-    if (beyond <= outside) continue;
+    if (!std::isfinite(a + b) || beyond <= outside) continue;
     outside = beyond;
     found = pulse;
   }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/snapshot.hpp"
 #include "model/model.hpp"
@@ -18,6 +19,7 @@ struct Trial {
   std::string sharper_failed = {};             ///< how a run with a sharper tolerance than this one failed
   std::optional<SolverOptions> settled = {};   ///< with the ACCURACY setting's own TOL, if `options` start with a looser one
   bool keeps_companion = false;                ///< reuse the companion of the previous run
+  std::vector<double> differences = {};        ///< of earlier runs from their companions (ErrorEstimate::difference())
 };
 
 /// Outcome of a run: its exit status, or what to try instead.

@@ -196,13 +196,10 @@ void Writer::show(double time, bool regular, const Schedule::Due& due) {
 void Writer::accuracy(const ErrorEstimate& estimate, double target, const std::string& sharper_failed) {
   accuracy_ = estimate.describe(target);
   summary_.accuracy = estimate;
-  if (!estimate.trouble.empty())
-    warn("the error is not estimated: " + estimate.trouble);
-  else if (estimate.error > target)
-    warn(fmt::format(
-        "the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: {}", estimate.error,
-        estimate.channel, target,
-        sharper_failed.empty() ? fmt::format("take TOL {:.1g} in .SUB", estimate.tolerance_for(target)) : sharper_failed));
+  const std::string warning = estimate.warning(target, sharper_failed);
+  if (warning.empty()) return;
+  warn(warning);
+  summary_.diagnostics.push_back({.severity = Severity::warning, .location = {}, .message = warning, .hint = {}});
 }
 
 int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit& times) {

@@ -21,6 +21,15 @@ constexpr std::size_t points_of_powers = 4;
 constexpr double longest_beside = 100;
 /// Where load time stands still along an equilibrium path, it is assumed to advance by this fraction of the step length.
 constexpr double stand_still = 1e-9;
+/// Integrals from the beginning of a step to the second, third and fourth of the points of Lobatto quadrature, of the cubic
+/// through four values of a function: to the end of the step they are exact for degree five (the coefficients of Lobatto IIIA of
+/// order 6: Hairer and Wanner, Solving Ordinary Differential Equations II, table IV.5.8).
+constexpr double sqrt5 = 2.2360679774997896964;
+constexpr std::array<std::array<double, 4>, 3> lobatto{{
+    {(11 + sqrt5) / 120, (25 - sqrt5) / 120, (25 - 13 * sqrt5) / 120, (sqrt5 - 1) / 120},
+    {(11 - sqrt5) / 120, (25 + 13 * sqrt5) / 120, (25 + sqrt5) / 120, (-1 - sqrt5) / 120},
+    {1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12},
+}};
 
 /// Sum of the energies of this rank's elements.
 Energies own_energies(Assembler& assembler, const Configuration& c) {
@@ -124,12 +133,16 @@ void StaticWork::add(const std::vector<double>& with_first, const std::vector<do
 EnergyLedger::EnergyLedger(Assembler& assembler, Reactions& supports, bool moves)
     : assembler_(assembler), supports_(supports), moves_(moves), powers_(points_of_powers, longest_beside) {}
 
+EnergyLedger::Moment EnergyLedger::moment_at(const Configuration& c, const std::vector<Reaction>& reactions) {
+  Moment moment{c.time, total_energies(assembler_, c)};
+  for (const Reaction& reaction : reactions)
+    moment.energies.external += reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]);
+  return moment;
+}
+
 void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reactions, bool impulse) {
-  Energies sum = total_energies(assembler_, c);
-  for (const Reaction& reaction : reactions) sum.external += reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]);
-  const double kinetic_before = std::exchange(balance_.kinetic, sum.kinetic);
-  balance_.potential = sum.potential;
-  balance_.strain = sum.strain;
+  const Moment moment = moment_at(c, reactions);
+  const Energies& sum = moment.energies;
   if (!started_) {
     balance_.initial = sum.kinetic + sum.potential;
     initial_potential_ = sum.potential;
@@ -140,36 +153,101 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
     if (const double lost = work.lost(sum.potential - last_potential_); lost > balance_.jump.lost)
       balance_.jump = {last_time_, c.time, lost};
   } else if (impulse) {
-    const double work = balance_.kinetic - kinetic_before;
+    end_steps_inside();
+    const double work = sum.kinetic - balance_.kinetic;
     balance_.external_work += work;
     balance_.passed += std::abs(work);
+  } else if (inside_.size() == lobatto_points.size()) {
+    integrate_over_inside(moment);
   } else {
-    const double step = c.time - last_time_, half = 0.5 * step;
-    // do not interpolate across an event: a force that jumps has no slope there
-    const bool continues = !powers_.empty();
-    if (smooth_) powers_.add(c.time, std::array{sum.external, sum.dissipated});
-    if (continues) {  // two-point Gauss quadrature, exact for cubics
-      for (const double side : {-1.0, 1.0}) {
-        std::array<double, 2> power{};
-        powers_.at(last_time_ + half * (1 + side / std::numbers::sqrt3), step, power);
-        balance_.external_work += half * power[0];
-        balance_.dissipated += half * power[1];
-      }
-    } else {
-      balance_.external_work += half * (external_power_ + sum.external);
-      balance_.dissipated += half * (dissipated_power_ + sum.dissipated);
-    }
-    balance_.passed +=
-        half * (std::abs(external_power_) + std::abs(sum.external) + std::abs(dissipated_power_) + std::abs(sum.dissipated));
+    end_steps_inside();
+    integrate_to(moment);
   }
   started_ = true;
+  arrive(moment);
+  if (!moves_) before_ = PackedConfiguration(c);
+}
+
+void EnergyLedger::add_inside(const Configuration& c, const std::vector<Reaction>& reactions) {
+  if (!moves_) {
+    add(c, reactions);
+    balances_inside_.push_back(balance_);
+    return;
+  }
+  inside_.push_back(moment_at(c, reactions));
+}
+
+std::vector<EnergyBalance> EnergyLedger::take_inside() { return std::exchange(balances_inside_, {}); }
+
+void EnergyLedger::forget() {
+  end_steps_inside();
+  powers_.clear();
+}
+
+void EnergyLedger::integrate_to(const Moment& moment) {
+  const Energies& sum = moment.energies;
+  const double step = moment.time - last_time_, half = 0.5 * step;
+  // do not interpolate across an event: a force that jumps has no slope there
+  const bool continues = !powers_.empty();
+  if (smooth_) powers_.add(moment.time, std::array{sum.external, sum.dissipated});
+  if (continues) {  // two-point Gauss quadrature, exact for cubics
+    for (const double side : {-1.0, 1.0}) {
+      std::array<double, 2> power{};
+      powers_.at(last_time_ + half * (1 + side / std::numbers::sqrt3), step, power);
+      balance_.external_work += half * power[0];
+      balance_.dissipated += half * power[1];
+    }
+  } else {
+    balance_.external_work += half * (external_power_ + sum.external);
+    balance_.dissipated += half * (dissipated_power_ + sum.dissipated);
+  }
+  balance_.passed +=
+      half * (std::abs(external_power_) + std::abs(sum.external) + std::abs(dissipated_power_) + std::abs(sum.dissipated));
+}
+
+void EnergyLedger::integrate_over_inside(const Moment& end) {
+  const EnergyBalance begin = balance_;
+  const double step = end.time - last_time_;
+  const std::array<Energies, 4> powers{Energies{.dissipated = dissipated_power_, .external = external_power_},
+                                       inside_[0].energies, inside_[1].energies, end.energies};
+  for (std::size_t i = 0; i < lobatto.size(); ++i) {
+    balance_.external_work = begin.external_work;
+    balance_.dissipated = begin.dissipated;
+    for (std::size_t p = 0; p < powers.size(); ++p) {
+      balance_.external_work += step * lobatto[i][p] * powers[p].external;
+      balance_.dissipated += step * lobatto[i][p] * powers[p].dissipated;
+    }
+    const Moment& moment = i < inside_.size() ? inside_[i] : end;
+    if (smooth_) powers_.add(moment.time, std::array{moment.energies.external, moment.energies.dissipated});
+    if (i == inside_.size()) break;
+    arrive(moment);
+    balances_inside_.push_back(balance_);
+  }
+  for (std::size_t p = 0; p < powers.size(); ++p)
+    balance_.passed += step * lobatto.back()[p] * (std::abs(powers[p].external) + std::abs(powers[p].dissipated));
+  inside_.clear();
+}
+
+void EnergyLedger::end_steps_inside() {
+  for (const Moment& moment : inside_) {
+    integrate_to(moment);
+    arrive(moment);
+    balances_inside_.push_back(balance_);
+  }
+  inside_.clear();
+}
+
+void EnergyLedger::arrive(const Moment& moment) {
+  const Energies& sum = moment.energies;
+  balance_.kinetic = sum.kinetic;
+  balance_.potential = sum.potential;
+  balance_.strain = sum.strain;
   balance_.exchanged = std::max(balance_.exchanged, std::abs(sum.potential - initial_potential_));
   balance_.largest_error = std::max(balance_.largest_error, std::abs(balance_.error()));
   external_power_ = sum.external;
   dissipated_power_ = sum.dissipated;
   last_potential_ = sum.potential;
-  last_time_ = c.time;
-  if (!moves_) before_ = PackedConfiguration(c);
+  last_time_ = moment.time;
 }
 
 void EnergyLedger::begin_anew() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -59,8 +60,12 @@ struct StaticWork {
 };
 StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to);
 
+/// Inner points of Lobatto quadrature with four points, (1 ∓ 1/√5)/2, as fractions of the step.
+inline constexpr std::array lobatto_points{0.2763932022500210, 0.7236067977499790};
+
 /// Keeps the energy balance from step to step. The work during motion is the integral of the power: by the trapezoidal rule,
-/// or, with error-controlled and therefore possibly long steps, by a polynomial through the last few values of the power.
+/// or, with error-controlled and therefore possibly long steps, by Lobatto quadrature where the power inside the step is known,
+/// and by a polynomial through the last few values of the power elsewhere.
 class EnergyLedger {
  public:
   /// `moves`: the analysis has velocities; otherwise the work is computed between equilibria.
@@ -69,9 +74,15 @@ class EnergyLedger {
   /// Adds the next accepted configuration; the first one is the start. `impulse`: speeds of drives have jumped since the last
   /// one; the change of the kinetic energy is their work, as joints do none. Collective.
   void add(const Configuration& c, const std::vector<Reaction>& reactions, bool impulse = false);
+  /// Takes a configuration inside the step whose end is added next, at the first of the lobatto_points and then at the second.
+  /// The work there is known when that end has been added. Collective.
+  void add_inside(const Configuration& c, const std::vector<Reaction>& reactions);
+  /// The balances at the points inside the step that was added last, once.
+  std::vector<EnergyBalance> take_inside();
   void integrate_smoothly() { smooth_ = true; }
-  /// Discards the previous powers, as after an event: the power may jump.
-  void forget() { powers_.clear(); }
+  /// Discards the previous powers, as after an event: the power may jump. In the step that is added next, it may do so behind
+  /// the points inside.
+  void forget();
   /// Continues from the power of the last configuration, but not with its slope, as after a corner of a function of time.
   void begin_anew();
   const EnergyBalance& balance() const { return balance_; }
@@ -81,6 +92,20 @@ class EnergyLedger {
   void load(const Snapshot& snapshot);
 
  private:
+  struct Moment {
+    double time = 0;
+    Energies energies;
+  };
+  Moment moment_at(const Configuration& c, const std::vector<Reaction>& reactions);
+  /// Integrates the powers from the last moment on, by the polynomial or the trapezoidal rule.
+  void integrate_to(const Moment& moment);
+  /// Integrates the powers over the whole step with the points inside.
+  void integrate_over_inside(const Moment& end);
+  /// Makes the points inside ends of steps of their own.
+  void end_steps_inside();
+  /// The work is up to date: makes this the last moment.
+  void arrive(const Moment& moment);
+
   Assembler& assembler_;
   Reactions& supports_;
   bool moves_;
@@ -90,6 +115,8 @@ class EnergyLedger {
   double external_power_ = 0, dissipated_power_ = 0, last_time_ = 0;
   bool smooth_ = false;
   Extrapolation powers_;        ///< external and dissipated power
+  std::vector<Moment> inside_;  ///< of the step whose end is added next
+  std::vector<EnergyBalance> balances_inside_;
   PackedConfiguration before_;  ///< statics: the last equilibrium
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "math/rotation.hpp"
 
@@ -62,6 +63,7 @@ Histories::Histories(Assembler& assembler, const Reactions& reactions, bool move
   add_nodes(selection);
   for (const Table& table : tables_) columns_ += table.columns();
   values_.assign(assembler.rank() == 0 ? columns_ : 0, 0.0);
+  find_known();
   plan_gathering();
 }
 
@@ -114,6 +116,40 @@ void Histories::add_nodes(const Selection& selection) {
     table.path = ++number == 1 ? "node/NODE" : fmt::format("node/NODE_{}", number);
     tables_.push_back(std::move(table));
   }
+}
+
+void Histories::find_known() {
+  std::size_t column = 0;
+  for (std::size_t t = 0; t < part_tables_; ++t)
+    for (const int part : tables_[t].owners) {
+      const Element& element = *assembler_.model().parts[static_cast<std::size_t>(part)].element;
+      const auto* known = dynamic_cast<const DeterminedChannels*>(&element);
+      const std::vector<DeterminedChannels::Determined> all = known ? known->determined() : decltype(known->determined())();
+      for (const int place : tables_[t].places) {
+        for (const auto& d : all)
+          if (d.channel == place)
+            known_.push_back({column, part, d, known,
+                              d.source < 0 ? dimension::none : element.channels()[static_cast<std::size_t>(d.source)].dimension});
+        ++column;
+      }
+    }
+  sources_.assign(known_.size(), 0.0);
+}
+
+const std::vector<double>& Histories::sources(const Configuration& c) {
+  int seen = -1;
+  for (std::size_t i = 0; i < known_.size() && assembler_.rank() == 0; ++i) {
+    const auto [channel, source] = known_[i].determined;
+    if (source < 0) continue;
+    const int part = known_[i].part;
+    if (std::exchange(seen, part) != part) {
+      const Element& element = *assembler_.model().parts[static_cast<std::size_t>(part)].element;
+      element_.resize(element.channels().size());
+      element.observe(assembler_.view(part, c), element_);
+    }
+    sources_[i] = element_[static_cast<std::size_t>(source)];
+  }
+  return sources_;
 }
 
 void Histories::plan_gathering() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assembly/assembler.hpp"
+#include "model/determined_channels.hpp"
 #include "observe/reactions.hpp"
 
 namespace engrane::observe {
@@ -58,12 +59,27 @@ class Histories {
   /// Updates only the columns of nodes, from node_columns() on, with zero reactions. Returns all columns, on rank 0.
   const std::vector<double>& evaluate_nodes(const Configuration& c);
   std::size_t node_columns() const { return destination_.size(); }
+  /// A column whose values are known between two instants (DeterminedChannels).
+  struct Known {
+    std::size_t column;
+    int part;
+    DeterminedChannels::Determined determined;
+    const DeterminedChannels* element;
+    Dimension of_source;  ///< dimension of the source channel, if it has one
+
+    double at(double time, double source) const { return element->determine(determined.channel, time, source); }
+  };
+  const std::vector<Known>& known() const { return known_; }
+  /// Values of the source channels of known(), on rank 0, which holds the whole configuration; 0 where there is none. They need
+  /// not be among those that are kept: a selection does not change results.
+  const std::vector<double>& sources(const Configuration& c);
   /// Number of tables of elements.
   std::size_t part_tables() const { return part_tables_; }
 
  private:
   void add_parts(const Selection& selection);
   void add_nodes(const Selection& selection);
+  void find_known();
   void plan_gathering();
   void put_nodes(const Configuration& c, const std::vector<Reaction>& reactions);
 
@@ -78,6 +94,8 @@ class Histories {
   std::vector<int> counts_, displacements_;  ///< rank 0: columns received from each rank
   std::vector<std::size_t> destination_;     ///< rank 0: column of each gathered value
   std::vector<double> gathered_;
+  std::vector<Known> known_;
+  std::vector<double> sources_;
 };
 
 }  // namespace engrane::observe

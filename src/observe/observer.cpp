@@ -110,21 +110,18 @@ int Observer::channel(const std::string& owner, const std::string& name) const {
 void Observer::observe(const Configuration& c, const Step& step, bool histories, bool fields) {
   last_reactions_ = supports_.at(c);
   // nothing continues across an event; if it was a drift, the interpolation points of the next step begin at its end
-  const bool begins = step.events > 0 && !inside_;
-  if (step.events > 0) {
-    if (inside_)
-      event_ = true;
-    else
-      ends_.clear();
-    ledger_.forget();
-  }
+  const bool inside = !inside_.empty(), begins = step.events > 0 && !inside;
+  if (step.events > 0) ledger_.forget();
   ledger_.add(c, last_reactions_, step.impulse);
+  keep_inside();
+  if (begins) ends_.clear();
+  if (step.events > 0 && inside) event_ = true;
   events_ += static_cast<double>(step.events);
   if (fields) find_fields(c);
   if (histories || keeps_ends_) evaluate_histories(c, step);
   if (!keeps_ends_) return;
   keep(c.time);
-  if (!std::exchange(inside_, false) && !begins) steady_ = 0;
+  if (!inside && !begins) steady_ = 0;
   if (!step.corner) return;
   event_ = true;
   ledger_.begin_anew();
@@ -132,10 +129,20 @@ void Observer::observe(const Configuration& c, const Step& step, bool histories,
 
 void Observer::observe_inside(const Configuration& c) {
   last_reactions_ = supports_.at(c);
-  ledger_.add(c, last_reactions_);
+  ledger_.add_inside(c, last_reactions_);
   evaluate_histories(c, {});
-  inside_ = true;
-  keep(c.time);
+  inside_.push_back({c.time, values_, sources_});
+}
+
+void Observer::keep_inside() {
+  const std::vector<EnergyBalance> balances = ledger_.take_inside();
+  for (std::size_t i = 0; i < inside_.size(); ++i) {
+    values_.swap(inside_[i].values);
+    sources_.swap(inside_[i].sources);
+    if (assembler_.rank() == 0) put_energies(balances[i]);
+    keep(inside_[i].time);
+  }
+  inside_.clear();
 }
 
 void Observer::keep(double time) {
@@ -152,24 +159,20 @@ void Observer::keep(double time) {
   MPI_Bcast(&jump, 1, MPI_INT, 0, assembler_.comm());  // only rank 0 has the values
   steady_ = jump != 0 ? 0 : steady_ + 1;
   end_ = values_;
+  end_.insert(end_.end(), sources_.begin(), sources_.end());
   end_time_ = time;
   ends_.add(time, end_);
 }
 
 void Observer::evaluate_histories(const Configuration& c, const Step& step) {
+  if (keeps_ends_) sources_ = histories_.sources(c);
   const std::vector<double>& values = histories_.evaluate(c, last_reactions_);
   const Resultant ground = supports_.resultant(c, last_reactions_);
   const LoadSum loads = cells_ ? sum_loads(assembler_, c) : LoadSum{};
   if (assembler_.rank() != 0) return;
-  const EnergyBalance& e = ledger_.balance();
   auto out = std::copy(values.begin(), values.end(), values_.begin());
-  const std::vector<double> run =
-      moves_ ? std::vector{step.length,  static_cast<double>(step.iterations),
-                           events_,      e.potential,
-                           e.kinetic,    e.external_work,
-                           e.dissipated, e.error()}
-             : std::vector{step.length, static_cast<double>(step.iterations), events_, e.potential, e.external_work, e.error()};
-  out = std::copy(run.begin(), run.end(), out);
+  for (const double value : {step.length, static_cast<double>(step.iterations), events_}) *out++ = value;
+  out += put_energies(ledger_.balance());
   for (const Vec3* part : {&ground.force, &ground.moment}) out = std::copy(part->data(), part->data() + 3, out);
   if (assembler_.model().commands.path) {
     *out++ = c.load_time();
@@ -178,11 +181,20 @@ void Observer::evaluate_histories(const Configuration& c, const Step& step) {
   }
   out = std::copy(buckling_times_.begin(), buckling_times_.end(), out);
   if (!cells_) return;
-  *out++ = e.strain;
+  ++out;  // put_energies()
   *out++ = loads.work;
   for (const Vec3* part : {&loads.force, &loads.moment}) out = std::copy(part->data(), part->data() + 3, out);
   *out++ = mass_;
   *out++ = static_cast<double>(assembler_.numbering().equations());
+}
+
+std::ptrdiff_t Observer::put_energies(const EnergyBalance& e) {
+  const auto first = values_.begin() + channel("run", "POTENTIAL_ENERGY");
+  const std::vector<double> energies = moves_ ? std::vector{e.potential, e.kinetic, e.external_work, e.dissipated, e.error()}
+                                              : std::vector{e.potential, e.external_work, e.error()};
+  std::copy(energies.begin(), energies.end(), first);
+  if (cells_) values_[static_cast<std::size_t>(channel("run", "STRAIN_ENERGY"))] = e.strain;
+  return static_cast<std::ptrdiff_t>(energies.size());
 }
 
 void Observer::keep_ends() {
@@ -204,7 +216,9 @@ void Observer::between(const Configuration& c) {
   else if (assembler_.rank() == 0)
     moved = &histories_.evaluate_nodes(c);
   if (assembler_.rank() != 0) return;
-  ends_.at(c.time, 0, values_);
+  std::vector<double> all(end_.size());
+  ends_.at(c.time, 0, all);
+  std::copy_n(all.begin(), values_.size(), values_.begin());
   for (std::size_t i = smooth ? histories_.node_columns() : 0; i < moved->size(); ++i)
     if (ways_[i].moves) values_[i] = (*moved)[i];
   const auto [before, after, part] = ends_.around(c.time);
@@ -230,10 +244,21 @@ void Observer::between(const Configuration& c) {
     }
     values_[i] = std::clamp(values_[i], ways_[i].low, ways_[i].high);
   }
+  put_known(c, smooth, std::span(all).subspan(values_.size()));
+}
+
+void Observer::put_known(const Configuration& c, bool smooth, std::span<const double> sources) {
+  const std::vector<Histories::Known>& known = histories_.known();
+  if (known.empty()) return;
+  const std::vector<double>* moved = smooth ? nullptr : &histories_.sources(c);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const bool from_motion = moved && of_motion(known[i].of_source);
+    values_[known[i].column] = known[i].at(c.load_time(), from_motion ? (*moved)[i] : sources[i]);
+  }
 }
 
 void Observer::back_to_end() {
-  if (!end_.empty()) values_ = end_;
+  if (!end_.empty()) std::copy_n(end_.begin(), values_.size(), values_.begin());
 }
 
 void Observer::find_fields(const Configuration& c) {
@@ -317,7 +342,7 @@ void Observer::load(const Snapshot& snapshot) {
   // with other histories the columns have another meaning; non-unique ones will be found again
   if (snapshot.number("observe/columns") != static_cast<double>(values_.size())) return;
   for (const double column : snapshot.array("observe/not_unique")) not_unique_.push_back(static_cast<int>(column));
-  if (!snapshot.has("observe/points") || snapshot.array("observe/end").size() != ways_.size()) return;
+  if (!snapshot.has("observe/points") || snapshot.array("observe/end").size() != ways_.size() + histories_.known().size()) return;
   end_ = snapshot.array("observe/end");
   const std::vector<double>& points = snapshot.array("observe/points");
   end_time_ = points.at(0);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,12 +40,15 @@ class Observer {
 
   /// Keeps the values of all histories observed from now on, for between().
   void keep_ends();
-  /// Observes a configuration in equilibrium inside the step whose end is observed next.
+  /// Observes a configuration in equilibrium inside the step whose end is observed next, at one of the lobatto_points.
   void observe_inside(const Configuration& c);
+  /// Takes the power of such a configuration, but no histories.
+  void integrate_inside(const Configuration& c) { ledger_.add_inside(c, supports_.at(c)); }
   /// Sets values() to those at an instant between the last two step ends, where `c` is the interpolated motion. Most values
   /// come from polynomials through the values observed since the last event (Channel::Course). Angles, velocities and angular
   /// velocities of nodes come from `c`; so do those of elements while an angle may have jumped by a turn. Forces are not
-  /// evaluated from `c`: in a stiff element, the interpolation error would dominate.
+  /// evaluated from `c`: in a stiff element, the interpolation error would dominate. DeterminedChannels are functions of time
+  /// and of the interpolated channels.
   void between(const Configuration& c);
   /// Sets values() back to those of the last configuration observed.
   void back_to_end();
@@ -110,6 +115,10 @@ class Observer {
   double mass_ = 0;  ///< total mass, only if it has cells
 
   void evaluate_histories(const Configuration& c, const Step& step);
+  /// Writes the energies of the whole model to values(). Returns how many follow one another: the strain energy does not.
+  std::ptrdiff_t put_energies(const EnergyBalance& e);
+  /// Adds the values of inside_ to the interpolation points, with the work that is known now.
+  void keep_inside();
   /// How a value is interpolated between two step ends.
   struct Way {
     Channel::Course course;
@@ -117,17 +126,24 @@ class Observer {
     double low, high;  ///< Channel::low, Channel::high
   };
   std::vector<Way> ways() const;
-  /// Adds values() to the interpolation points.
+  /// Adds values() and sources_ to the interpolation points.
   void keep(double time);
+  /// Sets the values of Histories::known(), for between(). `sources`: the interpolated sources.
+  void put_known(const Configuration& c, bool smooth, std::span<const double> sources);
   bool keeps_ends_ = false;
   std::vector<Way> ways_;
-  std::vector<char> angles_;  ///< for each value of elements: it is an angle, which may jump by a turn
-  std::vector<double> end_;   ///< values at the latest interpolation point, at end_time_
+  std::vector<char> angles_;     ///< for each value of elements: it is an angle, which may jump by a turn
+  std::vector<double> sources_;  ///< of the values of Histories::known(), which are found from them between two instants
+  std::vector<double> end_;      ///< values at the latest interpolation point, at end_time_, and then their sources
   double end_time_ = 0;
   Extrapolation ends_;
   std::size_t steady_ = 0;  ///< consecutive points without a jump of an angle between them, and close enough to detect one
-  bool inside_ = false;     ///< the current step has interpolation points inside
-  bool event_ = false;      ///< interpolation must restart at the latest point, as after an event or a corner
+  struct Inside {
+    double time;
+    std::vector<double> values, sources;
+  };
+  std::vector<Inside> inside_;  ///< interpolation points inside the current step
+  bool event_ = false;          ///< interpolation must restart at the latest point, as after an event or a corner
 };
 
 /// Channels of the whole model.

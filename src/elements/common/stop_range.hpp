@@ -39,6 +39,8 @@ struct StopRange {
   StopLaw law;
 
   bool given() const { return !limits.empty(); }
+  /// Whether gap() has a corner: halfway between two limits.
+  bool two_sided() const { return limits.size() > 1; }
 
   /// Generalised force of the contacts on the coordinate. `contact_homotopy`: see StopLaw::force.
   template <class T>

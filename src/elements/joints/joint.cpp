@@ -475,6 +475,22 @@ void Joint::observe(const State& state, std::span<double> values) const {
   }
 }
 
+std::vector<Joint::Determined> Joint::determined() const {
+  std::vector<Determined> all;
+  for (std::size_t k = 0; k < parts_.coordinates.size(); ++k)
+    if (parts_.coordinates[k].drive.given()) all.push_back({static_cast<int>(2 * k)});
+  all.insert(all.end(), gaps_.begin(), gaps_.end());
+  return all;
+}
+
+double Joint::determine(int channel, double time, double coordinate) const {
+  const auto owner = [this](int of) -> const JointCoordinate& { return parts_.coordinates[static_cast<std::size_t>(of / 2)]; };
+  for (const Determined& gap : gaps_)
+    if (gap.channel == channel) return owner(gap.source).stop.gap(coordinate);
+  const JointCoordinate& driven = owner(channel);
+  return driven.drive.coordinate(time) + driven_origin(driven);
+}
+
 std::vector<Coordinate> Joint::coordinates() const {
   std::vector<Coordinate> all;
   for (const JointCoordinate& c : parts_.coordinates)
@@ -519,7 +535,8 @@ void Joint::name_channels() {
   if (!parts_.normal_channel.empty())
     channels_.push_back({parts_.normal_channel, is_length(parts_.constraints[0].measure) ? dimension::force : dimension::moment,
                          multiplier(parts_.constraints[0].measure).help});
-  for (const JointCoordinate& c : parts_.coordinates) {
+  for (std::size_t k = 0; k < parts_.coordinates.size(); ++k) {
+    const JointCoordinate& c = parts_.coordinates[k];
     const bool length = is_length(c.measure);
     const Dimension effort = length ? dimension::force : dimension::moment;
     if (c.sprung()) channels_.push_back({c.names.spring, effort, "of spring and damper on B"});
@@ -529,6 +546,7 @@ void Joint::name_channels() {
     }
     if (c.stop.given()) {
       channels_.push_back({c.names.stop, effort, "of the stops on B; positive pushes the coordinate up"});
+      if (c.stop.two_sided()) gaps_.push_back({static_cast<int>(channels_.size()), static_cast<int>(2 * k)});
       channels_.push_back({c.names.gap, length ? dimension::length : dimension::angle, "to the nearer stop; negative: pressed"});
     }
   }

@@ -11,6 +11,7 @@
 #include "elements/joints/coordinate.hpp"
 #include "elements/joints/joint_friction.hpp"
 #include "elements/joints/joint_measures.hpp"
+#include "model/determined_channels.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::joints {
@@ -69,7 +70,7 @@ struct JointParts {
 
 /// Any joint between two nodes, as a list of constraints and free coordinates (joint_measures.hpp). The multipliers are forces
 /// and moments on B, in the joint axes carried by A.
-class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwner {
+class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwner, public DeterminedChannels {
  public:
   Joint(int id, JointParts parts);
   ~Joint() override;  // out of line: the class is large
@@ -87,6 +88,9 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   Energies energies(const State& state) const override;
   const std::vector<Channel>& channels() const override { return channels_; }
   void observe(const State& state, std::span<double> values) const override;
+  /// Coordinates of drives, and gaps between two stops.
+  std::vector<Determined> determined() const override;
+  double determine(int channel, double time, double coordinate) const override;
   /// Standard joint types that constrain a subset of the same directions.
   std::vector<Release> releases() const override;
   Drawing drawing() const override;
@@ -130,6 +134,7 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   bool whole_b_ = false;         ///< those forces need B's second or third axis
   std::vector<Measure> angles_;  ///< angles whose turns are counted, in the order of the history
   std::vector<Channel> channels_;
+  std::vector<Determined> gaps_;  ///< channels of gaps between two stops, each with that of its coordinate
 };
 
 }  // namespace engrane::elements::joints

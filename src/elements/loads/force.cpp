@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include "elements/common/line.hpp"
+#include "model/determined_channels.hpp"
 
 namespace engrane::elements::loads {
 
 namespace {
 
 /// Force along the line of two ends; positive pushes them apart.
-class LineForce final : public TemplatedElement<LineForce, 2, 6> {
+class LineForce final : public TemplatedElement<LineForce, 2, 6>, public DeterminedChannels {
  public:
   LineForce(int id, const LineEnds& ends, double value, const Function* function)
       : TemplatedElement(id), ends_(ends), value_(value), function_(function) {
@@ -29,7 +30,7 @@ class LineForce final : public TemplatedElement<LineForce, 2, 6> {
 
   Energies energies(const State& state) const override {
     Energies e;
-    e.external = push(state) * ends_.reach<double>(state.nodes).rate;
+    e.external = push(state.time) * ends_.reach<double>(state.nodes).rate;
     return e;
   }
 
@@ -43,16 +44,23 @@ class LineForce final : public TemplatedElement<LineForce, 2, 6> {
 
   void observe(const State& state, std::span<double> values) const override {
     const auto reach = ends_.reach<double>(state.nodes);
-    values[0] = push(state);
+    values[0] = push(state.time);
     values[1] = reach.length;
     values[2] = reach.rate;
     values[3] = values[0] * reach.rate;
   }
 
+  std::vector<Determined> determined() const override {
+    return function_ ? std::vector<Determined>{{0}, {3, 2}} : std::vector<Determined>();
+  }
+  double determine(int channel, double time, double speed) const override {
+    return channel == 0 ? push(time) : push(time) * speed;
+  }
+
   Drawing drawing() const override { return {fmt::format(R"("shape": "line", "points": {})", json(layout().nodes))}; }
 
  private:
-  double push(const State& state) const { return function_ ? value_ * function_->at(state.time).f : value_; }
+  double push(double time) const { return function_ ? value_ * function_->at(time).f : value_; }
 
   LineEnds ends_;
   double value_;
@@ -60,7 +68,7 @@ class LineForce final : public TemplatedElement<LineForce, 2, 6> {
 };
 
 /// External force on one node, at a point that moves with it.
-class NodeForce final : public TemplatedElement<NodeForce, 1, 6> {
+class NodeForce final : public TemplatedElement<NodeForce, 1, 6>, public DeterminedChannels {
  public:
   NodeForce(int id, int node, const Vec3& direction, const Vec3& center, const Vec3& offset, bool follow, double value,
             const Function* function)
@@ -92,7 +100,7 @@ class NodeForce final : public TemplatedElement<NodeForce, 1, 6> {
 
   Energies energies(const State& state) const override {
     Energies e;
-    e.external = size(state) * speed(state);
+    e.external = size(state.time) * speed(state);
     return e;
   }
 
@@ -104,9 +112,16 @@ class NodeForce final : public TemplatedElement<NodeForce, 1, 6> {
   }
 
   void observe(const State& state, std::span<double> values) const override {
-    values[0] = size(state);
+    values[0] = size(state.time);
     values[1] = speed(state);
     values[2] = values[0] * values[1];
+  }
+
+  std::vector<Determined> determined() const override {
+    return function_ ? std::vector<Determined>{{0}, {2, 1}} : std::vector<Determined>();
+  }
+  double determine(int channel, double time, double speed) const override {
+    return channel == 0 ? size(time) : size(time) * speed;
   }
 
   Drawing drawing() const override {
@@ -115,7 +130,7 @@ class NodeForce final : public TemplatedElement<NodeForce, 1, 6> {
   }
 
  private:
-  double size(const State& state) const { return function_ ? value_ * function_->at(state.time).f : value_; }
+  double size(double time) const { return function_ ? value_ * function_->at(time).f : value_; }
   double speed(const State& state) const {
     const NodeState& node = state.nodes[0];
     const Vec3 along = follow_ ? Vec3(node.R * direction_) : direction_;

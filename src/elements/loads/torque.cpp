@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "elements/common/building.hpp"
+#include "model/determined_channels.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::loads {
@@ -11,7 +12,7 @@ namespace engrane::elements::loads {
 namespace {
 
 /// Moment between two nodes; the ground replaces a missing first one.
-class Torque final : public TemplatedElement<Torque, 2, 6> {
+class Torque final : public TemplatedElement<Torque, 2, 6>, public DeterminedChannels {
  public:
   enum class Holder : unsigned char { space, first, last };  ///< what the axis is fixed to
 
@@ -37,7 +38,7 @@ class Torque final : public TemplatedElement<Torque, 2, 6> {
 
   Energies energies(const State& state) const override {
     Energies e;
-    e.external = size(state) * speed(state);
+    e.external = size(state.time) * speed(state);
     return e;
   }
 
@@ -49,9 +50,16 @@ class Torque final : public TemplatedElement<Torque, 2, 6> {
   }
 
   void observe(const State& state, std::span<double> values) const override {
-    values[0] = size(state);
+    values[0] = size(state.time);
     values[1] = speed(state);
     values[2] = values[0] * values[1];
+  }
+
+  std::vector<Determined> determined() const override {
+    return function_ ? std::vector<Determined>{{0}, {2, 1}} : std::vector<Determined>();
+  }
+  double determine(int channel, double time, double speed) const override {
+    return channel == 0 ? size(time) : size(time) * speed;
   }
 
   Drawing drawing() const override {
@@ -61,7 +69,7 @@ class Torque final : public TemplatedElement<Torque, 2, 6> {
   }
 
  private:
-  double size(const State& state) const { return function_ ? value_ * function_->at(state.time).f : value_; }
+  double size(double time) const { return function_ ? value_ * function_->at(time).f : value_; }
   double speed(const State& state) const {
     const NodeState &a = state.nodes[0], &b = state.nodes[1];
     const Vec3 axis = holder_ == Holder::space ? axis_ : Vec3((holder_ == Holder::first ? a.R : b.R) * axis_);

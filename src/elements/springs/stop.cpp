@@ -5,6 +5,7 @@
 
 #include "elements/common/axis_angle.hpp"
 #include "elements/common/line.hpp"
+#include "model/determined_channels.hpp"
 
 namespace engrane::elements::springs {
 
@@ -126,7 +127,7 @@ struct HeightCoordinate {
 };
 
 template <class Coordinate>
-class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
+class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12>, public DeterminedChannels {
  public:
   Stop(int id, const Coordinate& coordinate, StopRange range, bool tells_damping)
       : TemplatedElement<Stop<Coordinate>, 2, 12>(id),
@@ -189,6 +190,11 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12> {
     values[4] = e.potential;
     values[5] = e.dissipated;
   }
+
+  std::vector<Determined> determined() const override {
+    return range_.two_sided() ? std::vector<Determined>{{2, 0}} : std::vector<Determined>();
+  }
+  double determine(int, double, double coordinate) const override { return range_.gap(coordinate); }
 
   std::vector<Derived> derived() const override {
     std::vector<Derived> list;

@@ -67,6 +67,75 @@ TEST(Energies, GoOnAfterARestart) {
   EXPECT_EQ(whole.values(), second.values());
 }
 
+/// A stone with a velocity of t⁵, which is no motion: the power of its weight has degree five.
+Configuration with_power(const Fall& fall, double t) {
+  Configuration c = fall.at(t);
+  c.nodes[1].v = Vec3(0, 0, std::pow(t, 5));
+  return c;
+}
+
+TEST(Energies, AreIntegratedExactlyToDegreeFiveWithPointsInsideTheStep) {
+  const auto work = [](double t) { return -2 * 9.81 * std::pow(t, 6) / 6; };
+  Fall fall;
+  Observer observer(fall.assembler, true, {}), alone(fall.assembler, true, {}), half(fall.assembler, true, {});
+  for (Observer* o : {&observer, &alone, &half}) {
+    o->keep_ends();
+    o->observe(with_power(fall, 0), {}, true, false);
+  }
+  double begin = 0;
+  for (const double end : {0.7, 1.2, 2.0}) {
+    for (const double part : lobatto_points) {
+      const Configuration c = with_power(fall, begin + part * (end - begin));
+      observer.observe_inside(c);
+      alone.integrate_inside(c);
+      if (part < 0.5) half.observe_inside(c);  // no balance was found at the second point
+    }
+    for (Observer* o : {&observer, &alone, &half}) o->observe(with_power(fall, end), {end - begin, 1, 0}, true, false);
+    EXPECT_NEAR(observer.energies().external_work, work(end), 1e-13 * std::abs(work(end)));
+    EXPECT_EQ(alone.energies().external_work, observer.energies().external_work);
+    EXPECT_NEAR(observer.energies().passed, -work(end), 1e-13 * std::abs(work(end)));
+    begin = end;
+  }
+  EXPECT_NEAR(half.energies().external_work, work(2), 0.05 * std::abs(work(2)));
+  EXPECT_GT(std::abs(half.energies().external_work - work(2)), 1e-4 * std::abs(work(2)));
+  // between the points the work is that of a cubic of the power
+  observer.between(with_power(fall, 1.5));
+  const auto column = static_cast<std::size_t>(observer.channel("run", "EXTERNAL_WORK"));
+  EXPECT_NEAR(observer.values()[column], work(1.5), 2e-3 * std::abs(work(2)));
+}
+
+TEST(Energies, OfAStepWithAnEventAreNotIntegratedAcrossIt) {
+  Fall fall;
+  Observer observer(fall.assembler, true, {});
+  observer.keep_ends();
+  observer.observe(with_power(fall, 0), {}, true, false);
+  for (const double part : lobatto_points) observer.observe_inside(with_power(fall, part));
+  observer.observe(with_power(fall, 3), {1, 1, 1}, true, false);  // the power has jumped
+  const double last = lobatto_points[1], rest = 3 - last;
+  const double before = -2 * 9.81 * std::pow(last, 6) / 6;
+  EXPECT_NEAR(observer.energies().external_work, before - 9.81 * rest * (std::pow(last, 5) + std::pow(3, 5)), 0.3);
+}
+
+TEST(Energies, InsideStepsGoOnAfterARestart) {
+  Fall fall;
+  Observer whole(fall.assembler, true, {}), first(fall.assembler, true, {}), second(fall.assembler, true, {});
+  for (Observer* o : {&whole, &first, &second}) o->keep_ends();
+  Snapshot snapshot;
+  for (int i = 0; i <= 6; ++i) {
+    const std::vector<Observer*> on = {&whole, i <= 3 ? &first : &second};
+    for (Observer* o : on) {
+      if (i > 0 && i != 5)
+        for (const double part : lobatto_points) o->observe_inside(with_power(fall, 0.3 * (i - 1 + part)));
+      o->observe(with_power(fall, 0.3 * i), {0.3, 1, 0}, true, false);
+    }
+    if (i != 3) continue;
+    first.save(snapshot);
+    save_configuration(with_power(fall, 0.9), snapshot);
+    second.load(snapshot);
+  }
+  EXPECT_EQ(whole.values(), second.values());
+}
+
 /// A lamp of 3 kg on two springs from supports at (±1, 0, 0).
 struct Lamp : Set {
   static constexpr double stiffness = 50;
