@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "model/grip.hpp"
 
@@ -202,6 +203,7 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
     std::fill(scale_.begin(), scale_.end(), fixed);
     return;
   }
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
   std::vector<double> diagonal(motion, 0.0);
   // largest entry in the row of each multiplier, which several parts may share: all of a part's entries may be rounding
@@ -213,7 +215,11 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
     for (std::size_t i = 0; i < n; ++i) {
       const auto slot = static_cast<std::size_t>(slots[i]);
       if (slot < motion) {
-        diagonal[slot] += local[i * n + i];
+        // a moment makes the tangent antisymmetric: what is left on the diagonal is rounding, and no stiffness
+        double largest = 0;
+        for (std::size_t j = 0; j < n; ++j)
+          if (static_cast<std::size_t>(slots[j]) < motion) largest = std::max(largest, std::abs(local[i * n + j]));
+        if (std::abs(local[i * n + i]) > rounding * largest) diagonal[slot] += local[i * n + i];
         continue;
       }
       double& most = steepest[slot - motion];

@@ -129,25 +129,26 @@ void Histories::find_known() {
         for (const auto& d : all)
           if (d.channel == place)
             known_.push_back({column, part, d, known,
-                              d.source < 0 ? dimension::none : element.channels()[static_cast<std::size_t>(d.source)].dimension});
+                              d.first < 0 ? dimension::none : element.channels()[static_cast<std::size_t>(d.first)].dimension});
         ++column;
       }
     }
-  sources_.assign(known_.size(), 0.0);
+  sources_.assign(2 * known_.size(), 0.0);
 }
 
 const std::vector<double>& Histories::sources(const Configuration& c) {
   int seen = -1;
   for (std::size_t i = 0; i < known_.size() && assembler_.rank() == 0; ++i) {
-    const auto [channel, source] = known_[i].determined;
-    if (source < 0) continue;
+    const DeterminedChannels::Determined& determined = known_[i].determined;
+    if (determined.first < 0) continue;
     const int part = known_[i].part;
     if (std::exchange(seen, part) != part) {
       const Element& element = *assembler_.model().parts[static_cast<std::size_t>(part)].element;
       element_.resize(element.channels().size());
       element.observe(assembler_.view(part, c), element_);
     }
-    sources_[i] = element_[static_cast<std::size_t>(source)];
+    sources_[2 * i] = element_[static_cast<std::size_t>(determined.first)];
+    if (determined.second >= 0) sources_[2 * i + 1] = element_[static_cast<std::size_t>(determined.second)];
   }
   return sources_;
 }

@@ -253,7 +253,7 @@ void Observer::put_known(const Configuration& c, bool smooth, std::span<const do
   const std::vector<double>* moved = smooth ? nullptr : &histories_.sources(c);
   for (std::size_t i = 0; i < known.size(); ++i) {
     const bool from_motion = moved && of_motion(known[i].of_source);
-    values_[known[i].column] = known[i].at(c.load_time(), from_motion ? (*moved)[i] : sources[i]);
+    values_[known[i].column] = known[i].at(c.load_time(), (from_motion ? std::span(*moved) : sources).subspan(2 * i, 2));
   }
 }
 
@@ -342,7 +342,8 @@ void Observer::load(const Snapshot& snapshot) {
   // with other histories the columns have another meaning; non-unique ones will be found again
   if (snapshot.number("observe/columns") != static_cast<double>(values_.size())) return;
   for (const double column : snapshot.array("observe/not_unique")) not_unique_.push_back(static_cast<int>(column));
-  if (!snapshot.has("observe/points") || snapshot.array("observe/end").size() != ways_.size() + histories_.known().size()) return;
+  if (!snapshot.has("observe/points") || snapshot.array("observe/end").size() != ways_.size() + 2 * histories_.known().size())
+    return;
   end_ = snapshot.array("observe/end");
   const std::vector<double>& points = snapshot.array("observe/points");
   end_time_ = points.at(0);

@@ -239,3 +239,148 @@ def test_a_guess_that_is_not_kept_is_said(tmp_path):
     done = engrane(four_bar(crank="", initial=" DEP NOEUD 2 C 6 V 20", kind="DYNAMIC"), tmp_path, "-q")
     assert done.returncode == 0
     assert "the initial rotation of node 2 (rz) was given as 20 deg and is" in done.stderr
+
+
+def driven(axles: str, drive: str, kind: str = "KINEMATIC") -> str:
+    return f"""
+.UNIT SI
+{axles}
+.FCT
+ I 1 EXPR "{drive}+0.1*T"
+.SAM TYPE {kind}
+.SUB TF 0.1 H 0.1
+"""
+
+
+def pair(gear: str, place: str, axis: str = "0 0 1") -> str:
+    """Wheel 2 with a spring, wheel 3 with a drive about an axis through it."""
+    return f"""
+.NOE
+ I 2 X 0 0 0
+ I 3 X {place}
+.MCE
+ I 2 HINGE N 0 2 AXIS 0 0 1 K 10
+ I 3 HINGE N 0 3 AXIS {axis} DRIVE ANGLE NF 1
+ I 4 GEAR N 2 3 AXIS 0 0 1 {gear}
+ I 7 INERTIA N 2 M 1 J 1D-3
+ I 8 INERTIA N 3 M 1 J 1D-3"""
+
+
+def start_of(folder: Path, deck: str, *channels: str) -> list[float]:
+    ended = engrane(deck, folder, "-q")
+    assert ended.returncode == 0, ended.stderr
+    assert "two ways" not in ended.stderr and "branch" not in ended.stderr
+    return [last(folder, channel) for channel in channels]
+
+
+@pytest.mark.parametrize("kind", ["STATIC", "KINEMATIC", "DYNAMIC"])
+@pytest.mark.parametrize("drive", [1, 2, 2.5, 3, 3.1, 3.2, -2.5])
+def test_wheel_turns_more_than_half_a_turn_from_a_drive_that_does_not(tmp_path, kind, drive):
+    deck = driven(pair("KIND SPUR Z 20 40 MN 0.002", "0.06 0 0"), drive, kind)
+    angle, torque = start_of(tmp_path, deck, "element/2/ANGLE", "element/3/DRIVE_TORQUE")
+    assert angle == pytest.approx(-2 * drive, rel=1e-12)
+    if kind == "STATIC":
+        assert torque == pytest.approx(40 * drive, rel=1e-9)
+
+
+@pytest.mark.parametrize("drive", [13.6, 24.8, 42, 56])
+def test_the_moment_of_a_wound_spring_is_no_stiffness(tmp_path, drive):
+    """What rounding left of it on the diagonal set the scale of constraints: a singular matrix."""
+    deck = driven(pair("KIND SPUR Z 20 40 MN 0.002", "0.06 0 0"), drive, "STATIC")
+    assert start_of(tmp_path, deck, "element/3/DRIVE_TORQUE") == pytest.approx([40 * drive], rel=1e-9)
+
+
+@pytest.mark.parametrize("drive", [0.2, 0.4, 0.7, 1.5, 2.5, 4, 30])
+def test_small_wheel_turns_many_turns_to_where_its_drive_begins(tmp_path, drive):
+    deck = driven(pair("KIND SPUR Z 20 200 MN 0.002", "0.22 0 0"), drive)
+    assert start_of(tmp_path, deck, "element/2/ANGLE") == pytest.approx([-10 * drive], rel=1e-12)
+
+
+@pytest.mark.parametrize("drive", [0.1, 0.3, 1, 2.5])
+def test_worm_turns_many_turns_to_where_its_wheel_begins(tmp_path, drive):
+    worm = pair("KIND WORM STARTS 2 Z 30 MX 0.002 Q 10", "0.04 0 0", "0 1 0")
+    # the sign as for a small drive: that way no turn is left out
+    sense = np.sign(start_of(tmp_path, driven(worm, 0.01), "element/2/ANGLE")[0])
+    assert start_of(tmp_path, driven(worm, drive), "element/2/ANGLE") == pytest.approx(
+        [15 * sense * drive], rel=1e-9
+    )
+
+
+@pytest.mark.parametrize("travel", [0.02, 0.05, 0.08, 0.1, 0.15, 0.3, 3])
+def test_pinion_turns_with_a_rack_that_begins_away(tmp_path, travel):
+    rack = """
+.NOE
+ I 1 X 0 0 0
+ I 2 X 0 -0.02 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 K 1
+ I 2 PRISMATIC N 0 2 AXIS 1 0 0 DRIVE SLIDE NF 1
+ I 3 RACK N 1 2 AXIS 0 0 1 Z 20 MN 0.002 DIR 1 0 0
+ I 4 INERTIA N 1 M 1 J 1D-3
+ I 5 INERTIA N 2 M 1 J 1D-3"""
+    assert start_of(tmp_path, driven(rack, travel), "element/1/ANGLE") == pytest.approx(
+        [travel / 0.02], rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("carrier", [0.5, 1.2, 2, 3, 4, -2])
+def test_sun_turns_with_a_carrier_that_begins_away(tmp_path, carrier):
+    planetary = """
+.NOE
+ I 1 X 0 0 0
+ I 2 X 0 0 0
+ I 3 X 0.06 0 0
+ I 4 X 0 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 2 HINGE N 0 2 AXIS 0 0 1 K 1
+ I 3 HINGE N 1 3 AXIS 0 0 1 AT 0.06 0 0
+ I 4 WELD N 0 4
+ I 5 GEAR N 2 3 AXIS 0 0 1 KIND SPUR Z 24 36 MN 0.002
+ I 6 GEAR N 3 4 AXIS 0 0 1 KIND INTERNAL Z 36 96 MN 0.002"""
+    # Willis: the sun turns 1 + 96/24 times the carrier, the planet -96/36 times it relative to it
+    channels = "element/2/ANGLE", "element/3/ANGLE", "element/1/DRIVE_TORQUE"
+    found = start_of(tmp_path, driven(planetary, carrier), *channels)
+    assert found == pytest.approx([5 * carrier, -96 / 36 * carrier, 25 * carrier], rel=1e-9)
+
+
+@pytest.mark.parametrize("drive", [40, 45, 1000])
+def test_hinge_begins_any_number_of_turns_away(tmp_path, drive):
+    hinge = """
+.NOE
+ I 1 X 0 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 4 INERTIA N 1 M 1 J 1D-3"""
+    assert start_of(tmp_path, driven(hinge, drive), "element/1/ANGLE") == pytest.approx([drive], rel=1e-14)
+
+
+def test_initial_value_of_many_turns(tmp_path):
+    free = driven(pair("KIND SPUR Z 20 200 MN 0.002", "0.22 0 0"), 0, "DYNAMIC")
+    deck = free.replace(" DRIVE ANGLE NF 1", "").replace("K 10", "") + ".INI\n DEP ELEMENT 3 V 6000\n"
+    asked = np.radians(6000)
+    angles = start_of(tmp_path, deck, "element/3/ANGLE", "element/2/ANGLE")
+    assert angles == pytest.approx([asked, -10 * asked], rel=1e-9)
+
+
+def test_gap_of_a_loop_that_its_drive_stretches_after_a_turn(tmp_path):
+    # crank of length 1, rod of 0.5 from its end to a slider on the x axis: |sin 10| - 0.5 = 0.044 is missing
+    deck = """
+.UNIT SI
+.NOE
+ I 1 X 0 0 0
+ I 2 X 1.5 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 2 PRISMATIC N 0 2 AXIS 1 0 0
+ I 3 DISTANCE N 1 2 FROM 1 0 0 TO 1.5 0 0
+ I 4 INERTIA N 1 M 1 J 1D-3
+ I 5 INERTIA N 2 M 1 J 1D-3
+.FCT
+ I 1 EXPR "10+T"
+.SAM TYPE KINEMATIC
+.SUB TF 0.1 H 0.1
+"""
+    ended = engrane(deck, tmp_path, "-q")
+    assert ended.returncode == 2
+    assert "DISTANCE 3 stays open by 0.04402 m" in ended.stderr

@@ -9,6 +9,7 @@
 
 #include "elements/common/building.hpp"
 #include "elements/joints/joint_measures.hpp"
+#include "model/determined_channels.hpp"
 #include "model/grip.hpp"
 #include "model/templated_element.hpp"
 
@@ -48,7 +49,7 @@ struct BeltLaw {
 ///     δ₁,₂ = taken(d) − taken(d₀) ± (r₁ θ_A − s r₂ θ_B)
 ///
 /// Their gradients are the tangents, so that each span pulls with its tension along its own line.
-class Belt final : public TemplatedElement<Belt, 2, 13> {
+class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChannels {
  public:
   Belt(int id, const std::array<int, 2>& nodes, const joints::JointFrame& frame, const BeltShape& shape, const BeltLaw& law,
        double distance)
@@ -93,6 +94,11 @@ class Belt final : public TemplatedElement<Belt, 2, 13> {
   void start(std::span<double>, std::span<double> history) const override {
     std::fill(history.begin(), history.end(), 0.0);
     if (law_.slips) GripState::holds_at(Vec3::Zero()).write(layout(), history, 0);
+  }
+  /// The tight side is the larger of the tensions.
+  std::vector<Determined> determined() const override { return {{2, 0, 1}, {3, 0, 1}}; }
+  double determine(int channel, double, const Sources& tensions) const override {
+    return channel == 2 ? std::max(tensions[0], tensions[1]) : std::min(tensions[0], tensions[1]);
   }
   void grip_limits(const State& state, std::span<double> limits) const override {
     if (!law_.slips) return;

@@ -483,10 +483,10 @@ std::vector<Joint::Determined> Joint::determined() const {
   return all;
 }
 
-double Joint::determine(int channel, double time, double coordinate) const {
+double Joint::determine(int channel, double time, const Sources& coordinate) const {
   const auto owner = [this](int of) -> const JointCoordinate& { return parts_.coordinates[static_cast<std::size_t>(of / 2)]; };
   for (const Determined& gap : gaps_)
-    if (gap.channel == channel) return owner(gap.source).stop.gap(coordinate);
+    if (gap.channel == channel) return owner(gap.first).stop.gap(coordinate[0]);
   const JointCoordinate& driven = owner(channel);
   return driven.drive.coordinate(time) + driven_origin(driven);
 }

@@ -53,8 +53,8 @@ class LineForce final : public TemplatedElement<LineForce, 2, 6>, public Determi
   std::vector<Determined> determined() const override {
     return function_ ? std::vector<Determined>{{0}, {3, 2}} : std::vector<Determined>();
   }
-  double determine(int channel, double time, double speed) const override {
-    return channel == 0 ? push(time) : push(time) * speed;
+  double determine(int channel, double time, const Sources& speed) const override {
+    return channel == 0 ? push(time) : push(time) * speed[0];
   }
 
   Drawing drawing() const override { return {fmt::format(R"("shape": "line", "points": {})", json(layout().nodes))}; }
@@ -120,8 +120,8 @@ class NodeForce final : public TemplatedElement<NodeForce, 1, 6>, public Determi
   std::vector<Determined> determined() const override {
     return function_ ? std::vector<Determined>{{0}, {2, 1}} : std::vector<Determined>();
   }
-  double determine(int channel, double time, double speed) const override {
-    return channel == 0 ? size(time) : size(time) * speed;
+  double determine(int channel, double time, const Sources& speed) const override {
+    return channel == 0 ? size(time) : size(time) * speed[0];
   }
 
   Drawing drawing() const override {

@@ -58,8 +58,8 @@ class Torque final : public TemplatedElement<Torque, 2, 6>, public DeterminedCha
   std::vector<Determined> determined() const override {
     return function_ ? std::vector<Determined>{{0}, {2, 1}} : std::vector<Determined>();
   }
-  double determine(int channel, double time, double speed) const override {
-    return channel == 0 ? size(time) : size(time) * speed;
+  double determine(int channel, double time, const Sources& speed) const override {
+    return channel == 0 ? size(time) : size(time) * speed[0];
   }
 
   Drawing drawing() const override {

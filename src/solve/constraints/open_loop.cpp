@@ -51,11 +51,12 @@ Vector damped_step(const Sparse& gradient, const Vector& phi, double mu) {
 /// Moves `c` to where the weighted sum of squares of the violations is smallest, by Levenberg–Marquardt steps −Jᵀ(JJᵀ + μ)⁻¹ φ.
 /// These are least movements where the constraints can be closed, and still advance where they cannot.
 void narrow(Assembler& assembler, const MotionSlots& motion, const Vector& weight, Configuration& c) {
-  constexpr int most_steps = 300;
   constexpr double longest = 0.25;  // of the extent, or radians
   const Vector scale = weight.cwiseQuotient(constraint_sizes(assembler));
   double mu = 1e-3;
   Vector open = weight.cwiseProduct(scaled_open(assembler, c));
+  // a drive may ask for many turns
+  const int most_steps = 300 + static_cast<int>(std::min(5000.0, 2 / longest * open.lpNorm<Eigen::Infinity>()));
   int idle = 0;
   for (int step = 0; step < most_steps && idle < 5 && open.squaredNorm() > 1e-28; ++step) {
     const ConstraintMatrix gradients(assembler, c, ConstraintColumns::gradients);
@@ -79,6 +80,7 @@ void narrow(Assembler& assembler, const MotionSlots& motion, const Vector& weigh
       mu = std::max(mu / 4, 1e-14);
       open = then;
       c = std::move(tried);
+      assembler.count_turns(c);  // the gap of a drive that asks for more than half a turn
     }
     if (!better) return;
   }

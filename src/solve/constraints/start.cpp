@@ -142,7 +142,7 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
   if (report.remarks.empty()) remark_on_guesses(c, report);
 }
 
-Start::Closing Start::close(Configuration& c, std::span<const int> held, std::span<const double> target,
+Start::Closing Start::close(Configuration& c, std::span<const int> held, const Target& target,
                             const std::vector<StartCoordinates::Wanted>& wanted) {
   constexpr int most_iterations = 50;
   const Numbering& numbering = assembler_.numbering();
@@ -157,8 +157,10 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, std::sp
       right[e] = 0;
       if (!u.multiplier || assembler_.released(u.slot - static_cast<int>(motion_size))) continue;
       const std::size_t m = static_cast<std::size_t>(u.slot) - motion_size;
-      right[e] = phi[m] - (target.empty() ? 0.0 : target[m]);
-      const double relative = std::abs(right[e]) / size_of(u, extent);
+      const double gap = target.gaps.empty() ? 0.0 : target.gaps[m];
+      right[e] = phi[m] - target.part * gap;
+      // angles of many turns and long travels are rounded to their own size
+      const double relative = std::abs(right[e]) / std::max(size_of(u, extent), std::abs(gap));
       open = std::isnan(relative) ? relative : std::max(open, relative);
     }
     const std::vector<double> missed = coordinates_.missed(at, wanted);
@@ -168,7 +170,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, std::sp
   Closing result;
   double open = measure(c);
   for (;; ++result.iterations) {
-    result.closed = open <= 32 * epsilon;
+    result.closed = open <= target.accuracy;
     if (result.closed || result.iterations == most_iterations || !std::isfinite(open)) return result;
     assembler_.projection(c, Assembler::Metric::geometric, held);
     if (!solve(right, step) || !add_coordinates(c, wanted, step)) {
@@ -181,6 +183,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, std::sp
     motion_.scatter(step, y);
     for (std::size_t i = 0; i < 6 * c.nodes.size(); ++i)
       length = std::max(length, std::abs(y[i]) / (i % 6 < 3 ? 0.25 * extent : 0.5));
+    if (result.iterations == 0) result.first = length;
     if (length > 1) {
       result.far = true;
       for (double& v : y) v /= length;
@@ -265,6 +268,10 @@ Start::Closing Start::close_initial(Configuration& c, StartReport& report) {
       report.path_steps = steps;
       c = std::move(followed);
     }
+  } else if (steps > 0 && turns_differ(followed, c)) {
+    // a wheel may turn several times while its drive turns little: the direct way leaves out whole turns
+    report.path_steps = steps;
+    c = std::move(followed);
   }
   remark_on_branch(given, c, held, report);
   if (steps == 0 && report.remarks.empty())
@@ -275,29 +282,54 @@ Start::Closing Start::close_initial(Configuration& c, StartReport& report) {
 }
 
 int Start::follow(Configuration& c, std::span<const int> held) {
-  constexpr double longest = 0.2, shortest = 1e-3;
-  constexpr int most_steps = 300;
+  constexpr double shortest = 1e-3;
+  constexpr int most_steps = 100000;  // about 3000 turns
   std::vector<double> phi, rate, second;
   assembler_.constraint_rates(c, phi, rate, second);
   double done = 0, part = 0.1;
-  std::vector<double> target(phi.size());
-  for (int steps = 1; steps <= most_steps && part >= shortest;) {
+  for (int steps = 1; steps <= most_steps;) {
     const double next = std::min(1.0, done + part);
-    for (std::size_t m = 0; m < phi.size(); ++m) target[m] = (1 - next) * phi[m];
     Configuration tried = c;
-    const Closing closing = close(tried, held, target);
-    if (!closing.closed || closing.far || distance(c, tried).size > longest) {
+    const Closing closing = close(tried, held, {phi, 1 - next});
+    const double moved = distance(c, tried).size;
+    if (!closing.closed || closing.far || moved > longest_step_) {
       part /= 2;
+      if (too_short(part, shortest, closing)) return 0;
       continue;
     }
     c = std::move(tried);
     assembler_.count_turns(c);  // turns are counted on the way to drives that begin more than half a turn away
-    if (next == 1) return steps;
+    if (next == 1) {
+      // every part is closed to rounding, but turned from that before: axes would keep the sum of small tilts
+      close(c, held, {{}, 0, epsilon});
+      return steps;
+    }
     done = next;
-    if (closing.iterations < 5) part *= 1.5;
+    part = next_part(part, closing, moved);
     ++steps;
   }
-  return 0;
+  throw SolutionFailure(fmt::format(
+      "drives begin too far from where the parts are put: turns are counted on the way, in parts of at most {} rad, and {} of "
+      "them close {:.2g} per cent of the gaps. Let drives begin fewer turns away",
+      longest_step_, most_steps, 100 * done));
+}
+
+double Start::next_part(double part, const Closing& closing, double moved) {
+  constexpr double margin = 0.95;
+  if (closing.iterations >= 5) return part;
+  return moved > 0 ? part * std::min(1.5, margin * longest_step_ / moved) : 1.5 * part;
+}
+
+bool Start::too_short(double part, double shortest, const Closing& closing) {
+  constexpr double resolution = 1e-9, motion = 1e-3;
+  return part < resolution || (part < shortest && closing.first < motion);
+}
+
+bool Start::turns_differ(const Configuration& counted, Configuration other) {
+  assembler_.count_turns(other);
+  for (std::size_t i = 0; i < counted.history.size(); ++i)
+    if (std::abs(counted.history[i] - other.history[i]) > 0.5) return true;
+  return false;
 }
 
 int Start::orientation(const Configuration& c, std::span<const int> held) {

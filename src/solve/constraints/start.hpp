@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -61,21 +62,41 @@ class Start {
   double amplification(const Configuration& c);
 
  private:
+  static constexpr double rounding_ = 32 * std::numeric_limits<double>::epsilon();  ///< accuracy of closed constraints
+  /// Longest motion between two positions of a path, over the extent or in radians: no loop folds over in it, and far less than
+  /// half a turn, so that turns can be counted.
+  static constexpr double longest_step_ = 0.2;
+
   /// Result of one closing.
   struct Closing {
     bool closed = false;
     bool singular = false;  ///< ended by a matrix that could not be factored
     bool far = false;       ///< a step was limited or halved: another branch may be nearer
     int iterations = 0;
+    double first = 0;  ///< largest motion of the first step before it was limited, in half radians or quarters of the extent
   };
-  /// Damped Newton iteration to Φ = `target` (0 if empty) in the constraints that are not released, and to the wanted
-  /// coordinates, which must be independent.
-  Closing close(Configuration& c, std::span<const int> held, std::span<const double> target,
+  /// Where on a path the constraints are to be closed: Φ = `part` of `gaps`, those at its beginning; 0 if there are none.
+  struct Target {
+    std::span<const double> gaps = {};
+    double part = 0;
+    double accuracy = rounding_;  ///< over the sizes of constraints and gaps
+  };
+  /// Damped Newton iteration to the target in the constraints that are not released, and to the wanted coordinates, which must
+  /// be independent.
+  Closing close(Configuration& c, std::span<const int> held, const Target& target,
                 const std::vector<StartCoordinates::Wanted>& wanted = {});
   /// Newton's iteration first; after a long displacement, or if it fails, also along the path Φ = (1 − s) Φ(given).
   Closing close_initial(Configuration& c, StartReport& report);
-  /// Follows that path; returns its number of steps, 0 if its end cannot be reached.
+  /// Follows that path and counts turns on the way; returns its number of steps, 0 if its end cannot be reached. Throws
+  /// SolutionFailure if the end is too far away.
   int follow(Configuration& c, std::span<const int> held);
+  /// Part of a path to try after one of length `part` was closed, by a motion `moved` of at most longest_step_.
+  static double next_part(double part, const Closing& closing, double moved);
+  /// Whether a part of a path that could not be closed, or only by a long motion, is too short to be halved. `shortest` is of
+  /// the whole path, which may be many turns long: a part that asks for a motion is no shorter than that motion.
+  static bool too_short(double part, double shortest, const Closing& closing);
+  /// Whether elements count different turns at two configurations. The first is one whose turns were counted on the way.
+  bool turns_differ(const Configuration& counted, Configuration other);
   /// Sign of the determinant of the constraints' gradient if nothing is left free; otherwise 0.
   int orientation(const Configuration& c, std::span<const int> held);
   void remark_on_branch(const Configuration& given, const Configuration& c, std::span<const int> held, StartReport& report);

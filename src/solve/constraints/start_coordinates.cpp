@@ -146,7 +146,7 @@ void Start::move_coordinates(Configuration& c, StartReport& report) {
   const std::vector<int> held = imposed(false);
   const std::vector<StartCoordinates::Wanted> free = undecided(c, asked, held);
   // all of them advance along a path by the same fraction: no loop folds over on such a path
-  constexpr double longest = 0.2, shortest = 1e-4;
+  constexpr double shortest = 1e-4;
   std::vector<double> from;
   for (const StartCoordinates::Wanted& one : free) from.push_back(coordinates_.value(c, *one.coordinate));
   double done = 0, part = 1;
@@ -156,9 +156,10 @@ void Start::move_coordinates(Configuration& c, StartReport& report) {
     for (std::size_t i = 0; i < now.size(); ++i) now[i].value = from[i] + next * (free[i].value - from[i]);
     Configuration tried = c;
     const Closing closing = close(tried, held, {}, now);
-    if (!closing.closed || closing.far || distance(c, tried).size > longest) {
+    const double moved = distance(c, tried).size;
+    if (!closing.closed || closing.far || moved > longest_step_) {
       part /= 2;
-      if (part >= shortest) continue;
+      if (!too_short(part, shortest, closing)) continue;
       std::string reached;
       for (const StartCoordinates::Wanted& one : free)
         reached +=
@@ -171,7 +172,7 @@ void Start::move_coordinates(Configuration& c, StartReport& report) {
     c = std::move(tried);
     assembler_.count_turns(c);
     done = next;
-    if (closing.iterations < 5) part *= 1.5;
+    part = next_part(part, closing, moved);
   }
   verify_coordinates(c, asked);
   for (const StartCoordinates::Wanted& one : asked)
