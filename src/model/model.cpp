@@ -86,11 +86,13 @@ KnownLengths known_lengths(const Model& model) {
 std::vector<double> Model::corners(double from, double to) const {
   constexpr double part_of_pulses = 0.1;  // longer ones take several of the longest steps
   constexpr std::size_t most = 100;       // a function with more is a measured curve, not smoother between its corners
+  // samples are those of the whole run, also where it is continued
+  const double start = commands.stepping.start, end = commands.stepping.end;
   std::set<double> all;
   for (const Function* function : of_time) {
     for (const double x : function->corners(from, to, most)) all.insert(x);
-    const std::vector<double> pulses = short_pulses(*function, from, to, part_of_pulses * (to - from));
-    all.insert(pulses.begin(), pulses.end());
+    for (const double x : short_pulses(*function, start, end, part_of_pulses * (end - start)))
+      if (from < x && x < to) all.insert(x);
   }
   return {all.begin(), all.end()};
 }

@@ -15,6 +15,8 @@ constexpr std::size_t samples = 16384, most_pulses = 100;
 constexpr double much = 100, little = 1e-6;
 /// Points of inflection do not divide a pulse: nor do so many samples between two bends.
 constexpr std::size_t straight = 8;
+/// No more samples than these bend at a corner or a jump that is known.
+constexpr std::size_t at_corner = 2;
 
 bool is_sampled(const Function& function) {
   if (const Expression* formula = function.formula()) return !formula->is_law() && !formula->constant();
@@ -60,10 +62,13 @@ std::vector<double> short_pulses(const Function& function, double from, double t
     const double x = from + static_cast<double>(i) * spacing;
     values[i] = formula ? formula->value(x) : function.at(x).f;  // a formula notes where at() is not finite
   }
+  const std::vector<double> corners = formula ? function.corners(from, to, samples) : std::vector<double>();
   std::vector<double> found;
   for (const auto& [first, last] : bends(values)) {
     if (static_cast<double>(last - first) * spacing > long_enough) continue;
     const std::size_t begin = first - 1, end = last + 1;
+    const auto corner = std::lower_bound(corners.begin(), corners.end(), from + static_cast<double>(begin) * spacing);
+    if (last - first <= at_corner && corner != corners.end() && *corner <= from + static_cast<double>(end) * spacing) continue;
     std::size_t farthest = begin;
     for (std::size_t i = begin; i <= end; ++i)
       if (std::abs(values[i] - values[begin]) > std::abs(values[farthest] - values[begin])) farthest = i;

@@ -61,4 +61,27 @@ Imbalance imbalance(const Assembler& assembler, const References& references, Ve
   return {worst[0], worst[1], worst[2], worst[3], worst[4], located.row};
 }
 
+std::vector<double> rounding_of_unknowns(const Assembler& assembler, const References& references, const Configuration& c) {
+  std::vector<double> size(static_cast<std::size_t>(assembler.numbering().equations()));
+  for (std::size_t e = 0; e < size.size(); ++e) {
+    const Unknown& u = assembler.numbering().unknown(static_cast<int>(e));
+    const double place = u.node < 0 || u.item > 2 ? 0 : c.nodes[static_cast<std::size_t>(u.node)].x[u.item];
+    size[e] = last_places * std::max(references.length(static_cast<int>(e)), std::abs(place));
+  }
+  return size;
+}
+
+bool is_noise(Vec residual, const std::vector<double>& noise) {
+  const PetscScalar* left = nullptr;
+  check_petsc(VecGetArrayRead(residual, &left));
+  int yes = 1;
+  for (std::size_t row = 0; row < noise.size(); ++row)
+    if (!(std::abs(left[row]) <= noise[row])) yes = 0;
+  check_petsc(VecRestoreArrayRead(residual, &left));
+  MPI_Comm comm = MPI_COMM_SELF;
+  check_petsc(PetscObjectGetComm(reinterpret_cast<PetscObject>(residual), &comm));
+  MPI_Allreduce(MPI_IN_PLACE, &yes, 1, MPI_INT, MPI_LAND, comm);
+  return yes != 0;
+}
+
 }  // namespace engrane::solve

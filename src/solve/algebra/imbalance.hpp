@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
+#include <vector>
 
 #include "assembly/assembler.hpp"
 #include "solve/algebra/references.hpp"
@@ -30,5 +32,14 @@ struct Imbalance {
 
 /// Evaluates a residual of the assembler; the same on every rank.
 Imbalance imbalance(const Assembler& assembler, const References& references, Vec residual);
+
+/// Rounding of a position, over its size: a few units in its last place.
+constexpr double last_places = 4 * std::numeric_limits<double>::epsilon();
+/// Rounding of each unknown at `c`, by equation, from the length around it, or its position if that is larger. Times the
+/// magnitudes of a tangent it makes the forces below which no residual can be reduced.
+std::vector<double> rounding_of_unknowns(const Assembler& assembler, const References& references, const Configuration& c);
+
+/// Whether no entry of a residual exceeds the `noise` of its equation, given for this rank's rows. Collective.
+bool is_noise(Vec residual, const std::vector<double>& noise);
 
 }  // namespace engrane::solve

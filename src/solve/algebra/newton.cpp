@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -291,22 +290,8 @@ bool Newton::keep_sliding(Vec x, Vec step) {
 }
 
 bool Newton::left_to_rounding() const {
-  constexpr double some = 4 * std::numeric_limits<double>::epsilon();
-  std::vector<double> size(static_cast<std::size_t>(assembler_.numbering().equations()));
-  for (std::size_t e = 0; e < size.size(); ++e) {
-    const Unknown& u = assembler_.numbering().unknown(static_cast<int>(e));
-    const double place = u.node < 0 || u.item > 2 ? 0 : work_->nodes[static_cast<std::size_t>(u.node)].x[u.item];
-    size[e] = some * std::max(references_.length(static_cast<int>(e)), std::abs(place));
-  }
-  const std::vector<double> noise = magnitudes_times(assembler_.matrix(), size);
-  const PetscScalar* left = nullptr;
-  check_petsc(VecGetArrayRead(residual_, &left));
-  int yes = 1;
-  for (std::size_t row = 0; row < noise.size(); ++row)
-    if (!(std::abs(left[row]) <= noise[row])) yes = 0;
-  check_petsc(VecRestoreArrayRead(residual_, &left));
-  MPI_Allreduce(MPI_IN_PLACE, &yes, 1, MPI_INT, MPI_LAND, assembler_.comm());
-  return yes != 0;
+  const std::vector<double> size = rounding_of_unknowns(assembler_, references_, *work_);
+  return is_noise(residual_, magnitudes_times(assembler_.matrix(), size));
 }
 
 bool Newton::judge(int iteration) {

@@ -60,6 +60,11 @@ void KeptMatrices::evaluate(const Configuration& c, double h) {
   current_ = phase_;
 }
 
+const StageMatrices* KeptMatrices::current() const {
+  const auto known = sets_.find(current_);
+  return known == sets_.end() ? nullptr : &known->second.matrices;
+}
+
 void KeptMatrices::save(Snapshot& snapshot) const {
   snapshot.put("phase", {phase_.begin(), phase_.end()});
   snapshot.put("current", {current_.begin(), current_.end()});

@@ -23,7 +23,8 @@ constexpr double slow = 0.3, growing_slow = 0.1;
 /// A controlled step ends after most_idle corrections with a contraction above this.
 constexpr double no_contraction = 1;
 constexpr int most_idle = 3;
-/// With exact tangents the contraction must be below this from the third correction on.
+/// With exact tangents the contraction must be below this from the third correction on; corrections beyond the rounding of
+/// lengths are rounding only above it.
 constexpr double no_newton = 0.5;
 /// Larger models take shorter steps instead: factors of three times as many equations would cost more.
 constexpr int most_coupled = 10'000;
@@ -193,6 +194,59 @@ Imbalance Radau::evaluate(const Configuration& from) {
   return all;
 }
 
+std::vector<double> Radau::rounding_of_stage(std::size_t i) const {
+  const Configuration& c = configurations_[i];
+  const Numbering& numbering = context_.numbering;
+  std::vector<double> size = rounding_of_unknowns(context_.assembler, references_, c);
+  std::vector<double> way_of_node(context_.model.nodes.size(), 0.0);  // over lengths, or in radians
+  for (std::size_t e = 0; e < size.size(); ++e) {
+    const Unknown& u = numbering.unknown(static_cast<int>(e));
+    if (u.multiplier) continue;
+    const double length = references_.length(static_cast<int>(e));
+    const double way = std::abs(now_.v[i][static_cast<std::size_t>(u.slot)] * c.time) / length;
+    if (u.part < 0) {
+      double& farthest = way_of_node[static_cast<std::size_t>(u.node)];
+      farthest = std::max(farthest, way);
+    }
+    size[e] = std::max(size[e], last_places * way * length);
+  }
+  // the forces of constraints follow what they close
+  for (std::size_t e = 0; e < size.size(); ++e) {
+    const Unknown& u = numbering.unknown(static_cast<int>(e));
+    if (!u.multiplier) continue;
+    const double length = references_.length(static_cast<int>(e));
+    for (const int node : context_.model.parts[static_cast<std::size_t>(u.part)].nodes)
+      size[e] = std::max(size[e], last_places * way_of_node[static_cast<std::size_t>(node)] * length);
+  }
+  return size;
+}
+
+bool Radau::rests(double motion, double contraction) const {
+  if (motion <= no_correction) return true;
+  if (contraction <= no_newton) return false;  // the next one is less
+  const std::vector<double> size = rounding_of_stage(configurations_.size() - 1);
+  double largest = 0;
+  for (const Unknown& u : context_.numbering.unknowns()) {
+    if (u.multiplier) continue;
+    const int e = context_.numbering.equation(u.slot);
+    largest = std::max(largest, size[static_cast<std::size_t>(e)] / references_.length(e));
+  }
+  return motion <= largest;
+}
+
+bool Radau::left_to_rounding(double h, const CoupledStages* exact) const {
+  const StageMatrices* shared = exact ? nullptr : kept_.current();
+  if (!exact && !shared) return false;
+  const Eigen::MatrixXd first = collocation_.inverse / h, second = first * first;
+  const Eigen::VectorXd v = first.cwiseAbs().rowwise().sum(), a = second.cwiseAbs().rowwise().sum();
+  for (std::size_t i = 0; i < residuals_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const StageMatrices& matrices = exact ? exact->matrices()[i] : *shared;
+    if (!is_noise(residuals_[i], magnitudes_times(matrices, v[k], a[k], rounding_of_stage(i)))) return false;
+  }
+  return true;
+}
+
 Radau::Correction Radau::correct() {
   const Numbering& numbering = context_.numbering;
   Correction largest;
@@ -253,12 +307,13 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
     // forces at stages are no results
     const auto noise = [&] {
       const NewtonRow& before = report.rows[report.rows.size() - 2];
-      return std::max(last.motion, before.correction) <= negligible_correction &&
-             left > 0.5 * std::max(before.force, before.moment);
+      if (!(left > 0.5 * std::max(before.force, before.moment))) return false;
+      return (left <= std::sqrt(precision) && std::max(last.motion, before.correction) <= negligible_correction) ||
+             (rests(last.motion, contraction) && left_to_rounding(h, exact));
     };
     const bool still =
         k > 1 && (changed <= std::max(no_correction, rounding * increment()) ||
-                  (left <= std::sqrt(precision) && (changed * std::min(1.0, contraction) <= negligible_correction || noise())));
+                  (left <= std::sqrt(precision) && changed * std::min(1.0, contraction) <= negligible_correction) || noise());
     // What is left of positions must not count in the step's error: θ/(1 − θ) of the last correction (Hairer and Wanner, IV.8),
     // with the θ of each unknown, since matrices of another configuration may leave one open while all others converge.
     const auto settled = [&] {
@@ -301,9 +356,9 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
     slowest = std::max(slowest, contraction);
     renew = !exact && contraction > slow;
     // across an event corrections alternate between both laws: a shorter step costs less than waiting for them
-    const bool astray =
-        exact ? k > 1 && contraction > no_newton : error_.wanted() && contraction > no_contraction && ++idle == most_idle;
-    if (astray) {
+    const bool shrinks =
+        exact ? k < 2 || contraction <= no_newton : !error_.wanted() || contraction <= no_contraction || ++idle < most_idle;
+    if (!shrinks && !rests(last.motion, contraction)) {
       report.iterations = k + 1;
       report.reason = "the iteration does not converge";
       break;

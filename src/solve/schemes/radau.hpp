@@ -60,6 +60,14 @@ class Radau final : public Dynamics {
   Imbalance evaluate(const Configuration& from);
   /// Outcome::error of a step of h that has converged.
   std::optional<double> local_error(const Configuration& from, double h, const Configuration& to);
+  /// Rounding of each unknown at a stage, by equation. What drives prescribe is rounded by the way travelled so far, such as an
+  /// angle of many turns.
+  std::vector<double> rounding_of_stage(std::size_t i) const;
+  /// Whether a correction of positions this large, over the lengths around, is rounding; `contraction` is it over the one before.
+  bool rests(double motion, double contraction) const;
+  /// Whether every force left in the residuals of a step of h is within the rounding of positions, so that nothing better can be
+  /// found. Collective.
+  bool left_to_rounding(double h, const CoupledStages* exact) const;
   /// Largest displacement of the present step, over the lengths around or in radians.
   double increment() const;
   /// Largest change of a displacement, over the lengths around or in radians, and of a multiplier, as such a displacement or

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "assembly/assembler.hpp"
 
@@ -16,6 +17,10 @@ struct StageMatrices {
 StageMatrices new_stage_matrices(Assembler& assembler);
 /// Evaluates them at `c`.
 void evaluate_at(Assembler& assembler, const Configuration& c, const StageMatrices& matrices);
+
+/// (|K| + v |C| + a |M|) x for this rank's rows: forces of unknowns that are off by x, where rates v and accelerations a times
+/// as large are computed from them.
+std::vector<double> magnitudes_times(const StageMatrices& matrices, double v, double a, std::span<const double> x);
 
 /// One row of all three, for the lifetime of this object.
 class RowOfStage {
