@@ -38,9 +38,8 @@ std::string ErrorEstimate::warning(double target, const std::string& sharper_fai
   if (!falls)
     return fmt::format(
         "runs with TOL {:.1g} and {:.1g} differ by {:.2g} of the range of {}, hardly less than with the TOL before: a smaller "
-        "one "
-        "will not make this motion certain. That is so where it is chaotic, or after many impacts; means over time may be right "
-        "all the same",
+        "one will not make this motion certain. It is chaotic, or goes through many impacts; averages over time may still be "
+        "right",
         companion_tolerance, tolerance, error, channel);
   return fmt::format("the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: {}", error, channel,
                      target,

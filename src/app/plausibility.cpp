@@ -161,12 +161,8 @@ std::optional<Pulse> missed_pulse(const Function& function, const deck::Stepping
 void warn_of_speed_jumps(const Model& model, Diagnostics& diagnostics) {
   const deck::SteppingCard& stepping = model.commands.stepping;
   if (!model.commands.analysis.type.is("DYNAMIC") || has_steps_by_error(model)) return;
-  constexpr std::size_t most = 100;  // of a function; more are a measured curve
-  std::set<double> corners;
-  for (const Function* function : model.of_time)
-    for (const double t : function->corners(stepping.start, stepping.end, most)) corners.insert(t);
   std::set<std::string> told;
-  for (const double t : corners)
+  for (const double t : model.corners(stepping.start, stepping.end))
     if (const auto jump = speed_jump(model, t)) {
       const std::string what = jump->drive
                                    ? fmt::format("the drive of {} {}", jump->drive->type, jump->drive->element->id())

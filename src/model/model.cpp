@@ -8,7 +8,6 @@
 
 #include "model/element_at_rest.hpp"
 #include "model/jump.hpp"
-#include "model/pulses.hpp"
 #include "model/user_function.hpp"
 
 namespace engrane {
@@ -84,16 +83,10 @@ KnownLengths known_lengths(const Model& model) {
 }  // namespace
 
 std::vector<double> Model::corners(double from, double to) const {
-  constexpr double part_of_pulses = 0.1;  // longer ones take several of the longest steps
-  constexpr std::size_t most = 100;       // a function with more is a measured curve, not smoother between its corners
-  // samples are those of the whole run, also where it is continued
-  const double start = commands.stepping.start, end = commands.stepping.end;
+  constexpr std::size_t most = 100;  // a function with more is a measured curve, not smoother between its corners
   std::set<double> all;
-  for (const Function* function : of_time) {
+  for (const Function* function : of_time)
     for (const double x : function->corners(from, to, most)) all.insert(x);
-    for (const double x : short_pulses(*function, start, end, part_of_pulses * (end - start)))
-      if (from < x && x < to) all.insert(x);
-  }
   return {all.begin(), all.end()};
 }
 

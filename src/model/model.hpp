@@ -100,8 +100,7 @@ struct Model {
 
   int node_index(int id) const;  ///< -1 when there is no such node
   Vec3 gravity_at(double time) const;
-  /// Instants in (from, to), ascending, at which a function of time has a corner (Function::corners) or a short pulse
-  /// (short_pulses()).
+  /// Instants in (from, to), ascending, at which a function of time has a corner (Function::corners).
   std::vector<double> corners(double from, double to) const;
   /// Whether any function of time jumps from the number before `time` to `time` itself.
   bool jumps_at(double time) const;

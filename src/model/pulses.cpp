@@ -80,4 +80,16 @@ std::vector<double> short_pulses(const Function& function, double from, double t
   return found;
 }
 
+std::vector<double> step_ends(const Model& model, double from, double to) {
+  constexpr double part_of_run = 0.1;  // longer pulses take several of the longest steps
+  const double start = model.commands.stepping.start, end = model.commands.stepping.end;
+  std::vector<double> all = model.corners(from, to);
+  for (const Function* function : model.of_time)
+    for (const double x : short_pulses(*function, start, end, part_of_run * (end - start)))
+      if (from < x && x < to) all.push_back(x);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 }  // namespace engrane

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "model/function.hpp"
+#include "model/model.hpp"
 
 namespace engrane {
 
@@ -13,5 +13,9 @@ namespace engrane {
 /// function is sampled at 16 384 points: a pulse shorter than their spacing may be missed. Nothing where pulses are no shorter
 /// than `long_enough`, which steps cannot miss, or more than a hundred.
 std::vector<double> short_pulses(const Function& function, double from, double to, double long_enough);
+
+/// Instants in (from, to), ascending, that steps which follow their error end at: the corners of functions of time
+/// (Model::corners) and their short pulses, sampled over the whole run also where it is continued.
+std::vector<double> step_ends(const Model& model, double from, double to);
 
 }  // namespace engrane

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "assembly/configuration_snapshot.hpp"
+#include "model/pulses.hpp"
 #include "model/speed_jumps.hpp"
 #include "solve/constraints/diagnosis.hpp"
 #include "solve/run/restart_jump.hpp"
@@ -150,7 +151,7 @@ bool Runner::march() {
   if (scheme_.course()) return follow();
   const double begin = options_.begin, end = options_.end, step = options_.step;
   if (control_.active()) {
-    for (const double corner : context_.model.corners(now_.time, end)) {
+    for (const double corner : step_ends(context_.model, now_.time, end)) {
       // a step that ends at a jump must not see what follows
       const bool impulse = scheme_.meets_events() && speed_jump(context_.model, corner);
       const bool jumps = scheme_.meets_events() && (impulse || context_.model.jumps_at(corner));
