@@ -53,3 +53,15 @@ def test_said_of_fixed_steps(tmp_path: Path) -> None:
     assert text.count("warning") == 1
     assert f"the speed of the drive of HINGE 3 jumps by {SPEED:.4g} [rad/time] at t = {CORNER}" in text
     assert "warning" not in said(deck("", "TOL 1E-4"), tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("analysis", "stepping"), [("", "TOL 1E-6"), ("SCHEME RADAU", "TOL 1E-6"), ("ACCURACY NORMAL", "")]
+)
+def test_restart_at_the_corner(analysis: str, stepping: str, tmp_path: Path) -> None:
+    """A run that ends where the drive starts has not seen its impulse; the one that goes on does."""
+    whole = run(deck(analysis, stepping), tmp_path)
+    run(deck(analysis, stepping).replace("TF 1 ", f"TF {CORNER} "), tmp_path, "rest")
+    found = run(deck(analysis, stepping), tmp_path, "rest_and_go", options=("--restart", "rest"))
+    assert found["run/EXTERNAL_WORK"][-1] == pytest.approx(whole["run/EXTERNAL_WORK"][-1], rel=1e-6)
+    assert found["element/3/SPEED"][-1] == pytest.approx(SPEED, rel=1e-6)

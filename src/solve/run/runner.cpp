@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "assembly/configuration_snapshot.hpp"
+#include "model/jump.hpp"
 #include "model/pulses.hpp"
 #include "model/speed_jumps.hpp"
 #include "solve/constraints/diagnosis.hpp"
@@ -103,7 +104,12 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   step_.number = resumed_at_ = static_cast<int>(snapshot.number("runner/number"));
   renewed_ = snapshot.number("runner/renewed") != 0;
   pending_drift_ = snapshot.number("runner/pending_drift");
-  if (snapshot.number("runner/corner") != 0) scheme_.pass_corner(now_);
+  if (snapshot.number("runner/corner") != 0) {
+    scheme_.pass_corner(now_);
+  } else if (control_.active() && scheme_.meets_events() && speed_jump(context_.model, now_.time)) {
+    // the earlier run ended where the speed of a drive jumps: the impulse is yet to come
+    now_.time = number_before(now_.time);
+  }
   started_ = true;
   return march();
 }
