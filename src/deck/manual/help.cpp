@@ -93,9 +93,16 @@ std::string help_overview(const Catalogue& catalogue) {
   append_overview(out, catalogue.commands);
   out += "\nElements: .MCE, then I <id> <TYPE> N <nodes> <keyword values>\n";
   append_overview(out, catalogue.elements);
-  out +=
-      "\nWithout a dot: INPUT \"file\", RETURN, EXIT, ABRE '/name' 'text', MODE LECT n. "
-      ".DEL.CLM or .DEL.* forgets records; .FIN ends the deck.\n";
+  out += "\nOrders to the reader, each on a line of its own: ";
+  for (const Order& order : orders()) out += (&order == orders().data() ? "" : ", ") + std::string(order.form);
+  out += "\n";
+  return out;
+}
+
+std::string help_order(const Order& order) {
+  std::string meaning(order.meaning), out = std::string(order.form) + "\n";
+  std::erase(meaning, '`');
+  append_wrapped(out, meaning, "  ");
   return out;
 }
 

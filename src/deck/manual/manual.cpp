@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/text.hpp"
@@ -44,17 +45,9 @@ A deck is a text of **commands** and **records**, in the style of SAMCEF BACON a
 - **Angles** are in degrees, in the deck; angular velocities are in radians per unit of time.
 - A **node 0**, where an element allows it, is the ground.
 
-Words without a dot, at the start of a line, are orders to the reader:
+**Orders** to the reader stand at the start of a line:
 
-| word | meaning |
-|---|---|
-| `INPUT "file"` | reads another file here; the name is relative to the folder of the including file, `.dat` is assumed |
-| `RETURN` | ends that file |
-| `EXIT` | ends the deck, as `.FIN` does |
-| `ABRE '/name' 'text'` | wherever `/name` stands outside quotes the text is read; the longest name that fits is taken, and a text may use other names. In arithmetic, dividing by an abbreviation takes two strokes: `(10//name)` |
-| `MODE LECT n` | lines are read up to column n (256 without it); a warning says when text lies beyond. Other settings of MODE are skipped with a warning |
-
-`.FIN` ends the deck. `.DEL.CLM` forgets all records that `.CLM` gave so far, and likewise for any command; `.DEL.*` forgets all records.
+%ORDERS%
 A lone `&` and `#INQ(...)` are skipped with a warning.
 
 All errors of a deck are reported in one run, each with file, line and column; the exit status is then 1 and no results are written.
@@ -67,6 +60,13 @@ the records FIX, DEP, CHA and STRU with the keywords NOEUD, GROUP, C, V and NF, 
 the types and keywords of the elements of `.MCE`, the keywords of `.SAM`, `.SUB`, `.SAI` (other than STYP), `.FRAME` and `.INI`, the shapes of
 `.FCT`, and all of `.CHK`. `.TITRE` is ours, too.
 )";
+
+std::string preface_with_orders() {
+  std::string table = "| order | meaning |\n|---|---|\n", text = preface;
+  for (const Order& order : orders()) table += "| `" + std::string(order.form) + "` | " + std::string(order.meaning) + " |\n";
+  constexpr std::string_view place = "%ORDERS%\n";
+  return text.replace(text.find(place), place.size(), table + "\n");
+}
 
 std::string cell(const std::string& text) {
   std::string result;
@@ -154,7 +154,7 @@ void append_recognised(std::string& out) {
 }  // namespace
 
 std::string manual_markdown(const Catalogue& catalogue) {
-  std::string out = preface;
+  std::string out = preface_with_orders();
   append_chapters(out, catalogue.commands, "");
   out +=
       "\n## Elements of mechanisms: `.MCE`\n\nA record is `I <id> <TYPE> N <nodes> <keyword values>`; TYPE is the name of a "

@@ -142,6 +142,7 @@ std::string help_search(const Catalogue& catalogue, const std::string& text) {
 }
 
 std::string help_for(const Catalogue& catalogue, const std::string& text) {
+  if (const Order* order = find_order(text)) return help_order(*order);
   std::vector<const Schema*> family;  // cards of a command such as `.CLM`
   for (const Schema* schema : catalogue.commands)
     if (same_word(schema->command(), text.starts_with('.') ? text : "." + text)) family.push_back(schema);

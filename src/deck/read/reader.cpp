@@ -13,6 +13,7 @@
 #include "deck/read/recognised.hpp"
 #include "deck/read/record_reader.hpp"
 #include "deck/schema/matching.hpp"
+#include "deck/schema/orders.hpp"
 
 namespace engrane::deck {
 
@@ -204,7 +205,10 @@ class Reader {
       report(*known, word);
     } else {
       std::string hint = did_you_mean_card(word.text, commands_.words());
-      if (hint.empty()) hint = "`engrane help` lists the commands; its data is skipped";
+      if (const Order* order = find_order(word.text))
+        hint = std::string(order->word) + " is written without a dot";
+      else if (hint.empty())
+        hint = "`engrane help` lists the commands; its data is skipped";
       diagnostics_.error(word.where, "unknown command " + word.quoted(), hint);
       deck_.incomplete.insert(".*");
     }
