@@ -80,7 +80,8 @@ double look_at_nodes(const deck::Deck& deck, const Model& model, Diagnostics& di
   if (model.nodes.size() < 4) return model.extent();
   const auto [away, second] = farthest_nodes(model);
   const double farthest = away.distance, others = second.distance;
-  if (!(others > 0) || farthest < far * others) return model.extent();
+  // nodes on one axis that differ by rounding have no distance to compare with
+  if (!(others > 1e-12 * farthest) || farthest < far * others) return model.extent();
   const int id = model.nodes[away.node].id;
   for (const deck::Record& record : deck.records)
     if (record.get<deck::NodeCard>() && record.id == id)

@@ -357,6 +357,7 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
     largest = std::max(largest, d);
     heaviest[u.measure] = std::max(heaviest[u.measure], d);
   }
+  missing_inertia_ = 1e-13 * (largest > 0 ? largest : 1.0);
   const double extent = model_.extent();
   std::vector<bool> fixed(static_cast<std::size_t>(numbering_.equations()), false);
   for (const int equation : held) fixed[static_cast<std::size_t>(equation)] = true;
@@ -364,7 +365,7 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
     const Unknown& u = numbering_.unknown(row);
     double d = any_released_ && released_equation(row) ? 1.0 : 0.0;
     if (!u.multiplier && !mass) d = u.part >= 0 ? 1e-12 : u.measure == Measure::force ? 1 / (extent * extent) : 1.0;
-    if (!u.multiplier && mass && inertia[static_cast<std::size_t>(u.slot)] == 0) d = 1e-13 * (largest > 0 ? largest : 1.0);
+    if (!u.multiplier && mass && inertia[static_cast<std::size_t>(u.slot)] == 0) d = missing_inertia_;
     if (fixed[static_cast<std::size_t>(row)]) d = 1e10 * (mass && heaviest[u.measure] > 0 ? heaviest[u.measure] : d);
     sum.add_diagonal(row, d);
   }

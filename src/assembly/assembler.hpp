@@ -109,6 +109,8 @@ class Assembler {
   }
   /// As above, into a matrix from new_matrix(), with `give` times the stiffness added to the mass matrix.
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into, double give = 0);
+  /// What stood for the inertia of motions without any in the last projection by mass.
+  double missing_inertia() const { return missing_inertia_; }
   /// Unscaled Φ and its first two time derivatives along the motion, in the order of the multipliers; zero for idle ones.
   void constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
                         std::vector<double>& second);
@@ -172,6 +174,7 @@ class Assembler {
   std::vector<bool> released_, idle_;
   int idle_count_ = 0;
   long changes_ = 0;
+  double missing_inertia_ = 0;
   std::vector<double> released_values_;
   bool any_released_ = false;
   std::vector<double> gathered_, carried_;

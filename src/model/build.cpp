@@ -17,6 +17,7 @@
 #include "model/frames.hpp"
 #include "model/groups.hpp"
 #include "model/model.hpp"
+#include "model/node_components.hpp"
 #include "model/node_load.hpp"
 #include "model/short_form.hpp"
 #include "model/solver_options.hpp"
@@ -69,7 +70,8 @@ class Builder {
     model_.nodes = nodes_.release();
     for (Model::Part& part : model_.parts)
       for (const int id : part.element->node_ids()) part.nodes.push_back(model_.node_index(id));
-    check_rotation_supports();
+    check_supports(model_, support_locations_, diagnostics_);
+    check_initial_values(model_, initial_locations_, diagnostics_);
     model_.measure();
     settle_plane();
     return std::move(model_);
@@ -250,45 +252,6 @@ class Builder {
       }
   }
 
-  /// All three rotations of a node may be prescribed, or two of them (it then turns about the third axis). Prescribing a single
-  /// component of a finite rotation has no meaning.
-  void check_rotation_supports() {
-    std::vector<unsigned> asked(model_.nodes.size(), 0);
-    for (const Model::Part& part : model_.parts)
-      for (std::size_t i = 0; i < part.nodes.size(); ++i)
-        asked[static_cast<std::size_t>(part.nodes[i])] |= static_cast<unsigned>(part.element->layout().needs[i]);
-    const auto is_asked = [&](int node, NodeNeed what) {
-      return (asked[static_cast<std::size_t>(node)] & static_cast<unsigned>(what)) != 0;
-    };
-    for (std::size_t i = 0; i < model_.supports.size(); ++i) {
-      const Support& s = model_.supports[i];
-      const bool turns = is_asked(s.node, NodeNeed::rotation),
-                 in_plane = asked[static_cast<std::size_t>(s.node)] == static_cast<unsigned>(NodeNeed::in_plane);
-      if (s.value != 0 && s.component > 1 && in_plane)
-        diagnostics_.error(support_locations_[i],
-                           fmt::format("component {} of node {} cannot be displaced: the node is one of plane cells",
-                                       s.component + 1, model_.nodes[static_cast<std::size_t>(s.node)].id),
-                           "its components are 1 and 2");
-      if (s.component < 3 || !turns) continue;
-      int held = 0, moved = 0;
-      for (std::size_t c = 3; c < 6; ++c)
-        if (const int other = support_of_[static_cast<std::size_t>(s.node)][c]; other != none) {
-          ++held;
-          moved += model_.supports[static_cast<std::size_t>(other)].value != 0;
-        }
-      const int id = model_.nodes[static_cast<std::size_t>(s.node)].id;
-      if (held == 1)
-        diagnostics_.error(support_locations_[i],
-                           fmt::format("node {} has only rotation component {} prescribed, which has no meaning for "
-                                       "rotations of any size",
-                                       id, s.component + 1),
-                           "prescribe two or three of the components 4 5 6, or join the node to the ground with a HINGE");
-      if (s.value != 0 && held == 3 && moved > 1)
-        diagnostics_.error(support_locations_[i], fmt::format("node {} is turned about more than one axis at once", id),
-                           "prescribe one rotation and hold the other two at zero");
-    }
-  }
-
   /// Makes the model plane if `.SAM PLANE` requests it.
   void settle_plane() {
     constexpr std::size_t most_faults = 8;
@@ -346,7 +309,12 @@ class Builder {
     const auto each = values_of(record, card.components, card.values, !velocity);
     for (const int id : groups_.resolve(record, card))
       for (std::size_t i = 0; i < card.components.size(); ++i)
-        model_.initial.push_back({nodes_.index(id), card.components[i] - 1, each[i], velocity, card.imposed});
+        add_initial_value(record, {nodes_.index(id), card.components[i] - 1, each[i], velocity, card.imposed});
+  }
+
+  void add_initial_value(const deck::Record& record, const InitialValue& value) {
+    model_.initial.push_back(value);
+    initial_locations_.push_back(record.location);
   }
 
   void add_initial_spin(const deck::Record& record, const deck::InitialMotionCard& card) {
@@ -360,7 +328,7 @@ class Builder {
     const Vec3 point = card.at ? Vec3((*card.at)[0], (*card.at)[1], (*card.at)[2]) : Vec3(Vec3::Zero());
     for (const int id : groups_.resolve(record, card)) {
       model_.initial_spins.push_back({nodes_.index(id), axis * card.values.front(), point});
-      for (int c = 0; card.imposed && c < 6; ++c) model_.initial.push_back({nodes_.index(id), c, 0, true, true});
+      for (int c = 0; card.imposed && c < 6; ++c) add_initial_value(record, {nodes_.index(id), c, 0, true, true});
     }
   }
 
@@ -568,9 +536,9 @@ class Builder {
   BlockStore blocks_;
   Temperatures temperatures_;
   std::vector<Load> loads_;
-  std::vector<const deck::Record*> initial_elements_;  ///< of `.INI`, for coordinates of elements
-  std::vector<std::array<int, 6>> support_of_;         ///< by node and component: index of its support, or none
-  std::vector<Location> support_locations_;
+  std::vector<const deck::Record*> initial_elements_;            ///< of `.INI`, for coordinates of elements
+  std::vector<std::array<int, 6>> support_of_;                   ///< by node and component: index of its support, or none
+  std::vector<Location> support_locations_, initial_locations_;  ///< of Model::supports and Model::initial
   Model model_;
 };
 

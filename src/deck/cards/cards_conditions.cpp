@@ -81,9 +81,16 @@ Schema displacement_card() {
   Card<DisplacementCard> card(".CLM DEP", {".BOUNDARY", "DEPLACEMENT", "DISPLACEMENT"}, "Prescribed displacements and rotations");
   card.chapter(chapter).redefines();
   card.describe(
-      "The value times the function NF of time; without a function the value holds from the start. Rotations are in degrees.");
+      "The value times the function NF of time; without a function the value holds from the start. Rotations are in degrees, "
+      "about the global axes through the node. A node is turned about one axis: of its three rotations one may be given and the "
+      "others held at zero (C 4 5 6 V 0 0 30, or FIX). Two may be held at zero: the node turns freely about the third axis. One "
+      "rotation alone is refused, and so are three of which several are other than zero: turns of any size about several axes "
+      "depend on their order. Where one is free and another is not zero, a DYNAMIC analysis takes the derivatives of what is "
+      "given for the components of the angular velocity along the axes of the node, which turn with it (not with SCHEME RADAU); "
+      "STATIC and KINEMATIC refuse that, since the result would depend on the number of steps. HINGEs on each other, with "
+      "DRIVEs, turn a node about several axes.");
   add_target(card);
-  add_components(card, "components: 1 to 3 translations, 4 to 6 rotations");
+  add_components(card, "components: 1 to 3 translations, 4 to 6 rotations, along the global axes");
   card.add("V", &DisplacementCard::values, "displacement, or rotation in degrees: one for all components or one for each")
       .values(1, 6)
       .required();

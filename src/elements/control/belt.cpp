@@ -63,6 +63,9 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
       add_grip(layout, pull);
     else if (law.rigid())
       layout.multipliers = {{pull}};
+    else
+      layout.switches = {{"first span of the belt tightens", "first span of the belt goes slack"},
+                         {"second span of the belt tightens", "second span of the belt goes slack"}};
     set_layout(std::move(layout));
     name_channels();
   }
@@ -104,7 +107,17 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
     if (!law_.slips) return;
     limits[0] = most_pull(Runs<double>(*this, state.nodes[0], state.nodes[1], state));
   }
-  void switches(const State& state, std::span<Switch> values) const override { grip_switches(*this, state, values); }
+  void switches(const State& state, std::span<Switch> values) const override {
+    if (law_.rigid()) {
+      grip_switches(*this, state, values);
+      return;
+    }
+    const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);
+    for (int i = 0; i < 2; ++i)
+      values[static_cast<std::size_t>(i)] = {law_.preload + law_.stiffness * runs.stretch(i),
+                                             law_.stiffness * runs.stretch_rate(i),
+                                             law_.preload + law_.stiffness * (std::abs(runs.roll) + runs.distance)};
+  }
 
   Energies energies(const State& state) const override {
     const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);

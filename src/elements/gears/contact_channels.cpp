@@ -37,7 +37,7 @@ void add_contact_channels(std::vector<Channel>& list, const ToothContact& contac
   list.push_back({"EFFICIENCY", none, "1 less the part of the power through the teeth that is lost; 1 without power",
                   Channel::Course::ratio});
   if (contact.options().friction) {
-    list.push_back({"FRICTION_FORCE", force, "friction between the flanks"});
+    list.push_back({"FRICTION_FORCE", force, "size of the resultant of the friction on all flanks"});
     list.push_back({"FRICTION_POWER", watts, "power lost by sliding and rolling"});
   }
   if (contact.options().running) list.push_back({"PRESSURE_ANGLE", angle, "working pressure angle, transverse"});

@@ -44,6 +44,7 @@ class RackPinion final : public ToothedPair<RackPinion> {
              double width);
 
   const Geometry& geometry() const { return geometry_; }
+  const GearDesign& design() const { return geometry_.design; }
 
   void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void observe(const State& state, std::span<double> values) const override;

@@ -11,6 +11,7 @@
 
 #include "elements/gears/contact_channels.hpp"
 #include "elements/gears/tooth_contact.hpp"
+#include "model/elastic_teeth.hpp"
 #include "model/grip.hpp"
 #include "model/templated_element.hpp"
 
@@ -22,7 +23,7 @@ namespace engrane::elements::gears {
 ///
 /// including the rows of its first two scalars; `ToothContact::act` writes the others.
 template <class Derived>
-class ToothedPair : public TemplatedElement<Derived, 2, 20> {
+class ToothedPair : public TemplatedElement<Derived, 2, 20>, public ElasticTeeth {
  public:
   ToothedPair(int id, std::array<int, 2> nodes, const ToothContact& contact, std::array<Scalar, 2> motions, int history,
               std::vector<Channel> channels)
@@ -76,6 +77,12 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20> {
     std::fill(scalars.begin(), scalars.end(), 0.0);
     std::fill(history.begin(), history.end(), 0.0);
   }
+  int tooth_deformation() const override { return contact_.elastic() ? 2 : -1; }
+  double tooth_deflection(const State& state) const override {
+    const ContactReport now = report(state);
+    return std::max({now.front, now.back, 0.0});
+  }
+  double tooth_size() const override { return std::max(self().design().normal_module, contact_.law().backlash); }
   Energies energies(const State& state) const override { return energies_of(report(state)); }
   const std::vector<Channel>& channels() const override { return channels_; }
   void switches(const State& state, std::span<Switch> values) const override {

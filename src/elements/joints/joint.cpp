@@ -553,9 +553,12 @@ void Joint::name_channels() {
   for (const JointFriction& f : parts_.friction) {
     channels_.push_back({"PRESSING_FORCE" + f.suffix, dimension::force,
                          "sum of the forces that press the rubbing surfaces together", Channel::Course::size});
-    if (rubs_along(f)) channels_.push_back({"FRICTION_FORCE" + f.suffix, dimension::force, "size of the friction force"});
-    if (rubs_round(f)) channels_.push_back({"FRICTION_MOMENT" + f.suffix, dimension::moment, "size of the friction moment"});
-    channels_.push_back({"FRICTION_POWER" + f.suffix, dimension::power, "power lost in friction"});
+    if (rubs_along(f))
+      channels_.push_back({"FRICTION_FORCE" + f.suffix, dimension::force, "size of the friction force", Channel::Course::size});
+    if (rubs_round(f))
+      channels_.push_back(
+          {"FRICTION_MOMENT" + f.suffix, dimension::moment, "size of the friction moment", Channel::Course::size});
+    channels_.push_back({"FRICTION_POWER" + f.suffix, dimension::power, "power lost in friction", Channel::Course::size});
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "math/angle.hpp"
 #include "math/rotation.hpp"
+#include "model/elastic_teeth.hpp"
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/diagnosis.hpp"
 #include "solve/constraints/open_loop.hpp"
@@ -19,6 +20,14 @@ namespace engrane::solve {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Teeth are 1.57 modules thick at the pitch circle. None is pressed in by a third of that.
+constexpr double most_modules = 0.5;
+
+const ElasticTeeth* elastic_teeth(const Model::Part& part) {
+  const auto* teeth = dynamic_cast<const ElasticTeeth*>(part.element.get());
+  return teeth && teeth->tooth_deformation() >= 0 ? teeth : nullptr;
+}
 
 /// Angle of the rotation from one to the other.
 double angle_between(const Mat3& a, const Mat3& b) { return rotation_log(Mat3(a.transpose() * b)).norm(); }
@@ -79,7 +88,73 @@ void Start::verify_imposed(const Configuration& c, std::span<const double> wishe
   }
 }
 
+Start::PressedTeeth Start::most_pressed_teeth(const Configuration& c) const {
+  PressedTeeth most;
+  const std::vector<Model::Part>& parts = assembler_.model().parts;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const ElasticTeeth* teeth = elastic_teeth(parts[p]);
+    if (!teeth) continue;
+    const int part = static_cast<int>(p);
+    const double deflection = teeth->tooth_deflection(assembler_.view(part, c)), modules = deflection / teeth->tooth_size();
+    if (modules > most.modules) most = {part, deflection, modules};
+  }
+  return most;
+}
+
+std::vector<std::size_t> Start::tooth_deformations() const {
+  std::vector<std::size_t> scalars;
+  const std::vector<Model::Part>& parts = assembler_.model().parts;
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    if (const ElasticTeeth* teeth = elastic_teeth(parts[p]))
+      scalars.push_back(
+          static_cast<std::size_t>(assembler_.numbering().scalar_begin(static_cast<int>(p)) + teeth->tooth_deformation()));
+  return scalars;
+}
+
+std::vector<int> Start::held_positions() const {
+  std::vector<int> equations = imposed(false);
+  if (!holds_teeth_) return equations;
+  const std::size_t first = 6 * assembler_.model().nodes.size();
+  for (const std::size_t i : tooth_deformations())
+    if (const int e = assembler_.numbering().equation(static_cast<int>(first + i)); e >= 0) equations.push_back(e);
+  return equations;
+}
+
 void Start::assemble(Configuration& c, StartReport& report, bool initial) {
+  if (!initial || tooth_deformations().empty()) {
+    assemble_once(c, report, initial);
+    return;
+  }
+  const Configuration given = c;
+  assemble_once(c, report, true);
+  PressedTeeth pressed = most_pressed_teeth(c);
+  if (!(pressed.modules > most_modules)) return;
+  // to deform teeth is the shortest way to close the gap of a drive that begins far away, but no wheel stays behind its mate
+  Configuration stiff = given;
+  StartReport stiff_report;
+  holds_teeth_ = true;
+  try {
+    assemble_once(stiff, stiff_report, true);
+  } catch (const SolutionFailure&) {
+    stiff = given;
+    stiff_report = {};
+    holds_teeth_ = false;
+    assemble_once(stiff, stiff_report, true);
+  }
+  holds_teeth_ = false;
+  c = std::move(stiff);
+  report = std::move(stiff_report);
+  pressed = most_pressed_teeth(c);
+  if (!(pressed.modules > most_modules)) return;
+  const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(pressed.part)];
+  report.remarks.push_back(fmt::format(
+      "the teeth of {} {} begin pressed in by {:.4g} {}, {:.3g} times their module, and with the force of "
+      "that: the positions given for its wheels do not fit its ratio. Give that of one wheel alone (.INI DEP ELEMENT, "
+      "or a drive), and the other follows",
+      part.type, part.element->id(), pressed.deflection, assembler_.model().units.label(dimension::length), pressed.modules));
+}
+
+void Start::assemble_once(Configuration& c, StartReport& report, bool initial) {
   if (initial && assembler_.numbering().slots() == assembler_.numbering().motion_slots() && assembler_.model().initial.empty() &&
       assembler_.model().initial_coordinates.empty()) {
     // nothing joins the parts, or moves them from where the deck has put them
@@ -107,7 +182,7 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
     }
     // redundant joints are exactly redundant only where the mechanism is closed
     if (closing.closed && conflict.empty() && (closing.iterations > 0 || !sharp) && redundancy_.analyse(c)) {
-      closing = close(c, imposed(false), {});
+      closing = close(c, held_positions(), {});
       conflict = closing.closed ? redundancy_.conflict(c) : "";
     }
     if (!conflict.empty()) throw SolutionFailure(conflict);
@@ -145,6 +220,7 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
 Start::Closing Start::close(Configuration& c, std::span<const int> held, const Target& target,
                             const std::vector<StartCoordinates::Wanted>& wanted) {
   constexpr int most_iterations = 50;
+  constexpr double undeformed = 1e-9;  // over the extent
   const Numbering& numbering = assembler_.numbering();
   const double extent = assembler_.model().extent();
   const auto motion_size = motion_.size();
@@ -168,9 +244,21 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
     return open;
   };
   Closing result;
-  double open = measure(c);
+  const std::vector<std::size_t> teeth = holds_teeth_ ? tooth_deformations() : std::vector<std::size_t>{};
+  double open = measure(c), deformed = std::numeric_limits<double>::infinity();
   for (;; ++result.iterations) {
     result.closed = open <= target.accuracy;
+    // held teeth take a small part of each motion: it is given back until the wheels have made all of it, unless they cannot
+    if (result.closed && holds_teeth_) {
+      double now = 0;
+      for (const std::size_t i : teeth) now = std::max(now, std::abs(c.scalars[i]));
+      if (now > undeformed * extent && now < 0.5 * deformed) {
+        deformed = now;
+        for (const std::size_t i : teeth) c.scalars[i] = 0;
+        open = measure(c);
+        result.closed = open <= target.accuracy;
+      }
+    }
     if (result.closed || result.iterations == most_iterations || !std::isfinite(open)) return result;
     assembler_.projection(c, Assembler::Metric::geometric, held);
     if (!solve(right, step) || !add_coordinates(c, wanted, step)) {
@@ -241,7 +329,7 @@ Start::Closing Start::close_initial(Configuration& c, StartReport& report) {
   constexpr double near = 0.3;     // a shorter way, over the extent or in radians, is not checked again
   constexpr double another = 0.1;  // positions farther apart than this count as different
   const Configuration given = c;
-  const std::vector<int> held = imposed(false);
+  const std::vector<int> held = held_positions();
   report.remarks.clear();
   report.path_steps = 0;
   Closing direct = close(c, held, {});

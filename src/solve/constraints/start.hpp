@@ -61,11 +61,27 @@ class Start {
   /// singular value of their gradient. Infinite if the matrix cannot be factored.
   double amplification(const Configuration& c);
 
+  /// Moment below which a force in `c` is but rounding of accelerations, times what stands for the inertia of motions without
+  /// any (Assembler::missing_inertia). All forces are, where nothing has inertia and nothing is loaded.
+  double noise_of_missing_inertia(const Configuration& c) const;
+
  private:
   static constexpr double rounding_ = 32 * std::numeric_limits<double>::epsilon();  ///< accuracy of closed constraints
   /// Longest motion between two positions of a path, over the extent or in radians: no loop folds over in it, and far less than
   /// half a turn, so that turns can be counted.
   static constexpr double longest_step_ = 0.2;
+
+  /// assemble() with the teeth as soft as they are, or as held as they can be (holds_teeth_).
+  void assemble_once(Configuration& c, StartReport& report, bool initial);
+  /// A pair of elastic teeth and how far they are pressed in, over their module; no part if none is.
+  struct PressedTeeth {
+    int part = -1;
+    double deflection = 0;  ///< a length
+    double modules = 0;
+  };
+  PressedTeeth most_pressed_teeth(const Configuration& c) const;
+  /// Indices into Configuration::scalars of the deformations of all elastic teeth.
+  std::vector<std::size_t> tooth_deformations() const;
 
   /// Result of one closing.
   struct Closing {
@@ -122,6 +138,8 @@ class Start {
   void note_moved(const std::vector<NodeState>& begun, const Configuration& c, StartReport& report) const;
   /// Equations of the imposed initial values, of position or of velocity.
   std::vector<int> imposed(bool velocity) const;
+  /// Those that the assembly moves last: imposed positions and, if holds_teeth_, the deformations of teeth.
+  std::vector<int> held_positions() const;
   void verify_imposed(const Configuration& c, std::span<const double> wished, bool velocity) const;
   bool solve(std::vector<double>& right, std::vector<double>& solution);
 
@@ -144,6 +162,7 @@ class Start {
   Redundancy& redundancy_;
   StartCoordinates coordinates_;
   Owned<Vec> right_, solution_;
+  bool holds_teeth_ = false;  ///< wheels turn rather than that their teeth deform
 };
 
 }  // namespace engrane::solve

@@ -51,6 +51,13 @@ double give_of(double h) { return h * h / 4; }
 
 }  // namespace
 
+double Start::noise_of_missing_inertia(const Configuration& c) const {
+  constexpr double rounding = 100 * std::numeric_limits<double>::epsilon();
+  double fastest = 0;
+  for (const NodeState& node : c.nodes) fastest = std::max({fastest, node.v.squaredNorm(), node.W.squaredNorm()});
+  return rounding * assembler_.missing_inertia() * fastest;
+}
+
 void Start::verify_balance(const Configuration& c, std::span<const double> unbalanced) {
   constexpr double enough = 1e-6;
   const Numbering& numbering = assembler_.numbering();
@@ -75,12 +82,13 @@ void Start::verify_balance(const Configuration& c, std::span<const double> unbal
   const Magnitudes own = largest;
   largest[Measure::force] = std::max(own[Measure::force], own[Measure::moment] / extent);
   largest[Measure::moment] = std::max(own[Measure::moment], own[Measure::force] * extent);
+  const double noise = noise_of_missing_inertia(c);
   int worst = -1;
   double most = enough;
   for (int e = 0; e < numbering.equations(); ++e) {
     const Unknown& u = numbering.unknown(e);
-    const double part = std::abs(unbalanced[static_cast<std::size_t>(e)]) / largest[u.measure];
-    if (u.multiplier || !(part > most)) continue;
+    const double left = std::abs(unbalanced[static_cast<std::size_t>(e)]), part = left / largest[u.measure];
+    if (u.multiplier || !(part > most) || left < noise / (u.measure == Measure::force ? extent : 1)) continue;
     most = part;
     worst = e;
   }

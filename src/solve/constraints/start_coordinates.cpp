@@ -143,7 +143,7 @@ bool Start::add_coordinates(const Configuration& c, const std::vector<StartCoord
 void Start::move_coordinates(Configuration& c, StartReport& report) {
   const std::vector<StartCoordinates::Wanted> asked = coordinates_.wanted(false);
   if (asked.empty()) return;
-  const std::vector<int> held = imposed(false);
+  const std::vector<int> held = held_positions();
   const std::vector<StartCoordinates::Wanted> free = undecided(c, asked, held);
   // all of them advance along a path by the same fraction: no loop folds over on such a path
   constexpr double shortest = 1e-4;

@@ -61,6 +61,7 @@ Kinematics::Sizes Kinematics::sizes(const Configuration& c) const {
     s.velocity = std::max(s.velocity, std::abs(v[i]) / size);
     s.acceleration = std::max(s.acceleration, std::abs(a[i]) / size);
   }
+  s.force = context_.start.noise_of_missing_inertia(c) / extent;
   const Eigen::VectorXd weight = constraint_sizes(context_.assembler) / extent;
   for (std::size_t m = 0; m < c.multipliers.size(); ++m)
     s.force = std::max(s.force, std::abs(c.multipliers[m]) * weight[static_cast<Eigen::Index>(m)]);

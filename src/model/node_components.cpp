@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/node_components.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace engrane {
+
+namespace {
+
+/// What the elements of each node need of it, as a sum of NodeNeed; 0 if it has no element.
+std::vector<unsigned> needs_of_nodes(const Model& model) {
+  std::vector<unsigned> needs(model.nodes.size(), 0);
+  for (const Model::Part& part : model.parts)
+    for (std::size_t i = 0; i < part.nodes.size(); ++i)
+      needs[static_cast<std::size_t>(part.nodes[i])] |= static_cast<unsigned>(part.element->layout().needs[i]);
+  return needs;
+}
+
+/// How a record gives values for components that a node with such needs lacks.
+struct Lack {
+  std::string node;        ///< what the node is
+  std::string components;  ///< those that it has
+};
+
+/// Has a node with such needs no such component, counted from 0?
+std::optional<Lack> lacks(unsigned needs, int component) {
+  if (needs == static_cast<unsigned>(NodeNeed::in_plane) && component > 1)
+    return Lack{"the node is one of plane cells", "its components are 1 and 2"};
+  const bool turns = (needs & static_cast<unsigned>(NodeNeed::rotation)) != 0;
+  if (needs != 0 && !turns && component > 2) return Lack{"nothing at the node has rotations", "its components are 1, 2 and 3"};
+  return {};
+}
+
+/// The fault of node `id` with `held` of its rotations prescribed, `component` among them and, if two are, `free` not: a finite
+/// rotation has no such components.
+void report_rotations(const Location& location, int id, int component, int held, int free, Diagnostics& diagnostics) {
+  if (held == 1)
+    diagnostics.error(
+        location,
+        fmt::format("node {} has only rotation component {} prescribed, which has no meaning for rotations of any size", id,
+                    component),
+        "prescribe two or three of the components 4 5 6, or join the node to the ground with a HINGE");
+  else if (held == 2)
+    diagnostics.error(
+        location,
+        fmt::format("node {} is turned about one axis (component {}) and free to turn about another (component {}): where that "
+                    "leads to would depend on the number of steps",
+                    id, component, free),
+        "hold the free component, or turn the node by HINGEs on each other, one with a DRIVE");
+  else
+    diagnostics.error(location, fmt::format("node {} is turned about more than one axis at once", id),
+                      "prescribe one rotation and hold the other two at zero");
+}
+
+}  // namespace
+
+void check_supports(const Model& model, std::span<const Location> locations, Diagnostics& diagnostics) {
+  if (model.supports.empty()) return;
+  const std::vector<unsigned> needs = needs_of_nodes(model);
+  // a motion in time has rates about the axes of the node; positions of equilibrium would depend on the number of steps
+  const bool follows_rates = model.commands.analysis.type.is("DYNAMIC");
+  std::vector<std::array<const Support*, 3>> turning(model.nodes.size(), {nullptr, nullptr, nullptr});
+  for (const Support& s : model.supports)
+    if (s.component > 2) turning[static_cast<std::size_t>(s.node)][static_cast<std::size_t>(s.component - 3)] = &s;
+  std::set<int> told;
+  for (std::size_t i = 0; i < model.supports.size(); ++i) {
+    const Support& s = model.supports[i];
+    const auto node = static_cast<std::size_t>(s.node);
+    const int id = model.nodes[node].id;
+    const std::optional<Lack> lack = lacks(needs[node], s.component);
+    if (lack && s.component < 3 && s.value != 0)
+      diagnostics.error(locations[i],
+                        fmt::format("component {} of node {} cannot be displaced: {}", s.component + 1, id, lack->node),
+                        lack->components);
+    if (lack || needs[node] == 0 || s.component < 3) continue;
+    int held = 0, moved = 0, free = 0;
+    for (int c = 4; c <= 6; ++c)
+      if (const Support* other = turning[node][static_cast<std::size_t>(c - 4)]; other) {
+        ++held;
+        moved += other->value != 0;
+      } else {
+        free = c;
+      }
+    const bool wrong = held == 1 || (held == 3 && s.value != 0 && moved > 1) || (held == 2 && s.value != 0 && !follows_rates);
+    if (wrong && told.insert(s.node).second) report_rotations(locations[i], id, s.component + 1, held, free, diagnostics);
+  }
+}
+
+void check_initial_values(const Model& model, std::span<const Location> locations, Diagnostics& diagnostics) {
+  if (model.initial.empty()) return;
+  const std::vector<unsigned> needs = needs_of_nodes(model);
+  std::set<std::pair<int, int>> told;  // file and line
+  for (std::size_t i = 0; i < model.initial.size(); ++i) {
+    const InitialValue& value = model.initial[i];
+    const auto node = static_cast<std::size_t>(value.node);
+    const std::optional<Lack> lack = lacks(needs[node], value.component);
+    if (!lack || value.value == 0 || !told.insert({locations[i].file, locations[i].line}).second) continue;
+    const std::string spin = value.velocity && value.component > 2 ? "; a body of cells turns by VIT … AXIS 0 0 1 V …" : "";
+    diagnostics.error(
+        locations[i],
+        fmt::format("component {} of node {} cannot be given: {}", value.component + 1, model.nodes[node].id, lack->node),
+        lack->components + spin);
+  }
+}
+
+}  // namespace engrane
