@@ -68,10 +68,10 @@ std::vector<double> times_of(const std::vector<deck::CheckCard>& checks) {
 
 /// Is an energy as good as none: the work of what iterations leave of forces in a machine at rest, or that of a billionth of the
 /// extent, covered by all masses in the time of the analysis?
-bool counts_as_none(double energy, const SolverContext& context) {
+bool counts_as_none(double energy, const SolverContext& context, const References& references) {
   const Model& model = context.model;
   const double extent = model.extent();
-  if (energy <= 1e-6 * context.newton.largest_force() * extent) return true;
+  if (energy <= 1e-6 * references.largest_force() * extent) return true;
   MassProperties all;
   for (const Model::Part& part : model.parts) all.add(mass_properties(model, part));
   const double speed = 1e-9 * extent / (context.options.end - context.options.begin);
@@ -84,11 +84,13 @@ bool judges_energies(const SolverOptions& options) {
 }
 
 /// Why the run must end when its energies say that it is wrong; empty when they do not.
-std::string energy_failure(const SolverContext& context, const observe::Observer& observer, const Configuration& c) {
+std::string energy_failure(const SolverContext& context, const References& references, const observe::Observer& observer,
+                           const Configuration& c) {
   const double allowed = context.options.energy_error;
   const observe::EnergyBalance& balance = observer.energies();
   const double off = std::abs(balance.error());
-  if (!judges_energies(context.options) || off <= allowed * balance.handled() || counts_as_none(off / allowed, context))
+  if (!judges_energies(context.options) || off <= allowed * balance.handled() ||
+      counts_as_none(off / allowed, context, references))
     return {};
   const std::string unit = context.model.units.label(dimension::energy);
   return fmt::format(
@@ -102,12 +104,12 @@ std::string energy_failure(const SolverContext& context, const observe::Observer
 }
 
 /// A warning where the equilibria of a run are not on one path; empty where they are.
-std::string jump_remark(const SolverContext& context, const observe::EnergyBalance& balance) {
+std::string jump_remark(const SolverContext& context, const References& references, const observe::EnergyBalance& balance) {
   constexpr double small = 1e-3;
   const observe::Jump& jump = balance.jump;
   // what cannot be deformed does not snap: drives that turn far within a step are all that the works differ by
   if (balance.handled() <= small * jump.lost) return {};
-  if (jump.lost <= small * balance.handled() || counts_as_none(jump.lost, context)) return {};
+  if (jump.lost <= small * balance.handled() || counts_as_none(jump.lost, context, references)) return {};
   return fmt::format(
       "between t = {:.6g} and {:.6g} the structure snapped to a distant equilibrium: {:.3g} {} of energy went into a motion that "
       "statics leave out. Smaller steps H show at which load; .PATH follows the equilibria in between, TYPE DYNAMIC the motion",
@@ -115,12 +117,12 @@ std::string jump_remark(const SolverContext& context, const observe::EnergyBalan
 }
 
 /// A warning where a run that has come to its end has lost or won more energy than results should; empty where it has not.
-std::string energy_remark(const SolverContext& context, const observe::Observer& observer) {
+std::string energy_remark(const SolverContext& context, const References& references, const observe::Observer& observer) {
   constexpr double much = 0.05;
   const observe::EnergyBalance& balance = observer.energies();
   const double off = balance.largest_error;
-  if (balance.jump.lost > 0) return jump_remark(context, balance);
-  if (!judges_energies(context.options) || off <= much * balance.handled() || counts_as_none(off, context)) return {};
+  if (balance.jump.lost > 0) return jump_remark(context, references, balance);
+  if (!judges_energies(context.options) || off <= much * balance.handled() || counts_as_none(off, context, references)) return {};
   return fmt::format(
       "the energy balance was off by up to {:.3g} {}, {:.0f} % of what was in the machine or passed through it: "
       "results may be as wrong. A smaller {} would tell",
@@ -143,6 +145,7 @@ Attempt::Attempt(const Task& task, const Trial& trial, std::optional<Companion>&
       context_(task.reading.model, trial.options, task.comm),
       observer_(context_.assembler, moves(task.reading.model), select_histories(task.reading.model)),
       schedule_(task.reading.model.commands.stepping, task.reading.model.commands.archive),
+      fast_turns_(task.reading.model, trial.options),
       last_time_(task.reading.model.commands.stepping.start) {
   MPI_Comm_rank(task.comm, &rank_);
   MPI_Comm_size(task.comm, &ranks_);
@@ -226,6 +229,7 @@ void Attempt::run() {
 bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
   leave_at_once(false);
   forget_failures();
+  fast_turns_.take(solved);
   find_buckling_modes(solved, step);
   // what follows is output, and may have the memory
   if (step.last && task_.reading.is_one_solution() && context_.solver.direct() && !task_.options.condition)
@@ -246,7 +250,7 @@ bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
   });
   int stop = failure_.empty() ? 0 : 1;
   if (ranks_ > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, task_.comm);
-  if (const std::string wrong = energy_failure(context_, observer_, solved); !wrong.empty() && stop == 0) {
+  if (const std::string wrong = energy_failure(context_, runner_->references(), observer_, solved); !wrong.empty() && stop == 0) {
     failure_ = wrong;
     wrong_ = true;
     stop = 1;
@@ -279,6 +283,7 @@ Schedule::Due Attempt::show(const Configuration& solved, const StepReport& step)
 
 Schedule::Due Attempt::show_instants(Instants& instants, const Configuration& solved, const StepReport& step) {
   observe(in_space(solved), step, {});
+  if (companion_ && rank_ == 0) companion_->widen(observer_);
   return instants.show([this](double time, const Schedule::Due& due) {
     write([&] {
       if (companion_ && !schedule_.beside_even(time)) companion_->compare(time, observer_);
@@ -318,40 +323,55 @@ void Attempt::write(const Write& write) {
 }
 
 std::optional<Trial> Attempt::sharper() {
-  const double tolerance = sharper_tolerance();
+  const auto [tolerance, longest] = sharper_steps();
   if (tolerance == 0) return {};
-  const bool kept = companion_->serves(tolerance);
+  const bool kept = longest == trial_.options.longest && companion_->serves(tolerance);
   if (kept) companion_->succeed(runner_->steps(), tolerance);
-  const SolverOptions next = trial_.settled ? *trial_.settled : with_tolerance(task_.reading.model, trial_.options, tolerance);
+  SolverOptions next = trial_.settled ? *trial_.settled : with_tolerance(task_.reading.model, trial_.options, tolerance);
+  next.longest = longest;
   return Trial{.options = next, .complete = trial_.options, .keeps_companion = kept, .differences = differences_};
 }
 
-double Attempt::sharper_tolerance() {
-  if (!companion_ || !complete_) return 0;
+std::array<double, 2> Attempt::sharper_steps() {
+  if (!companion_ || !complete_) return {0, 0};
   const SolverOptions& wanted = trial_.options;
-  double tolerance = 0;
+  double tolerance = 0, longest = wanted.longest;
   if (rank_ == 0) {
     ErrorEstimate estimate = companion_->estimate(runner_->steps());
     if (estimate.trouble.empty()) {
       estimate.follow(trial_.differences);
+      if (steps_are_longest()) estimate.steps_reach(wanted.longest);
       differences_ = trial_.differences;
       differences_.push_back(estimate.difference());
     }
-    if (trial_.may_repeat && estimate.trouble.empty() && estimate.falls && estimate.error > wanted.target) {
+    const bool again = trial_.may_repeat && estimate.trouble.empty() && estimate.error > wanted.target;
+    const std::string missed =
+        fmt::format("engrane: the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: again, with ",
+                    estimate.error, estimate.channel, wanted.target);
+    if (again && estimate.longest > 0) {
+      tolerance = trial_.settled ? trial_.settled->tolerance : wanted.tolerance;
+      longest = estimate.longest_for(wanted.target, trial_.differences);
+      writer_->note(fmt::format("{}steps of at most {:.2g}", missed, longest));
+    } else if (again && estimate.falls) {
       tolerance = std::max(estimate.tolerance_for(wanted.target), most_at_once * wanted.tolerance);
       // what was looser than the setting's own TOL goes on to that
       if (const AccuracyRung* rung = accuracy_rung(task_.reading.model.commands.analysis))
         tolerance = trial_.settled ? rung->tolerance : std::min(tolerance, rung->tolerance);
-      writer_->note(
-          fmt::format("engrane: the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: again, "
-                      "with TOL {:.1g}",
-                      estimate.error, estimate.channel, wanted.target, tolerance));
+      writer_->note(fmt::format("{}TOL {:.1g}", missed, tolerance));
     } else {
       writer_->accuracy(estimate, wanted.target, trial_.sharper_failed);
     }
   }
-  MPI_Bcast(&tolerance, 1, MPI_DOUBLE, 0, task_.comm);
-  return tolerance;
+  std::array<double, 2> found{tolerance, longest};
+  MPI_Bcast(found.data(), 2, MPI_DOUBLE, 0, task_.comm);
+  return found;
+}
+
+bool Attempt::steps_are_longest() const {
+  constexpr double nearly = 1.2;
+  const SolverOptions& options = trial_.options;
+  const double begun = task_.resumption ? task_.resumption->point.time : options.begin;
+  return static_cast<double>(runner_->steps()) * options.longest < nearly * (options.end - begun);
 }
 
 std::string Attempt::looser_before() const {
@@ -379,11 +399,17 @@ int Attempt::finish() {
   std::string unresolved;
   // positions of a KINEMATIC analysis do not come from a balance of forces
   if (complete_ && context_.options.analysis != SolverOptions::Analysis::kinematics)
-    unresolved = explain_unresolved(context_.assembler, context_.newton, runner_->now(), observer_.energies().handled());
+    unresolved = explain_unresolved(context_.assembler, runner_->references(), context_.newton.keeps_one_tangent(),
+                                    runner_->now(), observer_.energies().handled());
   if (rank_ == 0) {
     try {
       if (!unresolved.empty()) writer_->warn(unresolved);
-      if (const std::string remark = energy_remark(context_, observer_); complete_ && !remark.empty()) writer_->warn(remark);
+      if (const std::string remark = energy_remark(context_, runner_->references(), observer_); complete_ && !remark.empty())
+        writer_->warn(remark);
+      if (const std::string remark = fast_turns_.remark(); !remark.empty()) {
+        writer_->warn(remark);
+        task_.summary.diagnostics.push_back({.severity = Severity::warning, .location = {}, .message = remark, .hint = {}});
+      }
       if (const std::string remark = looser_before(); complete_ && !remark.empty()) writer_->warn(remark);
       if (const std::string remark = context_.solver.remark(); !remark.empty()) writer_->warn(remark);
       if (runner_->started()) writer_->remember(runner_->now(), *runner_, false, true);

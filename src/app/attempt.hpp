@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/companion.hpp"
+#include "app/fast_turns.hpp"
 #include "app/instants.hpp"
 #include "app/options.hpp"
 #include "app/read.hpp"
@@ -62,8 +64,10 @@ class Attempt {
 
   /// The run to make because the error of this one is too large; none where it is not. Collective.
   std::optional<Trial> sharper();
-  /// The tolerance of that; 0 for none. Collective.
-  double sharper_tolerance();
+  /// The tolerance and the longest step of that; no tolerance for none. Collective.
+  std::array<double, 2> sharper_steps();
+  /// Is nearly every step as long as it may be, so that TOL has chosen few?
+  bool steps_are_longest() const;
   /// A warning on the part of a continued run that came before, where the rest was repeated.
   std::string looser_before() const;
   void tell_condition();
@@ -79,6 +83,7 @@ class Attempt {
   solve::SolverContext context_;
   observe::Observer observer_;
   Schedule schedule_;
+  FastTurns fast_turns_;
   std::optional<Writer> writer_;  ///< of rank 0
   std::unique_ptr<solve::Scheme> scheme_;
   std::optional<solve::Runner> runner_;

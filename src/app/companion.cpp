@@ -40,6 +40,10 @@ constexpr double well_below = 2;
 constexpr double early = 0.2;
 /// Ratios of steps nearer to 1 say nothing.
 constexpr double least_ratio = 1.02;
+/// Three runs show the order that errors fall with where each has at least so many times the steps of the one before.
+constexpr double telling_ratio = 1.2;
+/// Errors of motions with corners fall with this order; differences that fall less follow no power of the steps.
+constexpr double least_order = 1;
 /// No more values than this are kept, of no more instants: errors are means over time.
 constexpr std::size_t most_values = std::size_t{1} << 23, most_instants = 2000;
 /// A channel whose range is less than this part of the largest of its dimension, or of its own size, tells of rounding; so does
@@ -93,6 +97,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   progress.label("for the estimate: ");
   const auto scheme = make_scheme(context);
   order_of_steps_ = options.family == SolverOptions::Family::radau ? order_of_radau : order_of_alpha;
+  estimate_.order_of_steps = order_of_steps_;
   estimate_.order = order_of_steps_ / scheme->order_of_error();
   Runner runner(context, *scheme);
   const double from = resumption ? resumption->point.time : options.begin;
@@ -201,8 +206,7 @@ void Companion::compare(double time, const observe::Observer& observer) {
   const auto row = place(time);
   if (!row || *row >= rows_ || repeats(time)) return;
   values_run_.resize(values_.size(), std::numeric_limits<double>::quiet_NaN());
-  if (!std::exchange(placed_, true))
-    for (Column& column : columns_) column.at = static_cast<std::size_t>(observer.channel(column.owner, column.channel));
+  find_columns(observer);
   const std::vector<double>& values = observer.values();
   handled_ = observer.energies().handled();
   ++compared_;
@@ -216,9 +220,20 @@ void Companion::compare(double time, const observe::Observer& observer) {
     if (column.dimension == dimension::angle) off = std::remainder(off, 2 * std::numbers::pi);
     if (!std::isfinite(off)) continue;
     column.squares += off * off;
-    column.least = std::min(column.least, value);
-    column.largest = std::max(column.largest, value);
+    column.include(value);
   }
+}
+
+void Companion::find_columns(const observe::Observer& observer) {
+  if (!std::exchange(placed_, true))
+    for (Column& column : columns_) column.at = static_cast<std::size_t>(observer.channel(column.owner, column.channel));
+}
+
+void Companion::widen(const observe::Observer& observer) {
+  find_columns(observer);
+  const std::vector<double>& values = observer.values();
+  for (Column& column : columns_)
+    if (std::isfinite(values[column.at])) column.include(values[column.at]);
 }
 
 bool Companion::serves(double tolerance) const {
@@ -231,7 +246,8 @@ void Companion::succeed(long steps, double tolerance) {
   estimate_.earlier_seconds += estimate_.companion_seconds;
   estimate_.companion_seconds = now - std::exchange(begun_, now);
   estimate_.companion_tolerance = std::exchange(estimate_.tolerance, tolerance);
-  steps_ = steps;
+  for (Column& column : columns_) column.before = compared_ > 0 ? difference(column) : 0;
+  steps_before_ = std::exchange(steps_, steps);
   values_ = std::exchange(values_run_, {});
   compared_ = 0;
   last_ = -std::numeric_limits<double>::infinity();
@@ -240,6 +256,25 @@ void Companion::succeed(long steps, double tolerance) {
     column.least = std::numeric_limits<double>::infinity();
     column.largest = -column.least;
   }
+}
+
+double Companion::difference(const Column& column) const { return std::sqrt(column.squares / static_cast<double>(compared_)); }
+
+double Companion::order_of(const Column& column, long steps, double assumed) const {
+  const auto number = [](long n) { return static_cast<double>(std::max(n, 1L)); };
+  const double refined = number(steps_) / number(steps_before_), ratio = number(steps) / number(steps_);
+  if (!(column.before > 0) || assumed <= least_order || std::min(refined, ratio) < telling_ratio) return assumed;
+  // the differences of the second pair over those of the first; it falls with p
+  const auto quotient = [&](double p) { return (1 - std::pow(ratio, -p)) / (std::pow(refined, p) - 1); };
+  const double found = difference(column) / column.before;
+  // with less than the least order a run may be good and its companion not: ErrorEstimate::follow() sees what does not fall
+  if (found <= quotient(assumed) || found >= quotient(least_order)) return assumed;
+  double low = least_order, high = assumed;
+  for (int halvings = 0; halvings < 30; ++halvings) {
+    const double middle = 0.5 * (low + high);
+    (quotient(middle) > found ? low : high) = middle;
+  }
+  return low;
 }
 
 std::vector<Companion::Largest> Companion::largest_by_dimension() const {
@@ -283,16 +318,19 @@ ErrorEstimate Companion::estimate(long steps) const {
   found.ratio_of_steps = static_cast<double>(steps) / static_cast<double>(std::max(steps_, 1L));
   const double ratio = std::max(found.ratio_of_steps, least_ratio);
   const double smooth = order_of_steps_ == order_of_radau ? smooth_ratio_of_radau : smooth_ratio_of_alpha;
-  const double kept = 1 - std::clamp(std::log(ratio / smooth) / std::log(rough), 0.0, 1.0), order = order_of_steps_ * kept;
-  const double gain = std::pow(ratio, order) - 1;  // the difference over the error
-  const double share = 1 / (ratio > smooth ? std::max(gain, 1.0) : gain);
+  const double kept = 1 - std::clamp(std::log(ratio / smooth) / std::log(rough), 0.0, 1.0), assumed = order_of_steps_ * kept;
+  const auto share_of = [ratio](double order) { return 1 / (std::pow(ratio, order) - 1); };  // the error over the difference
+  const double share = ratio > smooth ? std::min(share_of(assumed), 1.0) : share_of(assumed);
   const std::vector<Largest> all = largest_by_dimension();
   for (const Column& column : columns_) {
     if (!(column.range() > noise_of(column, all))) continue;
-    const double error = share * std::sqrt(column.squares / static_cast<double>(compared_)) / column.range();
+    const double order = order_of(column, steps, assumed);
+    const double own_share = order < assumed ? std::max(share, std::min(share_of(order), 1.0)) : share;
+    const double error = own_share * difference(column) / column.range();
     if (error >= found.error) {
       found.error = error;
-      found.share = share;
+      found.share = own_share;
+      found.order = estimate_.order * (order < assumed ? order / order_of_steps_ : 1);
       found.channel = column.owner + "/" + column.channel;
     }
   }

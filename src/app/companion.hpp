@@ -35,6 +35,9 @@ class Companion {
 
   /// An even instant of the run itself, which its observer has seen last. On rank 0.
   void compare(double time, const observe::Observer& observer);
+  /// The end of a step of the run itself, which its observer has seen last. On rank 0. Ranges include it: what repeats as often
+  /// as it is sampled, or at a multiple of that, looks still at the even instants.
+  void widen(const observe::Observer& observer);
   /// After the run, of so many steps. On rank 0.
   ErrorEstimate estimate(long steps) const;
   /// Why it failed; empty when it did not. On all ranks.
@@ -51,6 +54,8 @@ class Companion {
   /// channels of the whole model only those that `.CHK` names: work may be a small difference of what comes and goes.
   void choose_columns(const observe::Observer& observer, const Model& model);
   void record(double time, const std::vector<double>& values);
+  /// Finds Column::at among the values of the run itself.
+  void find_columns(const observe::Observer& observer);
   /// Place of an instant among those kept; empty for the others.
   std::optional<std::size_t> place(double time) const;
 
@@ -63,7 +68,12 @@ class Companion {
     std::string owner, channel;
     Dimension dimension;
     double squares = 0, least = 0, largest = 0;
+    double before = 0;  ///< what the companion and its own companion differed by; 0: it had none
 
+    void include(double value) {
+      least = std::min(least, value);
+      largest = std::max(largest, value);
+    }
     double range() const { return largest - least; }
     double size() const { return std::max(std::abs(largest), std::abs(least)); }
   };
@@ -72,6 +82,11 @@ class Companion {
     Dimension dimension;
     double range = 0, size = 0;
   };
+  /// What the two runs differ by in a channel: root of the mean square over time.
+  double difference(const Column& column) const;
+  /// The power of the numbers of steps that errors fall with, as three runs show that follow one another, at most `assumed`: the
+  /// observed order (Roache, Verification and Validation in Computational Science and Engineering (1998), ch. 5).
+  double order_of(const Column& column, long steps, double assumed) const;
   std::vector<Largest> largest_by_dimension() const;
   /// A range that tells of nothing but rounding, beside all channels.
   double noise_of(const Column& column, const std::vector<Largest>& all) const;
@@ -84,6 +99,7 @@ class Companion {
   std::size_t rows_ = 0, compared_ = 0;
   double last_ = -std::numeric_limits<double>::infinity();  ///< the instant recorded, or compared, before
   long steps_ = 0;
+  long steps_before_ = 0;  ///< of the companion's own companion
   double order_of_steps_ = 2;
   bool follows_tolerance_ = false;
   std::vector<double> values_;      ///< row by row; NaN where the instant was not reached

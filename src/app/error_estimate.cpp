@@ -8,13 +8,31 @@
 
 namespace engrane::app {
 
+namespace {
+
+/// A difference of runs has fallen if it is this part of an earlier one.
+constexpr double falling = 0.5;
+
+}  // namespace
+
 void ErrorEstimate::follow(const std::vector<double>& differences) {
   constexpr std::size_t enough = 2;
-  constexpr double falling = 0.5;
   if (differences.size() < enough || difference() < falling * differences.front()) return;
   falls = false;
   error = difference();
   share = 1;
+}
+
+void ErrorEstimate::steps_reach(double longest_step) {
+  longest = longest_step;
+  falls = true;
+}
+
+double ErrorEstimate::longest_for(double target, const std::vector<double>& differences) const {
+  constexpr double most_at_once = 0.1, least = 0.7;
+  // what is shorter than the steps shows no order
+  if (!differences.empty() && difference() >= falling * differences.back()) return most_at_once * longest;
+  return std::clamp(std::pow(0.5 * target / error, 1 / order_of_steps), most_at_once, least) * longest;
 }
 
 double ErrorEstimate::error_at(double other) const { return error * std::pow(other / tolerance, order); }
@@ -43,7 +61,9 @@ std::string ErrorEstimate::warning(double target, const std::string& sharper_fai
         companion_tolerance, tolerance, error, channel);
   return fmt::format("the error is estimated to be {:.2g} of the range of {}, more than the {:g} asked for: {}", error, channel,
                      target,
-                     sharper_failed.empty() ? fmt::format("take TOL {:.1g} in .SUB", tolerance_for(target)) : sharper_failed);
+                     !sharper_failed.empty() ? sharper_failed
+                     : longest > 0           ? fmt::format("take HMAX {:.1g} in .SUB", longest_for(target, {}))
+                                             : fmt::format("take TOL {:.1g} in .SUB", tolerance_for(target)));
 }
 
 std::string ErrorEstimate::describe(double target) const {

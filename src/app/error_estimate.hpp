@@ -20,6 +20,8 @@ struct ErrorEstimate {
   double earlier_seconds = 0;   ///< of runs before the companion
   double ratio_of_steps = 1;    ///< how many times the companion's the run has
   double order = 1;             ///< the power of TOL that errors go with, as far as steps follow it
+  double order_of_steps = 1;    ///< the power of the steps that errors go with
+  double longest = 0;           ///< the steps' length, where all are as long as they may be, so that TOL does not matter; else 0
   bool begins_looser = false;   ///< runs of its kind begin with AccuracyRung::first
   std::optional<double> since;  ///< where both runs went on from an earlier one, of which the estimate knows nothing
   std::string trouble;          ///< why there is no estimate
@@ -28,6 +30,10 @@ struct ErrorEstimate {
   double difference() const { return error / share; }
   /// Compares with the differences of earlier pairs of runs with larger TOL, the first one first: sets `falls`.
   void follow(const std::vector<double>& differences);
+  /// All steps of both runs are as long as they may be, of this length or twice that: they pass over what is shorter.
+  void steps_reach(double longest_step);
+  /// A length of steps that is expected to give half of an error. `differences`: as for follow().
+  double longest_for(double target, const std::vector<double>& differences) const;
   /// Error and processor time that another tolerance is expected to have.
   double error_at(double other) const;
   double seconds_at(double other) const;

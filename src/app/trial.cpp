@@ -23,9 +23,10 @@ std::vector<double> what_is_asked(const SolverOptions& own) {
 
 void save_choice(const Model& model, const SolverOptions& found, Snapshot& snapshot) {
   if (found.target == 0) return;
-  snapshot.put("dial/asked", what_is_asked(solver_options(model)));
-  snapshot.put("dial/found",
-               {static_cast<double>(found.family), found.damping, found.tolerance, found.precision, found.event_tolerance});
+  const SolverOptions own = solver_options(model);
+  snapshot.put("dial/asked", what_is_asked(own));
+  snapshot.put("dial/found", {static_cast<double>(found.family), found.damping, found.tolerance, found.precision,
+                              found.event_tolerance, found.longest / own.longest});
 }
 
 void load_choice(const Snapshot& snapshot, SolverOptions& options) {
@@ -36,6 +37,7 @@ void load_choice(const Snapshot& snapshot, SolverOptions& options) {
   options.tolerance = found.at(2);
   options.precision = found.at(3);
   options.event_tolerance = found.at(4);
+  options.longest *= found.at(5);
 }
 
 Verdict another_scheme(const Model& model, Trial trial, const std::string& why, int rank) {

@@ -172,7 +172,7 @@ void Newton::make_tangent() {
   if (keep_) frames_.take_old(*work_, assembler_.matrix(), comparable);
   assembler_.tangent(*work_, weights_);
   if (one_tangent_) assembler_.forget_places();
-  if (keep_) frames_.renew(*work_, assembler_.matrix(), [this](int equation) { return reach(equation); });
+  if (keep_) frames_.renew(*work_, assembler_.matrix(), [this](int equation) { return references_.length(equation); });
   fresh_ = true;
   policy_.renewed();
   matrix_of_factors_ = assembler_.changes();

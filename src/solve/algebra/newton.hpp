@@ -66,13 +66,8 @@ class Newton {
   /// Limits the constraint violations that the next solution leaves to this fraction of their length, or of a radian.
   void close_next(double open) { open_ = open; }
 
-  /// Largest force that any element has contributed so far.
-  double largest_force() const { return references_.largest_force(); }
-
-  /// Reference load of an equation in the last residual.
-  double load(int equation) const { return references_.load(equation); }
-  /// Reference length of an unknown's corrections (References::length), or 1 radian.
-  double reach(int equation) const { return references_.length(equation); }
+  /// The loads and lengths that residuals were compared with.
+  const References& references() const { return references_; }
   /// Reference length of a constraint: that of positions, or 1 radian.
   double length(int multiplier) const { return references_.length(equation(multiplier)); }
   /// Force kΦ of a constraint that is open by this much, over the largest loads so far around it.

@@ -164,7 +164,8 @@ std::string advice(const Assembler& assembler, const std::vector<int>& order, co
   if (resistance == Resistance::at_rest)
     return unshared_nodes(assembler, null) +
            ". Statics needs something that holds every motion: a support (.CLM FIX), a joint, a spring or a drive; what is to "
-           "move freely needs TYPE DYNAMIC";
+           "move freely needs TYPE DYNAMIC" +
+           plane_advice(model);
   std::vector<bool> bodies(model.nodes.size(), false);
   for (const Model::Part& part : model.parts)
     if (part.element->is_body())
@@ -189,11 +190,11 @@ std::string advice(const Assembler& assembler, const std::vector<int>& order, co
 
 /// Whether the matrix alone shows that the rounding of positions is no visible part of the loads. In a linear model without
 /// constraints it is a sum of positive semidefinite parts, none of which has a larger entry than its diagonal.
-bool surely_resolved(const Assembler& assembler, const Newton& newton, double visible, double least_load) {
+bool surely_resolved(const Assembler& assembler, const References& references, double visible, double least_load) {
   const auto& unknowns = assembler.numbering().unknowns();
   const bool forces = std::all_of(unknowns.begin(), unknowns.end(),
                                   [](const Unknown& u) { return !u.multiplier && u.measure == Measure::force; });
-  if (!newton.keeps_one_tangent() || !forces || unknowns.empty()) return false;
+  if (!forces || unknowns.empty()) return false;
   Owned<Vec> diagonal;
   *diagonal.out() = assembler.new_vector();
   check_petsc(MatGetDiagonal(assembler.matrix(), diagonal));
@@ -201,8 +202,8 @@ bool surely_resolved(const Assembler& assembler, const Newton& newton, double vi
   check_petsc(VecNorm(diagonal, NORM_INFINITY, &stiffest));
   double reach = 0, load = std::numeric_limits<double>::infinity();
   for (int row = 0; row < assembler.numbering().equations(); ++row) {
-    reach = std::max(reach, newton.reach(row));
-    load = std::min(load, std::max(newton.load(row), least_load));
+    reach = std::max(reach, references.length(row));
+    load = std::min(load, std::max(references.load(row), least_load));
   }
   return std::numeric_limits<double>::epsilon() * stiffest * reach <= visible * load;
 }
@@ -266,6 +267,14 @@ std::string explain_unresisted(Assembler& assembler, const Configuration& equili
                                                                          : std::string();
 }
 
+std::string plane_advice(const Model& model) {
+  const bool plane_cells = std::any_of(model.parts.begin(), model.parts.end(), [](const Model::Part& part) {
+    return part.element->cell_shape() != CellShape::none && part.element->layout().needs_any(0, NodeNeed::in_plane);
+  });
+  return plane_cells && !model.plane.active() ? "; if all motion is in the plane of the cells, .SAM PLANE XY solves it there"
+                                              : "";
+}
+
 std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, const Mobility& mobility) {
   const int freedom = mobility.freedom();
   if (freedom <= 0) return {};
@@ -284,13 +293,13 @@ std::string explain_free_motion(Assembler& assembler, const Configuration& confi
   return text;
 }
 
-std::string explain_unresolved(const Assembler& assembler, const Newton& newton, const Configuration& configuration,
-                               double energy) {
+std::string explain_unresolved(const Assembler& assembler, const References& references, bool one_tangent,
+                               const Configuration& configuration, double energy) {
   constexpr double visible = 1e-3, epsilon = std::numeric_limits<double>::epsilon();
   const Numbering& numbering = assembler.numbering();
   const auto& parts = assembler.model().parts;
   const double extent = assembler.model().extent(), least = energy / extent;
-  if (surely_resolved(assembler, newton, visible, least)) return {};
+  if (one_tangent && surely_resolved(assembler, references, visible, least)) return {};
   struct {
     double part;
     int rank;
@@ -309,9 +318,9 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
     double carried = 0;
     for (std::size_t i = 0; i < of_nodes; ++i)
       if (const int row = numbering.equation(slots[i]); row >= 0)
-        carried = std::max(carried, newton.load(row) / (numbering.unknown(row).measure == Measure::moment ? extent : 1));
+        carried = std::max(carried, references.load(row) / (numbering.unknown(row).measure == Measure::moment ? extent : 1));
     // parts of a mesh that waves have not reached yet carry no forces of interest
-    const double elsewhere = element.cell_shape() == CellShape::none ? 0 : newton.largest_force();
+    const double elsewhere = element.cell_shape() == CellShape::none ? 0 : references.largest_force();
     for (std::size_t i = 0; i < of_nodes; ++i) {
       const int row = numbering.equation(slots[i]);
       if (row < 0) continue;
@@ -319,8 +328,8 @@ std::string explain_unresolved(const Assembler& assembler, const Newton& newton,
       for (std::size_t j = 0; j < of_nodes; ++j) {
         const int column = numbering.equation(slots[j]);
         if (column < 0) continue;
-        noise = std::max(noise, std::abs(k[i * n + j]) * epsilon * newton.reach(column));
-        place = std::max(place, epsilon * newton.reach(column));
+        noise = std::max(noise, std::abs(k[i * n + j]) * epsilon * references.length(column));
+        place = std::max(place, epsilon * references.length(column));
       }
       // a machine without loads has no forces to resolve
       if (!(energy > 1e3 * noise * place)) continue;

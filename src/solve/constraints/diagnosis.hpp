@@ -27,6 +27,9 @@ std::string explain_null_vector(const Assembler& assembler, const std::string& w
 /// `assembler`. Collective.
 std::string explain_unresisted(Assembler& assembler, const Configuration& equilibrium, const std::string& what);
 
+/// "; if all motion is in the plane of the cells, .SAM PLANE XY solves it there"; empty without plane cells in a model of space.
+std::string plane_advice(const Model& model);
+
 /// Names a motion that no drive determines, of a mechanism with this mobility; empty if there is none.
 std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, const Mobility& mobility);
 
@@ -34,9 +37,10 @@ std::string explain_free_motion(Assembler& assembler, const Configuration& confi
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report);
 
 /// Names the element whose stiffness makes the rounding of positions a visible part of the loads; empty if there is none.
-/// `energy`: what was in the machine or passed through it. Collective.
-std::string explain_unresolved(const Assembler& assembler, const Newton& newton, const Configuration& configuration,
-                               double energy);
+/// `one_tangent`: the assembler's matrix holds the one tangent of a linear model. `energy`: what was in the machine or passed
+/// through it. Collective.
+std::string explain_unresolved(const Assembler& assembler, const References& references, bool one_tangent,
+                               const Configuration& configuration, double energy);
 
 /// What is said of an element whose forces are not finite, after its name, if the element knows no reason.
 inline constexpr const char* gives_not_finite = "gives a force or a slope of it that is not a finite number";

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/constraints/diagnosis.hpp"
 #include "solve/constraints/leaves.hpp"
 
 namespace engrane::solve {
@@ -132,15 +133,11 @@ std::string MasslessMotions::explain_unheld(Assembler& assembler, const Configur
   const RowSpace held(seen.matrix().transpose(), unseen);
   const auto count = seen_.rows() - held.rank();
   if (count == 0) return {};
-  const auto& parts = assembler.model().parts;
-  const bool plane_cells = std::any_of(parts.begin(), parts.end(), [](const Model::Part& part) {
-    return part.element->cell_shape() != CellShape::none && part.element->layout().needs_any(0, NodeNeed::in_plane);
-  });
   return fmt::format(
       "{} has no inertia, and no joint, spring or damper holds it{}: give it a mass, or a moment of inertia about the axis it "
       "turns about (INERTIA), make it part of a body (RIGID), or hold it by a support, spring or damper{}",
       outside(assembler, rows_, held), count > 1 ? fmt::format(" (one of {} such motions)", count) : "",
-      plane_cells ? "; if all motion is in the plane of the cells, .SAM PLANE XY solves it there" : "");
+      plane_advice(assembler.model()));
 }
 
 void MasslessMotions::remove(std::span<double> slots) const {

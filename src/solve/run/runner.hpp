@@ -47,6 +47,8 @@ class Runner {
   void save(Snapshot& snapshot) const;
   const Configuration& now() const { return now_; }
   const SolverOptions& options() const { return options_; }
+  /// Loads and lengths of the last steps (Scheme::references).
+  const References& references() const { return scheme_.references(); }
   /// Number of steps accepted since the run started or was resumed.
   long steps() const { return step_.number - resumed_at_; }
   bool started() const { return started_; }  ///< now() is an accepted configuration

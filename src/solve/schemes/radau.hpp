@@ -23,6 +23,7 @@ class Radau final : public Dynamics {
   void drift(Configuration& c, double h) override;
   void enter(const std::vector<int>& sides) override;
   int order_of_error() const override { return static_cast<int>(collocation_.stages()); }
+  const References& references() const override { return references_; }
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
 

@@ -85,6 +85,9 @@ class Scheme {
   /// Continues from a configuration that another kind of analysis may have left.
   virtual void take_over(Configuration& c) { context_.grips.let_go(c); }
 
+  /// Loads and lengths that the residuals of its steps are compared with.
+  virtual const References& references() const { return context_.newton.references(); }
+
   /// The scheme's memory of accepted steps, for a restart.
   virtual void save(Snapshot&) const {}
   virtual void load(const Snapshot&) {}

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""ACCURACY where steps are as long as they may be: motions that are known, with forces that change faster."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from runs import run
+
+
+def deck(analysis: str, stepping: str) -> str:
+    """Prescribed speeds: no step has an error of motion. Friction changes with each pair of teeth."""
+    return f""".UNIT SI
+.NOE
+ I 1
+ I 2
+.MCE
+ I 1 GEAR N 1 2 KIND SPUR Z 21 33 MN 3E-3 AXIS 0 0 1 PLACE 1 0 0 FRICTION CONST 0.06 SLIDING PROFILE
+ I 11 HINGE N 0 1 AXIS 0 0 1 DRIVE SPEED NF 1
+ I 12 HINGE N 0 2 AXIS 0 0 1
+ I 41 TORQUE N 2 AXIS 0 0 1 V 10
+ I 32 INERTIA N 2 M 1 J 1E-3
+.FCT
+ I 1 EXPR "10"
+.SAM TYPE DYNAMIC {analysis}
+.SUB TF 0.1 H 1E-3 {stepping}
+"""
+
+
+@pytest.mark.parametrize(("setting", "asked"), [("FAST", 1e-2), ("NORMAL", 1e-3), ("FINE", 1e-5)])
+def test_friction_of_teeth(setting: str, asked: float, tmp_path: Path) -> None:
+    """Steps of a fiftieth of the run, ten to a pitch, pass over the changes: a smaller TOL is no help."""
+    found = run(deck(f"ACCURACY {setting}", ""), tmp_path)
+    fine = run(deck("SCHEME RADAU", "").replace("H 1E-3", "H 2.5E-5"), tmp_path, "fine")
+    for channel in ("1/NORMAL_FORCE", "1/FRICTION_FORCE", "11/DRIVE_TORQUE"):
+        right = np.interp(found.t, fine.t, fine[channel])
+        off = found[channel] - right
+        assert np.sqrt(np.mean(off**2)) < asked * np.ptp(right), channel
+    assert "chaotic" not in (tmp_path / "deck.lst").read_text()
