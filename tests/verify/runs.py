@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 from pathlib import Path
@@ -58,3 +59,13 @@ def said(text: str, folder: Path) -> str:
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stderr
+
+
+def solve(deck: str, folder: Path, name: str = "deck", *words: str, status: int = 0) -> tuple[dict, Run]:
+    """Runs a deck: what --json says of it, with what the terminal shows as "said", and its results."""
+    path = folder / f"{name}.dat"
+    path.write_text(deck, encoding="utf-8")
+    command = [os.environ["ENGRANE"], "-q", "--json", str(path), "-o", str(folder / name), *words]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    assert done.returncode == status, done.stderr
+    return json.loads(done.stdout)["runs"][0] | {"said": done.stderr}, Run(folder / f"{name}.h5")

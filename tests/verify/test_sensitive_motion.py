@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A motion that no tolerance makes certain: the dial says so, and does not promise an error."""
 
-import json
-import os
-import subprocess
 from pathlib import Path
 
-ENGRANE = os.environ.get("ENGRANE", "build/bin/engrane")
+from runs import solve
 
 TRIPLE_PENDULUM = """
 .NOE
@@ -28,25 +25,20 @@ TRIPLE_PENDULUM = """
 """
 
 
-def solve(end: float, folder: Path) -> tuple[dict, str, str]:
-    (folder / "deck.dat").write_text(TRIPLE_PENDULUM.format(end=end), encoding="utf-8")
-    done = subprocess.run(
-        [ENGRANE, "deck.dat", "--json"], cwd=folder, capture_output=True, text=True, timeout=120
-    )
-    assert done.returncode == 0, done.stderr
-    found = json.loads(done.stdout)["runs"][0]
-    return found, done.stderr, (folder / "deck.lst").read_text(encoding="utf-8")
+def swing(end: float, folder: Path) -> tuple[dict, str]:
+    found, _ = solve(TRIPLE_PENDULUM.format(end=end), folder)
+    return found, (folder / "deck.lst").read_text(encoding="utf-8")
 
 
 def test_chaos_is_told(tmp_path: Path) -> None:
     """Four runs had estimated errors of 0.03 to 0.09, and the advice was to take TOL 3e-09."""
-    found, said, listing = solve(15, tmp_path)
-    assert "a smaller one will not make this motion certain" in said
+    found, listing = swing(15, tmp_path)
+    assert "a smaller one will not make this motion certain" in found["said"]
     assert "it does not fall with TOL" in listing and "ACCURACY FINE" not in listing
     assert found["accuracy"]["estimated_error"] > 0.1
 
 
 def test_the_same_motion_is_certain_for_a_while(tmp_path: Path) -> None:
-    found, said, listing = solve(2, tmp_path)
-    assert "certain" not in said and "ACCURACY FINE" in listing
+    found, listing = swing(2, tmp_path)
+    assert "certain" not in found["said"] and "ACCURACY FINE" in listing
     assert found["accuracy"]["estimated_error"] < 1e-3

@@ -3,17 +3,13 @@
 friction whose load passes zero, a beam whose axial vibration follows its bending, belts that go slack."""
 
 import functools
-import json
-import os
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-from runs import Run
-
-ENGRANE = os.environ.get("ENGRANE", "build/bin/engrane")
+from runs import Run, solve
+from test_known_between import BELT
 
 # two bodies on a guide, the first one driven with 50 Hz, a multiple of the rate of the samples
 DRIVEN = """
@@ -79,28 +75,9 @@ BEAM = """
 .SUB TF 0.4 H 0.002
 """
 
-BELT = """
-.NOE
- I 2 X 0 0 0
- I 3 X 0.2 0 0
-.MCE
- I 2 INERTIA N 2 M 0.4 J 6D-4
- I 3 INERTIA N 3 M 0.9 J 1.5D-3
- I 4 HINGE N 0 2 AXIS 0 0 1
- I 5 HINGE N 0 3 AXIS 0 0 1
- I 6 BELT N 2 3 AXIS 0 0 1 R 0.03 0.05 EA 2000 PRELOAD 20 C 1
-.INI
- VIT ELEMENT 4 V 20
-.SUB TF 0.5 H 0.0025
-"""
 
-
-def solve(deck: str, sam: str, folder: Path, name: str) -> tuple[dict, Run, str]:
-    (folder / f"{name}.dat").write_text(f"{deck}.SAM TYPE DYNAMIC {sam}\n.FIN\n", encoding="utf-8")
-    command = [ENGRANE, "-q", "--json", f"{name}.dat", "-o", name]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300)
-    assert done.returncode == 0, done.stderr
-    return json.loads(done.stdout)["runs"][0], Run(folder / f"{name}.h5"), done.stderr
+def solve_by(deck: str, sam: str, folder: Path) -> tuple[dict, Run]:
+    return solve(f"{deck}.SAM TYPE DYNAMIC {sam}\n.FIN\n", folder)
 
 
 @pytest.fixture(scope="module")
@@ -110,7 +87,7 @@ def truth_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Run]:
     @functools.cache
     def truth(deck: str, tolerance: str = "1D-9") -> Run:
         sharp = "\n".join(f"{n} TOL {tolerance}" if n.startswith(".SUB") else n for n in deck.splitlines())
-        return solve(sharp + "\n", "SCHEME RADAU", tmp_path_factory.mktemp("truth"), "truth")[1]
+        return solve_by(sharp + "\n", "SCHEME RADAU", tmp_path_factory.mktemp("truth"))[1]
 
     return truth
 
@@ -127,8 +104,8 @@ def test_a_motion_that_looks_still_does_not_repeat_a_run(
     setting: str, target: float, tmp_path: Path, truth_of: Callable[..., Run]
 ) -> None:
     """Errors were compared with ranges of rounding: FAST took 4600 steps for 2 s, NORMAL 9600."""
-    found, result, said = solve(DRIVEN, f"ACCURACY {setting}", tmp_path, "deck")
-    assert "again" not in said
+    found, result = solve_by(DRIVEN, f"ACCURACY {setting}", tmp_path)
+    assert "again" not in found["said"]
     assert found["steps"] < 625
     dense = truth_of(DRIVEN.replace("H 0.02", "H 0.0005"), "1D-6")
     at = np.searchsorted(dense.t, result.t - 1e-9)
@@ -142,7 +119,7 @@ def test_a_motion_that_looks_still_does_not_repeat_a_run(
 
 def test_a_free_vibration_that_looks_still_has_the_error_stated(tmp_path: Path) -> None:
     """Stated was 30 times the range, and chaos."""
-    found, result, _ = solve(FREE, "ACCURACY NORMAL", tmp_path, "deck")
+    found, result = solve_by(FREE, "ACCURACY NORMAL", tmp_path)
     assert found["steps"] < 3000 and not found["diagnostics"]
     wave = 100 * np.pi * result.t
     errors = [
@@ -157,7 +134,7 @@ def test_a_free_vibration_that_looks_still_has_the_error_stated(tmp_path: Path) 
 def test_friction_power_at_fine_meets_its_target(tmp_path: Path, truth_of: Callable[..., Run]) -> None:
     """It was 3e-5 off with a sticking phase."""
     deck = PRESSED.format(friction="0.25 STICK")
-    _, result, _ = solve(deck, "ACCURACY FINE", tmp_path, "deck")
+    _, result = solve_by(deck, "ACCURACY FINE", tmp_path)
     assert off(result, truth_of(deck), "2/FRICTION_POWER") < 1e-5
 
 
@@ -167,7 +144,7 @@ def test_friction_has_a_corner_where_its_load_passes_zero(
 ) -> None:
     """FRICTION_FORCE was 2e-3 off where 6e-4 was stated; at one instant half of it was missing."""
     deck = PRESSED.format(friction=friction)
-    found, result, _ = solve(deck, "ACCURACY NORMAL", tmp_path, "deck")
+    found, result = solve_by(deck, "ACCURACY NORMAL", tmp_path)
     error = off(result, truth_of(deck), "2/FRICTION_FORCE")
     assert error < 1e-3
     assert error < 3 * found["accuracy"]["estimated_error"]
@@ -181,7 +158,7 @@ def test_the_order_of_errors_is_that_of_the_runs(
     setting: str, tmp_path: Path, truth_of: Callable[..., Run]
 ) -> None:
     """Axial vibrations of the beam fall with order 2 in the steps: 9e-4 was stated, and true were 6e-3."""
-    found, result, _ = solve(BEAM, f"ACCURACY {setting}", tmp_path, "deck")
+    found, result = solve_by(BEAM, f"ACCURACY {setting}", tmp_path)
     truth = truth_of(BEAM, "1D-7")
     true = max(off(result, truth, c) for c in ("1/NORMAL_FORCE_B", "2/NORMAL_FORCE_A", "node/2/AX"))
     assert true / 3 < found["accuracy"]["estimated_error"] < 10 * true
@@ -192,7 +169,7 @@ def test_steps_end_where_a_belt_goes_slack(
     setting: str, tmp_path: Path, truth_of: Callable[..., Run]
 ) -> None:
     """The force on the bearings was 4e-3 off, where 8e-4 was stated."""
-    found, result, _ = solve(BELT, f"ACCURACY {setting}", tmp_path, "deck")
+    found, result = solve_by(BELT, f"ACCURACY {setting}", tmp_path)
     assert result["run/EVENTS"][-1] >= 8
     truth = truth_of(BELT, "1D-7")
     channels = ("6/FORCE_X", "6/SLACK_SIDE", "6/TIGHT_SIDE", "run/DISSIPATED_ENERGY")
