@@ -35,7 +35,7 @@ std::optional<Lack> lacks(unsigned needs, int component) {
   if (needs == static_cast<unsigned>(NodeNeed::in_plane) && component > 1)
     return Lack{"the node is one of plane cells", "its components are 1 and 2"};
   const bool turns = (needs & static_cast<unsigned>(NodeNeed::rotation)) != 0;
-  if (needs != 0 && !turns && component > 2) return Lack{"nothing at the node has rotations", "its components are 1, 2 and 3"};
+  if (needs != 0 && !turns && component > 2) return Lack{"no element at the node has rotations", "its components are 1, 2 and 3"};
   return {};
 }
 
@@ -103,11 +103,11 @@ void check_initial_values(const Model& model, std::span<const Location> location
     const auto node = static_cast<std::size_t>(value.node);
     const std::optional<Lack> lack = lacks(needs[node], value.component);
     if (!lack || value.value == 0 || !told.insert({locations[i].file, locations[i].line}).second) continue;
-    const std::string spin = value.velocity && value.component > 2 ? "; a body of cells turns by VIT … AXIS 0 0 1 V …" : "";
-    diagnostics.error(
-        locations[i],
-        fmt::format("component {} of node {} cannot be given: {}", value.component + 1, model.nodes[node].id, lack->node),
-        lack->components + spin);
+    const std::string spin = value.velocity && value.component > 2 ? "; to spin a body of cells, give VIT … AXIS 0 0 1 V …" : "";
+    diagnostics.error(locations[i],
+                      fmt::format("component {} of node {} cannot have an initial value: {}", value.component + 1,
+                                  model.nodes[node].id, lack->node),
+                      lack->components + spin);
   }
 }
 

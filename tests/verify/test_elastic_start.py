@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from runs import run, said
 
-TOLD = "begin pressed in by"
+TOLD = "are pressed in by"
 
 
 def pair(teeth: str, distance: float, more: str, analysis: str, drive: str = "") -> str:
@@ -56,7 +56,7 @@ def test_both_wheels_given(tmp_path: Path) -> None:
     """u = (60 r_A + 10 r_B) degrees."""
     text = said(pair("20 40", 60, BODIES + " DEP ELEMENT 2 V 60\n DEP ELEMENT 3 V 10", "DYNAMIC"), tmp_path)
     assert text.count(TOLD) == 1
-    assert "the teeth of GEAR 1 begin pressed in by 27.93 [length], 14 times their module" in text
+    assert "the teeth of GEAR 1 are pressed in by 27.93 [length] at the start, 14 times their module" in text
 
 
 def test_small_deflections_are_kept(tmp_path: Path) -> None:

@@ -18,7 +18,8 @@ constexpr std::array all{
     Order{
         "ABRE", "ABRE '/name' 'text'",
         "wherever `/name` stands outside quotes the text is read; the longest name that fits is taken, and a text may use other "
-        "names. A name that is given again has its new text from there on. In arithmetic, dividing by an abbreviation takes two "
+        "names. A name may be given again; the new text holds from there on. In arithmetic, dividing by an abbreviation takes "
+        "two "
         "strokes: `(10//name)`. `engrane -D name=text` replaces the text of the deck"},
     Order{"MODE", "MODE LECT n",
           "lines are read up to column n (256 without it); a warning says when text lies beyond. Other settings of MODE are "
