@@ -341,6 +341,7 @@ std::array<double, 2> Attempt::sharper_steps() {
     if (estimate.trouble.empty()) {
       estimate.follow(trial_.differences);
       if (steps_are_longest()) estimate.steps_reach(wanted.longest);
+      if (wanted.longest < solver_options(task_.reading.model).longest) estimate.shortened = wanted.longest;
       differences_ = trial_.differences;
       differences_.push_back(estimate.difference());
     }

@@ -79,6 +79,9 @@ std::string ErrorEstimate::describe(double target) const {
         *since);
   text +=
       fmt::format("  processor time     {:.2g} s, and {:.2g} s for the estimate\n", seconds, companion_seconds + earlier_seconds);
+  if (shortened > 0)
+    return text + fmt::format("  longest step       {:.2g}, shorter than the deck allows: here it limits the error, not TOL\n",
+                              shortened);
   for (const AccuracyRung& rung : accuracy_rungs)
     if (falls && rung.target != target)
       text += fmt::format("  ACCURACY {:<10}error about {:.1g}, about {:.2g} s\n", rung.name, error_at(tolerance_of(rung)),

@@ -22,6 +22,7 @@ struct ErrorEstimate {
   double order = 1;             ///< the power of TOL that errors go with, as far as steps follow it
   double order_of_steps = 1;    ///< the power of the steps that errors go with
   double longest = 0;           ///< the steps' length, where all are as long as they may be, so that TOL does not matter; else 0
+  double shortened = 0;         ///< the longest step, where earlier runs made it shorter than the deck does; else 0
   bool begins_looser = false;   ///< runs of its kind begin with AccuracyRung::first
   std::optional<double> since;  ///< where both runs went on from an earlier one, of which the estimate knows nothing
   std::string trouble;          ///< why there is no estimate
