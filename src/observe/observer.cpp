@@ -19,6 +19,8 @@ namespace {
 
 /// Maximum number of interpolation points for values between two instants.
 constexpr std::size_t most_ends = 6;
+/// A size less than this part of those around counts as zero: a corner so near makes no larger difference.
+constexpr double no_size = 1e-6;
 
 /// Angles may jump by a turn, and velocities are as accurate as the motion itself. Lengths are left out: they may be small
 /// differences of large ones, such as coordinates.
@@ -224,13 +226,11 @@ void Observer::between(const Configuration& c) {
   const auto [before, after, part] = ends_.around(c.time);
   const std::vector<double> weights = ends_.weights(c.time, 0);
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    double square = 0;
     switch (ways_[i].course) {
       case Channel::Course::smooth:
         break;
       case Channel::Course::size:
-        for (std::size_t p = 0; p < weights.size(); ++p) square += weights[p] * std::pow(ends_.values(p)[i], 2);
-        values_[i] = std::sqrt(std::max(square, 0.0));
+        values_[i] = size_between(i, weights, values_[i]);
         break;
       case Channel::Course::ratio:
         values_[i] = before[i] + part * (after[i] - before[i]);
@@ -245,6 +245,19 @@ void Observer::between(const Configuration& c) {
     values_[i] = std::clamp(values_[i], ways_[i].low, ways_[i].high);
   }
   put_known(c, smooth, std::span(all).subspan(values_.size()));
+}
+
+double Observer::size_between(std::size_t column, std::span<const double> weights, double smooth) const {
+  double square = 0, largest = 0;
+  for (std::size_t p = 0; p < weights.size(); ++p) {
+    const double size = ends_.values(p)[column];
+    square += weights[p] * size * size;
+    largest = std::max(largest, size);
+  }
+  // what grows from zero has no corner on its way, and of a square of high order polynomials see little
+  const double none = no_size * largest;
+  const bool grows = ends_.values(0)[column] <= none || ends_.values(weights.size() - 1)[column] <= none;
+  return grows ? std::max(smooth, 0.0) : std::sqrt(std::max(square, 0.0));
 }
 
 void Observer::put_known(const Configuration& c, bool smooth, std::span<const double> sources) {

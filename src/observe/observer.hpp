@@ -128,6 +128,9 @@ class Observer {
   std::vector<Way> ways() const;
   /// Adds values() and sources_ to the interpolation points.
   void keep(double time);
+  /// A Channel::Course::size between instants. `weights`: of the interpolation points; `smooth`: the polynomial through the
+  /// sizes.
+  double size_between(std::size_t column, std::span<const double> weights, double smooth) const;
   /// Sets the values of Histories::known(), for between(). `sources`: the interpolated sources.
   void put_known(const Configuration& c, bool smooth, std::span<const double> sources);
   bool keeps_ends_ = false;

@@ -27,6 +27,11 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
   } else {
     layout.multipliers.push_back({"NORMAL_FORCE", dimension::length, "normal force of the cam on the follower"});
   }
+  if (const CamMotion* motion = parts_.profile->curve().motion()) joints_ = motion->joints();
+  for (const double joint : joints_) {
+    const std::string where = fmt::format("the joint of the motion at {:.6g} degrees", joint / degree);
+    layout.switches.push_back({"cam passes " + where, "cam passes " + where + " again"});
+  }
   layout.slides = parts_.friction ? static_cast<int>(places()) : 0;
   set_layout(std::move(layout));
   const bool roller = !parts_.flat && parts_.radius > 0;
@@ -60,14 +65,32 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
 
 void Cam::count_turns(const State& state, std::span<double>, std::span<double> history) const {
   const Place<double> here = place<double>(motion<double>(state).node);
-  history[0] = feet(here, state.history).begin()->s;
+  history[0] = counted(feet(here, state.history).begin()->s, state.history);
   history[1] = 1;
 }
 
+double Cam::counted(double s, std::span<const double> history) {
+  constexpr double turn = 2 * std::numbers::pi;
+  if (history[1] != 0) s = history[0] + std::remainder(s - history[0], turn);
+  return std::remainder(s, 2 * turn);
+}
+
+void Cam::joint_switches(const Contact<Taylor>& deepest, const State& state, std::span<Switch> values) const {
+  const double s = counted(deepest.foot.s, state.history);
+  const bool touches = !parts_.law || deepest.gap.value <= 0;
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    // its zeros are the joint in every turn, in opposite directions
+    const double half = 0.5 * (s - joints_[k]);
+    values[k] = touches ? Switch{std::sin(half), 0.5 * std::cos(half) * deepest.s.d1, 1} : Switch{};
+  }
+}
+
 void Cam::switches(const State& state, std::span<Switch> values) const {
-  if (!parts_.law) return;
+  if (values.empty()) return;
   const CamFeet touched = feet(place<double>(motion<double>(state).node), state.history);
   const Place<Taylor> moving = place<Taylor>(along_motion(state));
+  joint_switches(contact(moving, *touched.begin()), state, values.last(joints_.size()));
+  if (!parts_.law) return;
   const std::size_t each = parts_.law->damped() ? 2 : 1;
   for (std::size_t k = 0; k < places(); ++k) {
     Switch& touches = values[k * each];

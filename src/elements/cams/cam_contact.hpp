@@ -66,6 +66,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
     T gap;
     Vec3T<T> normal;      ///< from the cam to the follower
     Vec3T<T> reach, arm;  ///< to the follower's point, from A and from B
+    T s;                  ///< place on the profile, from that of the foot
     T lever;              ///< flat face: from the contact point to the follower's point, along the face
     Vec3T<T> turn;        ///< flat face: gradient of its direction in the cam with respect to the rotation of B relative to A
     Vec3T<T> touch;       ///< from A to the contact point; for a knife edge to the edge
@@ -161,11 +162,17 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
     return parts_.friction->over_speed(square, std::abs(force)) * std::abs(force) * std::sqrt(square);
   }
 
+  /// The place s of a foot, which is known within a turn, counted on from that of the last step; within two turns.
+  static double counted(double s, std::span<const double> history);
+  /// Switches at the joints of the motion that the profile was made from. Only the first derivative of its place is used.
+  void joint_switches(const Contact<Taylor>& deepest, const State& state, std::span<Switch> values) const;
+
   double load(const Contact<double>& c, const State& state, double rate) const {
     return parts_.law ? parts_.law->force(-c.gap, -rate, 0) : state.multipliers[0] - state.penalty * c.gap;
   }
 
   CamParts parts_;
+  std::vector<double> joints_;  ///< of the motion that the profile was made from (CamMotion::joints)
   std::vector<Channel> channels_;
 };
 
@@ -225,6 +232,7 @@ Cam::Contact<T> Cam::contact(const Place<T>& place, const CamFoot& foot) const {
     const T angle = t[0] * mx + t[1] * my;  // increment from its value, to second order
     const double reach = foot.p.dot(n), aside = foot.p.dot(t), radius = 1 / foot.curvature;
     c.gap = x * mx + y * my - (reach + aside * angle + (0.5 * (radius - reach)) * angle * angle) + profile.inset();
+    c.s = angle * (radius / foot.speed);
     c.lever = y * mx - x * my - (aside + (radius - reach) * angle);
     c.normal = place.u * mx + place.v * my;
     c.turn = (cross(place.face, place.v) * place.fx - cross(place.face, place.u) * place.fy) * T(T(1) / place.square);
@@ -241,6 +249,7 @@ Cam::Contact<T> Cam::contact(const Place<T>& place, const CamFoot& foot) const {
   const T nx = foot.n[0] + (bend * foot.t[0]) * along, ny = foot.n[1] + (bend * foot.t[1]) * along;
   c.normal = place.u * nx + place.v * ny;
   c.touch = c.reach - c.normal * parts_.radius;
+  c.s = along * (1 / (foot.speed * (1 + foot.curvature * distance)));
   c.lever = T(0);
   return c;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elements/cams/cam_motion.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -39,11 +40,14 @@ Jet polynomial(double tau, const std::array<double, N>& c, int first) {
   return j;
 }
 
+/// Part of a modified sine's segment in which the acceleration rises from zero, or falls to it.
+constexpr double quarter_wave = 0.125;
+
 /// Quarter sine waves, the middle one three times as long, joined with continuous acceleration (Norton, eqs. 3.11).
 Jet modified_sine(double tau) {
   constexpr double scale = 1 / (4 + pi);
-  if (tau < 0.125) return line_and_sine(tau, 0, scale * pi, scale / 4, 4 * pi, 0);
-  if (tau > 0.875) return line_and_sine(tau, 4 * scale, scale * pi, scale / 4, 4 * pi, 0);
+  if (tau < quarter_wave) return line_and_sine(tau, 0, scale * pi, scale / 4, 4 * pi, 0);
+  if (tau > 1 - quarter_wave) return line_and_sine(tau, 4 * scale, scale * pi, scale / 4, 4 * pi, 0);
   return line_and_sine(tau, 2 * scale, scale * pi, scale * 9 / 4, 4 * pi / 3, pi / 3);
 }
 
@@ -93,6 +97,41 @@ Jet CamMotion::at(double turn) const {
     return {s.from + lift * j.f, lift * j.d1, lift * j.d2, lift * j.d3};
   }
   return {};
+}
+
+std::vector<double> CamMotion::joints() const {
+  std::vector<double> places;
+  double begin = phase_, highest = 0, narrowest = 2 * pi;
+  for (const Segment& s : segments_) {
+    places.push_back(begin);
+    if (s.from != s.to) {
+      narrowest = std::min(narrowest, s.width);
+      if (s.law == CamLaw::modified_sine)
+        for (const double tau : {quarter_wave, 1 - quarter_wave}) places.push_back(begin + tau * s.width);
+    }
+    begin += s.width;
+    highest = std::max({highest, s.from, s.to});
+  }
+  // second to fourth derivatives on either side, over those that a rise of so much in so small an angle may have
+  const auto derivatives = [&](double place, double side) {
+    const double step = 1e-4 * narrowest;
+    const Jet near = at(place + 1e-6 * side * step), far = at(place + side * step);
+    std::array<double, 3> found{near.d2, near.d3, (far.d3 - near.d3) / (side * step)};
+    for (std::size_t k = 0; k < found.size(); ++k) found[k] *= std::pow(narrowest, 2 + static_cast<double>(k)) / highest;
+    return found;
+  };
+  std::vector<double> found;
+  for (const double place : places) {
+    constexpr std::array least{1e-6, 1e-6, 0.1};  // a fourth derivative is known to the fifth times the step
+    const auto before = derivatives(place, -1), behind = derivatives(place, 1);
+    bool jumps = false;
+    for (std::size_t k = 0; k < least.size(); ++k) jumps = jumps || std::abs(behind[k] - before[k]) > least[k];
+    if (!jumps) continue;
+    const double angle = std::fmod(place, 2 * pi);
+    found.push_back(angle < 0 ? angle + 2 * pi : angle);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 }  // namespace engrane::elements::cams

@@ -35,6 +35,8 @@ class CamMotion {
   /// Lift and derivatives with respect to the cam angle; at the joint of two segments, those of the later one.
   Jet at(double turn) const;
   const std::vector<Segment>& segments() const { return segments_; }
+  /// Cam angles in [0, 2π), ascending, at which the second, third or fourth derivative of the lift jumps.
+  std::vector<double> joints() const;
 
  private:
   std::vector<Segment> segments_;

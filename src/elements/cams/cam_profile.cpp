@@ -63,6 +63,7 @@ CamFoot CamProfile::at(double s) const {
   const double speed = c.d1.norm();
   foot.t = c.d1 * (sense_ / speed);
   foot.n = -turned_left(foot.t);
+  foot.speed = sense_ * speed;
   foot.curvature = sense_ * plane_cross(c.d1, c.d2) / (speed * speed * speed);
   return foot;
 }

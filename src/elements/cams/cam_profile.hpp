@@ -17,6 +17,7 @@ struct CamFoot {
   Vec2 p = Vec2::Zero(), n = Vec2::Zero();
   Vec2 t = Vec2::Zero();  ///< n turned by 90 degrees, anticlockwise
   double curvature = 0;   ///< positive where the curve is convex towards the follower
+  double speed = 0;       ///< of the point along t, over the rate of s; negative where s decreases along t
 };
 
 /// Points where a follower touches the curve, or nearly touches it; the deepest one first.

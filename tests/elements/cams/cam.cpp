@@ -421,6 +421,45 @@ TEST(Cam, SwitchesAndTheirRates) {
     }
 }
 
+TEST(Cam, SwitchesAtTheJointsOfAMotion) {
+  for (const Profile profile : {Profile::motion, Profile::arm})
+    for (const char* follower : {"ROLLER", "KNIFE", "FLAT"}) {
+      if (profile == Profile::arm && follower == std::string("FLAT")) continue;
+      Kind kind{.profile = profile, .follower = {follower, {}}};
+      if (kind.follower.is("ROLLER")) kind.follower.values = {0.2};
+      const Subject s = subject(kind);
+      const auto cam = s.build(Mat3::Identity());
+      Random random(7);
+      const StateBuffer state = random_state(s, *cam, random);
+      const std::size_t count = cam->layout().switches.size();
+      ASSERT_EQ(count, 6u);  // both ends of the rise and of the fall, and two within the fall
+      const auto at = [&](double t) {
+        std::vector<Switch> values(count);
+        cam->switches(state.after(t).view(), values);
+        return values;
+      };
+      const double h = 1e-4, angle = channel_of(*cam, state, "CAM_ANGLE");
+      for (std::size_t i = 0; i < count; ++i) {
+        const double joint = std::array{40.0, 130.0, 200.0, 212.5, 287.5, 300.0}[i] * degree;
+        EXPECT_NEAR(std::abs(at(0)[i].value), std::abs(std::sin(0.5 * (angle - joint))), 1e-12);
+        EXPECT_NEAR(at(0)[i].rate, (at(h)[i].value - at(-h)[i].value) / (2 * h), 1e-5 * (1 + std::abs(at(0)[i].rate)));
+      }
+    }
+}
+
+TEST(Cam, JointsOfAMotionAreWhereItIsNotSmooth) {
+  const double half = pi, third = pi * 2 / 3;
+  const auto joints = [](const std::vector<CamMotion::Segment>& segments) { return CamMotion(segments, 0.5).joints(); };
+  // one cosine over the whole turn, no lift at all
+  EXPECT_TRUE(joints({{half, 0, 1, CamLaw::harmonic}, {half, 1, 0, CamLaw::harmonic}}).empty());
+  EXPECT_TRUE(joints({{2 * pi, 0, 0}}).empty());
+  EXPECT_EQ(joints({{third, 0, 1, CamLaw::poly_4567}, {third, 1, 0, CamLaw::poly_345}, {third, 0, 0}}).size(), 3u);
+  const std::vector<double> found = joints({{third, 0, 1, CamLaw::harmonic}, {third, 1, 0, CamLaw::harmonic}, {third, 0, 0}});
+  ASSERT_EQ(found.size(), 2u);  // not between the rise and the fall
+  EXPECT_NEAR(found[0], 0.5, 1e-15);
+  EXPECT_NEAR(found[1], 0.5 + 2 * third, 1e-14);
+}
+
 /// First message about a card with a cycloidal motion and a roller, changed by `change`.
 std::string message(const std::function<void(CamData&)>& change, bool warning = false) {
   CamData data;
