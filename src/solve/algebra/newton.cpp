@@ -35,6 +35,10 @@ constexpr int most_uses = 3;
 /// it.
 constexpr double closed = 1e-9, most_of_open = 2;
 
+/// Largest correction, relative to the extent, beside which the residual may be no more than rounding. What hardly changes its
+/// volume answers rounded positions with forces that bend it by more than they were rounded.
+constexpr double small_correction = 1e-11;
+
 /// Sliding speed that counts as zero, over the speed below which friction is regularised.
 constexpr double resting = 1e-3;
 
@@ -321,7 +325,7 @@ bool Newton::judge(int iteration) {
   const double changed_before = std::exchange(changed_, std::max(row_.correction, forces)), changed = changed_;
   if (iteration > 1 && changed <= no_correction) return true;
   // positions are at rounding level, which is no lower for parts that carry next to nothing than for others
-  const bool rests = iteration > 1 && row_.correction <= no_correction;
+  const bool rests = iteration > 1 && row_.correction <= small_correction;
   if (iteration > 0 && (one_tangent_ || rests) && left_to_rounding()) return true;
   const double left = imbalance_.largest();
   if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;
