@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs a deck on 1, 2 and 3 ranks: each run must pass its own .CHK, and all must give the same results. On
-3 ranks, more than machines for tests have cores, a long run is compared over its first 100 samples.
+3 ranks, more than machines for tests have cores, a long run ends with its 100th sample, and is compared with
+as much of the whole run.
 
 A run on one rank that is interrupted at a third of the way and continued must give every bit of the whole
 run. Every channel must be what version 0.3.0 gave: last value and root of the mean square, from
@@ -20,6 +21,7 @@ A deck may say in a comment what its test is:
     ! test: tolerance 1e-4   results of two runs may differ by so much (default 1e-6), relative to the largest
                              number of the same unit: teeth that rattle enlarge the last digit's noise
     ! test: short TF 1 H 0.1 the whole deck on one rank only; all ranks are compared over this much of it
+    ! test: elsewhere FILE   beside `short`: this test of tests/ runs the whole deck with its checks
     ! test: slow             labelled slow, so that `ctest -LE slow` leaves it out; not interrupted
     ! test: part             not run: other decks INPUT it
 """
@@ -42,6 +44,8 @@ from ranks import on_ranks
 REFERENCE = Path(__file__).parent / "verify" / "results_0.3.0.json"
 # How many steps and iterations a run takes is its own affair.
 NOT_COMPARED = re.compile(r"^(run/(STEP|ITERATIONS)|checks|deck|model|history/.*|restart/.*)$")
+
+FRAME = re.compile(r"^(?:fields|nodes|points)/.*/(\d+)$")
 
 LONG = 100  # samples of a run
 
@@ -81,30 +85,54 @@ def text_of(data: h5py.h5d.DatasetID) -> bytes:
     return repr(h5py.Dataset(data)[()]).encode()
 
 
-def read_results(path: Path) -> dict[str, tuple[str, np.ndarray]]:
-    """Dataset or channel -> (unit, values): all numbers of mesh, fields and histories. Under "" stands the
-    noise of accelerations, which are differences of positions over the square of the step: Newton's iteration
-    ends where corrections are 1e-13 of the lengths (docs/theory.md). Under "POWER" that of powers: of speeds,
-    differences of rounded positions over the step, times the largest force."""
-    found, tables = {}, {}
-    for name, data, values in datasets(path):
-        if name.startswith("history/"):
-            tables[name] = values
-        elif values is not None and not NOT_COMPARED.match(name):
-            found[name] = (unit_of(data), values)
-    with Results(path) as results:
-        for name, channel in results.channels.items():
+class Read:
+    """What a file of results holds, read once."""
+
+    def __init__(self, path: Path) -> None:
+        self.fields: dict[str, tuple[str, np.ndarray]] = {}  # unit and numbers of what is no history
+        self.bytes: dict[str, bytes] = {}  # of every dataset of histories and fields
+        tables = {}
+        for name, data, values in datasets(path):
+            if name.startswith("history/"):
+                tables[name] = values
+            elif values is not None and not NOT_COMPARED.match(name):
+                self.fields[name] = (unit_of(data), values)
+            if name.startswith(("history/", "fields/")):
+                self.bytes[name] = values.tobytes() if values is not None else text_of(data)
+        self.channels = {}
+        with Results(path) as results:
+            for name, channel in results.channels.items():
+                values = tables[f"history/{channel.table}/values"]
+                self.channels[name] = (channel.unit, values[:, channel.column])
+            self.unique = {name for name, channel in results.channels.items() if channel.unique}
+            self.times, self.time_unit = results.times(), results.time_unit
+            self.frames = results.frame_times
+            self.extent = float(np.max(np.abs(results.points), initial=1.0))
+
+    def results(self, until: float = np.inf) -> dict[str, tuple[str, np.ndarray]]:
+        """Dataset or channel -> (unit, values): all numbers of mesh, fields and histories, of a run that
+        ended then. Under "" stands the noise of accelerations, which are differences of positions over the
+        square of the step: Newton's iteration ends where corrections are 1e-13 of the lengths
+        (docs/theory.md). Under "POWER" that of powers: of speeds, differences of rounded positions over the
+        step, times the largest force."""
+        count, frames = int(np.sum(self.times <= until)), int(np.sum(self.frames <= until))
+        found = {}
+        for name, (unit, values) in self.fields.items():
+            frame = FRAME.search(name)
+            if name == "fields/time":
+                found[name] = (unit, values[:frames])
+            elif not frame or int(frame.group(1)) < frames:
+                found[name] = (unit, values)
+        for name, (unit, values) in self.channels.items():
             if not NOT_COMPARED.match(name):
-                found[name] = (channel.unit, tables[f"history/{channel.table}/values"][:, channel.column])
-        found["time"] = (results.time_unit, results.times())
-        steps = results.history("run/STEP")[1][1:]
-        extent = float(np.max(np.abs(results.points), initial=1.0))
-    shortest = float(np.min(steps, initial=1.0))
-    rounding = np.finfo(float).eps * extent
-    forces = [np.max(np.abs(values), initial=0) for name, (_, values) in found.items() if "FORCE" in name]
-    found[""] = ("", np.array(1e-13 * extent / shortest**2))
-    found["POWER"] = ("", np.array(rounding / shortest * max(forces, default=0)))
-    return found
+                found[name] = (unit, values[:count])
+        found["time"] = (self.time_unit, self.times[:count])
+        shortest = float(np.min(self.channels["run/STEP"][1][1:count], initial=1.0))
+        rounding = np.finfo(float).eps * self.extent
+        forces = [np.max(np.abs(values), initial=0) for name, (_, values) in found.items() if "FORCE" in name]
+        found[""] = ("", np.array(1e-13 * self.extent / shortest**2))
+        found["POWER"] = ("", np.array(rounding / shortest * max(forces, default=0)))
+        return found
 
 
 def size(values: np.ndarray) -> float:
@@ -160,19 +188,9 @@ def shortened(arguments, stepping: list[str]) -> Path:
     return short
 
 
-def tables(path: Path) -> dict[str, bytes]:
-    """Every dataset of histories and fields, as its bytes."""
-    return {
-        name: values.tobytes() if values is not None else text_of(data)
-        for name, data, values in datasets(path)
-        if name.startswith(("history/", "fields/"))
-    }
-
-
-def interrupted(arguments, deck: Path, whole: Path) -> list[str]:
+def interrupted(arguments, deck: Path, whole: Read) -> list[str]:
     """What a run that was interrupted and continued has otherwise than the whole one."""
-    with Results(whole) as results:
-        times = results.times()
+    times = whole.times
     if len(times) == 1:  # one equilibrium
         return []
     prefix = arguments.work / f"{deck.stem}_interrupted"
@@ -189,7 +207,7 @@ def interrupted(arguments, deck: Path, whole: Path) -> list[str]:
     ).returncode
     if status != 0:
         return [f"continued: exit status {status}"]
-    one, other = tables(whole), tables(prefix.with_name(prefix.name + ".h5"))
+    one, other = whole.bytes, Read(prefix.with_name(prefix.name + ".h5")).bytes
     faults = [
         f"interrupted and continued: {name} is only in one" for name in sorted(one.keys() ^ other.keys())
     ]
@@ -200,11 +218,9 @@ def interrupted(arguments, deck: Path, whole: Path) -> list[str]:
     ]
 
 
-def changed(deck: Path, whole: Path, results: dict, tolerance: float) -> list[str]:
+def changed(deck: Path, unique: set[str], results: dict, tolerance: float) -> list[str]:
     """Channels that version 0.3.0 had otherwise, by more than the tolerance times the largest of the unit.
     What is not unique is left out: it depends on the length that moments are compared with forces by."""
-    with Results(whole) as run:
-        unique = {name for name, channel in run.channels.items() if channel.unique}
     owners = json.loads(REFERENCE.read_text(encoding="utf-8")).get(deck.stem, {})
     reference = {
         f"{owner}/{channel}": values or (0.0, 0.0)
@@ -261,20 +277,19 @@ def main() -> int:
 
     deck = arguments.deck
     if "short" in wanted:
-        run(arguments, deck, 1)
+        if "elsewhere" not in wanted:
+            run(arguments, deck, 1)
+        elif deck.name not in (Path(__file__).parent / wanted["elsewhere"][0]).read_text(encoding="utf-8"):
+            sys.exit(f"{wanted['elsewhere'][0]} does not run {deck.name}")
         deck = shortened(arguments, wanted["short"])
-    whole = run(arguments, deck, ranks[0])
-    first = read_results(whole)
+    whole = Read(run(arguments, deck, ranks[0]))
+    first = whole.results()
     faults = interrupted(arguments, deck, whole) if ranks[0] == 1 and "slow" not in wanted else []
-    faults += changed(arguments.deck, whole, first, tolerance) if "short" not in wanted else []
-    with Results(whole) as results:
-        times = results.times()
+    faults += changed(arguments.deck, whole.unique, first, tolerance) if "short" not in wanted else []
     for n in ranks[1:]:
-        one, until = first, None
-        if n > 2 and len(times) > LONG:
-            until = float(times[LONG - 1])
-            one = read_results(run(arguments, deck, ranks[0], until))
-        other = read_results(run(arguments, deck, n, until))
+        until = float(whole.times[LONG - 1]) if n > 2 and len(whole.times) > LONG else None
+        one = first if until is None else whole.results(until)
+        other = Read(run(arguments, deck, n, until)).results()
         faults += [f"{n} ranks against {ranks[0]}: {fault}" for fault in differences(one, other, tolerance)]
     print(
         "\n".join(faults)

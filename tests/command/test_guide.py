@@ -74,6 +74,9 @@ def place(tmp_path):
     # 15 000 steps, three times: a fifth of them, as long as five, do for pictures
     assert ".SUB TF 0.03 H 2D-6" in text
     long_steps = text[: text.index(".CHK")].replace("H 2D-6", "H 1D-5") + ".FIN 1\n"
+    # 15 frames of an animation in place of 120
+    assert ".SAI FIELDS DT 1D-4" in long_steps
+    long_steps = long_steps.replace(".SAI FIELDS DT 1D-4", ".SAI FIELDS DT 2D-3")
     (paper / "spur_transmission_a.dat").write_text(long_steps, encoding="utf-8")
     assert "`ABRE '/KM' '1.477E7'`" in GUIDE and "`KM /KM`" in GUIDE
     assert "Delete `.CHK` and the lines below it, up to `.FIN`" in GUIDE, "as is done below"

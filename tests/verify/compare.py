@@ -73,8 +73,9 @@ def load(path: Path, case: str, damping: str | None = None) -> Run:
     return Run(case, path, t, normal, approach, law, torque)
 
 
-def reference(run: Run, rtol: float = 1e-10) -> dict[str, np.ndarray]:
-    """The oracle from the same start, at the run's times."""
+def reference(run: Run, rtol: float = 1e-8) -> dict[str, np.ndarray]:
+    """The oracle from the same start, at the run's times. Against 1e-10 its statistics change by 1e-7, and no
+    contact begins at another sample."""
     return oracle.simulate(run.case, run.damping, float(run.t[-1]), rtol, torque=run.torque, times=run.t)
 
 

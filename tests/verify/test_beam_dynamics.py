@@ -129,7 +129,7 @@ def whirl(pieces: int, end: float, folder: Path) -> np.ndarray:
 .INI
 {start}
 .SAM TYPE DYNAMIC SCHEME RADAU
-.SUB TF {end} H 2e-5 TOL 1e-6
+.SUB TF {end} H 2e-5 TOL 1e-5
 .SAI HISTORY 2e-4"""
     found = run(deck([line], section, rest), folder)
     middle = line.ids[len(line.ids) // 2]

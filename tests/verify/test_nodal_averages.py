@@ -212,7 +212,7 @@ def test_jumps_of_the_material_stay(kind: int, large: bool, tmp_path: Path) -> N
     """Where strips of two materials meet there are two points at each node, with a stress each; as each strip
     has a constant stress, no error is estimated."""
     mesh, deck = strips(kind, large)
-    for ranks in (1, 2, 3):
+    for ranks in (1, 2, 3) if large else (1, 3):
         summary, results = solved(deck, tmp_path, ranks)
         with results:
             last = len(results.frame_times) - 1

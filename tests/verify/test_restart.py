@@ -67,11 +67,11 @@ def tables(path: Path) -> dict[str, bytes]:
 
 @pytest.mark.parametrize("solver", ["MUMPS", "KLU", "UMFPACK", "SUPERLU"])
 def test_bits_of_the_whole_run(tmp_path, solver):
-    run(tmp_path, str(deck(tmp_path, "whole", solver=solver)))
-    first = str(deck(tmp_path, "first", solver=solver))
-    run(tmp_path, first, "--until", "0.3", status=2)
-    run(tmp_path, first, "--restart", "first", "-o", "second", "--until", "0.31", status=2)
-    run(tmp_path, str(deck(tmp_path, "third", solver=solver, sam='RESTART "second"')))
+    run(tmp_path, str(deck(tmp_path, "whole", end=0.3, solver=solver)))
+    first = str(deck(tmp_path, "first", end=0.3, solver=solver))
+    run(tmp_path, first, "--until", "0.1", status=2)
+    run(tmp_path, first, "--restart", "first", "-o", "second", "--until", "0.11", status=2)
+    run(tmp_path, str(deck(tmp_path, "third", end=0.3, solver=solver, sam='RESTART "second"')))
     assert tables(tmp_path / "whole.h5") == tables(tmp_path / "third.h5")
 
 
@@ -92,9 +92,9 @@ def test_kept_factors_go_on_turning_with_their_nodes(tmp_path, solver):
 @pytest.mark.parametrize("solver", ["MUMPS", "KLU"])
 def test_bits_of_the_whole_run_on_several_ranks(tmp_path, solver, sam):
     """Too few equations for ranks to solve them together: the first one's factors go on."""
-    path = str(deck(tmp_path, "whole", end=0.4, solver=solver, sam=sam))
+    path = str(deck(tmp_path, "whole", end=0.1, solver=solver, sam=sam, frames=0.02))
     run(tmp_path, path, ranks=2)
-    run(tmp_path, path, "-o", "part", "--until", "0.15", ranks=2, status=2)
+    run(tmp_path, path, "-o", "part", "--until", "0.045", ranks=2, status=2)
     run(tmp_path, path, "-o", "part", "--restart", "part", ranks=2)
     assert tables(tmp_path / "whole.h5") == tables(tmp_path / "part.h5")
 
@@ -274,19 +274,25 @@ def test_a_driven_motion_goes_on_in_another_analysis(tmp_path, before, after):
 )
 def test_loads_on_nodes_come_and_go(tmp_path, sam, tol, ranks):
     """The load is zero before the restart, so that the whole run has it from the start. Newton's memory was
-    one of so many elements: "the restart point has another number of nodes"."""
+    one of so many elements: "the restart point has another number of nodes". Fixed steps meet the restart
+    point of the whole run; controlled ones need a run that ends there."""
     added = " CHA NOEUD 2 C 2 V 3 NF 2\n CHA NOEUD 1 C 1 V 1 NF 2\n"
+    part = "_part" if tol else ""
 
-    def make(name, load, restart="", end=1.0):
-        restart = f' RESTART "{restart}"' if restart else ""
-        return pendulum(tmp_path, name, f"DYNAMIC {sam}{restart}", load=load, tol=tol, end=end)
+    def make(name, load, restart="", end=0.7):
+        restart = f' RESTART "{restart}{part}" T 0.5' if restart else ""
+        path = tmp_path / pendulum(tmp_path, name, f"DYNAMIC {sam}{restart}", load=load, tol=tol, end=end)
+        path.write_text(path.read_text(encoding="utf-8").replace(".FIN", ".SAI RESTART DT 0.5\n.FIN"))
+        return path.name
 
     for load, name in (("", "free"), (added, "loaded")):
         run(tmp_path, make(name, load), ranks=ranks)
-        run(tmp_path, make(f"{name}_part", load, end=0.5), ranks=ranks)
-    run(tmp_path, make("put_on", added, "free_part"), ranks=ranks)
-    run(tmp_path, make("taken_off", "", "loaded_part"), ranks=ranks)
-    run(tmp_path, make("same", added, "loaded_part"), ranks=ranks)
+        if part:
+            run(tmp_path, make(f"{name}{part}", load, end=0.5), ranks=ranks)
+    run(tmp_path, make("put_on", added, "free"), ranks=ranks)
+    run(tmp_path, make("taken_off", "", "loaded"), ranks=ranks)
+    run(tmp_path, make("same", added, "loaded"), ranks=ranks)
+    assert "at t = 0.5" in (tmp_path / "same.lst").read_text(encoding="utf-8")
     if not tol:  # the last of controlled steps is cut to the end of the first part
         assert tables(tmp_path / "same.h5") == tables(tmp_path / "loaded.h5")
 
@@ -396,10 +402,10 @@ def test_a_file_of_another_version_is_refused(tmp_path):
 
 @pytest.mark.parametrize("solver", ["MUMPS", "KLU"])
 def test_other_numbers_of_ranks(tmp_path, solver):
-    whole = str(deck(tmp_path, "whole", solver=solver))
+    whole = str(deck(tmp_path, "whole", end=0.3, solver=solver))
     run(tmp_path, whole)
-    run(tmp_path, whole, "-o", "a", "--until", "0.3", status=2)
-    run(tmp_path, whole, "-o", "b", "--restart", "a", "--until", "0.6", ranks=3, status=2)
+    run(tmp_path, whole, "-o", "a", "--until", "0.1", status=2)
+    run(tmp_path, whole, "-o", "b", "--restart", "a", "--until", "0.2", ranks=3, status=2)
     run(tmp_path, whole, "-o", "c", "--restart", "b", ranks=2)
     with Results(tmp_path / "whole.h5") as one, Results(tmp_path / "c.h5") as other:
         for channel in ("node/2/UX", "node/2/UY", "node/2/VX", "element/2/ANGLE"):

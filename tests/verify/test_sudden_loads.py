@@ -100,7 +100,7 @@ def test_the_estimate_of_the_dial_sees_waves_that_neither_run_resolves(tmp_path)
     end = int(mesh.nodes(lambda u: u[0] == 1 and u[1] == 0)[0]) + 1
     sub, check = f"TF {PERIOD / 2!r} H {PERIOD / 100!r}", [f" NODE {end} VY V 0 ATOL 1E9"]
     velocities = []
-    for sam, tolerance in (("SCHEME RADAU", " TOL 1e-5"), ("ACCURACY FAST", "")):
+    for sam, tolerance in (("SCHEME RADAU", " TOL 1e-4"), ("ACCURACY FAST", "")):
         clamped = ['.CLM\n GROUP "wall" FIX C 1 2', *force, *dynamics(sam, sub + tolerance, check)]
         velocities.append(run("\n".join([*deck, *clamped]), tmp_path)[f"node/{end}/VY"])
     truth, found = velocities

@@ -230,11 +230,10 @@ def integrate(
         message = solver.step()
         if solver.status == "failed":
             raise RuntimeError(f"integration failed at t = {solver.t}: {message}")
-        if done < len(samples) and samples[done] <= solver.t:
-            interpolant = solver.dense_output()
-            while done < len(samples) and samples[done] <= solver.t:
-                out[done] = interpolant(samples[done])
-                done += 1
+        passed = int(np.searchsorted(samples, solver.t, "right"))
+        if done < passed:
+            out[done:passed] = solver.dense_output()(samples[done:passed]).T
+            done = passed
     out[done:] = solver.y
     return out, solver.y.copy()
 
