@@ -2,6 +2,7 @@
 #include "math/spline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -48,9 +49,9 @@ double Curve::Piece::value(double x) const {
   return c0 + s * (c1 + s * (c2 + s * c3));
 }
 
-double Curve::Piece::slope(double x) const {
+Jet Curve::Piece::jet(double x) const {
   const double s = x - origin;
-  return c1 + s * (2 * c2 + 3 * s * c3);
+  return {value(x), c1 + s * (2 * c2 + 3 * s * c3), 2 * c2 + 6 * s * c3, 6 * c3};
 }
 
 double Curve::Piece::integral(double x) const {
@@ -202,31 +203,29 @@ Jet Curve::at(double x) const {
   const Place place = find(x);
   const Piece& p = *place.piece;
   if (place.x < p.x0) return {p.value(p.x0), 0, 0, 0};  // before the first point
-  return {p.value(place.x), p.slope(place.x), 2 * p.c2 + 6 * (place.x - p.origin) * p.c3, 6 * p.c3};
+  return p.jet(place.x);
 }
 
-std::vector<double> Curve::corners(double from, double to, std::size_t most) const {
-  const std::size_t n = pieces_.size();
+std::vector<double> Curve::joints(double from, double to, std::size_t most, int derivative) const {
+  const std::size_t n = pieces_.size(), orders = static_cast<std::size_t>(derivative) + 1;
   const double first = pieces_.front().x0;
-  struct Side {
-    double value, slope;
-  };
+  using Side = std::array<double, 4>;
+  const auto side = [](const Jet& j) { return Side{j.f, j.d1, j.d2, j.d3}; };
   std::vector<Side> starts(n), ends(n);  // limits of each piece at its start and at that of the next one
-  double height = 0, steepest = 0;
+  Side largest{};
   for (std::size_t i = 0; i < n; ++i) {
     const Piece& p = pieces_[i];
-    const double end = i + 1 < n ? pieces_[i + 1].x0 : period_ ? first + *period_ : p.x0;
-    starts[i] = {p.value(p.x0), p.slope(p.x0)};
-    ends[i] = {p.value(end), p.slope(end)};
-    height = std::max({height, std::abs(starts[i].value), std::abs(ends[i].value)});
-    steepest = std::max({steepest, std::abs(starts[i].slope), std::abs(ends[i].slope)});
+    starts[i] = side(p.jet(p.x0));
+    ends[i] = side(p.jet(i + 1 < n ? pieces_[i + 1].x0 : period_ ? first + *period_ : p.x0));
+    for (std::size_t k = 0; k < orders; ++k) largest[k] = std::max({largest[k], std::abs(starts[i][k]), std::abs(ends[i][k])});
   }
   std::vector<double> corners;
   for (std::size_t i = 0; i < n; ++i) {
-    const Side after = starts[i], before = i > 0 ? ends[i - 1] : period_ ? ends[n - 1] : Side{after.value, 0};
-    // smaller differences are rounding errors
-    if (std::abs(after.value - before.value) > 1e-12 * height || std::abs(after.slope - before.slope) > 1e-9 * steepest)
-      corners.push_back(pieces_[i].x0);
+    const Side after = starts[i], before = i > 0 ? ends[i - 1] : period_ ? ends[n - 1] : Side{after[0]};
+    bool jumps = false;  // smaller differences are rounding errors
+    for (std::size_t k = 0; k < orders; ++k)
+      jumps = jumps || std::abs(after[k] - before[k]) > (k == 0 ? 1e-12 : 1e-9) * largest[k];
+    if (jumps) corners.push_back(pieces_[i].x0);
   }
   std::vector<double> found;
   if (corners.empty() || (period_ && !std::isfinite(to - from))) return found;

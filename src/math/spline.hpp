@@ -31,9 +31,11 @@ class Curve {
   double integral(double x) const { return from_anchor(x) - from_anchor_to_zero_; }
   /// 0 if not periodic.
   double period() const { return period_.value_or(0); }
-  /// Abscissas of jumps and corners in (from, to), ascending. Empty if there are more than `most`, or if the curve is periodic
-  /// and the interval infinite.
-  std::vector<double> corners(double from, double to, std::size_t most) const;
+  /// Abscissas in (from, to), ascending, at which the curve jumps or one of its derivatives up to `derivative` does. Empty if
+  /// there are more than `most`, or if the curve is periodic and the interval infinite.
+  std::vector<double> joints(double from, double to, std::size_t most, int derivative = 3) const;
+  /// Those of jumps and corners.
+  std::vector<double> corners(double from, double to, std::size_t most) const { return joints(from, to, most, 1); }
 
  private:
   /// y = c0 + s (c1 + s (c2 + s c3)), s = x - origin, from x0 to the next piece. The origin is the end nearer to 0: in a table
@@ -43,7 +45,7 @@ class Curve {
     double c0 = 0, c1 = 0, c2 = 0, c3 = 0;
     double area = 0;  ///< integral from the anchor to the origin: from 0, or from the first abscissa of a periodic curve
     double value(double x) const;
-    double slope(double x) const;
+    Jet jet(double x) const;
     double integral(double x) const;  ///< from the anchor
   };
   /// A piece and the abscissa in it, after `turns` whole periods.

@@ -27,6 +27,7 @@ class CurveFunction final : public Function {
   Jet at(double x) const override { return curve_.at(x); }
   double integral(double x) const override { return curve_.integral(x); }
   std::vector<double> corners(double from, double to, std::size_t most) const override { return curve_.corners(from, to, most); }
+  std::vector<double> joints(double from, double to, std::size_t most) const override { return curve_.joints(from, to, most); }
   double period() const override { return curve_.period(); }
 
  private:
@@ -273,6 +274,9 @@ class SmoothToTheEnd final : public Function {
   double integral(double x) const override { return function_->integral(x); }
   std::vector<double> corners(double from, double to, std::size_t most) const override {
     return function_->corners(from, to, most);
+  }
+  std::vector<double> joints(double from, double to, std::size_t most) const override {
+    return function_->joints(from, to, most);
   }
   double period() const override { return function_->period(); }
   const Expression* formula() const override { return function_->formula(); }

@@ -25,6 +25,9 @@ Vec3 Model::gravity_at(double time) const {
 
 namespace {
 
+/// A function with more of them is a measured curve, not smoother between them.
+constexpr std::size_t most_joints = 100;
+
 /// Nodes closer than this fraction of their distance from the origin coincide: computed coordinates differ in their last
 /// digits.
 constexpr double rounding = 1e-12;
@@ -83,10 +86,16 @@ KnownLengths known_lengths(const Model& model) {
 }  // namespace
 
 std::vector<double> Model::corners(double from, double to) const {
-  constexpr std::size_t most = 100;  // a function with more is a measured curve, not smoother between its corners
   std::set<double> all;
   for (const Function* function : of_time)
-    for (const double x : function->corners(from, to, most)) all.insert(x);
+    for (const double x : function->corners(from, to, most_joints)) all.insert(x);
+  return {all.begin(), all.end()};
+}
+
+std::vector<double> Model::joints(double from, double to) const {
+  std::set<double> all;
+  for (const Function* function : of_time)
+    for (const double x : function->joints(from, to, most_joints)) all.insert(x);
   return {all.begin(), all.end()};
 }
 

@@ -102,6 +102,8 @@ struct Model {
   Vec3 gravity_at(double time) const;
   /// Instants in (from, to), ascending, at which a function of time has a corner (Function::corners).
   std::vector<double> corners(double from, double to) const;
+  /// The same with those at which a function is less smooth than between them (Function::joints).
+  std::vector<double> joints(double from, double to) const;
   /// Whether any function of time jumps from the number before `time` to `time` itself.
   bool jumps_at(double time) const;
   /// Reference length for tolerances: diagonal of the bounding box of the nodes that elements use. If all of them coincide up

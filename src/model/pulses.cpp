@@ -21,8 +21,8 @@ constexpr std::size_t at_corner = 2;
 bool is_sampled(const Function& function) {
   if (const Expression* formula = function.formula()) return !formula->is_law() && !formula->constant();
   const double infinity = std::numeric_limits<double>::infinity();
-  return function.period() == 0 && function.corners(-infinity, infinity, most_pulses).empty() &&
-         !function.corners(-infinity, infinity, std::numeric_limits<std::size_t>::max()).empty();
+  return function.period() == 0 && function.joints(-infinity, infinity, most_pulses).empty() &&
+         !function.joints(-infinity, infinity, std::numeric_limits<std::size_t>::max()).empty();
 }
 
 /// Ranges of samples, first and last, within which the values bend.
@@ -83,10 +83,12 @@ std::vector<double> short_pulses(const Function& function, double from, double t
 std::vector<double> step_ends(const Model& model, double from, double to) {
   constexpr double part_of_run = 0.1;  // longer pulses take several of the longest steps
   const double start = model.commands.stepping.start, end = model.commands.stepping.end;
-  std::vector<double> all = model.corners(from, to);
-  for (const Function* function : model.of_time)
-    for (const double x : short_pulses(*function, start, end, part_of_run * (end - start)))
-      if (from < x && x < to) all.push_back(x);
+  std::vector<double> all = model.joints(start, end);  // as many as the whole run has, also where it is continued
+  for (const Function* function : model.of_time) {
+    const std::vector<double> pulses = short_pulses(*function, start, end, part_of_run * (end - start));
+    all.insert(all.end(), pulses.begin(), pulses.end());
+  }
+  std::erase_if(all, [&](double x) { return !(from < x && x < to); });
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

@@ -151,5 +151,18 @@ TEST(Curve, PeriodicSpline) {
   EXPECT_NEAR(l.d2, r.d2, 1e-10);
 }
 
+TEST(Curve, JointsAreThePointsOfASpline) {
+  const std::vector<double> x{0, 1, 3, 4}, y{0, 2, -1, 0}, line{0, 2, 6, 8};
+  using Places = std::vector<double>;
+  EXPECT_EQ(Curve::natural_spline(x, y).joints(-1, 5, 10), x);
+  EXPECT_EQ(Curve::natural_spline(x, y).joints(0, 4, 10), (Places{1, 3}));
+  EXPECT_EQ(Curve::natural_spline(x, y).corners(-1, 5, 10), (Places{0, 4}));  // constant outside
+  EXPECT_TRUE(Curve::natural_spline(x, y).joints(-1, 5, 3).empty());
+  EXPECT_EQ(Curve::natural_spline(x, line).joints(-1, 5, 10), (Places{0, 4}));
+  EXPECT_EQ(Curve::lines(x, y).joints(-1, 5, 10), Curve::lines(x, y).corners(-1, 5, 10));
+  EXPECT_EQ(Curve::periodic_spline(x, y, 4).joints(0.5, 5.5, 10), (Places{1, 3, 4, 5}));
+  EXPECT_TRUE(Curve::periodic_spline(x, y, 4).corners(0.5, 5.5, 10).empty());
+}
+
 }  // namespace
 }  // namespace engrane

@@ -29,8 +29,8 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
   }
   if (const CamMotion* motion = parts_.profile->curve().motion()) joints_ = motion->joints();
   for (const double joint : joints_) {
-    const std::string where = fmt::format("the joint of the motion at {:.6g} degrees", joint / degree);
-    layout.switches.push_back({"cam passes " + where, "cam passes " + where + " again"});
+    const std::string passes = fmt::format("cam passes the joint of the motion at {:.6g} degrees", joint / degree);
+    layout.switches.push_back({passes, passes});
   }
   layout.slides = parts_.friction ? static_cast<int>(places()) : 0;
   set_layout(std::move(layout));

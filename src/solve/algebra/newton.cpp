@@ -35,8 +35,8 @@ constexpr int most_uses = 3;
 /// it.
 constexpr double closed = 1e-9, most_of_open = 2;
 
-/// Largest correction, relative to the extent, beside which the residual may be no more than rounding. What hardly changes its
-/// volume answers rounded positions with forces that bend it by more than they were rounded.
+/// Largest correction, relative to the extent, beside which a residual that no longer falls may be rounding. What hardly changes
+/// its volume answers rounded positions with forces that bend it by more than they were rounded.
 constexpr double small_correction = 1e-11;
 
 /// Sliding speed that counts as zero, over the speed below which friction is regularised.
@@ -325,9 +325,11 @@ bool Newton::judge(int iteration) {
   const double changed_before = std::exchange(changed_, std::max(row_.correction, forces)), changed = changed_;
   if (iteration > 1 && changed <= no_correction) return true;
   // positions are at rounding level, which is no lower for parts that carry next to nothing than for others
-  const bool rests = iteration > 1 && row_.correction <= small_correction;
-  if (iteration > 0 && (one_tangent_ || rests) && left_to_rounding()) return true;
   const double left = imbalance_.largest();
+  const bool stands = iteration > 1 && left > 0.5 * std::max(rows_[rows_.size() - 2].force, rows_[rows_.size() - 2].moment);
+  // behind a branching point of a path rounding decides much
+  const bool rests = iteration > 1 && row_.correction <= (stands && !border_ ? small_correction : no_correction);
+  if (iteration > 0 && (one_tangent_ || rests) && left_to_rounding()) return true;
   if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;
   if (changed <= negligible_correction) return true;
   // In dynamics the last two corrections predict the next one, since corrections with their own tangents shrink quadratically.
@@ -344,7 +346,7 @@ bool Newton::judge(int iteration) {
     const double open = std::max(row.length, row.angle);
     return row.correction <= std::max(no_correction, weights_.a == 0 && open <= closed ? most_of_open * open : 0.0);
   };
-  return rounds(row_) && rounds(before) && left > 0.5 * std::max(before.force, before.moment);
+  return rounds(row_) && rounds(before) && stands;
 }
 
 PetscErrorCode Newton::test_convergence(SNES, PetscInt iteration, PetscReal, PetscReal, PetscReal, SNESConvergedReason* reason,

@@ -9,7 +9,6 @@
 
 #include "elements/cams/cam_motion.hpp"
 #include "elements/cams/profiles.hpp"
-#include "elements/jets.hpp"
 #include "elements/suite.hpp"
 #include "math/angle.hpp"
 #include "math/rotation.hpp"
@@ -184,41 +183,6 @@ TEST(Cam, Extremes) {
         kind.damping = {};
         if (kind.follower.is("ROLLER") || profile == Profile::motion) run_extreme(subject(kind));
       }
-}
-
-TEST(Cam, LawsRiseFromZeroToOne) {
-  // greatest speed and acceleration of a unit rise: Norton, Cam Design and Manufacturing Handbook, table 3-2, and in closed form
-  const double two = 1.0 / std::sqrt(3.0), three = (5 - std::sqrt(5.0)) / 10;
-  struct Case {
-    CamLaw law;
-    double speed, acceleration, at;
-    bool soft;  ///< acceleration zero at the ends
-  };
-  for (const Case& c : {Case{CamLaw::cycloidal, 2, 2 * pi, 0.25, true},
-                        Case{CamLaw::modified_sine, 4 * pi / (4 + pi), 4 * pi * pi / (4 + pi), 0.125, true},
-                        Case{CamLaw::poly_345, 1.875, 10 * two, (1 - two) / 2, true},
-                        Case{CamLaw::poly_4567, 2.1875, 84 * std::sqrt(5.0) / 25, three, true},
-                        Case{CamLaw::harmonic, pi / 2, pi * pi / 2, 0, false}}) {
-    const Jet first = unit_rise(c.law, 0), last = unit_rise(c.law, 1);
-    EXPECT_NEAR(first.f, 0, 1e-15);
-    EXPECT_NEAR(last.f, 1, 1e-14);
-    EXPECT_NEAR(first.d1, 0, 1e-14);
-    EXPECT_NEAR(last.d1, 0, 1e-13);
-    if (c.soft) {
-      EXPECT_NEAR(first.d2, 0, 1e-13);
-      EXPECT_NEAR(last.d2, 0, 1e-12);
-    }
-    EXPECT_NEAR(unit_rise(c.law, 0.5).d1, c.speed, 1e-13);
-    EXPECT_NEAR(unit_rise(c.law, c.at).d2, c.acceleration, 1e-12);
-    for (const double tau : {0.04, 0.3, 0.61, 0.83, 0.97})
-      test::expect_jet([&](double x) { return unit_rise(c.law, x); }, tau, 1e-3, 1e-9);
-    for (const double border : {0.125, 0.875}) {
-      const Jet before = unit_rise(c.law, border - 1e-13), after = unit_rise(c.law, border + 1e-13);
-      EXPECT_NEAR(before.f, after.f, 1e-12);
-      EXPECT_NEAR(before.d1, after.d1, 1e-11);
-      EXPECT_NEAR(before.d2, after.d2, 1e-10);
-    }
-  }
 }
 
 /// A cam about z at the origin with its follower on node 2, straight above it or on an arm; the cam turns at a constant speed.
@@ -445,19 +409,6 @@ TEST(Cam, SwitchesAtTheJointsOfAMotion) {
         EXPECT_NEAR(at(0)[i].rate, (at(h)[i].value - at(-h)[i].value) / (2 * h), 1e-5 * (1 + std::abs(at(0)[i].rate)));
       }
     }
-}
-
-TEST(Cam, JointsOfAMotionAreWhereItIsNotSmooth) {
-  const double half = pi, third = pi * 2 / 3;
-  const auto joints = [](const std::vector<CamMotion::Segment>& segments) { return CamMotion(segments, 0.5).joints(); };
-  // one cosine over the whole turn, no lift at all
-  EXPECT_TRUE(joints({{half, 0, 1, CamLaw::harmonic}, {half, 1, 0, CamLaw::harmonic}}).empty());
-  EXPECT_TRUE(joints({{2 * pi, 0, 0}}).empty());
-  EXPECT_EQ(joints({{third, 0, 1, CamLaw::poly_4567}, {third, 1, 0, CamLaw::poly_345}, {third, 0, 0}}).size(), 3u);
-  const std::vector<double> found = joints({{third, 0, 1, CamLaw::harmonic}, {third, 1, 0, CamLaw::harmonic}, {third, 0, 0}});
-  ASSERT_EQ(found.size(), 2u);  // not between the rise and the fall
-  EXPECT_NEAR(found[0], 0.5, 1e-15);
-  EXPECT_NEAR(found[1], 0.5 + 2 * third, 1e-14);
 }
 
 /// First message about a card with a cycloidal motion and a roller, changed by `change`.
