@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "model/function_integral.hpp"
+#include "model/model.hpp"
 
 namespace engrane {
 namespace {
@@ -212,6 +213,21 @@ TEST(Function, ThroughDifferentiatedNumbers) {
   const Taylor t = evaluate(*f, Taylor(2, 1, 0));
   EXPECT_EQ(t.d1, 12);
   EXPECT_EQ(t.d2, 12);
+}
+
+TEST(Function, StepsEndAtThePointsOfASplineOrAtItsEnds) {
+  std::vector<double> short_one{1, 0, 2, 3, 4, 1, 5, 0}, long_one;
+  for (int k = 0; k <= 150; ++k) long_one.insert(long_one.end(), {1 + 0.01 * k, std::sin(0.3 * k)});
+  for (const bool many : {false, true}) {
+    const auto spline = make(table(many ? long_one : short_one, true));
+    Model model;
+    model.of_time = {spline.get()};
+    const std::vector<double> joints = model.joints(0, 10);
+    EXPECT_EQ(joints.size(), many ? 2u : 4u);
+    ASSERT_FALSE(joints.empty());
+    EXPECT_EQ(joints.front(), 1);
+    EXPECT_NEAR(joints.back(), many ? 2.5 : 5, 1e-12);
+  }
 }
 
 }  // namespace

@@ -89,7 +89,8 @@ void Cam::switches(const State& state, std::span<Switch> values) const {
   if (values.empty()) return;
   const CamFeet touched = feet(place<double>(motion<double>(state).node), state.history);
   const Place<Taylor> moving = place<Taylor>(along_motion(state));
-  joint_switches(contact(moving, *touched.begin()), state, values.last(joints_.size()));
+  const Contact<Taylor> deepest = contact(moving, *touched.begin());
+  joint_switches(deepest, state, values.last(joints_.size()));
   if (!parts_.law) return;
   const std::size_t each = parts_.law->damped() ? 2 : 1;
   for (std::size_t k = 0; k < places(); ++k) {
@@ -103,7 +104,7 @@ void Cam::switches(const State& state, std::span<Switch> values) const {
       continue;
     }
     const CamFoot& foot = touched.begin()[k];
-    const Taylor gap = contact(moving, foot).gap;
+    const Taylor gap = k == 0 ? deepest.gap : contact(moving, foot).gap;
     const double pressed = -gap.value, rate = -gap.d1, growth = -gap.d2;
     touches = {pressed, rate, foot.p.norm() + parts_.radius + parts_.profile->inset()};
     if (presses && pressed > 0)

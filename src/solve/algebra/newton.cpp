@@ -324,10 +324,11 @@ bool Newton::judge(int iteration) {
   if (imbalance_.within(precision_) && std::max(imbalance_.length, imbalance_.angle) <= open_) return true;
   const double changed_before = std::exchange(changed_, std::max(row_.correction, forces)), changed = changed_;
   if (iteration > 1 && changed <= no_correction) return true;
-  // positions are at rounding level, which is no lower for parts that carry next to nothing than for others
   const double left = imbalance_.largest();
-  const bool stands = iteration > 1 && left > 0.5 * std::max(rows_[rows_.size() - 2].force, rows_[rows_.size() - 2].moment);
-  // behind a branching point of a path rounding decides much
+  const NewtonRow& before = rows_[rows_.size() - std::min<std::size_t>(rows_.size(), 2)];
+  const bool stands = iteration > 1 && left > 0.5 * std::max(before.force, before.moment);
+  // Positions are at rounding level, which is no lower for parts that carry next to nothing than for others. Behind a branching
+  // point of a path rounding decides much.
   const bool rests = iteration > 1 && row_.correction <= (stands && !border_ ? small_correction : no_correction);
   if (iteration > 0 && (one_tangent_ || rests) && left_to_rounding()) return true;
   if (iteration < 2 || !(left <= std::sqrt(precision_))) return false;
@@ -341,7 +342,6 @@ bool Newton::judge(int iteration) {
   if (near && theta < 1 && next <= negligible_correction) return true;
   // forces that are small beside stiffness times the rounding of positions follow that rounding and never settle; at rest this
   // may be the rounding of an angle of many turns, by which its constraint then stays open
-  const NewtonRow& before = rows_[rows_.size() - 2];
   const auto rounds = [this](const NewtonRow& row) {
     const double open = std::max(row.length, row.angle);
     return row.correction <= std::max(no_correction, weights_.a == 0 && open <= closed ? most_of_open * open : 0.0);
