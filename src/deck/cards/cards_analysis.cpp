@@ -177,7 +177,8 @@ Schema stepping_card() {
   card.add(
           "TOL", &SteppingCard::tolerance,
           "DYNAMIC and STATIC: the program chooses steps whose local error is at most this part of the range of each motion, and "
-          "ends them at corners of functions of time; H is then the first step and the time between results")
+          "ends them at corners of functions of time and at the points of a SPLINE; H is then the first step and the time "
+          "between results")
       .synonyms({"TOLERANCE"})
       .positive()
       .below(1);
