@@ -37,6 +37,10 @@ bool begins_with_word(std::string_view word, std::string_view start) {
   return true;
 }
 
+bool abbreviates(std::string_view word, std::string_view language) {
+  return word.size() >= 3 && begins_with_word(language, word);
+}
+
 std::string join(const std::vector<std::string>& words, std::string_view last) {
   std::string result;
   for (std::size_t i = 0; i < words.size(); ++i) {

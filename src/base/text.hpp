@@ -17,6 +17,9 @@ bool same_word(std::string_view a, std::string_view b);
 /// Whether `word` begins with `start`, ignoring ASCII case.
 bool begins_with_word(std::string_view word, std::string_view start);
 
+/// Whether `word` abbreviates `language`, a word of the language, to three or more letters; false if it is empty.
+bool abbreviates(std::string_view word, std::string_view language);
+
 /// `a, b and c`; `last` joins the final two.
 std::string join(const std::vector<std::string>& words, std::string_view last = " and ");
 

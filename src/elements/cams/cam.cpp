@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "elements/cams/cam_contact.hpp"
 #include "elements/cams/cam_design.hpp"
 #include "elements/common/building.hpp"
 #include "elements/common/friction_card.hpp"
 #include "elements/common/stop_range.hpp"
+#include "math/angle.hpp"
 
 namespace engrane::elements::cams {
 
@@ -139,21 +139,21 @@ std::unique_ptr<CamCurve> table_curve(const CamData& data, const BuildContext& c
         return nullptr;
       }
     }
-    const double turn = 2 * std::numbers::pi, reach = angle.back() - angle.front();
-    const bool repeats = reach > turn * (1 - 1e-12);
-    if (reach > turn * (1 + 1e-12) || (repeats && std::abs(radius.back() - radius.front()) > 1e-9 * radius.front())) {
+    const double reach = angle.back() - angle.front();
+    const bool repeats = reach > whole_turn * (1 - 1e-12);
+    if (reach > whole_turn * (1 + 1e-12) || (repeats && std::abs(radius.back() - radius.front()) > 1e-9 * radius.front())) {
       context.error("POLAR",
-                    repeats && reach <= turn * (1 + 1e-12)
+                    repeats && reach <= whole_turn * (1 + 1e-12)
                         ? fmt::format("the profile does not close: the radius is {} at first and {} a turn later",
                                       number(radius.front()), number(radius.back()))
                         : fmt::format("the angles reach over {} degrees, more than a turn", number(reach / degree)),
                     "angles within a turn; a last point a turn after the first must repeat its radius");
       return nullptr;
     }
-    if (repeats) radius.back() = radius.front(), angle.back() = angle.front() + turn;
+    if (repeats) radius.back() = radius.front(), angle.back() = angle.front() + whole_turn;
     double widest = 0;
     for (std::size_t k = 0; k + 1 < n; ++k) widest = std::max(widest, angle[k + 1] - angle[k]);
-    if (!repeats && turn - reach > 3 * widest) {
+    if (!repeats && whole_turn - reach > 3 * widest) {
       context.error("POLAR",
                     fmt::format("the profile does not close: no points between {} and {} degrees, and no others are more than "
                                 "{:.6g} degrees apart",

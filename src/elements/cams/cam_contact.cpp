@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "elements/common/along_motion.hpp"
 #include "elements/common/building.hpp"
+#include "math/angle.hpp"
 
 namespace engrane::elements::cams {
 
@@ -70,9 +70,8 @@ void Cam::count_turns(const State& state, std::span<double>, std::span<double> h
 }
 
 double Cam::counted(double s, std::span<const double> history) {
-  constexpr double turn = 2 * std::numbers::pi;
-  if (history[1] != 0) s = history[0] + std::remainder(s - history[0], turn);
-  return std::remainder(s, 2 * turn);
+  if (history[1] != 0) s = history[0] + std::remainder(s - history[0], whole_turn);
+  return std::remainder(s, 2 * whole_turn);
 }
 
 void Cam::joint_switches(const Contact<Taylor>& deepest, const State& state, std::span<Switch> values) const {
@@ -167,9 +166,8 @@ void Cam::observe(const State& state, std::span<double> values) const {
   for (Eigen::Index k = 0; k < 3; ++k) put(force_b[k]);
   put(c.gap);
   const CamProfile& profile = *parts_.profile;
-  const double turn = 2 * std::numbers::pi;
-  const double s = std::remainder(c.foot.s, turn);
-  put(s < 0 ? s + turn : s);
+  const double s = std::remainder(c.foot.s, whole_turn);
+  put(s < 0 ? s + whole_turn : s);
   const Vec2 touch = c.foot.p - profile.inset() * c.foot.n;
   put(std::atan2(touch[1], touch[0]));
   put(1 / c.foot.curvature - profile.inset());
@@ -204,7 +202,7 @@ Drawing Cam::drawing() const {
   std::string outline;
   const std::size_t count = std::clamp<std::size_t>(2 * profile.curve().pieces(), 240, 2000);
   for (std::size_t k = 0; k < count; ++k) {
-    const CamFoot foot = profile.at(2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count));
+    const CamFoot foot = profile.at(whole_turn * static_cast<double>(k) / static_cast<double>(count));
     const Vec2 p = foot.p - profile.inset() * foot.n;
     outline += (k > 0 ? ", " : "") + round(parts_.place + p[0] * parts_.axes.col(0) + p[1] * parts_.axes.col(1));
   }

@@ -2,13 +2,13 @@
 #include "elements/cams/cam_curve.hpp"
 
 #include <cmath>
-#include <numbers>
+
+#include "math/angle.hpp"
 
 namespace engrane::elements::cams {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 using Complex = std::complex<double>;
 constexpr Complex i{0, 1};
 
@@ -115,12 +115,12 @@ std::unique_ptr<CamCurve> curve_through(std::span<const Vec2> points) {
     y[k] = points[k][1];
     length += (points[(k + 1) % n] - points[k]).norm();
   }
-  for (double& value : s) value *= turn / length;
-  return std::make_unique<Spline>(Curve::periodic_spline(s, x, turn), Curve::periodic_spline(s, y, turn), n);
+  for (double& value : s) value *= whole_turn / length;
+  return std::make_unique<Spline>(Curve::periodic_spline(s, x, whole_turn), Curve::periodic_spline(s, y, whole_turn), n);
 }
 
 std::unique_ptr<CamCurve> polar_curve(std::span<const double> angle, std::span<const double> radius) {
-  return std::make_unique<Polar>(Curve::periodic_spline(angle, radius, turn), angle.size());
+  return std::make_unique<Polar>(Curve::periodic_spline(angle, radius, whole_turn), angle.size());
 }
 
 std::unique_ptr<CamCurve> path_of_slide(const CamMotion& motion, double height, double offset) {

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "math/angle.hpp"
 
 namespace engrane::elements::cams {
 
 namespace {
-
-constexpr double whole_turn = 2 * std::numbers::pi;
 
 /// Contacts of a roller closer together than this fraction of its radius count as one.
 constexpr double one_contact = 0.1;

@@ -13,8 +13,6 @@ namespace engrane::elements::gears {
 
 namespace {
 
-constexpr std::array<std::size_t, 2> wheels{0, 1};
-
 /// A single value applies to both wheels.
 std::array<double, 2> both(const std::vector<double>& values, double otherwise) {
   if (values.empty()) return {otherwise, otherwise};
@@ -51,7 +49,7 @@ bool check_overlap(const CutTeeth& cut, const CutData& data, const std::array<st
 void warn_about_thin_tips(const CutTeeth& cut, const CutData& data, const std::array<std::string, 2>& names,
                           const BuildContext& context) {
   constexpr double least_tip = 0.2;  // DIN 3960, 3.9: s_an in modules
-  for (const std::size_t i : wheels)
+  for (const std::size_t i : both_wheels)
     if (cut.teeth[i] != 0 && !cut.ring[i] && cut.tip_thickness(i) < least_tip * cut.normal_module)
       context.diagnostics.warning(context.record.where(tip_keyword(data)),
                                   fmt::format("the tips of {} are {:.3g} modules thick, less than {}", names[i],
@@ -101,7 +99,7 @@ bool set_tips(CutTeeth& cut, const CutData& data, const std::array<std::string, 
   }
   bool good = true;
   const char* const keyword = tip_keyword(data);
-  for (const std::size_t i : wheels) {
+  for (const std::size_t i : both_wheels) {
     if (cut.teeth[i] == 0) continue;
     const double root = cut.root_radius(i), side = cut.ring[i] ? -1 : 1;
     if (side * (cut.tip[i] - root) <= 0) {
@@ -150,7 +148,7 @@ void warn_about_cut(const CutTeeth& cut, const CutData& data, const std::array<s
   };
   const char* keyword = data.shift.empty() ? "Z" : "X";
   warn_about_thin_tips(cut, data, names, context);
-  for (const std::size_t i : wheels) {
+  for (const std::size_t i : both_wheels) {
     if (cut.teeth[i] == 0) continue;
     const double least = cut.least_shift(i);
     if (!cut.ring[i] && cut.shift[i] < least - 1e-6)

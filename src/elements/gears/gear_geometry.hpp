@@ -11,6 +11,11 @@
 
 namespace engrane::elements::gears {
 
+/// Relative difference up to which numbers typed by the user count as equal.
+inline constexpr double typing_tolerance = 1e-6;
+/// Indices of wheels A and B.
+inline constexpr std::array<std::size_t, 2> both_wheels{0, 1};
+
 /// Data that define the pitch surfaces and teeth of a pair, in the paper's conventions (figures 1 and 2). Entry 0 is wheel A,
 /// entry 1 wheel B. Angles in radians. With profile shift these are the *working* pitch surfaces, which roll on each other:
 /// module, pressure angle and helix are the values there, and `cut` holds the data of the cut teeth.

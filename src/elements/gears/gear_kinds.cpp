@@ -20,8 +20,6 @@ namespace engrane::elements::gears {
 
 namespace {
 
-/// Relative difference up to which numbers typed by the user count as equal.
-constexpr double typing_tolerance = 1e-6;
 constexpr double right_angle = std::numbers::pi / 2;
 
 /// For each kind, the optional keywords that it accepts.

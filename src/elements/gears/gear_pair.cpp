@@ -14,14 +14,13 @@
 #include "elements/gears/gear_place.hpp"
 #include "elements/gears/gear_report.hpp"
 #include "elements/gears/tooth_phases.hpp"
+#include "math/angle.hpp"
 
 namespace engrane::elements::gears {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-
-std::vector<Channel> channel_list() {
+std::vector<Channel> pair_channels() {
   using namespace dimension;
   std::vector<Channel> list{{"NORMAL_FORCE", force, "normal tooth force, positive where A drives"}};
   for (const char* wheel : {"A", "B"}) {
@@ -44,7 +43,7 @@ GearPair::GearPair(int id, std::array<int, 2> nodes, const GearDesign& design, c
     : ToothedPair(id, nodes, ToothContact(contact_geometry(design, frames, width), teeth, options),
                   {{{"PSI_A", dimension::angle, "turn of wheel A relative to the pair's frame"},
                     {"PSI_B", dimension::angle, "turn of wheel B relative to the pair's frame"}}},
-                  2, channel_list()),
+                  2, pair_channels()),
       design_(design),
       frames_(frames),
       triad_{frames.mu, frames.xi},
@@ -96,14 +95,14 @@ ContactGeometry contact_geometry(const GearDesign& design, double width) {
 
 void GearPair::count_turns(const State& state, std::span<double> scalars, std::span<double> history) const {
   for (std::size_t i = 0; i < 2; ++i) {
-    const double turns = std::round(state.scalars[i] / turn);
-    scalars[i] = state.scalars[i] - turns * turn;
+    const double turns = std::round(state.scalars[i] / whole_turn);
+    scalars[i] = state.scalars[i] - turns * whole_turn;
     history[i] = state.history[i] + turns;
   }
 }
 
 double GearPair::counted_phase(std::span<const double> history) const {
-  return turn * (design_.teeth[0] * history[0] + design_.teeth[1] * history[1]);
+  return whole_turn * (design_.teeth[0] * history[0] + design_.teeth[1] * history[1]);
 }
 
 template <class T>
@@ -144,7 +143,7 @@ void GearPair::observe(const State& state, std::span<double> values) const {
     power[i] = torque * state.scalar_rates[i];
   }
   put_force_channels(out, on, 0.5 * (point[0] + point[1]));
-  for (std::size_t i = 0; i < 2; ++i) out.put(state.scalars[i] + turn * state.history[i]);
+  for (std::size_t i = 0; i < 2; ++i) out.put(state.scalars[i] + whole_turn * state.history[i]);
   put_contact_channels(out, contact_, on, power, state.scalars);
 }
 

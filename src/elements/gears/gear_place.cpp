@@ -16,9 +16,6 @@ namespace engrane::elements::gears {
 
 namespace {
 
-/// Relative misfit up to which lengths typed by the user count as equal.
-constexpr double typing_tolerance = 1e-6;
-
 /// In an internal pair the wheel with more teeth is the ring.
 std::optional<std::array<double, 2>> internal_cones(const std::array<int, 2>& teeth, const BuildContext& context) {
   if (teeth[0] == teeth[1]) {

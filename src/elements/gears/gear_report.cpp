@@ -16,8 +16,6 @@ namespace engrane::elements::gears {
 
 namespace {
 
-constexpr std::array<std::size_t, 2> wheels{0, 1};
-
 const char* name_of(std::size_t wheel) { return wheel == 0 ? "A" : "B"; }
 
 bool is_ring(const GearDesign& design, std::size_t wheel) { return std::cos(design.cone[wheel]) < 0; }
@@ -49,7 +47,7 @@ std::optional<double> usable_contact_ratio(const GearDesign& design) {
   if (!full) return {};
   const double sine = std::sin(design.transverse_pressure_angle(0));
   double path = 0;
-  for (const std::size_t i : wheels) {
+  for (const std::size_t i : both_wheels) {
     const std::size_t mate = 1 - i;
     const double side = *virtual_path_of_contact(design, i), cosine = std::cos(design.cone[mate]);
     // a ring's involute starts outside its base circle; a crown wheel's has no start
@@ -86,7 +84,7 @@ void put_cut(std::vector<Derived>& list, const CutTeeth& cut, const std::array<s
   using namespace dimension;
   const auto put = [&](std::string name, double value, Dimension d) { list.push_back({std::move(name), value, d}); };
   const auto each = [&](const std::string& name, Dimension d, auto value) {
-    for (const std::size_t i : wheels)
+    for (const std::size_t i : both_wheels)
       if (cut.teeth[i] != 0) put(name + " of " + names[i], value(i), d);
   };
   const bool rack = cut.teeth[1] == 0;
@@ -129,7 +127,7 @@ std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& fr
   const int kind = design.parallel_kind();
   const auto put = [&](std::string name, double value, Dimension d) { list.push_back({std::move(name), value, d}); };
   const auto each = [&](const std::string& name, Dimension d, auto value) {
-    for (const std::size_t i : wheels) put(name + " of wheel " + name_of(i), value(i), d);
+    for (const std::size_t i : both_wheels) put(name + " of wheel " + name_of(i), value(i), d);
   };
   const auto vector = [&](const std::string& name, const Vec3& v, Dimension d) {
     for (int k = 0; k < 3; ++k) put(name + ", " + "xyz"[k], v[k], d);
@@ -149,7 +147,7 @@ std::vector<Derived> gear_report(const GearDesign& design, const PitchFrames& fr
   }
   each("cone angle", angle, [&](std::size_t i) { return design.cone[i]; });
   each("helix angle (right hand > 0)", angle, [&](std::size_t i) { return paper_helix(design.cut_helix(i), design.cone[i]); });
-  for (const std::size_t i : wheels) {
+  for (const std::size_t i : both_wheels) {
     if (!is_worm(design, i)) continue;
     const double lead_angle = std::numbers::pi / 2 - std::abs(design.helix[i]);
     const std::string of = std::string(" of worm ") + name_of(i);
@@ -241,7 +239,7 @@ void warn_about_teeth(const GearDesign& design, const GearData& data, const Buil
     context.diagnostics.warning(context.record.where(keyword), std::move(message), std::move(cure));
   };
   if (design.cut) warn_about_cut(*design.cut, data, {"wheel A", "wheel B"}, context);
-  for (const std::size_t i : wheels)
+  for (const std::size_t i : both_wheels)
     if (!is_ring(design, i) && !design.cut) warn_about_undercut(design, i, fmt::format("wheel {}", name_of(i)), context);
   if (!design.cut && design.parallel_kind() != 0) warn_about_plain_tips(design, {"wheel A", "wheel B"}, context);
   const bool internal = design.parallel_kind() < 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/angle.hpp"
+
 namespace engrane::elements::gears {
 
 namespace {
@@ -105,9 +107,8 @@ double ToothLaw::flank_integral(double x) const {
 }
 
 ToothLaw::Pressed ToothLaw::pressed_pairs(double phase, double depth) const {
-  constexpr double turn = 2 * std::numbers::pi;
-  const double pitch = relief.base_pitch, along = pitch / turn, share = 1 / relief.contact_ratio();
-  const double reach = 0.5 * relief.edge, cycle = phase / turn + relief.flank;
+  const double pitch = relief.base_pitch, along = pitch / whole_turn, share = 1 / relief.contact_ratio();
+  const double reach = 0.5 * relief.edge, cycle = phase / whole_turn + relief.flank;
   Pressed p;
   for (double j = std::ceil((-relief.approach - reach) / pitch - cycle); pitch * (cycle + j) < relief.recess + reach; ++j) {
     const double place = pitch * (cycle + j);

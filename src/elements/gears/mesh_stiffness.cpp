@@ -2,17 +2,12 @@
 #include "elements/gears/mesh_stiffness.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "math/angle.hpp"
 
 namespace engrane::elements::gears {
 
-namespace {
-
-constexpr double turn = 2 * std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 Function::Jet smooth_step(double x, double width) {
   if (x <= -0.5 * width) return {};
@@ -56,22 +51,22 @@ Function::Jet MeshStiffness::at(double phase) const {
       return k;
     }
     case Kind::table:
-      return stretched(function->at(phase / turn), 1 / turn);
+      return stretched(function->at(phase / whole_turn), 1 / whole_turn);
     case Kind::user: {
       const user::Results y = at(phase, 0);
       return {y[0], y[1], y[2], 0};
     }
     case Kind::square:
-      return stretched(square_wave(phase / turn), 1 / turn);
+      return stretched(square_wave(phase / whole_turn), 1 / whole_turn);
   }
   return {1, 0, 0, 0};
 }
 
 user::Results MeshStiffness::at(double phase, double deflection) const {
-  const double cycle = phase / turn;
+  const double cycle = phase / whole_turn;
   user::Results y = routine->at({cycle - std::floor(cycle), deflection, 0});
-  y[1] /= turn;
-  y[2] /= turn * turn;
+  y[1] /= whole_turn;
+  y[2] /= whole_turn * whole_turn;
   return y;
 }
 

@@ -15,14 +15,13 @@
 #include "elements/gears/contact_channels.hpp"
 #include "elements/gears/gear_bearings.hpp"
 #include "elements/gears/gear_report.hpp"
+#include "math/angle.hpp"
 
 namespace engrane::elements::gears {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
-
-std::vector<Channel> channel_list() {
+std::vector<Channel> rack_channels() {
   using namespace dimension;
   std::vector<Channel> list{{"NORMAL_FORCE", force, "normal tooth force, positive where the pinion drives"},
                             {"TANGENTIAL_FORCE_A", force, "tooth force on the pinion along its positive sense of turning"},
@@ -51,7 +50,7 @@ ContactGeometry contact_geometry(const RackPinion::Geometry& g, double width) {
   c.approach = height * design.normal_module / std::sin(c.transverse_pressure_angle);
   c.recess = path_of_contact(design, 0).value_or(0);
   c.reach = design.cut ? design.cut->tip_overlap() : 2 * design.normal_module;
-  if (design.cut) c.flank = design.cut->thickness(0) / (2 * std::numbers::pi * design.normal_module);
+  if (design.cut) c.flank = design.cut->thickness(0) / (whole_turn * design.normal_module);
   return c;
 }
 
@@ -62,14 +61,14 @@ RackPinion::RackPinion(int id, std::array<int, 2> nodes, const Geometry& geometr
     : ToothedPair(id, nodes, ToothContact(contact_geometry(geometry, width), teeth, options),
                   {{{"PSI_A", dimension::angle, "turn of the pinion relative to the pair's frame"},
                     {"TRAVEL", dimension::length, "travel of the rack relative to the pair's frame"}}},
-                  1, channel_list()),
+                  1, rack_channels()),
       geometry_(geometry),
       tooth_a_(tooth_axes(0, geometry.design.helix[0])),
       tooth_b_(mating_tooth_axes(0, geometry.design.helix[1])) {}
 
 void RackPinion::count_turns(const State& state, std::span<double> scalars, std::span<double> history) const {
-  const double turns = std::round(state.scalars[0] / turn);
-  scalars[0] = state.scalars[0] - turns * turn;
+  const double turns = std::round(state.scalars[0] / whole_turn);
+  scalars[0] = state.scalars[0] - turns * whole_turn;
   history[0] = state.history[0] + turns;
 }
 
@@ -96,7 +95,7 @@ void RackPinion::mesh(const Motion<T, 2>& motion, const State& state, Balance<T,
   const T &psi = motion.scalar[0], &travel = motion.scalar[1];
   const ToothedSide<T> a = pinion(motion.node[0].R, psi), b = rack(motion.node[1].R, travel);
   const double lever_a = geometry_.design.lever(0), lever_b = geometry_.sense * std::cos(geometry_.design.helix[1]);
-  const T closing = -(lever_a * (psi + turn * state.history[0]) + lever_b * travel);
+  const T closing = -(lever_a * (psi + whole_turn * state.history[0]) + lever_b * travel);
   ToothLoads<T> loads;
   const T normal_force =
       contact_.act(motion, a, b, closing, balance, this->grip(psi, state.history[0], state, balance), loads, report);
@@ -120,7 +119,7 @@ void RackPinion::observe(const State& state, std::span<double> values) const {
   out.put(torque);
   out.put(thrust);
   put_force_channels(out, on, 0.5 * (node_a.x + a.arm + node_b.x + b.arm));
-  out.put(state.scalars[0] + turn * state.history[0]);
+  out.put(state.scalars[0] + whole_turn * state.history[0]);
   out.put(state.scalars[1]);
   put_contact_channels(out, contact_, on, {torque * state.scalar_rates[0], thrust * state.scalar_rates[1]}, state.scalars);
 }
@@ -141,7 +140,7 @@ std::vector<Derived> RackPinion::derived() const {
             {"transverse pressure angle", d.transverse_pressure_angle(0), angle}};
   list.insert(list.end(), {{"helix angle of the pinion (right hand > 0)", -d.helix[0], angle},
                            {"helix angle of the rack (right hand > 0)", -d.helix[1], angle},
-                           {"travel per turn of the pinion", turn * d.lever(0) / std::cos(d.helix[1]), length}});
+                           {"travel per turn of the pinion", whole_turn * d.lever(0) / std::cos(d.helix[1]), length}});
   for (int k = 0; k < 3; ++k) list.push_back({std::string("contact point, ") + "xyz"[k], geometry_.frames.contact[k], length});
   const ContactGeometry& g = contact_.geometry();
   if (g.recess > 0 && std::abs(d.helix[0] + d.helix[1]) < 1e-9)

@@ -15,12 +15,12 @@
 #include "elements/common/building.hpp"
 #include "elements/gears/gear_place.hpp"
 #include "elements/gears/gear_report.hpp"
+#include "math/angle.hpp"
 
 namespace engrane::elements::gears {
 
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
 constexpr std::array<std::size_t, 2> sides{0, 1};
 
 /// Misfit, in pitches, that is attributed to typed coordinates, and the largest that elastic teeth can bridge.
@@ -31,7 +31,7 @@ constexpr double fits = 1e-6, bridged = 0.05;
 constexpr double same_shift = 0.01;
 
 /// The angle reduced to [−π, π].
-double wrapped(double angle) { return std::remainder(angle, turn); }
+double wrapped(double angle) { return std::remainder(angle, whole_turn); }
 
 struct Wheel {
   int node = 0;
@@ -301,11 +301,11 @@ std::optional<MeshPhase> mesh_phase(const BuildContext& context, bool elastic) {
   trains.warn_of_cut(*m, context);
   MeshPhase result;
   result.phase = wrapped(trains.phase(*m, 0));
-  if (result.phase < 1e-9 - std::numbers::pi) result.phase += turn;  // half a pitch is always +π
+  if (result.phase < 1e-9 - std::numbers::pi) result.phase += whole_turn;  // half a pitch is always +π
   for (const std::size_t side : sides) result.contact[side] = m->sense[side] * m->contact[side];
   if (!m->closes) return result;
 
-  const double misfit = trains.misfit(*m), pitches = std::abs(misfit) / turn;
+  const double misfit = trains.misfit(*m), pitches = std::abs(misfit) / whole_turn;
   if (pitches < fits) return result;
   result.misfit = 0.5 * m->module * misfit;
   const std::string message = fmt::format(

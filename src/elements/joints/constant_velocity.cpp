@@ -13,7 +13,7 @@ namespace {
 
 constexpr double largest_bend = 175;  // degrees: at 180 the axis of the bend is undefined
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_constant_velocity(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "constant velocity joint", PointRule::one_place);
   if (!parts) return nullptr;
   JointFrame& frame = parts->frame;
@@ -60,7 +60,7 @@ ElementType constant_velocity_type() {
   card.add("AXIS", &JointData::axis, "direction of a's shaft, in the reference configuration").synonyms({"AXE"}).required();
   card.add("AXIS2", &JointData::second, "direction of b's shaft; default: that of a's").synonyms({"AXE2"});
   add_joint_point(card);
-  return element_type(card, build);
+  return element_type(card, build_constant_velocity);
 }
 
 }  // namespace engrane::elements::joints

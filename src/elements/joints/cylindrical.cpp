@@ -5,17 +5,17 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"radius of the shaft; 0: turning causes no friction", "",
-                                   "distance of the two bushes that carry bending moments; 0: bending moments cause no friction",
-                                   false, false};
+const FrictionWords cylindrical_friction{
+    "radius of the shaft; 0: turning causes no friction", "",
+    "distance of the two bushes that carry bending moments; 0: bending moments cause no friction", false, false};
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_cylindrical(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "cylindrical joint", PointRule::on_axis);
   if (!parts) return nullptr;
   parts->is_bearing = true;
   parts->constraints = {{Measure::gap_2}, {Measure::gap_3}, {Measure::tilt_2}, {Measure::tilt_3}};
   if (!add_slide(data, context, *parts) || !add_turn(data, context, *parts) ||
-      !add_friction(data, context, *parts, Rubbing::sleeve, friction_words))
+      !add_friction(data, context, *parts, Rubbing::sleeve, cylindrical_friction))
     return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
@@ -37,8 +37,8 @@ ElementType cylindrical_type() {
   add_joint_point(card);
   add_coordinate<0>(card, words::slide);
   add_coordinate<2>(card, words::turn);
-  add_joint_friction(card, friction_words);
-  return element_type(card, build);
+  add_joint_friction(card, cylindrical_friction);
+  return element_type(card, build_cylindrical);
 }
 
 }  // namespace engrane::elements::joints

@@ -18,7 +18,7 @@ std::optional<Vec3> end(const BuildContext& context, const char* keyword, int no
   return {};
 }
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_distance(const JointData& data, BuildContext& context) {
   if (!check_nodes(context, {data.nodes[0], data.nodes[1]})) return nullptr;
   const auto from = end(context, "FROM", data.nodes[0], data.from), to = end(context, "TO", data.nodes[1], data.to);
   auto found =
@@ -64,7 +64,7 @@ ElementType distance_type() {
   card.add("FROM", &JointData::from, "end on node a, in the reference configuration").unit(dimension::length);
   card.add("TO", &JointData::to, "end on node b, in the reference configuration").unit(dimension::length);
   add_coordinate<0>(card, words::length);
-  return element_type(card, build);
+  return element_type(card, build_distance);
 }
 
 }  // namespace engrane::elements::joints

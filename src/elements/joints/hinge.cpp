@@ -5,18 +5,18 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"radius of the pin", "friction radius of the thrust collar; 0: no collar friction",
+const FrictionWords hinge_friction{"radius of the pin", "friction radius of the thrust collar; 0: no collar friction",
                                    "distance of the two bushes that carry bending moments; 0: bending moments cause no friction",
                                    false, true};
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_hinge(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "hinge", PointRule::one_place);
   if (!parts) return nullptr;
   parts->is_bearing = parts->has_axial = true;
   parts->constraints = {{Measure::gap_1}, {Measure::gap_2}, {Measure::gap_3}, {Measure::tilt_2}, {Measure::tilt_3}};
   const CoordinateNames names{"ANGLE", "SPEED", "SPRING_TORQUE", "DRIVE_TORQUE", "DRIVE_POWER", "STOP_TORQUE", "STOP_GAP"};
   if (!add_free(context, *parts, data.turn(), words::angle, Measure::angle, names) ||
-      !add_friction(data, context, *parts, Rubbing::journal, friction_words))
+      !add_friction(data, context, *parts, Rubbing::journal, hinge_friction))
     return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
@@ -38,8 +38,8 @@ ElementType hinge_type() {
   add_joint_axis(card);
   add_joint_point(card);
   add_coordinate<2>(card, words::angle);
-  add_joint_friction(card, friction_words);
-  return element_type(card, build);
+  add_joint_friction(card, hinge_friction);
+  return element_type(card, build_hinge);
 }
 
 }  // namespace engrane::elements::joints

@@ -127,7 +127,7 @@ class LinearRelation final : public TemplatedElement<LinearRelation, most_nodes,
   std::vector<Channel> channels_;
 };
 
-std::unique_ptr<Element> build(const LinearRelationData& data, BuildContext& context) {
+std::unique_ptr<Element> build_linear_relation(const LinearRelationData& data, BuildContext& context) {
   const Function* function = nullptr;
   if (!find_function(context, data.function, function)) return nullptr;
   const std::size_t count = data.nodes.size();
@@ -206,7 +206,7 @@ ElementType linear_relation_type() {
   card.add("NF", &LinearRelationData::function, "function of time that multiplies V")
       .refers(deck::Reference::function)
       .at_least(0);
-  return element_type(card, build);
+  return element_type(card, build_linear_relation);
 }
 
 }  // namespace engrane::elements::joints

@@ -5,16 +5,16 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"friction radius of the face about its normal; 0: spinning causes no friction", "", "", false,
-                                   false};
+const FrictionWords planar_friction{"friction radius of the face about its normal; 0: spinning causes no friction", "", "", false,
+                                    false};
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_planar(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "planar joint", PointRule::at_b);
   if (!parts) return nullptr;
   if (!find_plane_axes(data, context, *parts)) return nullptr;
   parts->constraints = {{Measure::gap_1}, {Measure::tilt_2}, {Measure::tilt_3}};
   if (!add_slides(data, context, *parts) || !add_turn(data, context, *parts) ||
-      !add_friction(data, context, *parts, Rubbing::face, friction_words))
+      !add_friction(data, context, *parts, Rubbing::face, planar_friction))
     return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
@@ -38,8 +38,8 @@ ElementType planar_type() {
   add_joint_point(card);
   add_plane_slides(card);
   add_coordinate<2>(card, words::turn);
-  add_joint_friction(card, friction_words);
-  return element_type(card, build);
+  add_joint_friction(card, planar_friction);
+  return element_type(card, build_planar);
 }
 
 }  // namespace engrane::elements::joints

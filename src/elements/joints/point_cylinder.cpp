@@ -9,9 +9,9 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"", "", "", false, false};
+const FrictionWords point_cylinder_friction{"", "", "", false, false};
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_point_cylinder(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "joint", PointRule::at_b);
   if (!parts) return nullptr;
   JointFrame& frame = parts->frame;
@@ -30,7 +30,7 @@ std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   parts->constraints = {{Measure::radius, data.radius > 0 ? data.radius : out.norm()}};
   if (!add_slide(data, context, *parts) ||
       !add_free(context, *parts, data.turn(), words::turn, Measure::azimuth, CoordinateNames::of("ANGLE", "SPEED")) ||
-      !add_friction(data, context, *parts, Rubbing::face, friction_words))
+      !add_friction(data, context, *parts, Rubbing::face, point_cylinder_friction))
     return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
@@ -58,8 +58,8 @@ ElementType point_cylinder_type() {
       .at_least(0);
   add_coordinate<0>(card, words::slide);
   add_coordinate<2>(card, words::turn);
-  add_joint_friction(card, friction_words);
-  return element_type(card, build);
+  add_joint_friction(card, point_cylinder_friction);
+  return element_type(card, build_point_cylinder);
 }
 
 }  // namespace engrane::elements::joints

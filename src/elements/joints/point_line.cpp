@@ -5,15 +5,16 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"", "", "", false, false};
+const FrictionWords point_line_friction{"", "", "", false, false};
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_point_line(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "joint", PointRule::at_b);
   if (!parts) return nullptr;
   release_rotations(*parts, true);
   parts->is_bearing = true;
   parts->constraints = {{Measure::gap_2}, {Measure::gap_3}};
-  if (!add_slide(data, context, *parts) || !add_friction(data, context, *parts, Rubbing::guide, friction_words)) return nullptr;
+  if (!add_slide(data, context, *parts) || !add_friction(data, context, *parts, Rubbing::guide, point_line_friction))
+    return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
 
@@ -31,8 +32,8 @@ ElementType point_line_type() {
   add_joint_axis(card);
   add_joint_point(card);
   add_coordinate<0>(card, words::slide);
-  add_joint_friction(card, friction_words);
-  return element_type(card, build);
+  add_joint_friction(card, point_line_friction);
+  return element_type(card, build_point_line);
 }
 
 }  // namespace engrane::elements::joints

@@ -5,15 +5,15 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"", "", "", false, false};
+const FrictionWords point_plane_friction{"", "", "", false, false};
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_point_plane(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "joint", PointRule::at_b);
   if (!parts) return nullptr;
   release_rotations(*parts, true);
   parts->constraints = {{Measure::gap_1}};
   if (!find_plane_axes(data, context, *parts) || !add_slides(data, context, *parts) ||
-      !add_friction(data, context, *parts, Rubbing::face, friction_words))
+      !add_friction(data, context, *parts, Rubbing::face, point_plane_friction))
     return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
@@ -34,8 +34,8 @@ ElementType point_plane_type() {
       .required();
   add_joint_point(card);
   add_plane_slides(card);
-  add_joint_friction(card, friction_words);
-  return element_type(card, build);
+  add_joint_friction(card, point_plane_friction);
+  return element_type(card, build_point_plane);
 }
 
 }  // namespace engrane::elements::joints

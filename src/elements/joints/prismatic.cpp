@@ -5,16 +5,17 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{
+const FrictionWords prismatic_friction{
     "lever at which a key or two rails hold the slider from turning; default: their friction is left out", "",
     "distance of the two shoes that carry bending moments; 0: bending moments cause no friction", false, false};
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_prismatic(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "prismatic joint", PointRule::at_b);
   if (!parts) return nullptr;
   parts->is_bearing = true;
   parts->constraints = {{Measure::gap_2}, {Measure::gap_3}, {Measure::turn_1}, {Measure::turn_2}, {Measure::turn_3}};
-  if (!add_slide(data, context, *parts) || !add_friction(data, context, *parts, Rubbing::guide, friction_words)) return nullptr;
+  if (!add_slide(data, context, *parts) || !add_friction(data, context, *parts, Rubbing::guide, prismatic_friction))
+    return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
 
@@ -34,8 +35,8 @@ ElementType prismatic_type() {
   add_joint_axis(card);
   add_joint_point(card);
   add_coordinate<0>(card, words::slide);
-  add_joint_friction(card, friction_words);
-  return element_type(card, build);
+  add_joint_friction(card, prismatic_friction);
+  return element_type(card, build_prismatic);
 }
 
 }  // namespace engrane::elements::joints

@@ -10,11 +10,11 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{
+const FrictionWords screw_friction{
     "mean radius of the thread", "",
     "distance of the two ends of the nut that carry bending moments; 0: bending moments cause no friction", true, true};
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_screw(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "screw", PointRule::on_axis);
   if (!parts) return nullptr;
   if (data.slide().drive.given() && data.turn().drive.given()) {
@@ -25,7 +25,7 @@ std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   parts->is_bearing = true;
   parts->constraints = {{Measure::gap_2}, {Measure::gap_3}, {Measure::tilt_2}, {Measure::tilt_3}, {Measure::screw}};
   if (!add_slide(data, context, *parts) || !add_turn(data, context, *parts) ||
-      !add_friction(data, context, *parts, Rubbing::thread, friction_words))
+      !add_friction(data, context, *parts, Rubbing::thread, screw_friction))
     return nullptr;
   for (JointFriction& f : parts->friction) {
     // normal to a flank inclined by α in the axial plane, on a helix of lead angle λ: tan α_n = tan α cos λ
@@ -55,8 +55,8 @@ ElementType screw_type() {
       .required();
   add_coordinate<0>(card, words::slide);
   add_coordinate<2>(card, words::turn);
-  add_joint_friction(card, friction_words);
-  return element_type(card, build);
+  add_joint_friction(card, screw_friction);
+  return element_type(card, build_screw);
 }
 
 }  // namespace engrane::elements::joints

@@ -5,14 +5,14 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"radius of the ball"};
+const FrictionWords spherical_friction{"radius of the ball"};
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_spherical(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "spherical joint", PointRule::one_place, false);
   if (!parts) return nullptr;
   if (!data.friction.given()) release_rotations(*parts, false);
   parts->constraints = {{Measure::gap_1}, {Measure::gap_2}, {Measure::gap_3}};
-  if (!add_friction(data, context, *parts, Rubbing::ball, friction_words)) return nullptr;
+  if (!add_friction(data, context, *parts, Rubbing::ball, spherical_friction)) return nullptr;
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
 
@@ -30,8 +30,8 @@ ElementType spherical_type() {
       .example("I 4 SPHERICAL N 0 2  AT 0 0 1.5");
   add_joint_nodes(card);
   add_joint_point(card);
-  add_joint_friction(card, friction_words);
-  return element_type(card, build);
+  add_joint_friction(card, spherical_friction);
+  return element_type(card, build_spherical);
 }
 
 }  // namespace engrane::elements::joints

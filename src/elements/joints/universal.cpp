@@ -9,11 +9,11 @@ namespace engrane::elements::joints {
 
 namespace {
 
-const FrictionWords friction_words{"radius of the pins", "friction radius of the ends of the pins; 0: these have no friction",
-                                   "distance of the two bearings of either pin; default: the torque presses nothing", false,
-                                   true};
+const FrictionWords universal_friction{"radius of the pins", "friction radius of the ends of the pins; 0: these have no friction",
+                                       "distance of the two bearings of either pin; default: the torque presses nothing", false,
+                                       true};
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_universal(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "universal joint", PointRule::one_place);
   if (!parts) return nullptr;
   const auto pin_b = unit_vector(context, "AXIS2", *data.second);
@@ -34,7 +34,7 @@ std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
   if (!first || !second ||
       !add_free(context, *parts, *first, words::pin_1, Measure::pin_a, CoordinateNames::of("ANGLE_1", "SPEED_1")) ||
       !add_free(context, *parts, *second, words::pin_2, Measure::pin_b, CoordinateNames::of("ANGLE_2", "SPEED_2")) ||
-      !add_friction(data, context, *parts, Rubbing::journal, friction_words))
+      !add_friction(data, context, *parts, Rubbing::journal, universal_friction))
     return nullptr;
   if (!parts->friction.empty()) {  // both pins have the same friction data
     JointFriction& a = parts->friction.front();
@@ -72,8 +72,8 @@ ElementType universal_type() {
   card.add("ANGLE0", &JointData::both_relaxed, "angle of either pin at which its spring is relaxed").unit(dimension::angle);
   add_coordinate<2>(card, words::pin_1);
   add_coordinate<3>(card, words::pin_2);
-  add_joint_friction(card, friction_words);
-  return element_type(card, build);
+  add_joint_friction(card, universal_friction);
+  return element_type(card, build_universal);
 }
 
 }  // namespace engrane::elements::joints

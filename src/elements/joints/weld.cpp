@@ -5,7 +5,7 @@ namespace engrane::elements::joints {
 
 namespace {
 
-std::unique_ptr<Element> build(const JointData& data, BuildContext& context) {
+std::unique_ptr<Element> build_weld(const JointData& data, BuildContext& context) {
   auto parts = start_joint(data, context, "weld", PointRule::at_b, false);
   if (!parts) return nullptr;
   parts->constraints = {{Measure::gap_1},  {Measure::gap_2},  {Measure::gap_3},
@@ -27,7 +27,7 @@ ElementType weld_type() {
       .example("I 4 WELD N 0 7  AT 0 0 1");
   add_joint_nodes(card);
   add_joint_point(card);
-  return element_type(card, build);
+  return element_type(card, build_weld);
 }
 
 }  // namespace engrane::elements::joints

@@ -21,27 +21,24 @@ namespace {
 
 using materials::Hypothesis;
 
-/// Whether `word` from the deck abbreviates a word of the language to three or more letters; false if it is empty.
-bool begins(std::string_view language, const std::string& word) { return word.size() >= 3 && begins_with_word(language, word); }
-
 /// Hypothesis of a supported formulation of plane, solid or membrane cells; nothing for others.
 std::optional<Hypothesis> hypothesis_of(const deck::HypothesisCard& card) {
-  const auto variant = [&card](std::string_view wanted) { return card.variant.empty() || begins(wanted, card.variant); };
-  if (begins("MEMBRANE", card.formulation) && variant("BIDIM")) return Hypothesis::plane_stress;
-  if (begins("CONTRAINTE", card.formulation) && variant("PLANE")) return Hypothesis::plane_stress;
-  if (begins("DEFORMATION", card.formulation) && variant("PLANE")) return Hypothesis::plane_strain;
-  if (begins("VOLUME", card.formulation) && card.variant.empty()) return Hypothesis::solid;
-  if ((begins("AXISYMETRIQUE", card.formulation) || begins("AXISYMMETRIC", card.formulation)) && card.variant.empty())
+  const auto variant = [&card](std::string_view wanted) { return card.variant.empty() || abbreviates(card.variant, wanted); };
+  if (abbreviates(card.formulation, "MEMBRANE") && variant("BIDIM")) return Hypothesis::plane_stress;
+  if (abbreviates(card.formulation, "CONTRAINTE") && variant("PLANE")) return Hypothesis::plane_stress;
+  if (abbreviates(card.formulation, "DEFORMATION") && variant("PLANE")) return Hypothesis::plane_strain;
+  if (abbreviates(card.formulation, "VOLUME") && card.variant.empty()) return Hypothesis::solid;
+  if ((abbreviates(card.formulation, "AXISYMETRIQUE") || abbreviates(card.formulation, "AXISYMMETRIC")) && card.variant.empty())
     return Hypothesis::axisymmetric;
   return {};
 }
 
 bool is_beam_card(const deck::HypothesisCard& card) {
-  return (begins("BEAM", card.formulation) || begins("POUTRE", card.formulation)) && card.variant.empty();
+  return (abbreviates(card.formulation, "BEAM") || abbreviates(card.formulation, "POUTRE")) && card.variant.empty();
 }
 
 /// Whether the formulation is that of membranes in space, as opposed to the x-y plane.
-bool is_skin(const deck::HypothesisCard& card) { return begins("MEMBRANE", card.formulation) && card.variant.empty(); }
+bool is_skin(const deck::HypothesisCard& card) { return abbreviates(card.formulation, "MEMBRANE") && card.variant.empty(); }
 
 /// The card of a hypothesis of membranes in space; nullptr if there is none or it is another.
 const deck::HypothesisCard* skin_card(const deck::Record* hypothesis) {

@@ -16,9 +16,6 @@ Vec3 along_axes(const std::vector<double>& values) {
   return values.size() == 3 ? Vec3(values[0], values[1], values[2]) : Vec3::Constant(values.empty() ? 0.0 : values.front());
 }
 
-/// Whether `word` from the deck abbreviates a word of the language to three or more letters.
-bool begins(std::string_view language, const std::string& word) { return word.size() >= 3 && begins_with_word(language, word); }
-
 std::optional<Elastic> isotropic_of(const deck::Record& record, const deck::MaterialCard& card, Hypothesis hypothesis,
                                     Diagnostics& diagnostics) {
   const double young = card.young.front(), poisson = card.poisson.front();
@@ -35,7 +32,7 @@ std::optional<Elastic> isotropic_of(const deck::Record& record, const deck::Mate
 
 bool is_neo_hookean(const deck::MaterialCard& card) {
   for (const char* language : {"NEO-HOOKEAN", "NEO_HOOKEAN", "NEO HOOKEAN", "NEOHOOKEAN"})
-    if (begins(language, card.behaviour)) return true;
+    if (abbreviates(card.behaviour, language)) return true;
   return false;
 }
 
@@ -73,7 +70,7 @@ std::optional<Elastic> elastic_of(const deck::Record& record, Hypothesis hypothe
   const std::size_t count = card.young.size();
   const bool rubber = is_neo_hookean(card);
   std::optional<Elastic> material;
-  if (!rubber && !begins("ELASTIC", card.behaviour) && !begins("ELASTIQUE", card.behaviour))
+  if (!rubber && !abbreviates(card.behaviour, "ELASTIC") && !abbreviates(card.behaviour, "ELASTIQUE"))
     diagnostics.error(record.where("BEHA"), fmt::format("the behaviour \"{}\" is not in this version", card.behaviour),
                       "there are \"ELASTIC\" and \"NEO-HOOKEAN\"");
   else if (count == 0 || card.poisson.empty())
