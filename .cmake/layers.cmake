@@ -36,9 +36,8 @@ endfunction()
 function(engrane_room name)
 endfunction()
 
-# The headers that nearly every source reads, parsed once: half of the time that a small source takes. Only layers that are
-# not compiled eight files at a time have headers of ours among them: of several files in one GCC reads those twice. Sources include what they use all the same;
-# ENGRANE_PRECOMPILED=OFF shows it.
+# The foreign headers that nearly every source reads, parsed once. None of ours: where several files are compiled as one, GCC
+# reads those twice. Sources include what they use all the same; ENGRANE_PRECOMPILED=OFF shows it.
 function(engrane_precompiled target)
   if(NOT ENGRANE_PRECOMPILED)
     return()
@@ -48,13 +47,9 @@ function(engrane_precompiled target)
       ${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <algorithm> <array> <functional> <map> <memory>
       <optional> <span> <string> <vector>)
   elseif(target STREQUAL "engrane_elements")
-    target_precompile_headers(
-      ${target} PRIVATE <Eigen/Dense> <fmt/format.h>)
+    target_precompile_headers(${target} PRIVATE <Eigen/Dense> <fmt/format.h>)
   elseif(target STREQUAL "engrane_solve")
     target_precompile_headers(${target} PRIVATE <Eigen/Dense> <Eigen/SparseCore> <fmt/format.h>)
-  elseif(target STREQUAL "element_tests")
-    target_precompile_headers(${target} PRIVATE <gtest/gtest.h> ${PROJECT_SOURCE_DIR}/src/model/templated_element.hpp
-                                                ${PROJECT_SOURCE_DIR}/tests/elements/suite.hpp)
   elseif(target STREQUAL "engrane_test_headers")
     target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <Eigen/Dense> <fmt/format.h>)
   elseif(TARGET engrane_test_headers AND NOT target MATCHES "^engrane_")

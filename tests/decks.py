@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs a deck on 1, 2 and 3 ranks: each run must pass its own .CHK, and all must give the same results. On
+"""Runs decks on 1, 2 and 3 ranks: each run must pass its own .CHK, and all must give the same results. On
 3 ranks, more than machines for tests have cores, a long run ends with its 100th sample, and is compared with
-as much of the whole run.
+as much of the whole run. Decks of one folder are one test and are solved by one process (on each number of
+ranks), which saves starts.
 
 A run on one rank that is interrupted at a third of the way and continued must give every bit of the whole
 run. Every channel must be what version 0.3.0 gave: last value and root of the mean square, from
@@ -13,7 +14,7 @@ has backlash, whose corner was rounded then; whether the flanks of gear_pair_ela
 (CONTACT) was decided by 1e-21. Drives stood still in the last sample where their TABLE ends with the
 run: the file has today's values there, and those of 0.3.0 before it.
 
-    decks.py --binary engrane --mpiexec mpiexec --work folder deck.dat
+    decks.py --binary engrane --mpiexec mpiexec --work folder deck.dat [deck.dat ...]
 
 A deck may say in a comment what its test is:
 
@@ -22,7 +23,6 @@ A deck may say in a comment what its test is:
                              number of the same unit: teeth that rattle enlarge the last digit's noise
     ! test: short TF 1 H 0.1 the whole deck on one rank only; all ranks are compared over this much of it
     ! test: elsewhere FILE   beside `short`: this test of tests/ runs the whole deck with its checks
-    ! test: slow             labelled slow, so that `ctest -LE slow` leaves it out; not interrupted
     ! test: part             not run: other decks INPUT it
 """
 
@@ -177,12 +177,35 @@ def differences(one: dict, other: dict, tolerance: float) -> list[str]:
     return faults
 
 
-def shortened(arguments, stepping: list[str]) -> Path:
+class Case:
+    """A deck, and what its comments ask for."""
+
+    def __init__(self, deck: Path, work: Path) -> None:
+        wanted = wishes(deck)
+        self.deck = deck
+        self.ranks = [int(n) for n in wanted.get("ranks", ["1", "2", "3"])]
+        self.tolerance = float(wanted.get("tolerance", ["1e-6"])[0])
+        self.is_short = "short" in wanted
+        self.elsewhere = wanted.get("elsewhere", [""])[0]
+        self.solved = shortened(deck, work, wanted["short"]) if self.is_short else deck  # on all ranks
+        if self.elsewhere and deck.name not in (Path(__file__).parent / self.elsewhere).read_text("utf-8"):
+            sys.exit(f"{self.elsewhere} does not run {deck.name}")
+
+    def results(self, work: Path, ranks: int) -> Path:
+        """Where a run of `solved` leaves them; tests/verify reads those of whole decks on one rank."""
+        return folder_of(work, ranks) / f"{self.solved.stem}.h5"
+
+
+def folder_of(work: Path, ranks: int) -> Path:
+    return work / f"np{ranks}" if ranks > 1 else work
+
+
+def shortened(deck: Path, work: Path, stepping: list[str]) -> Path:
     """The deck with another `.SUB` and without checks, which it would not reach."""
-    text = arguments.deck.read_text(encoding="utf-8", errors="replace")
+    text = deck.read_text(encoding="utf-8", errors="replace")
     end = re.search(r"^\.FIN", text, re.MULTILINE)
     head = text[: end.start()] if end else text
-    short = arguments.work / "short" / f"{arguments.deck.stem}_short.dat"
+    short = work / "short" / f"{deck.stem}_short.dat"
     short.parent.mkdir(exist_ok=True)
     short.write_text(f"{head}.DEL.CHK\n.DEL.SUB\n.SUB {' '.join(stepping)}\n.FIN 1\n", encoding="utf-8")
     return short
@@ -248,18 +271,54 @@ def changed(deck: Path, unique: set[str], results: dict, tolerance: float) -> li
     return faults
 
 
-def run(arguments, deck: Path, ranks: int, until: float | None = None) -> Path:
-    """The results of a whole run on one rank keep the deck's name: tests/verify reads them."""
+def run(arguments, decks: list[Path], ranks: int, until: float | None = None) -> None:
+    """Solves decks one after the other in one process on each rank."""
+    if not decks:
+        return
+    folder = folder_of(arguments.work, ranks)
+    for deck in decks:
+        for old in folder.glob(f"{deck.stem}.*"):
+            old.unlink()
     part = [] if until is None else ["--until", repr(until)]
-    prefix = arguments.work / (deck.stem + (f"_np{ranks}" if ranks > 1 else "") + ("_part" if part else ""))
-    for old in arguments.work.glob(f"{prefix.name}.*"):
-        old.unlink()
-    command = on_ranks(ranks, [arguments.binary, str(deck), "-o", str(prefix), *part], arguments.mpiexec)
+    command = [arguments.binary, *map(str, decks), "-o", f"{folder}/", *part]
+    command = on_ranks(ranks, command, arguments.mpiexec)
     print("+", " ".join(command), flush=True)
     status = subprocess.run(command, check=False).returncode
     if status != (2 if part else 0):
-        sys.exit(f"{deck.name} on {ranks} ranks: exit status {status}")
-    return prefix.with_name(prefix.name + ".h5")
+        sys.exit(f"{', '.join(deck.name for deck in decks)} on {ranks} ranks: exit status {status}")
+
+
+def compare(arguments, case: Case) -> bool:
+    """Compares the results of a deck; runs it on 3 ranks if it is long, and from a restart."""
+    first_ranks = case.ranks[0]
+    whole = Read(case.results(arguments.work, first_ranks))
+    first = whole.results()
+    faults = interrupted(arguments, case.solved, whole) if first_ranks == 1 else []
+    faults += changed(case.deck, whole.unique, first, case.tolerance) if not case.is_short else []
+    for n in case.ranks[1:]:
+        until = last_of(whole) if n > 2 else None
+        if until is not None:
+            run(arguments, [case.solved], n, until)
+        one = first if until is None else whole.results(until)
+        other = Read(case.results(arguments.work, n)).results()
+        found = differences(one, other, case.tolerance)
+        faults += [f"{n} ranks against {first_ranks}: {fault}" for fault in found]
+    print(
+        "\n".join(f"{case.deck.name}: {fault}" for fault in faults)
+        or f"{case.deck.name}: ranks {case.ranks} agree in {len(first)} datasets and channels",
+        flush=True,
+    )
+    return not faults
+
+
+def last_of(whole: Read) -> float | None:
+    """The last sample that is compared on 3 ranks; None: all are."""
+    return float(whole.times[LONG - 1]) if len(whole.times) > LONG else None
+
+
+def is_long(arguments, case: Case) -> bool:
+    with Results(case.results(arguments.work, case.ranks[0])) as results:
+        return len(results.times()) > LONG
 
 
 def main() -> int:
@@ -267,35 +326,18 @@ def main() -> int:
     parser.add_argument("--binary", required=True)
     parser.add_argument("--mpiexec", required=True)
     parser.add_argument("--work", required=True, type=Path)
-    parser.add_argument("deck", type=Path)
+    parser.add_argument("decks", type=Path, nargs="+")
     arguments = parser.parse_args()
     arguments.work.mkdir(parents=True, exist_ok=True)
 
-    wanted = wishes(arguments.deck)
-    ranks = [int(n) for n in wanted.get("ranks", ["1", "2", "3"])]
-    tolerance = float(wanted.get("tolerance", ["1e-6"])[0])
-
-    deck = arguments.deck
-    if "short" in wanted:
-        if "elsewhere" not in wanted:
-            run(arguments, deck, 1)
-        elif deck.name not in (Path(__file__).parent / wanted["elsewhere"][0]).read_text(encoding="utf-8"):
-            sys.exit(f"{wanted['elsewhere'][0]} does not run {deck.name}")
-        deck = shortened(arguments, wanted["short"])
-    whole = Read(run(arguments, deck, ranks[0]))
-    first = whole.results()
-    faults = interrupted(arguments, deck, whole) if ranks[0] == 1 and "slow" not in wanted else []
-    faults += changed(arguments.deck, whole.unique, first, tolerance) if "short" not in wanted else []
-    for n in ranks[1:]:
-        until = float(whole.times[LONG - 1]) if n > 2 and len(whole.times) > LONG else None
-        one = first if until is None else whole.results(until)
-        other = Read(run(arguments, deck, n, until)).results()
-        faults += [f"{n} ranks against {ranks[0]}: {fault}" for fault in differences(one, other, tolerance)]
-    print(
-        "\n".join(faults)
-        or f"{arguments.deck.name}: ranks {ranks} agree in {len(first)} datasets and channels"
-    )
-    return 1 if faults else 0
+    cases = [Case(deck, arguments.work) for deck in arguments.decks]
+    whole = [case.deck for case in cases if case.is_short and not case.elsewhere]
+    run(arguments, whole + [case.solved for case in cases if 1 in case.ranks], 1)
+    for n in sorted({n for case in cases for n in case.ranks} - {1}):
+        these = [case for case in cases if n in case.ranks]
+        run(arguments, [case.solved for case in these if n == 2 or not is_long(arguments, case)], n)
+    agree = [compare(arguments, case) for case in cases]
+    return 0 if all(agree) else 1
 
 
 if __name__ == "__main__":

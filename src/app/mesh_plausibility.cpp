@@ -85,6 +85,33 @@ bool misses_density(const deck::Deck& deck, const Model& model) {
   });
 }
 
+/// Whether the error that ACCURACY estimates counts in a deck, and a material with density has no damping.
+bool misses_damping(const deck::Deck& deck, const Model& model) {
+  const deck::AnalysisCard& analysis = model.commands.analysis;
+  return analysis.accuracy.given() && analysis.type.is("DYNAMIC") &&
+         std::any_of(deck.records.begin(), deck.records.end(), [](const deck::Record& record) {
+           const auto* card = record.get<deck::MaterialCard>();
+           return card && card->density.value_or(0) > 0 && card->damping == 0;
+         });
+}
+
+/// Warns about undamped cells under ACCURACY: the scheme damps waves that are too fast for the steps, in the run as well as in
+/// the one used to estimate its error (docs/accuracy.md, Beams).
+void look_at_damping(const deck::Deck& deck, const Model& model, const CellBook& book, Diagnostics& diagnostics) {
+  const auto count = cells_by_material(deck, model, book);
+  for (const deck::Record& record : deck.records) {
+    const auto* card = record.get<deck::MaterialCard>();
+    if (!card || !(card->density.value_or(0) > 0) || card->damping > 0 || !count.contains(&record)) continue;
+    diagnostics.warning(record.location,
+                        fmt::format("material {}{} has no DAMPING: the error that ACCURACY estimates leaves out waves in its "
+                                    "cells that are too fast for the steps, and forces or accelerations of light parts may be "
+                                    "off by more",
+                                    record.id, card->name.empty() ? "" : fmt::format(" \"{}\"", card->name)),
+                        "DAMPING 0.002/w takes 0.1 % of critical damping from vibrations of w radians per time, and ends faster "
+                        "ones; loads that grow from 0 and START STATIC excite few of them");
+  }
+}
+
 /// Warns about rotations that turn no cells.
 void look_at_rotations(const deck::Deck& deck, const CellBook& book, Diagnostics& diagnostics) {
   for (const deck::Record& record : deck.records)
@@ -149,12 +176,14 @@ void warn_of_mesh_slips(const deck::Deck& deck, const Model& model, Diagnostics&
   const bool misses = misses_density(deck, model);
   const bool turns = std::any_of(deck.records.begin(), deck.records.end(),
                                  [](const deck::Record& record) { return record.get<deck::RotationCard>(); });
-  if (!misses && !turns) return;
+  const bool rings = misses_damping(deck, model);
+  if (!misses && !turns && !rings) return;
   const NodePositions nodes(model.nodes);
   Diagnostics told;  // discarded: building the model has reported these faults
   const BuildContext context{nodes, model.functions, told, deck.records.front(), nullptr, &deck.records};
   const CellBook book(context);
   if (misses) look_at_densities(deck, model, book, diagnostics);
+  if (rings) look_at_damping(deck, model, book, diagnostics);
   if (turns) look_at_rotations(deck, book, diagnostics);
 }
 

@@ -5,11 +5,13 @@
 #include <malloc.h>
 
 #include <filesystem>
+#include <set>
 
 #include "app/mesh_plausibility.hpp"
 #include "app/mesh_records.hpp"
 #include "app/plausibility.hpp"
 #include "app/selection.hpp"
+#include "elements/beams/beam.hpp"
 
 namespace engrane::app {
 
@@ -32,27 +34,23 @@ void warn_of_undamped_constraints(const deck::Deck& deck, const Model& model, Di
                           "RHO 0.9 or less costs almost no accuracy at the frequencies that the step resolves");
 }
 
-/// Warns about undamped beams and cells: the scheme damps waves in them that are too fast for the steps, in the run as well as in
-/// the one used to estimate its error (docs/accuracy.md, Beams).
-void warn_of_undamped_waves(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
+/// Warns about undamped beams under ACCURACY: the scheme damps waves in them that are too fast for the steps, in the run as well
+/// as in the one used to estimate its error (docs/accuracy.md, Beams).
+void warn_of_undamped_beams(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
   const deck::AnalysisCard& a = model.commands.analysis;
   if (!a.accuracy.given() || !a.type.is("DYNAMIC")) return;
-  const deck::Record* controls = nullptr;
+  std::set<int> damped;  // materials
+  for (const deck::Record& record : deck.records)
+    if (const auto* material = record.get<deck::MaterialCard>(); material && material->damping > 0) damped.insert(record.id);
   for (const deck::Record& record : deck.records) {
-    if (record.get<deck::AnalysisCard>()) controls = &record;
-    if (record.schema->name != "BEAM" || record.given("DAMPING")) continue;
+    const auto* beam = record.get<elements::beams::BeamData>();
+    if (!beam || beam->damping || damped.contains(beam->material)) continue;
     diagnostics.warning(
         record.location,
         "the error that ACCURACY estimates leaves out waves along beams without DAMPING that are too fast for the steps",
         "DAMPING 0.002/w takes 0.1 % of critical damping from vibrations of w radians per time, and ends faster ones");
     break;
   }
-  if (has_cells(model) && controls)
-    diagnostics.warning(controls->where("ACCURACY"),
-                        "the error that ACCURACY estimates leaves out waves in cells that are too fast for the steps: cells have "
-                        "no damping, and forces or accelerations of light parts may be off by more",
-                        "loads that grow from 0 and START STATIC excite few of these waves; ACCURACY FINE shows what they amount "
-                        "to");
 }
 
 /// Adds what `--result` asks for to the checks of the model. Errors refer to a source named after the option.
@@ -101,7 +99,7 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
   if (syntax_good && !building.has_errors()) add_wanted(reading, wishes.results, building);
   if (!building.has_errors()) {
     warn_of_undamped_constraints(reading.deck, reading.model, building);
-    warn_of_undamped_waves(reading.deck, reading.model, building);
+    warn_of_undamped_beams(reading.deck, reading.model, building);
     warn_of_short_pulses(reading.deck, reading.model, building);
     warn_of_speed_jumps(reading.model, building);
   }

@@ -152,6 +152,11 @@ Schema material_card() {
   card.add("A", &MaterialCard::expansion, "coefficient of thermal expansion, per degree: one, or those along three axes")
       .synonyms({"EXPANSION"})
       .values(1, 3);
+  card.add("DAMPING", &MaterialCard::damping,
+           "damping of cells and beams (Kelvin and Voigt): the time by which stiffness is multiplied to resist rates of strain")
+      .synonyms({"AMORTISSEMENT"})
+      .unit(dimension::time)
+      .at_least(0);
   card.finish([](MaterialCard& data, Record& record, Diagnostics& diagnostics) {
     for (const auto& [keyword, values] : {std::pair("YT", &data.young), std::pair("NT", &data.poisson),
                                           std::pair("G", &data.shear), std::pair("A", &data.expansion)})

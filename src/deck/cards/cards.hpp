@@ -57,6 +57,7 @@ struct MaterialCard {
   std::string behaviour = "ELASTIC";
   std::vector<double> young, poisson, shear, expansion;  ///< one value, or one for each of three axes; empty: not given
   std::optional<double> density;
+  double damping = 0;  ///< Kelvin–Voigt time
 };
 
 /// The nodes a record of `.CLM` or `.INI` applies to.

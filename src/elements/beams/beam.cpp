@@ -211,7 +211,8 @@ ElementType beam_type() {
            "the same at the last node, of a beam twisted by less than half a turn: axis 2 turns evenly along it")
       .synonyms({"AXE2_FIN"});
   card.add("DAMPING", &BeamData::damping,
-           "material damping (Kelvin and Voigt): the time by which stiffness is multiplied to resist rates of strain")
+           "material damping (Kelvin and Voigt): the time by which stiffness is multiplied to resist rates of strain; "
+           "by itself that of MAT")
       .synonyms({"AMORTISSEMENT"})
       .unit(dimension::time)
       .at_least(0);

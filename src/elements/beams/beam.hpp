@@ -18,7 +18,7 @@ struct BeamData {
   int material = 0;                                 ///< 0: the profile gives stiffness and mass
   std::optional<std::array<double, 3>> axis_2;      ///< direction across the beam, on the side of section axis 2
   std::optional<std::array<double, 3>> axis_2_end;  ///< the same at the last node of a twisted beam
-  double damping = 0;                               ///< Kelvin–Voigt damping time
+  std::optional<double> damping;                    ///< Kelvin–Voigt damping time; none: that of the material
   bool linear = false;                              ///< pieces of two nodes
   bool inextensible = false, unshearable = false;
   std::vector<int> release_a, release_b;  ///< components 1 to 6 released at the first and last end

@@ -79,12 +79,12 @@ Mat6 strains_at(const Eigen::Vector2d& centroid, const Eigen::Vector2d& shear_ce
 
 /// Material of a shape; all zero for a section given by its stiffness.
 struct Stuff {
-  double young = 0, poisson = 0, density = 0;
+  double young = 0, poisson = 0, density = 0, damping = 0;
 };
 
 BeamSection make_section(const deck::ProfileCard& card, const Stuff& stuff, const SectionChoice& choice) {
   BeamSection section;
-  section.damping = choice.damping;
+  section.damping = choice.damping.value_or(stuff.damping);
   Mat6 own = Mat6::Zero(), moved = Mat6::Identity();
   if (card.shape.given() || card.area) {
     const SectionShape shape = shape_of(card, stuff.poisson);
@@ -188,7 +188,7 @@ std::optional<SectionLine> SectionBook::make_line(const SectionChoice& choice, c
   if (has_shape) {
     const deck::MaterialCard* made_of = isotropic_material(context, choice.material, "beams");
     if (!made_of) return {};
-    stuff = {made_of->young.front(), made_of->poisson.front(), made_of->density.value_or(0)};
+    stuff = {made_of->young.front(), made_of->poisson.front(), made_of->density.value_or(0), made_of->damping};
   }
   const auto first = std::make_shared<const BeamSection>(make_section(*card, stuff, choice));
   if (card == end) return SectionLine(first, nullptr);

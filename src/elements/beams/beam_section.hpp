@@ -41,9 +41,9 @@ struct BeamSection {
 
 /// Section, material and constraints of a beam as given in the deck; key of the cache of sections.
 struct SectionChoice {
-  int profile = 0, profile_end = 0;  ///< of `.BPR`, at the first and last node; `profile_end` 0: same as `profile`
-  int material = 0;                  ///< of `.MAT`; 0: none given
-  double damping = 0;
+  int profile = 0, profile_end = 0;    ///< of `.BPR`, at the first and last node; `profile_end` 0: same as `profile`
+  int material = 0;                    ///< of `.MAT`; 0: none given
+  std::optional<double> damping = {};  ///< none: that of the material
   bool inextensible = false, unshearable = false;
 
   auto operator<=>(const SectionChoice&) const = default;

@@ -378,7 +378,7 @@ ElementType shaft_type() {
       .at_least(1)
       .at_most(most_pieces);
   card.add("SHEAR", &ShaftData::shear, "shear factor of all sections; otherwise that of Cowper").positive();
-  card.add("DAMPING", &ShaftData::damping, "material damping, as of BEAM")
+  card.add("DAMPING", &ShaftData::damping, "material damping, as of BEAM; by itself that of MAT")
       .synonyms({"AMORTISSEMENT"})
       .unit(dimension::time)
       .at_least(0);

@@ -18,7 +18,7 @@ struct ShaftData {
   std::vector<double> diameter, diameter_end, bore, bore_end;  ///< of the steps; `_end`: at the far end of conical steps
   std::optional<double> shear;                                 ///< shear factor of all sections
   std::optional<int> pieces;                                   ///< between stations or step ends; default: by slenderness
-  double damping = 0;                                          ///< Kelvin–Voigt damping time
+  std::optional<double> damping;                               ///< Kelvin–Voigt damping time; none: that of the material
 
   std::vector<int> discs;  ///< stations
   std::vector<double> mass, polar, diametral;

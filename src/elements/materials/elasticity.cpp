@@ -43,13 +43,15 @@ Elastic turned(const Elastic& material, const Mat3& axes) {
     strain.col(j) = components_of(axes * unit * axes.transpose());
     strain.col(j).tail<3>() *= 2;
   }
-  return {strain * material.compliance * strain.transpose(), strain * material.expansion, material.density, material.neo_hookean};
+  return {strain * material.compliance * strain.transpose(), strain * material.expansion, material.density, material.damping,
+          material.neo_hookean};
 }
 
 Elasticity law_of(Hypothesis hypothesis, const Elastic& material) {
   Elasticity law;
   law.expansion = law.growth = material.expansion;
   law.density = material.density;
+  law.damping = material.damping;
   law.neo_hookean = material.neo_hookean;
   constexpr std::array<Eigen::Index, 3> in_plane{0, 1, 3};
   constexpr Eigen::Index zz = 2;

@@ -33,6 +33,7 @@ struct Elastic {
   Moduli compliance = Moduli::Zero();
   Voigt expansion = Voigt::Zero();  ///< α: thermal strain per degree
   double density = 0;
+  double damping = 0;                          ///< Kelvin–Voigt time τ: rates of strain cause the stress τ C⁻¹ Ė
   std::optional<NeoHookean> neo_hookean = {};  ///< law for large strains; `compliance` is its linearisation at rest
 };
 
@@ -66,6 +67,7 @@ struct Elasticity {
   /// Plane stress: E_zz = α_zz ΔT + transverse · (E − α ΔT). Otherwise zero.
   Voigt transverse = Voigt::Zero();
   double density = 0;
+  double damping = 0;  ///< τ: stresses τ D Ė are added to S
   std::optional<NeoHookean> neo_hookean = {};
 };
 /// Law of a cell. For plane stress, S_zz = S_yz = S_zx = 0 is eliminated.

@@ -46,6 +46,11 @@ std::unique_ptr<Element> build(const MembraneData& data, BuildContext& context) 
   const auto material =
       structural::elastic_of(*material_record(context, data.material), materials::Hypothesis::plane_stress, context.diagnostics);
   if (!material) return nullptr;
+  if (material->damping > 0) {
+    context.error("MAT", fmt::format("material {} has DAMPING, and membranes have none", data.material),
+                  "a .MAT without DAMPING; BEAMs and BARs along the membrane can damp it");
+    return nullptr;
+  }
   if (!data.wrinkling && context.record.given("SLACK")) {
     context.error("SLACK", "SLACK without WRINKLING", "WRINKLING, which leaves this part of the stiffness");
     return nullptr;

@@ -333,6 +333,13 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
                          "one value of YT and one of NT");
     return nullptr;
   }
+  if (skin && entry->second->damping > 0) {
+    if (crooked_.insert(cell.material->id).second)
+      diagnostics_.error(cell.material->where("DAMPING"),
+                         fmt::format("material {} has DAMPING, and membranes have none", cell.material->id),
+                         "a .MAT without DAMPING for the cells that are membranes");
+    return nullptr;
+  }
   const materials::Elastic material = materials::turned(*entry->second, axes);
   if (hypothesis != Hypothesis::solid && !skin && !materials::is_plane(material)) {
     if (crooked_.insert(cell.material->id).second)

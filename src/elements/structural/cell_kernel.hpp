@@ -103,9 +103,13 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
 
   Deformation deformation(const Point& p, const Moves& moves) const {
     Deformation d;
-    d.F += dyads(moves, p.gradient);
-    if constexpr (Axi)
-      for (int n = 0; n < columns; ++n) d.hoop += moves(0, n) * p.hoop[static_cast<std::size_t>(n)];
+    add_moves(p, moves, d);
+    return d;
+  }
+  /// Rate of the deformation for velocities of the nodes and rates of the modes.
+  Deformation rate(const Point& p, const Moves& rates) const {
+    Deformation d{Square::Zero(), 0};
+    add_moves(p, rates, d);
     return d;
   }
 
@@ -128,17 +132,7 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
       const Deformation now = deformation(p, moves);
       const auto response = Local::respond(law, law.free_at(i), now);
       const Strain stress = p.volume * response.stress;
-      const Deformation at = law.linear ? Deformation{} : now;
-      for (int j = 0; j < columns; ++j)
-        for (int a = 0; a < D; ++a) {
-          const int slot = D * j + a;
-          for (int n = 0; n < D; ++n) b[n][slot] = at.F(a, n) * p.gradient(n, j);
-          for (int n = 0; n < shears; ++n) {
-            const int m = (n + 1) % D;
-            b[normals + n][slot] = at.F(a, n) * p.gradient(m, j) + at.F(a, m) * p.gradient(n, j);
-          }
-          if constexpr (Axi) b[2][slot] = a == 0 ? at.hoop * p.hoop[static_cast<std::size_t>(j)] : 0;
-        }
+      strain_by(p, law.linear ? Deformation{} : now, b);
       for (int n = 0; n < strains; ++n)
         for (int j = 0; j < size; ++j) r.data()[j] += b[n][j] * stress[n];
       if (!k) continue;
@@ -147,11 +141,27 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     }
   }
 
+  /// Derivatives of the strain by displacements and amplitudes. With a rate() in place of the deformation, those of its rate.
+  static void strain_by(const Point& p, const Deformation& at, double (&b)[strains][size]) {
+    for (int j = 0; j < columns; ++j)
+      for (int a = 0; a < D; ++a) {
+        const int slot = D * j + a;
+        for (int n = 0; n < D; ++n) b[n][slot] = at.F(a, n) * p.gradient(n, j);
+        for (int n = 0; n < shears; ++n) {
+          const int m = (n + 1) % D;
+          b[normals + n][slot] = at.F(a, n) * p.gradient(m, j) + at.F(a, m) * p.gradient(n, j);
+        }
+        if constexpr (Axi) b[2][slot] = a == 0 ? at.hoop * p.hoop[static_cast<std::size_t>(j)] : 0;
+      }
+  }
+
   /// Result of static condensation of the modes.
   struct Condensed {
     Moves moves;  ///< with the amplitudes of the modes
     Places forces;
     NodalTangent tangent;  ///< upper triangle
+    /// With a tangent: minus the derivatives of the amplitudes by the displacements, own × nodal, column-major.
+    std::array<double, static_cast<std::size_t>(own* nodal)> slopes;
   };
 
   /// Condenses the modes: nodal forces for given nodal displacements. The amplitudes of the modes are found by Newton's
@@ -192,11 +202,46 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
         std::copy_n(r.data(), nodal, out.forces.data());
         for (int m = 0; m < own; ++m)
           for (int i = 0; i < nodal; ++i) out.forces.data()[i] -= k.data()[size * (nodal + m) + i] * back[m];
-        if (wants_tangent) take_tangent(k, solved, out.tangent);
+        if (wants_tangent) {
+          take_tangent(k, solved, out.tangent);
+          std::copy_n(solved, own * nodal, out.slopes.begin());
+        }
         return;
       }
       entries(out.forces).setConstant(std::numeric_limits<double>::quiet_NaN());
       out.tangent.fill(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+
+  /// Adds the upper triangle of bᵀ · moduli · b from column `first` on. Inner loops run along rows of `b` for vectorisation.
+  static void add_material(const double (&b)[strains][size], const Stiffness& moduli, int first, Tangent& k) {
+    double c[strains][size] = {};
+    for (int n = 0; n < strains; ++n)
+      for (int m = 0; m < strains; ++m)
+        for (int j = first; j < size; ++j) c[n][j] += moduli(n, m) * b[m][j];
+    for (int j = first; j < size; ++j) {
+      double* to = k.data() + size * j;
+      for (int i = 0; i <= j; ++i) {
+        double entry = 0;
+        for (int n = 0; n < strains; ++n) entry += b[n][i] * c[n][j];
+        to[i] += entry;
+      }
+    }
+  }
+
+  /// Adds the geometric stiffness. `stress` includes the volume.
+  static void add_geometric(const Point& p, const Strain& stress, int first, Tangent& k) {
+    Square second;
+    for (int i = 0; i < D; ++i) second(i, i) = stress[i];
+    for (int i = 0; i < shears; ++i) second(i, (i + 1) % D) = second((i + 1) % D, i) = stress[normals + i];
+    for (int j = first / D; j < columns; ++j) {
+      const Eigen::Matrix<double, D, 1> across = second * column(p.gradient, j);
+      for (int i = 0; i <= j; ++i) {
+        const double g = across.dot(column(p.gradient, i));
+        double* to = k.data() + size * D * j + D * i;
+        for (int a = 0; a < D; ++a) to[(size + 1) * a] += g;
+        if constexpr (Axi) to[0] += stress[2] * p.hoop[static_cast<std::size_t>(i)] * p.hoop[static_cast<std::size_t>(j)];
+      }
     }
   }
 
@@ -231,36 +276,10 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     }
   }
 
-  /// Adds the upper triangle of bᵀ · moduli · b from column `first` on. Inner loops run along rows of `b` for vectorisation.
-  static void add_material(const double (&b)[strains][size], const Stiffness& moduli, int first, Tangent& k) {
-    double c[strains][size] = {};
-    for (int n = 0; n < strains; ++n)
-      for (int m = 0; m < strains; ++m)
-        for (int j = first; j < size; ++j) c[n][j] += moduli(n, m) * b[m][j];
-    for (int j = first; j < size; ++j) {
-      double* to = k.data() + size * j;
-      for (int i = 0; i <= j; ++i) {
-        double entry = 0;
-        for (int n = 0; n < strains; ++n) entry += b[n][i] * c[n][j];
-        to[i] += entry;
-      }
-    }
-  }
-
-  /// Adds the geometric stiffness. `stress` includes the volume.
-  static void add_geometric(const Point& p, const Strain& stress, int first, Tangent& k) {
-    Square second;
-    for (int i = 0; i < D; ++i) second(i, i) = stress[i];
-    for (int i = 0; i < shears; ++i) second(i, (i + 1) % D) = second((i + 1) % D, i) = stress[normals + i];
-    for (int j = first / D; j < columns; ++j) {
-      const Eigen::Matrix<double, D, 1> across = second * column(p.gradient, j);
-      for (int i = 0; i <= j; ++i) {
-        const double g = across.dot(column(p.gradient, i));
-        double* to = k.data() + size * D * j + D * i;
-        for (int a = 0; a < D; ++a) to[(size + 1) * a] += g;
-        if constexpr (Axi) to[0] += stress[2] * p.hoop[static_cast<std::size_t>(i)] * p.hoop[static_cast<std::size_t>(j)];
-      }
-    }
+  void add_moves(const Point& p, const Moves& moves, Deformation& d) const {
+    d.F += dyads(moves, p.gradient);
+    if constexpr (Axi)
+      for (int n = 0; n < columns; ++n) d.hoop += moves(0, n) * p.hoop[static_cast<std::size_t>(n)];
   }
 
   Point points_[most_points];

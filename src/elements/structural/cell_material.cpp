@@ -87,6 +87,7 @@ std::optional<Elastic> elastic_of(const deck::Record& record, Hypothesis hypothe
                       "one value of YT, NT and A, or three each of YT, NT (ν12 ν23 ν13), G (G12 G23 G13) and A");
   if (!material) return {};
   material->density = card.density.value_or(0);
+  material->damping = card.damping;
   material->expansion.head<3>() = along_axes(card.expansion);
   return material;
 }

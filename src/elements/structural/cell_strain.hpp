@@ -54,6 +54,16 @@ struct CellStrain {
     return e;
   }
 
+  /// Rate of the Green–Lagrange strain at `d`; `rate` holds Ḟ and the rate of `hoop`. At Deformation{} that of its linear part.
+  static Strain strain_rate(const Deformation& d, const Deformation& rate) {
+    const Square half = d.F.transpose() * rate.F;
+    Strain e;
+    for (int i = 0; i < D; ++i) e[i] = half(i, i);
+    for (int i = 0; i < shears; ++i) e[normals + i] = half(i, (i + 1) % D) + half((i + 1) % D, i);
+    if constexpr (Axi) e[2] = d.hoop * rate.hoop;
+    return e;
+  }
+
   /// Material law: stress = stiffness · (strain − free).
   struct Law {
     Stiffness stiffness;

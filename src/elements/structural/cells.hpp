@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 
+#include "elements/structural/cell_damping.hpp"
 #include "elements/structural/cell_kernel.hpp"
 #include "elements/structural/cell_recovery.hpp"
 #include "elements/structural/columns.hpp"
@@ -25,6 +26,7 @@ class Cells final : public Block {
   using Sample = typename Traits::Sample;
   using Places = typename Kernel::Places;
   using Law = typename Kernel::Law;
+  using Damping = CellDamping<S, Axi>;
   static constexpr int N = Traits::nodes, D = Traits::dimension;
   using Shape = Eigen::Matrix<double, N, 1>;
   using Stress = materials::Voigt;
@@ -57,24 +59,15 @@ class Cells final : public Block {
   bool is_linear(std::size_t e) const override { return cells_[e].section->linear; }
 
   void residual(std::size_t first, std::span<const State> states, std::span<double> r) const override {
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      typename Kernel::Condensed sum;
-      resist(cells_[first + i], states[i], false, sum, r.data() + i * D * N);
-    }
+    for (std::size_t i = 0; i < states.size(); ++i) resist(cells_[first + i], states[i], r.data() + i * D * N, nullptr, nullptr);
   }
 
   void tangent(std::size_t first, std::span<const State> states, Weights weights, std::span<double> r,
                std::span<double> k) const override {
     for (std::size_t i = 0; i < states.size(); ++i) {
       const Cell& cell = cells_[first + i];
-      typename Kernel::Condensed sum;
-      resist(cell, states[i], true, sum, r.data() + i * D * N);
-      // symmetric, so that the storage order does not matter
-      constexpr std::size_t size = Kernel::nodal;
-      double* tangent = k.data() + i * size * size;
-      for (std::size_t column = 0; column < size; ++column)
-        for (std::size_t row = 0; row <= column; ++row)
-          tangent[size * column + row] = tangent[size * row + column] = weights.q * sum.tangent[size * column + row];
+      double* tangent = k.data() + i * Kernel::nodal * Kernel::nodal;
+      resist(cell, states[i], r.data() + i * D * N, &weights, tangent);
       if (weights.a != 0) add_mass(cell, weights.a, Mat3::Identity(), tangent);
       if (cell.rotation && !cell.section->linear) {
         const double speed = cell.rotation->speed_at(states[i].time);
@@ -94,6 +87,7 @@ class Cells final : public Block {
     const Places moved = displacements(cell, state);
     kernel.condense(law, moved, false, sum);
     Energies energies;
+    if (section.law.damping > 0) energies.dissipated = damping_of(cell, state, kernel, sum.moves).power();
     for (int i = 0; i < kernel.count(); ++i) {
       const double volume = kernel.point(i).volume;
       const auto response = Kernel::respond(law, law.free_at(i), kernel.deformation(kernel.point(i), sum.moves));
@@ -189,6 +183,8 @@ class Cells final : public Block {
       moves = moves_of(cell, state, *kernel);
     else
       moves = displacements(cell, state);
+    typename Kernel::Moves rates;
+    if (section.law.damping > 0) rates = rates_of(cell, state, kernel ? &*kernel : nullptr, moves);
     const Eigen::LLT<typename Kernel::Stiffness> moduli(Kernel::reduced(section.law.stiffness));
     const auto energy = [&moduli](const Stress& stress) {
       return moduli.matrixL().solve(Kernel::reduced(stress)).squaredNorm() / 2;
@@ -200,7 +196,7 @@ class Cells final : public Block {
       std::optional<Kernel> other;
       if constexpr (Kernel::modes == 0) other.emplace(cell.places, section.thickness, std::span(samples).subspan(i, 1));
       const typename Kernel::Point& point = other ? other->point(0) : kernel->point(static_cast<int>(i));
-      const AtPoint p = at_point(section, (other ? *other : *kernel).deformation(point, moves), rise(cell, state, samples[i]));
+      const AtPoint p = at_point(cell, state, samples[i], other ? *other : *kernel, point, moves, rates);
       Stress wanted = Stress::Zero();
       for (Eigen::Index n = 0; n < N; ++n) wanted.template head<width>() += samples[i].value[n] * given(n);
       if (!section.linear) {
@@ -252,6 +248,12 @@ class Cells final : public Block {
     return law;
   }
 
+  /// Damping of a cell whose material has some. `kernel` and `moves` must outlive it.
+  static Damping damping_of(const Cell& cell, const State& state, const Kernel& kernel, const typename Kernel::Moves& moves) {
+    const materials::Elasticity& material = cell.section->law;
+    return {kernel, material.damping * Kernel::reduced(material.stiffness), cell.section->linear, moves, rates(state)};
+  }
+
   /// Temperature rise at a point over the reference configuration, and its rate.
   static double rise(const Cell& cell, const State& state, const Sample& s) {
     return between_nodes(cell, s, [&state](const Warmth& w) { return w.at(state.time); });
@@ -275,8 +277,21 @@ class Cells final : public Block {
     return sum.moves;
   }
 
-  static AtPoint at_point(const CellSection& section, const typename Kernel::Deformation& now, double warmer) {
+  /// Rates of the nodes and the modes of a cell whose material has damping. `kernel`: needed by cells with modes.
+  static typename Kernel::Moves rates_of(const Cell& cell, const State& state, const Kernel* kernel,
+                                         const typename Kernel::Moves& moves) {
+    if constexpr (Kernel::modes == 0) return rates(state);
+    return damping_of(cell, state, *kernel, moves).rates();
+  }
+
+  /// `at`, `point`: kernel and its point at the sample; `rates`: used only if the material has damping.
+  static AtPoint at_point(const Cell& cell, const State& state, const Sample& s, const Kernel& at,
+                          const typename Kernel::Point& point, const typename Kernel::Moves& moves,
+                          const typename Kernel::Moves& rates) {
+    const CellSection& section = *cell.section;
     const materials::Elasticity& material = section.law;
+    const typename Kernel::Deformation now = at.deformation(point, moves);
+    const double warmer = rise(cell, state, s);
     AtPoint p;
     p.strain.setZero();
     p.strain(Kernel::components) = Kernel::strain(now, section.linear);
@@ -292,6 +307,12 @@ class Cells final : public Block {
         p.strain[2] = material.transverse.dot(elastic) + warmer * material.expansion[2];
       p.energy = p.second.dot(elastic) / 2;
     }
+    if (material.damping > 0) {
+      Stress rate = Stress::Zero();
+      rate(Kernel::components) =
+          Kernel::strain_rate(section.linear ? typename Kernel::Deformation{} : now, at.rate(point, rates));
+      p.second += material.damping * (material.stiffness * rate);
+    }
     p.stress = p.second;
     if (section.linear) return p;
     p.F.setZero();
@@ -306,24 +327,48 @@ class Cells final : public Block {
     const CellSection& section = *cell.section;
     const Kernel kernel(cell.places, section.thickness);
     const typename Kernel::Moves moves = moves_of(cell, state, kernel);
+    typename Kernel::Moves rates;
+    if (section.law.damping > 0) rates = rates_of(cell, state, &kernel, moves);
     std::vector<AtPoint> points;
     std::optional<Kernel> others;
     if (Traits::result_points()) others.emplace(cell.places, section.thickness, Kernel::result_samples());
     const Kernel& at = others ? *others : kernel;
     for (int i = 0; i < at.count(); ++i)
-      points.push_back(at_point(section, at.deformation(at.point(i), moves),
-                                rise(cell, state, Kernel::result_samples()[static_cast<std::size_t>(i)])));
+      points.push_back(
+          at_point(cell, state, Kernel::result_samples()[static_cast<std::size_t>(i)], at, at.point(i), moves, rates));
     return points;
   }
 
-  /// Writes the residual to `r` and the internal forces to `sum`, with their tangent if `wants_tangent`.
-  static void resist(const Cell& cell, const State& state, bool wants_tangent, typename Kernel::Condensed& sum, double* r) {
+  /// Writes the residual to `r` and, unless they are nullptr, the derivatives of the internal forces, times `weights`, to the
+  /// row-major `k`.
+  static void resist(const Cell& cell, const State& state, double* r, const Weights* weights, double* k) {
     Eigen::Map<Eigen::VectorXd> out(r, D * N);
-    const Places moved = displacements(cell, state);
-    if (wants_tangent || cell.warmth || !entries(moved).isZero(0)) {
-      const Kernel kernel(cell.places, cell.section->thickness);
-      kernel.condense(law_of(cell, state), moved, wants_tangent, sum);
+    const CellSection& section = *cell.section;
+    // damped cells with small displacements resist u + τ v as others resist u
+    const double ahead = section.linear ? section.law.damping : 0;
+    const bool is_damped = !section.linear && section.law.damping > 0;
+    Places moved = displacements(cell, state);
+    if (ahead > 0) {
+      const Places v = rates(state);
+      entries(moved) += ahead * entries(v);
+    }
+    if (k || cell.warmth || is_damped || !entries(moved).isZero(0)) {
+      const Kernel kernel(cell.places, section.thickness);
+      typename Kernel::Condensed sum;
+      kernel.condense(law_of(cell, state), moved, k != nullptr, sum);
       std::copy_n(sum.forces.data(), D * N, r);
+      if (k) {
+        const double weight = weights->q + ahead * weights->v;
+        constexpr std::size_t size = Kernel::nodal;
+        for (std::size_t column = 0; column < size; ++column)
+          for (std::size_t row = 0; row <= column; ++row)
+            k[size * column + row] = k[size * row + column] = weight * sum.tangent[size * column + row];
+      }
+      if (is_damped) {
+        const Damping damping = damping_of(cell, state, kernel, sum.moves);
+        damping.add_forces(r);
+        if (k) damping.add_tangent(*weights, sum.slopes.data(), k);
+      }
     } else {
       out.setZero();  // shortcut for evaluations at rest, as when masses are determined
     }

@@ -58,7 +58,7 @@ FunctionMap waves() {
   }
   return functions;
 }
-const FunctionMap functions = waves();
+const FunctionMap all_waves = waves();
 
 TEST(Spring, SuiteOfLaws) {
   for (const auto& [law, damping_law] : {std::pair<deck::Tagged, int>{{"POLY", {40, -7, 90}}, 0},
@@ -74,7 +74,7 @@ TEST(Spring, SuiteOfLaws) {
       data.nodes = ends;
       data.law = law;
       data.damping_law = damping_law;
-      return build(spring_type(), data, turned(places, Q), {.functions = &functions});
+      return build(spring_type(), data, turned(places, Q), {.functions = &all_waves});
     };
     s.build = [=](const Mat3& Q) { return make({1, 2}, Q); };
     s.build_swapped = [=] { return make({2, 1}, Mat3::Identity()); };
@@ -96,7 +96,7 @@ TEST(Spring, SuiteOfFormulas) {
       SpringData data;
       data.nodes = ends;
       data.law = {"EXPR", {static_cast<double>(f)}};
-      return build(spring_type(), data, turned(places, Q), {.functions = &functions});
+      return build(spring_type(), data, turned(places, Q), {.functions = &all_waves});
     };
     s.build = [=](const Mat3& Q) { return make({1, 2}, Q); };
     s.build_swapped = [=] { return make({2, 1}, Mat3::Identity()); };
@@ -117,7 +117,7 @@ TEST(Spring, LawsOfKnownValues) {
   EXPECT_NEAR(channel_of(*spring, StateBuffer(*spring, nodes), "FORCE"), 20 + 12 + 16, 1e-13);
   EXPECT_NEAR(channel_of(*spring, StateBuffer(*spring, nodes), "SPRING_ENERGY"), 20 + 8 + 8, 1e-13);
   data.law = {"TABLE", {1}};
-  spring = build(spring_type(), data, nodes, {.functions = &functions});
+  spring = build(spring_type(), data, nodes, {.functions = &all_waves});
   EXPECT_NEAR(channel_of(*spring, StateBuffer(*spring, nodes), "FORCE"), 0.3 + 0.7 * std::sin(1.9 * 2 + 0.4), 1e-14);
 }
 

@@ -24,11 +24,13 @@ constexpr double young = 70, poisson = 0.3, density = 2.7, thickness = 0.4;
 /// What a section has beside its hypothesis.
 struct Kind {
   bool linear = false, rubber = false, lumped = false;
+  double damping = 0;
 };
 
 std::shared_ptr<const CellSection> section(Hypothesis hypothesis, Kind kind) {
   materials::Elastic material = materials::isotropic(young, poisson);
   material.density = density;
+  material.damping = kind.damping;
   if (kind.rubber) material.neo_hookean = materials::neo_hookean(young, poisson);
   return std::make_shared<CellSection>(CellSection{hypothesis, materials::law_of(hypothesis, material),
                                                    hypothesis == Hypothesis::axisymmetric ? 1 : thickness, kind.linear, 0,
@@ -97,7 +99,8 @@ Subject subject(std::size_t count, Hypothesis hypothesis, Kind kind) {
   const bool axi = hypothesis == Hypothesis::axisymmetric;
   Subject s;
   s.name = std::to_string(count) + " nodes, hypothesis " + std::to_string(static_cast<int>(hypothesis)) +
-           (kind.linear ? ", small" : ", large") + (kind.rubber ? ", neo-Hookean" : "") + (kind.lumped ? ", lumped" : "");
+           (kind.linear ? ", small" : ", large") + (kind.rubber ? ", neo-Hookean" : "") + (kind.lumped ? ", lumped" : "") +
+           (kind.damping > 0 ? ", damped" : "");
   s.nodes = node_map(distorted(count));
   s.in_plane = true;
   s.length = 0.06;  // a cell of four nodes finds its modes for strains of this size
@@ -109,6 +112,7 @@ Subject subject(std::size_t count, Hypothesis hypothesis, Kind kind) {
   };
   s.mass = density * (axi ? 1 : thickness) * area_of(distorted(count), axi);
   s.skip[Check::equilibrium] = "inertia and weight are outer forces";
+  if (kind.damping > 0) s.skip[Check::lagrange] = "a damper has no potential";
   for (const Check check : {Check::rigid, Check::objectivity}) {
     if (kind.linear) s.skip[check] = "small displacements do not turn far";
     if (axi) s.skip[check] = "the axis stands still";
@@ -122,7 +126,8 @@ constexpr Hypothesis hypotheses[] = {Hypothesis::plane_stress, Hypothesis::plane
 TEST(Cell, Suite) {
   for (const std::size_t count : {3U, 6U, 4U, 8U})
     for (const Hypothesis hypothesis : hypotheses)
-      for (const Kind kind : {Kind{true}, Kind{false}, Kind{false, true}, Kind{true, false, true}, Kind{false, false, true}})
+      for (const Kind kind : {Kind{true}, Kind{false}, Kind{false, true}, Kind{true, false, true}, Kind{false, false, true},
+                              Kind{true, false, false, 0.3}, Kind{false, false, false, 0.3}, Kind{false, true, false, 0.3}})
         run_suite(subject(count, hypothesis, kind));
 }
 

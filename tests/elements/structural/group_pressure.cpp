@@ -28,11 +28,11 @@ std::string solid_deck(const std::string& cell, int nodes, const std::string& fa
          faces + ".CLM\n GROUP \"skin\" PRE V 3.\n.SAM TYPE STATIC DISPLACEMENTS " + size + "\n";
 }
 
-struct Kind {
+struct FacedCell {
   const char* cell;
   int nodes, faces;
 };
-const Kind kinds[] = {
+const FacedCell kinds[] = {
     {"1 2 3 0 4", 4, 4}, {"3 2 1 0 4", 4, 4}, {"1 2 4 0 5 6 8", 8, 5}, {"1 2 3 4 0 5 6 7 8", 8, 6}, {"4 3 2 1 0 8 7 6 5", 8, 6}};
 
 std::string all_faces(int count) {
@@ -44,7 +44,7 @@ std::string all_faces(int count) {
 /// The same pressure on all faces pushes nowhere and turns nothing; a row of the group is an element.
 TEST(GroupPressure, OnAClosedSkinIsInBalance) {
   for (const char* size : {"SMALL", "LARGE"})
-    for (const Kind& kind : kinds) {
+    for (const FacedCell& kind : kinds) {
       const DeckModel solid(solid_deck(kind.cell, kind.nodes, all_faces(kind.faces), size));
       ASSERT_EQ(solid.model.parts.size(), static_cast<std::size_t>(1 + kind.faces));
       Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
@@ -69,7 +69,7 @@ TEST(GroupPressure, OnAClosedSkinIsInBalance) {
 
 /// Pushes into the cell, whichever way its corners go round.
 TEST(GroupPressure, PushesInward) {
-  for (const Kind& kind : {Kind{"1 2 3 4 0 5 6 7 8", 8, 6}, Kind{"4 3 2 1 0 8 7 6 5", 8, 6}}) {
+  for (const FacedCell& kind : {FacedCell{"1 2 3 4 0 5 6 7 8", 8, 6}, FacedCell{"4 3 2 1 0 8 7 6 5", 8, 6}}) {
     const DeckModel solid(solid_deck(kind.cell, kind.nodes, " I 1 6\n", "SMALL"));  // the top
     const Element& element = *solid.model.parts.back().element;
     std::vector<double> forces(12);
@@ -79,8 +79,8 @@ TEST(GroupPressure, PushesInward) {
 }
 
 TEST(GroupPressure, TangentsOfLargeDisplacements) {
-  std::vector<std::pair<Kind, int>> cases{{{"1 -5 2 -6 3 -7 0 -8 -9 -10 0 4", 10, 4}, 2}};
-  for (const Kind& kind : kinds) cases.emplace_back(kind, kind.faces);
+  std::vector<std::pair<FacedCell, int>> cases{{{"1 -5 2 -6 3 -7 0 -8 -9 -10 0 4", 10, 4}, 2}};
+  for (const FacedCell& kind : kinds) cases.emplace_back(kind, kind.faces);
   for (const auto& [kind, face] : cases) {
     const std::string row = " I 1 " + std::to_string(face) + "\n";
     const DeckModel solid(solid_deck(kind.cell, kind.nodes, row, "LARGE"));

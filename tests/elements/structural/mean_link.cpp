@@ -14,12 +14,12 @@ namespace {
 
 using namespace suite;
 
-const NodeMap places = {{1, {1, 0.2, -0.3}}, {2, {-0.5, 0.4, 0.8}}, {3, {0.6, 0.1, 0.2}}, {4, {-0.2, 1.1, -0.4}}};
+const NodeMap linked_nodes = {{1, {1, 0.2, -0.3}}, {2, {-0.5, 0.4, 0.8}}, {3, {0.6, 0.1, 0.2}}, {4, {-0.2, 1.1, -0.4}}};
 
 TEST(MeanLink, SuiteOfAShare) {
   Subject s;
   s.name = "in space";
-  s.nodes = places;
+  s.nodes = linked_nodes;
   s.build = [&](const Mat3& Q) {
     MeanLinkData data;
     data.master = 1;
@@ -63,7 +63,7 @@ TEST(MeanLink, ARigidMotionOfAllClosesIt) {
   const DeckModel deck(deck_of_places);
   const Mat3 R = rotation_exp(Vec3(0.7, -1.9, 0.4));
   NodeMap moved;
-  for (const auto& [id, x] : places) moved[id] = R * x + Vec3(3, -2, 5);
+  for (const auto& [id, x] : linked_nodes) moved[id] = R * x + Vec3(3, -2, 5);
   EXPECT_LT(constraints(deck.model, moved, R).norm(), 1e-14);
 }
 
@@ -72,9 +72,9 @@ TEST(MeanLink, MeasuresMeanDisplacementAndRotation) {
   // displacement
   const DeckModel deck(deck_of_places);
   const Vec3 turn(1e-6, -2e-6, 3e-6), shift(0.3, -0.1, 0.2);
-  const Vec3 centre = (places.at(2) + 2 * places.at(3) + 0.5 * places.at(4)) / 3.5;
-  NodeMap moved = places;
-  for (const int id : {2, 3, 4}) moved[id] = places.at(id) + shift + turn.cross(places.at(id) - centre);
+  const Vec3 centre = (linked_nodes.at(2) + 2 * linked_nodes.at(3) + 0.5 * linked_nodes.at(4)) / 3.5;
+  NodeMap moved = linked_nodes;
+  for (const int id : {2, 3, 4}) moved[id] = linked_nodes.at(id) + shift + turn.cross(linked_nodes.at(id) - centre);
   const auto phi = constraints(deck.model, moved, Mat3::Identity());
   EXPECT_LT((phi.head<3>() - shift).norm(), 1e-15);
   EXPECT_LT((phi.tail<3>() - turn).norm(), 1e-9 * turn.norm());
@@ -84,23 +84,23 @@ TEST(MeanLink, RotationIsThatOfTheBestFit) {
   // Φ_r = 0 is the condition of the least Σ w |R e - (x - x̄)|², as found by the polar decomposition of Σ w (x - x̄) eᵀ
   const DeckModel deck(deck_of_places);
   const std::array<double, 3> w = {1, 2, 0.5};
-  NodeMap moved = places;
+  NodeMap moved = linked_nodes;
   moved[2] += Vec3(0.3, 0.1, -0.2);
   moved[3] += Vec3(-0.1, 0.25, 0.1);
   moved[4] += Vec3(0.2, -0.15, 0.3);
   Vec3 centre = Vec3::Zero(), now = Vec3::Zero();
   for (int i = 0; i < 3; ++i) {
-    centre += w[static_cast<std::size_t>(i)] / 3.5 * places.at(2 + i);
+    centre += w[static_cast<std::size_t>(i)] / 3.5 * linked_nodes.at(2 + i);
     now += w[static_cast<std::size_t>(i)] / 3.5 * moved.at(2 + i);
   }
   Mat3 F = Mat3::Zero();
   for (int i = 0; i < 3; ++i)
-    F += w[static_cast<std::size_t>(i)] * (moved.at(2 + i) - now) * (places.at(2 + i) - centre).transpose();
+    F += w[static_cast<std::size_t>(i)] * (moved.at(2 + i) - now) * (linked_nodes.at(2 + i) - centre).transpose();
   const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Mat3 sign = Mat3::Identity();
   sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant();
   const Mat3 R = svd.matrixU() * sign * svd.matrixV().transpose();
-  moved[1] = now + R * (places.at(1) - centre);
+  moved[1] = now + R * (linked_nodes.at(1) - centre);
   EXPECT_LT(constraints(deck.model, moved, R).norm(), 1e-14);
 }
 

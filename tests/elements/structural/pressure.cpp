@@ -24,13 +24,13 @@ struct Loaded : DeckModel {
   const Element& pressure() const { return *model.parts.back().element; }
 };
 
-const std::string large = ".SAM TYPE STATIC DISPLACEMENTS LARGE\n", small = ".SAM TYPE STATIC DISPLACEMENTS SMALL\n";
+const std::string large_moves = ".SAM TYPE STATIC DISPLACEMENTS LARGE\n", small_moves = ".SAM TYPE STATIC DISPLACEMENTS SMALL\n";
 const std::string four = "1 2 3 4", turned_four = "4 3 2 1", eight = "1 -5 2 -6 3 -7 4 -8";
 
 TEST(EdgePressure, TangentsOfLargeDisplacements) {
   for (const std::string& cell : {four, turned_four, eight})
     for (const char* hypothesis : {"MEMB BIDIM", "AXIS"}) {
-      const Loaded loaded(cell, hypothesis, large, 2);
+      const Loaded loaded(cell, hypothesis, large_moves, 2);
       Subject s;
       s.name = cell + " " + hypothesis;
       s.nodes = loaded.nodes();
@@ -38,7 +38,7 @@ TEST(EdgePressure, TangentsOfLargeDisplacements) {
       s.length = 0.2;
       s.build = [&](const Mat3&) {
         static std::vector<std::unique_ptr<Loaded>> kept;
-        kept.push_back(std::make_unique<Loaded>(cell, hypothesis, large, 2));
+        kept.push_back(std::make_unique<Loaded>(cell, hypothesis, large_moves, 2));
         return std::move(kept.back()->model.parts.back().element);
       };
       s.skip[Check::lagrange] = "a load";
@@ -54,7 +54,7 @@ TEST(EdgePressure, ResultantsAreThoseOfTheChord) {
   const Vec3 ends[] = {{1, 0.1, 0}, {2.3, -0.2, 0}, {2.1, 1.3, 0}, {0.8, 0.9, 0}};
   for (int edge = 1; edge <= 4; ++edge)
     for (const std::string& cell : {four, eight}) {
-      const Loaded loaded(cell, "DEFO PLAN", small, edge);
+      const Loaded loaded(cell, "DEFO PLAN", small_moves, edge);
       const StateBuffer state(loaded.pressure(), loaded.nodes());
       const auto r = residual_of(loaded.pressure(), state);
       Vec3 sum = Vec3::Zero();
@@ -66,7 +66,7 @@ TEST(EdgePressure, ResultantsAreThoseOfTheChord) {
 }
 
 TEST(EdgePressure, RoundAnAxis) {
-  const Loaded loaded(four, "AXIS", small, 2);
+  const Loaded loaded(four, "AXIS", small_moves, 2);
   const StateBuffer state(loaded.pressure(), loaded.nodes());
   const auto r = residual_of(loaded.pressure(), state);
   // along the axis: the projected ring; the cell lies to the left of the edge from (2.3, −0.2) to (2.1, 1.3)
