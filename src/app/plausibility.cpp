@@ -163,7 +163,7 @@ void warn_of_speed_jumps(const Model& model, Diagnostics& diagnostics) {
   const deck::SteppingCard& stepping = model.commands.stepping;
   if (!model.commands.analysis.type.is("DYNAMIC") || has_steps_by_error(model)) return;
   std::set<std::string> told;
-  for (const double t : model.corners(stepping.start, stepping.end))
+  for (const double t : model.joints(stepping.start, stepping.end))
     if (const auto jump = speed_jump(model, t)) {
       const std::string what = jump->drive
                                    ? fmt::format("the drive of {} {}", jump->drive->type, jump->drive->element->id())

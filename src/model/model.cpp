@@ -28,15 +28,6 @@ namespace {
 /// A function with more of them is a measured curve, not smoother between them.
 constexpr std::size_t most_joints = 100;
 
-/// What `find` gives of each function, ascending and once.
-template <class Functions, class Find>
-std::vector<double> sorted_of(const Functions& functions, const Find& find) {
-  std::set<double> all;
-  for (const Function* function : functions)
-    for (const double x : find(*function)) all.insert(x);
-  return {all.begin(), all.end()};
-}
-
 /// Nodes closer than this fraction of their distance from the origin coincide: computed coordinates differ in their last
 /// digits.
 constexpr double rounding = 1e-12;
@@ -94,16 +85,15 @@ KnownLengths known_lengths(const Model& model) {
 
 }  // namespace
 
-std::vector<double> Model::corners(double from, double to) const {
-  return sorted_of(of_time, [&](const Function& function) { return function.corners(from, to, most_joints); });
-}
-
 std::vector<double> Model::joints(double from, double to) const {
-  return sorted_of(of_time, [&](const Function& function) {
-    std::vector<double> found = function.joints(from, to, most_joints);
+  std::set<double> all;
+  for (const Function* function : of_time) {
+    std::vector<double> found = function->joints(from, to, most_joints);
     // a long spline still has the corners at its ends
-    return found.empty() ? function.corners(from, to, most_joints) : found;
-  });
+    if (found.empty()) found = function->corners(from, to, most_joints);
+    all.insert(found.begin(), found.end());
+  }
+  return {all.begin(), all.end()};
 }
 
 bool Model::jumps_at(double time) const {

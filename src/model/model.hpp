@@ -100,9 +100,8 @@ struct Model {
 
   int node_index(int id) const;  ///< -1 when there is no such node
   Vec3 gravity_at(double time) const;
-  /// Instants in (from, to), ascending, at which a function of time has a corner (Function::corners).
-  std::vector<double> corners(double from, double to) const;
-  /// The same with those at which a function is less smooth than between them (Function::joints).
+  /// Instants in (from, to), ascending, at which a function of time has a corner, or is less smooth than between them
+  /// (Function::corners and joints).
   std::vector<double> joints(double from, double to) const;
   /// Whether any function of time jumps from the number before `time` to `time` itself.
   bool jumps_at(double time) const;
