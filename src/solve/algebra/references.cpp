@@ -83,6 +83,7 @@ void References::find_sources() {
 }
 
 void References::begin(const Configuration& c) {
+  solved_force_ = std::max(solved_force_, last_force_);
   // reference lengths need not follow every step
   const auto reach = [&](std::size_t i) { return std::max(spans_[i], c.nodes[i].x.norm()); };
   for (std::size_t i = 0; i < spans_.size(); ++i) {
@@ -136,7 +137,7 @@ double References::peak(int equation) const {
 void References::take(const Configuration& c, const std::vector<double>& carried) {
   const Model& model = assembler_.model();
   Pair all;
-  largest_force_ = 0;
+  last_force_ = 0;
   for (std::size_t i = 1; i < model.nodes.size(); ++i) {
     Pair own;
     for (std::size_t k = 0; k < 6; ++k) {
@@ -148,7 +149,7 @@ void References::take(const Configuration& c, const std::vector<double>& carried
       largest = std::max(largest, now);
       double& load = k < 3 ? own.force : own.moment;
       load = std::max({load, now, remembered * largest});
-      if (k < 3) largest_force_ = std::max(largest_force_, largest);
+      if (k < 3) last_force_ = std::max(last_force_, now);
     }
     // forces have levers; moments make forces by rounding alone
     const double lever = std::max(part_of_lever * spans_[i], rounding_share_ * reach_[i]);
@@ -184,7 +185,10 @@ bool References::remembers() const {
   return std::any_of(largest_of_slot_.begin(), largest_of_slot_.end(), [](double load) { return load != 0; });
 }
 
-void References::restore(std::vector<double> memory) { largest_of_slot_ = std::move(memory); }
+void References::restore(std::vector<double> memory) {
+  largest_of_slot_ = std::move(memory);
+  last_force_ = 0;
+}
 
 void References::save(Snapshot& snapshot) const {
   snapshot.put("newton/largest", largest_of_slot_);

@@ -37,8 +37,9 @@ class References {
   /// shows that nothing changes any more.
   double relative_change(int equation, double change) const;
 
-  /// Largest force that any element has contributed so far.
-  double largest_force() const { return largest_force_; }
+  /// Largest force on a node at the ends of iterations so far. Their trial positions, where stiff parts may resist with many
+  /// times as much, do not count.
+  double largest_force() const { return std::max(solved_force_, last_force_); }
   /// Largest loads so far, to be restored after a failed iteration.
   const std::vector<double>& memory() const { return largest_of_slot_; }
   /// Whether any of them is not zero.
@@ -83,10 +84,10 @@ class References {
   std::vector<Pair> pairs_;      ///< loads at each node, then of each element, then the largest of all
   std::vector<Source> sources_;  ///< of each equation
   std::vector<Owner> owners_;
-  std::vector<char> turns_;              ///< of each multiplier: whether it is a moment
-  std::vector<double> lengths_;          ///< of each equation
-  std::vector<double> largest_of_slot_;  ///< largest load so far, by motion slot
-  double largest_force_ = 0;
+  std::vector<char> turns_;                   ///< of each multiplier: whether it is a moment
+  std::vector<double> lengths_;               ///< of each equation
+  std::vector<double> largest_of_slot_;       ///< largest load so far, by motion slot
+  double solved_force_ = 0, last_force_ = 0;  ///< largest at the ends of iterations, and in the last residual
 };
 
 }  // namespace engrane::solve
