@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -52,6 +53,11 @@ std::unordered_map<const deck::Record*, std::size_t> cells_by_material(const dec
   return count;
 }
 
+/// `material 1 "steel"`
+std::string named(const deck::Record& record, const deck::MaterialCard& card) {
+  return fmt::format("material {}{}", record.id, card.name.empty() ? "" : fmt::format(" \"{}\"", card.name));
+}
+
 /// Warns about materials without density whose cells should have inertia or weight. ROT warns of them by itself.
 void look_at_densities(const deck::Deck& deck, const Model& model, const CellBook& book, Diagnostics& diagnostics) {
   const bool moves = !model.commands.analysis.type.is("STATIC");
@@ -64,8 +70,7 @@ void look_at_densities(const deck::Deck& deck, const Model& model, const CellBoo
     const auto found = count.find(&record);
     if (found == count.end()) continue;
     diagnostics.warning(record.location,
-                        fmt::format("material {}{} has no density: its {} no {}", record.id,
-                                    card->name.empty() ? "" : fmt::format(" \"{}\"", card->name),
+                        fmt::format("{} has no density: its {} no {}", named(record, *card),
                                     found->second == 1 ? "cell has" : fmt::format("{} cells have", found->second),
                                     moves && weighs ? "inertia and no weight"
                                     : moves         ? "inertia"
@@ -103,10 +108,10 @@ void look_at_damping(const deck::Deck& deck, const Model& model, const CellBook&
     const auto* card = record.get<deck::MaterialCard>();
     if (!card || !(card->density.value_or(0) > 0) || card->damping > 0 || !count.contains(&record)) continue;
     diagnostics.warning(record.location,
-                        fmt::format("material {}{} has no DAMPING: the error that ACCURACY estimates leaves out waves in its "
+                        fmt::format("{} has no DAMPING: the error that ACCURACY estimates leaves out waves in its "
                                     "cells that are too fast for the steps, and forces or accelerations of light parts may be "
                                     "off by more",
-                                    record.id, card->name.empty() ? "" : fmt::format(" \"{}\"", card->name)),
+                                    named(record, *card)),
                         "DAMPING 0.002/w takes 0.1 % of critical damping from vibrations of w radians per time, and ends faster "
                         "ones; loads that grow from 0 and START STATIC excite few of them");
   }

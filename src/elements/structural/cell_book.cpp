@@ -327,14 +327,14 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
   if (!entry->second) return nullptr;
   const deck::HypothesisCard* skin = skin_card(cell.hypothesis);
   if (skin && cell.material->get<deck::MaterialCard>()->young.size() != 1) {
-    if (crooked_.insert(cell.material->id).second)
+    if (unsuitable_.insert(cell.material->id).second)
       diagnostics_.error(cell.material->where("YT"),
                          fmt::format("material {} has axes, which membranes have not", cell.material->id),
                          "one value of YT and one of NT");
     return nullptr;
   }
   if (skin && entry->second->damping > 0) {
-    if (crooked_.insert(cell.material->id).second)
+    if (unsuitable_.insert(cell.material->id).second)
       diagnostics_.error(cell.material->where("DAMPING"),
                          fmt::format("material {} has DAMPING, and membranes have none", cell.material->id),
                          "a .MAT without DAMPING for the cells that are membranes");
@@ -342,7 +342,7 @@ std::shared_ptr<const CellSection> CellBook::make_section(const Cell& cell, Hypo
   }
   const materials::Elastic material = materials::turned(*entry->second, axes);
   if (hypothesis != Hypothesis::solid && !skin && !materials::is_plane(material)) {
-    if (crooked_.insert(cell.material->id).second)
+    if (unsuitable_.insert(cell.material->id).second)
       diagnostics_.error(cell.axes->where("FRAME"),
                          fmt::format("the axes of material {} lead out of the plane", cell.material->id),
                          "of a plane cell one axis of the material is z");

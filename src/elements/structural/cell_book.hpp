@@ -127,7 +127,7 @@ class CellBook {
   std::map<int, const deck::Record*> materials_;
   /// By material number and hypothesis; empty if the material is invalid.
   std::map<std::pair<int, materials::Hypothesis>, std::optional<materials::Elastic>> elastic_;
-  std::set<int> crooked_;  ///< materials whose axes have been reported as unsuitable for plane cells or membranes
+  std::set<int> unsuitable_;  ///< materials that have been reported: axes or damping that their cells cannot have
   Frames frames_;
 };
 
