@@ -115,7 +115,7 @@ def test_gears_stop_by_the_friction_of_their_flanks(tmp_path: Path) -> None:
         expected = np.array([exact.sol(min(t, stop))[0] for t in result.t])
         errors.append(np.abs(result["1/ANGLE"] - expected).max())
         rest = result.t > stop + h
-        assert np.ptp(result["1/ANGLE"][rest]) < 1e-14
+        assert np.ptp(result["1/ANGLE"][rest]) < 1e-12  # what joints may leave open
     assert errors[1] < 1e-5
     assert np.log2(errors[0] / errors[1]) > 1.9
 

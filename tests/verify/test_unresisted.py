@@ -207,6 +207,8 @@ def test_a_path_does_not_pass_loads_that_stand_still(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("formula", ["T", "min(T,1)", "min(2*T,1)"])
 def test_a_path_ends_at_its_end(formula: str, tmp_path: Path) -> None:
+    """Also where loads cease to grow: there it goes on with the load time, in steps of H and no shorter."""
     done = run(beam(CLAMPED, formula=formula, command=".PATH", step=0.1), tmp_path)
     assert done["run/LOAD_TIME"][-1] == pytest.approx(1, abs=1e-12)
     assert done["run/GROUND_FORCE_Y"][-1] == pytest.approx(100, rel=1e-5)
+    assert len(done.t) <= 13

@@ -20,8 +20,12 @@ constexpr double load_step = 1e-4;
 /// If Newton's method takes more iterations, the next step is half as long. Fewer do not count: their number changes by one
 /// with the last digit, and steps would change with it.
 constexpr int most_iterations = 12;
-/// Angle by which a step of the path should turn, and by which it may.
-constexpr double wished_turn = 6 * std::numbers::pi / 180, most_turn = 45 * std::numbers::pi / 180;
+/// Angle by which a step of the path should turn, and by which it may: more than the 45 degrees where the loads of a linear
+/// structure cease to grow.
+constexpr double wished_turn = 6 * std::numbers::pi / 180, most_turn = 46 * std::numbers::pi / 180;
+/// Loads whose change moves the structure less than this fraction of what it did at the start stand still: differences over
+/// load_step leave about 1e-10 of rounding.
+constexpr double stands_still = 1e-8;
 constexpr double longest_step = 0.1;
 /// Part of the run by which the load time changes in one step at most; the step before expected longest_step.
 constexpr double most_path_change = 0.25;
@@ -100,11 +104,16 @@ bool ArcLength::examine(const Configuration& c, const Point* before, Point& poin
   const double size = length(point.way);
   if (!std::isfinite(size)) return false;
   if (unit_ == 0) unit_ = size;
-  if (size == 0) return true;
+  if (size <= stands_still * unit_) {  // only the load time goes on
+    std::fill(point.way.begin(), point.way.end(), 0.0);
+    point.load = before ? std::copysign(1.0, before->load) : 1.0;
+    return true;
+  }
   point.load = unit_ / size;
   for (double& value : point.way) value *= -point.load;
   if (!before) return true;
-  if (product(before->way, point.way) < 0) {
+  const double along = product(before->way, point.way);
+  if (along < 0 || (along == 0 && before->load < 0)) {
     point.load = -point.load;
     for (double& value : point.way) value = -value;
   }
@@ -112,8 +121,10 @@ bool ArcLength::examine(const Configuration& c, const Point* before, Point& poin
 }
 
 double ArcLength::cosine(const Point& a, const Point& b) const {
-  const double along = product(a.way, b.way) / (unit_ * unit_);
-  return (along + a.load * b.load) / std::sqrt((1 + a.load * a.load) * (1 + b.load * b.load));
+  const auto with_load = [&](const Point& p, const Point& q) {
+    return product(p.way, q.way) / (unit_ * unit_) + p.load * q.load;
+  };
+  return with_load(a, b) / std::sqrt(with_load(a, a) * with_load(b, b));
 }
 
 NewtonReport ArcLength::follow(const Configuration& from, double h, Configuration& to, bool at_end) {
@@ -169,6 +180,7 @@ void ArcLength::complete(Vec x, Vec step) {
   check_petsc(VecDot(plane_, x, &at));
   check_petsc(VecDot(plane_, step, &by));
   check_petsc(VecDot(plane_, toward_, &with));
+  if (std::abs(with) <= stands_still * unit_ * unit_) return;  // no change of the loads leads into the plane
   // a change Δ of the load time changes x by −step − Δ toward
   const double change = (at - by - aim_) / with;
   if (!std::isfinite(change)) return;
