@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""KINEMATIC runs: velocities, accelerations and the efforts that drives need, against closed forms; and the
-balance of work and energy of kinematic and static runs."""
+"""KINEMATIC runs, and dynamic ones without unknowns: velocities, accelerations and the efforts that drives
+need, against closed forms; and the balance of work and energy of kinematic and static runs."""
 
 from __future__ import annotations
 
@@ -132,6 +132,34 @@ def test_work_of_a_kinematic_run(tmp_path):
         assert errors[-1] < 0.01 * np.max(np.abs(gained - gained[0]))
     print("work:", errors)
     assert np.log2(errors[0] / errors[1]) == pytest.approx(2, abs=0.2)
+
+
+@pytest.mark.parametrize("sub", ["SCHEME RADAU", "SCHEME RADAU / TOL 1E-7", "ACCURACY FINE", "SCHEME CHUNG"])
+def test_nothing_but_prescribed_motion(sub, tmp_path):
+    """No equation is left: RADAU took the empty matrix for a singular one."""
+    sam, _, tolerance = sub.partition("/")
+    r = run(
+        f"""
+.NOE
+ I 1
+ I 2 X 1
+.MCE
+ I 1 SPRING N 1 2 K 100 C 5
+ I 2 INERTIA N 2 M 2
+.FCT
+ I 1 EXPR "0.1*T**2"
+.CLM
+ FIX NOEUD 1 C 1 2 3
+ FIX NOEUD 2 C 2 3
+ DEP NOEUD 2 C 1 V 1 NF 1
+.SAM TYPE DYNAMIC {sam}
+.SUB TF 1 H 0.01 {tolerance}
+""",
+        tmp_path,
+    )
+    assert r["node/2/VX"] == pytest.approx(0.2 * r.t, abs=1e-12)
+    assert r["1/FORCE"] == pytest.approx(10 * r.t**2 + 5 * 0.2 * r.t, abs=1e-11)
+    assert r["run/GROUND_FORCE_X"] == pytest.approx(2 * 0.2, rel=1e-9)
 
 
 STATIC = """

@@ -52,6 +52,7 @@ void LinearSolver::correct_only(bool corrections) {
 }
 
 bool LinearSolver::solve(Vec right, Vec solution) {
+  if (rows_of(matrix_) == 0) return true;  // all motion is prescribed; packages take an empty matrix for a singular one
   correct_only(false);
   const PetscErrorCode code = KSPSolve(ksp_, right, solution);
   rethrow();
