@@ -139,7 +139,8 @@ class Builder {
       if (!archive->codes.empty())
         diagnostics_.warning_once("STYP", record.where("STYP"), "STYP selects nothing in this version: all fields are archived");
     }
-    if (!has_mesh_)
+    // a record in error may be the one that refers to it
+    if (!has_mesh_ && !diagnostics_.has_errors())
       if (const char* what = record.get<deck::MaterialCard>() && !names_material_ ? "material"
                              : record.get<deck::HypothesisCard>()                 ? "formulation"
                              : record.get<deck::PropertyCard>()                   ? "property"

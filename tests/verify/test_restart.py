@@ -92,9 +92,9 @@ def test_kept_factors_go_on_turning_with_their_nodes(tmp_path, solver):
 @pytest.mark.parametrize("solver", ["MUMPS", "KLU"])
 def test_bits_of_the_whole_run_on_several_ranks(tmp_path, solver, sam):
     """Too few equations for ranks to solve them together: the first one's factors go on."""
-    path = str(deck(tmp_path, "whole", end=0.1, solver=solver, sam=sam, frames=0.02))
+    path = str(deck(tmp_path, "whole", end=0.04, solver=solver, sam=sam, frames=0.008))
     run(tmp_path, path, ranks=2)
-    run(tmp_path, path, "-o", "part", "--until", "0.045", ranks=2, status=2)
+    run(tmp_path, path, "-o", "part", "--until", "0.018", ranks=2, status=2)
     run(tmp_path, path, "-o", "part", "--restart", "part", ranks=2)
     assert tables(tmp_path / "whole.h5") == tables(tmp_path / "part.h5")
 
