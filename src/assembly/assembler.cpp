@@ -99,18 +99,19 @@ State Assembler::view(int part, const Configuration& c) const {
   s.history = piece(c.history, numbering_.history_begin(part), static_cast<std::size_t>(layout.history));
   s.time = c.load_time();
   s.h = c.h;
-  s.gravity = gravity_at(s.time);
+  find_gravity(s.time);
+  s.gravity = gravity_;
+  s.varying = varying_gravity_ ? &*varying_gravity_ : nullptr;
   s.penalty = penalty;
   s.contact_homotopy = contact_homotopy;
   return s;
 }
 
-const Vec3& Assembler::gravity_at(double time) const {
-  if (time != gravity_time_) {
-    gravity_ = model_.gravity_at(time);
-    gravity_time_ = time;
-  }
-  return gravity_;
+void Assembler::find_gravity(double time) const {
+  if (time == gravity_time_) return;
+  gravity_ = model_.gravity_at(time);
+  varying_gravity_ = model_.varying_gravity_at(time);
+  gravity_time_ = time;
 }
 
 void Assembler::count_turns(Configuration& configuration) { write_history(configuration, &Element::count_turns); }
@@ -348,28 +349,40 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
   });
   MPI_Allreduce(MPI_IN_PLACE, inertia.data(), static_cast<int>(motion), MPI_DOUBLE, MPI_SUM, comm_);
   // masses and moments of inertia have different units, so each is compared only with the largest of its own kind
-  double largest = 0;
   Magnitudes heaviest;
   for (int e = 0; e < numbering_.equations(); ++e) {
     const Unknown& u = numbering_.unknown(e);
     if (u.multiplier) continue;
     const double d = inertia[static_cast<std::size_t>(u.slot)];
-    largest = std::max(largest, d);
     heaviest[u.measure] = std::max(heaviest[u.measure], d);
   }
-  missing_inertia_ = 1e-13 * (largest > 0 ? largest : 1.0);
   const double extent = model_.extent();
+  const Magnitudes missing = find_missing_inertia(heaviest);
   std::vector<bool> fixed(static_cast<std::size_t>(numbering_.equations()), false);
   for (const int equation : held) fixed[static_cast<std::size_t>(equation)] = true;
   for (int row = numbering_.first_row(); row < numbering_.end_row(); ++row) {
     const Unknown& u = numbering_.unknown(row);
     double d = any_released_ && released_equation(row) ? 1.0 : 0.0;
     if (!u.multiplier && !mass) d = u.part >= 0 ? 1e-12 : u.measure == Measure::force ? 1 / (extent * extent) : 1.0;
-    if (!u.multiplier && mass && inertia[static_cast<std::size_t>(u.slot)] == 0) d = missing_inertia_;
+    if (!u.multiplier && mass && inertia[static_cast<std::size_t>(u.slot)] == 0) d = missing[u.measure];
     if (fixed[static_cast<std::size_t>(row)]) d = 1e10 * (mass && heaviest[u.measure] > 0 ? heaviest[u.measure] : d);
     sum.add_diagonal(row, d);
   }
   sum.finish();
+}
+
+Magnitudes Assembler::find_missing_inertia(const Magnitudes& heaviest) {
+  constexpr double negligible = 1e-13;
+  const double square = model_.extent() * model_.extent();
+  Magnitudes missing;
+  for (const Measure m : {Measure::force, Measure::moment, Measure::length, Measure::angle}) {
+    double own = heaviest[m];
+    if (own == 0 && m == Measure::moment) own = heaviest[Measure::force] * square;
+    if (own == 0 && m == Measure::force) own = heaviest[Measure::moment] / square;
+    missing[m] = negligible * (own > 0 ? own : 1.0);
+  }
+  missing_inertia_ = std::max(missing[Measure::force] * square, missing[Measure::moment]);
+  return missing;
 }
 
 void Assembler::constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,

@@ -109,7 +109,8 @@ class Assembler {
   }
   /// As above, into a matrix from new_matrix(), with `give` times the stiffness added to the mass matrix.
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into, double give = 0);
-  /// What stood for the inertia of motions without any in the last projection by mass.
+  /// What stood for the inertia of motions without any in the last projection by mass, as a moment of inertia: masses times the
+  /// square of the extent.
   double missing_inertia() const { return missing_inertia_; }
   /// Unscaled Φ and its first two time derivatives along the motion, in the order of the multipliers; zero for idle ones.
   void constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
@@ -136,7 +137,11 @@ class Assembler {
 
  private:
   const Element& element(int part) const { return *model_.parts[static_cast<std::size_t>(part)].element; }
-  const Vec3& gravity_at(double time) const;
+  /// What stands for missing inertia, by measure of the equation: a negligible part of the largest inertia of that kind or, where
+  /// there is none, of the other kind by the extent. Sets missing_inertia_.
+  Magnitudes find_missing_inertia(const Magnitudes& heaviest);
+  /// Finds gravity_ and varying_gravity_.
+  void find_gravity(double time) const;
   void write_history(Configuration& configuration,
                      void (Element::*write)(const State&, std::span<double>, std::span<double>) const);
   /// Elements that are evaluated together: consecutive entries of Numbering::evaluated(), starting at `first`.
@@ -180,8 +185,9 @@ class Assembler {
   std::vector<double> gathered_, carried_;
   mutable double gravity_time_ = std::numeric_limits<double>::quiet_NaN();
   mutable Vec3 gravity_ = Vec3::Zero();  ///< gravity at gravity_time_
-  std::vector<int> constrained_parts_;   ///< elements with multipliers, on all ranks
-  std::vector<Batch> batches_;           ///< partition of Numbering::evaluated(), in order
+  mutable std::optional<VaryingGravity> varying_gravity_;
+  std::vector<int> constrained_parts_;  ///< elements with multipliers, on all ranks
+  std::vector<Batch> batches_;          ///< partition of Numbering::evaluated(), in order
   // buffers for one batch
   std::vector<State> states_;
   std::vector<double> local_r_, local_k_;

@@ -215,6 +215,12 @@ class NodeStates {
   std::size_t size_ = 0;
 };
 
+/// Gravity that functions of time give, as a load.
+struct VaryingGravity {
+  Vec3 acceleration = Vec3::Zero();
+  Vec3 rate = Vec3::Zero();
+};
+
 /// Everything an element may depend on. The spans view arrays owned by the caller.
 struct State {
   NodeStates nodes;                 ///< in the order of Layout::nodes
@@ -224,12 +230,15 @@ struct State {
   std::span<const double> multipliers;  ///< kλ, in units of force or moment
   std::span<const double> history;      ///< as committed at the end of the last step
   double time = 0;
-  double h = 0;  ///< length of the step that ends at `time`; 0 if there is none, as in statics and at the start
-  Vec3 gravity = Vec3::Zero();
-  double penalty = 0;  ///< p of the augmented Lagrangian (paper, eq. 2)
+  double h = 0;                 ///< length of the step that ends at `time`; 0 if there is none, as in statics and at the start
+  Vec3 gravity = Vec3::Zero();  ///< all of it
+  const VaryingGravity* varying = nullptr;  ///< the part that depends on time; nullptr: none does
+  double penalty = 0;                       ///< p of the augmented Lagrangian (paper, eq. 2)
   /// Fraction of the contact stiffness that also acts across an open gap. It is 0 except while statics searches for the flanks
   /// in contact. With 1, contacts are linear springs, so that a path always leads from one flank to the other.
   double contact_homotopy = 0;
+
+  Vec3 steady_gravity() const { return varying ? Vec3(gravity - varying->acceleration) : gravity; }
 };
 
 /// Weights of a tangent: cq ∂r/∂q + cv ∂r/∂v + ca ∂r/∂a in the columns of nodes and scalars, cλ ∂r/∂(kλ) in those of
@@ -249,6 +258,13 @@ struct Energies {
   double dissipated = 0;  ///< power
   double external = 0;    ///< power of applied forces and drives
   double strain = 0;      ///< part of `potential` that mesh cells store as strain energy
+
+  /// Adds what gravity does to a mass at x with the velocity v. Constant gravity has a potential; gravity that depends on time
+  /// does work, as other loads do, since with a potential that changes by itself no energy balance would close.
+  void add_weight(const State& state, double mass, const Vec3& x, const Vec3& v) {
+    potential -= mass * state.steady_gravity().dot(x);
+    if (state.varying) external += mass * state.varying->acceleration.dot(v);
+  }
 };
 
 /// Half the squared energy norm ∫ S·C⁻¹S dV of an element's stress S (second Piola–Kirchhoff for large displacements, with

@@ -23,6 +23,18 @@ Vec3 Model::gravity_at(double time) const {
   return g;
 }
 
+std::optional<VaryingGravity> Model::varying_gravity_at(double time) const {
+  std::optional<VaryingGravity> sum;
+  for (const Gravity& part : gravity) {
+    if (!part.function) continue;
+    if (!sum) sum.emplace();
+    const auto factor = part.function->at(time);
+    sum->acceleration += part.acceleration * factor.f;
+    sum->rate += part.acceleration * factor.d1;
+  }
+  return sum;
+}
+
 namespace {
 
 /// A function with more of them is a measured curve, not smoother between them.

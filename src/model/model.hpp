@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -100,6 +101,8 @@ struct Model {
 
   int node_index(int id) const;  ///< -1 when there is no such node
   Vec3 gravity_at(double time) const;
+  /// The part of it that functions of time give; nothing if there are none.
+  std::optional<VaryingGravity> varying_gravity_at(double time) const;
   /// Instants in (from, to), ascending, at which a function of time has a corner, or is less smooth than between them
   /// (Function::corners and joints).
   std::vector<double> joints(double from, double to) const;

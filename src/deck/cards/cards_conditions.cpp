@@ -137,6 +137,9 @@ Schema temperature_card() {
 Schema gravity_card() {
   Card<GravityCard> card(".CLM STRU", {".BOUNDARY", "STRUCTURE"}, "Acceleration of gravity on all masses");
   card.chapter(chapter).redefines();
+  card.describe(
+      "Constant gravity has a potential, which POTENTIAL_ENERGY contains. Gravity with a function of time does work, as other "
+      "loads do, and EXTERNAL_WORK contains it.");
   card.add("ACC", &GravityCard::acceleration, "acceleration of gravity")
       .synonyms({"ACCELERATION"})
       .unit(dimension::acceleration)

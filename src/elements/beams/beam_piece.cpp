@@ -90,7 +90,7 @@ Energies Beams<Nodes, Held>::energies(std::size_t e, const State& state) const {
     for (std::size_t j = 0; j < Nodes; ++j) {
       const double mass = piece.mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       sum.kinetic += 0.5 * mass * velocity[i].dot(velocity[j]);
-      sum.potential -= mass * state.gravity.dot(state.nodes[i].x + state.nodes[i].R * piece.centers[i]);
+      sum.add_weight(state, mass, state.nodes[i].x + state.nodes[i].R * piece.centers[i], velocity[i]);
     }
   return sum;
 }

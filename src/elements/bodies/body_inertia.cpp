@@ -9,11 +9,17 @@
 
 namespace engrane::elements::bodies {
 
-Energies BodyInertia::energies(const NodeState& node, const Vec3& gravity) const {
-  const Vec3 speed = node.v + node.R * cross(node.W, offset);
+Vec3 BodyInertia::velocity(const NodeState& node) const { return node.v + node.R * cross(node.W, offset); }
+
+double BodyInertia::kinetic_energy(const NodeState& node) const {
+  return 0.5 * mass * velocity(node).squaredNorm() + 0.5 * node.W.dot(tensor * node.W);
+}
+
+Energies BodyInertia::energies(const State& state) const {
+  const NodeState& node = state.nodes[0];
   Energies e;
-  e.kinetic = 0.5 * mass * speed.squaredNorm() + 0.5 * node.W.dot(tensor * node.W);
-  e.potential = -mass * gravity.dot(center(node));
+  e.kinetic = kinetic_energy(node);
+  e.add_weight(state, mass, center(node), velocity(node));
   return e;
 }
 
@@ -32,7 +38,7 @@ std::vector<Channel> body_channels(const BodyInertia& body) {
 }
 
 void observe_body(const BodyInertia& body, const NodeState& node, std::span<double> values) {
-  values[0] = body.energies(node, Vec3::Zero()).kinetic;
+  values[0] = body.kinetic_energy(node);
   if (!body.turns()) return;
   const Vec3 center = body.center(node), momentum = body.angular_momentum(node);
   for (Eigen::Index c = 0; c < 3; ++c) {

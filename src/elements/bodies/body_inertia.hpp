@@ -41,10 +41,14 @@ struct BodyInertia {
   }
 
   Vec3 center(const NodeState& node) const { return node.x + node.R * offset; }
-  Vec3 momentum(const NodeState& node) const { return mass * (node.v + node.R * cross(node.W, offset)); }
+  /// Of the centre of mass, global components.
+  Vec3 velocity(const NodeState& node) const;
+  Vec3 momentum(const NodeState& node) const { return mass * velocity(node); }
   /// About the centre of mass, global components.
   Vec3 angular_momentum(const NodeState& node) const { return node.R * (tensor * node.W); }
-  Energies energies(const NodeState& node, const Vec3& gravity) const;
+  double kinetic_energy(const NodeState& node) const;
+  /// Of a body on the first node of the state.
+  Energies energies(const State& state) const;
 };
 
 /// Channels of a body and their values: position of the centre of mass, angular velocity, momenta and kinetic energy.

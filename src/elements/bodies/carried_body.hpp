@@ -30,7 +30,7 @@ class CarriedBody final : public TemplatedElement<CarriedBody, 1, 6> {
     balance.moment(0, resistance.moment);
   }
 
-  Energies energies(const State& state) const override { return body_.energies(state.nodes[0], state.gravity); }
+  Energies energies(const State& state) const override { return body_.energies(state); }
   bool is_body() const override { return true; }
   Mat3 inertia_at(int node) const override { return node == layout().nodes[0] ? body_.about_node() : Mat3(Mat3::Zero()); }
   const std::vector<Channel>& channels() const override { return channels_; }

@@ -79,7 +79,8 @@ class Bar final : public TemplatedElement<Bar, 2, 6> {
     const NodeState &a = state.nodes[0], &b = state.nodes[1];
     const Pull<double> p = pull(a, b);
     Energies e;
-    e.potential = law_.stiffness * law_.length * law_.energy(p.strain) - mass_ / 2 * state.gravity.dot(a.x + b.x);
+    e.potential = law_.stiffness * law_.length * law_.energy(p.strain);
+    e.add_weight(state, mass_ / 2, a.x + b.x, a.v + b.v);
     e.kinetic = mass_ / 6 * (a.v.dot(a.v) + a.v.dot(b.v) + b.v.dot(b.v));
     e.dissipated = p.lost;
     return e;

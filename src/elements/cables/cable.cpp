@@ -51,9 +51,8 @@ class Cable final : public TemplatedElement<Cable, 2, 6> {
     e.kinetic = data_.mass * cable.length / 4 * (state.nodes[0].v.squaredNorm() + state.nodes[1].v.squaredNorm());
     if (start.isZero(0)) return e;
     const Catenary::Shape<double> at = cable.shape(start);
-    // elastic energy and weight: work of the tension less the complementary energy, and the weight as if it were all at b
-    e.potential = start.dot(span) - cable.length * (at.mean + at.square / (2 * data_.stiffness)) -
-                  cable.length * cable.weight.dot(state.nodes[1].x);
+    e.potential = potential(cable, start, state);
+    if (state.varying) e.external = power_of_weight(cable, data_.mass * state.varying->rate, state);
     if (data_.reel) {
       const double tension = at.end.norm(), rate = data_.length * data_.reel->at(state.time).d1;
       e.external = -tension * (1 + tension / (2 * data_.stiffness)) * rate;
@@ -112,6 +111,29 @@ class Cable final : public TemplatedElement<Cable, 2, 6> {
   Catenary catenary(const State& state) const {
     const double length = data_.length * (data_.reel ? data_.reel->at(state.time).f : 1);
     return {length, data_.stiffness, data_.mass * state.gravity};
+  }
+  /// Elastic energy and weight of a cable that pulls: work of the tension less the complementary energy, and the weight as if it
+  /// were all at B.
+  static double potential(const Catenary& cable, const Vec3& start, const State& state) {
+    const Vec3 span = state.nodes[1].x - state.nodes[0].x;
+    const Catenary::Shape<double> at = cable.shape(start);
+    return start.dot(span) - cable.length * (at.mean + at.square / (2 * cable.stiffness)) -
+           cable.length * cable.weight.dot(state.nodes[1].x);
+  }
+  /// Power of a change `rate` of the weight. What the weight does on the way of the cable's points is not known, but the
+  /// potential changes by this.
+  static double power_of_weight(const Catenary& cable, const Vec3& rate, const State& state) {
+    const double size = rate.norm();
+    if (size == 0) return 0;
+    if (!hangs(cable)) return -cable.length / 2 * rate.dot(state.nodes[0].x + state.nodes[1].x);  // straight
+    constexpr double part = 1e-5;  // central differences are off by its square
+    const double change = part * cable.weight.norm();
+    const auto with = [&](double added) {
+      Catenary other = cable;
+      other.weight += added / size * rate;
+      return potential(other, start_tension(other, state), state);
+    };
+    return size * (with(change) - with(-change)) / (2 * change);
   }
   static bool hangs(const Catenary& cable) { return !cable.weight.isZero(0); }
   static Vec3 start_tension(const Catenary& cable, const State& state) {

@@ -97,7 +97,7 @@ class Membranes final : public Block {
       const Point p = point(cell.places, s);
       const Local local = this->local(section, x, p);
       sum.strain += p.area * section.thickness * local.response.energy;
-      sum.potential -= p.area * mass * state.gravity.dot(x * p.value);
+      sum.add_weight(state, p.area * mass, x * p.value, v * p.value);
       sum.kinetic += p.area * mass / 2 * (v * p.value).squaredNorm();
       sum.external += p.area * pressure * normal(local).dot(v * p.value);
     }

@@ -101,8 +101,10 @@ class Cells final : public Block {
           volume * (held * warmer - Kernel::reduced(section.law.growth).dot(response.stress)) * rise_rate(cell, state, s);
     }
     energies.potential = energies.strain;
-    if (Places weight; weigh(cell, state, weight)) energies.potential -= entries(weight).dot(entries(moved));
     const Places v = rates(state);
+    if (Places weight; weigh(cell, state.steady_gravity(), weight)) energies.potential -= entries(weight).dot(entries(moved));
+    if (Places load; state.varying && weigh(cell, state.varying->acceleration, load))
+      energies.external += entries(load).dot(entries(v));
     if (Places outward = zero<Places>(); add_centrifugal(cell, state, outward))
       energies.external += entries(outward).dot(entries(v));
     if (section.law.density != 0 && !entries(v).isZero(0))
@@ -113,7 +115,7 @@ class Cells final : public Block {
 
   bool applied(std::size_t e, const State& state, std::span<double> forces) const override {
     auto sum = zero<Places>();
-    const bool heavy = weigh(cells_[e], state, sum), turns = add_centrifugal(cells_[e], state, sum);
+    const bool heavy = weigh(cells_[e], state.gravity, sum), turns = add_centrifugal(cells_[e], state, sum);
     if (heavy || turns) std::copy_n(sum.data(), D * N, forces.begin());
     return heavy || turns;
   }
@@ -387,9 +389,9 @@ class Cells final : public Block {
   }
 
   /// Nodal weight forces; false if there are none.
-  static bool weigh(const Cell& cell, const State& state, Places& weight) {
+  static bool weigh(const Cell& cell, const Vec3& acceleration, Places& weight) {
     const double density = cell.section->law.density;
-    const Eigen::Matrix<double, D, 1> gravity = state.gravity.template head<D>();
+    const Eigen::Matrix<double, D, 1> gravity = acceleration.template head<D>();
     if (density == 0 || gravity.isZero(0)) return false;
     // in axisymmetry the radius raises the degree by one
     static const auto samples = tabulate<S>(Axi ? Traits::mass_points() : Traits::load_points());
@@ -458,7 +460,7 @@ class Cells final : public Block {
 
   static void add_inertia_and_weight(const Cell& cell, const State& state, Eigen::Map<Eigen::VectorXd>& r) {
     if (cell.section->law.density == 0) return;
-    if (Places weight; weigh(cell, state, weight)) r -= entries(weight);
+    if (Places weight; weigh(cell, state.gravity, weight)) r -= entries(weight);
     if (auto outward = zero<Places>(); add_centrifugal(cell, state, outward)) r -= entries(outward);
     Places a;
     for (Eigen::Index i = 0; i < N; ++i) column(a, i) = state.nodes[static_cast<std::size_t>(i)].a.template head<D>();
