@@ -19,4 +19,7 @@ struct SpeedJump {
 /// changes all velocities as an impact without rebound does.
 std::optional<SpeedJump> speed_jump(const Model& model, double time);
 
+/// Whether an imposed acceleration jumps there, as that of a drive whose speed begins to grow does.
+bool imposed_acceleration_jumps(const Model& model, double time);
+
 }  // namespace engrane
