@@ -180,6 +180,37 @@ CRANK = """
 """
 
 
+@pytest.mark.parametrize("away", [300, 1e4, 1e6])
+def test_mechanisms_far_from_the_origin(away: float, tmp_path: Path) -> None:
+    """Places are rounded to their distance from the origin. Beyond 100 lengths a driven slider did "not close
+    from where its parts are put"."""
+    text = """
+.NOE
+ I 1 X {crank}
+ I 2 X {pin}
+ I 3 X {slider}
+.MCE
+ I 1 HINGE N 0 1 AXIS 0.2 0 0.92 AT {crank} DRIVE ANGLE NF 1
+ I 2 HINGE N 1 2 AXIS 0.2 0 0.92 AT {pin}
+ I 3 HINGE N 2 3 AXIS 0.2 0 0.92 AT {slider}
+ I 4 PRISMATIC N 0 3 AXIS 0.92 0 -0.2
+ I 5 SPRING N 0 3 K 100 100 100
+.FCT
+ I 1 EXPR "2*T"
+.SAM TYPE KINEMATIC
+.SUB TF 1 H 0.05
+"""
+
+    def crank(far: float) -> np.ndarray:
+        crank = np.array([0.37, -1.21, 0.83]) * far
+        pin, slider = crank + np.array([0, 0.2, 0]), crank + np.array([0.92, 0, -0.2])
+        places = {"crank": crank, "pin": pin, "slider": slider}
+        r = run(text.format(**{name: "{} {} {}".format(*at) for name, at in places.items()}), tmp_path)
+        return np.array([r["node/3/UX"], r["node/3/UZ"], r["3/ANGLE"]])
+
+    assert np.abs(crank(away) - crank(0)).max() < 1e-15 * 100 * away
+
+
 def test_micrometres_and_kilometres(tmp_path: Path) -> None:
     """A crank of 0.1 um, 0.1 m or 0.1 Mm, with gravity to match, turns alike; forces are in proportion."""
     runs = {}

@@ -122,13 +122,16 @@ DECKS = {
     "four_bar": """
 .NOE
  I 1 X <0|L> Y <0.2|L>
- I 2 X <0.5|L> Y <0.4|L>
+ I 2 X <0.3|L> Y <0.3|L>
+ I 3 X <0.6|L> Y <0.2|L>
 .MCE
  I 1 HINGE N 0 1 AXIS 0 0 1 AT 0 0 0
  I 2 HINGE N 1 2 AXIS 0 0 1 AT <0|L> <0.2|L> 0
- I 3 HINGE N 0 2 AXIS 0 0 1 AT <0.6|L> 0 0
- I 4 INERTIA N 1 M <1|M> J <0.01|ML2>
- I 5 INERTIA N 2 M <2|M> J <0.05|ML2>
+ I 3 HINGE N 2 3 AXIS 0 0 1 AT <0.6|L> <0.4|L> 0
+ I 4 HINGE N 0 3 AXIS 0 0 1 AT <0.6|L> 0 0
+ I 5 INERTIA N 1 M <1|M> J <0.01|ML2>
+ I 6 INERTIA N 2 M <2|M> J <0.05|ML2>
+ I 7 INERTIA N 3 M <1.5|M> J <0.03|ML2>
 .CLM STRU ACC VAL 0 <-9.81|LT-2> 0
 .SAM TYPE DYNAMIC RHO 0.8
 .SUB TF <0.5|T> H <0.005|T>
@@ -243,6 +246,48 @@ def test_any_units(name: str, tmp_path: Path) -> None:
     for trial in range(2):
         units = any_units(random)
         assert_alike(plain, run(in_units(DECKS[name], units), tmp_path, f"trial{trial}"), units, 1e-8)
+
+
+MEAN_TURN = """
+.NOE
+ I 1
+ I 2 Y <0.1|L>
+ I 3 X <0.5|L>
+ I 4 X <0.5|L> Y <0.1|L>
+ I 5 X <1|L>
+ I 6 X <1|L> Y <0.1|L>
+ I 10 X <1|L> Y <0.05|L>
+.MAI
+ I 1 N 1 3 4 2
+ I 2 N 3 5 6 4
+.SEL
+ GROUP 1 NOM "all" MAILLES TOUT
+.MAT
+ I 1 YT <2.1D11|ML-1T-2> NT 0.3 M <7850|ML-3>
+.HYP MEMB BIDIM GROUP "all"
+.PHP
+ GROUP "all" THICK <0.02|L>
+.AEL
+ GROUP "all" MAT 1
+.MCE
+ I 103 MEAN_LINK N 10 MEMBERS 5 6
+ I 104 INERTIA N 10 M <1|M>
+.CLM
+ FIX NOEUD 1 C 1 2
+ FIX NOEUD 10 C 3 4 5
+ STRU ACC VAL 0 <-9.81|LT-2> 0
+.SAM TYPE DYNAMIC DISPLACEMENTS LARGE
+.SUB TF <0.01|T> H <0.0001|T>
+"""
+
+
+@pytest.mark.parametrize("length", [1e-5, 1e5])
+def test_turns_without_inertia_at_any_size(length: float, tmp_path: Path) -> None:
+    """What stands for the inertia of the mean turn was a part of the masses, whatever the square of the
+    lengths: moments in a mesh of micrometres belonged to it."""
+    plain = run(in_units(MEAN_TURN, {"L": 1, "M": 1, "T": 1}), tmp_path, "plain")
+    units = {"L": length, "M": 1 / length, "T": 1}
+    assert_alike(plain, run(in_units(MEAN_TURN, units), tmp_path, "other"), units, 1e-6)
 
 
 CONTROLLED = [name for name, text in DECKS.items() if "DYNAMIC" in text]

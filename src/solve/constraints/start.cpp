@@ -36,6 +36,10 @@ double angle_between(const Mat3& a, const Mat3& b) { return rotation_log(Mat3(a.
 
 Start::Start(Assembler& assembler, LinearSolver& solver, const MotionSlots& motion, Redundancy& redundancy)
     : assembler_(assembler), solver_(solver), motion_(motion), redundancy_(redundancy), coordinates_(assembler) {
+  const Model& model = assembler.model();
+  for (const Model::Part& part : model.parts)
+    for (const int node : part.nodes)
+      away_ = std::max(away_, model.nodes[static_cast<std::size_t>(node)].x.cwiseAbs().maxCoeff() / model.extent());
   *right_.out() = assembler.new_vector();
   *solution_.out() = assembler.new_vector();
 }
@@ -245,10 +249,11 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
     return open;
   };
   Closing result;
+  const double accuracy = away_ * target.accuracy;
   const std::vector<std::size_t> teeth = holds_teeth_ ? tooth_deformations() : std::vector<std::size_t>{};
   double open = measure(c), deformed = std::numeric_limits<double>::infinity();
   for (;; ++result.iterations) {
-    result.closed = open <= target.accuracy;
+    result.closed = open <= accuracy;
     // held teeth take a small part of each motion: it is given back until the wheels have made all of it, unless they cannot
     if (result.closed && holds_teeth_) {
       double now = 0;
@@ -257,7 +262,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
         deformed = now;
         for (const std::size_t i : teeth) c.scalars[i] = 0;
         open = measure(c);
-        result.closed = open <= target.accuracy;
+        result.closed = open <= accuracy;
       }
     }
     if (result.closed || result.iterations == most_iterations || !std::isfinite(open)) return result;
@@ -289,7 +294,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
       for (double& v : y) v /= 2;
     }
     std::swap(c, moved);
-    if (length < 4 * epsilon && before < 1e-11) {  // closed as far as rounding allows
+    if (length < 4 * away_ * epsilon && before < 1e-11 * away_) {  // closed as far as rounding allows
       ++result.iterations;
       result.closed = true;
       return result;

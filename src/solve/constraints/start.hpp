@@ -66,7 +66,8 @@ class Start {
   double noise_of_missing_inertia(const Configuration& c) const;
 
  private:
-  static constexpr double rounding_ = 32 * std::numeric_limits<double>::epsilon();  ///< accuracy of closed constraints
+  /// Accuracy of closed constraints; away_ times that far from the origin.
+  static constexpr double rounding_ = 32 * std::numeric_limits<double>::epsilon();
   /// Longest motion between two positions of a path, over the extent or in radians: no loop folds over in it, and far less than
   /// half a turn, so that turns can be counted.
   static constexpr double longest_step_ = 0.2;
@@ -95,7 +96,7 @@ class Start {
   struct Target {
     std::span<const double> gaps = {};
     double part = 0;
-    double accuracy = rounding_;  ///< over the sizes of constraints and gaps
+    double accuracy = rounding_;  ///< over the sizes of constraints and gaps, near the origin
   };
   /// Damped Newton iteration to the target in the constraints that are not released, and to the wanted coordinates, which must
   /// be independent.
@@ -162,6 +163,7 @@ class Start {
   Redundancy& redundancy_;
   StartCoordinates coordinates_;
   Owned<Vec> right_, solution_;
+  double away_ = 1;           ///< distance from the origin over the extent, at least 1: positions are rounded to its size
   bool holds_teeth_ = false;  ///< wheels turn rather than that their teeth deform
 };
 

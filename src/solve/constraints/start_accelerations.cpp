@@ -53,9 +53,10 @@ double give_of(double h) { return h * h / 4; }
 
 double Start::noise_of_missing_inertia(const Configuration& c) const {
   constexpr double rounding = 100 * std::numeric_limits<double>::epsilon();
-  double fastest = 0;
-  for (const NodeState& node : c.nodes) fastest = std::max({fastest, node.v.squaredNorm(), node.W.squaredNorm()});
-  return rounding * assembler_.missing_inertia() * fastest;
+  const double extent = assembler_.model().extent();
+  double fastest = 0;  // as an angular velocity
+  for (const NodeState& node : c.nodes) fastest = std::max({fastest, node.v.norm() / extent, node.W.norm()});
+  return rounding * assembler_.missing_inertia() * fastest * fastest;
 }
 
 void Start::verify_balance(const Configuration& c, std::span<const double> unbalanced) {
