@@ -134,7 +134,7 @@ class DirectionalSpring final : public TemplatedElement<DirectionalSpring, 2, 6>
       : TemplatedElement(id), apart_(apart), stiffness_(stiffness), damping_(damping) {
     Layout layout;
     layout.nodes.assign(nodes.begin(), nodes.end());
-    layout.needs = {NodeNeed::translation, NodeNeed::translation};
+    for (const int node : nodes) layout.needs.push_back(node == 0 ? NodeNeed::both : NodeNeed::translation);
     set_layout(std::move(layout));
   }
 
@@ -146,6 +146,9 @@ class DirectionalSpring final : public TemplatedElement<DirectionalSpring, 2, 6>
     for (int c = 0; c < 3; ++c) force[c] = stiffness_[c] * (b.x[c] - a.x[c] - apart_[c]) + damping_[c] * (b.v[c] - a.v[c]);
     balance.force(0, Vec3T<T>(-force));
     balance.force(1, force);
+    // the ground is held where the other node is
+    if (layout().nodes[0] == 0) balance.moment(0, cross(force, b.x));
+    if (layout().nodes[1] == 0) balance.moment(1, cross(a.x, force));
   }
 
   Energies energies(const State& state) const override {
