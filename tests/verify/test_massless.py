@@ -216,3 +216,10 @@ def test_order(model: str, scheme: str, tmp_path: Path) -> None:
     for name, (coarse, fine) in errors.items():
         assert fine < 1e-2, (name, coarse, fine)
         assert np.log2(coarse / fine) > 1.8, (name, coarse, fine)
+
+
+def test_a_slider_that_only_a_damper_slows(tmp_path: Path) -> None:
+    """It gives way within a step, so that its accelerations are softened: they began at 0, and swung."""
+    deck = dashpot_slider("", 2e-4).replace("C 30", "C 1").replace("sin(7*T + 0.3)", "1")
+    result = run(deck.replace("TF 1", "TF 0.05"), tmp_path)
+    assert result["node/2/AX"] == pytest.approx(-300 * np.exp(-100 * result.t), abs=2)

@@ -184,6 +184,10 @@ bool Start::balance_softly(Configuration& c, double give, StartReport* report, c
   constexpr int most_iterations = 12;
   constexpr double settled = 1e-3;  // rounding of stiff meshes leaves 1e-6
   std::vector<double> a(motion_.size(), 0.0);
+  if (massless) {  // no balance gives them back
+    a = motion_.accelerations(c);
+    massless->keep(a);
+  }
   for (const auto& p : motion_.prescribed(c.time)) a[p.slot] = p.a;
   Configuration still = c;
   motion_.set_accelerations(a, still);
