@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from oracles import valve_train
 from runs import run
+from scipy.spatial.transform import Rotation
 
 DECK = Path(__file__).parents[2] / "decks" / "mechanisms" / "valve_train.dat"
 TIMES = np.arange(0.0036, 0.0130, 0.0001)  # the whole lift
@@ -72,3 +73,50 @@ def test_a_run_whose_energy_is_off_says_so(tmp_path: Path) -> None:
     run(text, tmp_path)
     said = "the energy balance was off by up to 251 N·m, 22 % of"
     assert said in (tmp_path / "deck.lst").read_text(encoding="utf-8")
+
+
+TOUCHING = {
+    "CAM": " I 4 CAM N 0 2 AXIS {z} CENTER {o} BASE {base} PHASE 60 MOTION 360 0 FOLLOWER ROLLER 0.009 $\n"
+    "   AT {top} PIVOT {pivot} K 5D7",
+    "STOP": " I 4 STOP N 0 2 NORMAL {y} ON {top} AT {top} K 5D7",
+}
+
+
+def turned_rocker(below: str, pressed: float, turn: Rotation, shift: np.ndarray) -> str:
+    """The rocker of the valve train on a cam at rest, or a stop: as deep in it as it is above the valve."""
+    places = {"o": (0, 0, 0), "top": (0, 0.027, 0), "pivot": (0.03, 0.03, 0), "pad": (0.06, 0.03, 0)}
+    places["valve"] = (0.06, 0.022 - pressed, 0)
+    axes = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1), "down": (0, -1, 0), "back": (0, 0, -1)}
+    vectors = {name: turn.apply(axis) for name, axis in axes.items()}
+    vectors |= {name: turn.apply(place) + shift for name, place in places.items()}
+    words = {name: " ".join(repr(float(x)) for x in vector) for name, vector in vectors.items()}
+    return f""".NOE
+ I 2 X {{pivot}}
+ I 3 X {{valve}}
+.MCE
+ I 2 HINGE N 0 2 AXIS {{back}}
+ I 3 PRISMATIC N 0 3 AXIS {{down}} K 3D4 SLIDE0 -0.01
+{TOUCHING[below]}
+ I 5 CAM N 2 3 AXIS {{z}} CENTER {{pad}} BASE 0.008 MOTION 360 0 FOLLOWER FLAT $
+   DIRECTION {{down}} K 5D7
+ I 12 INERTIA N 2 J 6D-5
+ I 13 INERTIA N 3 M 0.12
+.SAM TYPE STATIC
+.SUB TF 1 H 1
+.FIN 1
+""".format(base=0.018 + pressed, **words)
+
+
+@pytest.mark.parametrize(("below", "pressed"), [("CAM", 0), ("STOP", 0), ("CAM", 1e-9)])
+def test_rounding_does_not_choose_the_contacts_of_a_start(below: str, pressed: float, tmp_path: Path) -> None:
+    """Where both contacts touch, rounding decided which of them the first tangent had. If only the one below
+    is in it, the valve goes far and the rocker farther. In one of three places it was found turned off,
+    resisted by nothing, touching without force, or pressed into the stop by its own length; or refused."""
+    generator = np.random.default_rng(7)
+    for place in range(15):
+        turn = Rotation.from_rotvec(generator.normal(size=3)) if place else Rotation.identity()
+        shift = 0.05 * generator.normal(size=3) if place else np.zeros(3)
+        found = run(turned_rocker(below, pressed, turn, shift), tmp_path, f"place{place}")
+        assert found["2/ANGLE"][0] == pytest.approx(-1.9977e-4, abs=1e-7), place
+        force = found["4/NORMAL_FORCE" if below == "CAM" else "4/FORCE"][0]
+        assert force == pytest.approx(299.647, rel=1e-5), place

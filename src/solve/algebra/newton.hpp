@@ -26,8 +26,9 @@ struct NewtonRow {
 struct NewtonReport {
   bool converged = false;
   bool singular = false;
-  bool conflict = false;  ///< constraints that were taken to be redundant could not be satisfied
-  bool coupled = false;   ///< all stages of a step were solved together, each with its own tangents (CoupledStages)
+  bool conflict = false;    ///< constraints that were taken to be redundant could not be satisfied
+  bool unresisted = false;  ///< nothing resists some motion of the equilibrium that was found (Statics)
+  bool coupled = false;     ///< all stages of a step were solved together, each with its own tangents (CoupledStages)
   int iterations = 0;
   std::string reason;  ///< why it did not converge, in words
   std::vector<NewtonRow> rows;

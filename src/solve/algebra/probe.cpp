@@ -3,8 +3,40 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace engrane::solve {
+
+namespace {
+
+/// Σ k (g x)² over the constraints k Φ = 0 and the unknowns of a motion x one by one; g = ∂Φ/∂x.
+double stiffness_of_constraints(Assembler& assembler, Mat matrix, Vec motion) {
+  const Numbering& numbering = assembler.numbering();
+  if (numbering.slots() == numbering.motion_slots()) return 0;
+  const std::span<const double> x = assembler.gather(motion);
+  double sum = 0;
+  for (int row = numbering.first_row(); row < numbering.end_row(); ++row) {
+    PetscInt count = 0;
+    const PetscInt* columns = nullptr;
+    const PetscScalar* values = nullptr;
+    check_petsc(MatGetRow(matrix, row, &count, &columns, &values));
+    for (PetscInt at = 0; at < count; ++at) {
+      // of the entries k g of a gradient, its column has all; of half a matrix, its column and its row together
+      int moved = row, constraint = columns[at];
+      if (assembler.half() && numbering.unknown(row).multiplier) std::swap(moved, constraint);
+      if (numbering.unknown(moved).multiplier || !numbering.unknown(constraint).multiplier) continue;
+      const auto multiplier = static_cast<std::size_t>(numbering.unknown(constraint).slot - numbering.motion_slots());
+      if (assembler.released(static_cast<int>(multiplier))) continue;
+      const double steep = values[at] * x[static_cast<std::size_t>(moved)];
+      sum += steep * steep / assembler.scale()[multiplier];
+    }
+    check_petsc(MatRestoreRow(matrix, row, &count, &columns, &values));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, assembler.comm());
+  return sum;
+}
+
+}  // namespace
 
 double probe_value(std::size_t place) {
   constexpr double golden = 0.61803398874989485;
@@ -21,7 +53,7 @@ void fill_probe(Vec vector) {
   check_petsc(VecRestoreArrayWrite(vector, &x));
 }
 
-double relative_stiffness(Mat matrix, Vec motion, Vec load) {
+double relative_stiffness(Assembler& assembler, Mat matrix, Vec motion, Vec load) {
   Owned<Vec> weighted;
   check_petsc(VecDuplicate(motion, weighted.out()));
   check_petsc(MatGetDiagonal(matrix, weighted));
@@ -30,6 +62,7 @@ double relative_stiffness(Mat matrix, Vec motion, Vec load) {
   PetscScalar energy = 0, size = 0;
   check_petsc(VecDot(motion, load, &energy));
   check_petsc(VecDot(motion, weighted, &size));
+  size += stiffness_of_constraints(assembler, matrix, motion);
   return size > 0 ? std::abs(energy) / size : std::numeric_limits<double>::infinity();
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "assembly/petsc.hpp"
+#include "assembly/assembler.hpp"
 
 namespace engrane::solve {
 
@@ -10,8 +10,9 @@ namespace engrane::solve {
 double probe_value(std::size_t place);
 void fill_probe(Vec vector);
 
-/// Stiffness of a motion x beside the diagonal D of the matrix K: |xᵀKx| / xᵀDx, with `load` = K x; infinite if D is zero there.
-/// With fill_probe() for the load, x is all but the softest motion. Collective.
-double relative_stiffness(Mat matrix, Vec motion, Vec load);
+/// Stiffness of a motion x beside what its unknowns meet one by one: |xᵀKx| / Σ d x², with `load` = K x. d is the magnitude of
+/// the diagonal and, for the constraints k Φ = 0 with gradients g, Σ k g²: that of a hinge's turn is zero, or rounding. `matrix`
+/// has the equations of the assembler. With fill_probe() for the load, x is all but the softest motion. Collective.
+double relative_stiffness(Assembler& assembler, Mat matrix, Vec motion, Vec load);
 
 }  // namespace engrane::solve

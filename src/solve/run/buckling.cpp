@@ -130,7 +130,7 @@ class Problem {
     constexpr double doubtful = 1e-13;
     fill_probe(product_);
     factors_.solve(product_, way_);
-    return relative_stiffness(factors_.matrix(), way_, product_) <= doubtful;
+    return relative_stiffness(context_.assembler, factors_.matrix(), way_, product_) <= doubtful;
   }
 
   static PetscErrorCode multiply(Mat shell, Vec x, Vec y) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solve/algebra/probe.hpp"
 #include "solve/constraints/diagnosis.hpp"
@@ -21,6 +22,11 @@ constexpr double longest_continuation = 4;
 constexpr double share_of_first = 0.5;
 /// Allows for derivatives that differ between both polynomials: an error is up to three times what their comparison shows.
 constexpr double safety = 3;
+
+/// Whether a correction turned a node by a radian, or moved it by the lengths around: far beyond what its tangent can tell.
+bool went_far(const NewtonReport& report) {
+  return std::any_of(report.rows.begin(), report.rows.end(), [](const NewtonRow& row) { return row.correction > 1; });
+}
 
 }  // namespace
 
@@ -52,14 +58,14 @@ class Statics::Inside final : public Within {
 
 Statics::Statics(SolverContext& context)
     : Scheme(context),
-      has_contacts_(std::any_of(context.model.parts.begin(), context.model.parts.end(),
-                                [](const Model::Part& part) { return !part.element->layout().switches.empty(); })),
       error_(context.model, context.numbering, context.options),
       path_(points, longest_continuation),
       forces_(points, longest_continuation),
       way_(error_.wanted() ? context.motion.size() : 0, 0.0),
       y_(context.motion.size(), 0.0) {
   *unknowns_.out() = context.assembler.new_vector();
+  for (std::size_t p = 0; p < context.model.parts.size(); ++p)
+    if (!context.model.parts[p].element->layout().switches.empty()) contacts_.push_back(static_cast<int>(p));
   if (std::all_of(context.model.parts.begin(), context.model.parts.end(),
                   [](const Model::Part& part) { return part.element->is_linear(); }))
     context_.newton.keep_one_tangent();
@@ -113,9 +119,7 @@ Outcome Statics::attempt(const Configuration& from, double h, Configuration& to)
 NewtonReport Statics::find(const Configuration& from, double h, Configuration& to, bool predicted) {
   const double begin = from.time;
   const MotionSlots::Origin origin(from);
-  const bool in_place = &to == &from;
-  const std::optional<Configuration> kept = in_place && has_contacts_ ? std::optional(from) : std::nullopt;
-  if (!in_place) to = from;
+  if (&to != &from) to = from;
   to.time = begin + h;
   to.h = h;
   std::vector<double>& y = y_;
@@ -126,17 +130,9 @@ NewtonReport Statics::find(const Configuration& from, double h, Configuration& t
     forces_.at(to.time, h, to.multipliers);
   }
   prescribe_step(begin, begin + h, y);
-  const std::vector<double> prescribed = has_contacts_ ? y : std::vector<double>();
-  NewtonReport report = balance(origin, y, to);
-  if (!report.converged && has_contacts_ && !predicted) {
-    Configuration other = kept ? *kept : from;
-    other.time = to.time;
-    y = prescribed;
-    if (NewtonReport across = balance_across_gaps(origin, y, other); across.converged) {
-      to = std::move(other);
-      report = std::move(across);
-    }
-  }
+  const bool jumps = !contacts_.empty() && !predicted;
+  NewtonReport report = jumps ? balance_contacts(origin, y, to) : resisted_balance(false, origin, y, to);
+  if (report.unresisted && !predicted) throw SolutionFailure(report.reason);
   if (error_.wanted()) {
     tried_time_ = to.time;
     tried_forces_ = to.multipliers;
@@ -276,25 +272,74 @@ NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double>
   if (error_.wanted()) context_.newton.close_next(error_.may_be_open(way_, 1));
   NewtonReport report = solve(unknowns_, {1, 0, 0}, apply, to);
   refuse_half_turns(y, report);
-  if (!report.converged)
-    context_.newton.refuse_last();
-  else if (!resists_ && report.iterations > 0 && context_.assembler.contact_homotopy == 0)
-    require_resistance(to.time);
+  if (!report.converged) context_.newton.refuse_last();
   return report;
 }
 
-void Statics::require_resistance(double time) {
+bool Statics::touches(const Configuration& c) const {
+  // of the terms whose difference is a gap; the same as for events
+  constexpr double rounding = 1e-13;
+  std::vector<Switch> values;
+  for (const int part : contacts_) {
+    const Element& element = *context_.model.parts[static_cast<std::size_t>(part)].element;
+    values.assign(element.layout().switches.size(), {});
+    element.switches(context_.assembler.view(part, c), values);
+    if (std::any_of(values.begin(), values.end(),
+                    [](const Switch& s) { return s.size != 0 && std::abs(s.value) <= rounding * s.size; }))
+      return true;
+  }
+  return false;
+}
+
+void Statics::require_resistance(const Configuration& c, NewtonReport& report) {
   // Measured: at most 1.7e-16 for free motions of 115 meshes, where it is the rounding of pivots; 5e-16 for springs of 1 and 1e15
   // in series and 6e-15 for a beam a million times as long as high, which are solved.
   constexpr double rounding = 1.5 * std::numeric_limits<double>::epsilon();
-  resists_ = true;
-  if (!context_.solver.direct()) return;
+  if (resists_ || !report.converged || report.iterations == 0 || !context_.solver.direct()) return;
+  const bool touching = touches(c);
+  if (!contacts_.empty()) {
+    // the last correction may have closed or opened contacts; those that only touch resist on one side
+    context_.assembler.contact_homotopy = touching ? 1 : 0;
+    context_.assembler.tangent(c, {1, 0, 0});
+    context_.assembler.contact_homotopy = 0;
+  }
+  const std::string what = fmt::format("t = {:.6g}: the stiffness matrix is singular up to rounding", c.time);
+  std::string free;
   Owned<Vec> load, motion;
-  if (!answer_probe(load, motion)) return;
-  if (!(relative_stiffness(context_.assembler.matrix(), motion, load) <= rounding)) return;
-  throw SolutionFailure(explain_null_vector(context_.assembler,
-                                            fmt::format("t = {:.6g}: the stiffness matrix is singular up to rounding", time),
-                                            context_.assembler.gather(motion), Resistance::at_rest));
+  if (!answer_probe(load, motion))
+    free = explain_singular(context_.assembler, what, Resistance::at_rest);
+  else if (relative_stiffness(context_.assembler, context_.assembler.matrix(), motion, load) <= rounding)
+    free = explain_null_vector(context_.assembler, what, context_.assembler.gather(motion), Resistance::at_rest);
+  resists_ = free.empty() && !touching;
+  if (free.empty()) return;
+  report.converged = false;
+  report.unresisted = true;
+  report.reason = std::move(free);
+  context_.newton.refuse_last();
+}
+
+NewtonReport Statics::resisted_balance(bool across_gaps, const MotionSlots::Origin& from, std::span<double> y,
+                                       Configuration& to) {
+  NewtonReport report = across_gaps ? balance_across_gaps(from, y, to) : balance(from, y, to);
+  require_resistance(to, report);
+  return report;
+}
+
+NewtonReport Statics::balance_contacts(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
+  Configuration other = to;
+  std::vector<double> way(y.begin(), y.end());
+  const bool touched = touches(to);
+  NewtonReport report = resisted_balance(touched, from, y, to);
+  const bool doubtful = report.iterations > 0 && (touches(to) || went_far(report));
+  if (report.converged && (touched || !doubtful)) return report;
+  NewtonReport second = resisted_balance(!touched, from, way, other);
+  // if neither finds anything, the reason why the plain iteration does not tells more
+  if (second.converged || (!report.converged && !report.unresisted && (second.unresisted || touched))) {
+    std::copy(way.begin(), way.end(), y.begin());
+    to = std::move(other);
+    report = std::move(second);
+  }
+  return report;
 }
 
 NewtonReport Statics::balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {

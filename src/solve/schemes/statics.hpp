@@ -44,6 +44,12 @@ class Statics : public Scheme {
   NewtonReport balance(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
   /// The same where flanks across a gap have no stiffness towards each other: contacts begin as springs that fade away.
   NewtonReport balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
+  /// One of both, with require_resistance().
+  NewtonReport resisted_balance(bool across_gaps, const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
+  /// The same in the better order. Where contacts only touch at the beginning, rounding decides whether the first tangent has
+  /// their stiffness, and with it how far Newton's iteration goes: they begin as springs. So do contacts where the iteration
+  /// finds nothing, or what nothing resists, or goes far, or ends where some only touch, which it may come to past others.
+  NewtonReport balance_contacts(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
 
   /// Whether Newton's iteration is to be watched for a start in a singular position: where constraints lose their rank, as with
   /// bars in line, the first correction leads to either of two assembly branches, as rounding decides.
@@ -56,13 +62,16 @@ class Statics : public Scheme {
   /// Repeats a step that began in a singular position from the displacements of the last one, which stay on its branch.
   void stay_on_branch(const Configuration& from, double h, NewtonReport& report, Configuration& to);
 
-  /// Throws SolutionFailure if the stiffness matrix is singular up to rounding, which factors need not notice: a structure
-  /// without enough supports. Once in a run, after the first solution.
-  void require_resistance(double time);
+  /// Refuses an equilibrium whose stiffness matrix is singular up to rounding, which factors need not notice: a structure without
+  /// enough supports, or a part that contacts have let go. Once in a run, for the
+  /// first solution in which no contact only touches.
+  void require_resistance(const Configuration& c, NewtonReport& report);
+  /// Whether a contact is closed or open by no more than rounding: a switch (Element::switches) is zero.
+  bool touches(const Configuration& c) const;
 
-  bool has_contacts_;
-  bool resists_ = false;  ///< require_resistance() was passed
-  bool watched_;          ///< may_be_singular()
+  std::vector<int> contacts_;  ///< elements with switches
+  bool resists_ = false;       ///< require_resistance() was passed
+  bool watched_;               ///< may_be_singular()
   /// Size of the solution for the probe at the beginning of the step tried last, and of the last accepted step; 0: unknown.
   double response_ = 0, last_response_ = 0;
   std::vector<double> last_y_;  ///< displacements of the last accepted step, of length last_h_; empty before the first
