@@ -174,10 +174,10 @@ void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, cons
   // −μ(|v_s|) N v_s/|v_s|, with v_s the part of the velocity in the plane with normal n
   const auto drag = [&](const Vec3T<T>& v, const Vec3T<T>& n, const FrictionLaw& law, const T& N) {
     const Vec3T<T> tangential = along_plane(v, n);
-    const T speed_squared = dot(tangential, v);
+    const T speed_squared = dot(tangential, tangential);  // never below 0, as v·tangential may be by rounding
     const T factor = N * law.over_speed(speed_squared, load);
     if (report) {
-      report->friction_power += value_of(factor) * value_of(speed_squared);
+      report->friction_power += value_of(factor) * value_of(dot(tangential, v));
       if (&law == &friction.law && value_of(speed_squared) > report->sliding.squaredNorm())
         for (int k = 0; k < 3; ++k) report->sliding[k] = value_of(tangential[k]);
     }
