@@ -64,7 +64,7 @@ Numbering::Numbering(const Model& model, Partition partition)
     for (std::size_t i = 0; i < layout.scalars.size(); ++i) {
       const int slot = static_cast<int>(node_slots) + scalar++;
       part_slots_.push_back(slot);
-      add({slot, static_cast<int>(p), -1, static_cast<int>(i), false, layout.scalars[i].first_order,
+      add({slot, static_cast<int>(p), -1, static_cast<int>(i), false, layout.scalars[i].signal,
            measure_of(layout.scalars[i], false)});
     }
     for (int m = multiplier - shared; m < multiplier; ++m) part_slots_.push_back(motion_slots_ + m);

@@ -21,7 +21,7 @@ struct Unknown {
   int node = -1;  ///< index of the node that owns it; -1 if an element does
   int item = 0;   ///< component of the node, or index of the element's scalar or multiplier
   bool multiplier = false;
-  bool first_order = false;          ///< see Scalar::first_order
+  bool signal = false;               ///< see Scalar::signal
   Measure measure = Measure::force;  ///< of its equation
 };
 

@@ -58,7 +58,8 @@ struct Channel : Named {
 
 /// An internal unknown of an element.
 struct Scalar : Named {
-  bool first_order = false;  ///< its equation contains its rate but no acceleration, as for the state of a controller
+  /// A signal that commands a force or a moment: its equation is one of signals in the unit of that load, not a balance of loads.
+  bool signal = false;
 };
 
 /// Element results with too many values for channels: stresses at the Gauss points, section forces along a beam.

@@ -176,3 +176,22 @@ def test_the_dial_knows_of_limits(tmp_path: Path) -> None:
     stated = float(re.search(r"estimated error\D+([\d.]+(?:e-\d+)?)", listing)[1])
     print(off, stated)
     assert off < stated < 1e-2
+
+
+@pytest.mark.parametrize("factor", [1e-9, 1e6, 1e9])
+def test_states_have_any_size(factor: float, tmp_path: Path) -> None:
+    """The residual of a state, here a torque, was compared with forces on a node that carries none, and its
+    correction with a radian: with large torques no iteration ended."""
+    text = """.NOE
+ I 1
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1
+ I 2 INERTIA N 1 M {mass} J {inertia}
+ I 3 CONTROLLER IN 1 QUANTITY SPEED REF 10 NUM {gain} DEN 0.2 1 OUT 1
+.SAM TYPE DYNAMIC
+.SUB TF 2 H 0.01
+"""
+    plain = run(text.format(mass=1, inertia=0.02, gain=0.5), tmp_path, "plain")
+    other = run(text.format(mass=factor, inertia=0.02 * factor, gain=0.5 * factor), tmp_path, "other")
+    assert other["3/COMMAND"] / factor == pytest.approx(plain["3/COMMAND"], abs=1e-9)
+    assert "0 failed attempts" in (tmp_path / "other.lst").read_text(encoding="utf-8")

@@ -46,7 +46,7 @@ class Cable final : public TemplatedElement<Cable, 2, 6> {
 
   Energies energies(const State& state) const override {
     const Catenary cable = catenary(state);
-    const Vec3 start = start_tension(cable, state), span = state.nodes[1].x - state.nodes[0].x;
+    const Vec3 start = start_tension(cable, state);
     Energies e;
     e.kinetic = data_.mass * cable.length / 4 * (state.nodes[0].v.squaredNorm() + state.nodes[1].v.squaredNorm());
     if (start.isZero(0)) return e;

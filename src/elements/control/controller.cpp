@@ -155,7 +155,8 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
                               : output.kind == Kind::position ? out.dimension()
                                                               : out.rate_dimension();
     for (int i = 0; i < law.order(); ++i)
-      layout.scalars.push_back({fmt::format("STATE_{}", i + 1), command, "state of the law, filtered"});
+      layout.scalars.push_back(
+          {{fmt::format("STATE_{}", i + 1), command, "state of the law, filtered"}, output.kind == Kind::effort});
     if (output.kind != Kind::effort) {
       layout.scalars.push_back({"POSITION", out.dimension(), "position that the drive imposes"});
       layout.multipliers = {

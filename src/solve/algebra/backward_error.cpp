@@ -43,8 +43,7 @@ constexpr unsigned char signal_rows = 4;
 
 std::vector<unsigned char> kinds_of_rows(const Numbering& numbering) {
   std::vector<unsigned char> kinds;
-  for (const Unknown& u : numbering.unknowns())
-    kinds.push_back(u.first_order ? signal_rows : static_cast<unsigned char>(u.measure));
+  for (const Unknown& u : numbering.unknowns()) kinds.push_back(u.signal ? signal_rows : static_cast<unsigned char>(u.measure));
   return kinds;
 }
 

@@ -67,13 +67,15 @@ void References::find_sources() {
   for (const Unknown& u : assembler_.numbering().unknowns()) {
     std::size_t pair = static_cast<std::size_t>(u.node);
     if (u.part >= 0) {
-      // signals have no unit
-      const bool signal = u.first_order || model.parts[static_cast<std::size_t>(u.part)].nodes.empty();
+      // signals are of the size of some load, and parts without nodes of none
+      const bool signal = u.signal || model.parts[static_cast<std::size_t>(u.part)].nodes.empty();
       pair = signal ? pairs_.size() - 1 : spans_.size() + static_cast<std::size_t>(u.part);
+      if (signal && !u.multiplier) signals_.push_back(sources_.size());
     }
     sources_.push_back({pair, is_rotational(u.measure)});
   }
   lengths_.assign(sources_.size(), 1.0);
+  for (const std::size_t e : signals_) lengths_[e] = least_load;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const Layout& layout = model.parts[p].element->layout();
     if (layout.own_multipliers() == 0 && layout.scalars.empty()) continue;
@@ -103,8 +105,8 @@ void References::find_lengths() {
     return spans_[i] > 0 ? reach_[i] : std::max(reach_[i], model.extent());
   };
   for (std::size_t e = 0; e < lengths_.size(); ++e) {
-    if (sources_[e].turns) continue;
     const Unknown& u = assembler_.numbering().unknown(static_cast<int>(e));
+    if (sources_[e].turns || std::binary_search(signals_.begin(), signals_.end(), e)) continue;
     double length = 0;
     if (u.part < 0)
       length = length_at(u.node);
@@ -112,6 +114,15 @@ void References::find_lengths() {
       for (const int node : model.parts[static_cast<std::size_t>(u.part)].nodes)
         if (node > 0) length = std::max(length, length_at(node));
     lengths_[e] = length > 0 ? length : model.extent();
+  }
+}
+
+void References::find_signals(const Configuration& c) {
+  const Numbering& numbering = assembler_.numbering();
+  const auto first = static_cast<int>(6 * assembler_.model().nodes.size());
+  for (const std::size_t e : signals_) {
+    const int scalar = numbering.unknown(static_cast<int>(e)).slot - first;
+    lengths_[e] = std::max(lengths_[e], std::abs(c.scalars[static_cast<std::size_t>(scalar)]));
   }
 }
 
@@ -136,6 +147,7 @@ double References::peak(int equation) const {
 
 void References::take(const Configuration& c, const std::vector<double>& carried) {
   const Model& model = assembler_.model();
+  find_signals(c);
   Pair all;
   last_force_ = 0;
   for (std::size_t i = 1; i < model.nodes.size(); ++i) {
@@ -196,6 +208,9 @@ void References::save(Snapshot& snapshot) const {
   std::vector<double> loads;
   for (const Pair& pair : pairs_) loads.insert(loads.end(), {pair.force, pair.moment});
   snapshot.put("newton/loads", loads);
+  std::vector<double> sizes;
+  for (const std::size_t e : signals_) sizes.push_back(lengths_[e]);
+  snapshot.put("newton/signals", sizes);
 }
 
 void References::load_memory(const Snapshot& snapshot) {
@@ -211,6 +226,8 @@ void References::load_memory(const Snapshot& snapshot) {
   for (std::size_t i = 0; i + 1 < std::min(before, pairs_.size()); ++i) pairs_[i] = {loads[2 * i], loads[2 * i + 1]};
   everywhere() = {loads[2 * before - 2], loads[2 * before - 1]};
   find_lengths();
+  const std::vector<double>& sizes = snapshot.array("newton/signals");
+  for (std::size_t i = 0; i < std::min(sizes.size(), signals_.size()); ++i) lengths_[signals_[i]] = sizes[i];
 }
 
 }  // namespace engrane::solve

@@ -29,7 +29,8 @@ class References {
   }
   /// Largest force, or moment, so far on the nodes of the element that owns a constraint's equation; at least load().
   double peak(int equation) const;
-  /// Reference length of an unknown's correction, or of a constraint violation; 1 radian for rotations.
+  /// Reference length of an unknown's correction, or of a constraint violation; 1 radian for rotations, the largest value so far
+  /// for signals of controllers.
   double length(int equation) const { return lengths_[static_cast<std::size_t>(equation)]; }
 
   /// Change of an unknown over its reference. The unknown of a multiplier is λ/k, a displacement; its change over the length or
@@ -72,6 +73,7 @@ class References {
   void find_inner();
   void find_sources();
   void find_lengths();
+  void find_signals(const Configuration& c);
   Pair& at_node(int node) { return pairs_[static_cast<std::size_t>(node)]; }
   Pair& at_part(std::size_t part) { return pairs_[spans_.size() + part]; }
   Pair& everywhere() { return pairs_.back(); }
@@ -86,6 +88,7 @@ class References {
   std::vector<Owner> owners_;
   std::vector<char> turns_;                   ///< of each multiplier: whether it is a moment
   std::vector<double> lengths_;               ///< of each equation
+  std::vector<std::size_t> signals_;          ///< equations of signals
   std::vector<double> largest_of_slot_;       ///< largest load so far, by motion slot
   double solved_force_ = 0, last_force_ = 0;  ///< largest at the ends of iterations, and in the last residual
 };

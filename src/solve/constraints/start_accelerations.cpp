@@ -119,7 +119,7 @@ bool Start::overshoots(const Configuration& c, double h) const {
              there = assembler_.slot_residual(moved_along(c, give_of(h)));
   double change = 0, inertia = 0;
   for (const Unknown& u : assembler_.numbering().unknowns()) {
-    if (u.multiplier || u.first_order) continue;
+    if (u.multiplier || u.signal) continue;
     const auto slot = static_cast<std::size_t>(u.slot);
     const double size = u.measure == Measure::moment ? assembler_.model().extent() : 1;
     const double changed = 2 * std::abs(there[slot] - half_way[slot]) / size;
