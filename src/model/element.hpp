@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <limits>
 #include <span>
@@ -110,6 +111,11 @@ struct Switch {
   double value = 0;
   double rate = 0;  ///< its time derivative; NaN: unknown
   double size = 0;  ///< magnitude of the terms that sum to `value`, for judging rounding errors; 0: the switch is inactive
+
+  /// A switch closer to zero than this fraction of its terms is at rounding level.
+  static constexpr double rounding = 1e-13;
+  /// Whether it is active and its sign is rounding.
+  bool unclear() const { return size != 0 && std::abs(value) <= rounding * size; }
 };
 
 /// Dry friction with a sticking phase.

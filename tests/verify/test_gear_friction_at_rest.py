@@ -172,3 +172,66 @@ def test_a_drive_that_begins_gently(tmp_path: Path, teeth: str, start: str, load
     torques = [np.interp(t, r.t, r["2/DRIVE_TORQUE"]) for r in (sticking, smooth)]
     assert np.abs(torques[0] - torques[1]).max() < 1e-2 * np.abs(torques[1]).max()
     assert np.abs(sticking["2/DRIVE_TORQUE"]).max() < 1.2 * np.abs(smooth["2/DRIVE_TORQUE"]).max()
+
+
+PAIR = """.NOE
+ I 1
+ I 2{place_b}
+ I 8
+.MCE
+ I 1 GEAR N 1 2 {gear}
+ I 2 HINGE N 8 1 AXIS {axis_a}
+ I 8 BUSHING N 0 8 K 2E5 2E5 2E5 5E7 5E7 5E7 C {damping}
+ I 9 INERTIA N 8 M 1E-4 J 0.2
+ I 3 HINGE N 0 2 AXIS {axis_b} C 30
+ I 6 INERTIA N 1 M 1E-3 J 0.2
+ I 7 INERTIA N 2 M 2E-3 J 0.9
+ I 10 TORQUE N 1 AXIS {axis_a} V 15000 NF 1
+.FCT
+ I 1 EXPR "{function}"
+.SAM TYPE DYNAMIC
+.SUB TF {end} H 2E-5
+.FIN
+"""
+SPUR = {
+    "gear": "AXIS 0 0 1 KIND SPUR Z 20 33 MN 2 SLIDING PROFILE FRICTION CONST 0.01",
+    "place_b": " X 53 0 0",
+    "axis_a": "0 0 1",
+    "axis_b": "0 0 1",
+    "damping": "5 5 5 500 500 500",
+    "function": "cos(2*PI*60*T)",
+    "end": 0.02,
+}
+HYPOID = {
+    "gear": "AXIS 1 0 0 KIND HYPOID Z 11 43 HELIX 50 -31.5 DIAMETER 170 RINGCONE 70 PLACE 0 1 0 "
+    "FRICTION CONST 0.05",
+    "place_b": "",
+    "axis_a": "1 0 0",
+    "axis_b": "0 0.9940937655242903 0.10852458406157171",
+    "damping": "0 0 0 0 0 0",
+    "function": "cos(2*PI*60*T)",
+    "end": 0.002,
+}
+
+
+UNLOADED = {
+    **SPUR,
+    "gear": "AXIS 0 0 1 Z 20 33 MN 2 HELIX 20 SLIDING PROFILE KM 1E5 CM 20 FRICTION CONST 0.01",
+    "place_b": f" X {53 / np.cos(np.radians(20)):.16g} 0 0",
+    "function": "sin(2*PI*60*T)",
+    "end": 0.01,
+}
+
+
+@pytest.mark.parametrize(
+    "pair", [SPUR, HYPOID, UNLOADED], ids=["spur", "hypoid", "helical, unloaded at first"]
+)
+def test_wheels_that_hardly_any_friction_holds(tmp_path: Path, pair: dict) -> None:
+    """Flanks that begin to move, or turn back, slide at once. Held by profile friction, rigid or unloaded ones
+    would push in a direction that no forces balance; those of a hypoid on a bearing slide with the force that
+    would hold them."""
+    sticking = run(PAIR.format(**pair), tmp_path)
+    smooth = run(PAIR.format(**{**pair, "gear": pair["gear"] + " VREG 0.1"}), tmp_path, name="smooth")
+    for channel in ("2/SPEED", "3/SPEED"):
+        difference = np.interp(sticking.t, smooth.t, smooth[channel]) - sticking[channel]
+        assert np.abs(difference).max() < 5e-4 * np.abs(sticking[channel]).max()

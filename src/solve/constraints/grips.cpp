@@ -196,36 +196,61 @@ void Grips::settle(Configuration& c, bool massless) {
   const std::size_t together = 3 + count_, most = 3 + 20 * count_;
   std::size_t last = 0;  // grip that was changed
   std::vector<Aim> aims(count_);
+  std::vector<bool> cannot_hold(count_);  // while the other grips are as they are
+  const auto changes = [&](std::size_t i) {
+    for (std::size_t k = 0; k < count_; ++k) cannot_hold[k] = cannot_hold[k] && k == i;
+    last = i;
+    aims[i] = Aim();
+  };
   for (std::size_t pass = 0, aimed = 0; pass < most && aimed < most;) {
     write(grips, c);
-    fit(c, massless);
+    const Configuration before = c;
+    try {
+      fit(c, massless);
+    } catch (const SolutionFailure&) {
+      // What sticks pushes in a direction that may let no forces balance.
+      const std::size_t i = first_that_holds(grips, at_rest);
+      if (i == count_ || ++pass == most) throw;
+      c = before;
+      grips[i].state = GripState::slides_towards(turned[i] ? grips[i].speed : Vec3::UnitX(), grips[i].state.held);
+      changes(i);
+      cannot_hold[i] = true;
+      continue;
+    }
     const std::vector<Seen> now = look(c);
     bool changed = false;
     for (std::size_t i = 0; i < count_ && !(changed && pass >= together); ++i) {
       if (!at_rest[i]) continue;
       GripState& state = grips[i].state;
       const Seen& grip = now[i];
+      bool gives_way = false;
       if (state.mode == GripState::holding) {
+        gives_way = overloaded(grip);
         if (pulled(grip))  // its speed was gained only after its event
           state = GripState::slides_towards(grip.acceleration, state.held);
         else if (dragged(grip))
           state = GripState::slides_towards(grip.speed, state.held);
-        else if (overloaded(grip) && grip.redundant && turned[i]) {
+        else if (gives_way && grip.redundant && turned[i]) {
           // a drive turns it back: how it and the drive share the load says nothing of where it slides
           state = GripState::slides_towards(grips[i].speed, state.held);
           at_rest[i] = false;
-        } else if (overloaded(grip))
+        } else if (gives_way)
           state = GripState::slides_towards(-grip.force, state.held);
         else
           continue;
       } else if (!aims[i].tried && grip.acceleration.dot(state.direction) < 0) {
-        state = GripState::holds_at(state.held + grip.place);
+        // Where friction does not act along its coordinate, as that of skew flanks on bearings, what gives way may slide with
+        // the force that held it.
+        if (cannot_hold[i])
+          state = GripState::slides_towards(-state.direction, state.held);
+        else
+          state = GripState::holds_at(state.held + grip.place);
       } else {
         continue;
       }
       changed = true;
-      last = i;
-      aims[i] = Aim();
+      changes(i);
+      cannot_hold[i] = gives_way;
     }
     if (changed) {
       ++pass;
@@ -240,6 +265,12 @@ void Grips::settle(Configuration& c, bool massless) {
       fmt::format("t = {:.6g}: no combination of sticking and sliding contacts satisfies the equations; {} is one of them. "
                   "Check whether contacts jam one another",
                   c.time, name(last)));
+}
+
+std::size_t Grips::first_that_holds(const std::vector<Seen>& grips, const std::vector<bool>& at_rest) {
+  std::size_t i = 0;
+  while (i < grips.size() && !(at_rest[i] && grips[i].state.mode == GripState::holding)) ++i;
+  return i;
 }
 
 std::string Grips::name(std::size_t grip) const {

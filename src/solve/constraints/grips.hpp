@@ -52,6 +52,8 @@ class Grips {
 
   std::vector<Seen> look(const Configuration& c) const;
   void write(const std::vector<Seen>& grips, Configuration& c);
+  /// Index of the first grip at rest that holds; their number if none does.
+  static std::size_t first_that_holds(const std::vector<Seen>& grips, const std::vector<bool>& at_rest);
   /// Adjusts the direction of a grip that begins to slide until it accelerates that way; false once it does.
   static bool aim(Seen& grip, const Seen& now, Aim& aim);
   void fit(Configuration& c, bool massless);

@@ -97,8 +97,8 @@ void Start::verify_balance(const Configuration& c, std::span<const double> unbal
   const double left = std::abs(unbalanced[static_cast<std::size_t>(worst)]), carried = largest[numbering.measure(worst)];
   throw SolutionFailure(fmt::format(
       "no accelerations balance the forces at t = {:.6g}: {} is unbalanced by {:.3g} of {:.3g}. The friction jams: it raises the "
-      "contact forces that cause it faster than they can be balanced. Lengthen the guide (LENGTH), apply the load closer to its "
-      "axis, or reduce the friction",
+      "contact forces that cause it faster than they can be balanced. Reduce the friction, or lengthen the guide of a slider "
+      "(LENGTH) or apply the load closer to its axis",
       c.time, numbering.describe(worst), left, carried));
 }
 

@@ -11,8 +11,7 @@ namespace engrane::solve {
 
 namespace {
 
-/// A switch closer to zero than this fraction of its terms is at rounding level.
-constexpr double rounding = 1e-13;
+constexpr double rounding = Switch::rounding;
 /// An event is located no more sharply than this many times the time in which its switch passes through rounding.
 constexpr double blurs = 4;
 /// More events than this between two multiples of H are chattering, caused by the law and not by the motion.
@@ -106,7 +105,7 @@ std::vector<Event> Switches::take(const Configuration& c) {
       side_[i] = 0;
       continue;
     }
-    const bool unclear = std::abs(now[i].value) <= rounding * now[i].size;
+    const bool unclear = now[i].unclear();
     if (unclear && side_[i] != 0) continue;
     const int side = (unclear ? now[i].rate : now[i].value) < 0 ? -1 : 1;
     if (side_[i] != 0 && side != side_[i]) events.push_back({places_[i].part, places_[i].index, side > 0});
@@ -121,8 +120,8 @@ std::vector<Event> Switches::renew(const Configuration& c) {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Layout& layout = context_.model.parts[static_cast<std::size_t>(places_[i].part)].element->layout();
     if (places_[i].index < static_cast<int>(layout.switches.size() - 2 * layout.grips.size())) continue;
-    const bool unclear = taken_[i].size != 0 && std::abs(taken_[i].value) <= rounding * taken_[i].size;
-    if (side_[i] != 0 && unclear && now[i].size == 0) late.push_back({places_[i].part, places_[i].index, side_[i] < 0});
+    if (side_[i] != 0 && taken_[i].unclear() && now[i].size == 0)
+      late.push_back({places_[i].part, places_[i].index, side_[i] < 0});
     side_[i] = 0;
   }
   take(c);

@@ -277,16 +277,12 @@ NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double>
 }
 
 bool Statics::touches(const Configuration& c) const {
-  // of the terms whose difference is a gap; the same as for events
-  constexpr double rounding = 1e-13;
   std::vector<Switch> values;
   for (const int part : contacts_) {
     const Element& element = *context_.model.parts[static_cast<std::size_t>(part)].element;
     values.assign(element.layout().switches.size(), {});
     element.switches(context_.assembler.view(part, c), values);
-    if (std::any_of(values.begin(), values.end(),
-                    [](const Switch& s) { return s.size != 0 && std::abs(s.value) <= rounding * s.size; }))
-      return true;
+    if (std::any_of(values.begin(), values.end(), [](const Switch& s) { return s.unclear(); })) return true;
   }
   return false;
 }

@@ -63,8 +63,8 @@ class Statics : public Scheme {
   void stay_on_branch(const Configuration& from, double h, NewtonReport& report, Configuration& to);
 
   /// Refuses an equilibrium whose stiffness matrix is singular up to rounding, which factors need not notice: a structure without
-  /// enough supports, or a part that contacts have let go. Once in a run, for the
-  /// first solution in which no contact only touches.
+  /// enough supports, or a part that contacts have let go. Once in a run, for the first solution in which no contact only
+  /// touches.
   void require_resistance(const Configuration& c, NewtonReport& report);
   /// Whether a contact is closed or open by no more than rounding: a switch (Element::switches) is zero.
   bool touches(const Configuration& c) const;

@@ -39,8 +39,14 @@ std::vector<double> Transient::slope_of_accelerations(const Configuration& c, do
     if (softened) soften(later, h, massless);
     return context_.motion.accelerations(later);
   };
-  std::vector<double> slope = context_.motion.accelerations(c);
-  const std::vector<double> middle = after(0.5 * span), end = after(span);
+  std::vector<double> slope = context_.motion.accelerations(c), middle, end;
+  try {
+    middle = after(0.5 * span);
+    end = after(span);
+  } catch (const SolutionFailure&) {  // frictions that hold now need not hold then
+    std::fill(slope.begin(), slope.end(), 0.0);
+    return slope;
+  }
   for (std::size_t i = 0; i < slope.size(); ++i) {
     const double first = 2 * (middle[i] - slope[i]) / span, second = 2 * (end[i] - middle[i]) / span;
     slope[i] = 1.5 * first - 0.5 * second;
