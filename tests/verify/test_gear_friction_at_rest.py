@@ -227,9 +227,9 @@ UNLOADED = {
     "pair", [SPUR, HYPOID, UNLOADED], ids=["spur", "hypoid", "helical, unloaded at first"]
 )
 def test_wheels_that_hardly_any_friction_holds(tmp_path: Path, pair: dict) -> None:
-    """Flanks that begin to move, or turn back, slide at once. Held by profile friction, rigid or unloaded ones
-    would push in a direction that no forces balance; those of a hypoid on a bearing slide with the force that
-    would hold them."""
+    """Flanks that begin to move, or turn back, slide at once. Held by profile friction, rigid or unloaded
+    ones would push in a direction that no forces balance; those of a hypoid on a bearing slide with the force
+    that would hold them."""
     sticking = run(PAIR.format(**pair), tmp_path)
     smooth = run(PAIR.format(**{**pair, "gear": pair["gear"] + " VREG 0.1"}), tmp_path, name="smooth")
     for channel in ("2/SPEED", "3/SPEED"):
