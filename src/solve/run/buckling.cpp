@@ -27,7 +27,7 @@ constexpr double same = 1e-3;
 constexpr double alike = 1e-2;
 constexpr int most_passes = 8;
 constexpr double precision = 1e-10;
-/// Times farther away than this many runs are rounding.
+/// Times farther away than this many runs are rounding, and so are those nearer than that fraction of one.
 constexpr double never = 1e15;
 
 struct Slepc {
@@ -191,6 +191,7 @@ std::vector<BucklingMode> find_buckling(SolverContext& context, const Configurat
     found = problem.solve(count);
     if (found.empty()) return {};
     const double nearest = std::abs(found.front().time);
+    if (nearest * never < context.options.end - context.options.begin) return {};
     if (std::abs(nearest - before) <= same * nearest) break;
     before = nearest;
     step = good_step * nearest;

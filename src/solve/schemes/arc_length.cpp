@@ -33,9 +33,11 @@ constexpr double most_path_change = 0.25;
 constexpr double corner = 1.0 / 128;
 /// Number of steps after which a path without an end of its own is given up.
 constexpr int most_steps = 10000;
-/// Bifurcations are located to this fraction of the least eigenvalue, and nothing to less than that fraction of a step. Nearer
-/// to a bifurcation what Newton's method leaves of forces is a visible displacement along the mode.
+/// Bifurcations are located to this fraction of the least eigenvalue, and nothing to less than that fraction of a step.
 constexpr double sharp = 1e-4, narrow = 1e-9;
+/// A step ends this fraction of it behind a bifurcation. Nearer, what Newton's method leaves of forces is a visible displacement
+/// along the mode.
+constexpr double passed_by = 2 * sharp;
 /// If there is no solution, the next trial is nearer to the beginning by this fraction of the way.
 constexpr double nearer_by = 1e-3;
 constexpr int most_nearer = 4;
@@ -309,7 +311,11 @@ void ArcLength::find_critical(const Configuration& from, double& h, Configuratio
     first = std::abs(least_mode().eigenvalue);
     if (!examine(to, &here_, there)) return;  // the factors are of the end again
   }
+  const Configuration end = to;
+  const Point at_end = there;
+  const double whole = h;
   const Bracket bracket = locate(from, h, to, there, first, limit ? narrow : sharp, value);
+  const bool behind = !limit && pass(from, end, whole, h, to);
   // the last factors of the search may belong to a failed attempt
   if (!examine(to, &here_, there)) return;
   const Mode mode = least_mode();
@@ -322,12 +328,41 @@ void ArcLength::find_critical(const Configuration& from, double& h, Configuratio
     point.load_time = std::lerp(bracket.before.load_time, bracket.behind.load_time,
                                 bracket.before.value / (bracket.before.value - bracket.behind.value));
   point.before = unstable(bracket.before.point);
-  point.after = unstable(bracket.behind.point);
+  if (!behind) there.negative = bracket.behind.point.negative;
+  point.after = unstable(there);
   point.mode = largest_components(context_.numbering, mode.vector);
-  there.negative = bracket.behind.point.negative;
+  if (!limit) keep_direction(at_end, h / whole, there);
   if (!limit && ++next_bifurcations_ == context_.options.path.branch) point.switched = take_branch(mode, there);
+  if (h < whole || point.switched != 0) next_course_.arrived = false;  // that was beyond it
   next_course_.critical = std::move(point);
-  next_course_.arrived = false;  // that was beyond it
+}
+
+bool ArcLength::pass(const Configuration& from, const Configuration& end, double whole, double& h, Configuration& to) {
+  const double wished = h + passed_by * whole;
+  Configuration behind;
+  Point point;
+  if (wished < whole) {
+    if (!follow(from, wished, behind).converged || !examine(behind, &here_, point) || point.negative == here_.negative)
+      return false;
+    // a last step under given loads has another measure of its length
+    if (!next_course_.arrived || behind.load_time() <= context_.options.end) {
+      h = wished;
+      to = std::move(behind);
+      return true;
+    }
+  }
+  h = whole;
+  to = end;
+  return true;
+}
+
+void ArcLength::keep_direction(const Point& at_end, double part, Point& there) const {
+  for (std::size_t i = 0; i < there.way.size(); ++i) there.way[i] = std::lerp(here_.way[i], at_end.way[i], part);
+  there.load = std::lerp(here_.load, at_end.load, part);
+  const double size = length(there.way) / unit_;
+  if (size == 0) return;
+  there.load /= size;
+  for (double& value : there.way) value /= size;
 }
 
 ArcLength::Mode ArcLength::least_mode() {

@@ -72,8 +72,14 @@ class ArcLength final : public Statics, private Border {
                  const std::function<double(const Configuration&, const Point&)>& value);
   /// What ends the path, as numbers.
   std::vector<double> goal() const;
-  /// Ends a step that passes a critical point at that point.
+  /// Ends a step that passes a critical point at that point; behind it if that is a bifurcation.
   void find_critical(const Configuration& from, double& h, Configuration& to, Point& there);
+  /// Moves a step of h that ends at a bifurcation on behind it, but not beyond where the `whole` step ended; false if nothing is
+  /// found there.
+  bool pass(const Configuration& from, const Configuration& end, double whole, double& h, Configuration& to);
+  /// Sets the direction at a bifurcation, `part` of the way to the end of the step, to one between those at both ends: so near to
+  /// it rounding turns the tangent to the other path.
+  void keep_direction(const Point& at_end, double part, Point& there) const;
   /// Ends a step that passes the deck's goal at that goal.
   void find_goal(const Configuration& from, double& h, Configuration& to, Point& there);
   /// Sets the direction at a bifurcation to the mode; returns the displacement with which the next step begins.
