@@ -13,9 +13,11 @@
 #include <utility>
 #include <vector>
 
+#include "deck/cards/initial_motion.hpp"
 #include "model/pulses.hpp"
 #include "model/solver_options.hpp"
 #include "model/speed_jumps.hpp"
+#include "solve/run/restart_jump.hpp"
 
 namespace engrane::app {
 
@@ -157,26 +159,60 @@ std::optional<Pulse> missed_pulse(const Function& function, const deck::Stepping
   return outside > small * largest ? found : std::nullopt;
 }
 
+/// Whether steps meet jumps of speeds with a force of their own, as those do that do not end there.
+bool has_steps_over_jumps(const Model& model) { return model.commands.analysis.type.is("DYNAMIC") && !has_steps_by_error(model); }
+
+/// "the drive of HINGE 1"
+std::string mover_of(const SpeedJump& jump, const Model& model) {
+  return jump.drive ? fmt::format("the drive of {} {}", jump.drive->type, jump.drive->element->id())
+                    : fmt::format("the support of node {}", model.nodes[static_cast<std::size_t>(jump.node)].id);
+}
+
+/// The warning of a speed that jumps at `time`; `cure` ends with the advice to give TOL.
+Diagnostic speed_warning(const SpeedJump& jump, const Model& model, double time, const std::string& cure) {
+  return {.severity = Severity::warning,
+          .location = jump.drive ? jump.drive->location : Location{},
+          .message = fmt::format("the speed of {} jumps by {:.4g} {} at t = {:.6g}: the {} there is infinite, and that of a step "
+                                 "grows as H falls",
+                                 mover_of(jump, model), jump.change, model.units.label(jump.dimension), time,
+                                 jump.dimension.length == 0 ? "moment" : "force"),
+          .hint = cure + ", or give TOL: such steps end there, and velocities change as in an impact"};
+}
+
 }  // namespace
 
 void warn_of_speed_jumps(const Model& model, Diagnostics& diagnostics) {
+  if (!has_steps_over_jumps(model)) return;
   const deck::SteppingCard& stepping = model.commands.stepping;
-  if (!model.commands.analysis.type.is("DYNAMIC") || has_steps_by_error(model)) return;
   std::set<std::string> told;
   for (const double t : model.joints(stepping.start, stepping.end))
-    if (const auto jump = speed_jump(model, t)) {
-      const std::string what = jump->drive
-                                   ? fmt::format("the drive of {} {}", jump->drive->type, jump->drive->element->id())
-                                   : fmt::format("the support of node {}", model.nodes[static_cast<std::size_t>(jump->node)].id);
-      if (!told.insert(what).second) continue;
-      const bool turns = jump->dimension.length == 0;
-      diagnostics.warning(jump->drive ? jump->drive->location : Location{},
-                          fmt::format("the speed of {} jumps by {:.4g} {} at t = {:.6g}: the {} there is infinite, and that of a "
-                                      "step grows as H falls",
-                                      what, jump->change, model.units.label(jump->dimension), t, turns ? "moment" : "force"),
-                          "round the function off (SPLINE, or STEP of the speed), or give TOL: such steps end there, and "
-                          "velocities change as in an impact");
-    }
+    if (const auto jump = speed_jump(model, t); jump && told.insert(mover_of(*jump, model)).second)
+      diagnostics.add(speed_warning(*jump, model, t, "round the function off (SPLINE, or STEP of the speed)"));
+}
+
+std::optional<Diagnostic> speed_jump_warning(const Model& model, const Snapshot& memory, double time) {
+  if (!has_steps_over_jumps(model)) return {};
+  const auto jump = speed_jump(model, time, solve::load_speeds(model, memory, time));
+  if (!jump) return {};
+  return speed_warning(*jump, model, time, "give a function that begins with the speed of the restart point");
+}
+
+void warn_of_idle_initial_values(const deck::Deck& deck, Diagnostics& diagnostics) {
+  const bool resumes = std::any_of(deck.records.begin(), deck.records.end(), [](const deck::Record& record) {
+    const auto* card = record.get<deck::AnalysisCard>();
+    return card && !card->restart.empty();
+  });
+  if (!resumes) return;
+  for (const deck::Record& record : deck.records) {
+    const auto* card = record.get<deck::InitialMotionCard>();
+    if (!card) continue;
+    const std::string what = "the state comes from the restart point (.SAM RESTART), and " + record.schema->name;
+    const char* cure = "leave the record out, or run from the start without RESTART";
+    if (card->imposed)
+      diagnostics.error(record.where("IMPOSED"), what + " cannot be imposed on it", cure);
+    else
+      diagnostics.warning_once("idle " + record.schema->name, record.location, what + " has no effect", cure);
+  }
 }
 
 void warn_of_short_pulses(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "base/diagnostics.hpp"
+#include "base/snapshot.hpp"
 #include "deck/read/reader.hpp"
 #include "model/model.hpp"
 
@@ -18,5 +21,11 @@ void warn_of_short_pulses(const deck::Deck& deck, const Model& model, Diagnostic
 /// Warns about drives and supports whose speed jumps, which takes an infinite force for an instant, where steps do not end
 /// there. Steps that follow their error pass it as an impact without rebound.
 void warn_of_speed_jumps(const Model& model, Diagnostics& diagnostics);
+
+/// The same of a restart point at `time`, where the motion has had other speeds up to now than the deck imposes from there on.
+std::optional<Diagnostic> speed_jump_warning(const Model& model, const Snapshot& memory, double time);
+
+/// Tells of initial values in a deck that continues another run: an error where they must hold, otherwise a warning.
+void warn_of_idle_initial_values(const deck::Deck& deck, Diagnostics& diagnostics);
 
 }  // namespace engrane::app

@@ -97,6 +97,7 @@ Reading read_deck(const std::string& path, const Wishes& wishes) {
     building.error({}, "the deck `" + file.string() + "` is empty", "docs/guide.md begins with a small one");
   check_targets(reading.deck, reading.model, building);
   if (syntax_good && !building.has_errors()) add_wanted(reading, wishes.results, building);
+  warn_of_idle_initial_values(reading.deck, building);
   if (!building.has_errors()) {
     warn_of_undamped_constraints(reading.deck, reading.model, building);
     warn_of_undamped_beams(reading.deck, reading.model, building);

@@ -10,6 +10,7 @@
 
 #include "app/layout.hpp"
 #include "app/model_json.hpp"
+#include "app/plausibility.hpp"
 #include "app/selection.hpp"
 #include "app/summary.hpp"
 #include "app/terminal.hpp"
@@ -107,6 +108,15 @@ void Writer::resumed(const Resumption& from) {
   marked_ = observer_.not_unique().size();
   results_.mark_not_unique(observer_.not_unique());
   listing_.write(fmt::format("  restarted from {} at t = {:.10g}\n", from.earlier.path(), from.point.time));
+  // of a corner of the function itself the reader has told already
+  const auto is_told = [this](const std::string& message) {
+    const std::vector<Diagnostic>& all = reading_.diagnostics.all();
+    return std::any_of(all.begin(), all.end(), [&](const Diagnostic& one) { return one.message == message; });
+  };
+  if (auto jump = speed_jump_warning(reading_.model, memory, from.point.time); jump && !is_told(jump->message)) {
+    warn(jump->message + "; " + jump->hint);
+    summary_.diagnostics.push_back(std::move(*jump));
+  }
   if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
 }
 

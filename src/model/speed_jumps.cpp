@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "model/element_at_rest.hpp"
@@ -32,64 +33,75 @@ class Rates {
   std::vector<double> phi_, rate_, second_;
 };
 
-/// A speed that a drive or a support imposes, at the number before an instant and at the instant.
+/// A speed that a drive or a support imposes at an instant.
 struct Imposed {
   const Model::Part* drive = nullptr;
   int node = 0;
   Dimension dimension;
-  ValueAndRate before, after;
+  ValueAndRate speed;
 };
 
-/// Calls `visit` with all of them, until it returns true.
-template <class Visit>
-void find_imposed(const Model& model, double time, const Visit& visit) {
-  const double just_before = number_before(time);
+/// All of them, always in the same order.
+std::vector<Imposed> find_imposed(const Model& model, double time) {
+  std::vector<Imposed> all;
   for (const Model::Part& part : model.parts) {
     const auto& multipliers = part.element->layout().multipliers;
     if (std::none_of(multipliers.begin(), multipliers.end(), [](const Multiplier& m) { return m.role == Role::drive; })) continue;
     Rates rates(model, part);
-    const std::vector<ValueAndRate> before = rates.at(just_before), after = rates.at(time);
+    const std::vector<ValueAndRate> speeds = rates.at(time);
     for (std::size_t m = 0; m < multipliers.size(); ++m) {
+      if (multipliers[m].role != Role::drive) continue;
       const bool slides = multipliers[m].dimension.length != 0;
-      if (multipliers[m].role == Role::drive &&
-          visit(Imposed{&part, 0, slides ? dimension::velocity : dimension::angular_velocity, before[m], after[m]}))
-        return;
+      all.push_back({&part, 0, slides ? dimension::velocity : dimension::angular_velocity, speeds[m]});
     }
   }
   for (const Support& s : model.supports) {
     if (!s.function) continue;
-    const Function::Jet f = s.function->at(just_before), g = s.function->at(time);
-    if (visit(Imposed{nullptr,
-                      s.node,
-                      s.component < 3 ? dimension::velocity : dimension::angular_velocity,
-                      {s.value * f.d1, s.value * f.d2},
-                      {s.value * g.d1, s.value * g.d2}}))
-      return;
+    const Function::Jet f = s.function->at(time);
+    const Dimension dimension = s.component < 3 ? dimension::velocity : dimension::angular_velocity;
+    all.push_back({nullptr, s.node, dimension, {s.value * f.d1, s.value * f.d2}});
   }
+  return all;
+}
+
+/// Whether a change of a speed is lost in the rounding of positions within a step. Two formulas of one motion differ by as much.
+bool is_rounding(const Model& model, const Dimension& dimension, double change) {
+  constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+  return std::abs(change) * model.commands.stepping.step <= rounding * (dimension.length != 0 ? model.extent() : 1.0);
 }
 
 }  // namespace
 
-std::optional<SpeedJump> speed_jump(const Model& model, double time) {
+std::vector<ValueAndRate> imposed_speeds(const Model& model, double time) {
+  std::vector<ValueAndRate> speeds;
+  for (const Imposed& one : find_imposed(model, time)) speeds.push_back(one.speed);
+  return speeds;
+}
+
+std::optional<SpeedJump> speed_jump(const Model& model, double time, const std::vector<ValueAndRate>& before) {
   const double way = time - number_before(time);
-  std::optional<SpeedJump> found;
-  find_imposed(model, time, [&](const Imposed& speed) {
-    if (jumps(speed.before, speed.after, way))
-      found = {speed.drive, speed.node, speed.after.value - speed.before.value, speed.dimension};
-    return found.has_value();
-  });
-  return found;
+  const std::vector<Imposed> after = find_imposed(model, time);
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const ValueAndRate &was = before.at(i), &is = after[i].speed;
+    const double change = is.value - was.value;
+    if (jumps(was, is, way) && !is_rounding(model, after[i].dimension, change))
+      return SpeedJump{after[i].drive, after[i].node, change, after[i].dimension};
+  }
+  return {};
+}
+
+std::optional<SpeedJump> speed_jump(const Model& model, double time) {
+  return speed_jump(model, time, imposed_speeds(model, number_before(time)));
 }
 
 bool imposed_acceleration_jumps(const Model& model, double time) {
   constexpr double rounding = 1e-9;
-  bool found = false;
-  find_imposed(model, time, [&](const Imposed& speed) {
-    const double before = speed.before.rate, after = speed.after.rate;
-    found = std::abs(after - before) > rounding * std::max(std::abs(after), std::abs(before));
-    return found;
-  });
-  return found;
+  const std::vector<ValueAndRate> before = imposed_speeds(model, number_before(time)), after = imposed_speeds(model, time);
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (const double was = before[i].rate, is = after[i].rate;
+        std::abs(is - was) > rounding * std::max(std::abs(is), std::abs(was)))
+      return true;
+  return false;
 }
 
 }  // namespace engrane

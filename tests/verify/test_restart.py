@@ -378,6 +378,34 @@ def test_elements_that_are_loads_belong_to_the_model(tmp_path):
     run(tmp_path, "then.dat")
 
 
+def test_initial_values_beside_a_restart(tmp_path):
+    """They were left out without a word, even those that must hold."""
+    run(tmp_path, pendulum(tmp_path, "first", "DYNAMIC"), "--until", "0.5", status=2)
+    for record, status, words in (
+        (
+            "VIT ELEMENT 2 V 3 IMPOSED",
+            1,
+            "error: the state comes from the restart point (.SAM RESTART), and .INI VIT cannot",
+        ),
+        (
+            "VIT ELEMENT 2 V 3",
+            0,
+            "warning: the state comes from the restart point (.SAM RESTART), and .INI VIT has no",
+        ),
+        (
+            "DEP NOEUD 2 C 1 V 0.1",
+            0,
+            "warning: the state comes from the restart point (.SAM RESTART), and .INI DEP has",
+        ),
+    ):
+        deck_name = pendulum(tmp_path, "then", 'DYNAMIC RESTART "first"', load=f".INI\n {record}\n")
+        assert f"then.dat:14:{20 if status else 2}: {words}" in run(tmp_path, deck_name, status=status)
+    # the same deck goes on as it began
+    same = pendulum(tmp_path, "same", "DYNAMIC", load=".INI\n VIT ELEMENT 2 V 3 IMPOSED\n")
+    run(tmp_path, same, "--until", "0.5", status=2)
+    assert run(tmp_path, same, "--restart", "same") == ""
+
+
 def test_a_run_interrupted_beside_a_complete_result_goes_on(tmp_path):
     path = str(deck(tmp_path, "run", end=0.5))
     run(tmp_path, path)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from runs import run, said
+from runs import Run, run, said, solve
 
 CRANK, RADIUS, MASS, INERTIA, ARM = 3.0, 0.4, 2.0, 0.05, 0.15
 CORNER, SPEED = 0.253, 1 / 0.747
@@ -65,3 +65,69 @@ def test_restart_at_the_corner(analysis: str, stepping: str, tmp_path: Path) -> 
     found = run(deck(analysis, stepping), tmp_path, "rest_and_go", options=("--restart", "rest"))
     assert found["run/EXTERNAL_WORK"][-1] == pytest.approx(whole["run/EXTERNAL_WORK"][-1], rel=1e-6)
     assert found["element/3/SPEED"][-1] == pytest.approx(SPEED, rel=1e-6)
+
+
+WHEEL = """.NOE
+ I 1 X 0 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 2 INERTIA N 1 M 1 J 0.01 0.02 0.02
+.FCT
+ I 1 EXPR "{angle}"
+.SAM TYPE {analysis}
+.SUB TF {end} H 1E-3 {stepping}
+.FIN 1
+"""
+
+
+def restarted(folder: Path, before: dict, after: dict, stepping: str = "") -> tuple[dict, Run]:
+    """A wheel whose drive follows another function from t = 0.01 on."""
+    run(WHEEL.format(end=0.01, **{"analysis": "DYNAMIC", "stepping": stepping, **before}), folder, "first")
+    then = WHEEL.format(end=0.02, **{"analysis": "DYNAMIC", "stepping": stepping, **after})
+    return solve(then, folder, "then", "--restart", str(folder / "first"))
+
+
+AT_REST, AWAY = {"analysis": "STATIC", "angle": "0"}, "5*(T-0.01)"
+
+
+@pytest.mark.parametrize("scheme", ["CHUNG", "RADAU"])
+def test_motion_that_begins_at_once_behind_an_equilibrium(scheme: str, tmp_path: Path) -> None:
+    """The drive's function has no corner: it is the restart point that is at rest."""
+    after = {"angle": AWAY, "analysis": f"DYNAMIC SCHEME {scheme}", "stepping": "TOL 1E-5"}
+    told, found = restarted(tmp_path, AT_REST, after)
+    assert told["said"] == ""
+    moving = found.t > 0.01
+    assert found["element/1/SPEED"][moving] == pytest.approx(5, rel=1e-9)
+    assert found["run/EXTERNAL_WORK"][moving] == pytest.approx(0.5 * 0.02 * 5**2, rel=1e-9)
+    assert abs(found["run/ENERGY_ERROR"]).max() < 1e-9
+
+
+def test_said_of_fixed_steps_behind_an_equilibrium(tmp_path: Path) -> None:
+    told, _ = restarted(tmp_path, AT_REST, {"angle": AWAY})
+    text = "the speed of the drive of HINGE 1 jumps by 5 [rad/time] at t = 0.01"
+    assert told["said"].count("jumps by") == 1 and text in told["said"]
+    assert [text in one["message"] for one in told["diagnostics"]] == [True]
+    assert text in (tmp_path / "then.lst").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("stepping", ["", "TOL 1E-5"])
+def test_speeds_of_the_motion_before_count(stepping: str, tmp_path: Path) -> None:
+    """Another formula of the same motion is no jump, although velocities between fixed steps are not quite
+    what the drive imposes; one that begins where the motion is, but stands still there, is."""
+    before = {"angle": "sin(30*T)"}
+    told, found = restarted(tmp_path, before, {"angle": "3*sin(10*T)-4*sin(10*T)**3"}, stepping)
+    assert told["said"] == ""
+    whole = run(WHEEL.format(angle="sin(30*T)", analysis="DYNAMIC", stepping=stepping, end=0.02), tmp_path)
+    assert found["element/1/SPEED"][-1] == pytest.approx(whole["element/1/SPEED"][-1], rel=1e-4)
+    told, found = restarted(tmp_path, before, {"angle": "sin(0.3)"}, stepping)
+    assert ("jumps by -28.66" in told["said"]) == (not stepping)
+    if stepping:
+        assert abs(found["element/1/SPEED"][-1]) < 1e-9
+
+
+def test_speeds_that_differ_by_rounding(tmp_path: Path) -> None:
+    """Both have come to rest: a polynomial to within its rounding."""
+    end = "10*(T/0.01)**3-15*(T/0.01)**4+6*(T/0.01)**5"
+    for before, after in (("1", end), (end, "1")):
+        told, _ = restarted(tmp_path, {"angle": before}, {"angle": after + "+0*T"})
+        assert told["said"] == ""

@@ -384,3 +384,24 @@ def test_gap_of_a_loop_that_its_drive_stretches_after_a_turn(tmp_path):
     ended = engrane(deck, tmp_path, "-q")
     assert ended.returncode == 2
     assert "DISTANCE 3 stays open by 0.04402 m" in ended.stderr
+
+
+def test_initial_values_that_are_missed_by_rounding(tmp_path):
+    """Rotations written back from results: those that the first hinge prevents are rounding errors there."""
+    deck = """
+.NOE
+ I 1 X 0 0 0
+ I 2 X 0 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 K 3
+ I 2 HINGE N 1 2 AXIS 1 0 0 K 2
+ I 3 INERTIA N 1 M 1 J 0.01 0.02 0.015
+ I 4 INERTIA N 2 M 1 J 0.01 0.02 0.015
+.INI
+ DEP NOEUD 1 C 4 5 6 V -1.4e-23 {tilt} 38.197186342098867
+ DEP NOEUD 2 C 4 5 6 V 27.570189221796433 9.5462758787165463 37.386245991668019
+.SAM TYPE DYNAMIC
+.SUB TF 0.01 H 1E-3
+"""
+    assert "was given as" not in engrane(deck.format(tilt=-9e-23), tmp_path, "-q").stderr
+    assert "was given as 0.001 deg" in engrane(deck.format(tilt=1e-3), tmp_path, "-q").stderr

@@ -255,7 +255,9 @@ Schema initial_card(const char* name, Words synonyms, const char* summary, const
       std::string("Values of nodes are a starting guess: where joints or drives do not allow them, the nearest state that they "
                   "allow is taken. With IMPOSED this is an error. The value of a joint (ELEMENT) always holds exactly, or is an "
                   "error: the nodes follow, and joints of which nothing is said ") +
-      (velocity ? "move as the least kinetic energy has it. Several records on a node add up." : "move as little as possible."));
+      (velocity ? "move as the least kinetic energy has it. Several records on a node add up." : "move as little as possible.") +
+      " With `.SAM RESTART` the state comes from the restart point: a warning tells that the values have no effect, with IMPOSED "
+      "an error.");
   add_target(card);
   card.add("ELEMENT", &InitialMotionCard::element, "a joint or SENSOR, whose coordinate has the value V instead of a node")
       .synonyms({"JOINT", "LIAISON"})

@@ -181,7 +181,8 @@ void Start::move_coordinates(Configuration& c, StartReport& report) {
 }
 
 void Start::remark_on_guesses(const Configuration& c, StartReport& report) const {
-  constexpr double kept = 0.01;  // of what was asked for
+  constexpr double kept = 0.01;      // of what was asked for
+  constexpr double rounding = 1e-9;  // over the extent or in radians, below which nothing counts as moved
   const Model& model = assembler_.model();
   std::map<int, double> asked;
   for (const InitialValue& value : model.initial)
@@ -195,7 +196,7 @@ void Start::remark_on_guesses(const Configuration& c, StartReport& report) const
     const bool turn = component >= 3;
     const double now = turn ? rotation_log(c.nodes[i].R)[component - 3] : c.nodes[i].x[component] - model.nodes[i].x[component];
     const double off = std::abs(now - amount) / std::abs(amount);
-    if (off <= worst) continue;
+    if (off <= worst || std::abs(now - amount) <= rounding * (turn ? 1.0 : model.extent())) continue;
     worst = off;
     const double unit = turn ? degree : 1;
     remark = fmt::format(

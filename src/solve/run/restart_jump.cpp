@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "model/coordinate_channels.hpp"
+#include "model/speed_jumps.hpp"
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/diagnosis.hpp"
 
@@ -112,6 +114,22 @@ std::string explain_jump(SolverContext& context, const Configuration& c) {
   return fmt::format("{} is open by {:.4g} {} at t = {:.6g}. {}",
                      numbering.describe(numbering.equation(numbering.motion_slots() + widest)), std::abs(open), unit, c.time,
                      cure);
+}
+
+void save_speeds(const std::vector<ValueAndRate>& speeds, Snapshot& snapshot) {
+  std::vector<double> flat;
+  for (const ValueAndRate& speed : speeds) flat.insert(flat.end(), {speed.value, speed.rate});
+  snapshot.put("runner/speeds", std::move(flat));
+}
+
+std::vector<ValueAndRate> load_speeds(const Model& model, const Snapshot& snapshot, double time) {
+  std::vector<ValueAndRate> speeds = imposed_speeds(model, number_before(time));
+  // missing in files of earlier versions; a support may have another function, or none: then those of the present functions
+  if (!snapshot.has("runner/speeds")) return speeds;
+  const std::vector<double>& flat = snapshot.array("runner/speeds");
+  if (flat.size() != 2 * speeds.size()) return speeds;
+  for (std::size_t i = 0; i < speeds.size(); ++i) speeds[i] = {flat[2 * i], flat[2 * i + 1]};
+  return speeds;
 }
 
 }  // namespace engrane::solve

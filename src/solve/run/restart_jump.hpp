@@ -2,8 +2,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "assembly/configuration.hpp"
+#include "base/snapshot.hpp"
+#include "model/jump.hpp"
+#include "model/model.hpp"
 #include "solve/schemes/solver_context.hpp"
 
 namespace engrane::solve {
@@ -12,5 +16,10 @@ namespace engrane::solve {
 /// are open there; empty if all are closed. A motion cannot be continued from such a place: the first step would make the jump,
 /// with the velocity of the jump over the step. Every rank finds the same.
 std::string explain_jump(SolverContext& context, const Configuration& c);
+
+/// Saves the speeds of drives and supports in the motion up to a restart point, and reads them back. The velocities there cannot
+/// tell: between fixed steps they are only near what is imposed.
+void save_speeds(const std::vector<ValueAndRate>& speeds, Snapshot& snapshot);
+std::vector<ValueAndRate> load_speeds(const Model& model, const Snapshot& snapshot, double time);
 
 }  // namespace engrane::solve

@@ -102,15 +102,18 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   control_.load(snapshot, locator_.switches().sides().size());
   h_ = std::min(snapshot.number("runner/h"), control_.active() ? options_.longest : options_.step);
   step_.number = resumed_at_ = static_cast<int>(snapshot.number("runner/number"));
+  step_.corner = snapshot.number("runner/corner") != 0;
   renewed_ = snapshot.number("runner/renewed") != 0;
   pending_drift_ = snapshot.number("runner/pending_drift");
-  if (snapshot.number("runner/corner") != 0) {
-    scheme_.pass_corner(now_);
-  } else if (control_.active() && scheme_.meets_events() && speed_jump(context_.model, now_.time)) {
-    // the earlier run ended where the speed of a drive jumps: the impulse is yet to come
-    now_.time = number_before(now_.time);
-  }
+  if (step_.corner) scheme_.pass_corner(now_);
+  earlier_speeds_ = load_speeds(context_.model, snapshot, now_.time);
   started_ = true;
+  if (control_.active() && scheme_.meets_events() && speed_jump(context_.model, now_.time, earlier_speeds_)) {
+    // drives and supports go on with other speeds than they have had: the impulse is yet to come
+    const double corner = now_.time;
+    now_.time = number_before(corner);
+    if (!pass_corner(now_.time, corner, true)) return false;
+  }
   return march();
 }
 
@@ -125,6 +128,16 @@ void Runner::save(Snapshot& snapshot) const {
   snapshot.put("runner/renewed", renewed_ ? 1 : 0);
   snapshot.put("runner/pending_drift", pending_drift_);
   snapshot.put("runner/corner", step_.corner ? 1 : 0);
+  save_speeds(speeds_so_far(), snapshot);
+}
+
+std::vector<ValueAndRate> Runner::speeds_so_far() const {
+  if (!earlier_speeds_.empty()) return earlier_speeds_;
+  // the start, and what has passed a corner, have the speeds that follow
+  const bool follows = step_.number == 0 || step_.corner;
+  std::vector<ValueAndRate> speeds = imposed_speeds(context_.model, follows ? now_.time : number_before(now_.time));
+  if (!options_.moves()) std::fill(speeds.begin(), speeds.end(), ValueAndRate{0, 0});
+  return speeds;
 }
 
 bool Runner::over() const { return scheme_.course() ? scheme_.course()->arrived : now_.time >= options_.end; }
@@ -167,10 +180,7 @@ bool Runner::march() {
       if (!there && (corner - now_.time < least || end - corner < least)) continue;
       corner_ = before;
       if (!reach(before)) return false;
-      corner_ = corner;
-      step_.impulse = impulse;
-      if (jumps && !drift(corner - before, corner)) return false;
-      scheme_.pass_corner(now_);
+      if (!pass_corner(before, corner, impulse)) return false;
     }
     corner_.reset();
     return now_.time >= end || reach(end);
@@ -182,6 +192,14 @@ bool Runner::march() {
     const double target = k == steps ? end : begin + static_cast<double>(k) * step;
     if (now_.time < target && !reach(target)) return false;
   }
+  return true;
+}
+
+bool Runner::pass_corner(double before, double corner, bool impulse) {
+  corner_ = corner;
+  step_.impulse = impulse;
+  if (before < corner && !drift(corner - before, corner)) return false;
+  scheme_.pass_corner(now_);
   return true;
 }
 
@@ -349,6 +367,7 @@ void Runner::cut(double size, double shorter, const NewtonReport& report) {
 
 bool Runner::accepted(double size, bool regular, bool solved) {
   ended_ = now_.scalars;
+  earlier_speeds_.clear();
   context_.assembler.commit(now_);
   step_.events.clear();
   if (locator_.active()) step_.events = locator_.switches().take(now_);

@@ -4,7 +4,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "model/jump.hpp"
 #include "solve/run/events.hpp"
 #include "solve/run/step_control.hpp"
 
@@ -56,6 +58,10 @@ class Runner {
  private:
   bool march();
   bool reach(double target);
+  /// Passes a corner of a function of time from `before`, which is the corner itself where nothing jumps.
+  bool pass_corner(double before, double corner, bool impulse);
+  /// Speeds of drives and supports in the motion up to now_, with which what follows has to fit.
+  std::vector<ValueAndRate> speeds_so_far() const;
   /// Advances along the scheme's own path (Scheme::course()).
   bool follow();
   bool over() const;
@@ -91,11 +97,12 @@ class Runner {
   std::vector<double> ended_;  ///< scalars of now_ before whole turns were counted
   double h_;
   bool started_ = false;
-  int resumed_at_ = 0;               ///< number of the step after which the run was resumed
-  bool renewed_ = false;             ///< constraints have been analysed again on the way to the present target
-  std::optional<double> corner_;     ///< corner of a function of time that is being approached
-  std::optional<double> jumped_at_;  ///< end of the last jump of equilibria
-  double pending_drift_ = 0;         ///< time to drift across the event just before which the last step ended
+  int resumed_at_ = 0;                        ///< number of the step after which the run was resumed
+  std::vector<ValueAndRate> earlier_speeds_;  ///< speeds_so_far() when resumed; empty later
+  bool renewed_ = false;                      ///< constraints have been analysed again on the way to the present target
+  std::optional<double> corner_;              ///< corner of a function of time that is being approached
+  std::optional<double> jumped_at_;           ///< end of the last jump of equilibria
+  double pending_drift_ = 0;                  ///< time to drift across the event just before which the last step ended
   StepReport step_;
 };
 
