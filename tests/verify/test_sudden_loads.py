@@ -277,3 +277,30 @@ def test_a_jump_of_a_force_behind_an_event_is_no_slope(tmp_path: Path) -> None:
     text = (ROOT / "decks/mechanisms/geneva_index.dat").read_text(encoding="utf-8").split(".SAM")[0]
     done = run(text + ".SAM TYPE DYNAMIC SCHEME HHT ALPHA 0.1\n.SUB TF 0.012 H 1e-4\n.FIN 1\n", tmp_path)
     assert abs(done["run/ENERGY_ERROR"]).max() < 5e-5  # 2.2e-5
+
+
+def test_the_direction_of_a_model_does_not_decide_what_begins_near_its_equilibrium(tmp_path) -> None:
+    """A mass that a force pushes, and one on a spring along another direction. Largest components of forces
+    were compared: turned, the second began with 10 m/s2 for 60."""
+    deck = """
+.NOE
+ I 1
+ I 2 X {along}
+.MCE
+ I 10 INERTIA N 1 M 1
+ I 20 FORCE N 1 DIR {across} V 100
+ I 30 INERTIA N 2 M 1
+ I 40 SPRING N 0 2 K 1E4 AT 0 0 0
+ I 50 FORCE N 2 DIR {along} V 60
+ I 60 POINT_LINE N 0 2 AXIS {along}
+.SAM TYPE DYNAMIC
+.SUB TF 1 H 0.0447
+.FIN
+"""
+    turned = run(deck.format(along="1 1 1", across="1 0 0"), tmp_path)
+    axes = {"along": f"{3**0.5!r} 0 0", "across": f"{3**-0.5!r} {-(3**-0.5)!r} {-(3**-0.5)!r}"}
+    lined_up = run(deck.format(**axes), tmp_path, name="lined_up")
+    across = np.linalg.norm([turned[f"node/2/A{x}"][0] for x in "XYZ"])
+    assert across == pytest.approx(abs(lined_up["node/2/AX"][0]))
+    way = [turned[f"node/2/U{x}"] for x in "XYZ"]
+    assert np.linalg.norm(way, axis=0) == pytest.approx(np.abs(lined_up["node/2/UX"]), abs=1e-9)

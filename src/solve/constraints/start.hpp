@@ -133,6 +133,9 @@ class Start {
   /// 2 h.
   bool overshoots(const Configuration& c, double h) const;
   Configuration moved_along(const Configuration& c, double give) const;
+  /// Largest force on a node, moment over the extent or force on a scalar, whatever the directions of the axes; not finite if one
+  /// of them is not. `by_slot`: of length numbering().slots().
+  double largest_force(std::span<const double> by_slot) const;
   /// Throws if forces are left that no accelerations balance.
   void verify_balance(const Configuration& c, std::span<const double> unbalanced);
   void note_open(const Configuration& given, StartReport& report);

@@ -110,6 +110,23 @@ Configuration Start::moved_along(const Configuration& c, double give) const {
   return moved;
 }
 
+double Start::largest_force(std::span<const double> by_slot) const {
+  double largest = 0, square = 0;
+  std::size_t group = 0;
+  for (const Unknown& u : assembler_.numbering().unknowns()) {
+    if (u.multiplier || u.signal) continue;
+    const auto slot = static_cast<std::size_t>(u.slot);
+    const std::size_t own = slot < 6 * assembler_.model().nodes.size() ? slot / 3 : slot;
+    if (own != group) square = 0;
+    group = own;
+    const double part = by_slot[slot] / (u.measure == Measure::moment ? assembler_.model().extent() : 1);
+    square += part * part;
+    if (!std::isfinite(square)) return square;
+    largest = std::max(largest, square);
+  }
+  return std::sqrt(largest);
+}
+
 bool Start::overshoots(const Configuration& c, double h) const {
   Configuration still = c;
   motion_.set_accelerations(std::vector<double>(motion_.size(), 0.0), still);
@@ -117,16 +134,13 @@ bool Start::overshoots(const Configuration& c, double h) const {
   // from halfway on: at an event a law may jump, which is no stiffness
   const auto half_way = assembler_.slot_residual(moved_along(c, give_of(h) / 2)),
              there = assembler_.slot_residual(moved_along(c, give_of(h)));
-  double change = 0, inertia = 0;
-  for (const Unknown& u : assembler_.numbering().unknowns()) {
-    if (u.multiplier || u.signal) continue;
-    const auto slot = static_cast<std::size_t>(u.slot);
-    const double size = u.measure == Measure::moment ? assembler_.model().extent() : 1;
-    const double changed = 2 * std::abs(there[slot] - half_way[slot]) / size;
-    if (!std::isfinite(changed)) return true;
-    change = std::max(change, changed);
-    inertia = std::max(inertia, std::abs(resting[slot] - here[slot]) / size);
+  std::vector<double> changed(here.size()), inertial(here.size());
+  for (std::size_t slot = 0; slot < here.size(); ++slot) {
+    changed[slot] = 2 * (there[slot] - half_way[slot]);
+    inertial[slot] = resting[slot] - here[slot];
   }
+  const double change = largest_force(changed), inertia = largest_force(inertial);
+  if (!std::isfinite(change)) return true;
   // along a vibration forces change by ω² h²/4 times M a; steps cannot resolve a period shorter than two of them
   return change > std::numbers::pi * std::numbers::pi / 4 * inertia;
 }

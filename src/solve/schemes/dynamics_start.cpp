@@ -20,6 +20,7 @@ StartReport Dynamics::start(Configuration& c) {
     apply_initial_displacements(context_, c);
     context_.start.assemble(c, report);
   }
+  c = outside_of_steps(std::move(c));  // rates are not those of the turn that led here
   apply_initial_velocities(context_, c);
   context_.start.fit_velocities(c, Assembler::Metric::mass, report);
   MasslessMotions massless(context_.assembler, c);

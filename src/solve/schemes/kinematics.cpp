@@ -17,6 +17,7 @@ StartReport Kinematics::start(Configuration& c) {
   StartReport report;
   apply_initial_displacements(context_, c);
   context_.start.assemble(c, report);
+  c = outside_of_steps(std::move(c));  // rates are not those of the turn that led here
   refuse_free_motion(c);
   apply_initial_velocities(context_, c);
   context_.start.fit_velocities(c, Assembler::Metric::geometric, report);
