@@ -38,13 +38,13 @@ Schedule::Due Instants::show(const std::function<void(double, const Schedule::Du
   for (const double time : times_) {
     if (within_) {
       within_->at(time, c_);
-    } else {  // a drift is so short that nothing changes during it
+    } else {
       c_ = end_;
       c_.time = time;
     }
     const Schedule::Due due = schedule_.beside_even(time) ? Schedule::Due() : schedule_.at(time, even, true, false);
     restart = restart || due.restart;
-    observer_.between(in_space_(c_));
+    observer_.between(in_space_(c_), within_ != nullptr);
     if (due.frame) find_fields(c_);
     take(time, due);
   }

@@ -111,19 +111,19 @@ int Observer::channel(const std::string& owner, const std::string& name) const {
 
 void Observer::observe(const Configuration& c, const Step& step, bool histories, bool fields) {
   last_reactions_ = supports_.at(c);
-  // nothing continues across an event; if it was a drift, the interpolation points of the next step begin at its end
+  // nothing continues across an event; a line leads through a drift, and the points of the next step begin at its end
   const bool inside = !inside_.empty(), begins = step.events > 0 && !inside;
   if (step.events > 0) ledger_.forget();
   ledger_.add(c, last_reactions_, step.impulse);
   keep_inside();
-  if (begins) ends_.clear();
-  if (step.events > 0 && inside) event_ = true;
+  if (step.events > 0) event_ = true;
   events_ += static_cast<double>(step.events);
   if (fields) find_fields(c);
   if (histories || keeps_ends_) evaluate_histories(c, step);
   if (!keeps_ends_) return;
   keep(c.time);
   if (!inside && !begins) steady_ = 0;
+  if (begins) event_ = true;
   if (!step.corner) return;
   event_ = true;
   ledger_.begin_anew();
@@ -151,7 +151,7 @@ void Observer::keep(double time) {
   if (event_ || ends_.empty()) {
     const bool before = std::exchange(event_, false);
     ends_.clear();
-    if (before) ends_.add(end_time_, end_);
+    if (before && !end_.empty()) ends_.add(end_time_, end_);
     steady_ = most_ends;
   }
   int jump = 0;
@@ -209,7 +209,7 @@ void Observer::keep_ends() {
       for (const Named& channel : tables()[t].channels) mark(channel);
 }
 
-void Observer::between(const Configuration& c) {
+void Observer::between(const Configuration& c, bool motion) {
   // all interpolation points are close together, and no angle jumps between them
   const bool smooth = steady_ >= most_ends;
   const std::vector<double>* moved = nullptr;
@@ -222,7 +222,7 @@ void Observer::between(const Configuration& c) {
   ends_.at(c.time, 0, all);
   std::copy_n(all.begin(), values_.size(), values_.begin());
   for (std::size_t i = smooth ? histories_.node_columns() : 0; i < moved->size(); ++i)
-    if (ways_[i].moves) values_[i] = (*moved)[i];
+    if (ways_[i].moves && (motion || !smooth)) values_[i] = (*moved)[i];
   const auto [before, after, part] = ends_.around(c.time);
   const std::vector<double> weights = ends_.weights(c.time, 0);
   for (std::size_t i = 0; i < values_.size(); ++i) {

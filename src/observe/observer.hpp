@@ -48,8 +48,8 @@ class Observer {
   /// come from polynomials through the values observed since the last event (Channel::Course). Angles, velocities and angular
   /// velocities of nodes come from `c`; so do those of elements while an angle may have jumped by a turn. Forces are not
   /// evaluated from `c`: in a stiff element, the interpolation error would dominate. DeterminedChannels are functions of time
-  /// and of the interpolated channels.
-  void between(const Configuration& c);
+  /// and of the interpolated channels. Without `motion` `c` is the end of a drift, and only its time counts.
+  void between(const Configuration& c, bool motion = true);
   /// Sets values() back to those of the last configuration observed.
   void back_to_end();
   /// Computes the fields of a configuration in equilibrium.
