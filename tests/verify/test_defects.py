@@ -26,7 +26,7 @@ REFUSED = {
     "jammed_slider": (2, "The friction jams"),
 }
 SAID = {
-    "initial_angle_of_a_hinge": "was given as 30 deg and is 21.8",
+    "initial_angle_of_a_hinge": "was given as 30 deg and is 25.2",
     "initial_turn_of_a_body": "was given as 5 deg and is 1.6",
     "initial_turn_no_redundancy": "was given as 5 deg and is 1.6",
 }

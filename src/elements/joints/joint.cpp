@@ -498,6 +498,18 @@ std::vector<Coordinate> Joint::coordinates() const {
   return all;
 }
 
+std::vector<Derived> Joint::derived() const {
+  const auto [a, b] = parts_.nodes;
+  constexpr double rounding = 1e-12;  // of places
+  std::vector<Derived> found;
+  const auto add = [&](int node, const Vec3& arm, const char* name) {
+    if (node != 0 && arm.norm() > rounding * parts_.point.norm()) found.push_back({name, arm.norm(), dimension::length});
+  };
+  add(a, parts_.frame.arm_a, "distance of the joint from the first node");
+  add(b, parts_.frame.arm_b, "distance of the joint from the second node");
+  return found;
+}
+
 Drawing Joint::drawing() const {
   const auto [a, b] = parts_.nodes;
   if (parts_.drawn_axis)

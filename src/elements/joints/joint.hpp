@@ -93,6 +93,8 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   double determine(int channel, double time, const Sources& coordinate) const override;
   /// Standard joint types that constrain a subset of the same directions.
   std::vector<Release> releases() const override;
+  /// Lengths of the arms.
+  std::vector<Derived> derived() const override;
   Drawing drawing() const override;
 
   /// The free coordinates.

@@ -37,6 +37,9 @@ constexpr std::size_t points_of_guess = 4;
 /// Fraction of the tolerance of a step that the iteration may leave.
 constexpr double share_of_iteration = 0.02;
 constexpr double longest_growth = 3;
+/// An error of velocities counts this much beside one of displacements over the length of the step, and in full in the first
+/// step after an event: what it excites passes unseen below steps of many of its periods, but not the speed that it has.
+constexpr double weight_of_speeds = 0.15, weight_after_event = 1;
 /// Steps that differ by less than this fraction use the same matrices.
 constexpr double same = 1e-6;
 /// Corrections that balance an instant within a step: 2 to 4 with matrices of its place, more with earlier ones.
@@ -439,15 +442,23 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
 }
 
 std::optional<double> Radau::local_error(const Configuration& from, double h, const Configuration& to) {
-  const auto v0 = context_.motion.velocities(from);
+  const auto v0 = context_.motion.velocities(from), a0 = context_.motion.accelerations(from);
   error_.take(v0);
-  std::vector<double> rates(v0.size());
-  for (std::size_t slot = 0; slot < rates.size(); ++slot) {
-    rates[slot] = collocation_.embedded_first * v0[slot];
-    for (std::size_t i = 0; i < now_.y.size(); ++i)
-      rates[slot] += collocation_.embedded[static_cast<Eigen::Index>(i)] * now_.y[i][slot] / h;
+  const double weight = accelerations_.points() == 1 ? weight_after_event : weight_of_speeds;
+  std::vector<double> places(v0.size()), speeds(v0.size());
+  for (std::size_t slot = 0; slot < v0.size(); ++slot) {
+    places[slot] = collocation_.embedded_first * v0[slot];
+    speeds[slot] = collocation_.embedded_first * a0[slot] * h;
+    for (std::size_t i = 0; i < now_.y.size(); ++i) {
+      const double part = collocation_.embedded[static_cast<Eigen::Index>(i)];
+      places[slot] += part * now_.y[i][slot] / h;
+      speeds[slot] += part * (now_.v[i][slot] - v0[slot]);
+    }
+    speeds[slot] *= weight;
   }
-  return error_.over_tolerance(rates, context_.motion.velocities(to), h, StepError::known + weight_of_places_ * open_);
+  const auto v = context_.motion.velocities(to);
+  const double open = StepError::known + weight_of_places_ * open_;
+  return std::max(error_.over_tolerance(places, v, h, open), error_.over_tolerance(speeds, v, h, open));
 }
 
 bool Radau::restore_balance(Configuration& c) {
