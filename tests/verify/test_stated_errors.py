@@ -204,8 +204,8 @@ def test_friction_has_a_corner_where_its_load_passes_zero(
 def test_the_order_of_errors_is_that_of_the_runs(
     setting: str, tmp_path: Path, truth_of: Callable[..., Run]
 ) -> None:
-    """Axial vibrations of the beam fall with order 2 in the steps: 9e-4 was stated, and true were 6e-3. Neither
-    run resolves them all: 0.3 to 0.8 of the error is stated, as rounding has it."""
+    """Axial vibrations of the beam fall with order 2 in the steps: 9e-4 was stated, and true were 6e-3.
+    Neither run resolves them all: 0.3 to 0.8 of the error is stated, as rounding has it."""
     found, result = solve_by(BEAM, f"ACCURACY {setting}", tmp_path)
     channels = ("1/NORMAL_FORCE_B", "2/NORMAL_FORCE_A", "node/2/AX")
     expect_honest(found, result, truth_of(BEAM, "1D-8"), channels, least=0.2)
