@@ -110,10 +110,12 @@ std::string jump_remark(const SolverContext& context, const References& referenc
   // what cannot be deformed does not snap: drives that turn far within a step are all that the works differ by
   if (balance.handled() <= small * jump.lost) return {};
   if (jump.lost <= small * balance.handled() || counts_as_none(jump.lost, context, references)) return {};
+  const std::string begin = fmt::format("{:.6g}", jump.begin), end = fmt::format("{:.6g}", jump.end);
   return fmt::format(
-      "between t = {:.6g} and {:.6g} the structure snapped to a distant equilibrium: {:.3g} {} of energy went into a motion that "
-      "statics leave out. Smaller steps H show at which load; .PATH follows the equilibria in between, TYPE DYNAMIC the motion",
-      jump.begin, jump.end, jump.lost, context.model.units.label(dimension::energy));
+      "{} the structure snapped to a distant equilibrium: {:.3g} {} of energy went into a motion that statics leave out. {}.PATH "
+      "follows the equilibria in between, TYPE DYNAMIC the motion",
+      begin == end ? "at t = " + begin : fmt::format("between t = {} and {}", begin, end), jump.lost,
+      context.model.units.label(dimension::energy), begin == end ? "" : "Smaller steps H show at which load; ");
 }
 
 /// A warning where a run that has come to its end has lost or won more energy than results should; empty where it has not.

@@ -17,8 +17,8 @@ Instants::Instants(Schedule& schedule, observe::Observer& observer, InSpace in_s
 }
 
 void Instants::observe_inside(bool work) {
-  // an event, as a friction that gives way, may have changed the accelerations at the end of the step
-  if (!within_ || (times_.empty() && (!work || !step_.events.empty()))) return;
+  // an event may have changed the accelerations at the end of the step, and a friction the law that balances forces
+  if (!within_ || step_.settled || (times_.empty() && (!work || !step_.events.empty()))) return;
   const double begin = within_->from().time;
   // in general the error of the second derivatives of the motion is h⁴ times its sixth derivative, but not at these points
   for (const double part : observe::lobatto_points) {
@@ -57,7 +57,7 @@ Schedule::Due Instants::show(const std::function<void(double, const Schedule::Du
 
 void Instants::find_fields(const Configuration& c) {
   Configuration balanced = c;
-  if (!within_ || within_->balance(balanced)) {
+  if (!within_ || (!step_.settled && within_->balance(balanced))) {
     observer_.find_fields(in_space_(balanced));
     return;
   }

@@ -10,7 +10,7 @@ namespace engrane::app {
 namespace {
 
 /// Tolerance on even instants, as a fraction of their interval.
-constexpr double on_time = 1e-6;
+constexpr double on_time = 1e-9;
 
 }  // namespace
 

@@ -44,19 +44,26 @@ constexpr std::size_t most_joints = 100;
 /// digits.
 constexpr double rounding = 1e-12;
 
-/// Diagonal of the bounding box of the nodes that elements use, excluding the ground; 0 if it is only rounding.
+/// Twice the largest distance of a node that elements use from the mean of them all, excluding the ground; 0 if it is only
+/// rounding. It does not depend on the direction of the axes.
 double size_of_nodes(const Model& model) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const Model::Part& part : model.parts)
-    for (const int node : part.nodes) {
-      if (node <= 0) continue;
-      const Vec3& x = model.nodes[static_cast<std::size_t>(node)].x;
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-  const double size = (high - low).norm();  // infinite when no node is used
-  const double away = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
-  return std::isfinite(size) && size > rounding * away ? size : 0;
+  const auto of_each = [&model](auto&& with) {
+    for (const Model::Part& part : model.parts)
+      for (const int node : part.nodes)
+        if (node > 0) with(model.nodes[static_cast<std::size_t>(node)].x);
+  };
+  // The mean is taken from one of the nodes, so that a model far from the origin loses no digits in the sum.
+  double count = 0, away = 0, farthest = 0;
+  Vec3 one = Vec3::Zero(), sum = Vec3::Zero();
+  of_each([&](const Vec3& x) {
+    if (count == 0) one = x;
+    ++count;
+    sum += x - one;
+    away = std::max(away, x.norm());
+  });
+  const Vec3 mean = sum / std::max(count, 1.0);
+  of_each([&](const Vec3& x) { farthest = std::max(farthest, (x - one - mean).norm()); });
+  return 2 * farthest > rounding * away ? 2 * farthest : 0;
 }
 
 /// Radius of gyration of a body about its first node; 0 if the element has no mass there.

@@ -108,9 +108,10 @@ struct Model {
   std::vector<double> joints(double from, double to) const;
   /// Whether any function of time jumps from the number before `time` to `time` itself.
   bool jumps_at(double time) const;
-  /// Reference length for tolerances: diagonal of the bounding box of the nodes that elements use. If all of them coincide up
-  /// to rounding, the largest length known to an element (radius of gyration, pitch radius, natural length). Limits of stops
-  /// may never be reached and count only without such a length: the least that is not zero, if below 1. Otherwise 1.
+  /// Reference length for tolerances: diameter of the sphere around the mean of the nodes that elements use, each counted once
+  /// for every element, that reaches the farthest. If all of them coincide up to rounding, the largest length known to an element
+  /// (radius of gyration, pitch radius, natural length). Limits of stops may never be reached and count only without such a
+  /// length: the least that is not zero, if below 1. Otherwise 1.
   double extent() const { return extent_; }
   /// Computes the extent; build_model() calls it.
   void measure();

@@ -214,11 +214,21 @@ def test_pressures_and_temperatures_may_change(tmp_path):
             expected = fresh.history(channel)[1][-1]
             assert abs(expected) > 1e-3
             assert rest.history(channel)[1][-1] == pytest.approx(expected, rel=1e-10)
-    wild = after | {"sam": 'RESTART "first"', "edge": 5, "top": -3}
-    (tmp_path / "wild.dat").write_text(CELL.format(**wild), encoding="utf-8")
-    assert "cell 1 is turned inside out" in run(tmp_path, "wild.dat", status=2)
+    wild = after | {"edge": 5, "top": -3}  # too far for Newton's iteration from the earlier equilibrium
+    for name, sam in (("wild", 'RESTART "first"'), ("near", "")):
+        (tmp_path / f"{name}.dat").write_text(CELL.format(**wild | {"sam": sam}), encoding="utf-8")
+        run(tmp_path, f"{name}.dat")
+    with Results(tmp_path / "near.h5") as near, Results(tmp_path / "wild.h5") as far:
+        assert far.history("node/3/UY")[1][-1] == pytest.approx(near.history("node/3/UY")[1][-1], rel=1e-8)
     (tmp_path / "rest.dat").write_text(CELL.format(**again | {"face": "1 4"}), encoding="utf-8")
     assert ".CLM ARETE: I was" in run(tmp_path, "rest.dat", status=1)
+
+
+def test_a_cell_that_is_pressed_flat(tmp_path):
+    flat = CELL.format(face="1 2", edge=0, top=0, warmth=0, sam="", end=1)
+    flat = flat.replace(".CLM\n", '.FCT\n I 1 EXPR "T"\n.CLM\n DEP NOEUD 3 4 C 2 V -1.2 NF 1\n')
+    (tmp_path / "flat.dat").write_text(flat, encoding="utf-8")
+    assert "cell 1 is turned inside out" in run(tmp_path, "flat.dat", status=2)
 
 
 PENDULUM = """.NOE

@@ -261,12 +261,15 @@ bool Runner::reach(double target) {
       jumps = true;
     }
     const double error = outcome.error.value_or(0);
-    if (control_.active() && found.kind != Kind::drift && !(error <= 1) && !jumps) jumps = jumps_at(size, error);
     if (control_.active() && found.kind != Kind::drift && !(error <= 1) && !jumps) {
-      NewtonReport inaccurate = report;
-      inaccurate.reason = fmt::format("the step's error is {:.3g} times the tolerance TOL", error);
-      cut(size, control_.retry(size, error), inaccurate);
-      continue;
+      const double shorter = control_.retry(size, error);
+      jumps = jumps_at(size, shorter, error);
+      if (!jumps) {
+        NewtonReport inaccurate = report;
+        inaccurate.reason = fmt::format("the step's error is {:.3g} times the tolerance TOL", error);
+        cut(size, shorter, inaccurate);
+        continue;
+      }
     }
     if (found.kind != Kind::drift) {
       if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // avoids rounding accumulated in sums of h
@@ -328,23 +331,30 @@ bool Runner::shortest(double size, double shorter) const {
   return depth_of(size, options_.step) >= most || now_.time + shorter == now_.time;
 }
 
-bool Runner::jumps_at(double size, double error) {
-  return options_.analysis == SolverOptions::Analysis::statics && control_.stays(now_.time, size, error);
+bool Runner::jumps_at(double size, double shorter, double error) {
+  if (options_.analysis != SolverOptions::Analysis::statics) return false;
+  // close to a limit load equilibria move with the root of the load: no step shows how
+  return control_.stays(now_.time, size, error) || shortest(size, shorter);
 }
 
 double Runner::find_beyond(double size, double left, Outcome& outcome) {
   constexpr double longer = 4;
-  if (!control_.active() || options_.analysis != SolverOptions::Analysis::statics || outcome.newton.conflict) return 0;
+  if (options_.analysis != SolverOptions::Analysis::statics || outcome.newton.conflict) return 0;
   // results at multiples of H must not lie within the jump
   const double gone = (now_.time - options_.begin) / options_.step;
   const double most = std::min(left, (std::floor(gone * (1 + 1e-12)) + 1) * options_.step - (now_.time - options_.begin));
   Configuration tried = next_;
-  for (double way = size; way < most;) {
+  Outcome found;
+  // what nothing holds does not snap
+  if (explain_unresisted(context_.assembler, now_, {}).empty()) found = scheme_.snap(now_, size, next_);
+  for (double way = size;;) {
+    if (found.converged()) {
+      outcome = std::move(found);
+      return way;
+    }
+    if (way >= most) break;
     way = longer * way < 0.5 * most ? longer * way : most;
-    Outcome found = scheme_.attempt(now_, way, next_);
-    if (!found.converged()) continue;
-    outcome = std::move(found);
-    return way;
+    found = scheme_.attempt(now_, way, next_);
   }
   next_ = std::move(tried);
   return 0;
@@ -354,7 +364,7 @@ void Runner::pass_jump() {
   jumped_at_ = now_.time;
   scheme_.pass_corner(now_);
   control_.begin_anew();
-  h_ = std::min(options_.step, control_.longest());
+  h_ = control_.active() ? std::min(options_.step, control_.longest()) : options_.step;
 }
 
 void Runner::cut(double size, double shorter, const NewtonReport& report) {
@@ -371,7 +381,8 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   context_.assembler.commit(now_);
   step_.events.clear();
   if (locator_.active()) step_.events = locator_.switches().take(now_);
-  if (scheme_.settle_friction(now_) && locator_.active()) {
+  unsettled_ = scheme_.settle_friction(now_);
+  if (unsettled_ && locator_.active()) {
     const std::vector<Event> late = locator_.switches().renew(now_);
     step_.events.insert(step_.events.end(), late.begin(), late.end());
   }
@@ -385,8 +396,10 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   step_.corner = now_.time == corner_ || jumped_at_ == now_.time;
   step_.course = scheme_.course();
   step_.last = over();
+  step_.settled = unsettled_.has_value();
   step_.within = nullptr;
-  if (control_.active() && solved) step_.within = [this] { return scheme_.within(next_, now_, ended_); };
+  if (control_.active() && solved)
+    step_.within = [this] { return scheme_.within(next_, unsettled_ ? *unsettled_ : now_, ended_); };
   step_.chatter = locator_.chatters();
   const bool go_on = (*observer_)(now_, step_);
   step_.cuts = step_.locating = 0;

@@ -22,6 +22,7 @@ struct StepReport {
   bool regular = true;   ///< false: the step ended for an event, not at a multiple of H or after a cut
   /// Returns the motion within the step; set with a tolerance only, and empty if the step is but a drift across an event.
   std::function<std::unique_ptr<Within>()> within;
+  bool settled = false;       ///< frictions came to rest or gave way at its end: forces within belong to the state before
   int locating = 0;           ///< attempts spent on locating an event before this step
   bool chatter = false;       ///< first time that events are too dense to be located
   std::vector<Event> events;  ///< that happened in this step
@@ -77,10 +78,12 @@ class Runner {
   double next_size(double left) const;
   /// Would a step `shorter` than one of `size` be shorter than CUTS allows?
   bool shortest(double size, double shorter) const;
-  /// Do equilibria jump within a load step whose error is too large?
-  bool jumps_at(double size, double error);
-  /// Where equilibria near now_ have come to an end, as at a limit load, and no shorter step finds one: seeks next_ by steps
-  /// longer than `size`, to the next multiple of H at most. Returns the length of the one that `outcome` is then of, or 0.
+  /// Do equilibria jump within a load step whose error is too large and that would be cut to `shorter`, or does no step that
+  /// CUTS allows tell?
+  bool jumps_at(double size, double shorter, double error);
+  /// Where equilibria near now_ have come to an end, as at a limit load, and no shorter step finds one: seeks next_ where the
+  /// structure would snap to, and by Newton's iteration, with steps longer than `size`, to the next multiple of H at most.
+  /// Returns the length of the one that `outcome` is then of, or 0.
   double find_beyond(double size, double left, Outcome& outcome);
   /// now_ is the end of such a jump: what lies before it says nothing about what follows.
   void pass_jump();
@@ -94,7 +97,8 @@ class Runner {
   StepControl control_;
   const Observer* observer_ = nullptr;
   Configuration now_, next_;
-  std::vector<double> ended_;  ///< scalars of now_ before whole turns were counted
+  std::optional<Configuration> unsettled_;  ///< now_ before frictions came to rest or gave way there
+  std::vector<double> ended_;               ///< scalars of now_ before whole turns were counted
   double h_;
   bool started_ = false;
   int resumed_at_ = 0;                        ///< number of the step after which the run was resumed

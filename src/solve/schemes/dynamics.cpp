@@ -131,12 +131,13 @@ double Dynamics::stiff_drift(const Configuration& c, double h) {
   return worst;
 }
 
-bool Dynamics::settle_friction(Configuration& c) {
-  if (!context_.grips.violated(c)) return false;
+std::optional<Configuration> Dynamics::settle_friction(Configuration& c) {
+  if (!context_.grips.violated(c)) return {};
+  std::optional<Configuration> before = c;
   context_.grips.settle(c, has_massless_.value_or(false));
   context_.solver.reset();  // other constraints, other pivots
   restart_memory(c);
-  return true;
+  return before;
 }
 
 void Dynamics::take_over(Configuration& c) {

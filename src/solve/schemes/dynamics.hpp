@@ -19,7 +19,7 @@ class Dynamics : public Scheme {
   Configuration coast(const Configuration& c, double h) const override { return glide(c, h); }
   void drift(Configuration& c, double h) override;
   double drift_error(const Configuration& c, double h) override;
-  bool settle_friction(Configuration& c) override;
+  std::optional<Configuration> settle_friction(Configuration& c) override;
   void take_over(Configuration& c) override;
   std::unique_ptr<Within> within(const Configuration& from, const Configuration& to, std::span<const double> scalars) override;
   void save(Snapshot& snapshot) const override;

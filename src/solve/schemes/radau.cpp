@@ -428,7 +428,8 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   refuse_half_turns(now_.y.back(), report);
   if (!report.converged) return {std::move(report), {}};
   if (refuse_conflict(to, report)) return {std::move(report), {}};
-  const std::optional<double> error = error_.wanted() ? local_error(from, h, to) : std::nullopt;
+  std::optional<double> error;
+  if (error_.wanted()) error = local_error(from, h, to, report.coupled);
   if (error && !(*error <= 1)) return {std::move(report), error};  // the step will be rejected
   if (constrained() && !complete(to)) {
     report.converged = false;
@@ -441,7 +442,7 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   return {std::move(report), error};
 }
 
-std::optional<double> Radau::local_error(const Configuration& from, double h, const Configuration& to) {
+double Radau::local_error(const Configuration& from, double h, const Configuration& to, bool coupled) {
   const auto v0 = context_.motion.velocities(from), a0 = context_.motion.accelerations(from);
   error_.take(v0);
   const double weight = accelerations_.points() == 1 ? weight_after_event : weight_of_speeds;
@@ -458,7 +459,17 @@ std::optional<double> Radau::local_error(const Configuration& from, double h, co
   }
   const auto v = context_.motion.velocities(to);
   const double open = StepError::known + weight_of_places_ * open_;
-  return std::max(error_.over_tolerance(places, v, h, open), error_.over_tolerance(speeds, v, h, open));
+  const auto judged = [&] {
+    return std::max(error_.over_tolerance(places, v, h, open), error_.over_tolerance(speeds, v, h, open));
+  };
+  const double error = judged();
+  // A step that begins near a singular position knows the velocities and accelerations there only as far as the rounding that
+  // its constraints amplify. Those at its end do not admit this part, and its motion does not have it.
+  if (error > 1 && coupled && constrained()) {
+    renew_balance(to);
+    if (leave_admissible(places) && leave_admissible(speeds)) return judged();
+  }
+  return error;
 }
 
 bool Radau::restore_balance(Configuration& c) {

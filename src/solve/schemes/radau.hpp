@@ -59,8 +59,8 @@ class Radau final : public Dynamics {
   void differentiate(const Configuration& from, double h);
   /// Sets the stages' configurations, evaluates their residuals and compares these with the references.
   Imbalance evaluate(const Configuration& from);
-  /// Outcome::error of a step of h that has converged.
-  std::optional<double> local_error(const Configuration& from, double h, const Configuration& to);
+  /// Outcome::error of a step of h that has converged; `coupled`: with the tangents of each stage.
+  double local_error(const Configuration& from, double h, const Configuration& to, bool coupled);
   /// Rounding of each unknown at a stage, by equation. What drives prescribe is rounded by the way travelled so far, such as an
   /// angle of many turns.
   std::vector<double> rounding_of_stage(std::size_t i) const;
@@ -106,6 +106,9 @@ class Radau final : public Dynamics {
   bool worth(std::span<const double> change, std::span<const double> rates) const;
   /// Evaluates the matrix for this at `c`. Controlled steps keep it as long as the iteration converges fast with it.
   void renew_balance(const Configuration& c);
+  /// Takes out of `rates` (by motion slot) what the constraints where the matrix was evaluated do not admit, by the least change
+  /// in the metric of the masses; false if singular.
+  bool leave_admissible(std::vector<double>& rates);
   /// Finds the change of the motion (by slot) and of multipliers (by equation) for right_side_; false if singular.
   bool solve_balance(std::vector<double>& change, std::span<const double>& found);
   bool has_equation(std::size_t slot) const { return context_.numbering.equation(static_cast<int>(slot)) >= 0; }

@@ -41,6 +41,22 @@ bool Radau::solve_balance(std::vector<double>& change, std::span<const double>& 
   return true;
 }
 
+bool Radau::leave_admissible(std::vector<double>& rates) {
+  // what opens the constraints is that row of the matrix times the rates
+  right_side_.assign(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
+  context_.motion.gather(rates, right_side_);
+  context_.assembler.spread(right_side_, right_);
+  check_petsc(MatMult(balance_matrix_, right_, solution_));
+  const auto opened = context_.assembler.gather(solution_);
+  for (std::size_t e = 0; e < right_side_.size(); ++e)
+    right_side_[e] = context_.numbering.unknown(static_cast<int>(e)).multiplier ? opened[e] : 0;
+  std::vector<double> inadmissible;
+  std::span<const double> found;
+  if (!solve_balance(inadmissible, found)) return false;
+  std::transform(rates.begin(), rates.end(), inadmissible.begin(), rates.begin(), std::minus<>());
+  return true;
+}
+
 bool Radau::worth(std::span<const double> change, std::span<const double> rates) const {
   const double extent = context_.model.extent();
   double changed = 0, most = 0;

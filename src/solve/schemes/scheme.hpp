@@ -51,6 +51,8 @@ class Scheme {
   virtual StartReport start(Configuration& c) = 0;
   /// Tries a step of h from an accepted configuration; `to` is a solution if the outcome is converged.
   virtual Outcome attempt(const Configuration& from, double h, Configuration& to) = 0;
+  /// The same where equilibria near `from` have come to an end: seeks the one to which the structure would snap.
+  virtual Outcome snap(const Configuration& /*from*/, double /*h*/, Configuration& /*to*/) { return {}; }
   /// Accepts the last attempt.
   virtual void accept() {}
   /// Progress after the last accepted step of a scheme that follows a path and knows itself how far; nullptr if time leads from
@@ -79,9 +81,9 @@ class Scheme {
   /// Switches of elements have changed sides in a controlled step or a drift.
   virtual void enter(const std::vector<int>& /*sides*/) {}
 
-  /// Checks an accepted configuration for frictions that come to rest or give way; true if `c` and the memory of the scheme
-  /// have been changed to fit their new state.
-  virtual bool settle_friction(Configuration&) { return false; }
+  /// Checks an accepted configuration for frictions that come to rest or give way. Where they do, changes `c` and the memory of
+  /// the scheme to fit their new state, and returns what `c` was.
+  virtual std::optional<Configuration> settle_friction(Configuration& /*c*/) { return {}; }
   /// Continues from a configuration that another kind of analysis may have left.
   virtual void take_over(Configuration& c) { context_.grips.let_go(c); }
 

@@ -10,6 +10,7 @@
 
 #include "solve/algebra/probe.hpp"
 #include "solve/constraints/diagnosis.hpp"
+#include "solve/schemes/descent.hpp"
 
 namespace engrane::solve {
 
@@ -114,6 +115,20 @@ Outcome Statics::attempt(const Configuration& from, double h, Configuration& to)
   if (path_.points() == 1 && !find_middle(from, h)) return {find(from, h, to, false), {}};
   if (NewtonReport report = find(from, h, to, true); report.converged) return {std::move(report), error(from, h)};
   return {find(from, h, to, false), error(from, h)};
+}
+
+Outcome Statics::snap(const Configuration& from, double h, Configuration& to) {
+  const MotionSlots::Origin origin(from);
+  to = from;
+  to.time = from.time + h;
+  to.h = h;
+  std::fill(y_.begin(), y_.end(), 0.0);
+  prescribe_step(from.time, to.time, y_);
+  if (!Descent(context_).descend(origin, y_, to)) return {};
+  NewtonReport report = resisted_balance(false, origin, y_, to);
+  tried_time_ = to.time;
+  tried_forces_ = to.multipliers;
+  return {std::move(report), error(from, h)};
 }
 
 NewtonReport Statics::find(const Configuration& from, double h, Configuration& to, bool predicted) {

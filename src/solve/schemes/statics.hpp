@@ -18,6 +18,7 @@ class Statics : public Scheme {
 
   StartReport start(Configuration& c) override;
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
+  Outcome snap(const Configuration& from, double h, Configuration& to) override;
   void accept() override;
   int order_of_error() const override { return static_cast<int>(points); }
   void pass_corner(const Configuration& c) override;
