@@ -400,6 +400,7 @@ void Writer::note_critical(const CriticalPoint& point) {
   const bool limit = point.kind == CriticalPoint::Kind::limit;
   std::string text = fmt::format("{} at load time {:.9g}, ", limit ? "limit point" : "bifurcation point", point.load_time);
   text += point.after > point.before ? "stability is lost" : "stability is regained";
+  if (point.after < point.before && !point.counted) text += ", or lost in one more direction";
   if (std::abs(point.after - point.before) > 1)
     text += fmt::format(" in {} directions at once", std::abs(point.after - point.before));
   progress_.note("engrane: " + text);

@@ -148,6 +148,38 @@ def test_follower_force(tmp_path: Path) -> None:
     assert found["run/UNSTABLE"].max() == 0
 
 
+@pytest.mark.parametrize("step", [0.3, 4.0])
+@pytest.mark.parametrize("follower", ["", "FOLLOW"])
+def test_a_strut_beside_a_follower_force(step: float, follower: str, tmp_path: Path) -> None:
+    """A rigid strut of length 1 with a spring of 11 across its tip is pressed by 10 T. The force on
+    another node makes the tangent unsymmetric, from behind the start on; the distance is a single constraint.
+    Stability was told the wrong way round, and nothing was found in the first step."""
+    loads = """ FIX NOEUD 1 C 1 2 3 4 5 6
+ CHA NOEUD 2 C 2 V -10 NF 1
+ CHA NOEUD 5 C 1 V 30 NF 1"""
+    text = f""".NOE
+ I 1 X 0 0 0
+ I 2 X 0 1 0
+ I 5 X 5 0 0
+.MCE
+ I 1 DISTANCE N 0 2 FROM 0 0 0
+ I 2 SPRING N 0 2 K 11 1 9000
+ I 4 BUSHING N 0 5 K 1D3 1D3 1D3 1D3 1D3 1D3
+ I 6 FORCE N 5 DIR 0 1 0 V 1 {follower} NF 1
+{path(loads, ".PATH STEPS 5", end=40, step=step)}
+.FIN
+"""
+    found = run(text, tmp_path)
+    assert critical_points(found)[0] == ("bifurcation", pytest.approx(1.1, rel=1e-6))
+    assert (
+        "bifurcation point at load time 1.1, stability is lost" in found.file.with_suffix(".lst").read_text()
+    )
+    behind = found["run/LOAD_TIME"] > 1.1
+    assert behind.any()
+    assert set(found["run/UNSTABLE"][~behind]) == {0}
+    assert set(found["run/UNSTABLE"][behind]) == {1}
+
+
 def test_lees_frame(tmp_path: Path) -> None:
     """Both limits of the force converge with order 4 to the published ones."""
     errors = []

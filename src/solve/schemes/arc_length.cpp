@@ -85,11 +85,17 @@ double ArcLength::product(std::span<const double> a, std::span<const double> b) 
 double ArcLength::length(std::span<const double> way) const { return std::sqrt(product(way, way)); }
 
 int ArcLength::unstable(const Point& point) const {
-  if (!point.symmetric) return point.negative;
   const std::vector<Unknown>& unknowns = context_.numbering.unknowns();
-  return point.negative - static_cast<int>(std::count_if(unknowns.begin(), unknowns.end(), [this](const Unknown& u) {
-           return u.multiplier && !context_.assembler.released(u.slot - context_.numbering.motion_slots());
-         }));
+  const auto constraints = static_cast<int>(std::count_if(unknowns.begin(), unknowns.end(), [this](const Unknown& u) {
+    return u.multiplier && !context_.assembler.released(u.slot - context_.numbering.motion_slots());
+  }));
+  // each of them turns the sign of the determinant
+  return point.symmetric ? point.negative - constraints : (point.negative + constraints) % 2;
+}
+
+int ArcLength::turned(const Point& a, const Point& b) const {
+  if (a.symmetric == b.symmetric) return std::abs(a.negative - b.negative);
+  return std::abs(unstable(a) - unstable(b)) % 2;
 }
 
 bool ArcLength::examine(const Configuration& c, const Point* before, Point& point) {
@@ -295,14 +301,14 @@ ArcLength::Bracket ArcLength::locate(const Configuration& from, double& h, Confi
 }
 
 void ArcLength::find_critical(const Configuration& from, double& h, Configuration& to, Point& there) {
-  if (there.negative == here_.negative || there.symmetric != here_.symmetric) return;
-  const bool limit = across(here_.load, there.load) && std::abs(there.negative - here_.negative) == 1;
-  const int before = here_.negative;
+  const int turns = turned(here_, there);
+  if (turns == 0) return;
+  const bool limit = across(here_.load, there.load) && turns == 1;
   const auto value = [&](const Configuration&, const Point& point) {
     if (limit) return point.load;
     // the least eigenvalue, with a sign for the side
     const double size = std::abs(least_mode().eigenvalue);
-    return point.negative == before ? size : -size;
+    return turned(here_, point) == 0 ? size : -size;
   };
   double first = here_.load;
   if (!limit) {
@@ -328,7 +334,11 @@ void ArcLength::find_critical(const Configuration& from, double& h, Configuratio
     point.load_time = std::lerp(bracket.before.load_time, bracket.behind.load_time,
                                 bracket.before.value / (bracket.before.value - bracket.behind.value));
   point.before = unstable(bracket.before.point);
-  if (!behind) there.negative = bracket.behind.point.negative;
+  point.counted = bracket.before.point.symmetric;
+  if (!behind) {
+    there.negative = bracket.behind.point.negative;
+    there.symmetric = bracket.behind.point.symmetric;
+  }
   point.after = unstable(there);
   point.mode = largest_components(context_.numbering, mode.vector);
   if (!limit) keep_direction(at_end, h / whole, there);
@@ -342,8 +352,7 @@ bool ArcLength::pass(const Configuration& from, const Configuration& end, double
   Configuration behind;
   Point point;
   if (wished < whole) {
-    if (!follow(from, wished, behind).converged || !examine(behind, &here_, point) || point.negative == here_.negative)
-      return false;
+    if (!follow(from, wished, behind).converged || !examine(behind, &here_, point) || turned(here_, point) == 0) return false;
     // a last step under given loads has another measure of its length
     if (!next_course_.arrived || behind.load_time() <= context_.options.end) {
       h = wished;

@@ -86,6 +86,8 @@ class ArcLength final : public Statics, private Border {
   double take_branch(const Mode& mode, Point& there);
   /// Number of directions in which the equilibrium is unstable; of an unsymmetric tangent 1 if the number is odd, else 0.
   int unstable(const Point& point) const;
+  /// Number of directions by which the stability of two points differs; its parity where the tangent of only one is symmetric.
+  int turned(const Point& a, const Point& b) const;
 
   TangentFactors factors_;
   LoadDerivative load_derivative_;

@@ -15,6 +15,7 @@ struct CriticalPoint {
   Kind kind = Kind::limit;
   double load_time = 0;
   int before = 0, after = 0;  ///< number of unstable directions before and behind it
+  bool counted = true;        ///< false: the tangent was unsymmetric before it, and 1 stands for any odd number
   std::string mode;           ///< the motion that nothing resists: its largest components by name
   double switched = 0;        ///< displacement with which the path goes on along the mode; 0: it does not
 };
