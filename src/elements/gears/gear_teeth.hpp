@@ -71,7 +71,7 @@ struct ToothLaw {
   };
   enum class Damping {
     always,  ///< c_m du_m/dt whether or not the teeth touch: the paper's law
-    contact  ///< only in contact, and limited so that the flank does not pull
+    contact  ///< c_m dx/dt, of the approach with x_err, only in contact, and limited so that the flank does not pull
   };
   double stiffness = 0;  ///< k_m
   IsoStiffness iso;      ///< from which k_m was computed, with STIFF ISO; otherwise 0
@@ -132,9 +132,9 @@ struct ToothLaw {
   static constexpr double limit_rounding = 0.1;
 
   /// Damping force, in addition to the elastic force. The flanks are pressed in by `front` and `back`, with the elastic forces
-  /// `elastic_front` and `elastic_back`. With Damping::contact the total force keeps the sign of the flank in contact: where
-  /// c_m du_m/dt alone would make it pull, the damping cancels the elastic force and no more. The limit is rounded between 90
-  /// and 110 per cent of the elastic force, so that the law has a continuous slope.
+  /// `elastic_front` and `elastic_back`, and approach at `rate`. With Damping::contact the total force keeps the sign of the
+  /// flank in contact: where c_m `rate` alone would make it pull, the damping cancels the elastic force and no more. The limit is
+  /// rounded between 90 and 110 per cent of the elastic force, so that the law has a continuous slope.
   template <class T>
   T damping_force(const T& front, const T& back, const T& elastic_front, const T& elastic_back, const T& rate) const {
     if (mode == Damping::always) return damping * rate;

@@ -170,7 +170,7 @@ void add_teeth_keywords(deck::Card<Data>& c, bool rack = false) {
   c.add("DAMP", &TeethData::damping_mode, "when the teeth damp; CONTACT with JEU and ALWAYS without when not given")
       .synonyms({"AMORTISSEMENT"})
       .option({"ALWAYS", {"TOUJOURS"}, "at all times, the paper's law"})
-      .option({"CONTACT", {}, "only while they touch, and never so that they pull"});
+      .option({"CONTACT", {}, "only while they touch, against their approach, and never so that they pull"});
   c.add("ERR", &TeethData::error, "transmission error under static load, along the circumference")
       .synonyms({"ERREUR", "ERROR"})
       .option({"COS", {}, "X: X (1 - cos z_A psi_A)", 1, 1, length})

@@ -75,9 +75,13 @@ std::vector<SwitchNames> ToothContact::switch_names() const {
 }
 
 void ToothContact::switches(const ContactReport& report, const State& state, std::span<Switch> values) const {
-  const double error_a = law_.error.of_a(state.scalars[0], law_.mesh).d1,
-               error_b = law_.error.of_b(state.scalars[1], law_.mesh).d1;
-  const double rate = state.scalar_rates[2] + error_a * state.scalar_rates[0] + error_b * state.scalar_rates[1];
+  const Function::Jet error_a = law_.error.of_a(state.scalars[0], law_.mesh),
+                      error_b = law_.error.of_b(state.scalars[1], law_.mesh);
+  const double turn_a = state.scalar_rates[0], turn_b = state.scalar_rates[1];
+  const double rate = state.scalar_rates[2] + error_a.d1 * turn_a + error_b.d1 * turn_b;
+  const double acceleration = state.scalar_accelerations[2] + error_a.d1 * state.scalar_accelerations[0] +
+                              error_b.d1 * state.scalar_accelerations[1] + error_a.d2 * turn_a * turn_a +
+                              error_b.d2 * turn_b * turn_b;
   const double half = 0.5 * law_.onset;
   // u_m is a difference of angles that are known to the rounding error of a radian
   const double size =
@@ -90,8 +94,7 @@ void ToothContact::switches(const ContactReport& report, const State& state, std
     if (!limits_damping()) continue;
     const double k = report.stiffness_factor * law_.stiffness;
     const Function::Jet flank = law_.flank(pressed);
-    const double damper = sign * law_.damping * state.scalar_rates[2];
-    const double change = sign * law_.damping * state.scalar_accelerations[2];
+    const double damper = law_.damping * speed, change = sign * law_.damping * acceleration;
     for (const double part : {1 - ToothLaw::limit_rounding, 1 + ToothLaw::limit_rounding})
       values[next++] = pressed > half ? Switch{part * k * flank.f + damper, part * k * flank.d1 * speed + change,
                                                k * pressed + std::abs(damper)}

@@ -180,8 +180,9 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
     net += contact_homotopy * law_.stiffness * x;
     potential += 0.5 * contact_homotopy * law_.stiffness * value_of(x) * value_of(x);
   }
-  const T& rate = motion.scalar_rate[2];
-  T damping(0);
+  const T slope_a = compose(psi_a, error_a.d1, error_a.d2, error_a.d3),
+          slope_b = compose(psi_b, error_b.d1, error_b.d2, error_b.d3);
+  T rate = motion.scalar_rate[2], damping(0), damping_by_turn(0);
   if (law_.damping > 0) {
     if (law_.mode == ToothLaw::Damping::always || (law_.backlash == 0 && !options_.running)) {
       damping = law_.damping * rate;
@@ -190,11 +191,14 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
         const Function::Jet f = law_.flank(value_of(depth));
         return T(k * factor * compose(depth, f.f, f.d1, f.d2));
       };
+      // a damper along u_m would lift flanks that the error moves apart
+      rate += slope_a * motion.scalar_rate[0] + slope_b * motion.scalar_rate[1];
       damping = law_.damping_force(front, back, alone(front), alone(back), rate);
+      damping_by_turn = damping;
     }
   }
-  balance.scalar(0, net * compose(psi_a, error_a.d1, error_a.d2, error_a.d3) + by_turn);  // (29)
-  balance.scalar(1, net * compose(psi_b, error_b.d1, error_b.d2, error_b.d3));
+  balance.scalar(0, (net + damping_by_turn) * slope_a + by_turn);  // (29)
+  balance.scalar(1, (net + damping_by_turn) * slope_b);
   balance.scalar(2, net + damping - cos_alpha_ * force_1);
   if (!report) return;
   report->approach = value_of(x);

@@ -32,9 +32,10 @@ nearly mirrors the force (x_err reversed is x_err half a tooth later but for a c
 the wind-up inside x_err keep their sign (amplitude in case A: 5996.0 against 5997.2 lbf).
 
 Contact. Each corner of [[.]] is exact, or rounded over the width `smooth` (engrane's SMOOTH) by a ramp whose
-slope is 3 t^2 - 2 t^3. Damping ALWAYS is the paper's. CONTACT damps only while a flank touches
-(times the ramp's slope) and never makes it pull: where c_m du/dt would exceed the elastic force it takes that
-away and no more, rounded between 90 and 110 %.
+slope is 3 t^2 - 2 t^3. Damping ALWAYS is the paper's. CONTACT damps the approach of the flanks, c_m dx/dt,
+only while a flank touches (times the ramp's slope), and never makes it pull: where it would exceed the
+elastic force it takes that away and no more, rounded between 90 and 110 %. P then includes the damper's
+force.
 
 Start: static equilibrium under T with disc 1 held at angle 0 (x_err taken at the static psi_A, zero in the
 unloaded reference), and all wheels turning at OMEGA.
@@ -71,7 +72,7 @@ class Transmission:
     flexible: bool = False
     b: float = 0.0
     X: float = 0.003937
-    damping: str = "ALWAYS"  # ALWAYS: c_m u' at all times; CONTACT: only on a flank, which never pulls
+    damping: str = "ALWAYS"  # ALWAYS: c_m u' at all times; CONTACT: c_m x' on a flank, which never pulls
     smooth: float = 0.0  # width of the rounded corners, as a fraction of b
     torque: float = 945.8  # T, moment about +z on disc 2; positive: A drives B
     frame: bool = True
@@ -106,7 +107,7 @@ class Transmission:
     def size(self) -> int:
         return 14 if self.flexible else 6
 
-    def tooth(self, x: float, udot: float) -> tuple[float, float]:
+    def tooth(self, x: float, udot: float, xdot: float) -> tuple[float, float]:
         """Elastic force k_m [[x]] and what the damper adds to it."""
         if self.b == 0:
             return self.km * x, self.cm * udot
@@ -115,7 +116,7 @@ class Transmission:
         elastic = self.km * (front[0] - back[0])
         if self.damping == "ALWAYS":
             return elastic, self.cm * udot
-        return elastic, self._flank(front, udot) - self._flank(back, -udot)
+        return elastic, self._flank(front, xdot) - self._flank(back, -xdot)
 
     def _flank(self, touch: tuple[float, float], rate: float) -> float:
         """Damping on one flank; touch: ramp and its slope."""
@@ -147,11 +148,12 @@ class Transmission:
         udot = self.r * (y[h] - y[h + 1] - 2 * fdot)
         a = self.z * psi
         x = u + self.X * (1 - math.cos(a))
-        s, d = self.tooth(x, udot)
-        flank = 1 if x >= 0 else (-1 if x <= -self.b else 0)
         slope = self.X * self.z * math.sin(a)
+        s, d = self.tooth(x, udot, udot + slope * (OMEGA + y[h] - (fdot if self.frame else 0.0)))
+        along = s if self.damping == "ALWAYS" or self.b == 0 else s + d
+        flank = 1 if x >= 0 else (-1 if x <= -self.b else 0)
         return dict(
-            u=u, udot=udot, x=x, psi=psi, F=s + d, P=s * slope, L=length, ex=e[0], ey=e[1], flank=flank
+            u=u, udot=udot, x=x, psi=psi, F=s + d, P=along * slope, L=length, ex=e[0], ey=e[1], flank=flank
         )
 
     def forces(self, t: float, y: np.ndarray) -> list[float]:
@@ -190,7 +192,8 @@ class Transmission:
         guess[:3] = a0, b0, b0 - self.torque / self.kt2
         scale = np.array([self.torque] * 3 + [self.torque / self.r] * (h - 3))
         zero = np.zeros(h)
-        sol = root(lambda q: np.array(self.forces(0.0, np.concatenate([q, zero]))) / scale, guess, tol=1e-14)
+        still = replace(self, xi=0.0)  # nothing turns yet, whose teeth would be damped
+        sol = root(lambda q: np.array(still.forces(0.0, np.concatenate([q, zero]))) / scale, guess, tol=1e-14)
         if np.abs(sol.fun).max() > 1e-9:
             raise RuntimeError(f"no static equilibrium: residual {np.abs(sol.fun).max():.1e}")
         return np.concatenate([sol.x, zero])
