@@ -40,6 +40,8 @@ constexpr double longest_growth = 3;
 /// An error of velocities counts this much beside one of displacements over the length of the step, and in full in the first
 /// step after an event: what it excites passes unseen below steps of many of its periods, but not the speed that it has.
 constexpr double weight_of_speeds = 0.15, weight_after_event = 1;
+/// An error this many times what the step before lets expect may be rounding.
+constexpr double unexpected = 10;
 /// Steps that differ by less than this fraction use the same matrices.
 constexpr double same = 1e-6;
 /// Corrections that balance an instant within a step: 2 to 4 with matrices of its place, more with earlier ones.
@@ -111,6 +113,7 @@ void Radau::forget_motion() {
   accelerations_.clear();
   multipliers_.clear();
   open_ = 0;
+  judged_ = {};
   kept_step_ = 0;
   coupled_ = {};
 }
@@ -430,6 +433,7 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   if (refuse_conflict(to, report)) return {std::move(report), {}};
   std::optional<double> error;
   if (error_.wanted()) error = local_error(from, h, to, report.coupled);
+  tried_.judged = {h, error.value_or(0)};
   if (error && !(*error <= 1)) return {std::move(report), error};  // the step will be rejected
   if (constrained() && !complete(to)) {
     report.converged = false;
@@ -464,8 +468,10 @@ double Radau::local_error(const Configuration& from, double h, const Configurati
   };
   const double error = judged();
   // A step that begins near a singular position knows the velocities and accelerations there only as far as the rounding that
-  // its constraints amplify. Those at its end do not admit this part, and its motion does not have it.
-  if (error > 1 && coupled && constrained()) {
+  // its constraints amplify. Those at its end do not admit this part, and its motion does not have it. It shows as an error that
+  // the step before did not let expect.
+  const double expected = judged_.error * std::pow(h / judged_.step, order_of_error());
+  if (error > 1 && coupled && constrained() && judged_.step > 0 && error > unexpected * expected) {
     renew_balance(to);
     if (leave_admissible(places) && leave_admissible(speeds)) return judged();
   }
@@ -541,6 +547,7 @@ void Radau::accept() {
   accelerations_.add(tried_.time, tried_.a);
   multipliers_.add(tried_.time, tried_.multipliers);
   open_ = tried_.open;
+  judged_ = tried_.judged;
   if (error_.wanted()) kept_.step();
 }
 
@@ -551,6 +558,7 @@ void Radau::save(Snapshot& snapshot) const {
   solver_.save(snapshot);
   snapshot.put("radau/kept_step", kept_step_);
   snapshot.put("radau/open", open_);
+  snapshot.put("radau/judged", {judged_.step, judged_.error});
   snapshot.put("radau/coupled", {coupled_.step, static_cast<double>(coupled_.tries), static_cast<double>(coupled_.left)});
   save_part(kept_, "radau/kept/", snapshot);
   save_part(references_, "radau/", snapshot);
@@ -572,6 +580,7 @@ void Radau::load(const Snapshot& snapshot) {
   balance_kept_ = balance_.load_factors(part_of(snapshot, "radau/balance/"));
   solver_.load(snapshot);
   if (snapshot.has("radau/open")) open_ = snapshot.number("radau/open");  // files of earlier versions lack it
+  if (snapshot.has("radau/judged")) judged_ = {snapshot.array("radau/judged").at(0), snapshot.array("radau/judged").at(1)};
   if (snapshot.has("radau/coupled")) {
     const std::vector<double>& coupled = snapshot.array("radau/coupled");
     coupled_ = {coupled.at(0), static_cast<int>(coupled.at(1)), static_cast<int>(coupled.at(2))};

@@ -40,11 +40,16 @@ class Radau final : public Dynamics {
     std::vector<std::vector<double>> y, v, a;      ///< by motion slot
     std::vector<std::vector<double>> multipliers;  ///< kλ
   };
+  /// A step and the estimate of its error.
+  struct Judged {
+    double step = 0, error = 0;
+  };
   /// State at the end of a step.
   struct End {
     double time = 0;
     std::vector<double> a, multipliers;
     double open = 0;  ///< largest constraint violation, over a length or in radians
+    Judged judged;
   };
   /// When to begin steps with coupled stages: after several steps in a row on which the simplified iteration failed, more and
   /// more of them.
@@ -120,6 +125,7 @@ class Radau final : public Dynamics {
   Stages now_;                                       ///< of the present step
   double weight_of_places_;                          ///< sum of the weights of stages in the embedded formula, by magnitude
   double open_ = 0;                                  ///< End::open of the last accepted step
+  Judged judged_;                                    ///< the last accepted step; step 0: none since the last event
   End tried_;                                        ///< of the last attempt
   std::vector<double> last_change_, change_before_;  ///< the last two corrections of the end of the step, by motion slot
   std::vector<Configuration> configurations_;
