@@ -118,6 +118,7 @@ Outcome Statics::attempt(const Configuration& from, double h, Configuration& to)
 }
 
 Outcome Statics::snap(const Configuration& from, double h, Configuration& to) {
+  if (context_.newton.keeps_one_tangent()) return {};  // a linear model has one equilibrium
   const MotionSlots::Origin origin(from);
   to = from;
   to.time = from.time + h;
