@@ -362,10 +362,11 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
   for (const int equation : held) fixed[static_cast<std::size_t>(equation)] = true;
   for (int row = numbering_.first_row(); row < numbering_.end_row(); ++row) {
     const Unknown& u = numbering_.unknown(row);
+    const double one = u.measure == Measure::force ? 1 / (extent * extent) : 1.0;
     double d = any_released_ && released_equation(row) ? 1.0 : 0.0;
-    if (!u.multiplier && !mass) d = u.part >= 0 ? 1e-12 : u.measure == Measure::force ? 1 / (extent * extent) : 1.0;
+    if (!u.multiplier && !mass) d = u.part >= 0 ? 1e-12 * one : one;
     if (!u.multiplier && mass && inertia[static_cast<std::size_t>(u.slot)] == 0) d = missing[u.measure];
-    if (fixed[static_cast<std::size_t>(row)]) d = 1e10 * (mass && heaviest[u.measure] > 0 ? heaviest[u.measure] : d);
+    if (fixed[static_cast<std::size_t>(row)]) d = 1e10 * (!mass ? one : heaviest[u.measure] > 0 ? heaviest[u.measure] : d);
     sum.add_diagonal(row, d);
   }
   sum.finish();

@@ -99,7 +99,7 @@ def test_results_before_an_event_are_those_of_the_state_before(sample: float, tm
     deck = BREAKING_AWAY.format(tolerance=1e-12).replace(".FIN", f".SAI HISTORY DT {sample}\n.FIN")
     result = run(deck, tmp_path)
     resting = result.t < 0.3 + 1e-12
-    assert np.abs(result["1/SLIDE_SPEED"][resting]).max() == 0
+    assert np.abs(result["1/SLIDE_SPEED"][resting]).max() < 1e-20
     assert np.abs(result["run/ENERGY_ERROR"]).max() < 1e-9 * result["run/DISSIPATED_ENERGY"][-1]
 
 

@@ -32,8 +32,9 @@ StepError::StepError(const Model& model, const Numbering& numbering, const Solve
     const auto slot = static_cast<std::size_t>(u.slot);
     const std::size_t first = slot < nodal ? slot - slot % 3 : slot;
     if (groups_.empty() || groups_.back().first != first)
-      groups_.push_back({first, slot < nodal ? std::size_t{3} : std::size_t{1}, static_cast<std::size_t>(u.measure),
-                         size_of(u, model.extent()), least_motion * size_of(u, model.extent()) / span});
+      groups_.push_back({first, slot < nodal ? std::size_t{3} : std::size_t{1},
+                         u.signal ? signals : static_cast<std::size_t>(u.measure), size_of(u, model.extent()),
+                         least_motion * size_of(u, model.extent()) / span});
     groups_.back().free[slot - first] = true;
   }
   least_.assign(slots, std::numeric_limits<double>::infinity());
@@ -57,7 +58,7 @@ double StepError::range(const Group& group, std::span<const double> velocities) 
 }
 
 std::vector<double> StepError::allowed(std::span<const double> velocities) const {
-  std::array<double, measures> fastest{};
+  std::array<double, kinds> fastest{};
   std::vector<double> scales(groups_.size());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     scales[g] = range(groups_[g], velocities);

@@ -38,10 +38,11 @@ class StepError {
   void load(const Snapshot& snapshot);
 
  private:
-  static constexpr std::size_t measures = 4;
+  /// The kinds of Measure, and signals of controllers, whatever their unit.
+  static constexpr std::size_t signals = 4, kinds = 5;
   /// Slots that are judged together: the translations of a node, its rotations, one scalar.
   struct Group {
-    std::size_t first, size, kind;  ///< `kind`: the Measure of their equations
+    std::size_t first, size, kind;  ///< `kind`: the Measure of their equations, or `signals`
     double place;                   ///< length, or angle, to which the rounding of positions is relative
     double least;                   ///< least range of velocities to be used
     std::array<bool, 3> free{};     ///< those that have an equation
