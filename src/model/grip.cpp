@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/grip.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace engrane {
@@ -22,8 +23,9 @@ GripState GripState::of(const Layout& layout, std::span<const double> history, s
   GripState state;
   state.mode = static_cast<Mode>(static_cast<int>(at[0]));
   state.speed = at[1];
-  std::copy_n(at + 2, size, state.held.data());
-  std::copy_n(at + 2 + size, size, state.direction.data());
+  state.rest = at[2];
+  std::copy_n(at + 3, size, state.held.data());
+  std::copy_n(at + 3 + size, size, state.direction.data());
   return state;
 }
 
@@ -32,13 +34,15 @@ void GripState::write(const Layout& layout, std::span<double> history, std::size
   double* at = &history[place(layout, history.size(), grip)];
   at[0] = mode;
   at[1] = speed;
-  std::copy_n(held.data(), size, at + 2);
-  std::copy_n(direction.data(), size, at + 2 + size);
+  at[2] = rest;
+  std::copy_n(held.data(), size, at + 3);
+  std::copy_n(direction.data(), size, at + 3 + size);
 }
 
 void follow(GripState& grip, const Vec3& u) {
   const double speed = u.norm();
-  if (grip.mode != GripState::sliding || speed <= GripState::halt * grip.speed || u.dot(grip.direction) <= 0) return;
+  if (grip.mode != GripState::sliding || speed <= std::max(GripState::halt * grip.speed, grip.rest)) return;
+  if (u.dot(grip.direction) <= 0) return;
   grip.direction = u / speed;
   grip.speed = speed;
 }
@@ -104,7 +108,8 @@ void grip_switches(const Element& element, const State& state, std::span<Switch>
     const Grip& grip = grips[i];
     const bool slides = grip.state.mode == GripState::sliding, holds = grip.state.mode == GripState::holding;
     const Vec3& along = grip.state.direction;
-    values[2 * i] = slides ? Switch{along.dot(grip.speed), along.dot(grip.acceleration), grip.speeds + least} : Switch{};
+    const double speeds = grip.speeds + grip.state.rest / Switch::rounding + least;
+    values[2 * i] = slides ? Switch{along.dot(grip.speed), along.dot(grip.acceleration), speeds} : Switch{};
     // elements do not know the rates of multipliers
     values[2 * i + 1] = holds ? Switch{grip.spare(), unknown, grip.limit + grip.force.norm() + least} : Switch{};
   }

@@ -24,6 +24,7 @@ struct GripState {
   Vec3 held = Vec3::Zero();       ///< coordinates of the sticking position
   Vec3 direction = Vec3::Zero();  ///< unit vector of the sliding direction
   double speed = 0;               ///< sliding speed at the start of the step; several coordinates only
+  double rest = 0;                ///< speeds up to this one are rounding, and have no direction
 
   /// With several coordinates, sliding ends when the speed falls below this fraction of the speed at the start of the step.
   static constexpr double halt = 0.1;
@@ -31,12 +32,12 @@ struct GripState {
   static constexpr double slack = 1e-9;
 
   static GripState slides_towards(const Vec3& direction, const Vec3& held = Vec3::Zero()) {
-    return {sliding, held, direction.normalized(), 0};
+    return {sliding, held, direction.normalized()};
   }
-  static GripState holds_at(const Vec3& held) { return {holding, held, Vec3::Zero(), 0}; }
+  static GripState holds_at(const Vec3& held) { return {holding, held}; }
 
   /// Number of history values.
-  static int history(const GripShape& shape) { return 2 + 2 * shape.size; }
+  static int history(const GripShape& shape) { return 3 + 2 * shape.size; }
   /// State of a grip, from the history of the whole element.
   static GripState of(const Layout& layout, std::span<const double> history, std::size_t grip);
   void write(const Layout& layout, std::span<double> history, std::size_t grip) const;

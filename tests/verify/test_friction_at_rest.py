@@ -519,3 +519,42 @@ def test_ranks_and_restart_decide_alike(ranks: int, tmp_path: Path) -> None:
     run(text, tmp_path, "cut", options=("--until", "0.21"), status=2)
     rest = run(text, tmp_path, "cut", options=("--restart", "cut"))
     assert np.array_equal(rest["node/1/UX"], whole)
+
+
+PROPPED = """
+.NOE
+ I 1 X 0.2
+ I 2 X 0.5
+.MCE
+ I 1 {contact} AXIS 0 0 1 AT 0.2 0 0 {shape} FRICTION CONST 0.1 STICK
+ I 2 HINGE N 1 2 AXIS 0 0 1 AT 0.35 0 0
+ I 3 WELD N 0 2
+ I 4 INERTIA N 1 M {m} J (0.01*{m})
+ I 5 INERTIA N 2 M {m} J (0.01*{m})
+.CLM STRU ACC VAL 0.5 -3 -9.81
+.SAM TYPE DYNAMIC {scheme}
+.SUB TF 0.6 H 0.001 TOL 1E-3
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize("scheme", ["SCHEME RADAU", "RHO 0.8"])
+@pytest.mark.parametrize(
+    ("contact", "shape"), [("POINT_CYLINDER N 0 1", "ON 0.2 0.01 0"), ("POINT_LINE N 0 1", "")]
+)
+def test_rounding_is_no_sliding(contact: str, shape: str, scheme: str, tmp_path: Path) -> None:
+    """A frame that cannot move leans on a contact whose friction is at its limit. Speeds and accelerations
+    are rounding and decide nothing: forces are those at the start, and proportional to the masses."""
+    forces = []
+    for m in (1, 3, 5, 7):
+        result = run(PROPPED.format(contact=contact, shape=shape, m=m, scheme=scheme), tmp_path, f"m{m}")
+        assert result["run/EVENTS"].max() == 0
+        pressing, friction, x = (
+            result[f"1/{c}"] / m for c in ("PRESSING_FORCE", "FRICTION_FORCE", "FORCE_X")
+        )
+        assert np.ptp(x) < 1e-9
+        assert friction == pytest.approx(0.1 * pressing, rel=1e-8)
+        # with the hinge, it holds the body
+        assert x - result["2/FORCE_X"] / m == pytest.approx(-0.5, abs=1e-9)
+        forces.append([pressing[-1], x[-1]])
+    assert forces == pytest.approx(forces[0] * np.ones((len(forces), 1)), abs=1e-9)

@@ -29,8 +29,12 @@ struct Fastest {
 
 }  // namespace
 
-Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start, double step)
-    : assembler_(assembler), redundancy_(redundancy), start_(start), step_(step) {
+Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start, const SolverOptions& options)
+    : assembler_(assembler),
+      redundancy_(redundancy),
+      start_(start),
+      step_(options.step),
+      rest_(place_rounding * assembler.model().extent() / std::max(options.end - options.begin, options.step)) {
   const auto& parts = assembler.model().parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const Layout& layout = parts[p].element->layout();
@@ -41,7 +45,7 @@ Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start, double 
   }
 }
 
-bool Grips::rests(const Seen& grip) { return grip.speed.norm() <= rounding * grip.speeds; }
+bool Grips::rests(const Seen& grip) { return grip.speed.norm() <= std::max(rounding * grip.speeds, grip.state.rest); }
 
 bool Grips::overloaded(const Seen& grip) { return grip.state.mode == GripState::holding && grip.spare() < 0; }
 
@@ -53,8 +57,12 @@ bool Grips::pulled(const Seen& grip) {
   return grip.state.mode == GripState::holding && grip.redundant && grip.acceleration.norm() > slack * grip.accelerations;
 }
 
+bool Grips::still(const Seen& now) const {
+  return now.acceleration.norm() <= std::max(rounding * now.accelerations, rest_ / step_);
+}
+
 bool Grips::turns_back(const Seen& grip) {
-  return grip.state.mode == GripState::sliding && grip.speed.dot(grip.state.direction) < 0;
+  return grip.state.mode == GripState::sliding && grip.speed.dot(grip.state.direction) < -grip.state.rest;
 }
 
 bool Grips::stops(const Seen& grip) {
@@ -81,6 +89,7 @@ std::vector<Grips::Seen> Grips::look(const Configuration& c) const {
     for (std::size_t i = 0; i < count; ++i) {
       Seen& seen = grips[next++];
       static_cast<Grip&>(seen) = found[i];
+      seen.state.rest = rest_;
       for (std::size_t k = 0; k < static_cast<std::size_t>(found[i].shape.size); ++k, ++multiplier) {
         const bool length = multiplier_unknown(assembler_.numbering(), multiplier).measure == Measure::length;
         const Fastest& fastest = length ? moving : turning;
@@ -104,7 +113,8 @@ void Grips::write(const std::vector<Seen>& grips, Configuration& c) {
                                                       static_cast<std::size_t>(place.layout->history));
     int multiplier = place.first;
     for (std::size_t i = 0; i < place.layout->grips.size(); ++i) {
-      const Seen& grip = grips[next++];
+      Seen grip = grips[next++];
+      grip.state.rest = rest_;
       grip.state.write(*place.layout, history, i);
       for (int k = 0; k < grip.shape.size; ++k, ++multiplier) {
         if (grip.state.mode == GripState::holding) continue;
@@ -152,9 +162,9 @@ void Grips::fit(Configuration& c, bool massless) {
   start_.balance_accelerations(c, 12, nullptr, none ? &*none : nullptr);
 }
 
-bool Grips::aim(Seen& grip, const Seen& now, Aim& aim) {
+bool Grips::aim(Seen& grip, const Seen& now, Aim& aim) const {
   constexpr double step = 1e-3, aligned = 1e-9;
-  if (grip.shape.size == 1 || aim.found) return false;
+  if (grip.shape.size == 1 || aim.found || still(now)) return false;
   Vec3& direction = grip.state.direction;
   const Vec3& a = now.acceleration;
   const Vec3 beside = a - direction * direction.dot(a);
@@ -238,7 +248,7 @@ void Grips::settle(Configuration& c, bool massless) {
           state = GripState::slides_towards(-grip.force, state.held);
         else
           continue;
-      } else if (!aims[i].tried && grip.acceleration.dot(state.direction) < 0) {
+      } else if (!aims[i].tried && !still(grip) && grip.acceleration.dot(state.direction) < 0) {
         // Where friction does not act along its coordinate, as that of skew flanks on bearings, what gives way may slide with
         // the force that held it.
         if (cannot_hold[i])

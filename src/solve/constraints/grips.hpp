@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/grip.hpp"
+#include "model/solver_options.hpp"
 #include "solve/constraints/start.hpp"
 
 namespace engrane::solve {
@@ -12,8 +13,7 @@ namespace engrane::solve {
 /// history of the elements and in the assembler, where sliding grips are idle constraints. Every rank decides the same.
 class Grips {
  public:
-  /// `step`: the step H of the analysis.
-  Grips(Assembler& assembler, Redundancy& redundancy, Start& start, double step);
+  Grips(Assembler& assembler, Redundancy& redundancy, Start& start, const SolverOptions& options);
 
   bool any() const { return !places_.empty(); }
   /// Whether any grip slides backwards, is dragged along, or carries more than it can hold. Always true before settle().
@@ -49,13 +49,15 @@ class Grips {
   /// Whether other constraints move what the grip holds, or begin to (pulled()). It then holds nothing.
   static bool dragged(const Seen& grip);
   static bool pulled(const Seen& grip);
+  /// Whether its acceleration is rounding: nothing moves it, or it balances the pull on it.
+  bool still(const Seen& now) const;
 
   std::vector<Seen> look(const Configuration& c) const;
   void write(const std::vector<Seen>& grips, Configuration& c);
   /// Index of the first grip at rest that holds; their number if none does.
   static std::size_t first_that_holds(const std::vector<Seen>& grips, const std::vector<bool>& at_rest);
   /// Adjusts the direction of a grip that begins to slide until it accelerates that way; false once it does.
-  static bool aim(Seen& grip, const Seen& now, Aim& aim);
+  bool aim(Seen& grip, const Seen& now, Aim& aim) const;
   void fit(Configuration& c, bool massless);
   /// Name of the element that owns the grip: "HINGE 3".
   std::string name(std::size_t grip) const;
@@ -65,7 +67,8 @@ class Grips {
   Start& start_;
   std::vector<Place> places_;  ///< elements with grips
   std::size_t count_ = 0;
-  double step_;
+  double step_;  ///< H of the analysis
+  double rest_;  ///< speed that moves nothing beyond the rounding of positions in the whole analysis
 };
 
 }  // namespace engrane::solve

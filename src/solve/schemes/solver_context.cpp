@@ -33,7 +33,7 @@ SolverContext::SolverContext(const Model& m, SolverOptions chosen, MPI_Comm comm
       motion(m, numbering),
       redundancy(assembler, motion),
       start(assembler, solver, motion, redundancy),
-      grips(assembler, redundancy, start, options.step),
+      grips(assembler, redundancy, start, options),
       out_of_plane(assembler) {
   assembler.penalty = options.penalty;
   if (options.package == "CG") note_rigid_motions(assembler, assembler.matrix());
