@@ -20,6 +20,12 @@ void Element::commit(const State& state, std::span<double> scalars, std::span<do
 
 void Element::switches(const State&, std::span<Switch>) const {}
 
+bool Element::touches(const State& state) const {
+  std::vector<Switch> values(layout().switches.size());
+  switches(state, values);
+  return std::any_of(values.begin(), values.end(), [](const Switch& s) { return s.unclear(); });
+}
+
 void Element::sliding(const State&, std::span<Vec3>) const {}
 
 void Element::grip_limits(const State&, std::span<double>) const {}

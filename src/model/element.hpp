@@ -329,6 +329,10 @@ class Element {
 
   /// Values of the switches, in the order of Layout::switches.
   virtual void switches(const State& state, std::span<Switch> values) const;
+  /// Whether forces act across gaps that statics may have to bridge (State::contact_homotopy), and whether such a gap is closed
+  /// or open by no more than rounding. By default the switches tell.
+  virtual bool has_gaps() const { return !layout().switches.empty(); }
+  virtual bool touches(const State& state) const;
 
   /// Sliding velocity of each regularised friction, divided by its regularisation speed, in any axes. Newton's iteration uses
   /// it to avoid jumping across the regularised range from one sliding direction to the opposite one.

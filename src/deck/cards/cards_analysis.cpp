@@ -324,7 +324,7 @@ Schema check_card() {
       .synonyms({"GRANDEUR"})
       .positional()
       .required();
-  card.add("MEASURE", &CheckCard::measure, "what of the quantity's history")
+  card.add("MEASURE", &CheckCard::measure, "what of the quantity's history; VALUE stands for V where MEASURE is left out")
       .synonyms({"MESURE"})
       .positional()
       .option({"VALUE", {"VALEUR"}, "the value at the time T, or at the end"})

@@ -74,6 +74,16 @@ std::vector<SwitchNames> ToothContact::switch_names() const {
   return list;
 }
 
+double ToothContact::size_of_gap(const ContactReport& report, const State& state) const {
+  // u_m is a difference of angles that are known to the rounding error of a radian
+  return geometry_.radius + law_.backlash + std::abs(state.scalars[2]) + std::abs(report.approach - state.scalars[2]);
+}
+
+bool ToothContact::touches(const ContactReport& report, const State& state) const {
+  const double half = 0.5 * law_.onset, size = size_of_gap(report, state);
+  return Switch{report.front + half, 0, size}.unclear() || Switch{report.back + half, 0, size}.unclear();
+}
+
 void ToothContact::switches(const ContactReport& report, const State& state, std::span<Switch> values) const {
   const Function::Jet error_a = law_.error.of_a(state.scalars[0], law_.mesh),
                       error_b = law_.error.of_b(state.scalars[1], law_.mesh);
@@ -82,10 +92,7 @@ void ToothContact::switches(const ContactReport& report, const State& state, std
   const double acceleration = state.scalar_accelerations[2] + error_a.d1 * state.scalar_accelerations[0] +
                               error_b.d1 * state.scalar_accelerations[1] + error_a.d2 * turn_a * turn_a +
                               error_b.d2 * turn_b * turn_b;
-  const double half = 0.5 * law_.onset;
-  // u_m is a difference of angles that are known to the rounding error of a radian
-  const double size =
-      geometry_.radius + law_.backlash + std::abs(state.scalars[2]) + std::abs(report.approach - state.scalars[2]);
+  const double half = 0.5 * law_.onset, size = size_of_gap(report, state);
   std::size_t next = 0;
   for (const double sign : {1.0, -1.0}) {
     const double pressed = sign > 0 ? report.front : report.back, speed = sign * rate;

@@ -182,11 +182,17 @@ class ToothContact {
   /// Names of the switches where the force between flanks is not smooth: both ends of each rounded corner, or the corner
   /// itself, and the limit of the damping of a flank in contact. None with slices, which come into contact one after another.
   std::vector<SwitchNames> switch_names() const;
-  /// Their values. The rates neglect the changing distance of running axles; this affects the search for events, not their
-  /// location.
+  /// Whether flanks may part, with or without switches.
+  bool has_gaps() const { return elastic() && (law_.backlash > 0 || options_.running); }
+  /// Whether a flank, at the middle of the face, is in contact or open by no more than rounding.
+  bool touches(const ContactReport& report, const State& state) const;
+  /// Values of the switches. The rates neglect the changing distance of running axles; this affects the search for events, not
+  /// their location.
   void switches(const ContactReport& report, const State& state, std::span<Switch> values) const;
 
  private:
+  /// Magnitude of the terms that the penetration of a flank is the difference of.
+  double size_of_gap(const ContactReport& report, const State& state) const;
   bool limits_damping() const { return law_.mode == ToothLaw::Damping::contact && law_.damping > 0; }
   template <class T>
   void press(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap, const T& force_1,

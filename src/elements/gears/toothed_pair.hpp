@@ -91,6 +91,8 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20>, public ElasticTeeth
     if (others > 0) contact_.switches(report(state), state, values.first(others));
     grip_switches(*this, state, values.subspan(others));
   }
+  bool has_gaps() const override { return contact_.has_gaps(); }
+  bool touches(const State& state) const override { return contact_.touches(report(state), state); }
   void sliding(const State& state, std::span<Vec3> speeds) const override {
     if (!speeds.empty()) speeds[0] = report(state).sliding / contact_.options().friction->law.width;
   }

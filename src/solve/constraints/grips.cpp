@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "solve/constraints/constraint_factors.hpp"
@@ -48,6 +49,15 @@ Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start, const S
 bool Grips::rests(const Seen& grip) { return grip.speed.norm() <= std::max(rounding * grip.speeds, grip.state.rest); }
 
 bool Grips::overloaded(const Seen& grip) { return grip.state.mode == GripState::holding && grip.spare() < 0; }
+
+double Grips::load(const Seen& grip) { return grip.force.norm() / grip.limit; }
+
+double Grips::largest_load(const std::vector<Seen>& grips) {
+  double largest = 0;
+  for (const Seen& grip : grips)
+    if (overloaded(grip)) largest = std::max(largest, load(grip));
+  return std::min((1 - slack) * largest, std::numeric_limits<double>::max());
+}
 
 bool Grips::dragged(const Seen& grip) {
   return grip.state.mode == GripState::holding && grip.redundant && grip.speed.norm() > slack * grip.speeds;
@@ -184,6 +194,7 @@ void Grips::settle(Configuration& c, bool massless) {
   std::vector<Seen> grips = look(c);
   // those at rest may hold, or slide in any direction; the others slide on
   std::vector<bool> at_rest(count_), turned(count_);
+  const double most_loaded = largest_load(grips);
   for (std::size_t i = 0; i < count_; ++i) {
     Seen& grip = grips[i];
     GripState& state = grip.state;
@@ -192,7 +203,7 @@ void Grips::settle(Configuration& c, bool massless) {
     if (dragged(grip)) {
       state = GripState::slides_towards(grip.speed, state.held);
       at_rest[i] = false;
-    } else if (overloaded(grip)) {
+    } else if (overloaded(grip) && load(grip) >= most_loaded) {
       state = GripState::slides_towards(-grip.force, state.held);  // friction opposes sliding
     } else if (at_rest[i] && state.mode != GripState::holding) {
       state = GripState::holds_at(state.held + grip.place);
@@ -201,9 +212,10 @@ void Grips::settle(Configuration& c, bool massless) {
       if (grip.shape.size > 1) state.speed = grip.speed.norm();
     }
   }
-  // At first everything wrong is changed at once, then one grip at a time, always the first in the deck: a rule that returns to
-  // no combination except equivalent ones. Directions are adjusted once nothing else is wrong.
-  const std::size_t together = 3 + count_, most = 3 + 20 * count_;
+  // At first what comes to rest is changed at once, and then the most loaded gives way, as it would under a growing load: where
+  // friction is less once it slides, the others may hold. Later one grip is changed at a time, always the first in the deck: a
+  // rule that returns to no combination except equivalent ones. Directions are adjusted once nothing else is wrong.
+  const std::size_t together = 3 + 2 * count_, most = 3 + 20 * count_;
   std::size_t last = 0;  // grip that was changed
   std::vector<Aim> aims(count_);
   std::vector<bool> cannot_hold(count_);  // while the other grips are as they are
@@ -228,6 +240,16 @@ void Grips::settle(Configuration& c, bool massless) {
       continue;
     }
     const std::vector<Seen> now = look(c);
+    const auto turns_again = [&](std::size_t i) {
+      return at_rest[i] && grips[i].state.mode == GripState::sliding && !aims[i].tried && !still(now[i]) &&
+             now[i].acceleration.dot(grips[i].state.direction) < 0;
+    };
+    double least_load = 0;  // with which a grip gives way
+    if (pass < together) {
+      least_load = largest_load(now);
+      for (std::size_t i = 0; i < count_; ++i)
+        if (turns_again(i)) least_load = std::numeric_limits<double>::infinity();
+    }
     bool changed = false;
     for (std::size_t i = 0; i < count_ && !(changed && pass >= together); ++i) {
       if (!at_rest[i]) continue;
@@ -235,7 +257,7 @@ void Grips::settle(Configuration& c, bool massless) {
       const Seen& grip = now[i];
       bool gives_way = false;
       if (state.mode == GripState::holding) {
-        gives_way = overloaded(grip);
+        gives_way = overloaded(grip) && load(grip) >= least_load;
         if (pulled(grip))  // its speed was gained only after its event
           state = GripState::slides_towards(grip.acceleration, state.held);
         else if (dragged(grip))
@@ -248,7 +270,7 @@ void Grips::settle(Configuration& c, bool massless) {
           state = GripState::slides_towards(-grip.force, state.held);
         else
           continue;
-      } else if (!aims[i].tried && !still(grip) && grip.acceleration.dot(state.direction) < 0) {
+      } else if (turns_again(i)) {
         // Where friction does not act along its coordinate, as that of skew flanks on bearings, what gives way may slide with
         // the force that held it.
         if (cannot_hold[i])

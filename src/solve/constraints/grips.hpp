@@ -43,6 +43,9 @@ class Grips {
   };
   static bool rests(const Seen& grip);
   static bool overloaded(const Seen& grip);
+  /// What a grip that holds carries, over its limit; and that of the most loaded of those which carry too much, less rounding.
+  static double load(const Seen& grip);
+  static double largest_load(const std::vector<Seen>& grips);
   static bool turns_back(const Seen& grip);
   /// Whether a grip that turns back comes to rest, rather than sliding on in another direction.
   static bool stops(const Seen& grip);

@@ -66,7 +66,7 @@ Statics::Statics(SolverContext& context)
       y_(context.motion.size(), 0.0) {
   *unknowns_.out() = context.assembler.new_vector();
   for (std::size_t p = 0; p < context.model.parts.size(); ++p)
-    if (!context.model.parts[p].element->layout().switches.empty()) contacts_.push_back(static_cast<int>(p));
+    if (context.model.parts[p].element->has_gaps()) contacts_.push_back(static_cast<int>(p));
   if (std::all_of(context.model.parts.begin(), context.model.parts.end(),
                   [](const Model::Part& part) { return part.element->is_linear(); }))
     context_.newton.keep_one_tangent();
@@ -293,14 +293,9 @@ NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double>
 }
 
 bool Statics::touches(const Configuration& c) const {
-  std::vector<Switch> values;
-  for (const int part : contacts_) {
-    const Element& element = *context_.model.parts[static_cast<std::size_t>(part)].element;
-    values.assign(element.layout().switches.size(), {});
-    element.switches(context_.assembler.view(part, c), values);
-    if (std::any_of(values.begin(), values.end(), [](const Switch& s) { return s.unclear(); })) return true;
-  }
-  return false;
+  return std::any_of(contacts_.begin(), contacts_.end(), [&](int part) {
+    return context_.model.parts[static_cast<std::size_t>(part)].element->touches(context_.assembler.view(part, c));
+  });
 }
 
 void Statics::require_resistance(const Configuration& c, NewtonReport& report) {
@@ -355,20 +350,37 @@ NewtonReport Statics::balance_contacts(const MotionSlots::Origin& from, std::spa
 }
 
 NewtonReport Statics::balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
-  NewtonReport report;
-  int iterations = 0;
-  for (const double contact_homotopy : {1.0, 0.1, 0.01, 1e-3, 1e-4, 1e-5, 1e-6, 0.0}) {
+  constexpr double fastest = 0.1, slowest = 0.7, last = 1e-6;
+  const auto balance_with = [&](double contact_homotopy) {
     context_.assembler.contact_homotopy = contact_homotopy;
     try {
-      report = balance(from, y, to);
+      NewtonReport report = balance(from, y, to);
+      context_.assembler.contact_homotopy = 0;
+      return report;
     } catch (...) {
       context_.assembler.contact_homotopy = 0;
       throw;
     }
+  };
+  NewtonReport report = balance_with(1);
+  int iterations = report.iterations;
+  // where several contacts close and open in turn, as pairs of flanks do, smaller changes keep Newton's iteration from a cycle
+  for (double bridged = 1, ratio = fastest; bridged > 0 && report.converged;) {
+    const Configuration before = to;
+    const std::vector<double> way(y.begin(), y.end());
+    const double next = bridged * ratio < (1 - fastest) * last ? 0 : bridged * ratio;
+    report = balance_with(next);
     iterations += report.iterations;
-    if (!report.converged) break;
+    if (report.converged) {
+      bridged = next;
+      ratio = std::max(ratio * ratio, fastest);
+    } else if (next > 0 && ratio < slowest) {
+      ratio = std::sqrt(ratio);
+      std::copy(way.begin(), way.end(), y.begin());
+      to = before;
+      report.converged = true;
+    }
   }
-  context_.assembler.contact_homotopy = 0;
   report.iterations = iterations;
   return report;
 }

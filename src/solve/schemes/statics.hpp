@@ -67,10 +67,10 @@ class Statics : public Scheme {
   /// enough supports, or a part that contacts have let go. Once in a run, for the first solution in which no contact only
   /// touches.
   void require_resistance(const Configuration& c, NewtonReport& report);
-  /// Whether a contact is closed or open by no more than rounding: a switch (Element::switches) is zero.
+  /// Whether a contact is closed or open by no more than rounding (Element::touches).
   bool touches(const Configuration& c) const;
 
-  std::vector<int> contacts_;  ///< elements with switches
+  std::vector<int> contacts_;  ///< elements with gaps
   bool resists_ = false;       ///< require_resistance() was passed
   bool watched_;               ///< may_be_singular()
   /// Size of the solution for the probe at the beginning of the step tried last, and of the last accepted step; 0: unknown.
