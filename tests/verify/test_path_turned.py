@@ -62,3 +62,34 @@ def test_second_branch(turn: np.ndarray, tmp_path: Path) -> None:
     sides = np.abs(moved[1:, -1])
     assert sides.max() > 0.1 * LENGTH
     assert sides.min() < 1e-3 * sides.max()
+
+
+def arch(end: float) -> str:
+    """A flat arch of 20 by 2 cells of 4 nodes, hinged at both ends, with a force in its middle."""
+    nodes, cells = [], []
+    for i in range(21):
+        x = i - 10.0
+        nodes += [f" I {3 * i + j + 1} X {x} {1.2 * (1 - (x / 10) ** 2) + 0.25 * j}" for j in range(3)]
+    for i in range(20):
+        a = 3 * i + 1
+        cells += [f" I {2 * i + j + 1} N {a + j} {a + 3 + j} {a + 4 + j} {a + 1 + j}" for j in range(2)]
+    return "\n".join(
+        [".NOE", *nodes, ".MAI", *cells]
+        + ['.MAT\n I 1 BEHA "ELASTIC" YT 1.2E6 NT 0.3\n.HYP MEMB BIDIM']
+        + ['.SEL\n GROUP 1 MAILLES NOM "b" TOUT\n.PHP\n GROUP "b" THICK VAL 1.\n.AEL\n GROUP "b" MAT 1']
+        + ['.FCT\n I 1 EXPR "T"\n.CLM\n NOEUD 2 62 FIX C 1 2\n NOEUD 32 CHA C 2 V -4000 NF 1']
+        + [f".SAM TYPE STATIC\n.SUB TF {end} H 0.05\n.PATH NODE 32 C 2 V -2.5 STEPS 200\n.FIN 1\n"]
+    )
+
+
+@pytest.mark.parametrize("end", [0.2, 1, 2, 5])
+def test_does_not_leave_for_another_path(end: float, tmp_path: Path) -> None:
+    """The path winds between others close to it. TF allows longer steps, and no more."""
+    summary, found = solve(arch(end), tmp_path)
+    points = summary["critical_points"]
+    expected = [0.0758570, 0.0829232, -0.1052880, -0.0715822, 0.0748779, 0.0841412, -0.0826652, -0.0364796]
+    assert [p["kind"][0] for p in points] == list("bllbbllb")
+    assert [p["load_time"] for p in points] == pytest.approx(expected, abs=1e-6)
+    assert [p["unstable_behind"] for p in points] == [1, 2, 3, 4, 3, 2, 1, 0]
+    assert found["run/LOAD_TIME"][-1] == pytest.approx(0.0528514, rel=1e-6)
+    assert found["node/32/UY"][-1] == pytest.approx(-2.5, rel=1e-12)

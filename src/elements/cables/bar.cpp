@@ -14,7 +14,7 @@ namespace {
 
 /// A bar's law: energy EA L φ(s) of the strain s, which includes the prestrain.
 struct BarLaw {
-  double length = 0;     ///< unstretched L
+  double length = 0;     ///< L
   double stiffness = 0;  ///< EA
   double prestrain = 0;  ///< tension over EA at length L
   double width = 0;      ///< w: φ' is s when taut and 0 when slack, with a transition over strains of w; 0: φ' = s
@@ -109,7 +109,7 @@ class Bar final : public TemplatedElement<Bar, 2, 6> {
   const char* why_not_finite() const override { return "its nodes are in one place"; }
 
   std::vector<Derived> derived() const override {
-    return {{"UNSTRETCHED_LENGTH", law_.length, dimension::length}, {"MASS", mass_, dimension::mass}};
+    return {{"REFERENCE_LENGTH", law_.length, dimension::length}, {"MASS", mass_, dimension::mass}};
   }
 
   Drawing drawing() const override { return {fmt::format(R"("shape": "line", "points": {})", json(layout().nodes))}; }
@@ -177,7 +177,7 @@ ElementType bar_type() {
       .refers(deck::Reference::node)
       .required();
   card.add("EA", &BarData::stiffness, "Young's modulus times area").unit(dimension::force).positive().required();
-  card.add("M", &BarData::mass, "mass per unstretched length").at_least(0);
+  card.add("M", &BarData::mass, "mass per length, of the bar without force or, with TENSION, as the nodes are given").at_least(0);
   card.add("LENGTH", &BarData::length, "unstretched length; default: the distance of the nodes")
       .unit(dimension::length)
       .positive();

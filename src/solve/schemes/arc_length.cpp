@@ -128,11 +128,11 @@ bool ArcLength::examine(const Configuration& c, const Point* before, Point& poin
   return true;
 }
 
-double ArcLength::cosine(const Point& a, const Point& b) const {
+double ArcLength::angle(const Point& a, const Point& b) const {
   const auto with_load = [&](const Point& p, const Point& q) {
     return product(p.way, q.way) / (unit_ * unit_) + p.load * q.load;
   };
-  return with_load(a, b) / std::sqrt(with_load(a, a) * with_load(b, b));
+  return std::acos(std::clamp(with_load(a, b) / std::sqrt(with_load(a, a) * with_load(b, b)), -1.0, 1.0));
 }
 
 NewtonReport ArcLength::follow(const Configuration& from, double h, Configuration& to, bool at_end) {
@@ -166,6 +166,14 @@ NewtonReport ArcLength::follow(const Configuration& from, double h, Configuratio
   work_ = &to;
   NewtonReport report = solve(unknowns(), {1, 0, 0}, apply, to, false, at_end ? nullptr : this);
   refuse_half_turns(y, report);
+  if (report.converged && !branching_ && h > corner * context_.options.step) {
+    Point chord{std::vector<double>(here_.way.size()), now_ - from.load_time()};
+    context_.motion.gather(y, chord.way);
+    if (const double turn = angle(here_, chord); turn > most_turn) {
+      report.converged = false;
+      report.reason = fmt::format("it leads to an equilibrium aside, {:.0f} degrees off the path", turn * 180 / std::numbers::pi);
+    }
+  }
   if (!report.converged) context_.newton.refuse_last();
   return report;
 }
@@ -174,9 +182,7 @@ std::optional<NewtonReport> ArcLength::arrive(const Configuration& from, double 
   const double left = context_.options.end - from.load_time(), way = left / here_.load;
   if (branching_ || !(way > 0 && way <= h)) return {};
   NewtonReport report = follow(from, way, to, true);
-  if (!report.converged || !examine(to, &here_, there_) || there_.load <= 0 ||
-      std::acos(std::clamp(cosine(here_, there_), -1.0, 1.0)) > most_turn)
-    return {};
+  if (!report.converged || !examine(to, &here_, there_) || there_.load <= 0 || angle(here_, there_) > most_turn) return {};
   next_course_.arrived = true;
   return report;
 }
@@ -229,7 +235,7 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
     report.reason = "the tangent matrix is singular at the end of the step";
     return {std::move(report), {}};
   }
-  const double turn = std::acos(std::clamp(cosine(here_, there_), -1.0, 1.0));
+  const double turn = angle(here_, there_);
   if (!branching_ && turn > most_turn && h > corner * context_.options.step) {
     report.converged = false;
     report.reason = fmt::format("the path turns by {:.0f} degrees in the step", turn * 180 / std::numbers::pi);

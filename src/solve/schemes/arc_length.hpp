@@ -64,8 +64,8 @@ class ArcLength final : public Statics, private Border {
   /// Inner product of vectors by equation, with the weights of the length.
   double product(std::span<const double> a, std::span<const double> b) const;
   double length(std::span<const double> way) const;
-  /// Cosine between the directions at two points; the load time counts as the length does at the start.
-  double cosine(const Point& a, const Point& b) const;
+  /// Angle between the directions at two points; the load time counts as the length does at the start.
+  double angle(const Point& a, const Point& b) const;
   /// Ends the step where `value` is zero, to the fraction `precision` of its larger end value. `first`: the value at the
   /// beginning, of the opposite sign to that at the end.
   Bracket locate(const Configuration& from, double& h, Configuration& to, Point& there, double first, double precision,
