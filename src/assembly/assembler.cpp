@@ -207,31 +207,31 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
   std::vector<double> diagonal(motion, 0.0);
-  // largest entry in the row of each multiplier, which several parts may share: all of a part's entries may be rounding
-  std::vector<double> steepest(scale_.size(), 0.0);
   for_each_tangent(configuration, weights, [&](std::size_t at, std::span<const double> local) {
     if (is_ghost(at)) return;
     const auto slots = numbering_.part_slots(evaluated(at));
     const std::size_t n = slots.size();
     for (std::size_t i = 0; i < n; ++i) {
       const auto slot = static_cast<std::size_t>(slots[i]);
-      if (slot < motion) {
-        // a moment makes the tangent antisymmetric: what is left on the diagonal is rounding, and no stiffness
-        double largest = 0;
-        for (std::size_t j = 0; j < n; ++j)
-          if (static_cast<std::size_t>(slots[j]) < motion) largest = std::max(largest, std::abs(local[i * n + j]));
-        if (std::abs(local[i * n + i]) > rounding * largest) diagonal[slot] += local[i * n + i];
-        continue;
-      }
-      double& most = steepest[slot - motion];
-      for (const double entry : local.subspan(i * n, n)) most = std::max(most, std::abs(entry));
+      if (slot >= motion) continue;
+      // a moment makes the tangent antisymmetric: what is left on the diagonal is rounding, and no stiffness
+      double largest = 0;
+      for (std::size_t j = 0; j < n; ++j)
+        if (static_cast<std::size_t>(slots[j]) < motion) largest = std::max(largest, std::abs(local[i * n + j]));
+      if (std::abs(local[i * n + i]) > rounding * largest) diagonal[slot] += local[i * n + i];
     }
   });
   MPI_Allreduce(MPI_IN_PLACE, diagonal.data(), static_cast<int>(motion), MPI_DOUBLE, MPI_SUM, comm_);
-  MPI_Allreduce(MPI_IN_PLACE, steepest.data(), static_cast<int>(steepest.size()), MPI_DOUBLE, MPI_MAX, comm_);
 
-  std::vector<double> k(scale_.size(), 0.0);
+  // The mean of the stiffnesses d > 0 of what a constraint moves, with the squares of its gradient g as weights, over Σ g²;
+  // angles count as displacements at the extent. Parts of the gradient that are but rounding then do no harm.
+  const double extent = model_.extent();
+  struct Sums {
+    double steep = 0, of_stiff = 0, stiffness = 0;
+  };
+  std::vector<Sums> sums(scale_.size());
   for_each_tangent(configuration, weights, [&](std::size_t at, std::span<const double> local) {
+    if (is_ghost(at)) return;
     const int part = evaluated(at);
     const auto slots = numbering_.part_slots(part);
     const std::size_t n = slots.size();
@@ -239,18 +239,25 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
       const std::size_t multiplier = static_cast<std::size_t>(slots[i]) - motion;
       for (std::size_t j = 0; j < n; ++j) {
         const auto slot = static_cast<std::size_t>(slots[j]);
-        const double entry = std::abs(local[i * n + j]);
-        // a slot that the constraint hardly affects says nothing about the size of the constraint force
-        if (slot < motion && numbering_.equation(slots[j]) >= 0 && entry > 1e-6 * steepest[multiplier])
-          k[multiplier] = std::max(k[multiplier], std::abs(diagonal[slot]) / (entry / std::max(std::abs(weights.q), 1e-300)));
+        const int equation = slot < motion ? numbering_.equation(slots[j]) : -1;
+        if (equation < 0) continue;
+        const double lever = numbering_.measure(equation) == Measure::moment ? extent : 1;
+        const double entry = local[i * n + j] / (std::max(std::abs(weights.q), 1e-300) * lever);
+        sums[multiplier].steep += entry * entry;
+        if (diagonal[slot] == 0) continue;
+        sums[multiplier].of_stiff += entry * entry;
+        sums[multiplier].stiffness += entry * entry * std::abs(diagonal[slot]) / (lever * lever);
       }
     }
   });
-  MPI_Allreduce(MPI_IN_PLACE, k.data(), static_cast<int>(k.size()), MPI_DOUBLE, MPI_MAX, comm_);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(3 * sums.size()), MPI_DOUBLE, MPI_SUM, comm_);
+  std::vector<double> k(scale_.size(), 0.0);
+  for (std::size_t i = 0; i < k.size(); ++i)
+    if (sums[i].of_stiff > 0) k[i] = sums[i].stiffness / (sums[i].of_stiff * sums[i].steep);
   // Constraints between parts without mass and stiffness take the largest scale of all others, multiplied by extent² for
   // moments. Rounding may leave a tiny value, hence the threshold; real machines have ratios down to about 1e-27.
   constexpr double nothing = 1e-30;
-  const double square = model_.extent() * model_.extent();
+  const double square = extent * extent;
   const auto lever = [&](std::size_t i) {
     return numbering_.multiplier(static_cast<int>(i)).measure == Measure::angle ? square : 1;
   };

@@ -53,6 +53,20 @@ void fill_probe(Vec vector) {
   check_petsc(VecRestoreArrayWrite(vector, &x));
 }
 
+void fill_loads(const Assembler& assembler, Vec loads) {
+  fill_probe(loads);
+  const double lever = assembler.model().extent();
+  PetscInt first = 0, end = 0;
+  PetscScalar* x = nullptr;
+  check_petsc(VecGetOwnershipRange(loads, &first, &end));
+  check_petsc(VecGetArray(loads, &x));
+  for (PetscInt i = first; i < end; ++i) {
+    const Measure measure = assembler.numbering().measure(static_cast<int>(i));
+    if (measure == Measure::moment || measure == Measure::angle) x[i - first] *= lever;
+  }
+  check_petsc(VecRestoreArray(loads, &x));
+}
+
 double relative_stiffness(Assembler& assembler, Mat matrix, Vec motion, Vec load) {
   Owned<Vec> weighted;
   check_petsc(VecDuplicate(motion, weighted.out()));

@@ -9,10 +9,13 @@ namespace engrane::solve {
 /// differences are alike, and none depends on the ranks.
 double probe_value(std::size_t place);
 void fill_probe(Vec vector);
+/// The same as loads of the assembler's equations: moments are these numbers times the extent, as they are in other units of
+/// length, too.
+void fill_loads(const Assembler& assembler, Vec loads);
 
 /// Stiffness of a motion x beside what its unknowns meet one by one: |xᵀKx| / Σ d x², with `load` = K x. d is the magnitude of
 /// the diagonal and, for the constraints k Φ = 0 with gradients g, Σ k g²: that of a hinge's turn is zero, or rounding. `matrix`
-/// has the equations of the assembler. With fill_probe() for the load, x is all but the softest motion. Collective.
+/// has the equations of the assembler. With fill_loads() for the load, x is all but the softest motion. Collective.
 double relative_stiffness(Assembler& assembler, Mat matrix, Vec motion, Vec load);
 
 }  // namespace engrane::solve

@@ -28,6 +28,14 @@ struct Fastest {
   double speed = 0, acceleration = 0;
 };
 
+void copy_velocities(const Configuration& from, Configuration& to) {
+  for (std::size_t n = 0; n < to.nodes.size(); ++n) {
+    to.nodes[n].v = from.nodes[n].v;
+    to.nodes[n].W = from.nodes[n].W;
+  }
+  to.scalar_rates = from.scalar_rates;
+}
+
 }  // namespace
 
 Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start, const SolverOptions& options)
@@ -35,6 +43,7 @@ Grips::Grips(Assembler& assembler, Redundancy& redundancy, Start& start, const S
       redundancy_(redundancy),
       start_(start),
       step_(options.step),
+      longest_(options.tolerance > 0 ? options.longest : options.step),
       rest_(place_rounding * assembler.model().extent() / std::max(options.end - options.begin, options.step)) {
   const auto& parts = assembler.model().parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -189,9 +198,43 @@ bool Grips::aim(Seen& grip, const Seen& now, Aim& aim) const {
   return true;
 }
 
+Configuration Grips::without_stopping(const Configuration& c, const std::vector<Seen>& grips) {
+  Configuration moving = c;
+  write(grips, moving);
+  try {
+    redundancy_.analyse(moving);
+    StartReport unused;
+    start_.fit_velocities(moving, Assembler::Metric::mass, unused, false);
+  } catch (const SolutionFailure&) {
+    copy_velocities(c, moving);
+  }
+  return moving;
+}
+
+double Grips::energy_of_change(const Configuration& from, const Configuration& to) const {
+  const auto& parts = assembler_.model().parts;
+  Configuration change = to;
+  double energy = 0;
+  const auto add = [&](double sign) {
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      energy += sign * parts[p].element->energies(assembler_.view(static_cast<int>(p), change)).kinetic;
+  };
+  for (std::size_t n = 0; n < change.nodes.size(); ++n) {
+    change.nodes[n].v -= from.nodes[n].v;
+    change.nodes[n].W -= from.nodes[n].W;
+  }
+  for (std::size_t i = 0; i < change.scalar_rates.size(); ++i) change.scalar_rates[i] -= from.scalar_rates[i];
+  add(1);
+  for (NodeState& node : change.nodes) node.v = node.W = Vec3::Zero();
+  std::fill(change.scalar_rates.begin(), change.scalar_rates.end(), 0.0);
+  add(-1);
+  return energy;
+}
+
 void Grips::settle(Configuration& c, bool massless) {
   assembler_.count_turns(c);  // a place of rest may be that of the last count
   std::vector<Seen> grips = look(c);
+  const std::vector<Seen> given = grips;
   // those at rest may hold, or slide in any direction; the others slide on
   std::vector<bool> at_rest(count_), turned(count_);
   const double most_loaded = largest_load(grips);
@@ -216,7 +259,16 @@ void Grips::settle(Configuration& c, bool massless) {
   // friction is less once it slides, the others may hold. Later one grip is changed at a time, always the first in the deck: a
   // rule that returns to no combination except equivalent ones. Directions are adjusted once nothing else is wrong.
   const std::size_t together = 3 + 2 * count_, most = 3 + 20 * count_;
-  std::size_t last = 0;  // grip that was changed
+  std::size_t last = 0;                // grip that was changed
+  std::vector<Seen> slipping = grips;  // but what comes to rest slides on
+  const auto stops_now = [&](std::size_t i) {
+    return at_rest[i] && grips[i].state.mode == GripState::holding && given[i].state.mode != GripState::holding;
+  };
+  for (std::size_t i = 0; i < count_; ++i)
+    if (stops_now(i)) slipping[i] = given[i];
+  const Configuration moving = without_stopping(c, slipping);
+  const std::vector<Seen> slips = look(moving);
+  copy_velocities(moving, c);
   std::vector<Aim> aims(count_);
   std::vector<bool> cannot_hold(count_);  // while the other grips are as they are
   const auto changes = [&](std::size_t i) {
@@ -240,6 +292,25 @@ void Grips::settle(Configuration& c, bool massless) {
       continue;
     }
     const std::vector<Seen> now = look(c);
+    // What is stopped by an impulse of P loses P u/2. Friction has no more than its limit times the length of a step. To hold the
+    // slider beside the dead centre of its crank would take all energy out of the crank.
+    double can_take = 0;
+    std::size_t blocked = count_;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!stops_now(i)) continue;
+      // what holds beside a dead centre has another normal force, out of all proportion
+      const double limit = given[i].state.mode == GripState::free ? now[i].limit : slips[i].limit;
+      can_take += 0.5 * limit * longest_ * slips[i].speed.norm();
+      if (blocked == count_ || (turned[i] && !turned[blocked])) blocked = i;
+    }
+    if (blocked < count_ && energy_of_change(before, c) > can_take) {
+      copy_velocities(before, c);
+      grips[blocked].state = GripState::slides_towards(slips[blocked].speed, grips[blocked].state.held);
+      at_rest[blocked] = false;
+      changes(blocked);
+      ++pass;
+      continue;
+    }
     const auto turns_again = [&](std::size_t i) {
       return at_rest[i] && grips[i].state.mode == GripState::sliding && !aims[i].tried && !still(now[i]) &&
              now[i].acceleration.dot(grips[i].state.direction) < 0;

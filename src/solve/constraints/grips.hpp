@@ -62,6 +62,10 @@ class Grips {
   /// Adjusts the direction of a grip that begins to slide until it accelerates that way; false once it does.
   bool aim(Seen& grip, const Seen& now, Aim& aim) const;
   void fit(Configuration& c, bool massless);
+  /// `c` with velocities that fit all other constraints where those `grips` do not hold that are about to.
+  Configuration without_stopping(const Configuration& c, const std::vector<Seen>& grips);
+  /// Kinetic energy of the difference of the velocities, in the positions of `to`.
+  double energy_of_change(const Configuration& from, const Configuration& to) const;
   /// Name of the element that owns the grip: "HINGE 3".
   std::string name(std::size_t grip) const;
 
@@ -70,8 +74,8 @@ class Grips {
   Start& start_;
   std::vector<Place> places_;  ///< elements with grips
   std::size_t count_ = 0;
-  double step_;  ///< H of the analysis
-  double rest_;  ///< speed that moves nothing beyond the rounding of positions in the whole analysis
+  double step_, longest_;  ///< H of the analysis; the length that its steps may have
+  double rest_;            ///< speed that moves nothing beyond the rounding of positions in the whole analysis
 };
 
 }  // namespace engrane::solve

@@ -158,7 +158,7 @@ NewtonReport Statics::find(const Configuration& from, double h, Configuration& t
 
 bool Statics::answer_probe(Owned<Vec>& load, Owned<Vec>& motion) {
   for (Owned<Vec>* vector : {&load, &motion}) *vector->out() = context_.assembler.new_vector();
-  fill_probe(load);
+  fill_loads(context_.assembler, load);
   return context_.solver.solve(load, motion);
 }
 

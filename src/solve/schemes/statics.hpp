@@ -55,7 +55,7 @@ class Statics : public Scheme {
   /// Whether Newton's iteration is to be watched for a start in a singular position: where constraints lose their rank, as with
   /// bars in line, the first correction leads to either of two assembly branches, as rounding decides.
   bool may_be_singular() const;
-  /// Solves for the probe (fill_probe()) with the factors at hand; false if that fails.
+  /// Solves for the probe (fill_loads()) with the factors at hand; false if that fails.
   bool answer_probe(Owned<Vec>& load, Owned<Vec>& motion);
   /// To be called with the factors of the step's first correction: how large the solution for the probe is tells
   /// whether the step begins in a singular position.
