@@ -73,13 +73,27 @@ def arch(end: float) -> str:
     for i in range(20):
         a = 3 * i + 1
         cells += [f" I {2 * i + j + 1} N {a + j} {a + 3 + j} {a + 4 + j} {a + 1 + j}" for j in range(2)]
-    return "\n".join(
-        [".NOE", *nodes, ".MAI", *cells]
-        + ['.MAT\n I 1 BEHA "ELASTIC" YT 1.2E6 NT 0.3\n.HYP MEMB BIDIM']
-        + ['.SEL\n GROUP 1 MAILLES NOM "b" TOUT\n.PHP\n GROUP "b" THICK VAL 1.\n.AEL\n GROUP "b" MAT 1']
-        + ['.FCT\n I 1 EXPR "T"\n.CLM\n NOEUD 2 62 FIX C 1 2\n NOEUD 32 CHA C 2 V -4000 NF 1']
-        + [f".SAM TYPE STATIC\n.SUB TF {end} H 0.05\n.PATH NODE 32 C 2 V -2.5 STEPS 200\n.FIN 1\n"]
-    )
+    lines = "\n".join([".NOE", *nodes, ".MAI", *cells])
+    return f"""{lines}
+.MAT
+ I 1 BEHA "ELASTIC" YT 1.2E6 NT 0.3
+.HYP MEMB BIDIM
+.SEL
+ GROUP 1 MAILLES NOM "b" TOUT
+.PHP
+ GROUP "b" THICK VAL 1.
+.AEL
+ GROUP "b" MAT 1
+.FCT
+ I 1 EXPR "T"
+.CLM
+ NOEUD 2 62 FIX C 1 2
+ NOEUD 32 CHA C 2 V -4000 NF 1
+.SAM TYPE STATIC
+.SUB TF {end} H 0.05
+.PATH NODE 32 C 2 V -2.5 STEPS 200
+.FIN 1
+"""
 
 
 @pytest.mark.parametrize("end", [0.2, 1, 2, 5])

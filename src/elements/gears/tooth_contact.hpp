@@ -182,8 +182,8 @@ class ToothContact {
   /// Names of the switches where the force between flanks is not smooth: both ends of each rounded corner, or the corner
   /// itself, and the limit of the damping of a flank in contact. None with slices, which come into contact one after another.
   std::vector<SwitchNames> switch_names() const;
-  /// Whether flanks may part, with or without switches.
-  bool has_gaps() const { return elastic() && (law_.backlash > 0 || options_.running); }
+  /// Whether flanks may part or have no stiffness where they touch, with or without switches.
+  bool has_gaps() const { return elastic() && (law_.backlash > 0 || options_.running || law_.exponent != 1 || law_.crown > 0); }
   /// Whether a flank, at the middle of the face, is in contact or open by no more than rounding.
   bool touches(const ContactReport& report, const State& state) const;
   /// Values of the switches. The rates neglect the changing distance of running axles; this affects the search for events, not

@@ -298,6 +298,17 @@ bool Newton::left_to_rounding() const {
   return is_noise(residual_, magnitudes_times(assembler_.matrix(), size));
 }
 
+bool Newton::balanced_by_itself() {
+  if (weights_.a > 0 || rows_.size() == 1 || row_.correction <= no_correction) return true;
+  std::vector<double> memory = references_.memory();
+  refuse_last();
+  references_.take(*work_, assembler_.carried());
+  const bool balanced = imbalance(assembler_, references_, residual_).within(precision_);
+  references_.restore(std::move(memory));
+  references_.take(*work_, assembler_.carried());
+  return balanced;
+}
+
 bool Newton::judge(int iteration) {
   row_.iteration = iteration;
   double forces = 0;  // largest change of a multiplier
@@ -320,8 +331,11 @@ bool Newton::judge(int iteration) {
     forces = both[1];
   }
   rows_.push_back(row_);
+  // so far away the stiffest laws resist with any force
+  if (weights_.a == 0 && row_.correction > 1) refuse_last();
   if (refined_ && iteration == 1 && row_.force + row_.moment > 0 && solver_.direct()) return false;
-  if (imbalance_.within(precision_) && std::max(imbalance_.length, imbalance_.angle) <= open_) return true;
+  if (imbalance_.within(precision_) && std::max(imbalance_.length, imbalance_.angle) <= open_ && balanced_by_itself())
+    return true;
   const double changed_before = std::exchange(changed_, std::max(row_.correction, forces)), changed = changed_;
   if (iteration > 1 && changed <= no_correction) return true;
   const double left = imbalance_.largest();

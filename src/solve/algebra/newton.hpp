@@ -102,6 +102,9 @@ class Newton {
   /// Whether every force left in the residual is within the rounding of positions, so that nothing better can be found.
   /// Collective.
   bool left_to_rounding() const;
+  /// Whether forces at rest are balanced beside those at hand. Those that an iteration tried on its way are a reference for
+  /// rounding alone, which is left when positions no longer change.
+  bool balanced_by_itself();
 
   Assembler& assembler_;
   LinearSolver& solver_;

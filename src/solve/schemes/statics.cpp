@@ -339,6 +339,7 @@ NewtonReport Statics::balance_contacts(const MotionSlots::Origin& from, std::spa
   NewtonReport report = resisted_balance(touched, from, y, to);
   const bool doubtful = report.iterations > 0 && (touches(to) || went_far(report));
   if (report.converged && (touched || !doubtful)) return report;
+  context_.newton.refuse_last();
   NewtonReport second = resisted_balance(!touched, from, way, other);
   // if neither finds anything, the reason why the plain iteration does not tells more
   if (second.converged || (!report.converged && !report.unresisted && (second.unresisted || touched))) {
@@ -350,7 +351,7 @@ NewtonReport Statics::balance_contacts(const MotionSlots::Origin& from, std::spa
 }
 
 NewtonReport Statics::balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
-  constexpr double fastest = 0.1, slowest = 0.7, last = 1e-6;
+  constexpr double fastest = 0.1, slowest = 0.7, first_last = 1e-6, least_last = 1e-14;
   const auto balance_with = [&](double contact_homotopy) {
     context_.assembler.contact_homotopy = contact_homotopy;
     try {
@@ -364,18 +365,21 @@ NewtonReport Statics::balance_across_gaps(const MotionSlots::Origin& from, std::
   };
   NewtonReport report = balance_with(1);
   int iterations = report.iterations;
-  // where several contacts close and open in turn, as pairs of flanks do, smaller changes keep Newton's iteration from a cycle
-  for (double bridged = 1, ratio = fastest; bridged > 0 && report.converged;) {
+  // Where several contacts close and open in turn, as pairs of flanks do, smaller changes keep Newton's iteration from a cycle;
+  // where only a slight force is left to close a contact, as that of a ball, they keep it from leading far away.
+  for (double bridged = 1, ratio = fastest, last = first_last; bridged > 0 && report.converged;) {
     const Configuration before = to;
     const std::vector<double> way(y.begin(), y.end());
     const double next = bridged * ratio < (1 - fastest) * last ? 0 : bridged * ratio;
     report = balance_with(next);
     iterations += report.iterations;
-    if (report.converged) {
+    const bool finer = next > 0 ? ratio < slowest : last > least_last;
+    if (report.converged && (!finer || !went_far(report))) {
       bridged = next;
       ratio = std::max(ratio * ratio, fastest);
-    } else if (next > 0 && ratio < slowest) {
-      ratio = std::sqrt(ratio);
+    } else if (finer) {
+      next > 0 ? ratio = std::sqrt(ratio) : last *= fastest;
+      context_.newton.refuse_last();
       std::copy(way.begin(), way.end(), y.begin());
       to = before;
       report.converged = true;
