@@ -85,7 +85,7 @@ def test_gears_stop_by_the_friction_of_their_flanks(tmp_path: Path) -> None:
 .INI
  VIT NOEUD 1 C 6 V 20
  VIT NOEUD 2 C 6 V -10
-.SAM TYPE DYNAMIC RHO 0.9
+.SAM TYPE DYNAMIC RHO 0.9 PREC 1E-11
 .SUB TF 0.08 H {h}
 .FIN 1
 """

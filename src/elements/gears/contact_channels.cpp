@@ -31,14 +31,14 @@ void put_force_channels(ChannelWriter& out, const ContactReport& report, const V
 void add_contact_channels(std::vector<Channel>& list, const ToothContact& contact) {
   using namespace dimension;
   const Dimension speed = dimension::velocity, watts = dimension::power;
-  list.push_back({"SLIDING_SPEED", speed, "sliding speed of the flanks at the pitch point"});
+  list.push_back({"SLIDING_SPEED", speed, "sliding speed of the flanks at the pitch point", Channel::Course::size});
   list.push_back({"POWER_A", watts, "power of the teeth on A, in the pair's frame"});
   list.push_back({"POWER_B", watts, "power of the teeth on B, in the pair's frame"});
   list.push_back({"EFFICIENCY", none, "1 less the part of the power through the teeth that is lost; 1 without power",
                   Channel::Course::ratio});
   if (contact.options().friction) {
-    list.push_back({"FRICTION_FORCE", force, "size of the resultant of the friction on all flanks"});
-    list.push_back({"FRICTION_POWER", watts, "power lost by sliding and rolling"});
+    list.push_back({"FRICTION_FORCE", force, "size of the resultant of the friction on all flanks", Channel::Course::size});
+    list.push_back({"FRICTION_POWER", watts, "power lost by sliding and rolling", Channel::Course::size});
   }
   if (contact.options().running) list.push_back({"PRESSURE_ANGLE", angle, "working pressure angle, transverse"});
   if (contact.elastic()) {
