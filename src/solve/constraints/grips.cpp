@@ -231,6 +231,21 @@ double Grips::energy_of_change(const Configuration& from, const Configuration& t
   return energy;
 }
 
+std::size_t Grips::unstoppable(const std::vector<Seen>& slips, const std::vector<Seen>& now, const Configuration& before,
+                               const Configuration& after) const {
+  // What an impulse P stops loses the energy P u/2, and friction has no more than its limit times the length of a step.
+  double can_take = 0;
+  std::size_t fastest = count_;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const double speed = slips[i].speed.norm();
+    if (now[i].state.mode != GripState::holding || slips[i].state.mode == GripState::holding || speed == 0) continue;
+    // what holds beside a dead centre has another normal force, out of all proportion
+    can_take += 0.5 * (slips[i].state.mode == GripState::free ? now[i] : slips[i]).limit * longest_ * speed;
+    if (fastest == count_ || speed > slips[fastest].speed.norm()) fastest = i;
+  }
+  return fastest < count_ && energy_of_change(before, after) > can_take ? fastest : count_;
+}
+
 void Grips::settle(Configuration& c, bool massless) {
   assembler_.count_turns(c);  // a place of rest may be that of the last count
   std::vector<Seen> grips = look(c);
@@ -261,11 +276,9 @@ void Grips::settle(Configuration& c, bool massless) {
   const std::size_t together = 3 + 2 * count_, most = 3 + 20 * count_;
   std::size_t last = 0;                // grip that was changed
   std::vector<Seen> slipping = grips;  // but what comes to rest slides on
-  const auto stops_now = [&](std::size_t i) {
-    return at_rest[i] && grips[i].state.mode == GripState::holding && given[i].state.mode != GripState::holding;
-  };
   for (std::size_t i = 0; i < count_; ++i)
-    if (stops_now(i)) slipping[i] = given[i];
+    if (at_rest[i] && grips[i].state.mode == GripState::holding && given[i].state.mode != GripState::holding)
+      slipping[i] = given[i];
   const Configuration moving = without_stopping(c, slipping);
   const std::vector<Seen> slips = look(moving);
   copy_velocities(moving, c);
@@ -292,18 +305,7 @@ void Grips::settle(Configuration& c, bool massless) {
       continue;
     }
     const std::vector<Seen> now = look(c);
-    // What is stopped by an impulse of P loses P u/2. Friction has no more than its limit times the length of a step. To hold the
-    // slider beside the dead centre of its crank would take all energy out of the crank.
-    double can_take = 0;
-    std::size_t blocked = count_;
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (!stops_now(i)) continue;
-      // what holds beside a dead centre has another normal force, out of all proportion
-      const double limit = given[i].state.mode == GripState::free ? now[i].limit : slips[i].limit;
-      can_take += 0.5 * limit * longest_ * slips[i].speed.norm();
-      if (blocked == count_ || (turned[i] && !turned[blocked])) blocked = i;
-    }
-    if (blocked < count_ && energy_of_change(before, c) > can_take) {
+    if (const std::size_t blocked = unstoppable(slips, now, before, c); blocked < count_) {
       copy_velocities(before, c);
       grips[blocked].state = GripState::slides_towards(slips[blocked].speed, grips[blocked].state.held);
       at_rest[blocked] = false;

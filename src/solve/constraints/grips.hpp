@@ -64,6 +64,11 @@ class Grips {
   void fit(Configuration& c, bool massless);
   /// `c` with velocities that fit all other constraints where those `grips` do not hold that are about to.
   Configuration without_stopping(const Configuration& c, const std::vector<Seen>& grips);
+  /// A grip that friction cannot stop as `now` holds it, where the velocities of `before` become those of `after`: the slider of
+  /// a crank beside its dead centre, with which the crank would stop. Their number if there is none. `slips`: where those that
+  /// are about to stop slide on.
+  std::size_t unstoppable(const std::vector<Seen>& slips, const std::vector<Seen>& now, const Configuration& before,
+                          const Configuration& after) const;
   /// Kinetic energy of the difference of the velocities, in the positions of `to`.
   double energy_of_change(const Configuration& from, const Configuration& to) const;
   /// Name of the element that owns the grip: "HINGE 3".

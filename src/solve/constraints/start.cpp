@@ -36,12 +36,17 @@ double angle_between(const Mat3& a, const Mat3& b) { return rotation_log(Mat3(a.
 
 Start::Start(Assembler& assembler, LinearSolver& solver, const MotionSlots& motion, Redundancy& redundancy)
     : assembler_(assembler), solver_(solver), motion_(motion), redundancy_(redundancy), coordinates_(assembler) {
-  const Model& model = assembler.model();
-  for (const Model::Part& part : model.parts)
-    for (const int node : part.nodes)
-      away_ = std::max(away_, model.nodes[static_cast<std::size_t>(node)].x.cwiseAbs().maxCoeff() / model.extent());
   *right_.out() = assembler.new_vector();
   *solution_.out() = assembler.new_vector();
+}
+
+double Start::away(const Configuration& c) const {
+  const Model& model = assembler_.model();
+  double farthest = model.extent();
+  for (const Model::Part& part : model.parts)
+    for (const int node : part.nodes)
+      farthest = std::max(farthest, c.nodes[static_cast<std::size_t>(node)].x.cwiseAbs().maxCoeff());
+  return farthest / model.extent();
 }
 
 bool Start::solve(std::vector<double>& right, std::vector<double>& solution) {
@@ -249,7 +254,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
     return open;
   };
   Closing result;
-  const double accuracy = away_ * target.accuracy;
+  const double away = this->away(c), accuracy = away * target.accuracy;
   const std::vector<std::size_t> teeth = holds_teeth_ ? tooth_deformations() : std::vector<std::size_t>{};
   double open = measure(c), deformed = std::numeric_limits<double>::infinity();
   for (;; ++result.iterations) {
@@ -294,7 +299,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
       for (double& v : y) v /= 2;
     }
     std::swap(c, moved);
-    if (length < 4 * away_ * epsilon && before < 1e-11 * away_) {  // closed as far as rounding allows
+    if (length < 4 * away * epsilon && before < 1e-11 * away) {  // closed as far as rounding allows
       ++result.iterations;
       result.closed = true;
       return result;

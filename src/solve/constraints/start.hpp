@@ -66,7 +66,7 @@ class Start {
   double noise_of_missing_inertia(const Configuration& c) const;
 
  private:
-  /// Accuracy of closed constraints; away_ times that far from the origin.
+  /// Accuracy of closed constraints; away() times that far from the origin.
   static constexpr double rounding_ = 32 * std::numeric_limits<double>::epsilon();
   /// Longest motion between two positions of a path, over the extent or in radians: no loop folds over in it, and far less than
   /// half a turn, so that turns can be counted.
@@ -98,6 +98,8 @@ class Start {
     double part = 0;
     double accuracy = rounding_;  ///< over the sizes of constraints and gaps, near the origin
   };
+  /// Distance from the origin over the extent, at least 1: positions are rounded to its size.
+  double away(const Configuration& c) const;
   /// Damped Newton iteration to the target in the constraints that are not released, and to the wanted coordinates, which must
   /// be independent.
   Closing close(Configuration& c, std::span<const int> held, const Target& target,
@@ -166,7 +168,6 @@ class Start {
   Redundancy& redundancy_;
   StartCoordinates coordinates_;
   Owned<Vec> right_, solution_;
-  double away_ = 1;           ///< distance from the origin over the extent, at least 1: positions are rounded to its size
   bool holds_teeth_ = false;  ///< wheels turn rather than that their teeth deform
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace engrane::solve {
 
@@ -34,16 +35,14 @@ Descent::Descent(SolverContext& context)
   for (Owned<Vec>* vector : {&residual_, &change_, &diagonal_}) *vector->out() = context.assembler.new_vector();
 }
 
-bool Descent::descend(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
-  context_.motion.gather(y, unknowns_);
-  for (std::size_t m = 0; m < to.multipliers.size(); ++m)
-    if (const int e = context_.numbering.equation(static_cast<int>(context_.motion.size() + m)); e >= 0)
-      unknowns_[static_cast<std::size_t>(e)] = to.multipliers[m] / context_.assembler.scale()[m];
-  evaluate(from, y, to);
+bool Descent::descend(const Newton::Apply& apply, std::vector<double> unknowns, Configuration& to) {
+  unknowns_ = std::move(unknowns);
+  apply(unknowns_, to);
+  context_.assembler.residual(to, residual_);
   double viscosity = largest_work(context_.assembler.gather(residual_)) / first_part, largest = 0;
   for (int attempt = 0, in_vain = 0; attempt < most_attempts && in_vain < most_in_vain; ++attempt) {
     const std::vector<double> begin = unknowns_;
-    const std::optional<double> work = creep(viscosity, from, y, to);
+    const std::optional<double> work = creep(viscosity, apply, to);
     if (!work) {
       unknowns_ = begin;
       viscosity *= thicker;
@@ -51,7 +50,7 @@ bool Descent::descend(const MotionSlots::Origin& from, std::span<double> y, Conf
       continue;
     }
     in_vain = 0;
-    if (runs_away(y)) return false;
+    if (runs_away()) return false;
     largest = std::max(largest, *work);
     if (*work < nearly_balanced * largest) return true;
     viscosity *= thinner;
@@ -59,13 +58,14 @@ bool Descent::descend(const MotionSlots::Origin& from, std::span<double> y, Conf
   return false;
 }
 
-std::optional<double> Descent::creep(double viscosity, const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
+std::optional<double> Descent::creep(double viscosity, const Newton::Apply& apply, Configuration& to) {
   Assembler& assembler = context_.assembler;
   std::vector<double> diagonal(lengths_.size(), 0.0), moved(lengths_.size(), 0.0);
   for (std::size_t e = 0; e < diagonal.size(); ++e)
     if (lengths_[e] > 0) diagonal[e] = viscosity / (lengths_[e] * lengths_[e]);
   for (int k = 0; k <= most_corrections_down; ++k) {
-    evaluate(from, y, to);
+    apply(unknowns_, to);
+    assembler.residual(to, residual_);
     const auto r = assembler.gather(residual_);
     const double work = largest_work(r);
     if (!std::isfinite(work)) return {};
@@ -89,20 +89,12 @@ std::optional<double> Descent::creep(double viscosity, const MotionSlots::Origin
   return {};
 }
 
-void Descent::evaluate(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
-  context_.motion.scatter(unknowns_, y);
-  context_.motion.move(from, y, to);
-  for (std::size_t m = 0; m < to.multipliers.size(); ++m)
-    if (const int e = context_.numbering.equation(static_cast<int>(context_.motion.size() + m)); e >= 0)
-      to.multipliers[m] = context_.assembler.scale()[m] * unknowns_[static_cast<std::size_t>(e)];
-  context_.assembler.residual(to, residual_);
-}
-
-bool Descent::runs_away(std::span<const double> y) const {
+bool Descent::runs_away() const {
   const double extent = context_.model.extent();
-  for (const Unknown& u : context_.numbering.unknowns()) {
+  for (std::size_t e = 0; e < unknowns_.size(); ++e) {
+    const Unknown& u = context_.numbering.unknown(static_cast<int>(e));
     if (u.multiplier || u.part >= 0) continue;
-    const double way = std::abs(y[static_cast<std::size_t>(u.slot)]);
+    const double way = std::abs(unknowns_[e]);
     if (way > (u.measure == Measure::moment ? std::numbers::pi : farthest_move * extent)) return true;
   }
   return false;

@@ -14,19 +14,17 @@ class Descent {
  public:
   explicit Descent(SolverContext& context);
 
-  /// Moves `to`, which is `from` moved by `y` (by motion slot), until out-of-balance forces are a small part of the largest on
-  /// the way: near an equilibrium, from where Newton's iteration leads on. False, with both undefined, if they do not become so.
-  /// Collective.
-  bool descend(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
+  /// Moves `to` from where `apply` puts it for `unknowns` (as in Newton::solve) until out-of-balance forces are a small part of
+  /// the largest on the way: near an equilibrium, from where Newton's iteration leads on. False, with `to` undefined, if they do
+  /// not become so. Collective.
+  bool descend(const Newton::Apply& apply, std::vector<double> unknowns, Configuration& to);
 
  private:
   /// A step from unknowns_ against `viscosity`: a work, for each unknown that moves by its length. Returns the largest work of
   /// an out-of-balance force at its end; nothing, with unknowns_ undefined, if the step is too long.
-  std::optional<double> creep(double viscosity, const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
-  /// Sets `to` and residual_ for unknowns_.
-  void evaluate(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
+  std::optional<double> creep(double viscosity, const Newton::Apply& apply, Configuration& to);
   /// Whether the structure has moved so far that it is falling, not snapping.
-  bool runs_away(std::span<const double> y) const;
+  bool runs_away() const;
   /// Largest force (by equation) times the length of its unknown, and largest change of an unknown over its length; multipliers
   /// do not count.
   double largest_work(std::span<const double> forces) const;

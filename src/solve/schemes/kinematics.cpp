@@ -62,6 +62,9 @@ Kinematics::Sizes Kinematics::sizes(const Configuration& c) const {
     s.velocity = std::max(s.velocity, std::abs(v[i]) / size);
     s.acceleration = std::max(s.acceleration, std::abs(a[i]) / size);
   }
+  // steady motion has no accelerations but those of rounding
+  constexpr double rounding = 100 * std::numeric_limits<double>::epsilon();
+  s.acceleration = std::max(s.acceleration, rounding * s.velocity * s.velocity);
   s.force = context_.start.noise_of_missing_inertia(c) / extent;
   const Eigen::VectorXd weight = constraint_sizes(context_.assembler) / extent;
   for (std::size_t m = 0; m < c.multipliers.size(); ++m)

@@ -125,7 +125,7 @@ Outcome Statics::snap(const Configuration& from, double h, Configuration& to) {
   to.h = h;
   std::fill(y_.begin(), y_.end(), 0.0);
   prescribe_step(from.time, to.time, y_);
-  if (!Descent(context_).descend(origin, y_, to)) return {};
+  if (!Descent(context_).descend(move(origin, y_), unknowns_of(y_, to), to)) return {};
   NewtonReport report = resisted_balance(false, origin, y_, to);
   tried_time_ = to.time;
   tried_forces_ = to.multipliers;
@@ -269,22 +269,30 @@ void Statics::load(const Snapshot& snapshot) {
   way_ = snapshot.array("scheme/way");
 }
 
-NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
-  int evaluations = 0;
-  response_ = 0;
-  const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
-    // the factors are still those of the first correction
-    if (watched_ && ++evaluations == 2) probe_start();
+Newton::Apply Statics::move(const MotionSlots::Origin& from, std::span<double> y) const {
+  return [this, &from, y](std::span<const double> unknowns, Configuration& c) {
     context_.motion.scatter(unknowns, y);
     context_.motion.move(from, y, c);
     unknowns_to_multipliers(unknowns, c);
   };
-  {
-    std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
-    context_.motion.gather(y, guess);
-    multipliers_to_unknowns(to, guess);
-    context_.assembler.spread(guess, unknowns_);
-  }
+}
+
+std::vector<double> Statics::unknowns_of(std::span<const double> y, const Configuration& c) const {
+  std::vector<double> unknowns(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
+  context_.motion.gather(y, unknowns);
+  multipliers_to_unknowns(c, unknowns);
+  return unknowns;
+}
+
+NewtonReport Statics::balance(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
+  int evaluations = 0;
+  response_ = 0;
+  const Newton::Apply apply = [&, moved = move(from, y)](std::span<const double> unknowns, Configuration& c) {
+    // the factors are still those of the first correction
+    if (watched_ && ++evaluations == 2) probe_start();
+    moved(unknowns, c);
+  };
+  context_.assembler.spread(unknowns_of(y, to), unknowns_);
   if (error_.wanted()) context_.newton.close_next(error_.may_be_open(way_, 1));
   NewtonReport report = solve(unknowns_, {1, 0, 0}, apply, to);
   refuse_half_turns(y, report);

@@ -41,6 +41,11 @@ class Statics : public Scheme {
   std::optional<double> error(const Configuration& from, double h) const;
   /// Discards what lies before the equilibrium at way_.
   void begin_path(double time, std::span<const double> multipliers);
+  /// Moves a configuration from `from` by unknowns, which also writes them into `y`, by motion slot. Both must outlive the
+  /// result, and `y` holds what is prescribed.
+  Newton::Apply move(const MotionSlots::Origin& from, std::span<double> y) const;
+  /// The unknowns for the displacements `y`, by motion slot, and the multipliers of `c`.
+  std::vector<double> unknowns_of(std::span<const double> y, const Configuration& c) const;
   /// Newton's iteration from the displacements `y` and the multipliers of `to`, which end as the solution.
   NewtonReport balance(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
   /// The same where flanks across a gap have no stiffness towards each other: contacts begin as springs that fade away.
