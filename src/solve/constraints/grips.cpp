@@ -276,12 +276,18 @@ void Grips::settle(Configuration& c, bool massless) {
   const std::size_t together = 3 + 2 * count_, most = 3 + 20 * count_;
   std::size_t last = 0;                // grip that was changed
   std::vector<Seen> slipping = grips;  // but what comes to rest slides on
-  for (std::size_t i = 0; i < count_; ++i)
-    if (at_rest[i] && grips[i].state.mode == GripState::holding && given[i].state.mode != GripState::holding)
-      slipping[i] = given[i];
-  const Configuration moving = without_stopping(c, slipping);
-  const std::vector<Seen> slips = look(moving);
-  copy_velocities(moving, c);
+  bool stopping = false;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (grips[i].state.mode != GripState::holding || given[i].state.mode == GripState::holding) continue;
+    slipping[i] = given[i];
+    stopping = true;
+  }
+  std::vector<Seen> slips = given;
+  if (stopping) {
+    const Configuration moving = without_stopping(c, slipping);
+    slips = look(moving);
+    copy_velocities(moving, c);
+  }
   std::vector<Aim> aims(count_);
   std::vector<bool> cannot_hold(count_);  // while the other grips are as they are
   const auto changes = [&](std::size_t i) {

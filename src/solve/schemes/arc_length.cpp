@@ -171,7 +171,7 @@ NewtonReport ArcLength::follow(const Configuration& from, double h, Configuratio
     context_.motion.gather(y, chord.way);
     if (const double turn = angle(here_, chord); turn > most_turn) {
       report.converged = false;
-      report.reason = fmt::format("it leads to an equilibrium aside, {:.0f} degrees off the path", turn * 180 / std::numbers::pi);
+      report.reason = fmt::format("the step ends {:.0f} degrees off the path", turn * 180 / std::numbers::pi);
     }
   }
   if (!report.converged) context_.newton.refuse_last();

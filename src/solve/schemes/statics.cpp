@@ -360,16 +360,13 @@ NewtonReport Statics::balance_contacts(const MotionSlots::Origin& from, std::spa
 
 NewtonReport Statics::balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
   constexpr double fastest = 0.1, slowest = 0.7, first_last = 1e-6, least_last = 1e-14;
-  const auto balance_with = [&](double contact_homotopy) {
-    context_.assembler.contact_homotopy = contact_homotopy;
-    try {
-      NewtonReport report = balance(from, y, to);
-      context_.assembler.contact_homotopy = 0;
-      return report;
-    } catch (...) {
-      context_.assembler.contact_homotopy = 0;
-      throw;
-    }
+  struct Bridges {
+    double& part;
+    ~Bridges() { part = 0; }
+  } bridges{context_.assembler.contact_homotopy};
+  const auto balance_with = [&](double part) {
+    bridges.part = part;
+    return balance(from, y, to);
   };
   NewtonReport report = balance_with(1);
   int iterations = report.iterations;
