@@ -104,6 +104,10 @@ struct Release {
 struct SwitchNames {
   std::string rises;  ///< from negative to positive
   std::string falls;
+  /// Forces only bend there, with little effect on the motion: steps end there only where forces within steps are asked for
+  /// (SolverOptions::bends).
+  bool bend = false;
+  int multiplier = -1;  ///< its value is that of this multiplier of the element; −1: it is a function of the motion
 };
 
 /// Switch function of the state: its sign separates phases of an element's motion, such as an open and a closed gap.

@@ -17,6 +17,14 @@ constexpr double share_of_newton = 0.01, share_of_path = 1e-3, share_of_event = 
 /// hundredth of a step, and must certainly end before the event for its error to be known.
 constexpr double bluntest_event = 1e-3;
 
+/// Whether forces that bend where teeth change their flank are asked for: all but the load of the teeth itself. Without `.CHK`
+/// every result is asked for.
+bool asks_for_bends(const std::vector<deck::CheckCard>& checks) {
+  return checks.empty() || std::any_of(checks.begin(), checks.end(), [](const deck::CheckCard& check) {
+           return !check.element || check.quantity != "NORMAL_FORCE";
+         });
+}
+
 }  // namespace
 
 const AccuracyRung* accuracy_rung(const deck::AnalysisCard& analysis) {
@@ -84,6 +92,7 @@ SolverOptions solver_options(const Model& model) {
   o.energy_error = analysis.energy;
   o.penalty = analysis.penalty.value_or(0);
   o.events = !analysis.events.is("NO");
+  o.bends = o.tolerance > 0 && asks_for_bends(model.commands.checks);
   o.event_tolerance = !analysis.events.values.empty() ? analysis.events.values[0]
                       : o.tolerance > 0               ? event_tolerance_for(o.tolerance)
                                                       : event_of_fixed_steps;

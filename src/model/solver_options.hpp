@@ -45,6 +45,7 @@ struct SolverOptions {
   double scale = 0;               ///< k of the augmented Lagrangian; 0: automatic
   double penalty = 0;             ///< p of the augmented Lagrangian
   bool events = true;             ///< steps end where a law of an element changes
+  bool bends = false;             ///< also where forces only bend (SwitchNames::bend)
   double event_tolerance = 1e-6;  ///< tolerance of their localisation, as a fraction of H
   double energy_error = 1;        ///< largest error of the energy balance, relative to EnergyBalance::handled(); 0: no limit
 

@@ -83,7 +83,7 @@ void put_contact_channels(ChannelWriter& out, const ToothContact& contact, const
   const double width = contact.geometry().width;
   double total = 0, largest = 0, tilting = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const double normal = report.slices[i] / contact.cos_alpha(),
+    const double normal = report.slices[i].force / contact.cos_alpha(),
                  y = width * ((static_cast<double>(i) + 0.5) / static_cast<double>(n) - 0.5);
     total += normal;
     tilting += y * normal;
@@ -91,7 +91,8 @@ void put_contact_channels(ChannelWriter& out, const ToothContact& contact, const
   }
   out.put(total != 0 ? std::abs(largest * static_cast<double>(n) / total) : 1);
   out.put(tilting);
-  for (const double slice : report.slices) out.put(slice / contact.cos_alpha() * static_cast<double>(n) / width);
+  for (const ContactReport::Slice& slice : report.slices)
+    out.put(slice.force / contact.cos_alpha() * static_cast<double>(n) / width);
 }
 
 }  // namespace engrane::elements::gears

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elements/gears/gear_teeth.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "math/angle.hpp"
 
@@ -107,12 +107,9 @@ double ToothLaw::flank_integral(double x) const {
 }
 
 ToothLaw::Pressed ToothLaw::pressed_pairs(double phase, double depth) const {
-  const double pitch = relief.base_pitch, along = pitch / whole_turn, share = 1 / relief.contact_ratio();
-  const double reach = 0.5 * relief.edge, cycle = phase / whole_turn + relief.flank;
+  const double along = relief.base_pitch / whole_turn, share = 1 / relief.contact_ratio();
   Pressed p;
-  for (double j = std::ceil((-relief.approach - reach) / pitch - cycle); pitch * (cycle + j) < relief.recess + reach; ++j) {
-    const double place = pitch * (cycle + j);
-    const Function::Jet w = relief.present(place), lack = relief.lacking(place);
+  for_each_pair(phase, [&](const Function::Jet& w, const Function::Jet& lack) {
     const double x = depth - lack.f, G = flank_integral(x);
     const Function::Jet F = flank(x);
     p.force += share * w.f * F.f;
@@ -122,13 +119,24 @@ ToothLaw::Pressed ToothLaw::pressed_pairs(double phase, double depth) const {
     p.energy_by_phase += share * along * (w.d1 * G - w.f * F.f * lack.d1);
     p.energy_by_phase_twice +=
         share * along * along * (w.d2 * G - 2 * w.d1 * F.f * lack.d1 + w.f * F.d1 * lack.d1 * lack.d1 - w.f * F.f * lack.d2);
-  }
+  });
   // factor of the force over that without relief; it limits the damping of a flank in contact
   const Function::Jet plain = flank(depth);
   p.factor = {1, 0, 0, 0};
   if (plain.f > 0 && plain.d1 > 0)
     p.factor = {p.force / plain.f, p.by_phase / plain.f, 0, (p.by_depth / plain.d1 - p.force / plain.f) / plain.f};
   return p;
+}
+
+std::vector<ToothLaw::PairDepth> ToothLaw::pair_depths(double phase, double depth, bool back) const {
+  const double along = (back ? -1 : 1) * relief.base_pitch / whole_turn;
+  std::vector<PairDepth> pairs;
+  for_each_pair(back ? -phase : phase, [&](const Function::Jet& w, const Function::Jet& lack) {
+    const double x = depth - lack.f;
+    pairs.push_back({w.f * x, w.f, along * (w.d1 * x - w.f * lack.d1)});
+  });
+  std::sort(pairs.begin(), pairs.end(), [](const PairDepth& a, const PairDepth& b) { return a.weighted > b.weighted; });
+  return pairs;
 }
 
 ToothLaw::Pressed ToothLaw::pressed(double phase, double depth, bool back) const {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "elements/gears/mesh_stiffness.hpp"
@@ -105,6 +107,15 @@ struct ToothLaw {
   /// V = k_m/ε Σ w(ζ_j) ∫ flank(x − δ(ζ_j)) dx, ζ_j/p_b = τ/2π + flank + j. The path of back flanks is the mirror image, τ →
   /// −τ.
   Pressed pressed(double phase, double depth, bool back = false) const;
+  /// With relief: w(ζ_j) (depth − δ(ζ_j)), positive if the pair of flanks touches, with derivatives with respect to the depth and
+  /// to τ.
+  struct PairDepth {
+    double weighted = 0, by_depth = 0, by_phase = 0;
+  };
+  /// Of all pairs on the path, the one pressed in most first.
+  std::vector<PairDepth> pair_depths(double phase, double depth, bool back = false) const;
+  /// Largest number of pairs on the path.
+  int most_pairs() const { return static_cast<int>(std::ceil(relief.contact_ratio() + relief.edge / relief.base_pitch)); }
 
   /// [[x]] of (28) for both flanks.
   Function::Jet deflection(double x) const;
@@ -143,6 +154,13 @@ struct ToothLaw {
 
  private:
   Pressed pressed_pairs(double phase, double depth) const;
+  /// Calls visit(w(ζ), δ(ζ)) for each pair on the path, with derivatives with respect to ζ.
+  template <class Visit>
+  void for_each_pair(double phase, const Visit& visit) const {
+    const double pitch = relief.base_pitch, reach = 0.5 * relief.edge, cycle = phase / (2 * std::numbers::pi) + relief.flank;
+    for (double j = std::ceil((-relief.approach - reach) / pitch - cycle); pitch * (cycle + j) < relief.recess + reach; ++j)
+      visit(relief.present(pitch * (cycle + j)), relief.lacking(pitch * (cycle + j)));
+  }
   template <class T>
   T flank_damping(const T& x, const T& elastic, const T& rate) const {
     const Function::Jet window = ramp(value_of(x));

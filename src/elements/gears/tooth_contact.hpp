@@ -130,7 +130,13 @@ struct ContactReport {
   double friction_force = 0;    ///< magnitude
   Vec3 sliding = Vec3::Zero();  ///< sliding velocity of the fastest flank, if there is friction
   double grip_limit = 0;        ///< largest friction force at rest
-  std::vector<double> slices;   ///< force along the circumference on each slice
+  double load = 0;              ///< of elastic teeth, along the circumference, damping included
+
+  struct Slice {
+    double force = 0;            ///< along the circumference
+    double front = 0, back = 0;  ///< penetration of each flank
+  };
+  std::vector<Slice> slices;  ///< only if the wheels run at their current distance
 };
 
 /// The separating force (34) does work on the wheels when the centre distance changes; it counts as external.
@@ -151,7 +157,7 @@ class ToothContact {
         sin_alpha_(std::sin(geometry.pressure_angle)),
         cos_beta_(std::cos(geometry.helix)) {
     if (options_.slices > 1) slice_crown_ = std::exchange(law_.crown, 0);
-    if (law_.backlash > 0) law_.blur = 64 * std::numeric_limits<double>::epsilon() * geometry.radius;
+    if (parts()) law_.blur = 64 * std::numeric_limits<double>::epsilon() * geometry.radius;
   }
 
   const ContactGeometry& geometry() const { return geometry_; }
@@ -179,21 +185,30 @@ class ToothContact {
   /// roll there and slide elsewhere, the distance along the pitch circle.
   double grip_lever() const { return options_.friction->profile ? geometry_.radius : geometry_.slip_per_turn; }
 
-  /// Names of the switches where the force between flanks is not smooth: both ends of each rounded corner, or the corner
-  /// itself, and the limit of the damping of a flank in contact. None with slices, which come into contact one after another.
+  /// Names of the switches where forces are not smooth: both ends of each rounded corner, or the corner itself; the limit of
+  /// the damping of a flank in contact; and the change of the load from one flank to the other, with whose magnitude the
+  /// separating force and friction go.
   std::vector<SwitchNames> switch_names() const;
   /// Whether flanks may part or have no stiffness where they touch, with or without switches.
-  bool has_gaps() const { return elastic() && (law_.backlash > 0 || options_.running || law_.exponent != 1 || law_.crown > 0); }
+  bool has_gaps() const { return parts() || (elastic() && (law_.exponent != 1 || law_.crown > 0)); }
   /// Whether a flank, at the middle of the face, is in contact or open by no more than rounding.
   bool touches(const ContactReport& report, const State& state) const;
-  /// Values of the switches. The rates neglect the changing distance of running axles; this affects the search for events, not
-  /// their location.
+  /// Values of the switches. The rates neglect the changing distance of running axles and changes of the stiffness; this affects
+  /// the search for events, not their location.
   void switches(const ContactReport& report, const State& state, std::span<Switch> values) const;
 
  private:
   /// Magnitude of the terms that the penetration of a flank is the difference of.
   double size_of_gap(const ContactReport& report, const State& state) const;
-  bool limits_damping() const { return law_.mode == ToothLaw::Damping::contact && law_.damping > 0; }
+  /// Whether flanks come into contact and part.
+  bool parts() const { return elastic() && (law_.backlash > 0 || options_.running); }
+  bool limits_damping() const { return parts() && law_.mode == ToothLaw::Damping::contact && law_.damping > 0; }
+  /// Whether the force between flanks, or the damping, has a corner where they touch at the middle of the face.
+  bool corner_at_middle() const { return limits_damping() || (options_.slices == 1 && !law_.relief.active()); }
+  /// Whether the separating force is (34, 35) and not the derivative of a potential.
+  bool separates_by_load() const { return options_.separation && !(options_.running && elastic()); }
+  /// Whether forces with the magnitude of the load have a corner where it changes its flank, and neither flank parts there.
+  bool turns_load() const { return !limits_damping() && (separates_by_load() || options_.friction); }
   template <class T>
   void press(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap, const T& force_1,
              Balance<T, 2>& balance, ToothLoads<T>& loads, ContactReport* report) const;

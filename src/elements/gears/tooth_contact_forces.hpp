@@ -142,7 +142,7 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
       by_across += y * (slope * both);
       by_along += (y * cos_beta_) * difference;
       potential += part;
-      if (report) report->slices.push_back(value_of(difference));
+      if (report) report->slices.push_back({value_of(difference), value_of(in_front), value_of(behind)});
     }
     const Function::Jet d = geometry_.flank_opening(value_of(opening));
     const T open = compose(opening, d.f, d.d1, d.d2);
@@ -184,7 +184,7 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
           slope_b = compose(psi_b, error_b.d1, error_b.d2, error_b.d3);
   T rate = motion.scalar_rate[2], damping(0), damping_by_turn(0);
   if (law_.damping > 0) {
-    if (law_.mode == ToothLaw::Damping::always || (law_.backlash == 0 && !options_.running)) {
+    if (!limits_damping()) {
       damping = law_.damping * rate;
     } else {
       const auto alone = [&](const T& depth) {
@@ -206,6 +206,7 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
   report->back = value_of(back);
   report->stiffness_factor = value_of(factor);
   report->potential = potential;
+  report->load = value_of(net) + value_of(damping);
   report->damping_power = value_of(damping) * value_of(rate);
 }
 

@@ -129,7 +129,7 @@ template <class T>
 void ToothContact::rub(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap,
                        const T& force_1, const ToothGrip<T>& grip, ToothLoads<T>& loads, ContactReport* report) const {
   using std::abs;
-  const bool radial = options_.separation && !(options_.running && elastic());
+  const bool radial = separates_by_load();
   if (!radial && !options_.friction && !report) return;
   const T load = abs(force_1);
   const ToothMeeting<T> at(a, b, gap);

@@ -19,9 +19,10 @@ struct Event {
 /// The switches of all elements and their sides. Every rank holds the whole configuration and computes the same.
 class Switches {
  public:
-  explicit Switches(SolverContext& context);
+  Switches(SolverContext& context, const Scheme& scheme);
 
-  bool empty() const { return places_.empty(); }
+  /// Whether no step ends for any of them.
+  bool empty() const { return empty_; }
   std::vector<Switch> at(const Configuration& c) const;
   /// The same at the beginning of a step: as a rule the values of the last take().
   std::vector<Switch> before(const Configuration& c) const;
@@ -56,10 +57,14 @@ class Switches {
 
  private:
   SolverContext& context_;
+  const Scheme& scheme_;
   struct Place {
     int part, index;
+    bool active;
+    int equation;  ///< of the multiplier that is its value; −1: none is
   };
   std::vector<Place> places_;
+  bool empty_ = true;
   std::vector<int> side_;      ///< 1, −1 or 0
   std::vector<Switch> taken_;  ///< values at the last take()
   double taken_at_ = 0;
