@@ -18,7 +18,9 @@ Schema path_card() {
       "results is the length of the path, in such a unit that at the start it passes as LOAD_TIME does. H of `.SUB` is the first "
       "step; the others follow the curvature of the path and the iterations. The run ends where LOAD_TIME is TF, or before, "
       "where "
-      "NODE or STEPS ask for it. Limit points and bifurcation points are located and listed, with their modes.");
+      "NODE or STEPS ask for it. Functions should go on changing outside of the run as well, as EXPR \"T\" does: a TABLE holds "
+      "its first value before its first point, and a path that comes back there cannot go on. Limit points and bifurcation "
+      "points are located and listed, with their modes.");
   card.add("STEPS", &PathCard::steps, "the run ends after so many steps at the latest").synonyms({"PAS"}).at_least(1);
   card.add("NODE", &PathCard::node, "the run ends where component C of the displacement of this node is V")
       .synonyms({"NOEUD"})

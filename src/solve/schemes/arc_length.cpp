@@ -26,7 +26,12 @@ constexpr double wished_turn = 6 * std::numbers::pi / 180, most_turn = 46 * std:
 /// Loads whose change moves the structure less than this fraction of what it did at the start stand still: differences over
 /// load_step leave about 1e-10 of rounding.
 constexpr double stands_still = 1e-8;
+/// Nodes that have travelled less than this fraction of the farthest count as if it were that: what rounding moves must not
+/// count.
+constexpr double least_travel = 1e-4;
 constexpr double longest_step = 0.1;
+/// Distance to the end of a step over that expected, at most: behind a corner of 87 degrees the plane is met so far away.
+constexpr double most_overrun = 20;
 /// Part of the run by which the load time changes in one step at most; the step before expected longest_step.
 constexpr double most_path_change = 0.25;
 /// Fraction of H below which a step may turn by any angle: at a corner the path turns however short the step is.
@@ -41,7 +46,7 @@ constexpr double passed_by = 2 * sharp;
 /// If there is no solution, the next trial is nearer to the beginning by this fraction of the way.
 constexpr double nearer_by = 1e-3;
 constexpr int most_nearer = 4;
-/// A small value is accepted only if the bracket is shorter than this fraction of the step.
+/// A small eigenvalue is accepted only if the bracket is shorter than this fraction of the step.
 constexpr double near = 0.1;
 constexpr int most_trials = 60;
 /// Inverse iterations for the least eigenvalue, and the change at which they end: vectors are off by its square root.
@@ -52,14 +57,26 @@ std::vector<double> copy(std::span<const double> values) { return {values.begin(
 
 bool across(double a, double b) { return (a < 0) != (b < 0); }
 
+double product(std::span<const double> weights, std::span<const double> a, std::span<const double> b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += weights[i] * a[i] * b[i];
+  return sum;
+}
+
 }  // namespace
 
 ArcLength::ArcLength(SolverContext& context)
     : Statics(context), factors_(context.assembler.new_matrix()), load_derivative_(context, load_step * context.options.step) {
   for (Owned<Vec>* vector : {&load_, &toward_, &right_, &plane_}) *vector->out() = context.assembler.new_vector();
   const double extent = context.model.extent();
-  for (const Unknown& u : context.numbering.unknowns())
+  int node = -1;
+  for (const Unknown& u : context.numbering.unknowns()) {
     weights_.push_back(u.multiplier ? 0 : u.measure == Measure::force ? 1 / (extent * extent) : 1);
+    if (u.node < 0 || u.node != node) travelled_.push_back(0);
+    groups_.push_back(travelled_.size() - 1);
+    node = u.node;
+  }
+  relative_ = weights_;
 }
 
 StartReport ArcLength::start(Configuration& c) {
@@ -71,18 +88,36 @@ StartReport ArcLength::start(Configuration& c) {
     throw SolutionFailure(
         "the path cannot be followed: nothing moves when time grows; give loads or prescribed displacements a function of time, "
         "NF");
+  travel(here_, context_.options.step);
+  weigh();
+  measure_ = relative(here_.way);
   course_.next = context_.options.step;
   course_.unstable = unstable(here_);
   return report;
 }
 
-double ArcLength::product(std::span<const double> a, std::span<const double> b) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += weights_[i] * a[i] * b[i];
-  return sum;
+void ArcLength::travel(const Point& at, double h) {
+  std::vector<double> squares(travelled_.size());
+  for (std::size_t i = 0; i < weights_.size(); ++i) squares[groups_[i]] += weights_[i] * at.way[i] * at.way[i];
+  for (std::size_t g = 0; g < squares.size(); ++g) travelled_[g] += h * std::sqrt(squares[g]);
 }
 
-double ArcLength::length(std::span<const double> way) const { return std::sqrt(product(way, way)); }
+void ArcLength::weigh() {
+  const double least = least_travel * *std::max_element(travelled_.begin(), travelled_.end());
+  for (std::size_t i = 0; i < relative_.size(); ++i) {
+    const double travelled = std::max(travelled_[groups_[i]], least);
+    relative_[i] = weights_[i] / (travelled * travelled);
+  }
+}
+
+double ArcLength::relative(std::span<const double> way) const { return std::sqrt(product(relative_, way, way)) / measure_; }
+
+double ArcLength::pace(const Point& point) const {
+  const double size = relative(point.way);
+  return size > 0 ? size : 1;
+}
+
+double ArcLength::length(std::span<const double> way) const { return std::sqrt(product(weights_, way, way)); }
 
 int ArcLength::unstable(const Point& point) const {
   const std::vector<Unknown>& unknowns = context_.numbering.unknowns();
@@ -120,7 +155,7 @@ bool ArcLength::examine(const Configuration& c, const Point* before, Point& poin
   point.load = unit_ / size;
   for (double& value : point.way) value *= -point.load;
   if (!before) return true;
-  const double along = product(before->way, point.way);
+  const double along = product(relative_, before->way, point.way);
   if (along < 0 || (along == 0 && before->load < 0)) {
     point.load = -point.load;
     for (double& value : point.way) value = -value;
@@ -128,9 +163,23 @@ bool ArcLength::examine(const Configuration& c, const Point* before, Point& poin
   return true;
 }
 
+bool ArcLength::loads_have_ended(const Configuration& c) {
+  Point point;
+  if (!examine(c, &here_, point)) return false;
+  Configuration rested;
+  move_and_rest(context_, c, std::vector<double>(context_.motion.size(), 0.0), rested);
+  const double begin = context_.options.begin, span = context_.options.end - begin, by = longest_step * span;
+  for (double later = -by; c.load_time() + later > begin - span; later -= by) {
+    load_derivative_.change(rested, later, load_);
+    factors_.solve(load_, toward_);
+    if (length(context_.assembler.gather(toward_)) > stands_still * unit_ * span) return false;
+  }
+  return true;
+}
+
 double ArcLength::angle(const Point& a, const Point& b) const {
   const auto with_load = [&](const Point& p, const Point& q) {
-    return product(p.way, q.way) / (unit_ * unit_) + p.load * q.load;
+    return product(relative_, p.way, q.way) / (measure_ * measure_) + p.load * q.load;
   };
   return std::acos(std::clamp(with_load(a, b) / std::sqrt(with_load(a, a) * with_load(b, b)), -1.0, 1.0));
 }
@@ -151,9 +200,9 @@ NewtonReport ArcLength::follow(const Configuration& from, double h, Configuratio
   multipliers_to_unknowns(from, guess);
   for (std::size_t i = 0; i < guess.size(); ++i) {
     guess[i] += h * here_.way[i];
-    normal[i] = weights_[i] * here_.way[i];
+    normal[i] = relative_[i] * here_.way[i];
   }
-  aim_ = h * product(here_.way, here_.way);
+  aim_ = h * product(relative_, here_.way, here_.way);
   context_.assembler.spread(normal, plane_);
   const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
     context_.motion.scatter(unknowns, y);
@@ -166,13 +215,13 @@ NewtonReport ArcLength::follow(const Configuration& from, double h, Configuratio
   work_ = &to;
   NewtonReport report = solve(unknowns(), {1, 0, 0}, apply, to, false, at_end ? nullptr : this);
   refuse_half_turns(y, report);
-  if (report.converged && !branching_ && h > corner * context_.options.step) {
+  if (report.converged && !branching_) {
     Point chord{std::vector<double>(here_.way.size()), now_ - from.load_time()};
     context_.motion.gather(y, chord.way);
-    if (const double turn = angle(here_, chord); turn > most_turn) {
-      report.converged = false;
+    const double turn = angle(here_, chord), way = h * pace(here_);
+    report.converged = relative(chord.way) <= most_overrun * way && (turn <= most_turn || way <= corner * context_.options.step);
+    if (!report.converged)
       report.reason = fmt::format("the step ends {:.0f} degrees off the path", turn * 180 / std::numbers::pi);
-    }
   }
   if (!report.converged) context_.newton.refuse_last();
   return report;
@@ -194,7 +243,8 @@ void ArcLength::complete(Vec x, Vec step) {
   check_petsc(VecDot(plane_, x, &at));
   check_petsc(VecDot(plane_, step, &by));
   check_petsc(VecDot(plane_, toward_, &with));
-  if (std::abs(with) <= stands_still * unit_ * unit_) return;  // no change of the loads leads into the plane
+  if (std::abs(with) <= stands_still * product(relative_, here_.way, here_.way))
+    return;  // no change of the loads leads into the plane
   // a change Δ of the load time changes x by −step − Δ toward
   const double change = (at - by - aim_) / with;
   if (!std::isfinite(change)) return;
@@ -208,13 +258,19 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
         "the path has not come to load time {:g} in {} steps, and may never: give STEPS, or NODE with a displacement that "
         "it comes to",
         context_.options.end, most_steps));
+  if (here_.load < 0 && length(here_.way) == 0 && loads_have_ended(from))
+    throw SolutionFailure(fmt::format(
+        "the loads stay as they are from load time {:.6g} back, and the path cannot go on: a TABLE holds its first value before "
+        "its first point. Give functions that go on changing there, such as EXPR \"T\"",
+        from.load_time()));
   next_course_ = {};
   next_bifurcations_ = bifurcations_;
   if (std::optional<NewtonReport> report = arrive(from, h, to)) {
-    next_course_.next = h;  // of a restart with a later end
+    next_course_.next = h * pace(here_);  // of a restart with a later end
     h = to.h;
     find_goal(from, h, to, there_);
     find_critical(from, h, to, there_);
+    step_ = h;
     return {std::move(*report), {}};
   }
   NewtonReport report = follow(from, h, to);
@@ -224,9 +280,10 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
     // behind the top of a function of time the same loads stand at another time
     report.converged = false;
     report.reason = fmt::format(
-        "the loads hardly change with time at load time {:.6g}, and a path cannot pass such a place: give them a function that "
-        "goes on changing, such as EXPR \"T\"",
-        from.load_time());
+        "the step ends off the path, at load time {:.6g}. Either the loads hardly change with time at load time {:.6g}, and a "
+        "path cannot pass such a place: give them a function that goes on changing, such as EXPR \"T\". Or the path ends there, "
+        "as where the ends of a spring meet",
+        to.load_time(), from.load_time());
     return {std::move(report), {}};
   }
   if (!examine(to, &here_, there_)) {
@@ -236,7 +293,7 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
     return {std::move(report), {}};
   }
   const double turn = angle(here_, there_);
-  if (!branching_ && turn > most_turn && h > corner * context_.options.step) {
+  if (!branching_ && turn > most_turn && h * pace(here_) > corner * context_.options.step) {
     report.converged = false;
     report.reason = fmt::format("the path turns by {:.0f} degrees in the step", turn * 180 / std::numbers::pi);
     return {std::move(report), {}};
@@ -244,9 +301,10 @@ Outcome ArcLength::attempt(const Configuration& from, double h, Configuration& t
   const double growth = report.iterations > most_iterations ? 0.5 : std::clamp(wished_turn / turn, 0.5, 2.0);
   // the load time changes by a fraction of the run's at most
   const double longest = longest_step * (context_.options.end - context_.options.begin) / std::abs(there_.load);
-  next_course_.next = std::min(growth * h, longest);
+  next_course_.next = std::min(growth * h * pace(here_), longest * pace(there_));
   find_goal(from, h, to, there_);
   if (!branching_) find_critical(from, h, to, there_);
+  step_ = h;
   return {std::move(report), {}};
 }
 
@@ -301,7 +359,8 @@ ArcLength::Bracket ArcLength::locate(const Configuration& from, double& h, Confi
     h = h_try;
     to = std::move(tried);
     there = std::move(point);
-    if (std::abs(at) <= small && high - low < near * whole) break;
+    // what is smooth has but one zero there; any nearer to a limit point the factors lose the digits of its place
+    if (std::abs(at) <= small && (precision < sharp || high - low < near * whole)) break;
   }
   return found;
 }
@@ -393,7 +452,7 @@ ArcLength::Mode ArcLength::least_mode() {
     context_.assembler.spread(right, right_);
     factors_.solve(right_, toward_);
     std::vector<double> next = copy(context_.assembler.gather(toward_));
-    const double inverse = product(mode.vector, next) / size;
+    const double inverse = product(weights_, mode.vector, next) / size;
     const double before = mode.eigenvalue;
     mode.eigenvalue = 1 / inverse;
     mode.vector = std::move(next);
@@ -419,14 +478,21 @@ double ArcLength::take_branch(const Mode& mode, Point& there) {
 }
 
 void ArcLength::accept() {
+  travel(here_, step_ / 2);
+  travel(there_, step_ / 2 * pace(here_) / pace(there_));
+  // a direction goes on being worth as much beside the load time
+  const Point& last = length(there_.way) > 0 ? there_ : here_;
+  const double before = pace(last);
+  weigh();
+  measure_ *= pace(last) / before;
   here_ = std::move(there_);
-  const double before = course_.critical_time;
+  const double critical_time = course_.critical_time;
   course_ = std::move(next_course_);
-  course_.critical_time = course_.critical ? course_.critical->load_time : before;
+  course_.critical_time = course_.critical ? course_.critical->load_time : critical_time;
   course_.unstable = unstable(here_);
   bifurcations_ = next_bifurcations_;
   branching_ = course_.critical && course_.critical->switched != 0;
-  if (branching_) course_.next = branch_step_;
+  course_.next = branching_ ? branch_step_ : course_.next / pace(here_);
   if (++steps_ == context_.options.path.steps) course_.arrived = true;
 }
 
@@ -436,6 +502,8 @@ void ArcLength::save(Snapshot& snapshot) const {
   snapshot.put("path/state", {here_.load, static_cast<double>(here_.negative), here_.symmetric ? 1.0 : 0.0, unit_,
                               static_cast<double>(bifurcations_), static_cast<double>(steps_), branching_ ? 1.0 : 0.0,
                               course_.next, static_cast<double>(course_.unstable), course_.critical_time});
+  snapshot.put("path/travelled", travelled_);
+  snapshot.put("path/measure", {measure_});
   snapshot.put("path/arrived", course_.arrived ? goal() : std::vector<double>{});
 }
 
@@ -450,6 +518,9 @@ void ArcLength::load(const Snapshot& snapshot) {
   here_.way = snapshot.array("path/way");
   const std::vector<double>& state = snapshot.array("path/state");
   if (here_.way.size() != weights_.size()) throw std::out_of_range("the path has other equations");
+  travelled_ = snapshot.array("path/travelled");
+  weigh();
+  measure_ = snapshot.array("path/measure").at(0);
   here_.load = state.at(0);
   here_.negative = static_cast<int>(state.at(1));
   here_.symmetric = state.at(2) != 0;

@@ -15,6 +15,9 @@ namespace engrane::solve {
 /// translations over the extent of the model and rotations in radians, in a unit in which s increases as fast as the load time
 /// at the start.
 ///
+/// Planes and angles, which steer the steps, have another measure: each node counts against what it has travelled so far. The end
+/// of a soft spring, which moves far, would otherwise hide what snaps behind it.
+///
 /// A step begins on the tangent and stays in the plane normal to it at its end (Riks 1979, Int. J. Solids Struct. 15; Keller
 /// 1977). There the tangent matrix is factored anew: the number of its negative eigenvalues shows whether the step has passed a
 /// critical point. This point is then located, and the eigenvector of the smallest eigenvalue is the mode there.
@@ -61,10 +64,18 @@ class ArcLength final : public Statics, private Border {
   bool examine(const Configuration& c, const Point* before, Point& point);
   /// Mode of the matrix examined last.
   Mode least_mode();
-  /// Inner product of vectors by equation, with the weights of the length.
-  double product(std::span<const double> a, std::span<const double> b) const;
   double length(std::span<const double> way) const;
-  /// Angle between the directions at two points; the load time counts as the length does at the start.
+  /// Adds to what nodes have travelled a step of h in the direction at a point.
+  void travel(const Point& at, double h);
+  /// Sets relative_ by what nodes have travelled.
+  void weigh();
+  /// Relative length, with the weights relative_ and in the unit measure_.
+  double relative(std::span<const double> way) const;
+  /// Relative length of the direction at a point, 1 where only the load time goes on: that of a step of 1.
+  double pace(const Point& point) const;
+  /// Whether the loads of an equilibrium are those of all load times before it, to one span of the run before its begin.
+  bool loads_have_ended(const Configuration& c);
+  /// Angle between the directions at two points, in the relative measure; the load time counts as measure_ does.
   double angle(const Point& a, const Point& b) const;
   /// Ends the step where `value` is zero, to the fraction `precision` of its larger end value. `first`: the value at the
   /// beginning, of the opposite sign to that at the end.
@@ -93,7 +104,12 @@ class ArcLength final : public Statics, private Border {
   LoadDerivative load_derivative_;
   Owned<Vec> load_, toward_, right_;  ///< derivative of the residual by the load time, solutions, right sides
   std::vector<double> weights_;       ///< of the length, by equation
+  std::vector<std::size_t> groups_;   ///< by equation: what travels together, the unknowns of a node
+  std::vector<double> travelled_;     ///< by group
+  std::vector<double> relative_;      ///< weights_ over the square of what the group has travelled: of planes and angles
+  double measure_ = 1;                ///< relative length that counts as much as the load time
   double unit_ = 1;                   ///< of the length
+  double step_ = 0;                   ///< length of the last attempt
   Point here_, there_;                ///< present point of the path, and the end of the last attempt
   int bifurcations_ = 0, next_bifurcations_ = 0, steps_ = 0;
   bool branching_ = false;  ///< the next step leaves a bifurcation along its mode

@@ -13,10 +13,14 @@ class LoadDerivative {
   LoadDerivative(SolverContext& context, double step);
 
   void find(const Configuration& c, Vec f);
+  /// Writes the change of the same to a load time that is `later` by so much into `f`.
+  void change(const Configuration& c, double later, Vec f);
   /// Makes differences look ahead, or back.
   void turn(bool ahead) { step_ = ahead ? std::abs(step_) : -std::abs(step_); }
 
  private:
+  void residual(const Configuration& c, double later, Vec into);
+
   SolverContext& context_;
   double step_;
   Owned<Vec> next_;
