@@ -128,3 +128,86 @@ def test_a_shaft_in_two_bearings_whatever_was_before(history: tuple[str, ...], t
     assert ground(result)[:, -1] == pytest.approx([5.1472278, -38.4916288, -14.4852608], rel=1e-7)
     moved = [result[f"node/3/U{c}"][-1] for c in "XYZ"]
     assert moved == pytest.approx([-3.6416180e-05, 2.9603666e-06, 1.0139148e-06], rel=1e-5)
+
+
+TOUCHING = """.NOE
+ I 1
+ I 2 X 0 {distance!r}
+.MCE
+ I 1 {contact} K {k} EXP {exponent}
+ I 2 PRISMATIC N 0 2 AXIS 0 1 0 K 10
+ I 3 FORCE N 2 DIR 0 -1 0 V 100
+{mass}.SAM TYPE {kind}
+.SUB TF 1E-3 H 1E-3
+.FIN 1
+"""
+CONTACTS = {
+    "ball": (2.0, "STOP N 0 2 MIN 2"),
+    "plane": (0.0, "STOP N 0 2 NORMAL 0 1 0"),
+    "knife": (
+        0.03,
+        "CAM N 0 2 AXIS 0 0 1 BASE 0.03 MOTION 120 0 90 0.01 60 0.01 90 0 FOLLOWER KNIFE DIRECTION 0 1 0",
+    ),
+    "roller": (
+        0.04,
+        "CAM N 0 2 AXIS 0 0 1 BASE 0.03 MOTION 120 0 90 0.01 60 0.01 90 0 FOLLOWER ROLLER 0.01 "
+        "DIRECTION 0 1 0",
+    ),
+}
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+@pytest.mark.parametrize(("k", "exponent"), [(1e9, 1.11), (1e10, 1.5), (1e12, 2)])
+@pytest.mark.parametrize("kind", ["STATIC", "DYNAMIC START STATIC"])
+def test_a_contact_that_touches_takes_the_load(
+    contact: str, k: float, exponent: float, kind: str, tmp_path: Path
+) -> None:
+    distance, card = CONTACTS[contact]
+    mass = "" if kind == "STATIC" else " I 4 INERTIA N 2 M 10\n"
+    deck = TOUCHING.format(distance=distance, contact=card, k=k, exponent=exponent, kind=kind, mass=mass)
+    result = run(deck, tmp_path)
+    assert result["node/2/UY"][0] == pytest.approx(-((100 / k) ** (1 / exponent)), rel=1e-3)
+
+
+THROUGH = """.NOE
+ I 1
+ I 2 X 0 {at!r} 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 2 PRISMATIC N 0 2 AXIS 0 1 0 K {spring} SLIDE0 -0.0193
+ I 3 CAM N 1 2 AXIS 0 0 1 BASE 0.03 MOTION 90 {lift} 60 {lift} 90 0 120 0 $
+     FOLLOWER {follower} DIRECTION 0 1 0 {contact}
+.FCT
+ I 1 TABLE 0 0 1 (2*PI)
+.SAM TYPE STATIC
+.SUB TF 1 H (1/{steps})
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize(
+    ("follower", "radius", "lift", "spring", "contact", "steps"),
+    [
+        ("KNIFE", 0, 0.005, 472, "K 1.3D8", 72),
+        ("ROLLER 0.01", 0.01, 0.014, 643, "LAW MODIFIED_SINE K 1.4659D10 EXP 1.5", 36),
+    ],
+)
+def test_a_follower_stays_on_its_side_of_the_cam(
+    follower: str, radius: float, lift: float, spring: float, contact: str, steps: int, tmp_path: Path
+) -> None:
+    """Where the lift decelerates, Newton's first iterate leaves the cam, and the next is deep inside it."""
+    start = 0.03 + radius
+    result = run(
+        THROUGH.format(
+            at=start,
+            lift=lift,
+            spring=spring,
+            follower=follower,
+            contact=contact,
+            steps=steps,
+        ),
+        tmp_path,
+    )
+    moved = result["node/2/UY"]
+    assert moved.min() > -2e-6
+    assert moved.max() == pytest.approx(lift, abs=2e-6)

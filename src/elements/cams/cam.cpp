@@ -349,6 +349,7 @@ std::unique_ptr<Element> build(const CamData& data, BuildContext& context) {
   parts.profile = std::make_shared<CamProfile>(std::move(curve), motion ? parts.radius : 0.0, parts.inside);
   if (data.stiffness) {
     parts.law = StopLaw{*data.stiffness, data.exponent};
+    parts.law->reach = parts.profile->greatest();
     if (!set_stop_damping(data.damping, context, "DAMP", *parts.law)) return nullptr;
     if (data.damping.is("REST"))
       parts.derived.push_back({"damping d of Hunt and Crossley", parts.law->hunt, Dimension{-1, 0, 1, 0}});

@@ -55,6 +55,8 @@ class CamProfile {
   CamFoot at(double s) const;
   const CamCurve& curve() const { return *curve_; }
   double inset() const { return inset_; }
+  /// Largest distance of the curve from its centre.
+  double greatest() const { return greatest_; }
 
   /// The point of the curve at which f is smallest, to rounding error; f takes a CamFoot.
   template <class F>

@@ -16,6 +16,9 @@ struct StopLaw {
   double stiffness = 0, exponent = 1;
   double hunt = 0;    ///< d
   double linear = 0;  ///< c
+  /// Penetration at which the spring that bridges gaps resists as the contact does; less deep it is stiffer, and never leads
+  /// farther. Best some size of the parts: like the spring, it leads a search, but does not change what is found.
+  double reach = 1;
 
   bool damped() const { return hunt > 0 || linear > 0; }
 
@@ -27,17 +30,13 @@ struct StopLaw {
     return compose(pressed, f, n * f / x, n * (n - 1) * f / (x * x));
   }
 
-  /// Contact force. `contact_homotopy` is the fraction of the spring that also acts across an open gap while statics searches
-  /// for contacts (State::contact_homotopy).
+  /// Contact force. `contact_homotopy` is the fraction of it that a linear spring replaces, which also acts across an open gap,
+  /// while statics searches for contacts (State::contact_homotopy). Unlike a contact with n > 1 it resists where they only touch.
   template <class T>
   T force(const T& pressed, const T& rate, double contact_homotopy) const {
-    if (!(value_of(pressed) > 0)) {
-      // a linear contact that just touches still has a slope
-      if (contact_homotopy == 0 || (value_of(pressed) == 0 && exponent != 1)) return T(0);
-      return -(elastic(T(-pressed)) * contact_homotopy);
-    }
-    const T total = elastic(pressed) * (T(1) + hunt * rate) + linear * rate;
-    return value_of(total) > 0 ? total : T(0);
+    const T contact = value_of(pressed) > 0 ? pushing(pressed, rate) : T(0);
+    if (contact_homotopy == 0) return contact;
+    return (1 - contact_homotopy) * contact + contact_homotopy * stiffness * std::pow(reach, exponent - 1) * pressed;
   }
 
   double stored(double pressed) const { return pressed > 0 ? stiffness * std::pow(pressed, exponent + 1) / (exponent + 1) : 0; }
@@ -70,6 +69,13 @@ struct StopLaw {
   }
 
  private:
+  /// The force for δ > 0.
+  template <class T>
+  T pushing(const T& pressed, const T& rate) const {
+    const T total = elastic(pressed) * (T(1) + hunt * rate) + linear * rate;
+    return value_of(total) > 0 ? total : T(0);
+  }
+
   /// ln((1 + x)/(1 − e x)) − x (1 + e). Where the logarithms cancel, its series divided by x²; only the sign matters.
   static double imbalance(double x, double e) {
     if (x > 0.05) return std::log1p(x) - std::log1p(-e * x) - x * (1 + e);

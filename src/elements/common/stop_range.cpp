@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace engrane::elements {
@@ -86,6 +87,11 @@ std::optional<StopRange> StopRange::of(const BuildContext& context, const StopRa
   }
   if (data.lower) range.limits.push_back({unit * *data.lower, 1});
   if (data.upper) range.limits.push_back({unit * *data.upper, -1});
+  // the nearer limit: "no lower limit" is often written as MIN -1E9
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const StopLimit& limit : range.limits)
+    if (limit.place != 0) nearest = std::min(nearest, std::abs(limit.place));
+  if (std::isfinite(nearest)) range.law.reach = nearest;
   return range;
 }
 

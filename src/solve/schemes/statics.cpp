@@ -24,9 +24,12 @@ constexpr double share_of_first = 0.5;
 /// Allows for derivatives that differ between both polynomials: an error is up to three times what their comparison shows.
 constexpr double safety = 3;
 
-/// Whether a correction turned a node by a radian, or moved it by the lengths around: far beyond what its tangent can tell.
+/// Whether corrections, one or several, turned a node by a radian or moved it by the lengths around: far beyond what the first
+/// tangent can tell.
 bool went_far(const NewtonReport& report) {
-  return std::any_of(report.rows.begin(), report.rows.end(), [](const NewtonRow& row) { return row.correction > 1; });
+  double way = 0;
+  for (const NewtonRow& row : report.rows) way += row.correction;
+  return way > 1;
 }
 
 }  // namespace
