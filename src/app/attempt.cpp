@@ -15,6 +15,7 @@
 #include "deck/cards/cards.hpp"
 #include "model/function_failure.hpp"
 #include "model/masses.hpp"
+#include "model/user_function.hpp"
 #include "solve/constraints/diagnosis.hpp"
 #include "solve/run/buckling.hpp"
 #include "user/routine.hpp"
@@ -83,6 +84,14 @@ bool judges_energies(const SolverOptions& options) {
   return options.analysis == SolverOptions::Analysis::dynamics && options.energy_error > 0;
 }
 
+/// What user routines may have to do with an energy balance that is off; empty without any.
+std::string routine_to_blame(const Model& model) {
+  if (std::none_of(model.functions.begin(), model.functions.end(),
+                   [](const auto& function) { return dynamic_cast<const UserFunction*>(function.second.get()) != nullptr; }))
+    return {};
+  return ". A LAW USER has the same effect if the energy that its routine returns depends on the time: it is then left unset";
+}
+
 /// Why the run must end when its energies say that it is wrong; empty when they do not.
 std::string energy_failure(const SolverContext& context, const References& references, const observe::Observer& observer,
                            const Configuration& c) {
@@ -95,12 +104,13 @@ std::string energy_failure(const SolverContext& context, const References& refer
   const std::string unit = context.model.units.label(dimension::energy);
   return fmt::format(
       "the energy balance is off by {:.4g} {} at t = {:.6g}, more than {}the {:.4g} {} that were in the machine or passed "
-      "through it: the results went wrong some time before this. Take a smaller {}{}; ENERGY 0 in .SAM lets the run continue",
+      "through it: the results went wrong some time before this. Take a smaller {}{}{}; ENERGY 0 in .SAM lets the run continue",
       balance.error(), unit, c.time, allowed == 1 ? "" : fmt::format("{:g} of ", allowed), balance.handled(), unit,
       context.options.tolerance > 0 ? "TOL or HMAX" : "step H",
       context.options.family == SolverOptions::Family::newmark || context.options.damping > 0.99
           ? ", or a scheme with damping (RHO below 1): without it, rounding errors in the constraints grow"
-          : "");
+          : "",
+      routine_to_blame(context.model));
 }
 
 /// A warning where the equilibria of a run are not on one path; empty where they are.
@@ -127,9 +137,9 @@ std::string energy_remark(const SolverContext& context, const References& refere
   if (!judges_energies(context.options) || off <= much * balance.handled() || counts_as_none(off, context, references)) return {};
   return fmt::format(
       "the energy balance was off by up to {:.3g} {}, {:.0f} % of what was in the machine or passed through it: "
-      "results may be as wrong. A smaller {} would tell",
+      "results may be as wrong. A smaller {} would tell{}",
       off, context.model.units.label(dimension::energy), 100 * off / balance.handled(),
-      context.options.tolerance > 0 ? "TOL" : "step H");
+      context.options.tolerance > 0 ? "TOL" : "step H", routine_to_blame(context.model));
 }
 
 /// Those of user routines and formulas that have been said, or that belong to attempts which were cut.
@@ -327,10 +337,10 @@ void Attempt::write(const Write& write) {
 std::optional<Trial> Attempt::sharper() {
   const auto [tolerance, longest] = sharper_steps();
   if (tolerance == 0) return {};
-  const bool kept = longest == trial_.options.longest && companion_->serves(tolerance);
-  if (kept) companion_->succeed(runner_->steps(), tolerance);
   SolverOptions next = trial_.settled ? *trial_.settled : with_tolerance(task_.reading.model, trial_.options, tolerance);
   next.longest = longest;
+  const bool kept = longest == trial_.options.longest && companion_->serves(tolerance);
+  if (kept) companion_->succeed(runner_->steps(), next);
   return Trial{.options = next, .complete = trial_.options, .keeps_companion = kept, .differences = differences_};
 }
 

@@ -52,6 +52,14 @@ constexpr double no_range = 1e-6;
 /// So does one whose range is less than this part of the sizes of its kind, which is what iterations leave of them.
 constexpr double no_size = 1e-9;
 
+/// The rotation vector of the same rotation that is nearest to `other`: as many turns about its axis are added as it takes.
+Vec3 nearest_rotation_vector(const Vec3& v, const Vec3& other) {
+  constexpr double turn = 2 * std::numbers::pi;
+  const double angle = v.norm();
+  if (angle == 0) return v;
+  return v * (1 + turn / angle * std::round((v.dot(other) / angle - angle) / turn));
+}
+
 double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
@@ -68,12 +76,13 @@ SolverOptions with_tolerance(const Model& model, const SolverOptions& options, d
 
 Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_Comm comm, bool quiet,
                      const Resumption* resumption, Span span)
-    : extent_(reading.model.extent()), duration_(options.end - options.begin) {
+    : extent_(reading.model.extent()), duration_(options.end - options.begin), precision_of_run_(options.precision) {
   const double begun = processor_time();
   const Model& model = reading.model;
   SolverOptions loose =
       with_tolerance(model, options, std::min(looser * options.tolerance, std::max(loosest, 2 * options.tolerance)));
   loose.longest *= longer;
+  precision_ = loose.precision;
   estimate_.tolerance = options.tolerance;
   estimate_.begins_looser = options.family == SolverOptions::Family::radau;
   estimate_.companion_tolerance = loose.tolerance;
@@ -144,6 +153,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   } catch (const std::out_of_range&) {
     if (!resumption) throw;  // else the run itself tells why it cannot go on
   }
+  find_loads(runner.references());
   steps_ = runner.steps();
   follows_tolerance_ = follows(steps_, last);
   last_ = -std::numeric_limits<double>::infinity();
@@ -159,24 +169,42 @@ void Companion::choose_columns(const observe::Observer& observer, const Model& m
   if (!selected)
     for (const deck::CheckCard& check : model.commands.checks)
       (check.element || check.node ? asked : asked_of_run).insert(checked_channel(observer, check));
-  const auto choose = [this](int at, const std::string& owner, const Channel& channel) {
-    if (channel.course == Channel::Course::smooth || channel.course == Channel::Course::size)
-      columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at), owner, channel.name, channel.dimension, 0,
-                          std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+  const auto choose = [this](int at, const std::string& owner, const Channel& channel, int part = -1) {
+    if (channel.course != Channel::Course::smooth && channel.course != Channel::Course::size) return;
+    columns_.push_back({static_cast<std::size_t>(at), static_cast<std::size_t>(at), owner, channel.name, channel.dimension, 0,
+                        std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+    columns_.back().part = part;
   };
   int at = 0;
-  for (const observe::Table& table : observer.tables())
-    for (const int id : table.ids)
+  for (const observe::Table& table : observer.tables()) {
+    const std::string kind = table.path.substr(0, table.path.find('/') + 1);
+    for (std::size_t owner = 0; owner < table.ids.size(); ++owner)
       for (const Channel& channel : table.channels) {
         if (asked.empty() || asked.count(at) > 0)
-          choose(at, table.path.substr(0, table.path.find('/') + 1) + std::to_string(id), channel);
+          choose(at, kind + std::to_string(table.ids[owner]), channel, kind == "element/" ? table.owners[owner] : -1);
         ++at;
       }
+  }
+  for (std::size_t c = 0; c + 2 < columns_.size(); ++c) {
+    const Column &x = columns_[c], &z = columns_[c + 2];
+    if (!x.owner.starts_with("node/") || x.owner != z.owner || x.dimension != z.dimension) continue;
+    if (!x.channel.ends_with('X') || !z.channel.ends_with('Z')) continue;
+    for (std::size_t k = 0; k < 3; ++k) columns_[c + k].component = static_cast<int>(k);
+  }
   for (const Channel& channel : observer.run_channels()) {
     if (asked_of_run.count(at) > 0 && channel.name != "ENERGY_ERROR") choose(at, "run", channel);  // that is an error itself
     ++at;
   }
   placed_ = asked.empty();  // else the run has more histories than this one
+}
+
+void Companion::find_loads(const References& references) {
+  for (Column& column : columns_) {
+    if (column.part < 0) continue;
+    const Dimension& d = column.dimension;
+    if (d == dimension::force || d == dimension::moment)
+      column.load = references.peak_on(static_cast<std::size_t>(column.part), d == dimension::moment);
+  }
 }
 
 std::optional<std::size_t> Companion::place(double time) const {
@@ -210,18 +238,26 @@ void Companion::compare(double time, const observe::Observer& observer) {
   const std::vector<double>& values = observer.values();
   handled_ = observer.energies().handled();
   ++compared_;
+  double* const run = &values_run_[*row * columns_.size()];
+  const double* const companion = &values_[*row * columns_.size()];
+  for (std::size_t c = 0; c < columns_.size(); ++c) run[c] = values[columns_[c].at];
   for (std::size_t c = 0; c < columns_.size(); ++c) {
-    Column& column = columns_[c];
-    const double value = values[column.at];
-    const std::size_t at = *row * columns_.size() + c;
-    values_run_[at] = value;
-    double off = value - values_[at];
-    // components of a rotation vector begin anew after a turn
-    if (column.dimension == dimension::angle) off = std::remainder(off, 2 * std::numbers::pi);
+    const double off = difference(c, run, companion);
     if (!std::isfinite(off)) continue;
-    column.squares += off * off;
-    column.include(value);
+    columns_[c].squares += off * off;
+    columns_[c].include(run[c]);
   }
+}
+
+double Companion::difference(std::size_t column, const double* run, const double* companion) const {
+  const double off = run[column] - companion[column];
+  if (columns_[column].dimension != dimension::angle) return off;
+  const int component = columns_[column].component;
+  // an angle begins anew after a turn, and so does a rotation vector along its axis
+  if (component < 0) return std::remainder(off, 2 * std::numbers::pi);
+  const std::size_t first = column - static_cast<std::size_t>(component);
+  const Eigen::Map<const Vec3> own(run + first), other(companion + first);
+  return (own - nearest_rotation_vector(other, own))[component];
 }
 
 void Companion::find_columns(const observe::Observer& observer) {
@@ -241,11 +277,12 @@ bool Companion::serves(double tolerance) const {
   return ratio >= least_looser && ratio <= most_looser;
 }
 
-void Companion::succeed(long steps, double tolerance) {
+void Companion::succeed(long steps, const SolverOptions& next) {
   const double now = processor_time();
   estimate_.earlier_seconds += estimate_.companion_seconds;
   estimate_.companion_seconds = now - std::exchange(begun_, now);
-  estimate_.companion_tolerance = std::exchange(estimate_.tolerance, tolerance);
+  estimate_.companion_tolerance = std::exchange(estimate_.tolerance, next.tolerance);
+  precision_ = std::exchange(precision_of_run_, next.precision);
   for (Column& column : columns_) column.before = compared_ > 0 ? difference(column) : 0;
   steps_before_ = std::exchange(steps_, steps);
   values_ = std::exchange(values_run_, {});
@@ -291,7 +328,10 @@ std::vector<Companion::Largest> Companion::largest_by_dimension() const {
 double Companion::noise_of(const Column& column, const std::vector<Largest>& all) const {
   const Dimension& own = column.dimension;
   const bool is_place = own.mass == 0 && own.time == 0, is_acceleration = own.mass == 0 && own.time == -2;
-  double noise = no_range * column.size();
+  // iterations balance loads up to a part of those around, and with them accelerations
+  double noise = std::max(no_range * column.size(), precision_ * column.load);
+  if (is_acceleration && column.component >= 0)
+    for (const Column *x = &column - column.component, *k = x; k < x + 3; ++k) noise = std::max(noise, precision_ * k->size());
   // work that loads and drives do on one another, and nothing else
   if (column.owner == "run" && own == dimension::energy) noise = std::max(noise, no_range * handled_);
   // rates that lead no farther in the whole run are no more than such places

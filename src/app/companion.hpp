@@ -12,6 +12,7 @@
 #include "app/read.hpp"
 #include "model/solver_options.hpp"
 #include "observe/observer.hpp"
+#include "solve/algebra/references.hpp"
 
 namespace engrane::app {
 
@@ -44,8 +45,8 @@ class Companion {
   const std::string& trouble() const { return estimate_.trouble; }
   /// After the run, of so many steps: may the run itself be the companion of one with this tolerance? On all ranks.
   bool serves(double tolerance) const;
-  /// It becomes that. On all ranks.
-  void succeed(long steps, double tolerance);
+  /// It becomes that of a run with these options. On all ranks.
+  void succeed(long steps, const SolverOptions& next);
   /// Was it TOL that chose its steps, and not the longest step? On all ranks.
   bool follows_tolerance() const { return follows_tolerance_; }
 
@@ -54,6 +55,8 @@ class Companion {
   /// channels of the whole model only those that `.CHK` names: work may be a small difference of what comes and goes.
   void choose_columns(const observe::Observer& observer, const Model& model);
   void record(double time, const std::vector<double>& values);
+  /// Finds Column::load.
+  void find_loads(const solve::References& references);
   /// Finds Column::at among the values of the run itself.
   void find_columns(const observe::Observer& observer);
   /// Place of an instant among those kept; empty for the others.
@@ -68,7 +71,10 @@ class Companion {
     std::string owner, channel;
     Dimension dimension;
     double squares = 0, least = 0, largest = 0;
-    double before = 0;  ///< what the companion and its own companion differed by; 0: it had none
+    double before = 0;   ///< what the companion and its own companion differed by; 0: it had none
+    int part = -1;       ///< of the model; −1: it is not one of an element
+    int component = -1;  ///< of a vector of a node with three columns side by side; −1: it is none, or not all are compared
+    double load = 0;     ///< of a force or a moment: the largest on the nodes of its element
 
     void include(double value) {
       least = std::min(least, value);
@@ -82,19 +88,22 @@ class Companion {
     Dimension dimension;
     double range = 0, size = 0;
   };
+  /// What the run is off by from its companion in a column, given their rows of values at an instant.
+  double difference(std::size_t column, const double* run, const double* companion) const;
   /// What the two runs differ by in a channel: root of the mean square over time.
   double difference(const Column& column) const;
   /// The power of the numbers of steps that errors fall with, as three runs show that follow one another, at most `assumed`: the
   /// observed order (Roache, Verification and Validation in Computational Science and Engineering (1998), ch. 5).
   double order_of(const Column& column, long steps, double assumed) const;
   std::vector<Largest> largest_by_dimension() const;
-  /// A range that tells of nothing but rounding, beside all channels.
+  /// A range that tells of nothing but rounding and what iterations leave, beside all channels.
   double noise_of(const Column& column, const std::vector<Largest>& all) const;
   std::vector<Column> columns_;
-  bool placed_ = true;        ///< Column::at is known
-  bool judges_run_ = false;   ///< a channel of the whole model is compared
-  double handled_ = 0;        ///< energy that has passed through the model of the run itself
-  double extent_, duration_;  ///< of the model, and of the run
+  bool placed_ = true;                   ///< Column::at is known
+  bool judges_run_ = false;              ///< a channel of the whole model is compared
+  double handled_ = 0;                   ///< energy that has passed through the model of the run itself
+  double extent_, duration_;             ///< of the model, and of the run
+  double precision_, precision_of_run_;  ///< how far iterations go, here and in the run
   double start_, interval_;
   std::size_t rows_ = 0, compared_ = 0;
   double last_ = -std::numeric_limits<double>::infinity();  ///< the instant recorded, or compared, before

@@ -10,7 +10,8 @@ module engrane_user
 
   !> Kinds. x: variable; y: value and three derivatives
   integer(c_int), parameter :: engrane_function = 1
-  !> x: elongation or angle, rate, time; y: force, its derivatives with respect to elongation and to rate, stored energy
+  !> x: elongation or angle, rate, time; y: force, its derivatives with respect to elongation and to rate, stored energy: the
+  !> integral of the force at rest, of the elongation alone; left unset (not 0) if the force at rest depends on the time
   integer(c_int), parameter :: engrane_force = 2
   !> x: position in the tooth pitch (0 to 1), deflection; y: factor on KM, its first and second derivative with respect to the
   !> position, its derivative with respect to the deflection

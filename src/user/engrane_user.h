@@ -18,7 +18,8 @@ enum {
   ENGRANE_FUNCTION = 1, /* x: variable (the time, for drives and loads)
                            y: value, first, second and third derivative */
   ENGRANE_FORCE = 2,    /* x: elongation or angle, its rate, time
-                           y: force, its derivatives by elongation and by rate, energy stored */
+                           y: force, its derivatives by elongation and by rate, energy stored: the integral of the force at
+                              rest, of the elongation alone; left unset (not 0) if the force at rest depends on the time */
   ENGRANE_MESH = 3,     /* x: place in the tooth pitch (0 to 1), deflection of the teeth
                            y: factor on KM, its first and second derivative by the place, its derivative by the deflection */
   ENGRANE_FRICTION = 4  /* x: sliding speed, normal force

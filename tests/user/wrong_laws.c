@@ -29,6 +29,16 @@ ROUTINE(wrong_energy) {
   y[3] = 100 * x[0] * x[0];
 }
 
+/* The energy depends on the time, and only later than what is checked before the run. */
+ROUTINE(swings) {
+  UNUSED;
+  const double swing = 2 * sin(5 * x[2]);
+  y[0] = 40 * x[0] + swing;
+  y[1] = 40;
+  y[2] = 0;
+  if (p[0] > 0) y[3] = 20 * x[0] * x[0] + swing * x[0];
+}
+
 ROUTINE(wrong_second) {
   UNUSED;
   y[0] = sin(x[0]);

@@ -46,6 +46,17 @@ def test_crash_names_the_routine(tmp_path: Path) -> None:
     assert "the user routine crashes of libwrong_laws.so crashed" in done.stderr
 
 
+@pytest.mark.parametrize(("energy", "status"), [(1, 2), (0, 0)])
+def test_energy_that_depends_on_time(tmp_path: Path, energy: int, status: int) -> None:
+    """The motion is right, and the run ended with the advice to take smaller steps."""
+    text = deck("wrong_laws", "swings", energy).replace("C 1 V 1", "C 1 V 0")
+    (tmp_path / "deck.dat").write_text(text)
+    done = subprocess.run([BINARY, "deck.dat"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.returncode == status, done.stderr
+    cause = "the energy that its routine returns depends on the time"
+    assert (cause in done.stderr) == (status == 2)
+
+
 LAWS = ("POLY 50 0 4D5 C 0.8", "USER 1", "USER 2")
 
 SPRINGS = """.NOE

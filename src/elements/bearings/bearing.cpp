@@ -162,8 +162,9 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
     all.push_back({"SPRING_ENERGY", dimension::energy, "energy stored"});
     all.push_back({"DAMPER_POWER", dimension::power, "power lost"});
     if (rolling) {
-      all.push_back({"ELEMENT_LOAD", dimension::force, "largest force on a ball or roller"});
-      all.push_back({"CONTACT_PRESSURE", dimension::pressure, "largest pressure between a ball or roller and a ring"});
+      all.push_back({"ELEMENT_LOAD", dimension::force, "largest force on a ball or roller", Channel::Course::size});
+      all.push_back({"CONTACT_PRESSURE", dimension::pressure, "largest pressure between a ball or roller and a ring",
+                     Channel::Course::size});
       all.push_back({"LOADED_ELEMENTS", dimension::none, "number of balls or rollers that carry", Channel::Course::state});
     }
     return all;

@@ -40,7 +40,9 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
       {"FORCE_X", dimension::force, "force on the follower, global"},
       {"FORCE_Y", dimension::force, "force on the follower, global"},
       {"FORCE_Z", dimension::force, "force on the follower, global"},
-      {"GAP", dimension::length, "between follower and profile; negative: pressed together"},
+      // without a law it is what the constraint is left open by at the ends of steps
+      {"GAP", dimension::length, "between follower and profile; negative: pressed together",
+       parts_.law ? Channel::Course::smooth : Channel::Course::step},
       {"CAM_ANGLE", dimension::angle, "parameter of the profile at the contact: of a motion the cam's turn, within a turn"},
       {"CONTACT_ANGLE", dimension::angle, "polar angle of the contact point in the cam"},
       {"RADIUS_OF_CURVATURE", dimension::length, "of the profile at the contact; negative in a hollow", Channel::Course::ratio},
@@ -50,12 +52,15 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
     channels_.push_back({"LIFT", arm ? dimension::angle : dimension::length, "lift of the motion at the contact"});
   }
   if (parts_.guide.kind != CamGuide::Kind::none)
-    channels_.push_back({"PRESSURE_ANGLE", dimension::angle, "between the contact's normal and the follower's way"});
-  channels_.push_back(roller ? Channel{"ROLLER_SPEED", dimension::angular_velocity, "of the roller in the follower, as it rolls"}
-                             : Channel{"SLIDING_SPEED", dimension::velocity, "of the follower over the profile"});
-  if (parts_.friction) channels_.push_back({"FRICTION_FORCE", dimension::force, "size of the friction"});
+    channels_.push_back(
+        {"PRESSURE_ANGLE", dimension::angle, "between the contact's normal and the follower's way", Channel::Course::size});
+  channels_.push_back(
+      roller ? Channel{"ROLLER_SPEED", dimension::angular_velocity, "of the roller in the follower, as it rolls"}
+             : Channel{"SLIDING_SPEED", dimension::velocity, "of the follower over the profile", Channel::Course::size});
+  if (parts_.friction) channels_.push_back({"FRICTION_FORCE", dimension::force, "size of the friction", Channel::Course::size});
   if (parts_.law) channels_.push_back({"SPRING_ENERGY", dimension::energy, "energy stored in the contact"});
-  if (parts_.law || parts_.friction) channels_.push_back({"POWER_LOST", dimension::power, "by damping and friction"});
+  if (parts_.law || parts_.friction)
+    channels_.push_back({"POWER_LOST", dimension::power, "by damping and friction", Channel::Course::size});
   if (parts_.several) {
     channels_[0].help = "normal force at the deepest contact; positive pushes the follower away";
     channels_.push_back({"NORMAL_FORCE_2", dimension::force, "normal force at the second deepest contact"});

@@ -23,7 +23,7 @@ class Sensor final : public TemplatedElement<Sensor, 2, 1>, public joints::Coord
     channels_ = {{coordinate.name, coordinate.dimension(), angle ? "turn of b from a, whole turns counted" : "of b from a"},
                  {"SPEED", coordinate.rate_dimension(), "rate of " + coordinate.name},
                  {"RELATIVE_SPEED", coordinate.rate_dimension(),
-                  angle ? "size of the relative angular velocity" : "size of the relative velocity"}};
+                  angle ? "size of the relative angular velocity" : "size of the relative velocity", Channel::Course::size}};
   }
 
   template <class T>

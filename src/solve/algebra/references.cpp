@@ -137,12 +137,15 @@ double References::relative_change(int equation, double change) const {
 
 double References::peak(int equation) const {
   const Unknown& u = assembler_.numbering().unknown(equation);
+  return std::max(peak_on(static_cast<std::size_t>(u.part), sources_[static_cast<std::size_t>(equation)].turns), load(equation));
+}
+
+double References::peak_on(std::size_t part, bool turns) const {
   double largest = 0;
-  for (const int node : assembler_.model().parts[static_cast<std::size_t>(u.part)].nodes)
-    for (std::size_t k = 0; k < 3; ++k)
-      largest = std::max(largest, largest_of_slot_[6 * static_cast<std::size_t>(node) + k +
-                                                   (sources_[static_cast<std::size_t>(equation)].turns ? 3 : 0)]);
-  return std::max(largest, load(equation));
+  for (const int node : assembler_.model().parts[part].nodes)
+    for (std::size_t k = turns ? 3 : 0, end = k + 3; k < end; ++k)
+      largest = std::max(largest, largest_of_slot_[6 * static_cast<std::size_t>(node) + k]);
+  return largest;
 }
 
 void References::take(const Configuration& c, const std::vector<double>& carried) {

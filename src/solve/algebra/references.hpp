@@ -29,6 +29,8 @@ class References {
   }
   /// Largest force, or moment, so far on the nodes of the element that owns a constraint's equation; at least load().
   double peak(int equation) const;
+  /// The same on the nodes of any element: a component.
+  double peak_on(std::size_t part, bool turns) const;
   /// Reference length of an unknown's correction, or of a constraint violation; 1 radian for rotations, the largest value so far
   /// for signals of controllers.
   double length(int equation) const { return lengths_[static_cast<std::size_t>(equation)]; }
