@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "model/function_failure.hpp"
 #include "model/user_function.hpp"
@@ -66,6 +67,29 @@ void warn_of_drive(const BuildContext& context, const std::string& keyword, cons
       "a damper takes power where its force and its rate have the same sign: see to the signs of the function");
 }
 
+/// The bridge across the play nearest to elongation 0: a piece between corners without force.
+SpringLaw::Bridge bridge_of(const Function& law) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr std::size_t most = 20;
+  std::vector<double> ends = law.corners(-infinity, infinity, most);
+  if (ends.size() < 2) return {};
+  // the first and the last piece go on without end
+  const double beyond = ends.back() - ends.front();
+  ends.insert(ends.begin(), ends.front() - beyond);
+  ends.push_back(ends.back() + beyond);
+  const std::size_t last = ends.size() - 2;
+  std::vector<Function::Jet> pieces;
+  for (std::size_t i = 0; i <= last; ++i) pieces.push_back(law.at(std::midpoint(ends[i], ends[i + 1])));
+  SpringLaw::Bridge bridge;
+  for (std::size_t i = 0; i <= last; ++i) {
+    if (pieces[i].f != 0 || pieces[i].d1 != 0) continue;
+    const double stiffness = std::max(i > 0 ? pieces[i - 1].d1 : 0, i < last ? pieces[i + 1].d1 : 0);
+    const double relaxed = std::midpoint(ends[std::max<std::size_t>(i, 1)], ends[std::min(i + 1, last)]);
+    if (stiffness > 0 && (bridge.stiffness == 0 || std::abs(relaxed) < std::abs(bridge.relaxed))) bridge = {stiffness, relaxed};
+  }
+  return bridge;
+}
+
 }  // namespace
 
 std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const SpringLawData& data, double stiffness, double damping,
@@ -106,6 +130,7 @@ std::optional<SpringLaw> SpringLaw::of(const BuildContext& context, const Spring
       law.of_stretch = context.function(static_cast<int>(id), "LAW" + suffix);
       if (!law.of_stretch) return {};
       law.corners = LawCorners(*law.of_stretch);
+      law.bridge = bridge_of(*law.of_stretch);
     }
   } else if (data.law.is("USER")) {
     std::vector<user::Arguments> samples{{first, 0, 0}};

@@ -34,10 +34,19 @@ struct SpringLaw {
   double damping = 0;                         ///< g = damping ė, unless `of_rate` is given
   const Function* of_rate = nullptr;          ///< g
   LawCorners corners, corners_of_rate;        ///< corners of f and of g
+  /// Linear spring that bridges the play of a table, or its slack side: as stiff as f where the play ends, and relaxed in the
+  /// middle of it. Its stiffness is 0 if there is no play.
+  struct Bridge {
+    double stiffness = 0, relaxed = 0;
+  } bridge;
 
-  /// Force of spring and damper together.
+  /// Force of spring and damper together. `contact_homotopy` is the fraction of f that the bridge replaces while statics searches
+  /// for the end of the play that the load comes to (State::contact_homotopy).
   template <class T>
-  T force(const T& stretch, const T& rate, double time) const {
+  T force(const T& stretch, const T& rate, double time, double contact_homotopy) const {
+    if (contact_homotopy > 0 && bridge.stiffness > 0)
+      return (1 - contact_homotopy) * elastic(stretch) + contact_homotopy * bridge.stiffness * (stretch - bridge.relaxed) +
+             viscous(rate);
     if (!formula && !user) return elastic(stretch) + viscous(rate);
     const Expression::Law y = of_both(value_of(stretch), value_of(rate), time);
     return compose(stretch, y.value, y.by_elongation, 0) + compose(rate, 0, y.by_rate, 0) + viscous(rate);

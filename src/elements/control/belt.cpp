@@ -75,7 +75,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
     const auto& a = motion.node[0];
     const auto& b = motion.node[1];
     const Runs<T> runs(*this, a, b, state);
-    const auto [first, second] = tensions(runs, [&] {
+    const auto [first, second] = tensions(runs, balance.contact_homotopy(), [&] {
       const GripState grip = grip_of(state);
       const T held = balance.constraint(0, runs.roll - grip.held[0]);
       return grip.mode == GripState::holding ? held : slipping(runs, grip.sense());
@@ -128,9 +128,9 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
       return e;
     }
     for (int i = 0; i < 2; ++i) {
-      const double elastic = taut(runs.stretch(i));
+      const double elastic = taut(runs.stretch(i), 0);
       e.potential += 0.5 * elastic * elastic / law_.stiffness;
-      e.dissipated += (tension(runs.stretch(i), runs.stretch_rate(i)) - elastic) * runs.stretch_rate(i);
+      e.dissipated += (tension(runs.stretch(i), runs.stretch_rate(i), 0) - elastic) * runs.stretch_rate(i);
     }
     return e;
   }
@@ -139,7 +139,7 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
 
   void observe(const State& state, std::span<double> values) const override {
     const Runs<double> runs(*this, state.nodes[0], state.nodes[1], state);
-    const auto [first, second] = tensions(runs, [&] { return pull(runs, state); });
+    const auto [first, second] = tensions(runs, 0, [&] { return pull(runs, state); });
     const Vec3 force = -first * runs.tangent[0] - second * runs.tangent[1];
     const double beta = std::asin(shape_.reach() / runs.distance);
     const double wrap_1 = std::numbers::pi + 2 * beta, wrap_2 = std::numbers::pi - 2 * shape_.side * beta;
@@ -254,24 +254,28 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
                                            : slipping(runs, grip.sense());
   }
 
-  /// Elastic tension; a slack span carries no compression.
+  /// Elastic tension; a slack span carries no compression, or the fraction `contact_homotopy` of it while statics searches for
+  /// the taut spans (State::contact_homotopy).
   template <class T>
-  T taut(const T& stretch) const {
+  T taut(const T& stretch, double contact_homotopy) const {
     const T tension = law_.preload + law_.stiffness * stretch;
-    return value_of(tension) > 0 ? tension : T(0);
+    return value_of(tension) > 0 ? tension : T(contact_homotopy * tension);
   }
   /// The damping is proportional to the tension, C at the preload, so that it vanishes in a slack span.
   template <class T>
-  T tension(const T& stretch, const T& rate) const {
-    const T elastic = taut(stretch);
+  T tension(const T& stretch, const T& rate, double contact_homotopy) const {
+    const T elastic = taut(stretch, contact_homotopy);
     if (law_.damping == 0) return elastic;
     const T factor = T(1) + law_.damping / law_.preload * rate;
     return value_of(factor) > 0 ? T(elastic * factor) : T(0);
   }
-  /// Tensions of the two spans. `pull` returns the force along the gradient of `roll` if the belt is rigid.
+  /// Tensions of the two spans. `contact_homotopy`: see taut(). `pull` returns the force along the gradient of `roll` if the belt
+  /// is rigid.
   template <class T, class Pull>
-  std::array<T, 2> tensions(const Runs<T>& runs, Pull pull) const {
-    if (!law_.rigid()) return {tension(runs.stretch(0), runs.stretch_rate(0)), tension(runs.stretch(1), runs.stretch_rate(1))};
+  std::array<T, 2> tensions(const Runs<T>& runs, double contact_homotopy, Pull pull) const {
+    if (!law_.rigid())
+      return {tension(runs.stretch(0), runs.stretch_rate(0), contact_homotopy),
+              tension(runs.stretch(1), runs.stretch_rate(1), contact_homotopy)};
     const T half = T(pull()) * 0.5;
     return {T(law_.preload - half), T(law_.preload + half)};
   }

@@ -161,7 +161,7 @@ void Joint::act(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& b
       if (c.drive.given()) add(m, balance.constraint(row++, m.value - c.drive.coordinate(motion.time) - driven_origin(c)));
       if (!c.sprung() && !c.stop.given()) continue;
       const T speed = rate_of(m, rates);
-      if (c.sprung()) add(m, c.spring(m.value, speed, state.time));
+      if (c.sprung()) add(m, c.spring(m.value, speed, state.time, balance.contact_homotopy()));
       if (c.stop.given()) add(m, c.stop.push(m.value, speed, balance.contact_homotopy()));
     }
     std::size_t grip = 0;
@@ -455,7 +455,7 @@ void Joint::observe(const State& state, std::span<double> values) const {
   std::size_t row = parts_.constraints.size();
   for (const JointCoordinate& c : parts_.coordinates) {
     const Observed o = observed(c, state);
-    if (c.sprung()) values[i++] = c.spring(o.value, o.rate, state.time);
+    if (c.sprung()) values[i++] = c.spring(o.value, o.rate, state.time, 0);
     if (c.drive.given()) {
       const double effort = state.multipliers[row++];
       values[i++] = effort;
@@ -543,7 +543,7 @@ void Joint::name_channels() {
   if (parts_.has_thrust) channels_.push_back({"THRUST", dimension::force, "force that pushes the ends apart"});
   if (!parts_.has_axis)
     channels_.push_back({"FORCE_SIZE", dimension::force, "size of the force of the joint on B", Channel::Course::size});
-  if (parts_.has_bend) channels_.push_back({"BEND", dimension::angle, "angle between the shafts"});
+  if (parts_.has_bend) channels_.push_back({"BEND", dimension::angle, "angle between the shafts", Channel::Course::size});
   if (!parts_.normal_channel.empty())
     channels_.push_back({parts_.normal_channel, is_length(parts_.constraints[0].measure) ? dimension::force : dimension::moment,
                          multiplier(parts_.constraints[0].measure).help});

@@ -43,10 +43,10 @@ struct JointCoordinate {
   StopRange stop = {};
 
   bool sprung() const { return law.acts(); }
-  /// Force or torque of spring and damper on the coordinate.
+  /// Force or torque of spring and damper on the coordinate. `contact_homotopy`: see SpringLaw::force.
   template <class T>
-  T spring(const T& value, const T& rate, double time) const {
-    return -law.force(T(value - relaxed), rate, time);
+  T spring(const T& value, const T& rate, double time, double contact_homotopy) const {
+    return -law.force(T(value - relaxed), rate, time, contact_homotopy);
   }
 };
 

@@ -21,7 +21,7 @@ struct SpringOnLine {
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& balance) const {
     const auto reach = ends.reach<T>(motion.node);
-    const T tension = law.force(T(reach.length - natural), reach.rate, state.time);
+    const T tension = law.force(T(reach.length - natural), reach.rate, state.time, balance.contact_homotopy());
     ends.pull(Vec3T<T>(reach.direction * tension), balance);
   }
 
@@ -46,7 +46,7 @@ struct SpringOnLine {
     values[0] = reach.length;
     values[1] = reach.length - natural;
     values[2] = reach.rate;
-    values[3] = law.force(values[1], reach.rate, state.time);
+    values[3] = law.force(values[1], reach.rate, state.time, 0);
     values[4] = e.potential;
     values[5] = e.dissipated;
   }
@@ -92,7 +92,7 @@ struct LinearLaw {
   double stiffness, damping;
 
   template <class T>
-  T force(const T& stretch, const T& rate, double) const {
+  T force(const T& stretch, const T& rate, double, double) const {
     return stiffness * stretch + damping * rate;
   }
   Energies energies(double stretch, double rate, double) const {

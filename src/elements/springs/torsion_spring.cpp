@@ -32,7 +32,7 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
     const AxisAngle<T> turn = axis_angle(triad_, a.R, b.R);
     const T angle = turn_count::total(turn.angle, state.history);
     const Vec3T<T> spin = rotate(b.R, b.W) - rotate(a.R, a.W);
-    const T torque = law_.force(T(angle - angle0_), T(dot(turn.gradient, spin)), state.time);
+    const T torque = law_.force(T(angle - angle0_), T(dot(turn.gradient, spin)), state.time, balance.contact_homotopy());
     const Vec3T<T> moment = turn.gradient * torque;
     balance.moment(0, rotate_back(a.R, Vec3T<T>(-moment)));
     balance.moment(1, rotate_back(b.R, moment));
@@ -64,7 +64,7 @@ class TorsionSpring final : public TemplatedElement<TorsionSpring, 2, 6> {
     const Energies e = energies(state);
     values[0] = angle(state);
     values[1] = speed(state);
-    values[2] = -law_.force(values[0] - angle0_, values[1], state.time);
+    values[2] = -law_.force(values[0] - angle0_, values[1], state.time, 0);
     values[3] = e.potential;
     values[4] = e.dissipated;
   }

@@ -32,6 +32,12 @@ bool went_far(const NewtonReport& report) {
   return way > 1;
 }
 
+/// Bridges across the gaps of contacts (State::contact_homotopy) for as long as it exists.
+struct Bridges {
+  double& part;
+  ~Bridges() { part = 0; }
+};
+
 }  // namespace
 
 /// On the polynomial through the equilibria; forces are not balanced again.
@@ -85,7 +91,11 @@ StartReport Statics::start(Configuration& c) {
   StartReport report;
   apply_initial_displacements(context_, c);
   context_.start.assemble(c, report);
-  context_.assembler.choose_scale(c, {1, 0, 0}, context_.options.scale);
+  {
+    // forces of contacts that only touch are rounding errors: their derivatives are no measure of the stiffness
+    const Bridges bridges{context_.assembler.contact_homotopy = touches(c) ? 1 : 0};
+    context_.assembler.choose_scale(c, {1, 0, 0}, context_.options.scale);
+  }
   if (context_.newton.keeps_one_tangent()) context_.newton.refine_next();
   const NewtonReport newton = find(c, 0, c, false);
   if (!newton.converged) {
@@ -317,9 +327,8 @@ void Statics::require_resistance(const Configuration& c, NewtonReport& report) {
   const bool touching = touches(c);
   if (!contacts_.empty()) {
     // the last correction may have closed or opened contacts; those that only touch resist on one side
-    context_.assembler.contact_homotopy = touching ? 1 : 0;
+    const Bridges bridges{context_.assembler.contact_homotopy = touching ? 1 : 0};
     context_.assembler.tangent(c, {1, 0, 0});
-    context_.assembler.contact_homotopy = 0;
   }
   const std::string what = fmt::format("t = {:.6g}: the stiffness matrix is singular up to rounding", c.time);
   std::string free;
@@ -363,10 +372,7 @@ NewtonReport Statics::balance_contacts(const MotionSlots::Origin& from, std::spa
 
 NewtonReport Statics::balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to) {
   constexpr double fastest = 0.1, slowest = 0.7, first_last = 1e-6, least_last = 1e-14;
-  struct Bridges {
-    double& part;
-    ~Bridges() { part = 0; }
-  } bridges{context_.assembler.contact_homotopy};
+  const Bridges bridges{context_.assembler.contact_homotopy};
   const auto balance_with = [&](double part) {
     bridges.part = part;
     return balance(from, y, to);
