@@ -17,12 +17,22 @@ constexpr double share_of_newton = 0.01, share_of_path = 1e-3, share_of_event = 
 /// hundredth of a step, and must certainly end before the event for its error to be known.
 constexpr double bluntest_event = 1e-3;
 
-/// Whether forces that bend where teeth change their flank are asked for: all but the load of the teeth itself. Without `.CHK`
-/// every result is asked for.
-bool asks_for_bends(const std::vector<deck::CheckCard>& checks) {
-  return checks.empty() || std::any_of(checks.begin(), checks.end(), [](const deck::CheckCard& check) {
-           return !check.element || check.quantity != "NORMAL_FORCE";
+/// Whether a check is of a result that bends where the load of teeth or of a cam changes its sign: a force, moment or power other
+/// than the load itself.
+bool bends(const deck::CheckCard& check, const Model& model) {
+  if (check.run) return check.quantity.starts_with("GROUND_");
+  if (check.node) return check.quantity.starts_with('F') || check.quantity.starts_with('M');  // reactions
+  const auto is_asked = [&](const Channel& channel) { return channel.name == check.quantity && channel.dimension.mass != 0; };
+  return check.quantity != "NORMAL_FORCE" && std::any_of(model.parts.begin(), model.parts.end(), [&](const Model::Part& part) {
+           const std::vector<Channel>& all = part.element->channels();
+           return part.element->id() == check.element && std::any_of(all.begin(), all.end(), is_asked);
          });
+}
+
+/// Without `.CHK` every result is asked for.
+bool asks_for_bends(const Model& model) {
+  const auto& checks = model.commands.checks;
+  return checks.empty() || std::any_of(checks.begin(), checks.end(), [&](const auto& check) { return bends(check, model); });
 }
 
 }  // namespace
@@ -92,7 +102,7 @@ SolverOptions solver_options(const Model& model) {
   o.energy_error = analysis.energy;
   o.penalty = analysis.penalty.value_or(0);
   o.events = !analysis.events.is("NO");
-  o.bends = o.tolerance > 0 && asks_for_bends(model.commands.checks);
+  o.bends = o.tolerance > 0 && asks_for_bends(model);
   o.event_tolerance = !analysis.events.values.empty() ? analysis.events.values[0]
                       : o.tolerance > 0               ? event_tolerance_for(o.tolerance)
                                                       : event_of_fixed_steps;
