@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Laws of springs and dampers with corners, against closed forms: dynamics ends steps there."""
+"""Laws of springs and dampers with corners, against closed forms, and an error of gears over their angle:
+dynamics ends steps there."""
 
 from __future__ import annotations
+
+import re
 
 import numpy as np
 import pytest
@@ -220,3 +223,28 @@ def test_a_measured_curve_has_no_corners(tmp_path):
 .FIN 1
 """
         assert "corner" not in run(text, tmp_path).file.with_suffix(".lst").read_text()
+
+
+def test_wheels_pass_the_corners_of_a_table_in_each_turn(tmp_path):
+    """Wheel A turns to 936 degrees and back to -100; the steps end at 0, 90 and 200 degrees of each turn."""
+    text = """.NOE
+ I 1
+ I 2 X 0.06
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE SPEED NF 1
+ I 2 HINGE N 0 2 AXIS 0 0 1
+ I 3 GEAR N 1 2 AXIS 0 0 1 Z 21 39 MN 0.002 WIDTH 0.02 KM 1E8 CM 1000 PITCHA 2
+ I 4 INERTIA N 2 J 1E-3
+.FCT
+ I 1 EXPR "(936*PI/180)*COS(T)"
+ I 2 TABLE 0 0  90 5E-6  200 -2E-6 PERIOD 360
+.SAM TYPE DYNAMIC SCHEME RADAU
+.SUB TF 3.2486 H 0.01
+.FIN
+"""
+    run(text, tmp_path)
+    said = (tmp_path / "deck.lst").read_text(encoding="utf-8")
+    found = [float(t) for t in re.findall(r"t = (\S+) +GEAR 3: PITCHA passes its corner", said)]
+    up = [90, 200, 360, 450, 560, 720, 810, 920]
+    there = np.arcsin(np.array(up) / 936)
+    assert np.allclose(found, [*there, *(np.pi - there[::-1]), np.pi], rtol=0, atol=1e-4)  # H/100

@@ -58,14 +58,14 @@ def off(found: Run, truth: Run, channel: str) -> float:
 def stated_and_true(teeth: str, setting: str, folder: Path) -> tuple[dict, float]:
     """What a run says of itself, and its largest error."""
     found, result = solve(ELASTIC.format(teeth=teeth, sam=f"ACCURACY {setting}", tolerance=""), folder)
-    text = ELASTIC.format(teeth=teeth, sam="SCHEME RADAU", tolerance="TOL 1D-8")
+    text = ELASTIC.format(teeth=teeth, sam="SCHEME RADAU SOLVER KLU", tolerance="TOL 1D-8")
     _, truth = solve(text, folder, "truth")
     channels = ("3/NORMAL_FORCE", "3/RADIAL_FORCE_A", "3/POWER_B", "3/U_M", "2/RADIAL_FORCE", "node/2/EZ")
     return found, max(off(result, truth, c) for c in channels)
 
 
 @pytest.mark.parametrize(
-    "setting, steps, most", [("FAST", 120, 2e-5), ("NORMAL", 180, 1e-6), ("FINE", 230, 1e-6)]
+    "setting, steps, most", [("FAST", 120, 2e-5), ("NORMAL", 180, 2e-5), ("FINE", 230, 1e-6)]
 )
 def test_the_separating_force_of_rigid_teeth(setting: str, steps: int, most: float, tmp_path: Path) -> None:
     """FAST was 5e-3 of the range off and stated 2e-3, FINE 4e-5 in 1240 steps and stated 1e-5."""

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "elements/common/building.hpp"
+#include "elements/common/slide_switches.hpp"
 #include "model/grip.hpp"
 
 namespace engrane::elements::joints {
@@ -310,10 +311,10 @@ Joint::Joint(int id, JointParts parts) : TemplatedElement(id), parts_(std::move(
   for (const JointFriction& f : parts_.friction)
     if (f.radius > 0 && f.kind != Rubbing::guide && f.kind != Rubbing::ball) count(f.turn);
   if (!parts_.friction.empty()) moves_ = has_rates_ = whole_b_ = true;
-  for (const JointFriction& f : parts_.friction) {
-    layout.slides += f.law.rests ? 0 : 1;
+  for (const JointFriction& f : parts_.friction)
+    if (!f.law.rests) name_slide(layout, f.suffix.empty() ? "" : f.suffix + ": ");
+  for (const JointFriction& f : parts_.friction)
     if (f.law.rests) name_grip(layout, f);
-  }
   layout.history += turn_count::history * static_cast<int>(angles_.size());
   set_layout(std::move(layout));
   name_channels();
@@ -388,7 +389,9 @@ void Joint::switches(const State& state, std::span<Switch> values) const {
     values = values.subspan(c.stop.switches(q.value, q.d1, q.d2, values));
     values = values.subspan(c.law.switches(q - c.relaxed, state.time, std::abs(q.value) + std::abs(c.relaxed), values));
   }
-  grip_switches(*this, state, values);
+  const auto slides = static_cast<std::size_t>(layout().slides);
+  if (slides > 0) slide_switches(*this, state, values.first(slides));
+  grip_switches(*this, state, values.subspan(slides));
 }
 
 void Joint::sliding(const State& state, std::span<Vec3> speeds) const {

@@ -83,6 +83,7 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   /// Also stores the direction of sliding, and for a ball the orientation from which rest is measured.
   void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void switches(const State& state, std::span<Switch> values) const override;
+  bool has_gaps() const override { return static_cast<int>(layout().switches.size()) > layout().slides; }
   void sliding(const State& state, std::span<Vec3> speeds) const override;
   void grip_limits(const State& state, std::span<double> limits) const override;
   Energies energies(const State& state) const override;
