@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <memory>
 #include <numbers>
+#include <numeric>
 
 #include "elements/bearings/rolling_elements.hpp"
 #include "elements/bearings/speed_matrices.hpp"
 #include "elements/common/held_point.hpp"
+#include "elements/common/law_corners.hpp"
 #include "elements/common/material.hpp"
 #include "model/templated_element.hpp"
 
@@ -29,7 +31,11 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
     std::shared_ptr<const RollingElements> rolling;  ///< nullptr: matrices only
   };
 
-  Bearing(int id, const HeldPoint& place, Parts parts) : TemplatedElement(id), place_(place), parts_(std::move(parts)) {
+  Bearing(int id, const HeldPoint& place, Parts parts)
+      : TemplatedElement(id),
+        place_(place),
+        parts_(std::move(parts)),
+        corners_(parts_.stiffness.varies() ? parts_.stiffness.corners() : parts_.damping.corners()) {
     // the first matrix stores energy; differences of the other matrices from it do work like damping
     if (!parts_.stiffness.empty()) {
       const Mat6& first = parts_.stiffness.values().front();
@@ -38,7 +44,15 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
     Layout layout;
     layout.nodes.assign(place.nodes.begin(), place.nodes.end());
     layout.needs = {NodeNeed::both, NodeNeed::both};
-    if (parts_.rolling) layout.switches = {{"rolling elements take load", "rolling elements are without load"}};
+    if (parts_.rolling) {
+      layout.switches = {{"rolling elements take load", "rolling elements are without load"}};
+      for (int i = 1; i <= parts_.rolling->count(); ++i) {
+        const std::string which = fmt::format("{} {}", parts_.rolling->balls() ? "ball" : "roller", i);
+        // others carry as well: their forces grow from zero, which steps of fixed length do not notice
+        layout.switches.push_back({which + " takes load", which + " is without load", true});
+      }
+    }
+    corners_.name(layout.switches, "SPEED");
     set_layout(std::move(layout));
   }
 
@@ -62,12 +76,31 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
   }
 
   void switches(const State& state, std::span<Switch> values) const override {
-    if (!parts_.rolling) return;
+    if (values.empty()) return;
     const Place<double> place = this->place(motion<double>(state));
-    const RollingElements::Loads loads = parts_.rolling->loads(five(place.q));
-    const RollingElements::Five<double> rate = five(place.rate);
-    values[0] = {loads.penetration, 0, parts_.rolling->size()};
-    for (std::size_t i = 0; i < 5; ++i) values[0].rate += loads.gradient[i] * rate[i];
+    std::size_t next = 0;
+    if (parts_.rolling) {
+      const RollingElements::Five<double> rate = five(place.rate);
+      const auto put = [&](const RollingElements::Touch<double>& touch) {
+        const double speed = std::inner_product(rate.begin(), rate.end(), touch.gradient.begin(), 0.0);
+        values[next++] = {touch.penetration, speed, parts_.rolling->size()};
+      };
+      const auto all = parts_.rolling->deepest(five(place.q));
+      put(*std::max_element(all.begin(), all.end(), [](auto& x, auto& y) { return x.penetration < y.penetration; }));
+      std::for_each(all.begin(), all.end(), put);
+    }
+    const NodeState &a = state.nodes[0], &b = state.nodes[1];
+    const Vec3 axis = place.shift.axes.col(0), turn = (a.R * a.W).cross(axis);
+    const Taylor speed(place.rate[spin], turn.dot(place.shift.spin) + axis.dot(b.R * b.A - a.R * a.A), 0);
+    corners_.switches(speed, state.time, std::abs(speed.value), values.subspan(next));
+  }
+
+  bool has_gaps() const override { return parts_.rolling != nullptr; }
+  /// Whether the bearing as a whole does: elements between those with load and those without often touch.
+  bool touches(const State& state) const override {
+    std::vector<Switch> values(layout().switches.size());
+    switches(state, values);
+    return has_gaps() && values.front().unclear();
   }
 
   const std::vector<Channel>& channels() const override {
@@ -172,6 +205,7 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
 
   HeldPoint place_;
   Parts parts_;
+  LawCorners corners_;  ///< of the matrices over the speed
   Mat6 stored_ = Mat6::Zero();
 };
 

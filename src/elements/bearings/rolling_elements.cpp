@@ -115,16 +115,25 @@ RollingElements::Loads RollingElements::loads(const Five<double>& q) const {
       const double load = t.penetration > 0 ? force(t.penetration) : 0;
       sum += load;
       of_spot = std::max(of_spot, load);
-      if (i == 0 || t.penetration > found.penetration) {
-        found.penetration = t.penetration;
-        found.gradient = t.gradient;
-      }
     }
     found.force = std::max(found.force, sum);
     if (sum > 0) ++found.loaded;
   }
   const double root = data_.balls ? std::cbrt(of_spot) : std::sqrt(of_spot);
   found.pressure = std::max(inner_pressure_, outer_pressure_) * root;
+  return found;
+}
+
+std::vector<RollingElements::Touch<double>> RollingElements::deepest(const Five<double>& q) const {
+  std::vector<Touch<double>> found;
+  const auto slices = static_cast<std::size_t>(per_element());
+  for (std::size_t i = 0; i < spots_.size(); ++i) {
+    const Touch<double> t = touch(spots_[i], q);
+    if (i % slices == 0)
+      found.push_back(t);
+    else if (t.penetration > found.back().penetration)
+      found.back() = t;
+  }
   return found;
 }
 

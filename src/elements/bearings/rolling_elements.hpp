@@ -51,17 +51,25 @@ class RollingElements {
   double energy(const Five<double>& q) const;
 
   struct Loads {
-    double force = 0;         ///< largest on one element
-    double pressure = 0;      ///< largest of both rings' contacts
-    int loaded = 0;           ///< number of elements that carry load
-    double penetration = 0;   ///< largest; negative: minus the smallest gap
-    Five<double> gradient{};  ///< of the penetration with respect to the coordinates
+    double force = 0;     ///< largest on one element
+    double pressure = 0;  ///< largest of both rings' contacts
+    int loaded = 0;       ///< number of elements that carry load
   };
   Loads loads(const Five<double>& q) const;
+
+  template <class T>
+  struct Touch {
+    T penetration;     ///< negative: minus the gap
+    Five<T> gradient;  ///< with respect to the coordinates
+  };
+  /// Of each element; of a roller, where it is pressed in most.
+  std::vector<Touch<double>> deepest(const Five<double>& q) const;
 
   /// Axial displacement caused by the preload in the reference configuration.
   double preload_approach() const { return shift_; }
   double contact_angle() const { return std::atan2(sine_, cosine_); }
+  int count() const { return data_.count; }
+  bool balls() const { return data_.balls; }
   double size() const { return data_.diameter; }
 
  private:
@@ -71,12 +79,6 @@ class RollingElements {
     double along;  ///< from the middle of the roller
     double gap;    ///< of a slice from its rings without displacement
   };
-  template <class T>
-  struct Touch {
-    T penetration;
-    Five<T> gradient;
-  };
-
   template <class T>
   Touch<T> touch(const Spot& spot, const Five<T>& q) const;
   /// Contact force of one spot with positive penetration.

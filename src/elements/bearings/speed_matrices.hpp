@@ -23,6 +23,8 @@ class SpeedMatrices {
   bool empty() const { return values_.empty(); }
   bool varies() const { return values_.size() > 1; }
   std::span<const Mat6> values() const { return values_; }
+  /// Speeds at which the slope changes.
+  std::vector<double> corners() const { return varies() ? speeds_ : std::vector<double>(); }
 
   /// The matrix at `speed` times x.
   template <class T>

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "elements/common/along_motion.hpp"
 #include "elements/common/building.hpp"
@@ -26,11 +27,17 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
     }
   } else {
     layout.multipliers.push_back({"NORMAL_FORCE", dimension::length, "normal force of the cam on the follower"});
+    // friction goes with its magnitude
+    if (parts_.friction) layout.switches.push_back({"cam pushes the follower", "cam pulls the follower", true, 0});
   }
-  if (const CamMotion* motion = parts_.profile->curve().motion()) joints_ = motion->joints();
-  for (const double joint : joints_) {
-    const std::string passes = fmt::format("cam passes the joint of the motion at {:.6g} degrees", joint / degree);
-    layout.switches.push_back({passes, passes});
+  const CamCurve& curve = parts_.profile->curve();
+  joints_ = curve.joints();
+  for (std::size_t k = 0; k < joints_.size(); ++k) {
+    // accelerations that a spline demands have corners at its points, those of a motion may jump
+    const std::string passes = curve.motion()
+                                   ? fmt::format("cam passes the joint of the motion at {:.6g} degrees", joints_[k] / degree)
+                                   : fmt::format("cam passes point {} of its profile", k + 1);
+    layout.switches.push_back({passes, passes, !curve.motion()});
   }
   layout.slides = parts_.friction ? static_cast<int>(places()) : 0;
   set_layout(std::move(layout));
@@ -47,7 +54,7 @@ Cam::Cam(int id, CamParts parts) : TemplatedElement(id), parts_(std::move(parts)
       {"CONTACT_ANGLE", dimension::angle, "polar angle of the contact point in the cam"},
       {"RADIUS_OF_CURVATURE", dimension::length, "of the profile at the contact; negative in a hollow", Channel::Course::ratio},
       {"POWER", dimension::power, "power that the follower takes from the cam"}};
-  if (parts_.profile->curve().motion()) {
+  if (curve.motion()) {
     const bool arm = parts_.guide.kind == CamGuide::Kind::arm;
     channels_.push_back({"LIFT", arm ? dimension::angle : dimension::length, "lift of the motion at the contact"});
   }
@@ -95,7 +102,10 @@ void Cam::switches(const State& state, std::span<Switch> values) const {
   const Place<Taylor> moving = place<Taylor>(along_motion(state));
   const Contact<Taylor> deepest = contact(moving, *touched.begin());
   joint_switches(deepest, state, values.last(joints_.size()));
-  if (!parts_.law) return;
+  if (!parts_.law) {
+    if (parts_.friction) values[0] = {state.multipliers[0], std::numeric_limits<double>::quiet_NaN(), 0};
+    return;
+  }
   const std::size_t each = parts_.law->damped() ? 2 : 1;
   for (std::size_t k = 0; k < places(); ++k) {
     Switch& touches = values[k * each];
@@ -115,6 +125,14 @@ void Cam::switches(const State& state, std::span<Switch> values) const {
       *presses = {parts_.law->pressure(pressed, rate), parts_.law->pressure_rate(pressed, rate, growth),
                   parts_.law->pressure_size(pressed, rate)};
   }
+}
+
+bool Cam::touches(const State& state) const {
+  std::vector<Switch> values(layout().switches.size());
+  switches(state, values);
+  // a joint does not open
+  return std::any_of(values.begin(), values.end() - static_cast<std::ptrdiff_t>(joints_.size()),
+                     [](const Switch& s) { return s.unclear(); });
 }
 
 void Cam::sliding(const State& state, std::span<Vec3> speeds) const {

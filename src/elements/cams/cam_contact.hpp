@@ -88,6 +88,8 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
 
   void count_turns(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void switches(const State& state, std::span<Switch> values) const override;
+  bool has_gaps() const override { return parts_.law.has_value(); }
+  bool touches(const State& state) const override;
   void sliding(const State& state, std::span<Vec3> speeds) const override;
   Energies energies(const State& state) const override;
   const std::vector<Channel>& channels() const override { return channels_; }
@@ -164,7 +166,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
 
   /// The place s of a foot, which is known within a turn, counted on from that of the last step; within two turns.
   static double counted(double s, std::span<const double> history);
-  /// Switches at the joints of the motion that the profile was made from. Only the first derivative of its place is used.
+  /// Switches at the joints of the profile. Only the first derivative of its place is used.
   void joint_switches(const Contact<Taylor>& deepest, const State& state, std::span<Switch> values) const;
 
   double load(const Contact<double>& c, const State& state, double rate) const {
@@ -172,7 +174,7 @@ class Cam final : public TemplatedElement<Cam, 2, 13> {
   }
 
   CamParts parts_;
-  std::vector<double> joints_;  ///< of the motion that the profile was made from (CamMotion::joints)
+  std::vector<double> joints_;  ///< of the profile (CamCurve::joints)
   std::vector<Channel> channels_;
 };
 

@@ -14,33 +14,46 @@ constexpr Complex i{0, 1};
 
 Vec2 plane(const Complex& z) { return {z.real(), z.imag()}; }
 
-class Spline final : public CamCurve {
+/// A curve by splines, whose third derivative jumps at each of its points.
+class Splined : public CamCurve {
  public:
-  Spline(Curve x, Curve y, std::size_t pieces) : x_(std::move(x)), y_(std::move(y)), pieces_(pieces) {}
+  explicit Splined(std::span<const double> s) : s_(s.begin(), s.end()) {}
+  std::size_t pieces() const override { return s_.size(); }
+  std::vector<double> joints() const override {
+    constexpr std::size_t most = 20;
+    std::vector<double> found;
+    if (s_.size() > most) return found;
+    for (const double s : s_) found.push_back(s - whole_turn * std::floor(s / whole_turn));
+    return found;
+  }
+
+ private:
+  std::vector<double> s_;  ///< of the points
+};
+
+class Spline final : public Splined {
+ public:
+  Spline(std::span<const double> s, Curve x, Curve y) : Splined(s), x_(std::move(x)), y_(std::move(y)) {}
   Point at(double s) const override {
     const Jet x = x_.at(s), y = y_.at(s);
     return {{x.f, y.f}, {x.d1, y.d1}, {x.d2, y.d2}};
   }
-  std::size_t pieces() const override { return pieces_; }
 
  private:
   Curve x_, y_;
-  std::size_t pieces_;
 };
 
-class Polar final : public CamCurve {
+class Polar final : public Splined {
  public:
-  Polar(Curve radius, std::size_t pieces) : radius_(std::move(radius)), pieces_(pieces) {}
+  Polar(std::span<const double> angle, Curve radius) : Splined(angle), radius_(std::move(radius)) {}
   Point at(double s) const override {
     const Jet r = radius_.at(s);
     const Complex e = std::polar(1.0, s);
     return {plane(e * r.f), plane(e * (r.d1 + i * r.f)), plane(e * (r.d2 - r.f + i * 2.0 * r.d1))};
   }
-  std::size_t pieces() const override { return pieces_; }
 
  private:
   Curve radius_;
-  std::size_t pieces_;
 };
 
 /// The curve traced in the cam by a point or a face of the moving follower: e^(−iθ) times a function of θ.
@@ -48,6 +61,7 @@ class Moved : public CamCurve {
  public:
   explicit Moved(const CamMotion& motion) : motion_(motion) {}
   const CamMotion* motion() const override { return &motion_; }
+  std::vector<double> joints() const override { return motion_.joints(); }
   std::size_t pieces() const override { return motion_.segments().size(); }
 
  protected:
@@ -116,11 +130,11 @@ std::unique_ptr<CamCurve> curve_through(std::span<const Vec2> points) {
     length += (points[(k + 1) % n] - points[k]).norm();
   }
   for (double& value : s) value *= whole_turn / length;
-  return std::make_unique<Spline>(Curve::periodic_spline(s, x, whole_turn), Curve::periodic_spline(s, y, whole_turn), n);
+  return std::make_unique<Spline>(s, Curve::periodic_spline(s, x, whole_turn), Curve::periodic_spline(s, y, whole_turn));
 }
 
 std::unique_ptr<CamCurve> polar_curve(std::span<const double> angle, std::span<const double> radius) {
-  return std::make_unique<Polar>(Curve::periodic_spline(angle, radius, whole_turn), angle.size());
+  return std::make_unique<Polar>(angle, Curve::periodic_spline(angle, radius, whole_turn));
 }
 
 std::unique_ptr<CamCurve> path_of_slide(const CamMotion& motion, double height, double offset) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "elements/cams/cam_motion.hpp"
 #include "math/spline.hpp"
@@ -38,6 +39,9 @@ class CamCurve {
     (void)m;
     return {};
   }
+  /// Values of s in [0, 2π) at which a derivative jumps: the joints of the motion, or the points of a spline. Curves through
+  /// more than twenty points (measured ones) have none.
+  virtual std::vector<double> joints() const = 0;
   /// Number of pieces of the curve, for the resolution of searches.
   virtual std::size_t pieces() const = 0;
 };

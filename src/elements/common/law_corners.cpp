@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace engrane::elements {
 
@@ -43,6 +44,10 @@ LawCorners::LawCorners(const Expression& formula) {
   if (const std::size_t count = formula.decisions().size(); count > 0 && count <= most_corners) formula_ = &formula;
 }
 
+LawCorners::LawCorners(std::vector<double> places, double period) : places_(std::move(places)), period_(period) {
+  if (places_.size() > most_corners) places_.clear();
+}
+
 void LawCorners::name(std::vector<SwitchNames>& names, const std::string& law) const {
   if (formula_) {
     for (const std::string& decision : formula_->decisions()) {
@@ -54,10 +59,14 @@ void LawCorners::name(std::vector<SwitchNames>& names, const std::string& law) c
     }
     return;
   }
-  const std::string more = period_ > 0 ? fmt::format(" or periods of {:.6g} from it", period_) : "";
   for (const double place : places_) {
-    const std::string what = fmt::format("{} passes its corner at {:.6g}{}", law, place, more);
-    names.push_back({what + " upwards", what + " downwards"});
+    const std::string what = fmt::format("{} passes its corner at {:.6g}", law, place);
+    if (period_ > 0) {  // in the next period its sign changes the other way
+      const std::string passes = fmt::format("{} or periods of {:.6g} from it", what, period_);
+      names.push_back({passes, passes});
+    } else {
+      names.push_back({what + " upwards", what + " downwards"});
+    }
   }
 }
 

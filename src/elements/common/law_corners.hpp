@@ -22,6 +22,8 @@ class LawCorners {
   LawCorners() = default;
   explicit LawCorners(const Function& function);
   explicit LawCorners(const Expression& formula);
+  /// Corners at `places`, repeated in each period if there is one.
+  explicit LawCorners(std::vector<double> places, double period = 0);
 
   std::size_t count() const { return formula_ ? formula_->decisions().size() : places_.size(); }
   /// Appends the names of the switches, one per corner; `law` is the keyword used in them.

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "elements/common/along_motion.hpp"
 #include "elements/common/building.hpp"
+#include "elements/common/law_corners.hpp"
 #include "elements/control/joint_coordinate.hpp"
 
 namespace engrane::elements::control {
@@ -40,6 +42,14 @@ class Motor final : public TemplatedElement<Motor, 2, 12> {
     coordinate_.commit(state, history);
   }
 
+  /// The shaft's speed passes a corner of the curve.
+  void switches(const State& state, std::span<Switch> values) const override {
+    if (values.empty()) return;
+    const Taylor turned = coordinate_.read<Taylor>(along_motion(state), state).measured.value * ratio_;
+    corners_.switches({turned.d1, turned.d2, 0}, state.time, std::abs(turned.d1), values);
+  }
+  bool has_gaps() const override { return false; }
+
   Energies energies(const State& state) const override {
     const Output now = output(state);
     Energies e;
@@ -61,6 +71,8 @@ class Motor final : public TemplatedElement<Motor, 2, 12> {
   // the coordinate appends its nodes to the layout before it is passed to the base
   Motor(int id, const Coordinate& coordinate, const MotorCurve& curve, double ratio, const Function* supply, Layout layout)
       : TemplatedElement(id), coordinate_(coordinate, layout), curve_(curve), ratio_(ratio), supply_(supply) {
+    if (curve.function) corners_ = LawCorners(*curve.function);
+    corners_.name(layout.switches, "CURVE");
     set_layout(std::move(layout));
     const char* torque = coordinate.is_angle() ? "TORQUE" : "FORCE";
     channels_ = {{"SPEED", coordinate.rate_dimension(), "of the motor's shaft"},
@@ -79,6 +91,7 @@ class Motor final : public TemplatedElement<Motor, 2, 12> {
 
   PlacedCoordinate coordinate_;
   MotorCurve curve_;
+  LawCorners corners_;  ///< of the curve
   double ratio_;
   const Function* supply_;
   std::vector<Channel> channels_;

@@ -156,9 +156,10 @@ void add_teeth_keywords(deck::Card<Data>& c, bool rack = false) {
       .unit(length)
       .at_least(0);
   c.add("ASN", &TeethData::thickness_allowance,
-        fmt::format("tooth-thickness allowances A_sn of {} and {}, or one of both: normal, at the reference circle, negative; "
-                    "instead of JEU",
-                    a, b))
+        fmt::format(
+            "tooth-thickness allowances A_sn of {} and {}, or one value for both: normal, at the reference circle, negative; "
+            "instead of JEU",
+            a, b))
       .synonyms({"ALLOWANCE", "ECART_EPAISSEUR"})
       .unit(length)
       .values(1, 2)

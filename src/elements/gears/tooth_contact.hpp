@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "elements/common/friction_law.hpp"
+#include "elements/common/law_corners.hpp"
 #include "elements/gears/gear_teeth.hpp"
 #include "math/vector.hpp"
 #include "model/templated_element.hpp"
@@ -156,6 +157,7 @@ class ToothContact {
         cos_alpha_(std::cos(geometry.pressure_angle)),
         sin_alpha_(std::sin(geometry.pressure_angle)),
         cos_beta_(std::cos(geometry.helix)) {
+    if (elastic()) set_corners();
     if (options_.slices > 1) slice_crown_ = std::exchange(law_.crown, 0);
     if (parts()) law_.blur = 64 * std::numeric_limits<double>::epsilon() * geometry.radius;
   }
@@ -186,15 +188,16 @@ class ToothContact {
   double grip_lever() const { return options_.friction->profile ? geometry_.radius : geometry_.slip_per_turn; }
 
   /// Names of the switches where forces are not smooth: both ends of each rounded corner, or the corner itself; the limit of
-  /// the damping of a flank in contact; and the change of the load from one flank to the other, with whose magnitude the
-  /// separating force and friction go.
+  /// the damping of a flank in contact; the change of the load from one flank to the other, with whose magnitude the separating
+  /// force and friction go; and the corners of tables and of straight relief, which the turning wheels pass.
   std::vector<SwitchNames> switch_names() const;
   /// Whether flanks may part or have no stiffness where they touch, with or without switches.
   bool has_gaps() const { return parts() || (elastic() && (law_.exponent != 1 || law_.crown > 0)); }
   /// Whether a flank, at the middle of the face, is in contact or open by no more than rounding.
   bool touches(const ContactReport& report, const State& state) const;
-  /// Values of the switches. The rates neglect the changing distance of running axles and changes of the stiffness; this affects
-  /// the search for events, not their location.
+  /// Values of the switches; the history in `state` begins with the whole turns of the wheels that have no part in their angles.
+  /// The rates neglect the changing distance of running axles and changes of the stiffness; this affects the search for events,
+  /// not their location.
   void switches(const ContactReport& report, const State& state, std::span<Switch> values) const;
 
  private:
@@ -209,6 +212,15 @@ class ToothContact {
   bool separates_by_load() const { return options_.separation && !(options_.running && elastic()); }
   /// Whether forces with the magnitude of the load have a corner where it changes its flank, and neither flank parts there.
   bool turns_load() const { return !limits_damping() && (separates_by_load() || options_.friction); }
+  /// Corners of a periodic function of offset + slope ψ of a wheel: of the error of the teeth, their stiffness or relief.
+  struct TurnCorners {
+    LawCorners corners;
+    std::string of;
+    std::size_t wheel = 0;
+    double slope = 1, offset = 0;
+    int flank = 0;  ///< only while it is pressed in: 1 the front, −1 the back flank; 0: always
+  };
+  void set_corners();
   template <class T>
   void press(const Motion<T, 2>& motion, const ToothedSide<T>& a, const ToothedSide<T>& b, const Vec3T<T>& gap, const T& force_1,
              Balance<T, 2>& balance, ToothLoads<T>& loads, ContactReport* report) const;
@@ -230,6 +242,7 @@ class ToothContact {
   ContactOptions options_;
   double cos_alpha_, sin_alpha_, cos_beta_;
   double slice_crown_ = 0;  ///< crowning, applied per slice
+  std::vector<TurnCorners> corners_;
 };
 
 }  // namespace engrane::elements::gears

@@ -27,6 +27,8 @@ struct ToothRelief {
   bool active() const { return !ramps.empty(); }
   /// Mean number of pairs on the path, which share k_m: each has k_m/ε.
   double contact_ratio() const { return (approach + recess) / base_pitch; }
+  /// ζ at which a ramp starts.
+  double start(const Ramp& ramp) const { return ramp.at_recess ? recess - ramp.length : ramp.length - approach; }
   /// δ(ζ): material removed at ζ, with derivatives with respect to ζ.
   Function::Jet lacking(double place) const;
   /// Weight of a pair at ζ: 1 on the path, 0 beyond.

@@ -2,13 +2,40 @@
 // Where the forces of ToothContact are not smooth.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
 #include "elements/gears/tooth_contact.hpp"
+#include "math/angle.hpp"
 
 namespace engrane::elements::gears {
+
+void ToothContact::set_corners() {
+  const auto add = [&](TurnCorners set) {
+    if (set.corners.count() > 0) corners_.push_back(std::move(set));
+  };
+  const TransmissionError& error = law_.error;
+  const auto of_wheel = [&](const Function& function, const char* of, std::size_t wheel) {
+    add({LawCorners(function), of, wheel, 1 / degree, -law_.mesh.contact[wheel] / degree});
+  };
+  if (error.kind == TransmissionError::Kind::table) of_wheel(*error.function, "ERR", 0);
+  if (error.wheel[0].pitch) of_wheel(*error.wheel[0].pitch, "PITCHA", 0);
+  if (error.wheel[1].pitch) of_wheel(*error.wheel[1].pitch, "PITCHB", 1);
+
+  const double pitches = geometry_.teeth / whole_turn, place = law_.mesh.phase / whole_turn;
+  // slices of helical teeth pass each corner in turn, with a part of the load: hardly a corner of their sum
+  const bool at_once = options_.slices == 1 || geometry_.helix == 0;
+  if (law_.course.kind == MeshStiffness::Kind::table && at_once)
+    add({LawCorners(*law_.course.function), "STIFF", 0, pitches, place});
+  std::vector<double> starts;
+  for (const ToothRelief::Ramp& r : law_.relief.ramps)
+    if (r.exponent < 2) starts.push_back(law_.relief.start(r) / law_.relief.base_pitch);
+  for (const int flank : {1, -1})
+    add({LawCorners(starts, 1), flank == 1 ? "relief of front flanks" : "relief of back flanks", 0, flank * pitches,
+         flank * place + law_.relief.flank, flank});
+}
 
 std::vector<SwitchNames> ToothContact::switch_names() const {
   std::vector<SwitchNames> list;
@@ -30,6 +57,7 @@ std::vector<SwitchNames> ToothContact::switch_names() const {
   }
   if (turns_load())
     list.push_back({"load changes to the front flank", "load changes to the back flank", true, elastic() ? -1 : 0});
+  for (const TurnCorners& set : corners_) set.corners.name(list, set.of);
   return list;
 }
 
@@ -88,6 +116,16 @@ void ToothContact::switches(const ContactReport& report, const State& state, std
     const double of_damping = std::abs(state.scalar_rates[2]) + geometry_.radius * std::abs(turn_a);
     values[next++] = {report.load, k * law_.deflection(report.approach).d1 * rate + law_.damping * state.scalar_accelerations[2],
                       k * size + law_.damping * of_damping};
+  }
+  for (const TurnCorners& set : corners_) {
+    // whole turns do count: the sign of such a switch is opposite behind each corner and repeats after two periods
+    const double psi = state.scalars[set.wheel] + whole_turn * std::remainder(state.history[set.wheel], 2),
+                 turned = set.slope * psi;
+    const Taylor x{set.offset + turned, set.slope * state.scalar_rates[set.wheel],
+                   set.slope * state.scalar_accelerations[set.wheel]};
+    const std::span<Switch> own = values.subspan(next, set.corners.count());
+    next += set.corners.switches(x, state.time, std::abs(set.offset) + std::abs(turned), own);
+    if (set.flank != 0 && (set.flank > 0 ? report.front : report.back) <= 0) std::fill(own.begin(), own.end(), Switch{});
   }
 }
 

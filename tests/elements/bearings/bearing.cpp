@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -329,6 +331,42 @@ TEST(Bearing, MatricesFollowTheSpeed) {
     state.nodes[1].W = {0, 0, speed};
     EXPECT_NEAR(channel_of(*bearing, state, "FORCE_2"), -0.1 * direct, 1e-14) << speed;
     EXPECT_NEAR(channel_of(*bearing, state, "FORCE_3"), 0.1 * cross, 1e-14) << speed;
+  }
+}
+
+TEST(Bearing, SwitchesAndTheirRates) {
+  const auto fill = [](BearingData& d) {
+    d.speeds = {-20, 0.1, 20};
+    d.damping = both(film(0.1, true), both(film(0.4, true), film(0.2, true)));
+  };
+  for (const Subject& s : {rolling("balls", {1, 2},
+                                   [&](BearingData& d) {
+                                     d.balls = 7;
+                                     fill(d);
+                                   }),
+                           rolling("rollers", {1, 2}, [&](BearingData& d) {
+                             d.rollers = 7;
+                             d.length = 0.9;
+                             d.slices = 3;
+                             fill(d);
+                           })}) {
+    const auto bearing = s.build(Mat3::Identity());
+    ASSERT_EQ(bearing->layout().switches.size(), 11u);  // the whole bearing, each element, each speed
+    Random random(5);
+    const StateBuffer state = random_state(s, *bearing, random);
+    const auto at = [&](double t) {
+      std::array<Switch, 11> values;
+      bearing->switches(state.after(t).view(), values);
+      return values;
+    };
+    const double h = 1e-5;
+    const auto now = at(0), plus = at(h), minus = at(-h);
+    double most = -1;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      EXPECT_NEAR(now[i].rate, (plus[i].value - minus[i].value) / (2 * h), 1e-6 * (1 + std::abs(now[i].rate))) << s.name << i;
+      if (i > 0 && i <= 7) most = std::max(most, now[i].value);
+    }
+    EXPECT_EQ(now[0].value, most);
   }
 }
 

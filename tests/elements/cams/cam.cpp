@@ -369,16 +369,17 @@ TEST(Cam, SwitchesAndTheirRates) {
       if (std::string(follower) == "FLAT") kind.follower = {"FLAT", {}};
       const Subject s = subject(kind);
       const auto cam = s.build(Mat3::Identity());
-      ASSERT_EQ(cam->layout().switches.size(), 2u);
+      const std::size_t count = cam->layout().switches.size();
+      ASSERT_EQ(count, 14u);  // two of the contact, and one for each point of the profile
       Random random(5);
       const StateBuffer state = random_state(s, *cam, random);
       const auto at = [&](double t) {
-        std::array<Switch, 2> values;
+        std::vector<Switch> values(count);
         cam->switches(state.after(t).view(), values);
         return values;
       };
       const double h = 1e-4;
-      for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t i = 0; i < count; ++i) {
         EXPECT_GT(at(0)[i].size, 0);
         EXPECT_NEAR(at(0)[i].rate, (at(h)[i].value - at(-h)[i].value) / (2 * h), 1e-5 * (1 + std::abs(at(0)[i].rate)));
       }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "elements/control/motor.hpp"
 
+#include <array>
+
 #include "elements/control/coordinate_cases.hpp"
 
 namespace engrane::elements::control {
@@ -73,6 +75,38 @@ TEST(Motor, FollowsItsCurve) {
     const std::vector<double> c = tangent_of(*element, state, {0, 1, 0, 0});
     EXPECT_NEAR(c[11 * r.size() + 11], 9 * 8 / 300.0, 1e-12) << "the slope damps with the square of the ratio";
   }
+}
+
+/// A formula with a corner at the shaft's speed 6: the switch and its rate.
+TEST(Motor, PassesTheCornerOfItsCurve) {
+  const NodeMap nodes = {{0, Vec3::Zero()}, {1, {1, 0, 0}}};
+  const ElementType joint = cylindrical_type();
+  JointData shaft;
+  shaft.nodes = {0, 1};
+  shaft.axis = {0, 0, 1};
+  std::vector<deck::Record> records(1);
+  records[0].schema = &joint.schema;
+  records[0].id = 1;
+  records[0].data = shaft;
+  deck::FunctionCard card;
+  card.expression = "MAX(0, 6 - X)";
+  deck::Record record;
+  record.id = 1;
+  record.data = card;
+  Diagnostics diagnostics;
+  FunctionMap functions;
+  functions[1] = make_function(record, diagnostics);
+  ASSERT_TRUE(diagnostics.all().empty());
+  const auto element = build(motor_type(), motor(1, "ANGLE"), nodes, {.functions = &functions, .records = &records});
+  ASSERT_EQ(element->layout().switches.size(), 1u);
+  EXPECT_FALSE(element->has_gaps()) << "statics bridges gaps, and a motor has none";
+  StateBuffer state(*element, nodes);
+  state.nodes[1].W = {0, 0, -3};  // the shaft turns -2.5 times as fast
+  state.nodes[1].A = {0, 0, 0.4};
+  std::array<Switch, 1> corner;
+  element->switches(state.view(), corner);
+  EXPECT_NEAR(corner[0].value, 0 - (6 - 7.5), 1e-12);
+  EXPECT_NEAR(corner[0].rate, -2.5 * 0.4, 1e-12);
 }
 
 TEST(Motor, FaultsOfTheCard) {
