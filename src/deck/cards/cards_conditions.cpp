@@ -201,8 +201,7 @@ Schema function_card() {
            "D, its rate V and the time T")
       .synonyms({"EXPRESSION", "FORMULE"});
   card.add("USER", &FunctionCard::user,
-           "library and name of a routine in Fortran or C: a function, or for LAW USER, STIFF USER and FRICTION USER a law; the "
-           "energy that a LAW USER stores may not depend on the time: where the law does, its routine leaves it unset")
+           "library and name of a routine in Fortran or C: a function, or for LAW USER, STIFF USER and FRICTION USER a law")
       .synonyms({"UTILISATEUR"})
       .values(2, 2);
   card.add("PARAM", &FunctionCard::parameters, "numbers that a USER routine is given")

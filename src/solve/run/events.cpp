@@ -154,7 +154,8 @@ void Switches::save(Snapshot& snapshot) const { snapshot.put("events/sides", {si
 
 void Switches::load(const Snapshot& snapshot) {
   const std::vector<double>& sides = snapshot.array("events/sides");
-  if (sides.size() != side_.size()) throw std::out_of_range("the restart point has another number of contacts and stops; it may be of an earlier version");
+  if (sides.size() != side_.size())
+    throw std::out_of_range("the restart point has another number of contacts and stops; it may be of an earlier version");
   taken_.clear();
   std::transform(sides.begin(), sides.end(), side_.begin(), [](double side) { return static_cast<int>(side); });
 }

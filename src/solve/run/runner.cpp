@@ -235,7 +235,8 @@ bool Runner::reach(double target) {
     size = found.step;
     if (found.outcome) outcome = std::move(*found.outcome);
     if (found.kind == Kind::drift) {
-      if (const double way = before_event(found.drift); way > 0 && scheme_.drift_error(now_, way) > (control_.active() ? share_of_drift : 1)) {
+      if (const double way = before_event(found.drift);
+          way > 0 && scheme_.drift_error(now_, way) > (control_.active() ? share_of_drift : 1)) {
         // the motion has changed since the step was chosen, as after a jump of a force: a shorter step gets there
         if (control_.active()) {
           ++step_.cuts;
@@ -321,7 +322,9 @@ bool Runner::drift(double time, double target) {
     size -= before;
     // results within it lie on lines between its ends, which must not cross the jump
     step_.newton = nullptr;
+    pending_drift_ = size;
     if (control_.active() && !accepted(before, false, false)) return false;
+    pending_drift_ = 0;
   }
   scheme_.drift(now_, size);
   locator_.forget();
