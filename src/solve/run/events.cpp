@@ -29,6 +29,10 @@ constexpr int looks = 6;
 /// An event at most this fraction of a step behind the end of the step that was to meet it is met by another attempt.
 constexpr double near_miss = 0.25;
 
+/// Least number of steps between two events: a phase that every run passes in the same steps has an error that no comparison of
+/// runs shows. With n steps it goes with the fifth power of 1/n, and a smaller TOL, with which the others go, asks for more.
+constexpr double least_number = 2, loosest = 2e-3, more_per_decade = 0.6;
+
 /// A drift's error is a sixth of the cube of its fraction of a step in which accelerations change by their own size. With this
 /// fraction of the cube root of TOL it is a fiftieth of TOL. Longer drifts would pass more than one event.
 constexpr double part_of_root = 0.5, longest_drift = 0.05;
@@ -208,7 +212,10 @@ double Switches::blur(const std::vector<Switch>& now, double ahead) const {
 EventLocator::EventLocator(SolverContext& context, Scheme& scheme)
     : scheme_(scheme), switches_(context, scheme), step_(context.options.step), sharpness_(context.options.event_tolerance) {
   step_is(step_);
-  part_of_drift_ = std::min(longest_drift, part_of_root * std::cbrt(context.options.tolerance));
+  const double tolerance = context.options.tolerance;
+  part_of_drift_ = std::min(longest_drift, part_of_root * std::cbrt(tolerance));
+  if (tolerance > 0)
+    least_ = static_cast<int>(std::round(least_number + more_per_decade * std::max(0.0, std::log10(loosest / tolerance))));
   active_ = scheme.meets_events() && context.options.events && !switches_.empty();
 }
 
@@ -238,6 +245,7 @@ void EventLocator::save(Snapshot& snapshot) const {
   for (const Switch& one : before_) before.insert(before.end(), {one.value, one.rate, one.size});
   snapshot.put("events/before", std::move(before));
   snapshot.put("events/last_step", last_step_);
+  snapshot.put("events/made", made_);
   snapshot.put("events/tolerance", tolerance_);
 }
 
@@ -250,6 +258,7 @@ void EventLocator::load(const Snapshot& snapshot) {
   before_.resize(before.size() / 3);
   for (std::size_t i = 0; i < before_.size(); ++i) before_[i] = {before[3 * i], before[3 * i + 1], before[3 * i + 2]};
   last_step_ = snapshot.number("events/last_step");
+  made_ = snapshot.has("events/made") ? static_cast<int>(snapshot.number("events/made")) : 0;
   // files of earlier versions lack it
   if (snapshot.has("events/tolerance")) tolerance_ = snapshot.number("events/tolerance");
 }
@@ -267,8 +276,7 @@ double EventLocator::foresee(const Configuration& from, double size) {
     event = switches_.next_change(before_, now, last_step_, size);
   }
   if (!event || *event <= shortest() || *event >= size) return size;
-  // a phase that every run passes in one step has an error that no comparison of runs shows: two steps leave a 32nd of it
-  if (last_step_ <= 0 && 0.5 * *event > shortest()) return 0.5 * *event;
+  if (const double part = *event / std::max(1, least_ - made_); part < *event && part > shortest()) return part;
   aimed_ = size;
   return *event - 0.5 * tolerance_;
 }

@@ -112,8 +112,13 @@ class EventLocator {
   void stepped(double size) {
     before_ = began_;
     last_step_ = size;
+    ++made_;
   }
-  void forget() { last_step_ = 0; }
+  /// An event has been crossed.
+  void forget() {
+    last_step_ = 0;
+    made_ = 0;
+  }
   /// Examines an attempt of `size` from `from` to `to`, converged or not.
   Finding inspect(const Configuration& from, double size, bool converged, Configuration& to);
 
@@ -140,6 +145,7 @@ class EventLocator {
   std::vector<Switch> began_;   ///< at the beginning of the last attempt
   std::vector<Switch> before_;  ///< at the beginning of the last accepted step
   double last_step_ = 0;        ///< from there to the beginning of the next; 0: unknown
+  int made_ = 0, least_ = 1;    ///< controlled steps made since the last event, and least number between two
   double aimed_ = 0;            ///< time within which an event was predicted that the present attempt is to end near; 0: none
   int located_ = 0;
   bool chattered_ = false, told_ = false;
