@@ -83,10 +83,10 @@ Switches::Switches(SolverContext& context, const Scheme& scheme) : context_(cont
     int index = 0;
     for (const SwitchNames& names : parts[static_cast<std::size_t>(p)].element->layout().switches) {
       const bool of_force = names.multiplier >= 0;
-      const int equation =
-          of_force ? numbering.equation(numbering.motion_slots() + numbering.multiplier_begin(p) + names.multiplier) : -1;
+      const int multiplier = of_force ? numbering.multiplier_begin(p) + names.multiplier : 0;
+      const int equation = of_force ? numbering.equation(numbering.motion_slots() + multiplier) : -1;
       const bool active = (!names.bend || context.options.bends) && (!of_force || equation >= 0);
-      places_.push_back({p, index++, active, equation});
+      places_.push_back({p, index++, active, equation, multiplier});
       empty_ = empty_ && !active;
     }
   }
@@ -104,8 +104,11 @@ std::vector<Switch> Switches::at(const Configuration& c) const {
       if (!place.active) {
         values[i].size = 0;
       } else if (place.equation >= 0) {
-        // a force that is less than what iterations leave has no sign
-        values[i].size = context_.options.precision * scheme_.references().peak(place.equation) / rounding;
+        // a force that is less than what iterations leave, or than rounding of positions makes, has no sign
+        const References& references = scheme_.references();
+        const double k = context_.assembler.scale()[static_cast<std::size_t>(place.multiplier)];
+        values[i].size =
+            context_.options.precision / rounding * references.peak(place.equation) + k * references.length(place.equation);
       }
     }
   }

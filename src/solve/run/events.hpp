@@ -61,7 +61,8 @@ class Switches {
   struct Place {
     int part, index;
     bool active;
-    int equation;  ///< of the multiplier that is its value; −1: none is
+    int equation;    ///< of the multiplier that is its value; −1: none is
+    int multiplier;  ///< its place among all
   };
   std::vector<Place> places_;
   bool empty_ = true;

@@ -315,6 +315,7 @@ bool Runner::drifts(double way) { return !control_.active() || !(scheme_.drift_e
 bool Runner::drift(double time, double target) {
   const double left = target - now_.time;
   const bool arrives = left - time < locator_.shortest() && drifts(left);
+  const double begun = now_.time;
   double size = arrives ? left : time;
   // a drift takes the mean of the forces at its ends: a force that jumps at the event must act only after it
   if (const double before = before_event(size); before > 0) {
@@ -323,7 +324,8 @@ bool Runner::drift(double time, double target) {
     // results within it lie on lines between its ends, which must not cross the jump
     step_.newton = nullptr;
     pending_drift_ = size;
-    if (control_.active() && !accepted(before, false, false)) return false;
+    const bool tells = control_.active() && now_.time > begun && now_.time + size > now_.time;
+    if (tells && !accepted(before, false, false)) return false;
     pending_drift_ = 0;
   }
   scheme_.drift(now_, size);
