@@ -43,10 +43,8 @@ TEST(Motor, Extremes) {
   }
 }
 
-/// A shaft that turns three times as fast as the joint: its speed, the curve's torque there, and the slope as damping.
-TEST(Motor, FollowsItsCurve) {
-  const NodeMap nodes = {{0, Vec3::Zero()}, {1, {1, 0, 0}}};
-  const ElementType joint = cylindrical_type();
+/// Joint 1 of this type between the ground and node 1, about the third axis.
+std::vector<deck::Record> shaft_on_ground(const ElementType& joint) {
   JointData shaft;
   shaft.nodes = {0, 1};
   shaft.axis = {0, 0, 1};
@@ -54,6 +52,14 @@ TEST(Motor, FollowsItsCurve) {
   records[0].schema = &joint.schema;
   records[0].id = 1;
   records[0].data = shaft;
+  return records;
+}
+
+/// A shaft that turns three times as fast as the joint: its speed, the curve's torque there, and the slope as damping.
+TEST(Motor, FollowsItsCurve) {
+  const NodeMap nodes = {{0, Vec3::Zero()}, {1, {1, 0, 0}}};
+  const ElementType joint = cylindrical_type();
+  const std::vector<deck::Record> records = shaft_on_ground(joint);
   MotorData data = motor(1, "ANGLE");
   data.curve = 0;
   data.stall = 8;
@@ -81,13 +87,7 @@ TEST(Motor, FollowsItsCurve) {
 TEST(Motor, PassesTheCornerOfItsCurve) {
   const NodeMap nodes = {{0, Vec3::Zero()}, {1, {1, 0, 0}}};
   const ElementType joint = cylindrical_type();
-  JointData shaft;
-  shaft.nodes = {0, 1};
-  shaft.axis = {0, 0, 1};
-  std::vector<deck::Record> records(1);
-  records[0].schema = &joint.schema;
-  records[0].id = 1;
-  records[0].data = shaft;
+  const std::vector<deck::Record> records = shaft_on_ground(joint);
   deck::FunctionCard card;
   card.expression = "MAX(0, 6 - X)";
   deck::Record record;
