@@ -13,19 +13,21 @@ from pathlib import Path
 import numpy as np
 
 from .errors import UserError
-from .raw_mesh import RawCells, RawMesh
+from .raw_mesh import RawCells, RawMesh, text_of
 
 #: the node count that a type's number stands for, by the first letters of the types
 PLANE = {3: "triangle", 4: "quad", 6: "triangle6", 8: "quad8", 9: "quad9"}
 SOLID = {4: "tetra", 5: "pyramid", 6: "wedge", 8: "hexahedron", 10: "tetra10", 15: "wedge15"}
 SOLID |= {13: "pyramid13", 20: "hexahedron20", 27: "hexahedron27"}
 FAMILIES = (
-    (re.compile(r"(?:DC|AC|C)3D(\d+)"), SOLID),
-    (re.compile(r"(?:CPS|CPE|CPEG|CAX|CGAX|DC2D|DCAX|AC2D|ACAX|M3D|SFM3D|R3D|DS|S|SC)(\d+)"), PLANE),
+    (re.compile(r"(?:DC3D|AC3D|C3D|SC|CSS)(\d+)"), SOLID),  # also shells with a thickness of their own
+    (re.compile(r"(?:CPS|CPE|CPEG|CAX|CGAX|DC2D|DCAX|AC2D|ACAX|M3D|SFM3D|R3D|DS|S)(\d+)"), PLANE),
     (re.compile(r"STRI(3|6)"), PLANE),
 )
-LINES = {"2": "line", "3": "line3"}
-BARS = re.compile(r"(?:T2D|T3D|B2|B3|R2D|SAX|RAX)(\d)")
+LINES = {2: "line", 3: "line3"}
+BARS = re.compile(r"(?:T2D|T3D|DC1D|R2D|RAX)(\d)")  # by the number of nodes
+BEAMS = re.compile(r"(?:B2|B3|PIPE2|PIPE3|SAX|DSAX|MAX|SFMAX)(\d)")  # by the order: 3 is cubic, with 2 nodes
+BEAM_NODES = {"1": 2, "2": 3, "3": 2}
 #: corners of the faces S1, S2, … of solids, from 0 (Abaqus Elements Guide, Three-dimensional solid elements)
 FACES = {
     "tetra": ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)),
@@ -148,7 +150,7 @@ def _sections(path: Path, depth: int) -> Iterator[_Section]:
         raise UserError(f"{path}: *INCLUDE goes round in a circle.")
     if not path.is_file():
         raise UserError(f"There is no file {path}.")
-    lines = path.read_text(encoding="latin-1").splitlines()
+    lines = [line.lstrip() for line in text_of(path).splitlines()]
     marks = [i for i, line in enumerate(lines) if line.startswith("*") and not line.startswith("**")]
     for begin, end in zip(marks, [*marks[1:], len(lines)], strict=True):
         head = lines[begin]
@@ -169,8 +171,8 @@ def _sections(path: Path, depth: int) -> Iterator[_Section]:
             source = path.parent / parameters["INPUT"]
             if not source.is_file():
                 raise UserError(f"{path}: there is no file {source}, which *{keyword} reads.")
-            rows = source.read_text(encoding="latin-1").splitlines()
-        data = [s for s in rows if s.strip() and not s.startswith("**")]
+            rows = text_of(source).splitlines()
+        data = [s for s in rows if s.strip() and not s.lstrip().startswith("**")]
         yield _Section(keyword, parameters, data)
 
 
@@ -199,13 +201,14 @@ def _take(section: _Section, found: _Found, path: Path) -> None:
                 f"a label and {nodes} nodes."
             )
         data = data.reshape(-1, nodes + 1)
-        found.blocks.append((kind, data[:, 0], data[:, 1:]))
+        nodes = data[:, [1, 3, 2]] if kind == "line3" else data[:, 1:]  # the middle stands between the ends
+        found.blocks.append((kind, data[:, 0], nodes))
         _into(found, found.cell_sets, p.get("ELSET"), [data[:, 0]])
     elif section.keyword in ("NSET", "ELSET") and section.keyword in p:
         sets = found.node_sets if section.keyword == "NSET" else found.cell_sets
         _into(found, sets, p[section.keyword], _members(section, sets, path))
     elif section.keyword == "SURFACE" and "NAME" in p and p.get("TYPE", "ELEMENT").upper() == "ELEMENT":
-        rows = [[w.strip() for w in s.split(",")] for s in section.lines]
+        rows = [[w.strip().strip('"') for w in s.split(",")] for s in section.lines]
         found.spelling.setdefault(p["NAME"].upper(), p["NAME"])
         found.surfaces.setdefault(p["NAME"].upper(), []).extend(
             (r[0].upper(), r[1].upper()) for r in rows if len(r) > 1
@@ -213,7 +216,8 @@ def _take(section: _Section, found: _Found, path: Path) -> None:
 
 
 def _nodes(lines: list[str]) -> tuple[np.ndarray, np.ndarray]:
-    """Labels and coordinates; those that a line lacks are zero."""
+    """Labels and coordinates; those that a line lacks are zero. An exponent may begin with D."""
+    lines = [line.upper().replace("D", "E") for line in lines]
     flat = ",".join(lines).replace(",", " ").split()
     if len(flat) == 4 * len(lines) and all(line.count(",") in (3, 4) for line in lines):
         table = np.array(flat, float).reshape(-1, 4)
@@ -264,11 +268,13 @@ def _kind(word: str) -> tuple[str, int]:
         match = pattern.match(word)
         if match and int(match[1]) in kinds:
             return kinds[int(match[1])], int(match[1])
-    match = BARS.match(word)
-    if match:
-        digit = {"1": "2", "2": "3", "3": "2"}[match[1]] if word.startswith("B") else match[1]
-        if digit in LINES:
-            return LINES[digit], int(digit)
+    if match := BARS.match(word):
+        nodes = int(match[1])
+    else:
+        match = BEAMS.match(word)
+        nodes = BEAM_NODES.get(match[1], 0) if match else 0
+    if nodes in LINES:
+        return LINES[nodes], nodes
     return word or "?", 0
 
 
@@ -291,6 +297,8 @@ def _add_surface(
                 loop = list(loops[k - 1])
                 corners.setdefault(len(loop), []).append(nodes[mine][:, loop])
     spelled = found.spelling[name]
+    if not corners:  # an empty group, to be told of
+        cell_sets.setdefault(spelled, [np.zeros(0, int) for _ in blocks])
     for size, rows in corners.items():
         block = ({2: "line", 3: "triangle", 4: "quad"}[size], np.concatenate(rows))
         for members in cell_sets.values():

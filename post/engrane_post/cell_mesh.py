@@ -13,6 +13,7 @@ from .errors import UserError
 from .mesh_files import FileMesh
 
 CHUNK = 100_000
+NAMED = 10  # groups in a message at most
 FLAT = 1e-10  # a cell whose content is this part of its longest side to the power of its dimension has none
 NAMES_OF_OTHERS = {
     "vertex": "single points",
@@ -118,7 +119,7 @@ def of_file(mesh: FileMesh, scale: float = 1.0, merge: float | None = None) -> C
         if inside_out.any():
             nodes = nodes.copy()
             nodes[inside_out] = nodes[inside_out][:, kind.mirror]
-            turned += int(inside_out.sum())
+            turned += 0 if name in mesh.both_ways else int(inside_out.sum())
         numbers[good] = np.arange(number, number + int(good.sum()))
         bad = shape == FOLDED
         if bad.any():
@@ -243,6 +244,7 @@ def _groups(
     for b in out.blocks:
         used[b.nodes] = True
     bounding = unmatched = between = 0
+    empty: list[str] = []
     for name, members in mesh.cell_groups.items():
         cells, rows, nodes = [], [], []
         for (kind, table), numbers, chosen in zip(blocks, number_of, members, strict=True):
@@ -266,15 +268,21 @@ def _groups(
             ("FACES", np.unique(np.concatenate(rows), axis=0) if rows else np.zeros((0, 2), int)),
             ("NOEUDS", own[used[own]]),
         ]
-        for what, found in parts:
-            if len(found):
-                out.groups.append(Group(name, what, found))
+        kept = [Group(name, what, found) for what, found in parts if len(found)]
+        out.groups += kept
+        if not kept:
+            empty.append(name)
     for name, chosen in mesh.point_groups.items():
         nodes = np.unique(one[chosen])
         nodes = nodes[used[nodes]]
         if len(nodes):
             out.groups.append(Group(name, "NOEUDS", nodes))
+        else:
+            empty.append(name)
     _unique_names(out)
+    if empty:
+        named = ", ".join(f'"{name}"' for name in empty[:NAMED]) + (", …" if len(empty) > NAMED else "")
+        out.notes.append(f"{count(len(empty), 'groups')} left out, of which nothing remains: {named}.")
     if unmatched:
         out.notes.append(
             f"{unmatched} of {bounding} cells in groups bound no cell; only their nodes are kept."

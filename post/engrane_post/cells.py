@@ -148,6 +148,8 @@ KINDS = (
     ),
 )
 BY_NAME = {kind.name: kind for kind in KINDS}
+#: nodes of what else a file may hold
+OTHERS = {"vertex": 1, "line": 2, "line3": 3, "pyramid": 5, "pyramid13": 13}
 BY_XDMF = {kind.xdmf: kind for kind in KINDS}
 
 #: XDMF's other codes with a fixed number of nodes: what a reader must be able to step over
@@ -161,6 +163,12 @@ def dimension_of(name: str) -> int:
         if name.lower().startswith(start):
             return dimension
     return 3
+
+
+def nodes_of(name: str) -> int | None:
+    """How many nodes a cell of meshio's name has; None when that is not known."""
+    known = BY_NAME.get(name)
+    return known.nodes if known else OTHERS.get(name)
 
 
 def corners_of(name: str) -> int:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from io import BytesIO
@@ -199,6 +200,9 @@ def _by_meshio(
         raise UserError(
             f"The cells cannot be written as {suffix}: {str(error) or type(error).__name__}."
         ) from None
+    if suffix == ".bdf":  # meshio 5.3 writes CHEXA_, which Nastran does not know, for second order
+        text = path.read_text(encoding="ascii")
+        path.write_text(re.sub(r"(?m)^(C[A-Z]+)_", r"\1 ", text), encoding="ascii")
     return left
 
 

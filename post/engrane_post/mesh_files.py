@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import logging
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import dataclass, field
+from importlib import import_module
 from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from .cells import BY_NAME, dimension_of
+from .cells import BY_NAME, dimension_of, nodes_of
 from .errors import UserError
 from .raw_mesh import meshio_library
 
@@ -23,7 +23,6 @@ from .raw_mesh import meshio_library
 TAGS = {
     "gmsh:physical": "physical",
     "medit:ref": "ref",
-    "nastran:ref": "property",
     "avsucd:material": "material",
     "flac3d:group": "group",
     "tetgen:ref": "ref",
@@ -48,7 +47,9 @@ HINTS = {
 }
 
 
-NASTRAN = (".bdf", ".fem", ".nas")
+#: endings of files that have readers here, and the modules of these
+OWN = {".unv": "unv", ".inp": "abaqus", ".bdf": "nastran", ".fem": "nastran", ".nas": "nastran"}
+VTK = (".vtk", ".vtu")
 
 
 @dataclass
@@ -61,6 +62,8 @@ class FileMesh:
     blocks: list[tuple[str, np.ndarray]]
     cell_groups: dict[str, list[np.ndarray]] = field(default_factory=dict)
     point_groups: dict[str, np.ndarray] = field(default_factory=dict)
+    #: kinds of cells that are numbered either way round, none of which is inside out
+    both_ways: tuple[str, ...] = ()
 
 
 def open_mesh(path: str | Path) -> Any:
@@ -70,14 +73,10 @@ def open_mesh(path: str | Path) -> Any:
         raise UserError(f"There is no file {path}.")
     try:
         suffix = Path(path).suffix.lower()
-        if suffix in (".unv", ".inp"):
-            from . import abaqus, unv
-
-            return (unv if suffix == ".unv" else abaqus).read(path)
+        if suffix in OWN:
+            return import_module(f".{OWN[suffix]}", __package__).read(path)
         # its guess whether an STL is binary may overflow; it writes empty lines, and what it could not read
         with np.errstate(over="ignore"), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
-            if suffix in NASTRAN:
-                return meshio.read(_bulk_data(Path(path)), file_format="nastran")
             return _read_vtk(path, meshio) if suffix == ".vtk" else meshio.read(path)
     except UserError:
         raise
@@ -120,26 +119,6 @@ def _silence() -> Iterator[None]:
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_INFO)
 
 
-def _bulk_data(path: Path) -> StringIO:
-    """Of a Nastran file, which other programs also write without the line that begins it."""
-    text = path.read_text(encoding="latin-1")
-    for line in text.splitlines():
-        if not re.match(r"(?i)(GRID|GRDSET)\b", line):
-            continue
-        if "," in line:
-            fields = line.split(",")
-        else:
-            wide = 16 if line[:8].rstrip().endswith("*") else 8
-            fields = [line[:8], line[8 : 8 + wide], line[8 + wide : 8 + 2 * wide]]
-        if len(fields) > 2 and fields[2].strip() not in ("", "0"):
-            raise UserError(
-                f"{path}: {' '.join(f.strip() for f in fields[:2])} has its place in the coordinate system "
-                f"{fields[2].strip()} (field CP), and only the basic one is read: write the mesh in that."
-            )
-    text = re.sub(r"(?i)(?<=[\d.])D(?=[+-]?\d)", "E", text)  # 2.D+1
-    return StringIO(text if "BEGIN BULK" in text.upper() else f"BEGIN BULK\n{text}")
-
-
 def read(path: str | Path) -> FileMesh:
     """Points, cells and groups of a file."""
     source = open_mesh(path)
@@ -151,11 +130,16 @@ def read(path: str | Path) -> FileMesh:
         bad = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
         raise UserError(f"{path}: the coordinates of node {bad + 1} are not numbers.")
     blocks = [(b.type, np.asarray(b.data)) for b in source.cells]
+    _check_nodes(path, blocks, len(points))
     if Path(path).suffix.lower() == ".med":  # the base of a solid runs the other way round than in VTK
         blocks = [
             (n, t[:, BY_NAME[n].mirror] if dimension_of(n) == 3 and n in BY_NAME else t) for n, t in blocks
         ]
     mesh = FileMesh(Path(path), points, blocks)
+    if Path(path).suffix.lower() in VTK:
+        # VTK's pages long drew wedges upside down, and meshio and others write them so; VTK itself computes
+        # with the base that other solids have
+        mesh.both_ways = ("wedge", "wedge15")
     for name, members in source.cell_sets.items():
         if not name.startswith("gmsh:") and len(members) == len(blocks):
             mesh.cell_groups[name] = [_indices(m) for m in members]
@@ -164,6 +148,25 @@ def read(path: str | Path) -> FileMesh:
     _tagged_cells(source, mesh)
     _families(source, mesh)
     return mesh
+
+
+def _check_nodes(path: str | Path, blocks: list[tuple[str, np.ndarray]], points: int) -> None:
+    """Each cell has the nodes of its kind, and these exist."""
+    first = 1
+    for name, nodes in blocks:
+        size = nodes_of(name)
+        if len(nodes) and size and nodes.shape[1:] != (size,):
+            row = nodes[0]
+            raise UserError(f"{path}: cell {first} ({name}) has {np.size(row)} nodes instead of {size}.")
+        if nodes.ndim == 2 and nodes.size and nodes.dtype.kind in "iu":
+            bad = np.argwhere((nodes < 0) | (nodes >= points))
+            if len(bad):
+                row, column = bad[0]
+                raise UserError(
+                    f"{path}: cell {first + row} ({name}) names node {nodes[row, column] + 1}, and there are "
+                    f"{points}."
+                )
+        first += len(nodes)
 
 
 def _indices(members: Any) -> np.ndarray:

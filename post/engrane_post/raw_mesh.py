@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
@@ -28,6 +29,15 @@ class RawMesh:
     point_data: dict[str, Any] = field(default_factory=dict)
     cell_data: dict[str, Any] = field(default_factory=dict)
     field_data: dict[str, Any] = field(default_factory=dict)
+
+
+def text_of(path: str | Path) -> str:
+    """A text file in UTF-8, or in Latin-1 when it is not that."""
+    raw = Path(path).read_bytes()
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return raw.decode("latin-1")
 
 
 def meshio_library() -> ModuleType:

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from .cells import BY_NAME, alike
+from .cells import BY_NAME, alike, nodes_of
 from .errors import UserError
-from .raw_mesh import RawCells, RawMesh
+from .raw_mesh import RawCells, RawMesh, text_of
 
 # finite element descriptors
 NAMES = {
@@ -38,7 +38,7 @@ NODE, ELEMENT = 7, 8
 def read(path: str | Path) -> RawMesh:
     """With its groups as sets of cells and of points."""
     sets: dict[str, list[list[str]]] = {}
-    for number, lines in _datasets(Path(path).read_text(encoding="latin-1")):
+    for number, lines in _datasets(text_of(path)):
         sets.setdefault(number, []).append(lines)
     if "2411" not in sets or "2412" not in sets:
         raise UserError(f"{path} is no universal file with nodes and cells (datasets 2411 and 2412).")
@@ -53,7 +53,7 @@ def read(path: str | Path) -> RawMesh:
         if len(nodes):
             point_sets[name] = row_of(nodes, path, f'group "{name}"')
         wanted = members[members[:, 0] == ELEMENT, 1]
-        if len(wanted):
+        if len(wanted) or not len(nodes):  # also what has no members, to be told of
             cell_sets[name] = [np.flatnonzero(np.isin(n, wanted)) for n in names]
     return RawMesh(points, blocks, point_sets=point_sets, cell_sets=cell_sets)
 
@@ -103,10 +103,12 @@ def _cells(lines: list[str], row_of: _Rows, path: str | Path) -> tuple[list[RawC
         head = 9 if code in BEAMS else 6
         if count < 1 or at + head + count > len(data):
             raise UserError(f"{path}: cell {data[at]} is not written as dataset 2412 wants it.")
+        name = NAMES.get(code, f"cell {code}")
+        if count != (nodes_of(name) or count):
+            raise UserError(f"{path}: cell {data[at]} has {count} nodes instead of {nodes_of(name)}.")
         # label, descriptor, properties, material, colour, number of nodes
         table = alike(data[at:], (1, 5), head + count)
         at += table.size
-        name = NAMES.get(code, f"cell {code}")
         nodes = row_of(table[:, head:], path, f"cell {table[0, 0]}")
         kind = BY_NAME.get(name)
         if kind is not None and kind.middles:

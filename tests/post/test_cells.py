@@ -424,6 +424,9 @@ def test_bdf(command, tmp_path: Path) -> None:
     status, out, _ = command("export", path, "--mesh", tmp_path / "out.bdf")
     assert status == 0 and "left out: STRESS, VON_MISES, displacement" in out
     check_solids(tmp_path / "out.bdf")
+    # of second order the same cards
+    cards = [line[:8].strip() for line in (tmp_path / "out.bdf").read_text().splitlines()]
+    assert [cards.count(card) for card in ("CTETRA", "CPENTA", "CHEXA")] == [2, 2, 2]
 
 
 def test_surfaces(command, tmp_path: Path) -> None:

@@ -60,7 +60,8 @@ def test_kinds(kind: str, mirrored: bool, command, tmp_path: Path) -> None:
     for i, p in enumerate(points, 1):
         assert np.array_equal(deck.nodes[i], p)
     check_cell(deck, deck.cells[1])
-    assert ("1 of 1 cells are numbered inside out" in err) == mirrored
+    # wedges of VTK files are numbered either way round
+    assert ("1 of 1 cells are numbered inside out" in err) == (mirrored and not kind.startswith("wedge"))
 
 
 @pytest.mark.parametrize("kind", meshes.KINDS)

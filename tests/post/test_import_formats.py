@@ -6,8 +6,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import meshes
+import meshio
 import numpy as np
-from test_import import imported
+from test_import import check_cell, imported
 
 
 def test_what_places_nodes_is_read_or_refused(command, tmp_path: Path) -> None:
@@ -55,3 +56,135 @@ def test_vtk_as_vtk_writes_it(command, tmp_path: Path) -> None:
         _, out, _ = imported(command, tmp_path, tmp_path / "mesh.vtk")
         assert "2 hexahedra" in out or "2 cells" in out
         assert 'group "material 2": 1 cell' in out
+
+
+def test_wedges_of_vtk_either_way_round(command, tmp_path: Path) -> None:
+    """VTK's own writer has the base of a wedge as that of other solids, meshio's the other way round: neither
+    is inside out."""
+    import pyvista as pv
+
+    points = meshes.points_of("wedge")
+    for mirrored in (False, True):
+        nodes = [0, 2, 1, 3, 5, 4] if mirrored else [0, 1, 2, 3, 4, 5]
+        pv.UnstructuredGrid([6, *nodes], [pv.CellType.WEDGE], points).save(tmp_path / "mesh.vtu")
+        deck, _, err = imported(command, tmp_path, tmp_path / "mesh.vtu")
+        assert err == ""
+        check_cell(deck, deck.cells[1])
+
+
+GRIDS = "".join(
+    f"GRID    {i:<8}        {x:<8}{y:<8}{z:<8}\n"
+    for i, (x, y, z) in enumerate(meshes.CORNERS["hexahedron"], 1)
+)
+
+
+def test_cards_of_nastran(command, tmp_path: Path) -> None:
+    """However a card goes on in the next line, and whatever stands behind its nodes."""
+    file = tmp_path / "mesh.bdf"
+    wide = [f"{n:>16}" for n in (1, 10, *range(1, 9))]
+    plain = "CHEXA          1      10       1       2       3       4       5       6"
+    for card in (
+        f"{plain}\n               7       8\n",
+        f"{plain}+A\n$ between\n+A             7       8\n",
+        f"{plain}       \n*                      7               8\n",
+        "CHEXA,1,10,1,2,3,4,5,6\n,7,8\n",
+        "chexa,1,10,1,2,3,4,5,6,+\n+,7,8\n",
+        f"CHEXA*  {''.join(wide[:4])}\n*       {''.join(wide[4:8])}\n*       {''.join(wide[8:])}\n",
+    ):
+        file.write_text(f"SOL 101\nBEGIN BULK\n{GRIDS}{card}CQUAD4,2,20,1,2,6,5,30.\nCBUSH,3,4,1\n")
+        deck, _, _ = imported(command, tmp_path, file)
+        assert deck.cells == {1: [1, 2, 3, 4, 0, 5, 6, 7, 8]}
+        assert deck.groups["property 10"] == ("MAILLES", [(1,)])
+        assert deck.groups["property 20"] == ("FACES", [(1, 2)])
+
+
+def test_cells_with_nodes_missing(command, tmp_path: Path) -> None:
+    """The file and the cell are named, whatever the format."""
+    bulk, unv, vtu = (tmp_path / f"mesh{ending}" for ending in (".bdf", ".unv", ".vtu"))
+    for card, said in (
+        ("CHEXA,7,1,1,2,3,4,5,6", "cell 7 (CHEXA) has 6 nodes instead of 8 or 20"),
+        ("CHEXA,7,1,1,2,3,4,5,6\n,7,8,1,2", "cell 7 (CHEXA) has 10 nodes instead of 8 or 20"),
+        ("CTRIA3,7,1,1,,3", "cell 7 (CTRIA3) has 2 nodes instead of 3"),
+        ("CTRIA3,7,1,1,2,99", "cell 7 names node 99, which has no GRID"),
+    ):
+        bulk.write_text(f"{GRIDS}{card}\n")
+        status, _, err = command("import", bulk, "-o", tmp_path / "d.dat")
+        assert status == 1 and f"{bulk}: {said}" in err
+    points, cells, _ = meshes.brick(1, 1, 1)
+    meshes.write_unv(unv, meshio.Mesh(points, [("hexahedron", cells)]), {})
+    unv.write_text(unv.read_text().replace("115         1", "112         1"))
+    status, _, err = command("import", unv, "-o", tmp_path / "d.dat")
+    assert status == 1 and f"{unv}: cell 1 has 8 nodes instead of 6" in err
+    meshio.Mesh(points, [("tetra", cells[:, :4]), ("tetra", cells[:, :4] + 5)]).write(vtu)
+    status, _, err = command("import", vtu, "-o", tmp_path / "d.dat")
+    assert status == 1 and f"{vtu}: cell 2 (tetra) names node" in err
+
+
+def test_names_in_utf_8_and_latin_1(command, tmp_path: Path) -> None:
+    points, cells, _ = meshes.brick(1, 1, 1)
+    inp, unv = tmp_path / "mesh.inp", tmp_path / "mesh.unv"
+    lines = [f"{i}, {x}, {y}, {z}" for i, (x, y, z) in enumerate(points, 1)]
+    row = ", ".join(str(n + 1) for n in cells[0])
+    for coding in ("utf-8", "utf-8-sig", "latin-1"):
+        text = "\n".join(
+            ["*NODE", *lines, "*ELEMENT, TYPE=C3D8", f"1, {row}", '*NSET, NSET="bas côté"', "1, 2"]
+        )
+        inp.write_bytes(text.encode(coding))
+        meshes.write_unv(unv, meshio.Mesh(points, [("hexahedron", cells)]), {"bas cote": [(7, 10), (7, 20)]})
+        unv.write_bytes(unv.read_text().replace("bas cote", "bas côté").encode(coding))
+        for file in (inp, unv):
+            deck, _, _ = imported(command, tmp_path, file)
+            assert deck.groups["bas côté"] == ("NOEUDS", [(1,), (2,)])
+
+
+PLATE = """*NODE
+1, 0, 0
+2, 1, 0
+3, 1, 1
+4, 0, 1
+5, .5, 0
+6, 1, .5
+7, .5, 1
+8, 0, .5
+9, 5, 5
+*ELEMENT, TYPE=CPS8, ELSET=web
+1, 1, 2, 3, 4, 5, 6, 7, 8
+"""
+
+
+def test_groups_of_which_nothing_remains(command, tmp_path: Path) -> None:
+    """Nodes without cells, and cells that are not there."""
+    inp, unv = tmp_path / "mesh.inp", tmp_path / "mesh.unv"
+    inp.write_text(f"{PLATE}*NSET, NSET=far\n9\n*ELSET, ELSET=gone\n77\n*SURFACE, NAME=pressed\n77, S4\n")
+    deck, _, err = imported(command, tmp_path, inp)
+    assert '3 groups left out, of which nothing remains: "gone", "pressed", "far".' in err
+    assert list(deck.groups) == ["web"]
+    points, cells, _ = meshes.brick(1, 1, 1)
+    meshes.write_unv(unv, meshio.Mesh(points, [("hexahedron", cells)]), {"one": [(8, 77)], "no": [(6, 1)]})
+    _, _, err = imported(command, tmp_path, unv)
+    assert '2 groups left out, of which nothing remains: "one", "no".' in err
+
+
+def test_what_abaqus_allows(command, tmp_path: Path) -> None:
+    """Blanks before keywords, exponents with D, shells with the nodes of solids, lines of three nodes whose
+    second is the middle."""
+    file = tmp_path / "mesh.inp"
+    plain = f"{PLATE}*ELEMENT, TYPE=SAX2, ELSET=rim\n2, 1, 5, 2\n*NSET, NSET=one\n1\n"
+    for text in (
+        plain,
+        plain.replace("*", "  *"),
+        plain.replace("1, 0", "1, 0.D+00").replace("5, 5", "5.0d0, 5"),
+    ):
+        file.write_text(f"** comment\n{text}")
+        deck, _, _ = imported(command, tmp_path, file)
+        assert deck.nodes[3].tolist() == [1, 1, 0] and len(deck.nodes) == 8
+        assert deck.groups["rim"] == ("FACES", [(1, 1)])
+        assert deck.groups["one"] == ("NOEUDS", [(1,)])
+    for kind, name in (("hexahedron", "SC8R"), ("wedge", "SC6RT")):
+        points = meshes.points_of(kind)
+        lines = ["*NODE", *(f"{i}, {x}, {y}, {z}" for i, (x, y, z) in enumerate(points, 1))]
+        row = ", ".join(str(n) for n in (1, *range(1, len(points) + 1)))
+        file.write_text("\n".join([*lines, f"*ELEMENT, TYPE={name}", row]))
+        deck, _, err = imported(command, tmp_path, file)
+        assert err == "" and len(deck.cells[1]) == len(points) + 1
+        check_cell(deck, deck.cells[1])
