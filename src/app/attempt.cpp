@@ -117,15 +117,26 @@ std::string energy_failure(const SolverContext& context, const References& refer
 std::string jump_remark(const SolverContext& context, const References& references, const observe::EnergyBalance& balance) {
   constexpr double small = 1e-3;
   const observe::Jump& jump = balance.jump;
+  const double energy = std::abs(jump.lost);
   // what cannot be deformed does not snap: drives that turn far within a step are all that the works differ by
-  if (balance.handled() <= small * jump.lost) return {};
-  if (jump.lost <= small * balance.handled() || counts_as_none(jump.lost, context, references)) return {};
+  if (balance.handled() <= small * energy) return {};
+  if (energy <= small * balance.handled() || counts_as_none(energy, context, references)) return {};
   const std::string begin = fmt::format("{:.6g}", jump.begin), end = fmt::format("{:.6g}", jump.end);
+  const std::string when = begin == end ? "at t = " + begin : fmt::format("between t = {} and {}", begin, end),
+                    unit = context.model.units.label(dimension::energy);
+  const bool follows = context.options.path.follow;
+  if (jump.lost < 0 && follows) return {};  // a path leads there, if not a straight one
+  if (jump.lost < 0)
+    return fmt::format(
+        "{} the structure came to an equilibrium that it cannot reach by itself, as on the far side of a contact: {:.3g} {} of "
+        "energy appeared from nothing{}",
+        when, energy, unit, begin == end ? "" : ". Smaller steps H may avoid it");
   return fmt::format(
-      "{} the structure snapped to a distant equilibrium: {:.3g} {} of energy went into a motion that statics leave out. {}.PATH "
-      "follows the equilibria in between, TYPE DYNAMIC the motion",
-      begin == end ? "at t = " + begin : fmt::format("between t = {} and {}", begin, end), jump.lost,
-      context.model.units.label(dimension::energy), begin == end ? "" : "Smaller steps H show at which load; ");
+      "{} the structure snapped to a distant equilibrium: {:.3g} {} of energy went into a motion that statics leave out. "
+      "{}{}TYPE "
+      "DYNAMIC follows the motion",
+      when, energy, unit, begin == end ? "" : "Smaller steps H show at which load; ",
+      follows ? "" : ".PATH follows the equilibria in between; ");
 }
 
 /// A warning where a run that has come to its end has lost or won more energy than results should; empty where it has not.
@@ -133,7 +144,7 @@ std::string energy_remark(const SolverContext& context, const References& refere
   constexpr double much = 0.05;
   const observe::EnergyBalance& balance = observer.energies();
   const double off = balance.largest_error;
-  if (balance.jump.lost > 0) return jump_remark(context, references, balance);
+  if (balance.jump.lost != 0) return jump_remark(context, references, balance);
   if (!judges_energies(context.options) || off <= much * balance.handled() || counts_as_none(off, context, references)) return {};
   return fmt::format(
       "the energy balance was off by up to {:.3g} {}, {:.0f} % of what was in the machine or passed through it: "

@@ -218,7 +218,7 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
   listing_.write(listing_section("Energies"));
   listing_.write(listing_energies(thinned_energies(), units));
   std::vector<ReactionRow> reactions;
-  for (const observe::Reaction& r : observer_.reactions())
+  for (const Reaction& r : observer_.reactions())
     reactions.push_back({reading_.model.nodes[static_cast<std::size_t>(r.node)].id, r.force, r.torque});
   if (!reactions.empty()) {
     listing_.write(listing_section("Reactions at the end"));

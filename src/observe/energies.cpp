@@ -19,8 +19,6 @@ constexpr std::size_t points_of_powers = 4;
 /// extrapolate across it with slopes that, from such short steps, are mostly rounding errors. Step control from the first step
 /// to the longest one grows by less.
 constexpr double longest_beside = 100;
-/// Where load time stands still along an equilibrium path, it is assumed to advance by this fraction of the step length.
-constexpr double stand_still = 1e-9;
 /// Integrals from the beginning of a step to the second, third and fourth of the points of Lobatto quadrature, of the cubic
 /// through four values of a function: to the end of the step they are exact for degree five (the coefficients of Lobatto IIIA of
 /// order 6: Hairer and Wanner, Solving Ordinary Differential Equations II, table IV.5.8).
@@ -31,104 +29,7 @@ constexpr std::array<std::array<double, 4>, 3> lobatto{{
     {1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12},
 }};
 
-/// Sum of the energies of this rank's elements.
-Energies own_energies(Assembler& assembler, const Configuration& c) {
-  Energies sum;
-  for (const int p : assembler.own_parts()) {
-    const Energies e = assembler.model().parts[static_cast<std::size_t>(p)].element->energies(assembler.view(p, c));
-    sum.kinetic += e.kinetic;
-    sum.potential += e.potential;
-    sum.external += e.external;
-    sum.dissipated += e.dissipated;
-    sum.strain += e.strain;
-  }
-  return sum;
-}
-
 }  // namespace
-
-Energies total_energies(Assembler& assembler, const Configuration& c) {
-  const Energies own = own_energies(assembler, c);
-  double sums[5] = {own.kinetic, own.potential, own.dissipated, own.external, own.strain};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, assembler.comm());
-  return {sums[0], sums[1], sums[2], sums[3], sums[4]};
-}
-
-double StaticWork::lost(double change) const {
-  constexpr double allowed = 0.05;
-  const double gap = std::min(first, second) - change;
-  return !dissipates && gap > 0.5 * varied + allowed * std::max(handled, std::abs(change)) ? gap : 0;
-}
-
-StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to) {
-  StaticWork work;
-  if (!(to.time > from.time)) return work;
-  // along an equilibrium path, load time may decrease or stand still, and the drives follow it
-  const double loads = to.load_time() - from.load_time(), least = stand_still * (to.time - from.time);
-  const double time = std::abs(loads) > least ? loads : least;
-  // saves a copy: configurations of large meshes take much memory
-  Configuration& c = from;
-  double dissipated = 0;
-  const auto works_of_elements = [&] {
-    std::vector<double> works;
-    works.reserve(assembler.own_parts().size());
-    for (const int p : assembler.own_parts()) {
-      const Energies rates = assembler.model().parts[static_cast<std::size_t>(p)].element->energies(assembler.view(p, c));
-      works.push_back(time * rates.external);
-      dissipated += std::abs(rates.dissipated);
-    }
-    return works;
-  };
-  const auto works_of = [&](const std::vector<Reaction>& reactions) {
-    std::vector<double> works;
-    for (const Reaction& reaction : reactions)
-      works.push_back(time * reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]));
-    return works;
-  };
-  // reactions of the equilibria themselves: with the velocities set below, dampers would contribute
-  const std::vector<Reaction> first = supports.at(from), second = supports.at(to);
-  for (std::size_t i = 0; i < c.nodes.size(); ++i) {
-    const Vec3 v = (to.nodes[i].x - from.nodes[i].x) / time;
-    // the rotation vector between the two orientations has the same components in either
-    const Vec3 W = rotation_log(from.nodes[i].R.transpose() * to.nodes[i].R) / time;
-    c.nodes[i].v = v;
-    c.nodes[i].W = W;
-  }
-  for (std::size_t i = 0; i < c.scalars.size(); ++i) c.scalar_rates[i] = (to.scalars[i] - from.scalars[i]) / time;
-  // evaluate functions of time just inside the step: they may have a corner at its ends
-  c.lead += 1e-8 * time;
-  const std::vector<double> first_of_elements = works_of_elements(), first_of_supports = works_of(first);
-
-  for (std::size_t i = 0; i < c.nodes.size(); ++i) {
-    NodeState end = to.nodes[i];
-    end.v = c.nodes[i].v;
-    end.W = c.nodes[i].W;
-    c.nodes[i] = end;
-  }
-  c.time = to.time;
-  c.lead = to.lead - 1e-8 * time;
-  c.h = to.h;
-  c.scalars = to.scalars;
-  c.scalar_accelerations = to.scalar_accelerations;
-  c.remainders = to.remainders;
-  c.multipliers = to.multipliers;
-  c.history = to.history;
-  work.add(first_of_elements, works_of_elements());
-  double sums[5] = {work.first, work.second, work.varied, work.handled, dissipated};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, assembler.comm());
-  work = {sums[0], sums[1], sums[2], sums[3], sums[4] > 0};
-  work.add(first_of_supports, works_of(second));
-  return work;
-}
-
-void StaticWork::add(const std::vector<double>& with_first, const std::vector<double>& with_second) {
-  for (std::size_t i = 0; i < with_first.size(); ++i) {
-    first += with_first[i];
-    second += with_second[i];
-    varied += std::abs(with_second[i] - with_first[i]);
-    handled += std::max(std::abs(with_first[i]), std::abs(with_second[i]));
-  }
-}
 
 EnergyLedger::EnergyLedger(Assembler& assembler, Reactions& supports, bool moves)
     : assembler_(assembler), supports_(supports), moves_(moves), powers_(points_of_powers, longest_beside) {}
@@ -150,7 +51,7 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
   } else if (!moves_) {
     const StaticWork work = static_work(assembler_, supports_, before_.unpacked(), c);
     balance_.external_work += work.mean();
-    if (const double lost = work.lost(sum.potential - last_potential_); lost > balance_.jump.lost)
+    if (const double lost = work.lost(sum.potential - last_potential_); std::abs(lost) > std::abs(balance_.jump.lost))
       balance_.jump = {last_time_, c.time, lost};
   } else if (impulse) {
     end_steps_inside();
@@ -279,13 +180,17 @@ void EnergyLedger::load(const Snapshot& snapshot) {
   balance_.exchanged = state.at(10);
   initial_potential_ = state.at(11);
   balance_.jump = {state.at(12), state.at(13), state.at(14)};
-  last_potential_ = balance_.potential;
   started_ = true;
   if (smooth_ && snapshot.has("observe/powers")) powers_.load(snapshot, "observe/powers");
-  if (moves_) return;
   Configuration before = assembler_.numbering().reference_configuration(last_time_);
   load_configuration(snapshot, before);
-  before_ = PackedConfiguration(before);
+  // the loads may differ from those of the run before: the energy of a weight that has come is not the work of anything
+  last_potential_ = total_energies(assembler_, before).potential;
+  const double come = last_potential_ - balance_.potential;
+  balance_.potential = last_potential_;
+  balance_.initial += come;
+  initial_potential_ += come;
+  if (!moves_) before_ = PackedConfiguration(before);
 }
 
 }  // namespace engrane::observe

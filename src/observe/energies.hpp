@@ -6,18 +6,18 @@
 #include <vector>
 
 #include "assembly/assembler.hpp"
+#include "assembly/energies.hpp"
 #include "base/snapshot.hpp"
 #include "math/extrapolation.hpp"
 #include "observe/packed_configuration.hpp"
-#include "observe/reactions.hpp"
 
 namespace engrane::observe {
 
 /// A load step between two equilibria that no path of stable equilibria joins: the structure snapped through or fell over in
-/// between, and lost energy that statics do not show.
+/// between, and lost energy that statics do not show. If it has won energy from nothing, it cannot have come to the second.
 struct Jump {
   double begin = 0, end = 0;  ///< times of the equilibria
-  double lost = 0;            ///< energy; 0: there was no jump
+  double lost = 0;            ///< energy; negative: won; 0: there was no jump
 };
 
 /// Energies of the whole model, and the work done since the start.
@@ -29,7 +29,7 @@ struct EnergyBalance {
   double largest_error = 0;  ///< largest |error()| so far
   double passed = 0;         ///< integral of the absolute values of all power in and out
   double exchanged = 0;      ///< largest change of the potential energy since the start
-  Jump jump;                 ///< statics: the one that lost most
+  Jump jump;                 ///< statics: the one that lost or won most
 
   /// Upper bound for a plausible error(): the initial energy, the energy that passed through the model, and the largest change
   /// of the potential energy.
@@ -37,28 +37,6 @@ struct EnergyBalance {
   /// Error of the energy balance: E − E₀ − W + D.
   double error() const { return kinetic + potential - initial - external_work + dissipated; }
 };
-
-/// Sum over all elements, on every rank; each rank evaluates its own. Collective.
-Energies total_energies(Assembler& assembler, const Configuration& c);
-
-/// Work of loads, drives and supports along the straight line between two equilibria, with the forces of the first and with
-/// those of the second.
-struct StaticWork {
-  double first = 0, second = 0;
-  double varied = 0;        ///< sum of the differences between both, each taken as positive
-  double handled = 0;       ///< sum of the works, each taken as positive
-  bool dissipates = false;  ///< elements that resist velocities would take part of it
-
-  /// Adds the works of one load each.
-  void add(const std::vector<double>& with_first, const std::vector<double>& with_second);
-  /// By the trapezoidal rule.
-  double mean() const { return 0.5 * (first + second); }
-  /// Energy lost in a jump, if the potential energy has changed by `change`; 0 if a path of equilibria may lead from one to the
-  /// other. Along a path, forces lie between those of both equilibria, and so do the work and the change of the energy: the
-  /// rest of the smaller work is lost. Since paths are not straight, half the differences are allowed.
-  double lost(double change) const;
-};
-StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to);
 
 /// Inner points of Lobatto quadrature with four points, (1 ∓ 1/√5)/2, as fractions of the step.
 inline constexpr std::array lobatto_points{0.2763932022500210, 0.7236067977499790};

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "assembly/reactions.hpp"
 #include "model/model.hpp"
 #include "observe/nodal_averages.hpp"
-#include "observe/reactions.hpp"
 
 namespace engrane::observe {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "assembly/assembler.hpp"
+#include "assembly/reactions.hpp"
 #include "model/determined_channels.hpp"
-#include "observe/reactions.hpp"
 
 namespace engrane::observe {
 

@@ -10,8 +10,8 @@
 #include <set>
 #include <utility>
 
+#include "assembly/loads.hpp"
 #include "model/masses.hpp"
-#include "observe/loads.hpp"
 
 namespace engrane::observe {
 

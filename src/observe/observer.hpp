@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "assembly/reactions.hpp"
 #include "math/extrapolation.hpp"
 #include "observe/energies.hpp"
 #include "observe/fields.hpp"
 #include "observe/histories.hpp"
-#include "observe/reactions.hpp"
 
 namespace engrane::observe {
 

@@ -43,6 +43,8 @@ class References {
   /// Largest force on a node at the ends of iterations so far. Their trial positions, where stiff parts may resist with many
   /// times as much, do not count.
   double largest_force() const { return std::max(solved_force_, last_force_); }
+  /// The same in the last residual alone.
+  double last_force() const { return last_force_; }
   /// Largest loads so far, to be restored after a failed iteration.
   const std::vector<double>& memory() const { return largest_of_slot_; }
   /// Whether any of them is not zero.

@@ -275,6 +275,13 @@ bool Runner::reach(double target) {
         continue;
       }
     }
+    if (!jumps && scheme_.leaps(now_, next_)) {
+      jumps = shortest(size, 0.5 * size);
+      if (!jumps) {
+        cut(size, 0.5 * size, report);
+        continue;
+      }
+    }
     if (found.kind != Kind::drift) {
       if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // avoids rounding accumulated in sums of h
       scheme_.accept();

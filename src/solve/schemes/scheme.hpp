@@ -53,6 +53,9 @@ class Scheme {
   virtual Outcome attempt(const Configuration& from, double h, Configuration& to) = 0;
   /// The same where equilibria near `from` have come to an end: seeks the one to which the structure would snap.
   virtual Outcome snap(const Configuration& /*from*/, double /*h*/, Configuration& /*to*/) { return {}; }
+  /// Did the last attempt, from one equilibrium to the other, leap to where no path of equilibria leads? Shorter steps may then
+  /// stay on theirs. Collective.
+  virtual bool leaps(const Configuration& /*from*/, const Configuration& /*to*/) { return false; }
   /// Accepts the last attempt.
   virtual void accept() {}
   /// Progress after the last accepted step of a scheme that follows a path and knows itself how far; nullptr if time leads from

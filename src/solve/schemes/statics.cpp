@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "assembly/energies.hpp"
 #include "solve/algebra/probe.hpp"
 #include "solve/constraints/diagnosis.hpp"
 #include "solve/schemes/descent.hpp"
@@ -76,6 +77,7 @@ Statics::Statics(SolverContext& context)
   *unknowns_.out() = context.assembler.new_vector();
   for (std::size_t p = 0; p < context.model.parts.size(); ++p)
     if (context.model.parts[p].element->has_gaps()) contacts_.push_back(static_cast<int>(p));
+  if (!contacts_.empty()) supports_.emplace(context.assembler);
   if (std::all_of(context.model.parts.begin(), context.model.parts.end(),
                   [](const Model::Part& part) { return part.element->is_linear(); }))
     context_.newton.keep_one_tangent();
@@ -119,6 +121,7 @@ StartReport Statics::start(Configuration& c) {
 }
 
 Outcome Statics::attempt(const Configuration& from, double h, Configuration& to) {
+  if (supports_) loads_ = context_.newton.loads();
   if (!error_.wanted() || path_.empty()) {
     NewtonReport report = find(from, h, to, false);
     if (watched_) stay_on_branch(from, h, report, to);
@@ -143,6 +146,19 @@ Outcome Statics::snap(const Configuration& from, double h, Configuration& to) {
   tried_time_ = to.time;
   tried_forces_ = to.multipliers;
   return {std::move(report), error(from, h)};
+}
+
+bool Statics::leaps(const Configuration& from, const Configuration& to) {
+  constexpr double small = 1e-3, rounding = 1e-6, bend = 0.1;
+  if (!supports_) return false;
+  const double before = total_energies(context_.assembler, from).potential;
+  const double after = total_energies(context_.assembler, to).potential;
+  const double lost = std::abs(static_work(context_.assembler, *supports_, from, to).lost(after - before, bend));
+  if (lost <= small * (std::abs(before) + std::abs(after)) ||
+      lost <= rounding * std::max(largest_force_, references().last_force()) * context_.model.extent())
+    return false;
+  context_.newton.restore_loads(loads_);
+  return true;
 }
 
 NewtonReport Statics::find(const Configuration& from, double h, Configuration& to, bool predicted) {
@@ -228,6 +244,7 @@ std::optional<double> Statics::error(const Configuration& from, double h) const 
 }
 
 void Statics::accept() {
+  largest_force_ = std::max(largest_force_, references().last_force());
   if (watched_) {
     last_y_ = y_;
     last_h_ = tried_h_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
+#include "assembly/reactions.hpp"
 #include "math/extrapolation.hpp"
 #include "solve/schemes/scheme.hpp"
 #include "solve/schemes/step_error.hpp"
@@ -19,6 +22,8 @@ class Statics : public Scheme {
   StartReport start(Configuration& c) override;
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
   Outcome snap(const Configuration& from, double h, Configuration& to) override;
+  /// Only models with gaps are watched: Newton's iteration goes astray where a contact opens on its way.
+  bool leaps(const Configuration& from, const Configuration& to) override;
   void accept() override;
   int order_of_error() const override { return static_cast<int>(points); }
   void pass_corner(const Configuration& c) override;
@@ -75,9 +80,12 @@ class Statics : public Scheme {
   /// Whether a contact is closed or open by no more than rounding (Element::touches).
   bool touches(const Configuration& c) const;
 
-  std::vector<int> contacts_;  ///< elements with gaps
-  bool resists_ = false;       ///< require_resistance() was passed
-  bool watched_;               ///< may_be_singular()
+  std::vector<int> contacts_;          ///< elements with gaps
+  std::optional<Reactions> supports_;  ///< with gaps
+  std::vector<double> loads_;          ///< Newton::loads() before the step tried last, with gaps
+  double largest_force_ = 0;           ///< on a node, in accepted steps
+  bool resists_ = false;               ///< require_resistance() was passed
+  bool watched_;                       ///< may_be_singular()
   /// Size of the solution for the probe at the beginning of the step tried last, and of the last accepted step; 0: unknown.
   double response_ = 0, last_response_ = 0;
   std::vector<double> last_y_;  ///< displacements of the last accepted step, of length last_h_; empty before the first

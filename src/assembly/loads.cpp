@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "observe/loads.hpp"
+#include "assembly/loads.hpp"
 
 #include <array>
 #include <vector>
 
 #include "math/rotation.hpp"
 
-namespace engrane::observe {
+namespace engrane {
 
 Vec3 place_of_force(const Model& model, const Configuration& c, int node) {
   const auto at = static_cast<std::size_t>(node);
@@ -41,4 +41,4 @@ LoadSum sum_loads(const Assembler& assembler, const Configuration& c) {
   return {{all[0], all[1], all[2]}, {all[3], all[4], all[5]}, all[6]};
 }
 
-}  // namespace engrane::observe
+}  // namespace engrane

@@ -3,7 +3,7 @@
 
 #include "assembly/assembler.hpp"
 
-namespace engrane::observe {
+namespace engrane {
 
 /// Point of application of a force on a node. With small displacements this is the reference position.
 Vec3 place_of_force(const Model& model, const Configuration& c, int node);
@@ -19,4 +19,4 @@ struct LoadSum {
 /// On every rank; each evaluates its own elements. Collective.
 LoadSum sum_loads(const Assembler& assembler, const Configuration& c);
 
-}  // namespace engrane::observe
+}  // namespace engrane

@@ -5,7 +5,7 @@
 
 #include "assembly/assembler.hpp"
 
-namespace engrane::observe {
+namespace engrane {
 
 /// Reaction force and torque (global components) on a supported node.
 struct Reaction {
@@ -42,4 +42,4 @@ class Reactions {
   std::vector<int> place_;     ///< index of each node in nodes_, or -1
 };
 
-}  // namespace engrane::observe
+}  // namespace engrane

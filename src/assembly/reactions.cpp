@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "observe/reactions.hpp"
+#include "assembly/reactions.hpp"
 
 #include <algorithm>
 #include <array>
 #include <set>
 #include <span>
 
-#include "observe/loads.hpp"
+#include "assembly/loads.hpp"
 
-namespace engrane::observe {
+namespace engrane {
 
 Reactions::Reactions(Assembler& assembler) : assembler_(assembler) {
   const Model& model = assembler.model();
@@ -75,4 +75,4 @@ Resultant Reactions::resultant(const Configuration& c, const std::vector<Reactio
   return all;
 }
 
-}  // namespace engrane::observe
+}  // namespace engrane
