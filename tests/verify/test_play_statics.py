@@ -42,6 +42,8 @@ SPUR, HELICAL, WORM = (
         (HELICAL, "STIFF FOURIER .1 .05"),
         (HELICAL, "TIPRELA .01 1"),
         (WORM, "ERR COS .003"),
+        (SPUR, "SMOOTH .01"),
+        (HELICAL, "SMOOTH .0001"),
     ],
 )
 def test_teeth_from_rest(pair: tuple[str, str, float], law: str, tmp_path: Path) -> None:

@@ -177,8 +177,10 @@ void ToothContact::press(const Motion<T, 2>& motion, const ToothedSide<T>& a, co
   }
 
   if (contact_homotopy > 0) {
-    net += contact_homotopy * law_.stiffness * x;
-    potential += 0.5 * contact_homotopy * law_.stiffness * value_of(x) * value_of(x);
+    // from where the front flank takes its first load: without load that is where it is found
+    const T pressed = x + 0.5 * law_.onset;
+    net += contact_homotopy * law_.stiffness * pressed;
+    potential += 0.5 * contact_homotopy * law_.stiffness * value_of(pressed) * value_of(pressed);
   }
   const T slope_a = compose(psi_a, error_a.d1, error_a.d2, error_a.d3),
           slope_b = compose(psi_b, error_b.d1, error_b.d2, error_b.d3);
