@@ -307,24 +307,6 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
   }
 }
 
-double Start::amplification(const Configuration& c) {
-  const Numbering& numbering = assembler_.numbering();
-  const double extent = assembler_.model().extent();
-  std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0), motion;
-  for (std::size_t e = 0; e < right.size(); ++e) {
-    const Unknown& u = numbering.unknown(static_cast<int>(e));
-    if (!u.multiplier || assembler_.released(u.slot - numbering.motion_slots())) continue;
-    right[e] = std::cos(2.3 * static_cast<double>(e)) * size_of(u, extent);  // a generic direction
-  }
-  assembler_.projection(outside_of_steps(c), Assembler::Metric::geometric);
-  if (!solve(right, motion)) return std::numeric_limits<double>::infinity();
-  double most = 0;
-  for (std::size_t e = 0; e < motion.size(); ++e)
-    if (const Unknown& u = numbering.unknown(static_cast<int>(e)); !u.multiplier)
-      most = std::max(most, std::abs(motion[e]) / size_of(u, extent));
-  return most;
-}
-
 Start::Distance Start::distance(const Configuration& from, const Configuration& to) const {
   const double extent = assembler_.model().extent();
   Distance largest;

@@ -57,10 +57,6 @@ class Start {
   /// found.
   bool soften(Configuration& c, double h, StartReport* report = nullptr, const MasslessMotions* massless = nullptr);
 
-  /// Largest motion, over the extent or in radians, that closes constraints open by one: about the inverse of the smallest
-  /// singular value of their gradient. Infinite if the matrix cannot be factored.
-  double amplification(const Configuration& c);
-
   /// Moment below which a force in `c` is but rounding of accelerations, times what stands for the inertia of motions without
   /// any (Assembler::missing_inertia). All forces are, where nothing has inertia and nothing is loaded.
   double noise_of_missing_inertia(const Configuration& c) const;

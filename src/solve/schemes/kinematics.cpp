@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/diagnosis.hpp"
@@ -53,7 +56,7 @@ int Kinematics::solve(Configuration& to) {
   return assembly.position_iterations;
 }
 
-Kinematics::Sizes Kinematics::sizes(const Configuration& c) const {
+Kinematics::Sizes Kinematics::sizes(const Configuration& c, double enlarged) const {
   const double extent = context_.model.extent();
   Sizes s;
   const auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
@@ -62,38 +65,40 @@ Kinematics::Sizes Kinematics::sizes(const Configuration& c) const {
     s.velocity = std::max(s.velocity, std::abs(v[i]) / size);
     s.acceleration = std::max(s.acceleration, std::abs(a[i]) / size);
   }
-  // steady motion has no accelerations but those of rounding
+  // steady motion has no accelerations but those of rounding, and what nothing loads has no other forces
   constexpr double rounding = 100 * std::numeric_limits<double>::epsilon();
-  s.acceleration = std::max(s.acceleration, rounding * s.velocity * s.velocity);
-  s.force = context_.start.noise_of_missing_inertia(c) / extent;
+  s.acceleration = std::max(s.acceleration, std::pow(enlarged, 3) * rounding * s.velocity * s.velocity);
+  s.force = std::pow(enlarged, 4) * context_.start.noise_of_missing_inertia(c) / extent;
   const Eigen::VectorXd weight = constraint_sizes(context_.assembler) / extent;
   for (std::size_t m = 0; m < c.multipliers.size(); ++m)
     s.force = std::max(s.force, std::abs(c.multipliers[m]) * weight[static_cast<Eigen::Index>(m)]);
   return s;
 }
 
+std::vector<double> Kinematics::predict(const Configuration& from, double length, Configuration& c) const {
+  const auto v = context_.motion.velocities(from), a = context_.motion.accelerations(from);
+  std::vector<double> y(v.size());
+  c = from;
+  c.time = from.time + length;
+  c.h = length;
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] = length * (v[i] + 0.5 * length * a[i]);
+  prescribe_step(from.time, c.time, y);
+  context_.motion.move(from, y, c);
+  return y;
+}
+
+int Kinematics::follow(const Configuration& from, double length, Configuration& c) {
+  predict(from, length, c);
+  return solve(c);
+}
+
 Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& to) {
-  constexpr double suspicious = 1e4;  // growth in a step above which a neighbouring position is checked
-  constexpr double grown = 10;        // growth in a step above which a position may be close to a singular one
-  constexpr double unknown = 1e-3;    // fraction of a force at which its rounding makes it unknown
-  constexpr double singular = 100;    // growth over the neighbouring position that no motion through it has
-  constexpr double beside = 1e-6;     // of a step
+  constexpr double unknown = 1e-3;  // fraction of a force at which its rounding makes it unknown
+  constexpr double closer = 1.1;    // growth of amplification in a step towards a singular position
   Outcome outcome;
   NewtonReport& report = outcome.newton;
-  // along the motion known so far: close enough to stay on the same branch of assembly
-  const auto v = context_.motion.velocities(from), a = context_.motion.accelerations(from);
-  std::vector<double> y(context_.motion.size());
-  const auto predict = [&](double length, Configuration& c) {
-    c = from;
-    c.time = from.time + length;
-    c.h = length;
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] = length * (v[i] + 0.5 * length * a[i]);
-    prescribe_step(from.time, c.time, y);
-    context_.motion.move(from, y, c);
-  };
-  predict(h, to);
   report.converged = true;
-  refuse_half_turns(y, report);
+  refuse_half_turns(predict(from, h, to), report);
   if (!report.converged) context_.newton.refuse_last();
   if (!report.converged) return outcome;
   std::string failure;
@@ -102,46 +107,129 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
   } catch (const SolutionFailure& e) {
     failure = e.what();
   }
-  const Sizes before = sizes(from), now = failure.empty() ? sizes(to) : Sizes{};
-  if (failure.empty() && !now.beyond(before, suspicious)) {
-    if (!now.beyond(before, grown)) return outcome;
-    // close to a singular position the rounding of positions is amplified in positions, velocities, accelerations and forces in
-    // turn, and may be all there is in the forces
-    const double enlarged = context_.start.amplification(to);
-    if (!(std::pow(enlarged, 4) * std::numeric_limits<double>::epsilon() > unknown)) return outcome;
-    throw SolutionFailure(
-        fmt::format("too close to a singular position at t = {:.6g} (bars in line, or a drive at a dead point): rounding of "
-                    "positions is enlarged so much that accelerations and forces are not known. Choose steps that do not end "
-                    "so close to it, or drive another joint",
-                    to.time));
+  const Regularity before(context_.assembler, from), now(context_.assembler, to);
+  // close to a singular position the rounding of positions is amplified in positions, velocities, accelerations and forces in
+  // turn, and may be all there is in the forces
+  const double amplified = now.amplification();
+  const bool doubtful = !(std::pow(amplified, 4) * std::numeric_limits<double>::epsilon() <= unknown) &&
+                        !(amplified <= closer * before.amplification());
+  if (doubtful && (!failure.empty() || blurred(from, h, to, unknown))) {
+    if (reach_limit(from, h, before.amplification(), to, report)) return outcome;
+    if (failure.empty()) failure = "close to a singular position (bars in line, or a drive at a dead point) forces are not known";
   }
-  // In a singular position (bars in line, a dead point) the equations do not determine how the motion goes on. A little farther
-  // on they do; the limit is the same where there is one.
-  Configuration near, farther;
-  try {
-    predict(h * (1 + 0.1), farther);
-    report.iterations += solve(farther);
-    if (failure.empty() && context_.start.amplification(to) < singular * context_.start.amplification(farther)) return outcome;
-    predict(h * (1 + beside), near);
-    report.iterations += solve(near);
-  } catch (const SolutionFailure&) {
-    // it fails at other positions too: this one is not singular
-    if (failure.empty()) return outcome;
+  if (!failure.empty()) {
     report.converged = false;
     report.conflict = true;
     report.reason = failure;
-    return outcome;
+  } else if (!before.same_side(now)) {
+    refuse_other_branch(from, h, before, report);
   }
+  return outcome;
+}
+
+bool Kinematics::blurred(const Configuration& from, double h, const Configuration& to, double part) {
+  Configuration between, again;
+  try {
+    follow(from, 0.4 * h, between);
+    follow(between, 0.6 * h, again);
+  } catch (const SolutionFailure&) {
+    return true;
+  }
+  const Sizes size = sizes(to);
+  Configuration difference = to;
+  const auto minus = [](std::vector<double> x, const std::vector<double>& y) {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] -= y[i];
+    return x;
+  };
+  context_.motion.set_velocities(minus(context_.motion.velocities(to), context_.motion.velocities(again)), difference);
+  context_.motion.set_accelerations(minus(context_.motion.accelerations(to), context_.motion.accelerations(again)), difference);
+  difference.multipliers = minus(to.multipliers, again.multipliers);
+  return sizes(difference).beyond(size, part);
+}
+
+bool Kinematics::reach_limit(const Configuration& from, double h, double amplification, Configuration& to, NewtonReport& report) {
+  constexpr int count = 4;
+  constexpr double fair = 200;     // amplification with which rounding leaves six digits of a force
+  constexpr double bounded = 1.5;  // growth from the second to the first; the inverse of a distance doubles
+  constexpr std::array<double, count> value = {4, -6, 4, -1};  // of the cubic through four values, one farther on
+  constexpr std::array<double, count> integral = {55.0 / 24, -59.0 / 24, 37.0 / 24, -9.0 / 24};  // from the first on (Adams)
+  constexpr double way = 0.04;  // motion in between, over the extent or in radians: its fourth power is the error
+  // amplification is the inverse of the distance from the singular position
+  const double apart =
+      std::min({h * amplification / fair, way / sizes(from).velocity, (from.time + h - context_.options.begin) / count});
+  std::array<Configuration, count> earlier;
+  try {
+    for (int k = 0; k < count; ++k) report.iterations += follow(from, h - (k + 1) * apart, earlier[static_cast<std::size_t>(k)]);
+  } catch (const SolutionFailure&) {
+    return false;
+  }
+  const Configuration& first = earlier[0];
+  std::vector<double> y(context_.motion.size()), v(y.size()), a(y.size()), multipliers(first.multipliers.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto v_k = context_.motion.velocities(earlier[k]), a_k = context_.motion.accelerations(earlier[k]);
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      y[i] += apart * integral[k] * v_k[i];
+      v[i] += value[k] * v_k[i];
+      a[i] += value[k] * a_k[i];
+    }
+    for (std::size_t m = 0; m < multipliers.size(); ++m) multipliers[m] += value[k] * earlier[k].multipliers[m];
+  }
+  to = first;
+  to.time = from.time + h;
+  to.h = h;
+  prescribe_step(first.time, to.time, y);
+  context_.motion.move(first, y, to);
+  context_.motion.set_velocities(v, to);
+  context_.motion.set_accelerations(a, to);
+  to.multipliers = std::move(multipliers);
   // a shorter step would only come closer to it
-  if (sizes(near).beyond(sizes(farther), singular))
+  const double enlarged = Regularity(context_.assembler, first).amplification();
+  if (sizes(first, enlarged).beyond(sizes(earlier[1], enlarged), bounded) || !fits_constraints(to))
     throw SolutionFailure(fmt::format(
         "singular position at t = {:.6g}: bars are in line, or a drive is at a dead point, and speeds or forces grow without "
         "bound. Choose steps that do not land on it, or drive another joint",
         to.time));
-  near.time = to.time;
-  near.h = h;
-  to = std::move(near);
-  return outcome;
+  return true;
+}
+
+bool Kinematics::fits_constraints(const Configuration& c) const {
+  constexpr double fair = 1e-4;
+  std::vector<double> phi, rate, second;
+  context_.assembler.constraint_rates(c, phi, rate, second);
+  const Sizes size = sizes(c);
+  return relative_open(context_.assembler, rate).maxCoeff() <= fair * size.velocity &&
+         relative_open(context_.assembler, second).maxCoeff() <= fair * (size.acceleration + size.velocity * size.velocity);
+}
+
+void Kinematics::refuse_other_branch(const Configuration& from, double h, const Regularity& side, NewtonReport& report) {
+  constexpr double narrow = 1e-4;  // of the step: how closely the singular position is looked for
+  constexpr double part = 0.4;     // of what is left; in the middle, symmetric mechanisms are just there
+  Configuration last = from, next;
+  const auto crosses = [&](double length) {
+    report.iterations += follow(last, length, next);
+    return !side.same_side(Regularity(context_.assembler, next));
+  };
+  double here = 0, beyond = 1;
+  try {
+    while (beyond - here > narrow) {
+      const double at = here + part * (beyond - here);
+      if (crosses((at - here) * h)) {
+        beyond = at;
+      } else {
+        here = at;
+        last = std::move(next);
+      }
+    }
+    // what seemed to lie beyond may have been on another branch
+    if (crosses((beyond - here) * h)) return;
+  } catch (const SolutionFailure&) {
+    // the motion ends on the way
+  }
+  report.converged = false;
+  report.reason =
+      "the step leads to another branch of assembly: a loop is folded the other way (the determinant of the constraints has "
+      "changed its sign), and the motion does not go there. Take a smaller step H";
+  context_.newton.refuse_last();
 }
 
 }  // namespace engrane::solve

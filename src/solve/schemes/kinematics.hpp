@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
+#include "solve/constraints/regularity.hpp"
 #include "solve/schemes/scheme.hpp"
 
 namespace engrane::solve {
@@ -30,7 +33,26 @@ class Kinematics final : public Scheme {
       return velocity > factor * other.velocity || acceleration > factor * other.acceleration || force > factor * other.force;
     }
   };
-  Sizes sizes(const Configuration& c) const;
+  /// `enlarged`: amplification of rounding at `c` (Start::amplification), below which no size is told from nothing.
+  Sizes sizes(const Configuration& c, double enlarged = 1) const;
+  /// Sets `c` to where the motion at `from` leads in a time of `length`: close enough to stay on the same branch of assembly.
+  /// Returns the step there.
+  std::vector<double> predict(const Configuration& from, double length, Configuration& c) const;
+  /// The same, and solves there; returns the number of position iterations.
+  int follow(const Configuration& from, double length, Configuration& c);
+  /// Sets `to` to the limit of the motion at a singular position, where the equations do not determine how it goes on: what four
+  /// positions before it lead to. `amplification`: that of `from`. Throws SolutionFailure if there is no limit; false, with `to`
+  /// unchanged, if there are no such positions.
+  bool reach_limit(const Configuration& from, double h, double amplification, Configuration& to, NewtonReport& report);
+  /// Whether velocities and accelerations fit the constraints and drives: a drive with a corner on the way to `c` leads
+  /// elsewhere.
+  bool fits_constraints(const Configuration& c) const;
+  /// Whether velocities, accelerations or multipliers of `to` change by a `part` of their size if they are computed once more on
+  /// another way, by rounding.
+  bool blurred(const Configuration& from, double h, const Configuration& to, double part);
+  /// Fails a converged step that ends on the other side of singular positions, unless the motion, followed in shorter and
+  /// shorter parts, goes through one. `side`: that before the step.
+  void refuse_other_branch(const Configuration& from, double h, const Regularity& side, NewtonReport& report);
 
   bool driven_ = false;  ///< no motion is free: this run has been checked for that, or the one that it continues
 };

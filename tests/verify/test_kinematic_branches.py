@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""KINEMATIC runs stay on their branch of assembly however long their steps are, and pass singular positions
+where speeds and forces have a limit there."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from runs import run
+
+A, B, C = 0.1, 0.25, 0.3
+BEGIN = np.radians(70)
+
+
+def rocker(crank: np.ndarray | float, frame: float) -> np.ndarray:
+    """Angle of the rocker, from the triangle of the diagonal between crank pin and rocker's bearing."""
+    diagonal = np.sqrt(A**2 + frame**2 - 2 * A * frame * np.cos(crank))
+    return (
+        np.pi
+        - np.arctan2(A * np.sin(crank), frame - A * np.cos(crank))
+        - np.arccos((C**2 + diagonal**2 - B**2) / (2 * C * diagonal))
+    )
+
+
+def four_bar(frame: float, turn: float, step: float, ground: str = "POINT_LINE") -> str:
+    pin = A * np.array([np.cos(BEGIN), np.sin(BEGIN)])
+    end = np.array([frame, 0]) + C * np.array([np.cos(rocker(BEGIN, frame)), np.sin(rocker(BEGIN, frame))])
+    pin_at, end_at = (f"{float(x)!r} {float(y)!r} 0" for x, y in (pin, end))
+    return f"""
+.NOE
+ I 1 X 0 0 0
+ I 2 X {pin_at}
+ I 3 X {frame} 0 0
+.MCE
+ I 11 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 12 HINGE N 1 2 AXIS 0 0 1 AT {pin_at}
+ I 13 {ground} N 3 2 AXIS 0 0 1 AT {end_at}
+ I 14 HINGE N 0 3 AXIS 0 0 1
+.FCT
+ I 1 EXPR "({turn}*PI/180)*T"
+.SAM TYPE KINEMATIC
+.SUB TF 1 H ({step}/{turn})
+"""
+
+
+@pytest.mark.parametrize("joint", ["POINT_LINE", "HINGE"])
+@pytest.mark.parametrize(
+    ("frame", "turn", "step"),
+    [(0.35, 755, 151), (0.449, 720, 30), (0.449, 720, 40), (0.4499, 720, 15), (0.1501, 720, 15)],
+)
+def test_long_steps_stay_on_their_branch(
+    frame: float, turn: float, step: float, joint: str, tmp_path: Path
+) -> None:
+    """At 0.449 crank, frame and rocker are nearly in line once a turn, at 0.1501 with coupler and rocker:
+    the other branch is near. Long steps went on along it."""
+    result = run(four_bar(frame, turn, step, joint), tmp_path)
+    turned = rocker(BEGIN + np.radians(turn) * result.t, frame) - rocker(BEGIN, frame)
+    assert np.unwrap(result["14/ANGLE"]) == pytest.approx(np.unwrap(turned), abs=1e-11)
+
+
+PARALLELOGRAM = """
+.NOE
+ I 1 X 0 0 0
+ I 2 X 0 0.1 0
+ I 3 X 0.3 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 2 HINGE N 1 2 AXIS 0 0 1 AT 0 0.1 0
+ I 3 {joint} N 3 2 AXIS 0 0 1 AT 0.3 0.1 0
+ I 4 HINGE N 0 3 AXIS 0 0 1
+{more}
+.FCT
+ I 1 EXPR "2*PI*T"
+.SAM TYPE KINEMATIC
+.SUB TF 1 H {step}
+"""
+
+
+@pytest.mark.parametrize("joint", ["POINT_LINE", "HINGE"])
+@pytest.mark.parametrize("step", [0.05, 0.0125, 0.002])
+def test_a_parallelogram_stops_over_flat(step: float, joint: str, tmp_path: Path) -> None:
+    """Steps land exactly on the flat position. Without loads that was refused, though nothing grows."""
+    result = run(PARALLELOGRAM.format(joint=joint, more="", step=step), tmp_path)
+    assert result["4/ANGLE"] == pytest.approx(result["1/ANGLE"], abs=1e-11)
+    assert result["4/SPEED"] == pytest.approx(2 * np.pi, abs=1e-8)
+
+
+@pytest.mark.parametrize("step", [0.05, 0.0125])
+def test_a_coupler_with_mass_over_flat(step: float, tmp_path: Path) -> None:
+    """Both bars carry half of the centripetal force of the coupler, in the flat position, too."""
+    more = " I 6 RIGID N 2 M 1 J 0.01 CG 0.15 0.1 0"
+    result = run(PARALLELOGRAM.format(joint="POINT_LINE", more=more, step=step), tmp_path)
+    assert result["2/RADIAL_FORCE"] == pytest.approx(0.1 * (2 * np.pi) ** 2 / 2, rel=1e-7)
+
+
+@pytest.mark.parametrize("step", [0.05, 0.0125, 0.002])
+def test_a_load_that_a_flat_parallelogram_cannot_bear(step: float, tmp_path: Path) -> None:
+    """The coupler's force against the torque is the inverse of the distance; some runs gave one of 1e16."""
+    program = os.environ.get("ENGRANE", "")
+    if not Path(program).is_file():
+        pytest.skip("the variable ENGRANE names no program")
+    text = PARALLELOGRAM.format(joint="POINT_LINE", more=" I 5 TORQUE N 3 AXIS 0 0 1 V -12", step=step)
+    (tmp_path / "deck.dat").write_text(text)
+    done = subprocess.run(
+        [program, "deck.dat", "-q", "-o", "deck"], cwd=tmp_path, capture_output=True, text=True
+    )
+    assert done.returncode == 2
+    assert "singular position at t = 0.25" in done.stderr
