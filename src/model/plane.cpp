@@ -254,12 +254,13 @@ class Examination {
       part.element->tangent(view(part, probe), {1, 0, 0, 0}, r_, k);
       part.element->constraint_rates(view(part, probe), phi, rate, second);
       for (std::size_t m = 0; m < count; ++m) {
+        const bool holds = layout.multipliers[m].role != Role::grip;  // friction at rest gives way
         for (std::size_t j = 0; j < first; ++j) {
           const int c = components_[j];
           const double value = k[(first + m) * n + j];
           if (c >= 0) {
             gradients_[m].add(leaves(c), c < 3 ? value * extent : value);
-            if (&probe == probes_.data() && leaves(c) && value != 0)
+            if (&probe == probes_.data() && holds && leaves(c) && value != 0)
               gradient_.emplace_back(6 * nodes_[j] + c, static_cast<int>(begin + m), c < 3 ? value * extent : value);
           } else if (j >= static_cast<std::size_t>(layout.node_slots()))
             gradients_[m].add(
@@ -404,7 +405,7 @@ class Examination {
   PlaneModel plane_;
   std::vector<PlaneFault> faults_;
   std::vector<PlaneFault> pushed_, rubbed_;       ///< faults unless joints carry the forces, and faults if they must
-  std::vector<Eigen::Triplet<double>> gradient_;  ///< out-of-plane entries of the constraint Jacobian, by slot and multiplier
+  std::vector<Eigen::Triplet<double>> gradient_;  ///< out-of-plane entries of the Jacobian of what holds, by slot and multiplier
   std::vector<Parts> gradients_;                  ///< of the current own multipliers, over all elements that share them
   // of the current element
   std::vector<double> scalars_, rates_, accelerations_, multipliers_, history_, r_;

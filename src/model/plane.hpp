@@ -37,8 +37,8 @@ struct PlaneFault {
 };
 
 /// Checks whether all motion of a model stays in a plane: in any configuration of the plane, either no element exerts
-/// out-of-plane forces, or constraints that act only out of plane restrain all nodes there. Returns at most `most` faults; if
-/// there are none, `plane` describes the model.
+/// out-of-plane forces, or constraints that act only out of plane restrain all nodes there (friction at rest does not). Returns
+/// at most `most` faults; if there are none, `plane` describes the model.
 std::vector<PlaneFault> examine_plane(const Model& model, int normal, std::size_t most, PlaneModel& plane);
 
 /// Of the planes to which the motion of the model is confined, the one with the fewest unknowns; not active if there is none.

@@ -386,6 +386,42 @@ def test_sliding_along_several_coordinates_stops(
     assert np.log2(errors[0] / errors[1]) > 1.9
 
 
+DRUM = """
+.NOE
+ I 1 X 0 0.4 0
+.MCE
+ I 1 POINT_CYLINDER N 0 1 AXIS 1 0 0 ON 0 0 0 FRICTION CONST 0.5 PRELOAD {preload}
+ I 2 INERTIA N 1 M 2
+.CLM STRU ACC VAL 0 {gravity} 0
+.INI
+ VIT NOEUD 1 C 1 V {along}
+ VIT NOEUD 1 C 3 V {around}
+.SAM TYPE DYNAMIC RHO 0.9
+.SUB TF 0.4 H {h}
+.FIN 1
+"""
+
+
+def test_a_point_rests_on_top_of_a_drum(tmp_path: Path) -> None:
+    """Its weight is along the normal, and is none of the friction's."""
+    result = run(DRUM.format(preload=0, gravity=-9, along=0, around=0, h=0.01), tmp_path)
+    assert result["1/NORMAL_FORCE"] == pytest.approx(18, rel=1e-12)
+    assert np.abs(result["1/FRICTION_FORCE"]).max() < 1e-12
+    assert np.abs([result["1/SLIDE"], result["1/ANGLE"]]).max() < 1e-15
+
+
+def test_a_point_stops_on_a_drum(tmp_path: Path) -> None:
+    """It slides along and around, pressed by 18 N and by the force that keeps it on its helix."""
+    deck = DRUM.replace("{h}", "{{h}}").format(preload=18, gravity=0, along=1, around=0.8)
+    levers, mass = np.array([1, 0.4]), np.array([2, 2 * 0.4**2])
+    stop, expected = sliding(
+        lambda _, v, n: -0.5 * (18 + 2 * 0.4 * v[1] ** 2) * n * levers / mass, [0, 0, 1, 2], 1, levers
+    )
+    errors = order_of(deck, tmp_path, ["1/SLIDE", "1/ANGLE"], expected, stop, 0.005)
+    assert errors[1] < 1e-5
+    assert np.log2(errors[0] / errors[1]) > 1.9
+
+
 def test_a_body_tumbles_to_rest_in_its_socket(tmp_path: Path) -> None:
     """Euler's equations with the moment of a ball against the spin."""
     deck = """

@@ -163,3 +163,36 @@ def test_a_load_that_leaves_the_plane_for_a_while(tmp_path: Path, function: str)
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 1
     assert "CHA 3 is not of the plane XY" in done.stderr
+
+
+PULLED = """.UNIT SI
+.NOE
+ I 1 X 0 0 0
+.MCE
+ I 2 POINT_PLANE N 0 1 AXIS 0 0 1 FRICTION CONST 0.1
+ I 3 SPRING N 0 1 K 200 AT -0.3 {aside} 0 L0 0.25
+ I 4 INERTIA N 1 M 2
+.CLM STRU ACC VAL 0 0 -9.81
+.SAM TYPE DYNAMIC RHO 0.9 PLANE {plane}
+.SUB TF 0.4 H 0.001
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize("aside", [0, 0.1])
+def test_friction_at_rest_holds_nothing_in_the_plane(tmp_path: Path, aside: float) -> None:
+    """A spring pulls a block over a floor with friction, which gives way in every direction. The block swings
+    along the spring, less far by what friction takes."""
+    found = run(PULLED.format(aside=aside, plane="AUTO"), tmp_path)
+    length = np.hypot(0.3, aside)
+    way = 2 * (length - 0.25 - 0.1 * 2 * 9.81 / 200)
+    assert found["node/1/UX"].min() == pytest.approx(-0.3 / length * way, rel=1e-5)
+    assert found["node/1/UY"].max() == pytest.approx(aside / length * way, rel=1e-5, abs=1e-15)
+    solved_in = re.search("solved in +(.*)", (tmp_path / "deck.lst").read_text(encoding="utf-8"))[1]
+    assert ("the plane ZX" in solved_in) == (aside == 0)
+    (tmp_path / "plane.dat").write_text(PULLED.format(aside=aside, plane="ZX"), encoding="utf-8")
+    command = [os.environ["ENGRANE"], "plane.dat", "-q"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert done.returncode == (0 if aside == 0 else 1)
+    if aside != 0:
+        assert "SPRING 3 is not of the plane ZX" in done.stderr

@@ -19,7 +19,8 @@ enum class Rubbing {
   guide,    ///< a slider on its guide: slides along e1
   sleeve,   ///< a sleeve on a round shaft: slides along e1 and rotates
   thread,   ///< a nut on its thread: likewise, pressed by the axial force as well
-  face,     ///< a face on a plane, or a point on a surface: slides across the normal and may spin about it
+  face,     ///< a face or a point on a plane: slides across the normal and may spin about it
+  drum,     ///< a point on a drum: slides along e1 and around it
   ball      ///< a ball in its socket
 };
 
@@ -29,7 +30,7 @@ enum class Rubbing {
 struct JointFriction {
   Rubbing kind = Rubbing::journal;
   FrictionLaw law;
-  double radius = 0;   ///< 0: no friction against rotation
+  double radius = 0;   ///< 0: no friction against rotation; that of the surface of a drum
   double collar = 0;   ///< radius at which a journal's axial force rubs; 0: no friction from it
   double length = 0;   ///< distance of the two bushes, or shoes, that carry bending moments; 0: moments do not press
   double preload = 0;  ///< normal force in addition to that of the load
@@ -44,6 +45,7 @@ struct JointFriction {
     const auto count = [this](int slides) { return slides + (radius > 0 ? 1 : 0); };
     switch (kind) {
       case Rubbing::sleeve:
+      case Rubbing::drum:
         return {count(1), {1, radius, 1}};
       case Rubbing::face:
         return {count(2), {1, 1, radius}};
@@ -58,6 +60,7 @@ struct JointFriction {
       case Rubbing::guide:
         return {Measure::gap_1};
       case Rubbing::sleeve:
+      case Rubbing::drum:
         return {Measure::gap_1, turn};
       case Rubbing::face:
         return {Measure::gap_2, Measure::gap_3, turn};
@@ -173,7 +176,7 @@ std::array<Pressed<T>, 2> pressed(const JointFriction& f, const JointPose<T>& po
 /// Normal force of surfaces that slide along several coordinates.
 template <class T>
 T pressing(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>& F, const Vec3T<T>& M) {
-  if (f.kind == Rubbing::face || f.kind == Rubbing::ball) return joint_friction::size(F) + f.preload;
+  if (f.kind == Rubbing::face || f.kind == Rubbing::drum || f.kind == Rubbing::ball) return joint_friction::size(F) + f.preload;
   return pressed(f, pose, F, M, 0)[0].normal;
 }
 
@@ -223,7 +226,7 @@ JointRub<T> rub_in_direction(const JointFriction& f, int direction, const JointP
 }
 
 /// Friction as a function of the sliding velocity alone. The constraints exert the force F and the moment M on B at its joint
-/// point. `turn` is the measure JointFriction::turn, if the kind has one; `normal` is the normal of a face.
+/// point. `turn` is the measure JointFriction::turn, if the kind has one; `normal` is the normal of a face or drum.
 template <class T>
 JointRub<T> rub(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>& F, const Vec3T<T>& M, const Measured<T>& turn,
                 const Vec3T<T>& normal, const JointRates<T>& rates) {
@@ -268,10 +271,11 @@ JointRub<T> rub(const JointFriction& f, const JointPose<T>& pose, const Vec3T<T>
       add(N, &u, &w, sliding * sliding + rate * rate * r2, r2);
       break;
     }
-    case Rubbing::face: {
+    case Rubbing::face:
+    case Rubbing::drum: {
       const T N = pressing(f, pose, F, M);
       const Vec3T<T> u = rates.slip - normal * dot(normal, rates.slip);
-      if (f.radius == 0) {
+      if (f.radius == 0 || f.kind == Rubbing::drum) {
         slides(u[0], u[1], u[2]);
         add(N, &u, nullptr, square(u), 0);
         break;

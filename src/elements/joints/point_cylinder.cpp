@@ -27,11 +27,16 @@ std::unique_ptr<Element> build_point_cylinder(const JointData& data, BuildContex
   frame.set_axes(frame.e1, out.normalized());
   release_rotations(*parts, true);
   parts->normal_channel = "NORMAL_FORCE";
-  parts->constraints = {{Measure::radius, data.radius > 0 ? data.radius : out.norm()}};
+  const double radius = data.radius > 0 ? data.radius : out.norm();
+  parts->constraints = {{Measure::radius, radius}};
   if (!add_slide(data, context, *parts) ||
       !add_free(context, *parts, data.turn(), words::turn, Measure::azimuth, CoordinateNames::of("ANGLE", "SPEED")) ||
-      !add_friction(data, context, *parts, Rubbing::face, point_cylinder_friction))
+      !add_friction(data, context, *parts, Rubbing::drum, point_cylinder_friction))
     return nullptr;
+  for (JointFriction& f : parts->friction) {
+    f.turn = Measure::azimuth;
+    f.radius = radius;
+  }
   return std::make_unique<Joint>(context.record.id, std::move(*parts));
 }
 

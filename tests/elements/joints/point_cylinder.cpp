@@ -35,6 +35,8 @@ TEST(PointCylinder, SuiteWithFriction) {
   run_friction(point_cylinder_type, data, false);
 }
 
+TEST(PointCylinder, SuiteAtRestAndSliding) { run_grips(point_cylinder_type, cylinder(1, 2), false); }
+
 TEST(PointCylinder, Extremes) { run_joint_extremes(point_cylinder_type, cylinder(1, 2)); }
 
 /// A point on the cylinder of radius 2 about z, at x = 2 in the reference configuration.
@@ -79,6 +81,27 @@ TEST(PointCylinder, FrictionAgainstTheSlidingVelocity) {
   EXPECT_NEAR(on.channel("FORCE_Z"), -2 * 0.6, 1e-13);
   EXPECT_NEAR(on.channel("FRICTION_FORCE"), 2, 1e-13);
   EXPECT_NEAR(on.channel("FRICTION_POWER"), 10, 1e-12);
+}
+
+TEST(PointCylinder, FrictionAtRestIsOfTheSurface) {
+  JointData data;
+  data.friction = {"CONST", {0.25}};
+  OnCylinder on(data);
+  const Layout& layout = on.joint->layout();
+  std::vector<Grip> grips(1);
+  on.state->nodes[1].v = {5, 4, 3};
+  find_grips(*on.joint, on.state->view(), grips);
+  EXPECT_LT((grips[0].speed - Vec3(3, 4, 0)).norm(), 1e-14) << "along the axis, and around it";
+  GripState::slides_towards(grips[0].speed).write(layout, on.state->history, 0);
+  on.state->multipliers = {-8, 0, 0};
+  EXPECT_NEAR(on.channel("FORCE_X"), -8, 1e-13);
+  EXPECT_NEAR(on.channel("FORCE_Y"), -2 * 0.8, 1e-13);
+  EXPECT_NEAR(on.channel("FORCE_Z"), -2 * 0.6, 1e-13);
+  GripState::holds_at(Vec3::Zero()).write(layout, on.state->history, 0);
+  on.state->multipliers = {-8, 0.5, 3};
+  EXPECT_NEAR(on.channel("FORCE_X"), -8, 1e-13);
+  EXPECT_NEAR(on.channel("FORCE_Y"), 1.5, 1e-13) << "a moment of 3 at the radius 2";
+  EXPECT_NEAR(on.channel("FORCE_Z"), 0.5, 1e-13);
 }
 
 TEST(PointCylinder, FaultsOfTheCard) {
