@@ -16,19 +16,13 @@ namespace {
 
 /// Cards that may differ: they say what is done with a model.
 bool free_to_change(const deck::Schema& card) {
-  static constexpr std::array names{".SAM", ".SUB",     ".SAI",      ".CHK",     ".TITRE",    ".UNIT",
-                                    ".FCT", ".CLM CHA", ".CLM STRU", ".CLM ROT", ".CLM TEMP", ".INI"};
+  static constexpr std::array names{".SAM",     ".SUB",      ".SAI",     ".CHK",      ".TITRE",     ".UNIT",    ".FCT",
+                                    ".CLM CHA", ".CLM STRU", ".CLM ROT", ".CLM TEMP", ".CLM ARETE", ".CLM PRE", ".INI"};
   return std::any_of(names.begin(), names.end(), [&](std::string_view name) { return card.name.starts_with(name); });
 }
 
 /// Elements that are loads: their values may differ, but not which of them exist.
 bool is_load(const deck::Schema& card) { return card.name == "FORCE" || card.name == "TORQUE"; }
-
-/// The size of a pressure may differ, but not where it acts.
-bool is_size_of_pressure(const deck::Schema& card, const deck::Field& field) {
-  return (card.name == ".CLM ARETE" || card.name == ".CLM PRE") &&
-         (field.keyword == "PRE" || field.keyword == "V" || field.keyword == "NF");
-}
 
 std::string name_of(const deck::Record& record) {
   return record.id > 0 ? fmt::format("{} {}", record.schema->name, record.id) : record.schema->name;
@@ -37,7 +31,7 @@ std::string name_of(const deck::Record& record) {
 /// Advice where an element that is a load is one of the differences.
 std::string advice(const deck::Record& record) {
   if (!is_load(*record.schema)) return {};
-  return " (as an element of .MCE it belongs to the model: its values may change, but only loads of .CLM CHA may come and go)";
+  return " (as an element of .MCE it belongs to the model: its values may change, but only loads of .CLM may come and go)";
 }
 std::string lost(const deck::Record& record) { return name_of(record) + " was there and is not now" + advice(record); }
 std::string added(const deck::Record& record) { return name_of(record) + " is new" + advice(record); }
@@ -53,7 +47,6 @@ std::multimap<std::pair<std::string_view, int>, const deck::Record*> model_recor
 /// Text such as "KM was 1e8 and is 2e8 now" for the first keyword that differs; empty if none does.
 std::string keyword_difference(const deck::Record& before, const deck::Record& now) {
   for (const deck::Field& field : now.schema->fields) {
-    if (is_size_of_pressure(*now.schema, field)) continue;
     const deck::Field::Values was = field.load(before.data), is = field.load(now.data);
     const std::string old_text = was.present ? deck::json_value(field, was) : "not given";
     const std::string new_text = is.present ? deck::json_value(field, is) : "not given";

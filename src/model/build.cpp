@@ -71,6 +71,7 @@ class Builder {
     for (Model::Part& part : model_.parts)
       for (const int id : part.element->node_ids()) part.nodes.push_back(model_.node_index(id));
     check_supports(model_, support_locations_, diagnostics_);
+    check_nodal_loads(model_, diagnostics_);
     check_initial_values(model_, initial_locations_, diagnostics_);
     model_.measure();
     settle_plane();
@@ -279,7 +280,7 @@ class Builder {
         if (c < 1 || c > 6) continue;
         (c <= 3 ? force : moment)[(c - 1) % 3] += each[i];
       }
-      loads_.push_back({id, force, moment, f, &record});
+      if (!force.isZero(0) || !moment.isZero(0)) loads_.push_back({id, force, moment, f, &record});
     }
   }
 

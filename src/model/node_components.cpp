@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -15,11 +16,14 @@ namespace engrane {
 
 namespace {
 
-/// What the elements of each node need of it, as a sum of NodeNeed; 0 if it has no element.
+bool is_nodal_load(const Model::Part& part) { return part.type == "CHA"; }
+
+/// What the elements of each node need of it, as a sum of NodeNeed; 0 if it has no element. Nodal loads need the components that
+/// they act on, and do not give them to a node.
 std::vector<unsigned> needs_of_nodes(const Model& model) {
   std::vector<unsigned> needs(model.nodes.size(), 0);
   for (const Model::Part& part : model.parts)
-    for (std::size_t i = 0; i < part.nodes.size(); ++i)
+    for (std::size_t i = 0; i < part.nodes.size() && !is_nodal_load(part); ++i)
       needs[static_cast<std::size_t>(part.nodes[i])] |= static_cast<unsigned>(part.element->layout().needs[i]);
   return needs;
 }
@@ -76,9 +80,10 @@ void check_supports(const Model& model, std::span<const Location> locations, Dia
     const auto node = static_cast<std::size_t>(s.node);
     const int id = model.nodes[node].id;
     const std::optional<Lack> lack = lacks(needs[node], s.component);
-    if (lack && s.component < 3 && s.value != 0)
+    if (lack && s.value != 0)
       diagnostics.error(locations[i],
-                        fmt::format("component {} of node {} cannot be displaced: {}", s.component + 1, id, lack->node),
+                        fmt::format("component {} of node {} cannot be {}: {}", s.component + 1, id,
+                                    s.component < 3 ? "displaced" : "turned", lack->node),
                         lack->components);
     if (lack || needs[node] == 0 || s.component < 3) continue;
     int held = 0, moved = 0, free = 0;
@@ -91,6 +96,29 @@ void check_supports(const Model& model, std::span<const Location> locations, Dia
       }
     const bool wrong = held == 1 || (held == 3 && s.value != 0 && moved > 1) || (held == 2 && s.value != 0 && !follows_rates);
     if (wrong && told.insert(s.node).second) report_rotations(locations[i], id, s.component + 1, held, free, diagnostics);
+  }
+}
+
+void check_nodal_loads(const Model& model, Diagnostics& diagnostics) {
+  if (std::none_of(model.parts.begin(), model.parts.end(), is_nodal_load)) return;
+  const std::vector<unsigned> needs = needs_of_nodes(model);
+  std::set<std::pair<int, int>> supported;  // node and component
+  for (const Support& s : model.supports) supported.emplace(s.node, s.component);
+  std::set<std::pair<int, int>> told;  // file and line
+  for (const Model::Part& part : model.parts) {
+    if (!is_nodal_load(part)) continue;
+    const int node = part.nodes.front();
+    // a load with a moment needs all translations
+    for (const int component : {5, 4, 3, 2}) {
+      // a support takes the load
+      if (!part.element->layout().has(0, component) || supported.count({node, component}) != 0) continue;
+      const std::optional<Lack> lack = lacks(needs[static_cast<std::size_t>(node)], component);
+      if (!lack || !told.insert({part.location.file, part.location.line}).second) continue;
+      diagnostics.error(part.location,
+                        fmt::format("{} on node {}: {}", component < 3 ? "a force along z cannot act" : "a moment cannot act",
+                                    model.nodes[static_cast<std::size_t>(node)].id, lack->node),
+                        lack->components);
+    }
   }
 }
 

@@ -13,6 +13,9 @@ namespace engrane {
 /// Single components of a finite rotation, and several that change, have no meaning. `locations`: of Model::supports, in order.
 void check_supports(const Model& model, std::span<const Location> locations, Diagnostics& diagnostics);
 
+/// Reports nodal loads on components that their node does not have, once for a record, unless a support takes them.
+void check_nodal_loads(const Model& model, Diagnostics& diagnostics);
+
 /// Reports initial values of components that their node does not have, once for a record. `locations`: of Model::initial, in
 /// order.
 void check_initial_values(const Model& model, std::span<const Location> locations, Diagnostics& diagnostics);

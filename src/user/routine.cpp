@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "base/text.hpp"
@@ -27,9 +31,18 @@ struct Entry {
   std::size_t by = 0;
 };
 
+/// Argument of a kind, and the values that it is promised to have.
+struct Argument {
+  const char* name;
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+
+  bool may_be(double value) const { return value >= least && value <= most; }
+};
+
 struct Signature {
   const char* name;
-  std::vector<const char*> arguments;
+  std::vector<Argument> arguments;
   std::vector<Entry> results;
   bool chain;  ///< the successive derivatives with respect to argument 0 (entries 1, 2, …) are part of the result
 };
@@ -38,25 +51,25 @@ namespace {
 
 const Signature& signature(Kind kind) {
   static const Signature function{"function of one variable",
-                                  {"variable"},
+                                  {{"variable"}},
                                   {{"value"}, {"derivative", 0, 0}, {"second derivative", 1, 0}, {"third derivative", 2, 0}},
                                   true};
   static const Signature force{"force law",
-                               {"elongation", "rate", "time"},
+                               {{"elongation"}, {"rate"}, {"time"}},
                                {{"force"},
                                 {"derivative of the force by the elongation", 0, 0},
                                 {"derivative of the force by the rate", 0, 1},
                                 {"energy stored"}},
                                false};
   static const Signature mesh{"mesh stiffness",
-                              {"place in the tooth pitch", "deflection"},
+                              {{"place in the tooth pitch", 0, 1}, {"deflection", 0}},
                               {{"factor"},
                                {"derivative of the factor by the place", 0, 0},
                                {"second derivative of the factor by the place", 1, 0},
                                {"derivative of the factor by the deflection", 0, 1}},
                               true};
   static const Signature friction{"friction law",
-                                  {"sliding speed", "normal force"},
+                                  {{"sliding speed", 0}, {"normal force", 0}},
                                   {{"coefficient"},
                                    {"derivative of the coefficient by the speed", 0, 0},
                                    {"derivative of the coefficient by the normal force", 0, 1}},
@@ -76,7 +89,7 @@ const Signature& signature(Kind kind) {
 
 std::string words(const Signature& s, const Arguments& x) {
   std::vector<std::string> all;
-  for (std::size_t i = 0; i < s.arguments.size(); ++i) all.push_back(fmt::format("{} {:.6g}", s.arguments[i], x[i]));
+  for (std::size_t i = 0; i < s.arguments.size(); ++i) all.push_back(fmt::format("{} {:.6g}", s.arguments[i].name, x[i]));
   return join(all);
 }
 
@@ -95,6 +108,40 @@ void remember(std::string text) {
 }
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+constexpr std::size_t most_points = 5;
+using Points = std::array<double, most_points>;
+
+/// The polynomial through values at the steps `first`, `first` + 1, …, and its derivatives, at the step 0.
+constexpr Points derivatives_at_zero(int first, Points values, std::size_t count) {
+  for (std::size_t order = 1; order < count; ++order)  // Newton's divided differences
+    for (std::size_t i = count - 1; i >= order; --i) values[i] = (values[i] - values[i - 1]) / static_cast<double>(order);
+  Points powers{};  // coefficients of the polynomial in powers of the step
+  for (std::size_t i = count; i-- > 0;) {
+    const double step = first + static_cast<int>(i);
+    for (std::size_t k = count - 1; k > 0; --k) powers[k] = powers[k - 1] - step * powers[k];
+    powers[0] = values[i] - step * powers[0];
+  }
+  double factorial = 1;
+  for (std::size_t k = 2; k < count; ++k) powers[k] *= factorial *= static_cast<double>(k);
+  return powers;
+}
+
+/// What a value contributes to each derivative, by the shift of the points from their place in the middle and by point.
+using Contributions = std::array<std::array<Points, most_points>, most_points>;
+
+constexpr Contributions contributions(int beside) {
+  const auto count = static_cast<std::size_t>(2 * beside + 1);
+  Contributions all{};
+  for (std::size_t shift = 0; shift < count; ++shift)
+    for (std::size_t i = 0; i < count; ++i) {
+      Points one{};
+      one[i] = 1;
+      all[shift][i] = derivatives_at_zero(static_cast<int>(shift) - 2 * beside, one, count);
+    }
+  return all;
+}
+constexpr Contributions of_three = contributions(1), of_five = contributions(2);
 
 }  // namespace
 
@@ -131,51 +178,81 @@ int Routine::call(const Arguments& x, Results& y) const noexcept {
   return status;
 }
 
-bool Routine::complete(const Arguments& x, Results& y) const noexcept {
+std::optional<Routine::Refusal> Routine::complete(const Arguments& x, Results& y) const noexcept {
   const auto& results = signature_->results;
   for (std::size_t i = 1; i < results.size(); ++i) {
     if (y[i] != not_given || results[i].of < 0) continue;
     const auto base = static_cast<std::size_t>(results[i].of);
     const std::size_t by = results[i].by;
-    Results step{};
-    Arguments moved = x;
-    const auto value = [&](double offset) {
-      moved[by] = x[by] + offset;
-      return call(moved, step) == ENGRANE_FINE ? step[base] : nan;
-    };
-    if (signature_->chain && by == 0) {
-      const double h = 1e-3 * scale_[0];
-      const double a = value(-2 * h), b = value(-h), c = value(h), d = value(2 * h);
-      double next[3] = {(a - 8 * b + 8 * c - d) / (12 * h), (-a + 16 * b - 30 * y[base] + 16 * c - d) / (12 * h * h),
-                        (-a + 2 * b - 2 * c + d) / (2 * h * h * h)};
-      // the successive derivatives all come from the same five values
-      for (std::size_t k = 0; i < results.size() && results[i].by == 0 && k < 3; ++k, ++i)
-        if (y[i] == not_given) y[i] = next[k];
-      --i;
-    } else {
-      const double h = 1e-5 * std::max(scale_[by], std::abs(x[by]));
-      const double low = value(-h), left = moved[by], high = value(h), right = moved[by];
-      y[i] = (high - low) / (right - left);
-    }
+    const bool chain = signature_->chain && by == 0;
+    const double h = chain ? 1e-3 * scale_[0] : 1e-5 * std::max(scale_[by], std::abs(x[by]));
+    Results found{};
+    if (const auto refusal = differentiate(x, y[base], base, by, h, chain ? 2 : 1, found)) return refusal;
+    // the successive derivatives all come from the same five values
+    for (std::size_t k = 1; i < results.size() && results[i].by == by && k <= (chain ? 3 : 1); ++k, ++i)
+      if (y[i] == not_given) y[i] = found[k];
+    --i;
   }
   const double* last = y.data() + results.size();
-  return std::all_of(static_cast<const double*>(y.data()), last, [](double v) { return std::isfinite(v); });
+  if (std::all_of(static_cast<const double*>(y.data()), last, [](double v) { return std::isfinite(v); })) return {};
+  return Refusal{ENGRANE_FINE, x};
+}
+
+std::optional<Routine::Refusal> Routine::differentiate(const Arguments& x, double value, std::size_t base, std::size_t by,
+                                                       double h, int beside, Results& derivatives) const noexcept {
+  std::optional<Refusal> refusal;
+  constexpr int furthest = 4;
+  std::array<double, 2 * furthest + 1> values;  // in steps to either side; NaN where not asked yet, or refused
+  values.fill(nan);
+  values[furthest] = value;
+  const auto known = [&](int step) {
+    const auto at = static_cast<std::size_t>(furthest + step);
+    if (std::isfinite(values[at])) return true;
+    Refusal asked{ENGRANE_FINE, x, true};
+    asked.at[by] += step * h;
+    if (!signature_->arguments[by].may_be(asked.at[by])) return false;
+    Results y;
+    asked.status = call(asked.at, y);
+    if (asked.status == ENGRANE_FINE && y[base] != not_given && std::isfinite(y[base])) {
+      values[at] = y[base];
+      return true;
+    }
+    if (!refusal) refusal = asked;
+    return false;
+  };
+  for (const int shift : {0, 1, -1, 2, -2}) {
+    if (std::abs(shift) > beside) break;
+    bool complete = true;
+    for (int step = shift - beside; step <= shift + beside && complete; ++step) complete = known(step);
+    if (!complete) continue;
+    derivatives.fill(0);
+    const auto& parts = (beside == 1 ? of_three : of_five)[static_cast<std::size_t>(shift + beside)];
+    for (int i = 0; i <= 2 * beside; ++i) {
+      const double change = values[static_cast<std::size_t>(furthest + shift - beside + i)] - value;
+      for (std::size_t k = 1; k < derivatives.size(); ++k) derivatives[k] += parts[static_cast<std::size_t>(i)][k] * change;
+    }
+    for (double power = h; double& derivative : std::span(derivatives).subspan(1)) {
+      derivative /= power;
+      power *= h;
+    }
+    return {};
+  }
+  return refusal ? refusal : Refusal{ENGRANE_OUTSIDE, x};
 }
 
 Results Routine::at(const Arguments& x) const noexcept {
   Results y;
-  const int status = call(x, y);
-  const char* what = nullptr;
-  if (status != ENGRANE_FINE)
-    what = "";
-  else if (y[0] == not_given)
-    what = "gives no value";
-  else if (!complete(x, y))
-    what = "gives a result that is not a finite number";
-  if (!what) return y;
+  std::optional<Refusal> refusal = Refusal{call(x, y), x};
+  const bool none = refusal->status == ENGRANE_FINE && y[0] == not_given;
+  if (refusal->status == ENGRANE_FINE && !none) refusal = complete(x, y);
+  if (!refusal) return y;
   try {
-    remember(fmt::format("{} {} (at {})", source_->label(), status != ENGRANE_FINE ? status_words(status) : what,
-                         words((*signature_), x)));
+    remember(fmt::format("{} {} (at {}{})", source_->label(),
+                         refusal->status != ENGRANE_FINE ? status_words(refusal->status)
+                         : none                          ? "gives no value"
+                                                         : "gives a result that is not a finite number",
+                         words(*signature_, refusal->at),
+                         refusal->beside ? ", for a derivative that it does not give at " + words(*signature_, x) : ""));
   } catch (...) {  // without memory for the message, the NaNs still signal the failure
   }
   y.fill(nan);
@@ -250,6 +327,7 @@ Fault Routine::check_derivatives(const Arguments& x, const Results& y) const {
       Arguments left = place, right = place;
       left[by] -= h;
       right[by] += h;
+      if (!s.arguments[by].may_be(left[by]) || !s.arguments[by].may_be(right[by])) continue;
       if (call(left, low) != ENGRANE_FINE || call(right, high) != ENGRANE_FINE) continue;
       const double fall = (middle[base] - low[base]) / h, rise = (high[base] - middle[base]) / h;
       if (!std::isfinite(fall) || !std::isfinite(rise)) continue;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,9 +33,10 @@ struct Source {
 struct Signature;  ///< names of the arguments and results of a kind
 
 /// A routine bound to one kind. It returns the value and all derivatives. Derivatives that the routine leaves unset come from
-/// central differences. These are of fourth order over ±2e-3 of the scale where derivatives are part of the result (functions,
-/// mesh stiffness along the pitch). They are of second order with a step of 1e-5 of the scale or of the argument, whichever is
-/// larger, where only the Newton iteration uses them.
+/// differences of five values over ±2e-3 of the scale where derivatives are part of the result (functions, mesh stiffness along
+/// the pitch), and of three values with a step of 1e-5 of the scale or of the argument, whichever is larger, where only the
+/// Newton iteration uses them. The values are on both sides of the argument alike, except near the end of the range that an
+/// argument is promised to have, and of the one where the routine is good.
 class Routine {
  public:
   /// `scale`: positive; for each argument, the change over which the result changes by as much as its own magnitude.
@@ -54,7 +57,18 @@ class Routine {
 
  private:
   int call(const Arguments& x, Results& y) const noexcept;
-  bool complete(const Arguments& x, Results& y) const noexcept;
+  /// An answer that is no use: a status, or, if that is fine, a result that is missing or not finite.
+  struct Refusal {
+    int status = ENGRANE_FINE;
+    Arguments at{};
+    bool beside = false;  ///< not where the derivative is wanted
+  };
+  /// Finds the derivatives that the routine has left unset. Returns why they or other results are not known.
+  std::optional<Refusal> complete(const Arguments& x, Results& y) const noexcept;
+  /// The first derivatives of result `base`, which is `value` at x, by argument `by`: from values in steps of h, `beside` of them
+  /// on either side or all of these on one.
+  std::optional<Refusal> differentiate(const Arguments& x, double value, std::size_t base, std::size_t by, double h, int beside,
+                                       Results& derivatives) const noexcept;
   Fault check_derivatives(const Arguments& x, const Results& y) const;
 
   std::shared_ptr<const Source> source_;

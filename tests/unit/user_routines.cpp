@@ -75,6 +75,42 @@ TEST(UserRoutine, DifferencesTakeThePlaceOfMissingDerivatives) {
   EXPECT_NEAR(force[2], 3, 1e-8);
 }
 
+TEST(UserRoutine, DifferencesStayWhereTheRoutineIsGood) {
+  forget_failures();
+  const double pi = std::acos(-1.0);
+  const auto expect = [&](Kind kind, const Arguments& x, const Results& y) {
+    const double load = 0.2 * (1 + 0.1 * x[1]), phase = pi * x[0];
+    EXPECT_NEAR(y[1], pi * load * std::cos(phase), kind == Kind::friction ? 1e-8 : 1e-9);
+    if (kind == Kind::friction) {
+      EXPECT_NEAR(y[2], 0.02 * std::sin(phase), 1e-8);
+      return;
+    }
+    EXPECT_NEAR(y[2], -pi * pi * load * std::sin(phase), 1e-6);
+    const bool mesh = kind == Kind::mesh;
+    EXPECT_NEAR(y[3], mesh ? 0.02 * std::sin(phase) : -pi * pi * pi * load * std::cos(phase), mesh ? 1e-8 : 1e-3);
+  };
+  for (const Kind kind : {Kind::function, Kind::mesh, Kind::friction}) {
+    const Routine bounded = routine("wrong_laws", "bounded", kind, {1});
+    for (const double place : {0.0, 0.0015, 0.4, 0.9995, 1.0}) {
+      for (const double second : {0.0, 1e-6, 2.0}) {
+        const Arguments x{place, kind == Kind::function ? 0 : second, 0};
+        expect(kind, x, bounded.at(x));
+      }
+    }
+    EXPECT_EQ(bounded.check({{0, 0, 0}, {1, 0, 0}}).message, "");
+  }
+  EXPECT_EQ(last_failure(), "");
+}
+
+TEST(UserRoutine, DifferencesSayWhatTheRoutineSays) {
+  forget_failures();
+  EXPECT_TRUE(std::isnan(routine("wrong_laws", "bounded", Kind::function, {0.001}).at({0.0005, 0, 0})[1]));
+  EXPECT_EQ(last_failure(),
+            "bounded of libwrong_laws.so says that this is outside what it is good for (at variable -0.0015, for a derivative "
+            "that it does not give at variable 0.0005)");
+  forget_failures();
+}
+
 TEST(UserRoutine, ChecksPassWhatIsRight) {
   const std::vector<Arguments> around{{0, 0, 0}, {0.3, 0.1, 0}, {-0.2, -0.4, 0}};
   EXPECT_EQ(routine("laws_fortran", "hardening", Kind::force, {50, 400, 3}).check(around).message, "");

@@ -82,6 +82,14 @@ ROUTINE(only_value) {
   y[0] = sin(x[0]) + 0.5 * x[1] * x[1];
 }
 
+/* Good only where its arguments are promised to be, and as a function from 0 to p[0]; no derivatives. */
+ROUTINE(bounded) {
+  UNUSED;
+  const double most = *kind == ENGRANE_MESH ? 1 : *kind == ENGRANE_FUNCTION ? p[0] : HUGE_VAL;
+  if (x[0] < 0 || x[0] > most || x[1] < 0) *status = ENGRANE_OUTSIDE;
+  y[0] = 1 + 0.2 * sin(4 * atan(1) * x[0]) * (1 + 0.1 * x[1]);
+}
+
 /* A friction law of speed and force. */
 ROUTINE(loaded_friction) {
   UNUSED;

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """User routines that fail in mid-run: what the user is told; and what missing derivatives cost."""
 
+import math
 import os
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
+from engrane_post import Results
 from ranks import on_ranks
 from runs import run
 from user_law import deck
@@ -55,6 +58,34 @@ def test_energy_that_depends_on_time(tmp_path: Path, energy: int, status: int) -
     assert done.returncode == status, done.stderr
     cause = "the energy that its routine returns depends on the time"
     assert (cause in done.stderr) == (status == 2)
+
+
+@pytest.mark.parametrize("end", [1, 2])
+def test_a_drive_is_not_asked_beyond_its_range(tmp_path: Path, end: int) -> None:
+    """A routine without derivatives, good from 0 to 1: the differences at 0 went below, and the message said
+    that its result there "is not a finite number"."""
+    text = f""".NOE
+ I 1 X 0
+.FCT
+ I 1 USER "wrong_laws" "bounded" PARAM 1
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 2 INERTIA N 1 M 1. J 1 1 1
+.SAM TYPE KINEMATIC
+.SUB TF {end} H 0.02
+.FIN
+"""
+    (tmp_path / "deck.dat").write_text(text)
+    done = subprocess.run([BINARY, "deck.dat"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    if end == 1:
+        assert done.returncode == 0, done.stderr
+        with Results(tmp_path / "deck.h5") as results:
+            times, torque = results.history("element/1/DRIVE_TORQUE")
+        assert torque == pytest.approx(-0.2 * math.pi**2 * np.sin(math.pi * times), abs=1e-6)
+    else:
+        assert done.returncode == 2, done.stderr
+        assert "bounded of libwrong_laws.so says that this is outside what it is good for" in done.stderr
+        assert "finite" not in done.stderr
 
 
 LAWS = ("POLY 50 0 4D5 C 0.8", "USER 1", "USER 2")

@@ -146,12 +146,14 @@ Schema analysis_card() {
            "penalty p of the constraint equations, beside the multipliers; none when not given")
       .synonyms({"PENALITE"})
       .at_least(0);
-  card.add("RESTART", &AnalysisCard::restart,
-           "continue these results (a path without .h5) from a restart point; `.SUB`, `.SAM`, `.SAI`, "
-           "checks, loads (`.CLM`) "
-           "and functions may differ from the run that wrote them; the model may not, and elements of `.MCE` such as FORCE are "
-           "part of it. Drives must begin where the restart point stands; where their speeds differ from those up to there, "
-           "velocities change as in an impact with TOL or ACCURACY, and fixed steps are warned of. `.INI` has no effect")
+  card.add(
+          "RESTART", &AnalysisCard::restart,
+          "continue these results (a path without .h5) from a restart point; `.SUB`, `.SAM`, `.SAI`, "
+          "checks, loads and temperatures (all of `.CLM` but FIX and DEP) "
+          "and functions may differ from the run that wrote them; the model may not, and supports and elements of `.MCE` such as "
+          "FORCE are part of it. Drives must begin where the restart point stands; where their speeds differ from those up to "
+          "there, "
+          "velocities change as in an impact with TOL or ACCURACY, and fixed steps are warned of. `.INI` has no effect")
       .synonyms({"REPRISE"});
   card.add("T", &AnalysisCard::restart_time,
            "RESTART: time of the restart point, the last one up to then; the last of all when not given")
