@@ -169,6 +169,7 @@ Attempt::Attempt(const Task& task, const Trial& trial, std::optional<Companion>&
       observer_(context_.assembler, moves(task.reading.model), select_histories(task.reading.model)),
       schedule_(task.reading.model.commands.stepping, task.reading.model.commands.archive),
       fast_turns_(task.reading.model, trial.options),
+      stability_(context_),
       last_time_(task.reading.model.commands.stepping.start) {
   MPI_Comm_rank(task.comm, &rank_);
   MPI_Comm_size(task.comm, &ranks_);
@@ -253,6 +254,7 @@ bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
   leave_at_once(false);
   forget_failures();
   fast_turns_.take(solved);
+  stability_.take(solved, step.last);
   find_buckling_modes(solved, step);
   // what follows is output, and may have the memory
   if (step.last && task_.reading.is_one_solution() && context_.solver.direct() && !task_.options.condition)
@@ -430,6 +432,7 @@ int Attempt::finish() {
       if (!unresolved.empty()) writer_->warn(unresolved);
       if (const std::string remark = energy_remark(context_, runner_->references(), observer_); complete_ && !remark.empty())
         writer_->warn(remark);
+      if (const std::string remark = stability_.remark(); !remark.empty()) writer_->warn(remark);
       if (const std::string remark = fast_turns_.remark(); !remark.empty()) {
         writer_->warn(remark);
         task_.summary.diagnostics.push_back({.severity = Severity::warning, .location = {}, .message = remark, .hint = {}});

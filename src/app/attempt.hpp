@@ -19,6 +19,7 @@
 #include "app/writer.hpp"
 #include "observe/observer.hpp"
 #include "solve/run/runner.hpp"
+#include "solve/schemes/stability.hpp"
 
 namespace engrane::app {
 
@@ -84,6 +85,7 @@ class Attempt {
   observe::Observer observer_;
   Schedule schedule_;
   FastTurns fast_turns_;
+  solve::StabilityWatch stability_;
   std::optional<Writer> writer_;  ///< of rank 0
   std::unique_ptr<solve::Scheme> scheme_;
   std::optional<solve::Runner> runner_;

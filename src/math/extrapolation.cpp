@@ -36,11 +36,18 @@ double Extrapolation::share(double time, double h) const {
   return largest / distances(time, points);
 }
 
-std::vector<double> Extrapolation::weights(double time, double h) const {
-  std::vector<double> all(reach(h), 1.0);  // Lagrange weights
-  for (std::size_t p = 0; p < all.size(); ++p)
-    for (std::size_t q = 0; q < all.size(); ++q)
-      if (q != p) all[p] *= (time - points_[q].time) / (points_[p].time - points_[q].time);
+std::vector<double> Extrapolation::weights(double time, double h, double most) const {
+  std::vector<double> all;  // Lagrange weights
+  for (std::size_t points = reach(h); points > 0; --points) {
+    all.assign(points, 1.0);
+    double sum = 0;
+    for (std::size_t p = 0; p < points; ++p) {
+      for (std::size_t q = 0; q < points; ++q)
+        if (q != p) all[p] *= (time - points_[q].time) / (points_[p].time - points_[q].time);
+      sum += std::abs(all[p]);
+    }
+    if (sum <= most || points <= 2) break;
+  }
   return all;
 }
 

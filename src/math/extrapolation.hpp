@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,8 +26,9 @@ class Extrapolation {
   void add(double time, std::span<const double> values);
   /// Evaluates the polynomial for a step of length h at `time`, within this step.
   void at(double time, double h, std::span<double> values) const;
-  /// Lagrange weights of the points used, latest first.
-  std::vector<double> weights(double time, double h) const;
+  /// Lagrange weights of the points used, latest first; of so few that their magnitudes add up to `most` at most. On points ever
+  /// farther apart, as steps grow behind an event, high orders enlarge whatever is no polynomial.
+  std::vector<double> weights(double time, double h, double most = std::numeric_limits<double>::infinity()) const;
   std::span<const double> values(std::size_t point) const { return points_[point].values; }
   /// The two stored points around a time; `part` is the interpolation weight, 0 at `before` and 1 at `after`.
   struct Around {

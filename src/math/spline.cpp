@@ -177,25 +177,22 @@ Curve Curve::periodic_spline(std::span<const double> x, std::span<const double> 
 }
 
 Curve::Place Curve::find(double x) const {
+  const double first = pieces_.front().x0;
   Place place;
   if (period_) {
-    const double from_first = x - pieces_.front().x0;
-    place.turns = std::floor(from_first / *period_);
-    double local = std::fma(-place.turns, *period_, from_first);
+    place.turns = std::floor((x - first) / *period_);
     // rounding of the quotient may put a point just before a whole turn after it
-    if (local < 0) {
+    if (x < begin(first, place.turns))
       place.turns -= 1;
-      local += *period_;
-    } else if (local >= *period_) {
+    else if (x >= begin(first, place.turns + 1))
       place.turns += 1;
-      local -= *period_;
-    }
-    x = pieces_.front().x0 + local;
   }
-  auto after = std::upper_bound(pieces_.begin(), pieces_.end(), x, [](double v, const Piece& p) { return v < p.x0; });
+  // rounding of the abscissa within the period could put a corner before itself
+  auto after =
+      std::upper_bound(pieces_.begin(), pieces_.end(), x, [&](double v, const Piece& p) { return v < begin(p.x0, place.turns); });
   if (after != pieces_.begin()) --after;
   place.piece = &*after;
-  place.x = x;
+  place.x = period_ ? std::max(first + std::fma(-place.turns, *period_, x - first), after->x0) : x;
   return place;
 }
 
@@ -231,11 +228,11 @@ std::vector<double> Curve::joints(double from, double to, std::size_t most, int 
   if (corners.empty() || (period_ && !std::isfinite(to - from))) return found;
   for (double turns = period_ ? std::floor((from - first) / *period_) : 0;; ++turns) {
     for (const double corner : corners) {
-      const double x = period_ ? corner + turns * *period_ : corner;
+      const double x = begin(corner, turns);
       if (from < x && x < to) found.push_back(x);
       if (found.size() > most) return {};
     }
-    if (!period_ || first + (turns + 1) * *period_ >= to) return found;
+    if (!period_ || begin(first, turns + 1) >= to) return found;
   }
 }
 

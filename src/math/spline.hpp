@@ -56,6 +56,9 @@ class Curve {
   };
   static Curve hermite(std::span<const double> x, std::span<const double> y, std::span<const double> slope);
 
+  /// The abscissa from which the piece that begins at x0 applies, after `turns` whole periods.
+  double begin(double x0, double turns) const { return period_ ? x0 + turns * *period_ : x0; }
+
   Place find(double x) const;
   double from_anchor(double x) const;
   void sum_areas(double end);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -260,12 +261,12 @@ class FunctionBuilder {
   const FunctionSetting& setting_;
 };
 
-/// A function with a corner where the run ends: its slopes there are those of the run, not of what would follow. A TABLE that
-/// ends with the run would otherwise stop the drive in the last instant.
+/// A function with a corner where the run ends: its slopes there are those of the run, up to `corner`, not of what would follow.
+/// A TABLE that ends with the run would otherwise stop the drive in the last instant.
 class SmoothToTheEnd final : public Function {
  public:
-  SmoothToTheEnd(std::unique_ptr<Function> function, double end)
-      : function_(std::move(function)), end_(end), before_(function_->at(number_before(end))) {}
+  SmoothToTheEnd(std::unique_ptr<Function> function, double end, double corner)
+      : function_(std::move(function)), end_(end), before_(function_->at(number_before(std::min(corner, end)))) {}
   Jet at(double x) const override {
     Jet jet = function_->at(x);
     if (x == end_) jet = {jet.f, before_.d1, before_.d2, before_.d3};
@@ -288,18 +289,19 @@ class SmoothToTheEnd final : public Function {
   Jet before_;
 };
 
-/// Whether the function has a corner at x.
-bool turns_at(const Function& function, double x) {
+/// The corner of the function at x; the first of several that differ by rounding.
+std::optional<double> corner_at(const Function& function, double x) {
   const double way = 1e-12 * std::abs(x);
-  return !function.corners(x - way, x + way, 10).empty();
+  const std::vector<double> found = function.corners(x - way, x + way, 10);
+  return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 }  // namespace
 
 std::unique_ptr<Function> make_function(const deck::Record& record, Diagnostics& diagnostics, const FunctionSetting& setting) {
   auto function = FunctionBuilder(record, diagnostics, setting).build();
-  if (!function || !turns_at(*function, setting.end)) return function;
-  return std::make_unique<SmoothToTheEnd>(std::move(function), setting.end);
+  const std::optional<double> corner = function ? corner_at(*function, setting.end) : std::nullopt;
+  return corner ? std::make_unique<SmoothToTheEnd>(std::move(function), setting.end, *corner) : std::move(function);
 }
 
 }  // namespace engrane

@@ -128,6 +128,10 @@ class Observer {
   std::vector<Way> ways() const;
   /// Adds values() and sources_ to the interpolation points.
   void keep(double time);
+  /// The polynomial with these weights of the interpolation points.
+  double weighted(std::size_t column, std::span<const double> weights) const;
+  /// A value between instants by all `points`, or, where that goes astray, the one by a few of them that is `calm`.
+  double calmed(std::size_t column, std::size_t points, double calm, double value) const;
   /// A Channel::Course::size between instants. `weights`: of the interpolation points; `smooth`: the polynomial through the
   /// sizes.
   double size_between(std::size_t column, std::span<const double> weights, double smooth) const;

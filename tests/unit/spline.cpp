@@ -85,6 +85,26 @@ TEST(Curve, PeriodicLines) {
   EXPECT_EQ(flat.integral(2), 6);
 }
 
+TEST(Curve, CornersOfLaterPeriodsAreMet) {
+  // 0.2 + 0.8 is 1, but 1 - 0.8 is less than 0.2: the corner was found before itself
+  const Curve drive = Curve::lines(std::vector{0.0, 0.2, 0.4}, std::vector{0.0, 0.5, 0.0}, 0.8);
+  const Curve saw = Curve::lines(std::vector{0.1, 0.8}, std::vector{-2.0, 5.0}, 0.7);
+  for (const double from : {-1e6, -700.0, 0.0, 700.0, 1e6}) {
+    const std::vector<double> corners = drive.joints(from, from + 80, 1000), jumps = saw.joints(from, from + 70, 1000);
+    EXPECT_NEAR(static_cast<double>(corners.size()), 300, 3);
+    EXPECT_NEAR(static_cast<double>(jumps.size()), 100, 1);
+    for (const double x : corners) {
+      const double before = drive.at(std::nextafter(x, -2e6)).d1, after = drive.at(x).d1;
+      EXPECT_EQ(after, before == 0 ? 2.5 : before == 2.5 ? -2.5 : 0) << x;
+      EXPECT_NEAR(drive.integral(std::nextafter(x, -2e6)), drive.integral(x), 1e-9);
+    }
+    for (const double x : jumps) {
+      EXPECT_NEAR(saw.at(x).f, -2, 1e-8) << x;
+      EXPECT_NEAR(saw.at(std::nextafter(x, -2e6)).f, 5, 1e-8) << x;
+    }
+  }
+}
+
 TEST(Curve, NaturalSplineIsSmoothAndExactOnLines) {
   const std::vector<double> x{-1, 0, 0.5, 2, 3}, y{1, -2, 0.5, 4, 3};
   const Curve spline = Curve::natural_spline(x, y);

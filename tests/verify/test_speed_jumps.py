@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from runs import Run, run, said, solve
 
@@ -131,3 +132,49 @@ def test_speeds_that_differ_by_rounding(tmp_path: Path) -> None:
     for before, after in (("1", end), (end, "1")):
         told, _ = restarted(tmp_path, {"angle": before}, {"angle": after + "+0*T"})
         assert told["said"] == ""
+
+
+ZIGZAG = """.NOE
+ I 1 X 0 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE ANGLE NF 1
+ I 2 INERTIA N 1 M 1 J 0.01
+.FCT
+ I 1 TABLE {table}
+.SAM TYPE DYNAMIC {analysis}
+.SUB TF {end!r} H 0.01 {stepping}
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize(
+    ("analysis", "stepping"), [("", "TOL 1E-5"), ("SCHEME RADAU", "TOL 1E-5"), ("ACCURACY NORMAL", "")]
+)
+def test_corners_of_later_periods(analysis: str, stepping: str, tmp_path: Path) -> None:
+    """Rounding put 0.2 + 0.8 before itself: the corner was none, and no step was short enough for it."""
+    deck = ZIGZAG.format(table="0 0 0.2 0.5 0.4 0 PERIOD 0.8", analysis=analysis, stepping=stepping, end=3.3)
+    found = run(deck, tmp_path)
+    place = found.t % 0.8
+    speed = np.where(place < 0.2, 2.5, np.where(place < 0.4, -2.5, 0))
+    beside = np.min(np.abs(np.subtract.outer(place, [0, 0.2, 0.4, 0.8])), axis=1) > 1e-6
+    assert found["element/1/SPEED"][beside] == pytest.approx(speed[beside], abs=1e-6)
+    assert found["node/1/EZ"][beside] == pytest.approx(0, abs=1e-6)
+
+
+def test_a_corner_of_a_later_period_where_the_run_ends(tmp_path: Path) -> None:
+    """It lies in the last place before TF: the speed at the end was that of what would follow."""
+    deck = ZIGZAG.format(table="0.1 0 0.45 1 0.8 0 PERIOD 0.7", analysis="", stepping="TOL 1E-4", end=5.0)
+    assert run(deck, tmp_path)["element/1/SPEED"][-1] == pytest.approx(-1 / 0.35, rel=1e-9)
+
+
+@pytest.mark.parametrize("stepping", ["", "TOL 1E-5"])
+def test_radau_goes_on_from_fixed_steps_behind_a_jump(stepping: str, tmp_path: Path) -> None:
+    """Their speeds swing about that of the drive long after. Taken as they were, no step was short enough."""
+    table = "0 0 0.2 0.5 0.37 0.1 0.55 0.9 0.8 0"
+    first = run(ZIGZAG.format(table=table, analysis="", stepping="", end=0.5), tmp_path, "first")
+    assert abs(first["element/1/SPEED"][-1] - 0.8 / 0.18) > 0.01
+    deck = ZIGZAG.format(table=table, analysis="SCHEME RADAU", stepping=stepping, end=0.54)
+    found = run(deck, tmp_path, "then", options=("--restart", "first"))
+    behind = found.t > 0.5
+    assert found["element/1/SPEED"][behind] == pytest.approx(0.8 / 0.18, rel=1e-9)
+    assert found["node/1/EZ"][behind] == pytest.approx(0, abs=1e-6)

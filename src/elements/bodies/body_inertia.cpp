@@ -24,7 +24,8 @@ Energies BodyInertia::energies(const State& state) const {
 }
 
 std::vector<Channel> body_channels(const BodyInertia& body) {
-  std::vector<Channel> all = {{"KINETIC_ENERGY", dimension::energy, "energy of translation and rotation"}};
+  std::vector<Channel> all = {
+      {"KINETIC_ENERGY", dimension::energy, "energy of translation and rotation", Channel::Course::smooth, 0}};
   if (!body.turns()) return all;
   const Dimension angular{2, 1, -1, 0};
   const char* letters[3] = {"X", "Y", "Z"};

@@ -40,7 +40,7 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20>, public ElasticTeeth
                           {"TRIAD", dimension::angle, "tooth triads about the tooth, phi_3"}};
     layout.history = history + extremes;
     layout.switches = contact_.switch_names();
-    if (contact_.options().friction && !contact_.grips()) name_slide(layout, "flanks: ");
+    if (contact_.options().friction && !contact_.grips()) name_slide(layout, "flanks: ", false);
     if (contact_.grips()) add_grip(layout, {"GRIP", dimension::length, "friction at rest between the flanks"});
     this->set_layout(std::move(layout));
   }
@@ -91,8 +91,7 @@ class ToothedPair : public TemplatedElement<Derived, 2, 20>, public ElasticTeeth
     const auto slides = static_cast<std::size_t>(this->layout().slides);
     const std::size_t of_grips = contact_.grips() ? 2 : 0, of_contact = values.size() - of_grips - slides;
     if (of_contact > 0) contact_.switches(report(state), state, values.first(of_contact));
-    if (slides > 0) slide_switches(*this, state, values.subspan(of_contact, slides));
-    grip_switches(*this, state, values.subspan(of_contact + slides));
+    grip_switches(*this, state, slide_switches(*this, state, values.subspan(of_contact), [](std::size_t) { return false; }));
   }
   bool has_gaps() const override { return contact_.has_gaps(); }
   bool touches(const State& state) const override { return contact_.touches(report(state), state); }

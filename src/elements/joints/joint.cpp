@@ -97,7 +97,7 @@ void name_grip(Layout& layout, const JointFriction& f) {
 }
 
 bool rubs_along(const JointFriction& f) { return f.kind != Rubbing::journal && f.kind != Rubbing::ball; }
-bool rubs_round(const JointFriction& f) { return f.kind != Rubbing::guide && f.radius > 0; }
+bool rubs_round(const JointFriction& f) { return f.kind != Rubbing::guide && f.kind != Rubbing::drum && f.radius > 0; }
 
 /// Rate of a measure from the nodes' velocities, by its gradient.
 template <class T>
@@ -311,10 +311,22 @@ Joint::Joint(int id, JointParts parts) : TemplatedElement(id), parts_(std::move(
   for (const JointFriction& f : parts_.friction)
     if (f.radius > 0 && f.kind != Rubbing::guide && f.kind != Rubbing::ball) count(f.turn);
   if (!parts_.friction.empty()) moves_ = has_rates_ = whole_b_ = true;
+  has_gaps_ = !layout.switches.empty();
+  // in the plane |N| has a corner where the guide presses on its other side
+  sides_ = !parts_.friction.empty() && parts_.friction[0].kind == Rubbing::guide && parts_.friction[0].length == 0;
+  if (sides_)
+    for (const int across : {0, 1})
+      layout.switches.push_back({"guide presses on one side", "guide presses on the other", true, across});
   for (const JointFriction& f : parts_.friction)
-    if (!f.law.rests) name_slide(layout, f.suffix.empty() ? "" : f.suffix + ": ");
+    if (!f.law.rests) {
+      name_slide(layout, f.suffix.empty() ? "" : f.suffix + ": ", f.along_line());
+      slide_along_line_.push_back(f.along_line() ? 1 : 0);
+    }
   for (const JointFriction& f : parts_.friction)
-    if (f.law.rests) name_grip(layout, f);
+    if (f.law.rests) {
+      name_grip(layout, f);
+      has_gaps_ = true;
+    }
   layout.history += turn_count::history * static_cast<int>(angles_.size());
   set_layout(std::move(layout));
   name_channels();
@@ -389,9 +401,16 @@ void Joint::switches(const State& state, std::span<Switch> values) const {
     values = values.subspan(c.stop.switches(q.value, q.d1, q.d2, values));
     values = values.subspan(c.law.switches(q - c.relaxed, state.time, std::abs(q.value) + std::abs(c.relaxed), values));
   }
-  const auto slides = static_cast<std::size_t>(layout().slides);
-  if (slides > 0) slide_switches(*this, state, values.first(slides));
-  grip_switches(*this, state, values.subspan(slides));
+  if (sides_) {
+    const double across_2 = state.multipliers[0], across_3 = state.multipliers[1], unknown = std::nan("");
+    // in space N hardly ever passes zero, and never changes its sign
+    const double size = std::hypot(across_2, across_3);
+    values[0] = {across_3 == 0 ? across_2 : size, unknown, 0};
+    values[1] = {across_2 == 0 ? across_3 : size, unknown, 0};
+    values = values.subspan(2);
+  }
+  values = slide_switches(*this, state, values, [this](std::size_t i) { return slide_along_line_[i] != 0; });
+  grip_switches(*this, state, values);
 }
 
 void Joint::sliding(const State& state, std::span<Vec3> speeds) const {

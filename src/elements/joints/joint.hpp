@@ -83,7 +83,7 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   /// Also stores the direction of sliding, and for a ball the orientation from which rest is measured.
   void commit(const State& state, std::span<double> scalars, std::span<double> history) const override;
   void switches(const State& state, std::span<Switch> values) const override;
-  bool has_gaps() const override { return static_cast<int>(layout().switches.size()) > layout().slides; }
+  bool has_gaps() const override { return has_gaps_; }
   void sliding(const State& state, std::span<Vec3> speeds) const override;
   void grip_limits(const State& state, std::span<double> limits) const override;
   Energies energies(const State& state) const override;
@@ -132,10 +132,13 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   void name_channels();
 
   JointParts parts_;
-  bool moves_ = false;           ///< there are forces along the free motion
-  bool has_rates_ = false;       ///< those forces depend on its rate
-  bool whole_b_ = false;         ///< those forces need B's second or third axis
-  std::vector<Measure> angles_;  ///< angles whose turns are counted, in the order of the history
+  bool moves_ = false;                  ///< there are forces along the free motion
+  bool has_rates_ = false;              ///< those forces depend on its rate
+  bool sides_ = false;                  ///< whether a guide has switches for the sign of its force across, in the plane
+  bool has_gaps_ = false;               ///< stops, springs with corners, or grips
+  std::vector<char> slide_along_line_;  ///< of each friction that is regularised: JointFriction::along_line
+  bool whole_b_ = false;                ///< those forces need B's second or third axis
+  std::vector<Measure> angles_;         ///< angles whose turns are counted, in the order of the history
   std::vector<Channel> channels_;
   std::vector<Determined> gaps_;  ///< channels of gaps between two stops, each with that of its coordinate
 };

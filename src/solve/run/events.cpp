@@ -46,6 +46,9 @@ struct Cubic {
   double rate(double s) const { return (c1 + s * (2 * c2 + s * 3 * c3)) / h; }
 };
 
+/// The side of a switch that has a meaning. At rounding level it is the one to which the switch is going.
+int side_of(const Switch& one) { return (one.unclear() ? one.rate : one.value) < 0 ? -1 : 1; }
+
 }  // namespace
 
 std::optional<double> first_descent(double a, double da, double b, double db, double h, double band) {
@@ -129,13 +132,18 @@ std::vector<Event> Switches::take(const Configuration& c) {
       side_[i] = 0;
       continue;
     }
-    const bool unclear = now[i].unclear();
-    if (unclear && side_[i] != 0) continue;
-    const int side = (unclear ? now[i].rate : now[i].value) < 0 ? -1 : 1;
+    if (now[i].unclear() && side_[i] != 0) continue;
+    const int side = side_of(now[i]);
     if (side_[i] != 0 && side != side_[i]) events.push_back({places_[i].part, places_[i].index, side > 0});
     side_[i] = side;
   }
   return events;
+}
+
+void Switches::complete_sides(const Configuration& c) {
+  const std::vector<Switch> now = at(c);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (side_[i] == 0 && now[i].size != 0) side_[i] = side_of(now[i]);
 }
 
 std::vector<Event> Switches::renew(const Configuration& c) {
@@ -264,6 +272,8 @@ void EventLocator::load(const Snapshot& snapshot) {
   made_ = snapshot.has("events/made") ? static_cast<int>(snapshot.number("events/made")) : 0;
   // files of earlier versions lack it
   if (snapshot.has("events/tolerance")) tolerance_ = snapshot.number("events/tolerance");
+  // a run that locates no events, as in statics, notes no switches either
+  if (before_.size() != switches_.sides().size()) forget();
 }
 
 double EventLocator::foresee(const Configuration& from, double size) {
@@ -279,7 +289,10 @@ double EventLocator::foresee(const Configuration& from, double size) {
     event = switches_.next_change(before_, now, last_step_, size);
   }
   if (!event || *event <= shortest() || *event >= size) return size;
-  if (const double part = *event / std::max(1, least_ - made_); part < *event && part > shortest()) return part;
+  if (const double part = *event / std::max(1, least_ - made_); part < *event) {
+    if (part <= shortest()) step_is(*event);  // a phase far shorter than the steps before it
+    return part;
+  }
   aimed_ = size;
   return *event - 0.5 * tolerance_;
 }

@@ -31,6 +31,9 @@ class Switches {
   /// its side.
   std::vector<Event> take(const Configuration& c);
 
+  /// Takes the sides that are not known yet, as in a run that continues one in which these switches had no meaning.
+  void complete_sides(const Configuration& c);
+
   /// Determines the sides of the grips anew, whose meaning changes when friction comes to rest or gives way; after take() at
   /// the same time. Returns the changes that take() left open: friction has changed where a switch was at rounding level.
   std::vector<Event> renew(const Configuration& c);

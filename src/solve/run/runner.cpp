@@ -102,6 +102,7 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   scheme_.load(snapshot);
   locator_.load(snapshot);
   scheme_.take_over(now_);
+  if (locator_.active()) locator_.switches().complete_sides(now_);
   control_.load(snapshot, locator_.switches().sides().size());
   h_ = std::min(snapshot.number("runner/h"), control_.active() ? options_.longest : options_.step);
   step_.number = resumed_at_ = static_cast<int>(snapshot.number("runner/number"));
@@ -111,11 +112,15 @@ bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
   if (step_.corner) scheme_.pass_corner(now_);
   earlier_speeds_ = load_speeds(context_.model, snapshot, now_.time);
   started_ = true;
-  if (control_.active() && scheme_.meets_events() && speed_jump(context_.model, now_.time, earlier_speeds_)) {
+  if (speed_jump(context_.model, now_.time, earlier_speeds_)) {
     // drives and supports go on with other speeds than they have had: the impulse is yet to come
     const double corner = now_.time;
-    now_.time = number_before(corner);
-    if (!pass_corner(now_.time, corner, true)) return false;
+    if (control_.active() && scheme_.meets_events()) {
+      now_.time = number_before(corner);
+      if (!pass_corner(now_.time, corner, true)) return false;
+    }
+  } else if (!scheme_.takes_velocities(snapshot)) {
+    scheme_.drift(now_, 0);  // fits them to the constraints, and accelerations to both
   }
   return march();
 }

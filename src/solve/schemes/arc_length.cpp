@@ -10,6 +10,7 @@
 
 #include "solve/algebra/probe.hpp"
 #include "solve/schemes/mode_text.hpp"
+#include "solve/schemes/stability.hpp"
 
 namespace engrane::solve {
 
@@ -119,14 +120,7 @@ double ArcLength::pace(const Point& point) const {
 
 double ArcLength::length(std::span<const double> way) const { return std::sqrt(product(weights_, way, way)); }
 
-int ArcLength::unstable(const Point& point) const {
-  const std::vector<Unknown>& unknowns = context_.numbering.unknowns();
-  const auto constraints = static_cast<int>(std::count_if(unknowns.begin(), unknowns.end(), [this](const Unknown& u) {
-    return u.multiplier && !context_.assembler.released(u.slot - context_.numbering.motion_slots());
-  }));
-  // each of them turns the sign of the determinant
-  return point.symmetric ? point.negative - constraints : (point.negative + constraints) % 2;
-}
+int ArcLength::unstable(const Point& point) const { return unstable_directions(context_, point.negative, point.symmetric); }
 
 int ArcLength::turned(const Point& a, const Point& b) const {
   if (a.symmetric == b.symmetric) return std::abs(a.negative - b.negative);

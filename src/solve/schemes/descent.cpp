@@ -16,7 +16,7 @@ constexpr double first_part = 0.03;
 constexpr double largest_move = 0.2;
 /// The viscosity becomes less after each step by the one factor, and more after each that was too long by the other.
 constexpr double thinner = 1.0 / 3, thicker = 4;
-constexpr int most_attempts = 200, most_in_vain = 30;
+constexpr int most_tries = 200, most_in_vain = 30;
 /// A step takes at most so many corrections, until the last is this part of its way.
 constexpr int most_corrections_down = 8;
 constexpr double last_correction = 0.01;
@@ -40,7 +40,7 @@ bool Descent::descend(const Newton::Apply& apply, std::vector<double> unknowns, 
   apply(unknowns_, to);
   context_.assembler.residual(to, residual_);
   double viscosity = largest_work(context_.assembler.gather(residual_)) / first_part, largest = 0;
-  for (int attempt = 0, in_vain = 0; attempt < most_attempts && in_vain < most_in_vain; ++attempt) {
+  for (int attempt = 0, in_vain = 0; attempt < most_tries && in_vain < most_in_vain; ++attempt) {
     const std::vector<double> begin = unknowns_;
     const std::optional<double> work = creep(viscosity, apply, to);
     if (!work) {

@@ -26,6 +26,8 @@ class Radau final : public Dynamics {
   const References& references() const override { return references_; }
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
+  /// Those of generalised-α swing about what the constraints ask for, long after a jump of a drive's speed.
+  bool takes_velocities(const Snapshot& snapshot) const override { return !snapshot.has("scheme/algorithmic"); }
 
  private:
   bool restore_balance(Configuration& c) override;

@@ -96,6 +96,8 @@ class Scheme {
   /// The scheme's memory of accepted steps, for a restart.
   virtual void save(Snapshot&) const {}
   virtual void load(const Snapshot&) {}
+  /// Whether steps may begin with the velocities of this restart point as they are.
+  virtual bool takes_velocities(const Snapshot&) const { return true; }
 
  protected:
   /// Writes the displacements of the prescribed slots between two times into a flat step.
