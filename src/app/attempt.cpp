@@ -125,7 +125,10 @@ std::string jump_remark(const SolverContext& context, const References& referenc
   const std::string when = begin == end ? "at t = " + begin : fmt::format("between t = {} and {}", begin, end),
                     unit = context.model.units.label(dimension::energy);
   const bool follows = context.options.path.follow;
-  if (jump.lost < 0 && follows) return {};  // a path leads there, if not a straight one
+  // a path leads there, if not a straight one; and only models with gaps are known to go astray
+  if (jump.lost < 0 && (follows || std::none_of(context.model.parts.begin(), context.model.parts.end(),
+                                                [](const Model::Part& part) { return part.element->has_gaps(); })))
+    return {};
   if (jump.lost < 0)
     return fmt::format(
         "{} the structure came to an equilibrium that it cannot reach by itself, as on the far side of a contact: {:.3g} {} of "
@@ -430,10 +433,9 @@ int Attempt::finish() {
   if (rank_ == 0) {
     try {
       if (!unresolved.empty()) writer_->warn(unresolved);
-      if (const std::string remark = energy_remark(context_, runner_->references(), observer_); complete_ && !remark.empty())
-        writer_->warn(remark);
-      if (const std::string remark = stability_.remark(); !remark.empty()) writer_->warn(remark);
-      if (const std::string remark = fast_turns_.remark(); !remark.empty()) {
+      const std::string of_energy = energy_remark(context_, runner_->references(), observer_);
+      for (const std::string& remark : {complete_ ? of_energy : "", stability_.remark(), fast_turns_.remark()}) {
+        if (remark.empty()) continue;
         writer_->warn(remark);
         task_.summary.diagnostics.push_back({.severity = Severity::warning, .location = {}, .message = remark, .hint = {}});
       }

@@ -61,7 +61,7 @@ double StaticWork::lost(double change, double bend) const {
   constexpr double allowed = 0.05;
   const double gap = std::clamp(change, std::min(first, second), std::max(first, second)) - change;
   const bool off = std::abs(gap) > bend * varied + allowed * std::max(handled, std::abs(change));
-  return off && !(dissipates && gap > 0) ? gap : 0;
+  return off && !(gap > 0 ? dissipates : gives) ? gap : 0;
 }
 
 StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration from, const Configuration& to) {
@@ -72,7 +72,7 @@ StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration 
   const double time = std::abs(loads) > least ? loads : least;
   // saves a copy: configurations of large meshes take much memory
   Configuration& c = from;
-  double dissipated = 0;
+  double dissipated = 0, given = 0;
   const auto works_of_elements = [&] {
     std::vector<double> works;
     works.reserve(assembler.own_parts().size());
@@ -80,6 +80,7 @@ StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration 
       const Energies rates = assembler.model().parts[static_cast<std::size_t>(p)].element->energies(assembler.view(p, c));
       works.push_back(time * rates.external);
       dissipated += std::abs(rates.dissipated);
+      given += std::max(-rates.dissipated, 0.0);
     }
     return works;
   };
@@ -119,9 +120,9 @@ StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration 
   c.multipliers = to.multipliers;
   c.history = to.history;
   work.add(first_of_elements, works_of_elements());
-  double sums[5] = {work.first, work.second, work.varied, work.handled, dissipated};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, assembler.comm());
-  work = {sums[0], sums[1], sums[2], sums[3], sums[4] > 0};
+  double sums[6] = {work.first, work.second, work.varied, work.handled, dissipated, given};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_DOUBLE, MPI_SUM, assembler.comm());
+  work = {sums[0], sums[1], sums[2], sums[3], sums[4] > 0, sums[5] > 0};
   work.add(first_of_supports, works_of(second));
   work.add(first_of_others, std::vector<double>(first_of_others.size(), 0.0));
   return work;

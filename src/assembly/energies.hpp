@@ -18,6 +18,7 @@ struct StaticWork {
   double varied = 0;        ///< sum of the differences between both, each taken as positive
   double handled = 0;       ///< sum of the works, each taken as positive
   bool dissipates = false;  ///< elements that resist velocities would take part of it
+  bool gives = false;       ///< elements without an energy, as a spring law of the time, do work on the others
 
   /// Adds the works of one load each.
   void add(const std::vector<double>& with_first, const std::vector<double>& with_second);

@@ -313,7 +313,8 @@ Joint::Joint(int id, JointParts parts) : TemplatedElement(id), parts_(std::move(
   if (!parts_.friction.empty()) moves_ = has_rates_ = whole_b_ = true;
   has_gaps_ = !layout.switches.empty();
   // in the plane |N| has a corner where the guide presses on its other side
-  sides_ = !parts_.friction.empty() && parts_.friction[0].kind == Rubbing::guide && parts_.friction[0].length == 0;
+  sides_ = !parts_.friction.empty() && parts_.friction[0].kind == Rubbing::guide && parts_.friction[0].length == 0 &&
+           !parts_.friction[0].law.rests;
   if (sides_)
     for (const int across : {0, 1})
       layout.switches.push_back({"guide presses on one side", "guide presses on the other", true, across});

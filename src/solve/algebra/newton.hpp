@@ -61,7 +61,8 @@ class Newton {
   /// To be called if the last solution is refused although the iteration has converged: its forces are no reference for later
   /// ones.
   void refuse_last();
-  /// Loads so far that residuals are compared with, and the same put back where several solutions in turn were not the right ones.
+  /// Loads so far that residuals are compared with, and the same put back where several solutions in turn were not the right
+  /// ones.
   const std::vector<double>& loads() const { return references_.memory(); }
   void restore_loads(std::vector<double> loads) { references_.restore(std::move(loads)); }
   /// Makes the next solution take at least two corrections. The second costs little, since both share the factors, and recovers

@@ -21,6 +21,17 @@ constexpr int most_equations = 50000;
 /// A direction that resists by less than this fraction has no sign.
 constexpr double neutral = 1e-13;
 
+/// Takes the columns of released constraints, whose multipliers do not change, out of the tangent: it is then symmetric.
+void leave_out_released(const SolverContext& context, Mat tangent) {
+  if (context.assembler.half()) return;
+  std::vector<PetscInt> rows;
+  for (int row = context.numbering.first_row(); row < context.numbering.end_row(); ++row)
+    if (const Unknown& u = context.numbering.unknown(row);
+        u.multiplier && context.assembler.released(u.slot - context.numbering.motion_slots()))
+      rows.push_back(row);
+  check_petsc(MatZeroRowsColumns(tangent, static_cast<PetscInt>(rows.size()), rows.data(), -1, nullptr, nullptr));
+}
+
 /// Do loads without a potential, such as a moment about a fixed axis in space, matter in a motion x: is the antisymmetric part of
 /// the tangent K, by Σ |x (K − Kᵀ) x|, more than a hundredth of |xᵀKx|? Beside stiff parts it is below the rounding of K.
 bool has_no_potential(Mat tangent, Vec motion) {
@@ -44,6 +55,7 @@ std::optional<int> examine(SolverContext& context, const Configuration& equilibr
   move_and_rest(context, equilibrium, std::vector<double>(context.motion.size(), 0.0), rested);
   TangentFactors factors(context.assembler.new_matrix());
   context.assembler.tangent(rested, {1, 0, 0}, factors.matrix());
+  leave_out_released(context, factors.matrix());
   if (!factors.factor() || !factors.symmetric()) return {};
   Owned<Vec> load, motion;
   for (Owned<Vec>* vector : {&load, &motion}) *vector->out() = context.assembler.new_vector();
@@ -58,9 +70,8 @@ std::optional<int> examine(SolverContext& context, const Configuration& equilibr
 
 int unstable_directions(const SolverContext& context, int negative, bool symmetric) {
   const std::vector<Unknown>& unknowns = context.numbering.unknowns();
-  const auto constraints = static_cast<int>(std::count_if(unknowns.begin(), unknowns.end(), [&](const Unknown& u) {
-    return u.multiplier && !context.assembler.released(u.slot - context.numbering.motion_slots());
-  }));
+  const auto constraints =
+      static_cast<int>(std::count_if(unknowns.begin(), unknowns.end(), [&](const Unknown& u) { return u.multiplier; }));
   // each of them turns the sign of the determinant
   return symmetric ? negative - constraints : (negative + constraints) % 2;
 }
@@ -69,7 +80,7 @@ StabilityWatch::StabilityWatch(SolverContext& context)
     : context_(context),
       active_(context.options.analysis == SolverOptions::Analysis::statics && !context.options.path.follow &&
               !context.newton.keeps_one_tangent() && context.numbering.equations() <= most_equations),
-      due_(context.options.begin) {}
+      due_(context.options.begin + (context.options.end - context.options.begin) / looks) {}
 
 void StabilityWatch::take(const Configuration& equilibrium, bool last) {
   if (!active_ || unstable_at_ || (equilibrium.time < due_ && !last)) return;

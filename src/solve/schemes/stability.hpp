@@ -9,7 +9,7 @@
 namespace engrane::solve {
 
 /// Number of directions in which an equilibrium is unstable, by the negative eigenvalues of its tangent (TangentFactors): each
-/// constraint adds one to them. Of an unsymmetric tangent 1 if the number is odd, else 0.
+/// constraint, released or not, adds one to them. Of an unsymmetric tangent 1 if the number is odd, else 0.
 int unstable_directions(const SolverContext& context, int negative, bool symmetric);
 
 /// Watches equilibria of a static analysis for ones that are unstable, as Newton's iteration finds those of a straight column

@@ -121,6 +121,7 @@ StartReport Statics::start(Configuration& c) {
 }
 
 Outcome Statics::attempt(const Configuration& from, double h, Configuration& to) {
+  leapt_ = false;
   if (supports_) loads_ = context_.newton.loads();
   if (!error_.wanted() || path_.empty()) {
     NewtonReport report = find(from, h, to, false);
@@ -158,7 +159,7 @@ bool Statics::leaps(const Configuration& from, const Configuration& to) {
       lost <= rounding * std::max(largest_force_, references().last_force()) * context_.model.extent())
     return false;
   context_.newton.restore_loads(loads_);
-  return true;
+  return leapt_ = true;
 }
 
 NewtonReport Statics::find(const Configuration& from, double h, Configuration& to, bool predicted) {
@@ -245,6 +246,7 @@ std::optional<double> Statics::error(const Configuration& from, double h) const 
 
 void Statics::accept() {
   largest_force_ = std::max(largest_force_, references().last_force());
+  if (leapt_) supports_.reset();  // shorter steps do not help, and would in no later one
   if (watched_) {
     last_y_ = y_;
     last_h_ = tried_h_;
@@ -276,6 +278,7 @@ std::unique_ptr<Within> Statics::within(const Configuration& from, const Configu
 
 void Statics::save(Snapshot& snapshot) const {
   error_.save(snapshot);
+  snapshot.put("scheme/leaps", {supports_ ? 1.0 : 0.0, largest_force_});
   if (watched_) {
     snapshot.put("scheme/last_step", last_y_);
     snapshot.put("scheme/last_length_and_response", {last_h_, last_response_});
@@ -288,6 +291,10 @@ void Statics::save(Snapshot& snapshot) const {
 
 void Statics::load(const Snapshot& snapshot) {
   error_.load(snapshot);
+  if (snapshot.has("scheme/leaps")) {
+    if (snapshot.array("scheme/leaps").at(0) == 0) supports_.reset();
+    largest_force_ = snapshot.array("scheme/leaps").at(1);
+  }
   if (watched_ && snapshot.has("scheme/last_step")) {
     last_y_ = snapshot.array("scheme/last_step");
     last_h_ = snapshot.array("scheme/last_length_and_response").at(0);

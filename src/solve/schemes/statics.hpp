@@ -81,8 +81,9 @@ class Statics : public Scheme {
   bool touches(const Configuration& c) const;
 
   std::vector<int> contacts_;          ///< elements with gaps
-  std::optional<Reactions> supports_;  ///< with gaps
+  std::optional<Reactions> supports_;  ///< with gaps, as long as leaps are looked for
   std::vector<double> loads_;          ///< Newton::loads() before the step tried last, with gaps
+  bool leapt_ = false;                 ///< leaps() of that step
   double largest_force_ = 0;           ///< on a node, in accepted steps
   bool resists_ = false;               ///< require_resistance() was passed
   bool watched_;                       ///< may_be_singular()
