@@ -26,8 +26,8 @@ AlphaScheme AlphaScheme::bossak(double alpha) { return {-alpha, 0, 0.25 * (1 + a
 
 namespace {
 
-/// A step longer than this many times the one before restarts the memory. Steps that double behind an event otherwise enlarge what
-/// the first ones have left of it in the memory by the square of their length, and forces swing.
+/// A step longer than this many times the one before restarts the memory. Steps that double behind an event otherwise enlarge
+/// what the first ones have left of it in the memory by the square of their length, and forces swing.
 constexpr double longest_growth = 1.6;
 
 AlphaScheme coefficients(const SolverOptions& options) {
