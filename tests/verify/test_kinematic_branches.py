@@ -89,6 +89,15 @@ def test_a_parallelogram_stops_over_flat(step: float, joint: str, tmp_path: Path
     assert result["4/SPEED"] == pytest.approx(2 * np.pi, abs=1e-8)
 
 
+@pytest.mark.parametrize("step", [0.25, 0.05, 0.0125, 0.002])
+def test_a_turning_mass_that_loads_nothing(step: float, tmp_path: Path) -> None:
+    """The forces of the coupler are rounding, which grows towards the flat position."""
+    more = " I 5 INERTIA N 3 M 1 J 1"
+    result = run(PARALLELOGRAM.format(joint="HINGE", more=more, step=step), tmp_path)
+    assert result["4/ANGLE"] == pytest.approx(result["1/ANGLE"], abs=1e-11)
+    assert result["4/SPEED"] == pytest.approx(2 * np.pi, abs=1e-8)
+
+
 @pytest.mark.parametrize("step", [0.05, 0.0125])
 def test_a_coupler_with_mass_over_flat(step: float, tmp_path: Path) -> None:
     """Both bars carry half of the centripetal force of the coupler, in the flat position, too."""

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/masses.hpp"
 #include "solve/constraints/constraint_factors.hpp"
 #include "solve/constraints/diagnosis.hpp"
 
@@ -56,6 +57,12 @@ int Kinematics::solve(Configuration& to) {
   return assembly.position_iterations;
 }
 
+Kinematics::Kinematics(SolverContext& context) : Scheme(context) {
+  MassProperties all;
+  for (const Model::Part& part : context.model.parts) all.add(mass_properties(context.model, part));
+  inertia_ = all.mass * context.model.extent() * context.model.extent() + all.inertia.trace();
+}
+
 Kinematics::Sizes Kinematics::sizes(const Configuration& c, double enlarged) const {
   const double extent = context_.model.extent();
   Sizes s;
@@ -68,7 +75,8 @@ Kinematics::Sizes Kinematics::sizes(const Configuration& c, double enlarged) con
   // steady motion has no accelerations but those of rounding, and what nothing loads has no other forces
   constexpr double rounding = 100 * std::numeric_limits<double>::epsilon();
   s.acceleration = std::max(s.acceleration, std::pow(enlarged, 3) * rounding * s.velocity * s.velocity);
-  s.force = std::pow(enlarged, 4) * context_.start.noise_of_missing_inertia(c) / extent;
+  s.force = std::pow(enlarged, 4) * (context_.start.noise_of_missing_inertia(c) + rounding * inertia_ * s.velocity * s.velocity) /
+            extent;
   const Eigen::VectorXd weight = constraint_sizes(context_.assembler) / extent;
   for (std::size_t m = 0; m < c.multipliers.size(); ++m)
     s.force = std::max(s.force, std::abs(c.multipliers[m]) * weight[static_cast<Eigen::Index>(m)]);

@@ -12,7 +12,7 @@ namespace engrane::solve {
 /// including inertia and applied forces. A model with an undriven motion is refused.
 class Kinematics final : public Scheme {
  public:
-  explicit Kinematics(SolverContext& context) : Scheme(context) {}
+  explicit Kinematics(SolverContext& context);
 
   StartReport start(Configuration& c) override;
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
@@ -54,6 +54,7 @@ class Kinematics final : public Scheme {
   /// shorter parts, goes through one. `side`: that before the step.
   void refuse_other_branch(const Configuration& from, double h, const Regularity& side, NewtonReport& report);
 
+  double inertia_ = 0;   ///< of all masses over the extent, and their moments of inertia
   bool driven_ = false;  ///< no motion is free: this run has been checked for that, or the one that it continues
 };
 

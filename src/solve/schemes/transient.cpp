@@ -26,9 +26,10 @@ AlphaScheme AlphaScheme::bossak(double alpha) { return {-alpha, 0, 0.25 * (1 + a
 
 namespace {
 
-/// A step longer than this many times the one before restarts the memory. Steps that double behind an event otherwise enlarge
-/// what the first ones have left of it in the memory by the square of their length, and forces swing.
-constexpr double longest_growth = 1.6;
+/// A step longer than this many times the one before restarts the memory. Steps that follow their error double again and again
+/// behind an event: what the first ones have left in the memory would grow by the square of their length, and forces swing. Steps
+/// of H double a few times at most, and a new beginning leaves more than they do.
+constexpr double longest_growth = 3, longest_controlled_growth = 1.6;
 
 AlphaScheme coefficients(const SolverOptions& options) {
   switch (options.family) {
@@ -60,7 +61,8 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     algorithmic_ = vdot0;
     step_of_algorithmic_ = h;
   }
-  if (h > longest_growth * step_of_algorithmic_) vdot0 = renew_memory(from, h);
+  const bool controlled = context_.options.tolerance > 0;
+  if (h > (controlled ? longest_controlled_growth : longest_growth) * step_of_algorithmic_) vdot0 = renew_memory(from, h);
   const std::vector<double> v0 = first_velocities(from, h);
   std::vector<double> a0 = algorithmic_;
   // a_n is v̇ shifted by (α_m − α_f) h: another h, another shift
