@@ -7,10 +7,12 @@
 namespace engrane {
 
 void Extrapolation::add(double time, std::span<const double> values) {
-  std::rotate(points_.begin(), points_.end() - 1, points_.end());
+  if (count_ == 0 || time > points_[0].time) {
+    std::rotate(points_.begin(), points_.end() - 1, points_.end());
+    count_ = std::min(count_ + 1, points_.size());
+  }
   points_[0].time = time;
   points_[0].values.assign(values.begin(), values.end());
-  count_ = std::min(count_ + 1, points_.size());
 }
 
 std::size_t Extrapolation::reach(double h) const {

@@ -22,7 +22,8 @@ class Extrapolation {
   void clear() { count_ = 0; }
   bool empty() const { return count_ == 0; }
   std::size_t points() const { return count_; }
-  /// Appends a point; `time` must be later than all others.
+  /// Appends a point; `time` must not be earlier than the others. At the same time as the latest, as after a drift too short to
+  /// move the time, it takes its place.
   void add(double time, std::span<const double> values);
   /// Evaluates the polynomial for a step of length h at `time`, within this step.
   void at(double time, double h, std::span<double> values) const;

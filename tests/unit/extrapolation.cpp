@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <vector>
 
 namespace engrane {
 namespace {
@@ -31,6 +33,35 @@ TEST(Extrapolation, GoesNoFartherThanItsPointsAllow) {
   e.add(1.001, parabolas(1.001));
   e.at(2, 0.999, found);
   EXPECT_NEAR(found[1], parabolas(1.001)[1], 1e-14);  // differences of a short step tell nothing about a long one
+}
+
+TEST(Extrapolation, TakesTheLatestOfTwoValuesAtOneTime) {
+  Extrapolation e(3, 2);
+  std::array<double, 2> found{};
+  for (const double t : {0.0, 1.0, 2.0}) e.add(t, parabolas(t));
+  e.add(2, std::array{1.0, 2.0});
+  EXPECT_EQ(e.points(), 3u);
+  e.at(2, 0, found);
+  EXPECT_EQ(found, (std::array{1.0, 2.0}));
+  e.at(1, 0, found);
+  EXPECT_NEAR(found[0], parabolas(1)[0], 1e-14);
+}
+
+TEST(Extrapolation, LimitsItsWeights) {
+  Extrapolation e(6, 1e9);
+  for (const double t : {0.0, 1.0, 3.0, 7.0, 15.0, 31.0}) e.add(t, parabolas(t));  // steps that double
+  const auto sum = [](const std::vector<double>& weights) {
+    double all = 0;
+    for (const double w : weights) all += std::abs(w);
+    return all;
+  };
+  EXPECT_GT(sum(e.weights(24, 0)), 100);
+  const std::vector<double> calm = e.weights(24, 0, 5);
+  EXPECT_EQ(calm.size(), 4u);
+  EXPECT_LE(sum(calm), 5);
+  double value = 0;
+  for (std::size_t p = 0; p < calm.size(); ++p) value += calm[p] * e.values(p)[0];
+  EXPECT_NEAR(value, parabolas(24)[0], 1e-11);
 }
 
 TEST(Extrapolation, TellsTheValuesAround) {

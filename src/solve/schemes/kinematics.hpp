@@ -33,7 +33,7 @@ class Kinematics final : public Scheme {
       return velocity > factor * other.velocity || acceleration > factor * other.acceleration || force > factor * other.force;
     }
   };
-  /// `enlarged`: amplification of rounding at `c` (Start::amplification), below which no size is told from nothing.
+  /// `enlarged`: amplification of rounding at `c` (Regularity::amplification), below which no size is told from nothing.
   Sizes sizes(const Configuration& c, double enlarged = 1) const;
   /// Sets `c` to where the motion at `from` leads in a time of `length`: close enough to stay on the same branch of assembly.
   /// Returns the step there.
