@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "assembly/configuration_snapshot.hpp"
-#include "math/rotation.hpp"
 
 namespace engrane::observe {
 

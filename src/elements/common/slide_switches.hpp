@@ -31,16 +31,20 @@ std::span<Switch> slide_switches(const Element& element, const State& state, std
   if (slides == 0) return values;
   std::vector<Vec3> speeds(slides), later(slides);
   element.sliding(state, speeds);
-  // sliding is linear in the velocities; that its direction turns with the bodies matters little here
-  std::vector<NodeState> nodes;
-  for (std::size_t i = 0; i < state.nodes.size(); ++i) {
-    nodes.push_back(state.nodes[i]);
-    nodes.back().v += nodes.back().a;
-    nodes.back().W += nodes.back().A;
+  bool any_along_line = false;
+  for (std::size_t i = 0; i < slides; ++i) any_along_line = any_along_line || along_line(i);
+  if (any_along_line) {
+    // sliding is linear in the velocities; that its direction turns with the bodies matters little here
+    std::vector<NodeState> nodes;
+    for (std::size_t i = 0; i < state.nodes.size(); ++i) {
+      nodes.push_back(state.nodes[i]);
+      nodes.back().v += nodes.back().a;
+      nodes.back().W += nodes.back().A;
+    }
+    State moved = state;
+    moved.nodes = nodes;
+    element.sliding(moved, later);
   }
-  State moved = state;
-  moved.nodes = nodes;
-  element.sliding(moved, later);
   std::size_t next = 0;
   for (std::size_t i = 0; i < slides; ++i) {
     const double along = speeds[i][0], rate = later[i][0] - along, speed = speeds[i].norm();

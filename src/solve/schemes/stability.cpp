@@ -95,9 +95,9 @@ void StabilityWatch::take(const Configuration& equilibrium, bool last) {
 std::string StabilityWatch::remark() const {
   if (!unstable_at_) return {};
   return fmt::format(
-      "the equilibrium at t = {:.6g} is unstable in {}: the least disturbance makes the structure leave it. .PATH finds the load "
-      "at which it loses its stability and the equilibria beyond, .BUCKLING loads and modes; with a small load across, load "
-      "steps leave it, too",
+      "the equilibrium at t = {:.6g} is unstable in {}: the slightest disturbance makes the structure leave it. .PATH finds the "
+      "load at which stability is lost and the equilibria beyond it; .BUCKLING gives buckling loads and modes. A small lateral "
+      "load also lets load steps leave it",
       *unstable_at_, directions_ == 1 ? "1 direction" : fmt::format("{} directions", directions_));
 }
 
