@@ -47,8 +47,9 @@ std::span<Switch> slide_switches(const Element& element, const State& state, std
   }
   std::size_t next = 0;
   for (std::size_t i = 0; i < slides; ++i) {
-    const double along = speeds[i][0], rate = later[i][0] - along, speed = speeds[i].norm();
+    const double speed = speeds[i].norm();
     if (along_line(i)) {
+      const double along = speeds[i][0], rate = later[i][0] - along;
       values[next++] = {along - 1, rate, speed + 1};
       values[next++] = {along + 1, rate, speed + 1};
     } else {
