@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "model/determined_channels.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane {
@@ -27,7 +28,14 @@ const std::vector<Channel>& named(bool force, bool moment) {
   return lists[(force ? 1U : 0U) + (moment ? 2U : 0U)];
 }
 
-class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
+/// The channels of a load are functions of time alone.
+std::vector<DeterminedChannels::Determined> by_time(const Element& load, const Function* function) {
+  std::vector<DeterminedChannels::Determined> all;
+  for (std::size_t i = 0; function && i < load.channels().size(); ++i) all.push_back({static_cast<int>(i)});
+  return all;
+}
+
+class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6>, public DeterminedChannels {
  public:
   NodeLoad(int id, int node, const Vec3& at, const Vec3& force, const Vec3& moment, const Function* function)
       : TemplatedElement(id), at_(at), force_(force), moment_(moment), function_(function) {
@@ -40,22 +48,23 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
 
   template <class T>
   void evaluate(const Motion<T, 1>& motion, const State&, Balance<T, 1>& balance) const {
-    const T factor = function_ ? engrane::evaluate(*function_, motion.time) : T(1);
-    balance.force(0, Vec3T<T>(force_.template cast<T>() * (-factor)));
+    const T size = function_ ? engrane::evaluate(*function_, motion.time) : T(1);
+    balance.force(0, Vec3T<T>(force_.template cast<T>() * (-size)));
     // a moment fixed in space, in components of the rotating node: its tangent is not symmetric, and the dual numbers provide
     // it
-    balance.moment(0, Vec3T<T>(rotate_back(motion.node[0].R, Vec3T<T>(moment_.template cast<T>() * (-factor)))));
+    balance.moment(0, Vec3T<T>(rotate_back(motion.node[0].R, Vec3T<T>(moment_.template cast<T>() * (-size)))));
   }
 
   Energies energies(const State& state) const override {
     const NodeState& node = state.nodes[0];
     Energies e;
-    e.external = factor(state) * (force_.dot(node.v) + moment_.dot(node.R * node.W));
+    e.external = factor(state.time) * (force_.dot(node.v) + moment_.dot(node.R * node.W));
     return e;
   }
 
   bool applied(const State& state, std::span<double> forces) const override {
-    const Vec3 force = factor(state) * force_, moment = factor(state) * (state.nodes[0].R.transpose() * moment_);
+    const double size = factor(state.time);
+    const Vec3 force = size * force_, moment = size * (state.nodes[0].R.transpose() * moment_);
     double* out = forces.data();
     if (layout().needs_any(0, NodeNeed::translation)) out = std::copy_n(force.data(), 3, out);
     std::copy_n(moment.data(), 3, out);
@@ -65,11 +74,12 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
   const std::vector<Channel>& channels() const override { return named(!force_.isZero(0), !moment_.isZero(0)); }
 
   void observe(const State& state, std::span<double> values) const override {
-    std::size_t i = 0;
-    for (const Vec3* load : {&force_, &moment_}) {
-      if (load->isZero(0)) continue;
-      for (const double component : *load) values[i++] = factor(state) * component;
-    }
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = determine(static_cast<int>(i), state.time, {});
+  }
+  std::vector<Determined> determined() const override { return by_time(*this, function_); }
+  double determine(int channel, double time, const Sources&) const override {
+    const Vec3& load = channel < 3 && !force_.isZero(0) ? force_ : moment_;
+    return factor(time) * load[channel % 3];
   }
 
   Drawing drawing() const override {
@@ -84,14 +94,14 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6> {
   }
 
  private:
-  double factor(const State& state) const { return function_ ? function_->at(state.time).f : 1.0; }
+  double factor(double time) const { return function_ ? function_->at(time).f : 1.0; }
 
   Vec3 at_, force_, moment_;
   const Function* function_;
 };
 
 /// A force without a moment, which depends on time only.
-class NodeForce final : public Element {
+class NodeForce final : public Element, public DeterminedChannels {
  public:
   NodeForce(int id, int node, const Vec3& at, const Vec3& force, const Function* function)
       : Element(id), at_(at), force_(force), function_(function) {
@@ -103,7 +113,7 @@ class NodeForce final : public Element {
   const Layout& layout() const override { return layout_; }
   bool is_linear() const override { return true; }
   void residual(const State& state, std::span<double> r) const override {
-    for (std::size_t i = 0; i < r.size(); ++i) r[i] = -factor(state) * force_[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] = -factor(state.time) * force_[static_cast<Eigen::Index>(i)];
   }
   void tangent(const State& state, Weights, std::span<double> r, std::span<double> k) const override {
     residual(state, r);
@@ -113,7 +123,7 @@ class NodeForce final : public Element {
 
   Energies energies(const State& state) const override {
     Energies e;
-    e.external = factor(state) * force_.dot(state.nodes[0].v);
+    e.external = factor(state.time) * force_.dot(state.nodes[0].v);
     return e;
   }
   bool applied(const State& state, std::span<double> forces) const override {
@@ -124,8 +134,10 @@ class NodeForce final : public Element {
 
   const std::vector<Channel>& channels() const override { return named(true, false); }
   void observe(const State& state, std::span<double> values) const override {
-    for (std::size_t i = 0; i < 3; ++i) values[i] = factor(state) * force_[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < 3; ++i) values[i] = determine(static_cast<int>(i), state.time, {});
   }
+  std::vector<Determined> determined() const override { return by_time(*this, function_); }
+  double determine(int channel, double time, const Sources&) const override { return factor(time) * force_[channel]; }
   Drawing drawing() const override {
     const Vec3 axis = force_.normalized();
     return {fmt::format(R"("shape": "arrow", "node": {}, "center": [{}, {}, {}], "axis": [{}, {}, {}])", layout_.nodes[0], at_[0],
@@ -133,7 +145,7 @@ class NodeForce final : public Element {
   }
 
  private:
-  double factor(const State& state) const { return function_ ? function_->at(state.time).f : 1.0; }
+  double factor(double time) const { return function_ ? function_->at(time).f : 1.0; }
 
   Vec3 at_, force_;
   const Function* function_;

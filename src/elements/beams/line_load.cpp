@@ -3,6 +3,7 @@
 
 #include "elements/beams/line_shape.hpp"
 #include "elements/common/building.hpp"
+#include "model/determined_channels.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::beams {
@@ -11,7 +12,7 @@ namespace {
 
 /// Load on one piece: nodal forces Σ_j ∫ N_i N_j ds q_j, with q_j the load per unit length at rest at node j.
 template <int Nodes>
-class LineLoad final : public TemplatedElement<LineLoad<Nodes>, Nodes, 6 * Nodes> {
+class LineLoad final : public TemplatedElement<LineLoad<Nodes>, Nodes, 6 * Nodes>, public DeterminedChannels {
  public:
   using Matrix = Eigen::Matrix<double, Nodes, Nodes>;
 
@@ -59,6 +60,13 @@ class LineLoad final : public TemplatedElement<LineLoad<Nodes>, Nodes, 6 * Nodes
     for (const Vec3& force : forces_at(Motion<double, Nodes>(state))) sum += force;
     for (Eigen::Index c = 0; c < 3; ++c) values[static_cast<std::size_t>(c)] = sum[c];
     values[3] = power(state);
+  }
+
+  std::vector<Determined> determined() const override {
+    return function_ && !follow_ ? std::vector<Determined>{{0}, {1}, {2}} : std::vector<Determined>();
+  }
+  double determine(int channel, double time, const Sources&) const override {
+    return function_->at(time).f * lengths_.sum() * load_[channel];
   }
 
   std::vector<Derived> derived() const override { return {{"length", lengths_.sum(), dimension::length}}; }

@@ -13,6 +13,7 @@
 #include "elements/common/building.hpp"
 #include "elements/control/control_law.hpp"
 #include "elements/control/joint_coordinate.hpp"
+#include "model/determined_channels.hpp"
 
 namespace engrane::elements::control {
 
@@ -48,7 +49,7 @@ struct ControllerOutput {
 ///
 /// A drive adds a last unknown p, the position that it imposes: coordinate − p = 0. It follows the command with a lag τ, by τ
 /// p̈ + ṗ = y for a speed and τ² p̈ + 2 τ ṗ + p = y for a position. The constraint force acts on the mechanism only.
-class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalars + 1> {
+class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalars + 1>, public DeterminedChannels {
  public:
   Controller(int id, const ControllerInput& input, const ControllerOutput& output, const ControlLaw& law)
       : Controller(id, input, output, law, Layout{}) {}
@@ -121,6 +122,12 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
   }
 
   const std::vector<Channel>& channels() const override { return channels_; }
+  std::vector<Determined> determined() const override {
+    return function_ ? std::vector<Determined>{{1}, {2, 0}} : std::vector<Determined>();
+  }
+  double determine(int channel, double time, const Sources& measured) const override {
+    return reference<double>(time) - (channel == 2 ? measured[0] : 0);
+  }
 
   void observe(const State& state, std::span<double> values) const override {
     const auto in = input_.read<double>(state.nodes, state), out = output_.read<double>(state.nodes, state);

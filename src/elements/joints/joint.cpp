@@ -501,7 +501,7 @@ void Joint::observe(const State& state, std::span<double> values) const {
 std::vector<Joint::Determined> Joint::determined() const {
   std::vector<Determined> all;
   for (std::size_t k = 0; k < parts_.coordinates.size(); ++k)
-    if (parts_.coordinates[k].drive.given()) all.push_back({static_cast<int>(2 * k)});
+    if (parts_.coordinates[k].drive.given()) all.insert(all.end(), {{static_cast<int>(2 * k)}, {static_cast<int>(2 * k) + 1}});
   all.insert(all.end(), gaps_.begin(), gaps_.end());
   return all;
 }
@@ -511,7 +511,7 @@ double Joint::determine(int channel, double time, const Sources& coordinate) con
   for (const Determined& gap : gaps_)
     if (gap.channel == channel) return owner(gap.first).stop.gap(coordinate[0]);
   const JointCoordinate& driven = owner(channel);
-  return driven.drive.coordinate(time) + driven_origin(driven);
+  return channel % 2 == 1 ? driven.drive.rate(time) : driven.drive.coordinate(time) + driven_origin(driven);
 }
 
 std::vector<Coordinate> Joint::coordinates() const {

@@ -15,6 +15,7 @@
 #include "elements/membranes/volume_shares.hpp"
 #include "elements/structural/cell.hpp"
 #include "elements/structural/cell_book.hpp"
+#include "model/determined_channels.hpp"
 
 namespace engrane::elements::membranes {
 
@@ -29,7 +30,7 @@ std::vector<Multiplier> multipliers() {
 }
 
 /// The gas. Its unknown is the volume V divided by the area A of the surface in the reference configuration.
-class Gas final : public Element {
+class Gas final : public Element, public DeterminedChannels {
  public:
   Gas(int id, const GasLaw& law, double area, double volume, double mass)
       : Element(id), law_(law), area_(area), volume_(volume), mass_(mass) {
@@ -83,12 +84,21 @@ class Gas final : public Element {
     values[0] = law_.pressure(volume(state), state.time).value;
     values[1] = values[0] - law_.ambient;
     values[2] = volume(state);
-    if (mass_ > 0) values[3] = mass_ * (law_.function ? law_.function->at(state.time).f : 1);
+    if (mass_ > 0) values[3] = mass(state.time);
+  }
+  std::vector<Determined> determined() const override {
+    if (!law_.function) return {};
+    return mass_ > 0 ? std::vector<Determined>{{0, 2}, {1, 2}, {3}} : std::vector<Determined>{{0, 2}, {1, 2}};
+  }
+  double determine(int channel, double time, const Sources& volume) const override {
+    if (channel == 3) return mass(time);
+    return law_.pressure(volume[0], time).value - (channel == 1 ? law_.ambient : 0);
   }
   std::vector<Derived> derived() const override { return {{"volume", volume_, {3, 0, 0, 0}}, {"surface", area_, {2, 0, 0, 0}}}; }
 
  private:
   double volume(const State& state) const { return state.scalars[0] * area_; }
+  double mass(double time) const { return mass_ * (law_.function ? law_.function->at(time).f : 1); }
 
   Layout layout_;
   GasLaw law_;
