@@ -77,7 +77,7 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6>, public Determine
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = determine(static_cast<int>(i), state.time, {});
   }
   std::vector<Determined> determined() const override { return by_time(*this, function_); }
-  double determine(int channel, double time, const Sources&) const override {
+  double determine(int channel, double time, std::span<const double>) const override {
     const Vec3& load = channel < 3 && !force_.isZero(0) ? force_ : moment_;
     return factor(time) * load[channel % 3];
   }
@@ -137,7 +137,7 @@ class NodeForce final : public Element, public DeterminedChannels {
     for (std::size_t i = 0; i < 3; ++i) values[i] = determine(static_cast<int>(i), state.time, {});
   }
   std::vector<Determined> determined() const override { return by_time(*this, function_); }
-  double determine(int channel, double time, const Sources&) const override { return factor(time) * force_[channel]; }
+  double determine(int channel, double time, std::span<const double>) const override { return factor(time) * force_[channel]; }
   Drawing drawing() const override {
     const Vec3 axis = force_.normalized();
     return {fmt::format(R"("shape": "arrow", "node": {}, "center": [{}, {}, {}], "axis": [{}, {}, {}])", layout_.nodes[0], at_[0],

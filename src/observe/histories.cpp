@@ -127,28 +127,30 @@ void Histories::find_known() {
       const std::vector<DeterminedChannels::Determined> all = known ? known->determined() : decltype(known->determined())();
       for (const int place : tables_[t].places) {
         for (const auto& d : all)
-          if (d.channel == place)
-            known_.push_back({column, part, d, known,
-                              d.first < 0 ? dimension::none : element.channels()[static_cast<std::size_t>(d.first)].dimension});
+          if (d.channel == place) {
+            const Dimension of_source =
+                d.sources.empty() ? dimension::none : element.channels()[static_cast<std::size_t>(d.sources[0])].dimension;
+            known_.push_back({column, part, d, known, of_source, sources_.size()});
+            sources_.resize(sources_.size() + d.sources.size());
+          }
         ++column;
       }
     }
-  sources_.assign(2 * known_.size(), 0.0);
 }
 
 const std::vector<double>& Histories::sources(const Configuration& c) {
   int seen = -1;
-  for (std::size_t i = 0; i < known_.size() && assembler_.rank() == 0; ++i) {
-    const DeterminedChannels::Determined& determined = known_[i].determined;
-    if (determined.first < 0) continue;
-    const int part = known_[i].part;
+  if (sources_.empty() || assembler_.rank() != 0) return sources_;
+  for (const Known& known : known_) {
+    const std::vector<int>& channels = known.determined.sources;
+    if (channels.empty()) continue;
+    const int part = known.part;
     if (std::exchange(seen, part) != part) {
       const Element& element = *assembler_.model().parts[static_cast<std::size_t>(part)].element;
       element_.resize(element.channels().size());
       element.observe(assembler_.view(part, c), element_);
     }
-    sources_[2 * i] = element_[static_cast<std::size_t>(determined.first)];
-    if (determined.second >= 0) sources_[2 * i + 1] = element_[static_cast<std::size_t>(determined.second)];
+    for (std::size_t i = 0; i < channels.size(); ++i) sources_[known.first + i] = element_[static_cast<std::size_t>(channels[i])];
   }
   return sources_;
 }

@@ -65,15 +65,17 @@ class Histories {
     int part;
     DeterminedChannels::Determined determined;
     const DeterminedChannels* element;
-    Dimension of_source;  ///< dimension of the source channels, if it has any
+    Dimension of_source;  ///< dimension of the first source channel, if it has any
+    std::size_t first;    ///< place of its sources in sources()
 
+    /// `sources`: of all known().
     double at(double time, std::span<const double> sources) const {
-      return element->determine(determined.channel, time, {sources[0], sources[1]});
+      return element->determine(determined.channel, time, sources.subspan(first, determined.sources.size()));
     }
   };
   const std::vector<Known>& known() const { return known_; }
-  /// Values of the source channels of known(), two for each, on rank 0, which holds the whole configuration; 0 where there is
-  /// none. They need not be among those that are kept: a selection does not change results.
+  /// Values of the source channels of known(), one after another, on rank 0, which holds the whole configuration. They need not
+  /// be among those that are kept: a selection does not change results.
   const std::vector<double>& sources(const Configuration& c);
   /// Number of tables of elements.
   std::size_t part_tables() const { return part_tables_; }

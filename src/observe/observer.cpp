@@ -291,9 +291,9 @@ void Observer::put_known(const Configuration& c, bool smooth, std::span<const do
   const std::vector<Histories::Known>& known = histories_.known();
   if (known.empty()) return;
   const std::vector<double>* moved = smooth ? nullptr : &histories_.sources(c);
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    const bool from_motion = moved && of_motion(known[i].of_source);
-    values_[known[i].column] = known[i].at(c.load_time(), (from_motion ? std::span(*moved) : sources).subspan(2 * i, 2));
+  for (const Histories::Known& one : known) {
+    const bool from_motion = moved && of_motion(one.of_source);
+    values_[one.column] = one.at(c.load_time(), from_motion ? std::span<const double>(*moved) : sources);
   }
 }
 

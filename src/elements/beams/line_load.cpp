@@ -65,7 +65,7 @@ class LineLoad final : public TemplatedElement<LineLoad<Nodes>, Nodes, 6 * Nodes
   std::vector<Determined> determined() const override {
     return function_ && !follow_ ? std::vector<Determined>{{0}, {1}, {2}} : std::vector<Determined>();
   }
-  double determine(int channel, double time, const Sources&) const override {
+  double determine(int channel, double time, std::span<const double>) const override {
     return function_->at(time).f * lengths_.sum() * load_[channel];
   }
 

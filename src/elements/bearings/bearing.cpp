@@ -13,6 +13,7 @@
 #include "elements/common/held_point.hpp"
 #include "elements/common/law_corners.hpp"
 #include "elements/common/material.hpp"
+#include "model/determined_channels.hpp"
 #include "model/templated_element.hpp"
 
 namespace engrane::elements::bearings {
@@ -24,7 +25,7 @@ namespace {
 ///
 /// Coordinates: displacements 1 to 3, and the tilts of the shaft's axis n about 2 and 3, θ₂ = −n₃ and θ₃ = n₂. The fourth
 /// coordinate, the spin, has a rate only.
-class Bearing final : public TemplatedElement<Bearing, 2, 12> {
+class Bearing final : public TemplatedElement<Bearing, 2, 12>, public DeterminedChannels {
  public:
   struct Parts {
     SpeedMatrices stiffness, damping;
@@ -127,6 +128,18 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
     values[next++] = loads.loaded;
   }
 
+  /// Which ball carries most changes between two instants.
+  std::vector<Determined> determined() const override {
+    if (!parts_.rolling) return {};
+    return {{largest_load, {0, 1, 2, 3, 4}}, {largest_load + 1, {0, 1, 2, 3, 4}}};
+  }
+  double determine(int channel, double, std::span<const double> coordinates) const override {
+    RollingElements::Five<double> q{};
+    std::copy_n(coordinates.begin(), q.size(), q.begin());
+    const RollingElements::Loads loads = parts_.rolling->loads(q);
+    return channel == largest_load ? loads.force : loads.pressure;
+  }
+
   std::vector<Derived> derived() const override {
     if (!parts_.rolling) return {};
     return {{"CONTACT_ANGLE", parts_.rolling->contact_angle(), dimension::angle},
@@ -137,6 +150,7 @@ class Bearing final : public TemplatedElement<Bearing, 2, 12> {
 
  private:
   static constexpr std::size_t spin = 3;
+  static constexpr int largest_load = 14;  ///< its channel; that of the largest pressure is next
 
   template <class T>
   struct Place {

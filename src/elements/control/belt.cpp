@@ -99,8 +99,8 @@ class Belt final : public TemplatedElement<Belt, 2, 13>, public DeterminedChanne
     if (law_.slips) GripState::holds_at(Vec3::Zero()).write(layout(), history, 0);
   }
   /// The tight side is the larger of the tensions.
-  std::vector<Determined> determined() const override { return {{2, 0, 1}, {3, 0, 1}}; }
-  double determine(int channel, double, const Sources& tensions) const override {
+  std::vector<Determined> determined() const override { return {{2, {0, 1}}, {3, {0, 1}}}; }
+  double determine(int channel, double, std::span<const double> tensions) const override {
     return channel == 2 ? std::max(tensions[0], tensions[1]) : std::min(tensions[0], tensions[1]);
   }
   void grip_limits(const State& state, std::span<double> limits) const override {

@@ -123,9 +123,9 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
 
   const std::vector<Channel>& channels() const override { return channels_; }
   std::vector<Determined> determined() const override {
-    return function_ ? std::vector<Determined>{{1}, {2, 0}} : std::vector<Determined>();
+    return function_ ? std::vector<Determined>{{1}, {2, {0}}} : std::vector<Determined>();
   }
-  double determine(int channel, double time, const Sources& measured) const override {
+  double determine(int channel, double time, std::span<const double> measured) const override {
     return reference<double>(time) - (channel == 2 ? measured[0] : 0);
   }
 

@@ -499,17 +499,17 @@ void Joint::observe(const State& state, std::span<double> values) const {
 }
 
 std::vector<Joint::Determined> Joint::determined() const {
-  std::vector<Determined> all;
+  std::vector<Determined> all = gaps_;
   for (std::size_t k = 0; k < parts_.coordinates.size(); ++k)
-    if (parts_.coordinates[k].drive.given()) all.insert(all.end(), {{static_cast<int>(2 * k)}, {static_cast<int>(2 * k) + 1}});
-  all.insert(all.end(), gaps_.begin(), gaps_.end());
+    if (parts_.coordinates[k].drive.given())
+      for (const int i : {0, 1}) all.push_back({static_cast<int>(2 * k) + i});
   return all;
 }
 
-double Joint::determine(int channel, double time, const Sources& coordinate) const {
+double Joint::determine(int channel, double time, std::span<const double> coordinate) const {
   const auto owner = [this](int of) -> const JointCoordinate& { return parts_.coordinates[static_cast<std::size_t>(of / 2)]; };
   for (const Determined& gap : gaps_)
-    if (gap.channel == channel) return owner(gap.first).stop.gap(coordinate[0]);
+    if (gap.channel == channel) return owner(gap.sources[0]).stop.gap(coordinate[0]);
   const JointCoordinate& driven = owner(channel);
   return channel % 2 == 1 ? driven.drive.rate(time) : driven.drive.coordinate(time) + driven_origin(driven);
 }
@@ -581,7 +581,7 @@ void Joint::name_channels() {
     }
     if (c.stop.given()) {
       channels_.push_back({c.names.stop, effort, "of the stops on B; positive pushes the coordinate up"});
-      if (c.stop.two_sided()) gaps_.push_back({static_cast<int>(channels_.size()), static_cast<int>(2 * k)});
+      if (c.stop.two_sided()) gaps_.push_back({static_cast<int>(channels_.size()), {static_cast<int>(2 * k)}});
       channels_.push_back({c.names.gap, length ? dimension::length : dimension::angle, "to the nearer stop; negative: pressed"});
     }
   }

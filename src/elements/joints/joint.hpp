@@ -91,7 +91,7 @@ class Joint final : public TemplatedElement<Joint, 2, 20>, public CoordinateOwne
   void observe(const State& state, std::span<double> values) const override;
   /// Coordinates of drives, and gaps between two stops.
   std::vector<Determined> determined() const override;
-  double determine(int channel, double time, const Sources& coordinate) const override;
+  double determine(int channel, double time, std::span<const double> coordinate) const override;
   /// Standard joint types that constrain a subset of the same directions.
   std::vector<Release> releases() const override;
   /// Lengths of the arms.

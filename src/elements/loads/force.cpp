@@ -51,9 +51,9 @@ class LineForce final : public TemplatedElement<LineForce, 2, 6>, public Determi
   }
 
   std::vector<Determined> determined() const override {
-    return function_ ? std::vector<Determined>{{0}, {3, 2}} : std::vector<Determined>();
+    return function_ ? std::vector<Determined>{{0}, {3, {2}}} : std::vector<Determined>();
   }
-  double determine(int channel, double time, const Sources& speed) const override {
+  double determine(int channel, double time, std::span<const double> speed) const override {
     return channel == 0 ? push(time) : push(time) * speed[0];
   }
 
@@ -118,9 +118,9 @@ class NodeForce final : public TemplatedElement<NodeForce, 1, 6>, public Determi
   }
 
   std::vector<Determined> determined() const override {
-    return function_ ? std::vector<Determined>{{0}, {2, 1}} : std::vector<Determined>();
+    return function_ ? std::vector<Determined>{{0}, {2, {1}}} : std::vector<Determined>();
   }
-  double determine(int channel, double time, const Sources& speed) const override {
+  double determine(int channel, double time, std::span<const double> speed) const override {
     return channel == 0 ? size(time) : size(time) * speed[0];
   }
 

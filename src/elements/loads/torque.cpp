@@ -56,9 +56,9 @@ class Torque final : public TemplatedElement<Torque, 2, 6>, public DeterminedCha
   }
 
   std::vector<Determined> determined() const override {
-    return function_ ? std::vector<Determined>{{0}, {2, 1}} : std::vector<Determined>();
+    return function_ ? std::vector<Determined>{{0}, {2, {1}}} : std::vector<Determined>();
   }
-  double determine(int channel, double time, const Sources& speed) const override {
+  double determine(int channel, double time, std::span<const double> speed) const override {
     return channel == 0 ? size(time) : size(time) * speed[0];
   }
 

@@ -88,9 +88,9 @@ class Gas final : public Element, public DeterminedChannels {
   }
   std::vector<Determined> determined() const override {
     if (!law_.function) return {};
-    return mass_ > 0 ? std::vector<Determined>{{0, 2}, {1, 2}, {3}} : std::vector<Determined>{{0, 2}, {1, 2}};
+    return mass_ > 0 ? std::vector<Determined>{{0, {2}}, {1, {2}}, {3}} : std::vector<Determined>{{0, {2}}, {1, {2}}};
   }
-  double determine(int channel, double time, const Sources& volume) const override {
+  double determine(int channel, double time, std::span<const double> volume) const override {
     if (channel == 3) return mass(time);
     return law_.pressure(volume[0], time).value - (channel == 1 ? law_.ambient : 0);
   }

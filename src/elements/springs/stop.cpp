@@ -192,9 +192,9 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12>, public Dete
   }
 
   std::vector<Determined> determined() const override {
-    return range_.two_sided() ? std::vector<Determined>{{2, 0}} : std::vector<Determined>();
+    return range_.two_sided() ? std::vector<Determined>{{2, {0}}} : std::vector<Determined>();
   }
-  double determine(int, double, const Sources& coordinate) const override { return range_.gap(coordinate[0]); }
+  double determine(int, double, std::span<const double> coordinate) const override { return range_.gap(coordinate[0]); }
 
   std::vector<Derived> derived() const override {
     std::vector<Derived> list;
