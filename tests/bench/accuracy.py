@@ -12,7 +12,7 @@ the process with all it does, the estimate included, without that of a run of a 
 --runs, in turn.
 
 Prints a Markdown table of the four settings; --tolerances: one of TOL, with the TOL that each setting
-would have needed; --picture: error over processor time of three models; --slopes: one of fixed steps of
+would have needed; --picture: error over processor time of the models; --slopes: one of fixed steps of
 each scheme, with errors of positions, velocities and forces and their slopes.
 """
 
@@ -346,6 +346,14 @@ class Bench:
         run = Run(times[even], values, max(seconds - self.start, 0.001), report["steps"], report)
         return run.compare(self.truth, model, self.units) if compare else run
 
+    def point(self, analysis: str, stepping: str) -> tuple[float, float] | None:
+        """Seconds and error, if the run comes to its end."""
+        try:
+            run = self.run(analysis, stepping)
+        except RuntimeError:
+            return None
+        return run.seconds, run.error
+
 
 def cell(value: float) -> str:
     return f"{value:.1e}" if math.isfinite(value) else ""
@@ -476,7 +484,6 @@ def slopes(bench: Bench) -> list[str]:
     return rows
 
 
-PICTURE = ("spur", "andrews", "crank")
 LADDER = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 
 
@@ -488,9 +495,11 @@ def picture(binary: Path, folder: Path, models: list[Model], path: Path, runs: i
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    size = (13 / 3 * len(models), 4.6)
-    figure, axes = plt.subplots(1, len(models), figsize=size, sharey=True, layout="constrained")
-    for axis, model in zip(axes, models, strict=True):
+    rows = -(-len(models) // 3)
+    figure, axes = plt.subplots(
+        rows, 3, figsize=(13, 4.3 * rows), sharey=True, layout="constrained", squeeze=False
+    )
+    for axis, model in zip(axes.flat, models, strict=False):
         settings = [rung for rung in SETTINGS if not (model.waves and rung == "REFERENCE")]
         ladder = LADDER[:-1] if model.waves else LADDER
         bench = Bench(binary, folder, model, runs)
@@ -514,19 +523,24 @@ def picture(binary: Path, folder: Path, models: list[Model], path: Path, runs: i
             ),
         )
         for label, mark, tries in lines:
-            points = [(run.seconds, run.error) for run in (bench.run(*words) for words in tries)]
-            axis.loglog(*zip(*points, strict=True), mark, label=label, markersize=7 if "D" in mark else 4)
+            points = [bench.point(*words) for words in tries]
+            ran = [point for point in points if point]
+            axis.loglog(*zip(*ran, strict=True), mark, label=label, markersize=7 if "D" in mark else 4)
             if "D" in mark:
-                for (x, y), rung in zip(points, settings, strict=True):
-                    axis.annotate(rung, (x, y), xytext=(6, 3), textcoords="offset points", fontsize=8)
+                for place, rung in zip(points, settings, strict=True):
+                    if place:
+                        axis.annotate(rung, place, xytext=(6, 3), textcoords="offset points", fontsize=8)
         own = bench.run(None, f"H {model.step!r}")
         axis.plot(own.seconds, own.error, "k*", markersize=11, label="the deck as it is")
         axis.set(title=model.title, xlabel="processor time (s)")
         axis.margins(x=0.22)
         axis.grid(True, which="major", alpha=0.3)
-    axes[0].set_ylabel("error over range (rms over time, worst of x, v, force)")
-    axes[0].legend(fontsize=7.5, loc="lower left")
-    figure.savefig(path, dpi=110)
+    for axis in axes.flat[len(models) :]:
+        axis.remove()
+    for axis in axes[:, 0]:
+        axis.set_ylabel("error over range (rms over time, worst of x, v, force)")
+    axes[0][0].legend(fontsize=7.5, loc="lower left")
+    figure.savefig(path, dpi=100)
 
 
 def main() -> None:
@@ -540,12 +554,12 @@ def main() -> None:
     parser.add_argument("--no-dial", action="store_true")
     parser.add_argument("--tolerances", nargs="*", type=float, default=[])
     parser.add_argument("--companions", nargs="*", type=float, default=[], help="TOL of runs with companions")
-    parser.add_argument("--picture", type=Path, help="draw the models, or three, and print nothing")
+    parser.add_argument("--picture", type=Path, help="draw the models and print nothing")
     parser.add_argument("--slopes", action="store_true")
     a = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         if a.picture:
-            drawn = [known[name] for name in a.models or PICTURE]
+            drawn = [known[name] for name in a.models or known]
             picture(a.binary.resolve(), Path(folder), drawn, a.picture, a.runs)
             return
         for name in a.models or known:

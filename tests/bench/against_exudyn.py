@@ -4,6 +4,7 @@
     python -m venv /tmp/exudyn && /tmp/exudyn/bin/pip install exudyn numpy h5py
     /tmp/exudyn/bin/python tests/bench/against_exudyn.py build/bin/engrane
         [--models crank chain3 chain20 chain100 valves top] [--runs 5] [--more] [--newton 1e-8]
+        [--picture docs/figures/beside_exudyn.png]
 
 Models (paired_models.py, exudyn_peer.py): spatial slider-crank, chains of 3, 20 and 100 links, a valve
 train, the heavy top. Both programs have the same bodies, joints, start and span; the cam is in Exudyn a lift
@@ -19,7 +20,8 @@ rounds. Ratios at equal error: both curves are interpolated in logarithms, in ea
 least and largest of the rounds.
 
 --more: bodies of Exudyn in rotation vectors, its trapezoidal rule, and the dial of this program. --newton:
-relative tolerance of Exudyn's iterations in place of its default.
+relative tolerance of Exudyn's iterations in place of its default. --picture: work-precision diagrams of the
+models, the settings of the dial among them (needs matplotlib).
 """
 
 import argparse
@@ -45,6 +47,7 @@ SOLVERS = ("EXUdense", "EigenDense", "EigenSparse")
 KEPT, FULL = "Exudyn, modified Newton", "Exudyn, full Newton"
 KLU, MUMPS = "CHUNG KEPT, KLU", "CHUNG KEPT, MUMPS"
 RADAU, CONTROLLED = "RADAU TOL", "CHUNG TOL"
+DIAL = "the dial, with its estimate"
 TARGETS = [d * 10.0**-p for p in range(1, 9) for d in (1, 0.3)]
 
 
@@ -169,7 +172,7 @@ def fastest_solver(name: str, model: Model, kept: bool) -> str:
     return min(times, key=lambda solver: times[solver])
 
 
-def curves(name: str, own: Own, more: bool, newton: float | None) -> dict[str, Curve]:
+def curves(name: str, own: Own, more: bool, dial: bool, newton: float | None) -> dict[str, Curve]:
     model = MODELS[name]
 
     def fixed(analysis: str) -> Curve:
@@ -198,14 +201,38 @@ def curves(name: str, own: Own, more: bool, newton: float | None) -> dict[str, C
         CONTROLLED: controlled(f"RHO {RHO} SOLVER AUTO", "1e-2 1e-3 1e-4 1e-5 1e-6"),
         RADAU: controlled("SCHEME RADAU SOLVER AUTO", "1e-2 1e-3 1e-4 1e-5 1e-6 1e-7"),
     }
+    if dial:
+        step = model.span / 1000
+        words = ("FAST", "NORMAL", "FINE", "REFERENCE")
+        runs = [(word, lambda word=word: own.run(f"ACCURACY {word}", f"H {step!r}")) for word in words]
+        found[DIAL] = Curve(runs, True)
     if more:
         found["Exudyn, rotation vectors"] = peer(kept=True, lie=True, solver=kept)
         found["Exudyn, trapezoidal, index 2"] = peer(kept=True, scheme="TrapezoidalIndex2", solver=kept)
-        step = model.span / 1000
-        words = ("FAST", "NORMAL", "FINE", "REFERENCE")
-        dial = [(word, lambda word=word: own.run(f"ACCURACY {word}", f"H {step!r}")) for word in words]
-        found["the dial, with its estimate"] = Curve(dial, True)
     return found
+
+
+def draw(drawn: dict[str, dict[str, Curve]], path: Path) -> None:
+    """Error over processor time of each model, three in a row."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    marks = {KEPT: "o-", FULL: "o:", KLU: "s-", MUMPS: "s:", RADAU: "^-", DIAL: "D--"}
+    rows = -(-len(drawn) // 3)
+    figure, axes = plt.subplots(rows, 3, figsize=(13, 4.1 * rows), layout="constrained", squeeze=False)
+    for axis, (title, found) in zip(axes.flat, drawn.items(), strict=False):
+        for label, mark in marks.items():
+            curve = found[label]
+            points = [(s, e) for s, e in zip(curve.least, curve.errors, strict=True) if np.isfinite(e)]
+            axis.loglog(*zip(*points, strict=True), mark, label=label, markersize=7 if label == DIAL else 4)
+        axis.set(title=title, xlabel="processor time (s)", ylabel="error over range")
+        axis.grid(True, which="major", alpha=0.3)
+    for axis in axes.flat[len(drawn) :]:
+        axis.remove()
+    axes[0][0].legend(fontsize=7.5, loc="lower left")
+    figure.savefig(path, dpi=100)
 
 
 def ratio_rows(title: str, found: dict[str, Curve]) -> list[str]:
@@ -243,14 +270,16 @@ def main() -> None:
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--more", action="store_true")
     parser.add_argument("--newton", type=float)
+    parser.add_argument("--picture", type=Path)
     a = parser.parse_args()
+    drawn = {}
     with tempfile.TemporaryDirectory() as folder:
         for name in a.models:
             model = MODELS[name]
             print(f"\n### {model.title}\n", flush=True)
             own = Own(a.binary.resolve(), Path(folder), name)
             truth = own.run("SCHEME RADAU SOLVER KLU", f"H {model.span / model.intervals!r} TOL 1e-9")[1]
-            found = curves(name, own, a.more, a.newton)
+            found = drawn[model.title] = curves(name, own, a.more, a.more or bool(a.picture), a.newton)
             for _ in range(a.runs):
                 start = own.start()
                 for curve in found.values():
@@ -265,6 +294,8 @@ def main() -> None:
             print(f"| model | error | Exudyn, s | {pairs} |")
             print("|---|---|---:|---|---|---|---|")
             print("\n".join(ratio_rows(model.title, found)), flush=True)
+    if a.picture:
+        draw(drawn, a.picture)
 
 
 if __name__ == "__main__":
