@@ -42,7 +42,7 @@ Schedule::Due Instants::show(const std::function<void(double, const Schedule::Du
       c_ = end_;
       c_.time = time;
     }
-    const Schedule::Due due = schedule_.beside_even(time) ? Schedule::Due() : schedule_.at(time, even, true, false);
+    const Schedule::Due due = schedule_.within(time);
     restart = restart || due.restart;
     observer_.between(in_space_(c_), within_ != nullptr);
     if (due.frame) find_fields(c_);

@@ -13,8 +13,9 @@ namespace engrane::app {
 class Schedule {
  public:
   Schedule(const deck::SteppingCard& stepping, const deck::ArchiveCard& archive);
-  /// Sets instants within controlled steps at which values are needed in addition to the even ones; nothing else is due there.
-  void ask(std::vector<double> times);
+  /// Sets instants within controlled steps at which values are needed in addition to the even ones: at `times`, and where each
+  /// step is divided into `parts`. Nothing else is due there.
+  void ask(std::vector<double> times, int parts);
 
   struct Due {
     bool sample = false, frame = false, restart = false;
@@ -22,16 +23,18 @@ class Schedule {
   /// What is due at an accepted step, including the start. `regular` false: an instant between regular steps, such as an event.
   /// Spectra need samples at equal intervals, so only energies and checks use it.
   Due at(double time, double step, bool regular, bool last);
+  /// What is due at an instant of between().
+  Due within(double time);
 
-  /// Output instants between the two ends of a controlled step, ascending: those of ask(), and the even ones unless histories
-  /// are kept of every step.
+  /// Output instants between the two ends of a controlled step, ascending: those of ask(), and the even ones, at which samples
+  /// or fields are due: the former unless histories are kept of every step, the latter if `.SAI FIELDS` is given.
   std::vector<double> between(double from, double to) const;
-  /// Whether the time is an even instant or the end of the run.
+  /// Whether something is due at the end of a controlled step at this time.
   bool even(double time) const;
   /// Whether the time is one of ask() but not an even instant.
-  bool beside_even(double time) const;
-  /// The interval between even instants, or `step` if results are kept at the ends of steps.
-  double even_step(double step) const { return even_ > 0 ? even_ : step; }
+  bool beside_even(double time) const { return !on_any(time); }
+  /// The interval between samples, or between fields where histories are kept of every step, or `step`.
+  double even_step(double step) const { return even_.empty() ? step : even_.front(); }
   /// Whether steps are controlled by their error (`.SUB TOL`).
   bool controlled() const { return controlled_; }
 
@@ -48,12 +51,19 @@ class Schedule {
     double next = 0;
     bool due(double time, double start);
   };
+  /// What is due at an even instant of a controlled step, or at its end if histories are kept of every step (`at_end`).
+  Due even_due(double time, double early, bool at_end, bool last);
+  bool on(double interval, double time) const;
+  bool on_any(double time) const;
+
   double start_, end_, step_;
   bool controlled_;
   std::vector<double> wanted_;  ///< instants of ask(), ascending
-  double even_ = 0;             ///< interval between even instants; 0: results at the ends of steps
+  int parts_ = 1;
+  std::vector<double> even_;    ///< intervals between even instants of controlled steps: of samples, then of fields
   double asked_ = 0;            ///< last regular time passed to at(), including the margin for early times
   Interval sample_, frame_;
+  bool fields_even_ = false;  ///< fields of controlled steps are due at even instants of their own
   std::optional<Interval> restart_;
 };
 

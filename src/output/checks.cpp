@@ -14,8 +14,6 @@ namespace {
 
 constexpr double default_tolerance = 1e-6;
 
-bool is_value(const deck::CheckCard& card) { return card.measure.is("VALUE") || !card.measure.given(); }
-
 /// Value at `time` of the polynomial through the samples (Neville's algorithm).
 template <class Samples>
 double interpolated(const Samples& samples, double time) {
@@ -31,12 +29,14 @@ double interpolated(const Samples& samples, double time) {
 
 }  // namespace
 
+bool is_over_time(const deck::CheckCard& card) { return card.measure.given() && !card.measure.is("VALUE"); }
+
 std::string check_title(const deck::CheckCard& card) {
   std::string title = card.element ? "ELEMENT " + std::to_string(*card.element) + " "
                       : card.node  ? "NODE " + std::to_string(*card.node) + " "
                                    : "RUN ";
   title += card.quantity;
-  if (is_value(card)) return title + (card.time ? " at t = " + format_number(*card.time) : " at the end");
+  if (!is_over_time(card)) return title + (card.time ? " at t = " + format_number(*card.time) : " at the end");
   title = card.measure.tag + " of " + title;
   if (card.window.size() == 2) title += " from t = " + format_number(card.window[0]) + " to " + format_number(card.window[1]);
   return title;
@@ -45,6 +45,8 @@ std::string check_title(const deck::CheckCard& card) {
 Checks::Checks(std::vector<Resolved> checks) {
   for (Resolved& check : checks) {
     checks_.emplace_back();
+    if (const std::vector<double>& limits = check.card.window; limits.size() == 2)
+      checks_.back().window = Window(limits[0], limits[1]);
     checks_.back().resolved = std::move(check);
   }
 }
@@ -53,7 +55,7 @@ double Checks::slack(double time) const {
   return std::max(1e-9 * last_step_, 8 * std::numeric_limits<double>::epsilon() * std::abs(time));
 }
 
-void Checks::observe(double time, std::span<const double> values, bool regular) {
+void Checks::observe(double time, std::span<const double> values, bool regular, bool corner) {
   // a repeated time must not change the step length
   const bool repeated = started_ && time <= last_time_;
   if (started_ && !repeated) last_step_ = time - last_time_;
@@ -61,11 +63,10 @@ void Checks::observe(double time, std::span<const double> values, bool regular) 
     if (!m.seen) m.first_time = time;
     assert(m.resolved.channel < values.size());
     const Sample sample{time, values[m.resolved.channel]};
-    if (is_value(m.resolved.card)) {
-      if (regular) observe_value(m, sample);
-    } else {
-      observe_window(m, sample);
-    }
+    if (is_over_time(m.resolved.card))
+      m.window.add(time, sample.value, corner, slack(time));
+    else
+      observe_value(m, sample, regular, corner);
     m.last_value = sample.value;
     m.seen = true;
   }
@@ -73,8 +74,8 @@ void Checks::observe(double time, std::span<const double> values, bool regular) 
   started_ = true;
 }
 
-void Checks::observe_value(Measured& m, Sample sample) const {
-  if (!m.resolved.card.time) return;  // the last sample is kept for every check
+void Checks::observe_value(Measured& m, Sample sample, bool regular, bool corner) const {
+  if (!m.resolved.card.time || !(regular || corner)) return;  // the last sample is kept for every check
   const double wanted = *m.resolved.card.time;
   const auto put = [&sample](std::vector<Sample>& samples) {
     if (!samples.empty() && sample.time <= samples.back().time) samples.pop_back();
@@ -86,38 +87,13 @@ void Checks::observe_value(Measured& m, Sample sample) const {
   } else if (m.exact) {
     return;
   } else if (sample.time < wanted) {
+    if (corner) m.before.clear();
     put(m.before);
     if (m.before.size() > 3) m.before.erase(m.before.begin());
-  } else if (m.after.size() < 3 || sample.time <= m.after.back().time) {
+  } else if (!m.closed && (m.after.size() < 3 || sample.time <= m.after.back().time)) {
     put(m.after);
+    m.closed = corner;
   }
-}
-
-void Checks::observe_window(Measured& m, Sample sample) const {
-  const deck::CheckCard& card = m.resolved.card;
-  const bool whole = card.window.size() != 2;
-  const double from = whole ? -std::numeric_limits<double>::infinity() : card.window[0];
-  const double to = whole ? std::numeric_limits<double>::infinity() : card.window[1];
-  const auto see = [&m](double value) {
-    m.least = m.any ? std::min(m.least, value) : value;
-    m.largest = m.any ? std::max(m.largest, value) : value;
-    m.any = true;
-  };
-  const auto inside = [&](double t) { return t >= from - slack(from) && t <= to + slack(to); };
-  const Sample last{last_time_, m.last_value};
-  if (m.seen && sample.time > last.time) {
-    const double a = std::max(from, last.time), b = std::min(to, sample.time);
-    if (b > a) {
-      const double slope = (sample.value - last.value) / (sample.time - last.time);
-      const double ya = last.value + slope * (a - last.time), yb = last.value + slope * (b - last.time);
-      see(ya);
-      see(yb);
-      m.area += (b - a) * (ya + yb) / 2;
-      m.squares += (b - a) * (ya * ya + ya * yb + yb * yb) / 3;
-      m.covered += b - a;
-    }
-  }
-  if (inside(sample.time)) see(sample.value);
 }
 
 double Checks::value(const Measured& m, std::string& remark) const {
@@ -137,7 +113,7 @@ double Checks::value(const Measured& m, std::string& remark) const {
     remark = "the run started at t = " + format_number(m.first_time);
     return true;
   };
-  if (is_value(card)) {
+  if (!is_over_time(card)) {
     if (!card.time) return m.last_value;
     if (too_late(*card.time) || too_early(*card.time)) return nothing;
     // two samples on either side, or more on one side near the ends of the run
@@ -149,12 +125,11 @@ double Checks::value(const Measured& m, std::string& remark) const {
     return interpolated(around, *card.time);
   }
   if (card.window.size() == 2 && (too_late(card.window[1]) || too_early(card.window[0]))) return nothing;
-  if (card.measure.is("MIN")) return m.least;
-  if (card.measure.is("MAX")) return m.largest;
-  if (card.measure.is("AMPLITUDE")) return (m.largest - m.least) / 2;
-  // a single instant is its own mean
-  if (m.covered == 0) return card.measure.is("RMS") ? std::abs(m.last_value) : m.last_value;
-  return card.measure.is("RMS") ? std::sqrt(m.squares / m.covered) : m.area / m.covered;
+  const Window::Measures found = m.window.measures();
+  if (card.measure.is("MIN")) return found.least;
+  if (card.measure.is("MAX")) return found.largest;
+  if (card.measure.is("AMPLITUDE")) return (found.largest - found.least) / 2;
+  return card.measure.is("RMS") ? found.rms : found.mean;
 }
 
 CheckResult Checks::result(const Measured& m) const {
@@ -176,12 +151,13 @@ void Checks::save(Snapshot& snapshot) const {
   if (!started_) return;
   snapshot.put("checks/times", {last_time_, last_step_});
   for (const Measured& m : checks_) {
-    std::vector<double> state{
-        m.first_time, m.last_value, m.least,           m.largest,           m.area,
-        m.squares,    m.covered,    m.any ? 1.0 : 0.0, m.exact ? 1.0 : 0.0, static_cast<double>(m.before.size())};
+    std::vector<double> state{m.first_time, m.last_value, m.exact ? 1.0 : 0.0, m.closed ? 1.0 : 0.0,
+                              static_cast<double>(m.before.size())};
     for (const auto* samples : {&m.before, &m.after})
       for (const Sample& sample : *samples) state.insert(state.end(), {sample.time, sample.value});
-    snapshot.put("checks/" + check_title(m.resolved.card), std::move(state));
+    const std::string name = "checks/" + check_title(m.resolved.card);
+    snapshot.put(name, std::move(state));
+    snapshot.put(name + " window", m.window.save());
   }
 }
 
@@ -198,17 +174,13 @@ void Checks::load(const Snapshot& snapshot) {
     m.seen = true;
     m.first_time = state.at(0);
     m.last_value = state.at(1);
-    m.least = state.at(2);
-    m.largest = state.at(3);
-    m.area = state.at(4);
-    m.squares = state.at(5);
-    m.covered = state.at(6);
-    m.any = state.at(7) != 0;
-    m.exact = state.at(8) != 0;
-    const auto before = static_cast<std::size_t>(state.at(9));
+    m.exact = state.at(2) != 0;
+    m.closed = state.at(3) != 0;
+    const auto before = static_cast<std::size_t>(state.at(4));
     m.before.clear();
     m.after.clear();
-    for (std::size_t i = 10; i + 1 < state.size(); i += 2)
+    m.window.load(snapshot.array(name + " window"));
+    for (std::size_t i = 5; i + 1 < state.size(); i += 2)
       (m.before.size() < before ? m.before : m.after).push_back({state[i], state[i + 1]});
   }
 }

@@ -9,15 +9,16 @@
 #include "base/snapshot.hpp"
 #include "deck/cards/cards.hpp"
 #include "output/results_layout.hpp"
+#include "output/window.hpp"
 
 namespace engrane::output {
 
 /// Compares channels with the values expected by the deck's `.CHK` records, while the run progresses.
 ///
 /// VALUE with a time is the sample at that time if there is one (to 1e-9 of a step), otherwise the cubic through the four
-/// samples around it: fourth order where the channel is smooth. VALUE without a time is the last sample. The other measures are
-/// taken over WINDOW, or over the whole run. They treat the channel as straight lines between samples, cut off at the ends of
-/// the window: MIN, MAX, MEAN and RMS over time (RMS about zero, not about the mean), AMPLITUDE = (MAX - MIN)/2.
+/// samples around it between events and corners: fourth order where the channel is smooth. VALUE without a time is the last
+/// sample. The other measures are taken over WINDOW, or over the whole run, as Window says: MIN, MAX, MEAN and RMS over time
+/// (RMS about zero, not about the mean), AMPLITUDE = (MAX - MIN)/2.
 ///
 /// A check passes if |value - expected| is at most ATOL, or at most RTOL |expected|; RTOL is 1e-6 if neither is given. A time
 /// or window that the run never reached fails.
@@ -32,7 +33,8 @@ class Checks {
 
   /// Observes every step in order of time, including the start. Repeating a time, as at a jump, replaces its sample for VALUE
   /// and for the interval that follows. `regular` false: an instant between the steps and close to others; VALUE ignores it.
-  void observe(double time, std::span<const double> values, bool regular = true);
+  /// `corner`: an event or a corner of a function of time, across which nothing is smooth.
+  void observe(double time, std::span<const double> values, bool regular = true, bool corner = false);
 
   /// One result per check, in the order of the deck. Call after the last step.
   std::vector<CheckResult> results() const;
@@ -52,14 +54,12 @@ class Checks {
     Resolved resolved;
     std::vector<Sample> before, after;  ///< VALUE: the last three before its time, the first three after it
     bool exact = false;                 ///< `before` holds only the sample at exactly that time
+    bool closed = false;                ///< a corner lies behind the samples after its time
     bool seen = false;
     double first_time = 0, last_value = 0;  ///< valid if `seen`
-    // measures over a window
-    double least = 0, largest = 0, area = 0, squares = 0, covered = 0;
-    bool any = false;
+    Window window;                          ///< of the other measures
   };
-  void observe_value(Measured& m, Sample sample) const;
-  void observe_window(Measured& m, Sample sample) const;
+  void observe_value(Measured& m, Sample sample, bool regular, bool corner) const;
   CheckResult result(const Measured& m) const;
   /// Returns the value of a check; if there is none, returns NaN and sets `remark` to the reason.
   double value(const Measured& m, std::string& remark) const;
@@ -71,6 +71,8 @@ class Checks {
   bool started_ = false;
 };
 
+/// Whether a check is an extreme or a mean over time, not a value at one time.
+bool is_over_time(const deck::CheckCard& card);
 /// Title of a check: `ELEMENT 1 NORMAL_FORCE at t = 1`.
 std::string check_title(const deck::CheckCard& card);
 
