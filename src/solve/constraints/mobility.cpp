@@ -8,11 +8,12 @@
 #include <functional>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "solve/constraints/constraint_factors.hpp"
+#include "solve/constraints/islands.hpp"
 #include "solve/constraints/least_norm.hpp"
 #include "solve/constraints/leaves.hpp"
 #include "solve/constraints/redundancy_advice.hpp"
@@ -23,42 +24,6 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
-
-/// Moves `c` a little along a possible motion and closes it again. False if it does not close: a motion of first order only.
-bool move_along(Assembler& assembler, const MotionSlots& motion, const ConstraintFactors& here, Configuration& c,
-                double tolerance) {
-  // any generic direction will do
-  Vector wish(here.rows());
-  for (Eigen::Index i = 0; i < wish.size(); ++i) wish[i] = std::sin(1.0 + 2.3 * static_cast<double>(i * i % 1009));
-  Vector way = here.possible_motion(wish);
-  const double largest = way.size() > 0 ? way.lpNorm<Eigen::Infinity>() : 0;
-  if (!(largest > 1e-6)) return false;
-  std::vector<double> y(motion.size(), 0.0), phi, rate, second;
-  const auto move = [&](const ConstraintFactors& factors, const Vector& by) {
-    std::fill(y.begin(), y.end(), 0.0);
-    factors.to_slots(by, y);
-    Configuration moved = c;
-    motion.move(c, y, moved);
-    c = outside_of_steps(std::move(moved));
-  };
-  move(here, way * (0.02 / largest));
-  std::optional<ConstraintFactors> factors;
-  double before = 0;
-  for (int iteration = 0; iteration < 12; ++iteration) {
-    assembler.constraint_rates(c, phi, rate, second);
-    const double open = relative_open(assembler, phi).lpNorm<Eigen::Infinity>();
-    if (!std::isfinite(open)) return false;
-    if (open < 1e-13) return true;
-    // factors are reused while the gap shrinks a hundredfold each time
-    if (open > 1e-2 * before) factors.emplace(assembler, c, ConstraintColumns::gradients, tolerance);
-    before = open;
-    const Vector by = factors->closing_motion(phi);
-    if (!(by.lpNorm<Eigen::Infinity>() < 0.05)) return false;
-    move(*factors, by);
-    if (by.lpNorm<Eigen::Infinity>() < 1e-14) return open < 1e-11;
-  }
-  return false;
-}
 
 /// Row of the largest entry of a column, −1 if there is none, and its magnitude.
 std::pair<int, double> largest_entry(const Sparse& a, Eigen::Index column) {
@@ -106,6 +71,29 @@ void prefer_grips_and_drives(const Model& model, const Numbering& numbering, Spa
   }
   for (std::size_t j = 0; j < columns.size(); ++j) null.col(static_cast<Eigen::Index>(j)) = columns[j];
   std::sort(dependent.begin(), dependent.end());
+}
+
+/// Replaces the dependent constraints of each island by those of a position `there` where it has fewer. Returns how many fewer.
+int take_larger_rank(const Islands& islands, const ConstraintFactors& here, const ConstraintFactors& there, Mobility& found) {
+  std::vector<int> more(islands.count(), 0);
+  for (const int m : here.dependent()) ++more[islands.of_multiplier(m)];
+  for (const int m : there.dependent()) --more[islands.of_multiplier(m)];
+  std::vector<std::tuple<int, const ConstraintFactors*, Eigen::Index>> chosen;  // dependent constraint, and its null vector
+  for (const ConstraintFactors* const factors : {&here, &there})
+    for (std::size_t j = 0; j < factors->dependent().size(); ++j)
+      if (const int m = factors->dependent()[j]; (more[islands.of_multiplier(m)] > 0) == (factors == &there))
+        chosen.emplace_back(m, factors, static_cast<Eigen::Index>(j));
+  std::sort(chosen.begin(), chosen.end(), [](const auto& a, const auto& b) { return std::get<0>(a) < std::get<0>(b); });
+  found.dependent.clear();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [m, factors, column] : chosen) {
+    for (Sparse::InnerIterator it(factors->null_multipliers(), column); it; ++it)
+      entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(found.dependent.size()), it.value());
+    found.dependent.push_back(m);
+  }
+  found.null.resize(here.columns(), static_cast<Eigen::Index>(chosen.size()));
+  found.null.setFromTriplets(entries.begin(), entries.end());
+  return std::accumulate(more.begin(), more.end(), 0, [](int sum, int n) { return sum + std::max(n, 0); });
 }
 
 /// Groups of constraints that null vectors combine.
@@ -246,29 +234,23 @@ Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const
     found.motions = numbering.equations();  // without constraints all are free
     return found;
   }
-  Configuration c = outside_of_steps(configuration);
+  Configuration c = at_start_of_step(configuration);
   const ConstraintFactors here(assembler, c, ConstraintColumns::gradients, tolerance);
   found.motions = static_cast<int>(here.rows());
   found.constraints = static_cast<int>(here.columns()) - assembler.idle_count();
   found.rank = static_cast<int>(here.rank());
-  const auto take = [&](const ConstraintFactors& factors) {
-    found.dependent = factors.dependent();
-    found.null = factors.null_multipliers();
-    prefer_grips_and_drives(assembler.model(), assembler.numbering(), found.null, found.dependent);
-    found.groups = group(found.null);
-  };
   if (here.deficiency() == 0) return found;
   std::vector<double> phi, rate, second;
   assembler.constraint_rates(c, phi, rate, second);
-  take(here);
-  if (found.freedom() > 0 && move_along(assembler, motion, here, c, tolerance)) {
+  found.dependent = here.dependent();
+  found.null = here.null_multipliers();
+  if (const Islands islands(assembler); found.freedom() > 0 && move_along(assembler, motion, islands, here, c, tolerance)) {
     const ConstraintFactors there(assembler, c, ConstraintColumns::gradients, tolerance);
-    if (there.rank() > here.rank()) {
-      found.lost_here = static_cast<int>(there.rank() - here.rank());
-      found.rank = static_cast<int>(there.rank());
-      take(there);
-    }
+    found.lost_here = take_larger_rank(islands, here, there, found);
+    found.rank += found.lost_here;
   }
+  prefer_grips_and_drives(assembler.model(), assembler.numbering(), found.null, found.dependent);
+  found.groups = group(found.null);
   const Vector relative = relative_open(assembler, phi);
   for (RedundantGroup& one : found.groups)
     for (const int m : one.members) {
@@ -300,7 +282,7 @@ std::string describe_mobility(Assembler& assembler, const Configuration& configu
   if (mobility.lost_here > 0)
     text += fmt::format("  the start is a singular position: {} more there alone\n", mobility.lost_here);
   if (mobility.redundant() == 0) return text;
-  const Configuration c = outside_of_steps(configuration);
+  const Configuration c = at_start_of_step(configuration);
   for (const RedundantGroup& one : mobility.groups)
     text += fmt::format("  {} among {}\n", counted(one.redundant, "redundant constraint"), names(assembler, c, one.members));
   const std::string friction = friction_on_redundant(assembler, mobility);
@@ -339,7 +321,7 @@ std::string Redundancy::conflict(const Configuration& c) {
       return fmt::format("conflicting constraints: {} stays open by {:.3g} {} when the others are closed; {} among {}: {}",
                          numbering.describe(numbering.equation(u.slot)), std::abs(open),
                          assembler_.model().units.label(length ? dimension::length : dimension::angle),
-                         counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members),
+                         counted(one.redundant, "constraint") + " too many", names(assembler_, at_start_of_step(c), one.members),
                          cure_of(one));
     }
   return {};
@@ -381,7 +363,7 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
       return fmt::format("conflicting constraints: {} asks for a speed that the others forbid, by {:.4g} {}; {} among {}: {}",
                          numbering.describe(numbering.equation(u.slot)), std::abs(rate[static_cast<std::size_t>(m)]),
                          assembler_.model().units.label(length ? dimension::velocity : dimension::angular_velocity),
-                         counted(one.redundant, "constraint") + " too many", names(assembler_, outside_of_steps(c), one.members),
+                         counted(one.redundant, "constraint") + " too many", names(assembler_, at_start_of_step(c), one.members),
                          cure_of(one));
     }
   return {};
@@ -395,9 +377,11 @@ ConstraintColumns Redundancy::columns_kind() const {
 }
 
 std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
+  // of entries of size 1 this remains where a projection should leave none, as of a held beam once its load has bent it
+  constexpr double rounding = 1e-7;
   std::vector<Vector> changes;
   if (!active()) return changes;
-  const ConstraintMatrix columns(assembler_, outside_of_steps(c), columns_kind());
+  const ConstraintMatrix columns(assembler_, at_start_of_step(c), columns_kind());
   const Vector weight = constraint_sizes(assembler_) / assembler_.model().extent();
   Eigen::MatrixXd any(weight.size(), 2);
   for (Eigen::Index m = 0; m < any.rows(); ++m)
@@ -408,14 +392,14 @@ std::vector<Vector> Redundancy::undetermined(const Configuration& c) {
   for (const auto& column : any.colwise()) {
     const Vector change = column.cwiseQuotient(weight);
     const double largest = change.lpNorm<Eigen::Infinity>();
-    if (largest > 0) changes.push_back(change / largest);
+    if (column.lpNorm<Eigen::Infinity>() > rounding) changes.push_back(change / largest);
   }
   return changes;
 }
 
 bool Redundancy::share(Configuration& c) {
   if (!active()) return false;
-  const Configuration here = outside_of_steps(c);
+  const Configuration here = at_start_of_step(c);
   const double extent = assembler_.model().extent();
   // forces count as they are, moments over the extent
   const Vector weight = constraint_sizes(assembler_) / extent;

@@ -67,7 +67,7 @@ class Redundancy {
 
   /// Empty if the released constraints are closed at `c`; otherwise says which of them conflict, and by how much.
   std::string conflict(const Configuration& c);
-  /// The same for the constraint rates (Assembler::constraint_rates), relative to `speed`.
+  /// Says which released constraints conflict in their rates (Assembler::constraint_rates), beside `speed`; empty if none does.
   std::string rate_conflict(const Configuration& c, const std::vector<double>& rate, double speed);
 
   /// Replaces the multipliers of `c` by the smallest ones (forces, and moments over the extent, in the mean square) with the
@@ -85,8 +85,9 @@ class Redundancy {
   void load(const Snapshot& snapshot);
 
  private:
-  /// What multipliers are combined by: the forces that they cause, or, where friction depends on those that are not unique, the
-  /// gradients of the constraints. Self-stress that changes friction has an effect, and would stay as it has come about.
+  /// Columns by which multipliers are combined: the forces that they cause, or, where friction depends on those that are not
+  /// unique, the gradients of the constraints. Self-stress that changes friction has an effect, and would stay as it has come
+  /// about.
   ConstraintColumns columns_kind() const;
 
   /// "make the places and axes agree, or make HINGE 3 a SPHERICAL": the end of a message about conflicting constraints.
