@@ -113,6 +113,7 @@ def read(path: str | Path) -> RawMesh:
 
 
 #: element types that are written for kinds of cells: solids, and plane stress
+NOT_IN_NAMES = re.compile(r'[",\n]')  # of sets
 TYPES = {"triangle": "CPS3", "quad": "CPS4", "triangle6": "CPS6", "quad8": "CPS8", "tetra": "C3D4"}
 TYPES |= {
     "wedge": "C3D6",
@@ -124,9 +125,14 @@ TYPES |= {
 
 
 def write(
-    path: Path, points: np.ndarray, node_ids: np.ndarray, blocks: list[tuple[str, np.ndarray, np.ndarray]]
+    path: Path,
+    points: np.ndarray,
+    node_ids: np.ndarray,
+    blocks: list[tuple[str, np.ndarray, np.ndarray]],
+    node_sets: dict[str, np.ndarray],
+    cell_sets: dict[str, np.ndarray],
 ) -> None:
-    """Nodes, and cells by kind (rows of points) with their numbers; 16 numbers on a line at most."""
+    """Nodes, cells by kind (rows of points) with their numbers, sets; 16 numbers on a line at most."""
     with path.open("w", encoding="utf-8") as file:
         file.write("*HEADING\n engrane\n*NODE\n")
         columns = [points[:, k].tolist() for k in range(3)]
@@ -139,6 +145,11 @@ def write(
             line = ", ".join(words[:16]) + (",\n" + ", ".join(words[16:]) if width > 16 else "") + "\n"
             table = np.column_stack([ids, node_ids[nodes]])
             file.write((line * len(table)) % tuple(table.ravel().tolist()))
+        for word, sets in (("NSET", node_sets), ("ELSET", cell_sets)):
+            for name, members in sets.items():
+                file.write(f'*{word}, {word}="{re.sub(NOT_IN_NAMES, "_", name)}"\n')
+                for at in range(0, len(members), 16):
+                    file.write(", ".join(map(str, members[at : at + 16].tolist())) + "\n")
 
 
 def _among(labels: np.ndarray, members: list[np.ndarray]) -> np.ndarray:

@@ -112,8 +112,12 @@ def _mesh(args: argparse.Namespace) -> None:
         args.reference = not len(result.frame_times)
         with options.whole_file(path) as part:
             left = export_cells.write_frame(cells, selected(result, args), part)
-    if left:
-        print(f"note: {path.suffix} files hold no fields; left out: {', '.join(left)}.")
+    if left.fields:
+        print(f"note: {path.suffix} files hold no fields; left out: {', '.join(left.fields)}.")
+    if left.groups:
+        names = ", ".join(f'"{name}"' for name in left.groups)
+        held = export_cells.HELD_GROUPS[path.suffix.lower()]
+        print(f"note: {path.suffix} files hold {held}; left out: {names}.")
     print(f"wrote {len(cells.order)} cells to {path}")
 
 

@@ -6,15 +6,19 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from dataclasses import field as with_default
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from . import abaqus
 from .cells import BY_XDMF, Kind, runs
+from .deck_groups import Groups
 from .errors import UserError
 from .mesh import Mesh, Step
+from .mesh_files import MARK
 from .raw_mesh import meshio_library
 from .results import Field, Frame, Results
 
@@ -23,6 +27,9 @@ FILES = (".vtu", ".vtk", ".med", ".msh", ".inp", ".bdf")
 #: endings of files for many
 SERIES = (".vtkhdf", ".pvd")
 HELD = {".vtu": "all", ".vtk": "all", ".med": "all", ".msh": "some"}  # fields; the others hold none
+
+#: groups that a file of an ending holds, where it does not hold all
+HELD_GROUPS = {".msh": "one group of each cell and none of nodes", ".bdf": "no groups"}
 
 
 @dataclass
@@ -69,6 +76,7 @@ class Cells:
         self.node_ids = self.result.node_ids[self.used]
         owner = self.result.dataset("mesh/cell_elements")
         self.cell_ids = (self.order + 1 if owner is None else np.asarray(owner, int)[self.order]).astype(int)
+        self.groups = Groups(self.result, self.node_ids, self.points, self.cell_ids)
 
     def fields(self, frame: Frame) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
         """Of the nodes and of the cells, by name."""
@@ -103,9 +111,21 @@ class Cells:
             np.concatenate([np.full(len(n), k.vtk, np.uint8) for k, n in self.blocks]),
             np.concatenate([[0], np.cumsum(sizes)]),
             np.concatenate([n.ravel() for _, n in self.blocks]),
-            {"element": self.cell_ids.astype(np.int32)},
-            {"node": self.node_ids.astype(np.int32)},
+            {"element": self.cell_ids.astype(np.int32)} | _marks(self.groups.cells),
+            {"node": self.node_ids.astype(np.int32)} | _marks(self.groups.nodes),
         )
+
+
+def _marks(groups: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    return {MARK + name: members.astype(np.int32) for name, members in groups.items()}
+
+
+@dataclass
+class Left:
+    """Names of what a format cannot hold."""
+
+    fields: list[str] = with_default(default_factory=list)
+    groups: list[str] = with_default(default_factory=list)
 
 
 def write_series(cells: Cells, frames: list[Frame], path: Path) -> Path:
@@ -127,8 +147,8 @@ def write_series(cells: Cells, frames: list[Frame], path: Path) -> Path:
     return path
 
 
-def write_frame(cells: Cells, frame: Frame, path: Path) -> list[str]:
-    """One frame; names of the fields that the format cannot hold."""
+def write_frame(cells: Cells, frame: Frame, path: Path) -> Left:
+    """One frame."""
     suffix = path.suffix.lower()
     nodes, own = cells.fields(frame)
     if suffix in (".vtu", ".vtk"):
@@ -145,7 +165,7 @@ def write_frame(cells: Cells, frame: Frame, path: Path) -> list[str]:
                 for k, component in enumerate(cells.result.fields[name].components):
                     data.GetArray(name).SetComponentName(k, component)
         save(grid, path)
-        return []
+        return Left()
     if suffix == ".inp":
         abaqus.write(
             path,
@@ -155,18 +175,18 @@ def write_frame(cells: Cells, frame: Frame, path: Path) -> list[str]:
                 (kind.name, table, ids)
                 for (kind, table), ids in zip(cells.blocks, cells.by_block(cells.cell_ids), strict=True)
             ],
+            {name: np.unique(cells.node_ids[members]) for name, members in cells.groups.nodes.items()},
+            {name: np.unique(cells.cell_ids[members]) for name, members in cells.groups.cells.items()},
         )
-        return sorted({*nodes, *own})
+        return Left(sorted({*nodes, *own}))
     return _by_meshio(cells, nodes, own, path)
 
 
-def _by_meshio(
-    cells: Cells, nodes: dict[str, np.ndarray], own: dict[str, np.ndarray], path: Path
-) -> list[str]:
+def _by_meshio(cells: Cells, nodes: dict[str, np.ndarray], own: dict[str, np.ndarray], path: Path) -> Left:
     meshio = meshio_library()
     suffix, fields = path.suffix.lower(), cells.result.fields
     held = HELD.get(suffix)
-    left = [] if held else sorted({*nodes, *own})
+    left = Left([] if held else sorted({*nodes, *own}))
     tables = [(k, t[:, k.mirror] if suffix == ".med" and k.dimension == 3 else t) for k, t in cells.blocks]
     # what rounding leaves of a zero has more characters than a field of Nastran
     points = np.where(np.abs(cells.points) < 1e-12 * np.abs(cells.points).max(initial=0), 0, cells.points)
@@ -179,13 +199,18 @@ def _by_meshio(
             name: cells.by_block(values)
             for name, values in ({"element": cells.cell_ids.astype(float)} | own).items()
         }
-    if suffix == ".msh":  # of every cell two numbers are wanted: of its group and of its part
-        for name in ("gmsh:physical", "gmsh:geometrical"):
-            mesh.cell_data[name] = [np.ones(len(t), int) for _, t in tables]
+    if suffix == ".msh":
+        left.groups = _put_physical_groups(mesh, cells)
+    if suffix == ".bdf":
+        left.groups = [*cells.groups.cells, *cells.groups.nodes]
     if suffix == ".med":
+        mesh.point_tags, mesh.point_data["point_tags"] = _families(cells.groups.nodes, len(points), 1)
+        mesh.cell_tags, tags = _families(cells.groups.cells, len(cells.order), -1)
+        mesh.cell_data["cell_tags"] = cells.by_block(tags)
         mesh.field_data["med:nom"] = [
             [c[:16] for c in fields[n].components] if n in fields and fields[n].components else [n[:16]]
             for n in [*mesh.point_data, *mesh.cell_data]
+            if n not in ("point_tags", "cell_tags")
         ]
     try:
         if suffix == ".med":  # in memory first: see h5_writing.py
@@ -203,6 +228,43 @@ def _by_meshio(
     if suffix == ".bdf":  # meshio 5.3 writes CHEXA_, which Nastran does not know, for second order
         text = path.read_text(encoding="ascii")
         path.write_text(re.sub(r"(?m)^(C[A-Z]+)_", r"\1 ", text), encoding="ascii")
+    return left
+
+
+def _families(
+    groups: dict[str, np.ndarray], count: int, sign: int
+) -> tuple[dict[int, list[str]], np.ndarray]:
+    """Families of MED, each of those that are in the same groups: their groups, and the family of each. Those
+    of nodes have positive numbers, those of cells negative ones; 0 is in no group. Names are ASCII of 80
+    characters without strokes."""
+    tags = np.zeros(count, np.int64)
+    families: dict[int, list[str]] = {0: []}
+    for name, members in groups.items():
+        for family in np.unique(tags[members]).tolist():
+            mine = members & (tags == family)
+            new = sign * len(families)
+            families[new] = [*families[family], re.sub(r"[^ -.0-~]", "_", name)[:80]]
+            tags[mine] = new
+    present = set(np.unique(tags).tolist())
+    return {n: names for n, names in families.items() if names and n in present}, tags
+
+
+def _put_physical_groups(mesh: Any, cells: Cells) -> list[str]:
+    """The groups as Gmsh's: a cell is in one at most, which has one dimension; smaller groups come first.
+    Returns those that are left out."""
+    left = list(cells.groups.nodes)
+    physical = np.zeros(len(cells.order), int)
+    dimension = np.concatenate([np.full(len(t), k.dimension) for k, t in cells.blocks])
+    for name, members in sorted(cells.groups.cells.items(), key=lambda group: group[1].sum()):
+        if physical[members].any() or len(np.unique(dimension[members])) > 1:
+            left.append(name)
+            continue
+        number = len(mesh.field_data) + 1
+        mesh.field_data[name] = np.array([number, dimension[members][0]])
+        physical[members] = number
+    # of every cell two numbers are wanted: of its group and of its part
+    mesh.cell_data["gmsh:physical"] = cells.by_block(physical if mesh.field_data else physical + 1)
+    mesh.cell_data["gmsh:geometrical"] = cells.by_block(np.ones(len(physical), int))
     return left
 
 

@@ -19,6 +19,8 @@ KINDS = {
     "HINGE": "pin",
     "CYLINDRICAL": "pin",
     "SCREW": "pin",
+    "BEARING": "pin",
+    "BUSHING": "pin",
     "PRISMATIC": "rail",
     "POINT_LINE": "rail",
     "PLANAR": "plate",

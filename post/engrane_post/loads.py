@@ -1,15 +1,47 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What acts on a model from outside: loads at a frame, and nodes of a mesh that supports hold."""
+"""What acts on a model from outside: loads and their arrows at a frame, and nodes of a mesh that supports
+hold."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from .results import Frame, Results
+from . import shapes
+from .results import Element, Frame, Results
 
 LOADS = ("FORCE", "TORQUE", "CHA")
 MOST_SUPPORTS = 36  # that are marked
 ROUNDING = 1e-9  # of the largest
+
+
+@dataclass(frozen=True)
+class Arrow:
+    """How the arrow of an element moves: its centre with a node, its axis with the `holder` (0: fixed in
+    space)."""
+
+    element: Element
+    center: np.ndarray
+    axis: np.ndarray  # the sense of the load while its function of time is positive
+    holder: int
+    couple: bool = False
+    gap: np.ndarray | None = None  # of a moment's arc: the direction that stays free also when it is reversed
+
+    def pose(self, carrier: np.ndarray, turn: np.ndarray, sense: int) -> np.ndarray:
+        """4 x 4 matrix for its reference surface, from those of node and holder. `sense`: 1 or -1; 0 shrinks
+        it to its centre."""
+        pose = np.eye(4)
+        pose[:3, :3] = abs(sense) * turn[:3, :3] @ (self._reversal() if sense < 0 else np.eye(3))
+        pose[:3, 3] = (carrier @ np.r_[self.center, 1.0])[:3] - pose[:3, :3] @ self.center
+        return pose
+
+    def _reversal(self) -> np.ndarray:
+        """Half a turn about a direction across the axis."""
+        axis = shapes.unit(self.axis)
+        side = np.zeros(3) if self.gap is None else self.gap - axis * (axis @ self.gap)
+        side = shapes.unit(side) if np.linalg.norm(side) > 0.1 else shapes.square_to(axis)[0]
+        return 2 * np.outer(side, side) - np.eye(3)
 
 
 class Loads:
@@ -17,7 +49,7 @@ class Loads:
 
     def __init__(self, result: Results) -> None:
         self.times = result.times()
-        self.columns: dict[int, list[tuple[str, int]]] = {}
+        self.columns: dict[int, dict[str, tuple[str, int]]] = {}
         types = {str(e.id): e.type.upper() for e in result.elements}
         for channel in result.channels.values():
             kind, _, rest = channel.name.partition("/")
@@ -27,20 +59,38 @@ class Loads:
                 and types.get(owner) in LOADS
                 and name.startswith(("FORCE", "MOMENT", "TORQUE"))
             ):
-                self.columns.setdefault(int(owner), []).append((channel.table, channel.column))
-        tables = {table for columns in self.columns.values() for table, _ in columns}
-        self.values = {t: np.abs(result.dataset(f"history/{t}/values")) for t in tables}
+                self.columns.setdefault(int(owner), {})[name] = (channel.table, channel.column)
+        tables = {table for columns in self.columns.values() for table, _ in columns.values()}
+        self.values = {t: result.dataset(f"history/{t}/values") for t in tables}
+        self.largest = {t: np.abs(v).max(axis=0) for t, v in self.values.items()}
 
-    def idle(self, frame: Frame) -> set[int]:
-        """Elements whose load is zero at a frame: their function of time has switched them off."""
-        if frame.index is None or frame.time is None or not len(self.times):
-            return set()
-        at = int(np.argmin(np.abs(self.times - frame.time)))
-        return {
-            owner
-            for owner, columns in self.columns.items()
-            if all(self.values[t][at, c] <= ROUNDING * self.values[t][:, c].max() for t, c in columns)
-        }
+    def sense(self, arrow: Arrow, frame: Frame) -> int:
+        """1 or -1: a load acts along its arrow or against it at a frame; 0: its function of time is zero. 1
+        where that is not known."""
+        columns = self.columns.get(arrow.element.id)
+        if not columns or frame.index is None or frame.time is None or not len(self.times):
+            return 1
+        now, idle = {}, True
+        for name, (table, column) in columns.items():
+            now[name] = self._at(self.values[table][:, column], frame.time)
+            idle = idle and abs(now[name]) <= ROUNDING * self.largest[table][column]
+        if idle:
+            return 0
+        alone = now.get("FORCE", now.get("TORQUE"))
+        if alone is not None:  # along the card's direction, which the drawing has reversed for V < 0
+            along = alone * float(arrow.element.parameters.get("V") or 1)
+        else:
+            kind = "MOMENT" if arrow.couple else "FORCE"
+            along = sum(now.get(f"{kind}_{c}", 0.0) * x for c, x in zip("XYZ", arrow.axis, strict=True))
+        return -1 if along < 0 else 1
+
+    def _at(self, values: np.ndarray, time: float) -> float:
+        """A history at a time: frames may lie between its samples."""
+        after = min(int(np.searchsorted(self.times, time)), len(values) - 1)
+        before = max(after - 1, 0)
+        span = self.times[after] - self.times[before]
+        share = min(max((time - self.times[before]) / span, 0.0), 1.0) if span > 0 else 1.0
+        return float((1 - share) * values[before] + share * values[after])
 
 
 def supported(result: Results, rows: np.ndarray) -> list[int]:

@@ -50,6 +50,8 @@ HINTS = {
 #: endings of files that have readers here, and the modules of these
 OWN = {".unv": "unv", ".inp": "abaqus", ".bdf": "nastran", ".fem": "nastran", ".nas": "nastran"}
 VTK = (".vtk", ".vtu")
+#: what the name of an array of VTK begins with that is 1 for the members of a group
+MARK = "group "
 
 
 @dataclass
@@ -147,6 +149,7 @@ def read(path: str | Path) -> FileMesh:
         mesh.point_groups[name] = _indices(rows)
     _tagged_cells(source, mesh)
     _families(source, mesh)
+    _marked(source, mesh)
     return mesh
 
 
@@ -212,3 +215,13 @@ def _families(source: Any, mesh: FileMesh) -> None:
         for name in groups if len(rows) else ():
             old = mesh.point_groups.get(str(name), np.zeros(0, int))
             mesh.point_groups[str(name)] = np.union1d(old, rows)
+
+
+def _marked(source: Any, mesh: FileMesh) -> None:
+    """Groups as `engrane export` writes them to files of VTK: arrays that are 1 for their members."""
+    for name, blocks in source.cell_data.items():
+        if name.startswith(MARK):
+            mesh.cell_groups[name.removeprefix(MARK)] = [np.flatnonzero(b) for b in blocks]
+    for name, values in source.point_data.items():
+        if name.startswith(MARK):
+            mesh.point_groups[name.removeprefix(MARK)] = np.flatnonzero(values)

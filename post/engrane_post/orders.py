@@ -27,7 +27,9 @@ An order is a number of events in one turn of the wheel: 1 is unbalance, z the m
 What belongs to a gear keeps its order when the speed changes; a resonance keeps its frequency. A sine of
 amplitude 1 shows 1, the mean is taken off. Spectra take the last whole turns of the span. Resolution is
 2/(number of turns) with the hann window, 2.3/turns with blackman, 1.21/turns with none."""
-STRETCHES = 16  # of the map, side by side, when nothing else is asked
+STRETCHES = 16  # of the map, side by side, when nothing else is asked,
+PERIODS = 3  # but at least so many periods of the strongest order in each,
+FEWEST_STRETCHES = 3  # as far as so many stretches leave room
 
 
 def add(commands: argparse._SubParsersAction) -> None:
@@ -49,7 +51,11 @@ def add(commands: argparse._SubParsersAction) -> None:
     )
     p.add_argument("--map", action="store_true", help="amplitude over order and speed")
     p.add_argument(
-        "--turns", type=float, metavar="n", help="turns in one stretch of the map (default: a sixteenth)"
+        "--turns",
+        type=float,
+        metavar="n",
+        help="turns in one stretch of the map (default: a sixteenth; of a short run more, for "
+        f"{PERIODS} periods of the strongest order)",
     )
     p.add_argument("--csv", metavar="file", help="write the numbers of the diagram, too")
     p.add_argument(
@@ -93,7 +99,7 @@ def run(args: argparse.Namespace) -> None:
         for channel in channels:
             _print(channel, wheel, samples[channel.name], spectra[channel.name], marks, args.peaks)
         if args.map:
-            chart = _map(result, first, limit, args)
+            chart = _map(result, first, spectra[channels[0].name], limit, args)
             _draw_map(result, channels[0], wheel, chart, marks, args, path)
             if table:
                 _write_map(table, result, chart)
@@ -193,9 +199,25 @@ def speed_unit(result: Results) -> tuple[float, str]:
     return (60.0, "rpm") if unit == "s" else (1.0, f"turns/{unit or 'time'}")
 
 
-def _map(result: Results, samples: OverAngle, limit: float, args: argparse.Namespace) -> OrderMap:
-    turns = args.turns or samples.turns[-1] / STRETCHES
+def _strongest(s: Spectrum) -> float:
+    """Order of the largest amplitude from 1 on: below there is the slow change of the run-up."""
+    fast = s.frequency >= 1 - 0.5 * s.resolution
+    return max(1.0, float(s.frequency[fast][np.argmax(s.amplitude[fast])])) if fast.any() else 1.0
+
+
+def _map(
+    result: Results, samples: OverAngle, whole: Spectrum, limit: float, args: argparse.Namespace
+) -> OrderMap:
+    total, strongest = samples.turns[-1], _strongest(whole)
+    turns = args.turns or max(total / STRETCHES, min(PERIODS / strongest, total / FEWEST_STRETCHES))
     chart = order_map(samples, turns, limit, args.window)
+    resolution = whole.resolution * whole.step * len(whole.samples) / chart.turns
+    print(f"  map: stretches of {chart.turns:.4g} turns, resolution {resolution:.4g}")
+    if resolution > strongest:
+        print(
+            f"  note: these stretches do not show order {strongest:.4g} as a line; "
+            f"that takes {chart.turns * resolution / strongest:.3g} turns or more (--turns)"
+        )
     if chart.speed[-1] < 1.02 * chart.speed[0]:
         factor, unit = speed_unit(result)
         raise UserError(

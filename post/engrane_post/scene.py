@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -55,6 +56,7 @@ class Item:
     element: int = 0
     cells: np.ndarray | None = None  # of the mesh: for each face the cell whose values colour it
     points: np.ndarray | None = None  # and the points that are seen
+    arrow: loads.Arrow | None = None  # which `node` moves, but does not turn
 
 
 class Scene:
@@ -100,9 +102,9 @@ class Scene:
         rest."""
         out = [self.result.points + f.displacement for f in frames]
         few = frames[:: max(1, len(frames) // 40)]
-        for node, points in self._outlines():
+        for pose, points in self._outlines():
             for f in few:
-                t = self.transform(node, f)
+                t = pose(f)
                 out.append(points @ t[:3, :3].T + t[:3, 3])
         return np.concatenate(out) if out else np.zeros((1, 3))
 
@@ -119,20 +121,21 @@ class Scene:
                 ends.append(np.array([seen.min(), seen.max()]) if len(seen) else seen)
         return limits_of(ends)
 
-    def _outlines(self) -> Iterator[tuple[int, np.ndarray]]:
-        """(node, reference points) of everything that moves with a node."""
+    def _outlines(self) -> Iterator[tuple[Callable[[Frame], np.ndarray], np.ndarray]]:
+        """(pose, reference points) of everything that moves with a node."""
         turn = np.arange(0, 2 * np.pi, np.pi / 12)
         for w in self.wheels:
             reach = w.shape.radius + (3.2 if w.shape.ring else 1.0) * w.shape.module
             circle = reach * (np.outer(np.cos(turn), w.frame[:, 1]) + np.outer(np.sin(turn), w.frame[:, 2]))
             half = 0.5 * min(w.shape.width, w.shape.radius) * w.frame[:, 0]
-            yield w.node, w.center + np.r_[circle - half, circle + half]
+            yield partial(self.transform, w.node), w.center + np.r_[circle - half, circle + half]
         for node, place in self.carried.values():
-            yield node, place[None, :]
+            yield partial(self.transform, node), place[None, :]
         for item in self.items:
             if item.remake is None and item.kind != "wheel":
                 x = np.reshape(item.mesh.bounds, (3, 2))
-                yield item.node, np.array([[a, b, c] for a in x[0] for b in x[1] for c in x[2]])
+                box = np.array([[a, b, c] for a in x[0] for b in x[1] for c in x[2]])
+                yield partial(self.pose, item), box
 
     def _discs(self) -> list[dict[str, Any]]:
         return [d for e in self.result.elements for d in e.drawing if d.get("shape") == "disc"]
@@ -161,6 +164,14 @@ class Scene:
             t[:3, :3] = r
             t[:3, 3] = self.points[node] + frame.displacement[i] - r @ self.points[node]
         return t
+
+    def pose(self, item: Item, frame: Frame) -> np.ndarray:
+        """The same for an item, without `remake`."""
+        carrier = self.transform(item.node, frame)
+        if item.arrow is None:
+            return carrier
+        turn = self.transform(item.arrow.holder, frame)
+        return item.arrow.pose(carrier, turn, self.loads.sense(item.arrow, frame))
 
     def positions(self, frame: Frame) -> dict[int, np.ndarray]:
         """Where the nodes are, and the points that bodies carry."""
@@ -258,18 +269,19 @@ class Scene:
         elif kind == "mass" and node in self.row:
             self.items.append(Item(shapes.ball(self.points[node], size * 0.016), DARK, node))
         elif kind == "arrow":
-            # A .CLM load on the components 4 to 6 is a moment.
-            components = [int(c) for c in np.ravel(element.parameters.get("C") or [])]
-            loads_turn = element.type.upper() == "CHA" and bool(components) and min(components) > 3
-            if loads_turn or element.type.upper() in ("TORQUE", "COUPLE", "MOMENT") or d.get("couple"):
+            holder, gap = int(d.get("holder", node)), None
+            couple = bool(d.get("couple")) or element.type.upper() == "TORQUE"
+            if couple:
                 radius, gap = self._clear_of_wheels(center)
                 mesh = shapes.turn_arrow(center, axis, radius, gap)
                 # A moment between arm and wheel goes with the arm, so that its gap stays at the mesh.
                 bare = [n for n in element.nodes if n in self.row and all(w.node != n for w in self.wheels)]
-                node = bare[0] if gap is not None and bare else node
+                if gap is not None and bare and holder:
+                    node = holder = bare[0]
             else:
                 mesh = shapes.arrow(center, axis, size * 0.14)
-            self.items.append(Item(mesh, ARROW, node))
+            arrow = loads.Arrow(element, center, axis, holder, couple, gap)
+            self.items.append(Item(mesh, ARROW, node, arrow=arrow))
 
     def _clear_of_wheels(self, center: np.ndarray) -> tuple[float, np.ndarray | None]:
         """Radius of a torque's arrow, around the wheel that sits there unless that is a large one, and the
@@ -538,10 +550,11 @@ class Stage:
     def show(self, frame: Frame) -> None:
         """Moves everything to a frame."""
         positions = self.scene.positions(frame)
-        idle = self.scene.loads.idle(frame)
         for item, mesh, actor in self.actors:
-            if item.kind == "load":
-                actor.visibility = item.element not in idle
+            if item.arrow is not None:
+                actor.visibility = self.scene.loads.sense(item.arrow, frame) != 0
+                if not actor.visibility:
+                    continue
             if item.remake is not None:
                 mesh.copy_from(item.remake(positions))
                 if self.field and item.cells is not None:
@@ -549,7 +562,7 @@ class Stage:
                 if item.smooth:
                     mesh.compute_normals(inplace=True, split_vertices=False)
             elif item.node:
-                actor.user_matrix = self.scene.transform(item.node, frame)
+                actor.user_matrix = self.scene.pose(item, frame)
 
     def _colour(self, mesh: pv.PolyData, actor: pv.Actor, item: Item, frame: Frame) -> None:
         values, seen = colours(self.scene.result, self.field, frame, item)

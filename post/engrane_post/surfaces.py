@@ -110,6 +110,14 @@ class Rates:
         i = self.scene.row[node]
         return self.linear[i] + np.cross(self.angular[i], points - self.where[i])
 
+    def of_arrow(self, item: Item, frame: Frame, points: np.ndarray) -> np.ndarray:
+        """Of points of a load's arrow: its centre moves with a node, and it turns with its holder."""
+        assert item.arrow is not None
+        center = (self.scene.transform(item.node, frame) @ np.r_[item.arrow.center, 1.0])[:3]
+        row = self.scene.row.get(item.arrow.holder)
+        turning = np.zeros(3) if row is None else self.angular[row]
+        return self.of(item.node, center[None, :]) + np.cross(turning, points - center)
+
     def named(self, positions: dict[int, np.ndarray]) -> dict[int, np.ndarray]:
         """Of the places that Scene.positions() gives."""
         carriers = {name: node for name, (node, _) in self.scene.carried.items()}
@@ -133,13 +141,15 @@ class _Part:
 
     def at(self, frame: Frame, positions: dict[int, np.ndarray]) -> np.ndarray:
         if self.item.remake is None:
-            t = self.scene.transform(self.item.node, frame)
+            t = self.scene.pose(self.item, frame)
             return self.points @ t[:3, :3].T + t[:3, 3]
         return self._remade(positions)
 
     def velocity(
         self, frame: Frame, rates: Rates, positions: dict[int, np.ndarray], points: np.ndarray
     ) -> np.ndarray:
+        if self.item.arrow is not None:
+            return rates.of_arrow(self.item, frame, points)
         if self.item.remake is None:
             return rates.of(self.item.node, points)
         rate = rates.named(positions)

@@ -47,6 +47,7 @@ std::vector<deck::Record> records_of(const output::MeshFile& mesh, const deck::C
   for (const output::MeshFile::Group& members : mesh.groups) {
     deck::GroupCard data;
     data.name = members.name;
+    data.of_file = true;
     data.kind.tag = members.kind;
     data.ids = members.members;
     records.push_back(record_of(group, ++number, std::move(data), where, {"NOM", "KIND", "IDS"}));

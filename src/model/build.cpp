@@ -177,18 +177,16 @@ class Builder {
     engrane::add_archive(archive, record, diagnostics_);
     deck::NodeTarget nodes{card.nodes, {}};
     for (const std::string& name : card.groups) {
-      const deck::GroupCard* elements = nullptr;
+      bool of_elements = false, all = false;
       for (const deck::Record& other : deck_.records)
-        if (const auto* group = other.get<deck::GroupCard>();
-            group && group->kind.is("ELEMENTS") && (group->name == name || std::to_string(group->number) == name))
-          elements = group;
-      if (!elements) {
-        nodes.groups.push_back(name);
-        continue;
-      }
-      archive.elements.insert(archive.elements.end(), elements->ids.begin(), elements->ids.end());
+        if (const auto* group = other.get<deck::GroupCard>(); group && group->kind.is("ELEMENTS") && group->is_called(name)) {
+          of_elements = true;
+          all = all || group->all;
+          archive.elements.insert(archive.elements.end(), group->ids.begin(), group->ids.end());
+        }
+      if (!of_elements) nodes.groups.push_back(name);
       for (const deck::Record& other : deck_.records)
-        if (elements->all && other.schema->command() == ".MCE") archive.elements.push_back(other.id);
+        if (all && other.schema->command() == ".MCE") archive.elements.push_back(other.id);
     }
     const std::vector<int> found = groups_.resolve(record, nodes);
     archive.nodes.insert(archive.nodes.end(), found.begin(), found.end());

@@ -21,8 +21,7 @@ void sort_and_unite(std::vector<int>& ids) {
 void NodeGroups::add(const deck::Record& record, const deck::GroupCard& card) {
   if (!card.kind.is("NODES")) {  // references to groups of elements and faces are resolved elsewhere
     const char* what = card.kind.is("FACES") ? "faces" : "elements";
-    if (card.number != 0) of_others_[std::to_string(card.number)] = what;
-    if (!card.name.empty()) of_others_[card.name] = what;
+    for (const std::string& name : card.names) of_others_[name] = what;
     return;
   }
   Group group;
@@ -44,13 +43,15 @@ void NodeGroups::add(const deck::Record& record, const deck::GroupCard& card) {
     const std::vector<int> inside = nodes_in(card.box);
     group.nodes.insert(group.nodes.end(), inside.begin(), inside.end());
   }
+  const auto [known, first] = last_record_.try_emplace(card.group, 0);
+  if (!first) group.united.push_back(known->second);
   sort_and_unite(group.nodes);
   if (group.empty()) diagnostics_.warning(record.location, "this group has no nodes");
   const bool another_name = group.nodes.empty() && !group.all && group.united.size() == 1;
   const std::size_t index = another_name ? group.united.front() : groups_.size();
   if (!another_name) groups_.push_back(std::move(group));
-  if (card.number != 0) declared_[std::to_string(card.number)] = index;
-  if (!card.name.empty()) declared_[card.name] = index;
+  known->second = index;
+  for (const std::string& name : card.names) declared_[name] = index;
 }
 
 /// Nodes in a box, including its faces and excluding the ground.

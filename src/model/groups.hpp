@@ -44,7 +44,8 @@ class NodeGroups {
   const NodePositions& nodes_;
   Diagnostics& diagnostics_;
   std::vector<Group> groups_;                               ///< in the order of the deck
-  std::unordered_map<std::string, std::size_t> declared_;   ///< by number and by name; the last declaration of a name counts
+  std::unordered_map<std::string, std::size_t> declared_;   ///< by number and by name
+  std::unordered_map<int, std::size_t> last_record_;        ///< by GroupCard::group: that of its last record so far
   std::unordered_map<std::string, const char*> of_others_;  ///< groups of elements and faces: what they contain
   std::vector<int> by_x_;                                   ///< node indices sorted by first coordinate; built on first use
   int searches_ = 0;                                        ///< number of targets resolved

@@ -87,8 +87,9 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6>, public Determine
     for (const Vec3* load : {&force_, &moment_}) {
       if (load->isZero(0)) continue;
       const Vec3 axis = load->normalized();
-      shapes.push_back(fmt::format(R"("shape": "arrow", "node": {}, "center": [{}, {}, {}], "axis": [{}, {}, {}])",
-                                   layout().nodes[0], at_[0], at_[1], at_[2], axis[0], axis[1], axis[2]));
+      shapes.push_back(
+          fmt::format(R"("shape": "arrow", "couple": {}, "node": {}, "center": [{}, {}, {}], "axis": [{}, {}, {}], "holder": 0)",
+                      load == &moment_, layout().nodes[0], at_[0], at_[1], at_[2], axis[0], axis[1], axis[2]));
     }
     return shapes;
   }
@@ -140,8 +141,8 @@ class NodeForce final : public Element, public DeterminedChannels {
   double determine(int channel, double time, std::span<const double>) const override { return factor(time) * force_[channel]; }
   Drawing drawing() const override {
     const Vec3 axis = force_.normalized();
-    return {fmt::format(R"("shape": "arrow", "node": {}, "center": [{}, {}, {}], "axis": [{}, {}, {}])", layout_.nodes[0], at_[0],
-                        at_[1], at_[2], axis[0], axis[1], axis[2])};
+    return {fmt::format(R"("shape": "arrow", "node": {}, "center": [{}, {}, {}], "axis": [{}, {}, {}], "holder": 0)",
+                        layout_.nodes[0], at_[0], at_[1], at_[2], axis[0], axis[1], axis[2])};
   }
 
  private:

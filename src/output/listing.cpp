@@ -131,6 +131,25 @@ std::string listing_reactions(std::span<const ReactionRow> rows, const UnitSyste
   return table.text();
 }
 
+std::string listing_loads(const LoadRows& rows, const UnitSystem& units) {
+  const std::string force = units.label(dimension::force), moment = units.label(dimension::moment);
+  Table table({{"resultant", Align::left},
+               {with_unit("force x", force)},
+               {"y"},
+               {"z"},
+               {with_unit("moment about the origin x", moment)},
+               {"y"},
+               {"z"}});
+  const auto add = [&table](const char* of, const Vec3& f, const Vec3& m) {
+    table.row({of, shown(f[0]), shown(f[1]), shown(f[2]), shown(m[0]), shown(m[1]), shown(m[2])});
+  };
+  add("loads", rows.load_force, rows.load_moment);
+  add("reactions", rows.reaction_force, rows.reaction_moment);
+  return "  loads on nodes, pressures and the weight of cells; reactions of supports and of node 0\n\n" + table.text() +
+         fmt::format("\n  work of the loads on the displacements (total potential energy): {} {}\n", shown(rows.work),
+                     units.label(dimension::energy));
+}
+
 std::string listing_masses(std::span<const MassRow> bodies, const MassRow& model, const UnitSystem& units, std::size_t most) {
   if (bodies.empty()) return "";
   const std::string inertia = units.label(dimension::inertia);

@@ -81,6 +81,13 @@ struct GroundRow {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
 };
 
+/// Resultants of the loads of a mesh and of what the ground exerts on it, at one instant; moments about the origin.
+struct LoadRows {
+  Vec3 load_force = Vec3::Zero(), load_moment = Vec3::Zero();
+  Vec3 reaction_force = Vec3::Zero(), reaction_moment = Vec3::Zero();
+  double work = 0;  ///< u·F of the loads
+};
+
 /// Breakdown of a run's time, in seconds and in the order of the listing: `assembly`, `factorization`, …
 struct TimeSplit {
   std::vector<std::pair<std::string, double>> parts;
@@ -96,6 +103,7 @@ std::string listing_warnings(const Diagnostics& diagnostics, const SourceMap& so
 std::string listing_newton(std::span<const IterationRow> rows, bool with_heading);
 std::string listing_energies(std::span<const EnergyRow> rows, const UnitSystem& units);
 std::string listing_reactions(std::span<const ReactionRow> rows, const UnitSystem& units);
+std::string listing_loads(const LoadRows& rows, const UnitSystem& units);
 /// Lists at most `most` bodies; the last row is the whole model.
 std::string listing_masses(std::span<const MassRow> bodies, const MassRow& model, const UnitSystem& units, std::size_t most);
 std::string listing_ground(std::span<const GroundRow> rows, const UnitSystem& units);

@@ -145,3 +145,46 @@ def test_times_are_of_one_run(engrane) -> None:
     shares = [float(row[2]) for row in rows if len(row) == 3 and re.fullmatch(r"[\d.]+", row[2])]
     assert len(shares) == 6
     assert sum(shares) == pytest.approx(100, abs=1)
+
+
+PLATE = """.UNIT SI
+.NOE
+ I 1 X 0 Y 0
+ I 2 X 2 Y 0
+ I 3 X 2 Y 1
+ I 4 X 0 Y 1
+.MAI
+ I 1 N 1 2 3 4
+.SEL GROUP 1 MAILLES TOUT
+.MAT
+ I 1 YT 1000. NT 0. M 3.
+.HYP MEMB BIDIM
+.PHP GROUP 1 THICK VAL 1.
+.AEL I 1 MAT 1
+.CLM
+ NOEUD 1 FIX C 1 2
+ NOEUD 4 FIX C 1
+ NOEUD 2 CHA C 1 V 5.
+ NOEUD 3 CHA C 1 V 5.
+ STRU ACC VAL 0 -10. 0
+.FIN 1
+"""
+
+
+def test_loads_and_reactions(engrane) -> None:
+    (engrane.folder / "plate.dat").write_text(PLATE)
+    done = engrane("plate.dat")
+    assert done.returncode == 0, done.stderr
+    text = (engrane.folder / "plate.lst").read_text()
+    table = {row[0]: row[1:] for row in section(text, "Loads and reactions at the end")}
+    rows = {name: [float(x) for x in table[name]] for name in ("loads", "reactions")}
+    # 10 along x at half the height, and a weight of 6 times 10 in the middle
+    assert rows["loads"] == pytest.approx([10, -60, 0, 0, 0, -65], abs=1e-4)
+    assert rows["reactions"] == pytest.approx([-10, 60, 0, 0, 0, 65], abs=1e-4)
+    work = re.search(r"\(total potential energy\): (\S+) N·m", text)
+    with Results(engrane.folder / "plate.h5") as result:
+        assert float(work[1]) == pytest.approx(result.history("run/LOAD_WORK")[1][-1], rel=1e-5)
+    # of a mechanism there is no such table
+    (engrane.folder / "two.dat").write_text(TWO_BODIES)
+    assert engrane("two.dat").returncode == 0
+    assert "Loads and reactions" not in (engrane.folder / "two.lst").read_text()

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 from pathlib import Path
 
 import h5py
@@ -506,3 +508,68 @@ def test_round_trip(command, tmp_path: Path) -> None:
             np.full(len(back.cells_dict[kind]), 1e6)
         )
     assert back.point_data["displacement"][:, 0] == pytest.approx(start.points[:, 0] * 5e-6, abs=1e-15)
+
+
+GROUPED = """.NOE
+ I 1 X 0 Y 0
+ I 2 X 10 Y 0
+ I 3 X 10 Y 10
+ I 4 X 0 Y 10
+ I 5 X 20 Y 0
+ I 6 X 20 Y 10
+.MAI
+ I 11 AT 1 0 N 1 2 3 4
+ I 12 AT 2 0 N 2 5 6 3
+.SEL
+ GROUP 1 MAILLES NOM "both of them" TOUT
+ GROUP 2 MAILLES NOM "left (1)" I 11
+ GROUP 3 MAILLES NOM "right" AT 2
+ GROUP 4 NOEUDS NOM "foot, all" I 1 I 5
+ GROUP 5 NOEUDS NOM "top" BOITE -1 30 9 11 -1 1
+ GROUP 6 NOEUDS NOM "frame" UNION "foot, all" "top"
+ GROUP 7 FACES NOM "end"
+  I 12 2
+.SEL
+ GROUP 8 NOEUDS NOM "foot, all" I 2
+ GROUP 9 MAILLES UNION "right" 2
+.HYP MEMB BIDIM GROUP 1
+.PHP GROUP 1 THICK VAL 1.
+.AEL GROUP 1 MAT 1
+.MAT I 1 BEHA "ELASTIC" YT 1000. NT 0.3
+.CLM
+ GROUP "foot, all" FIX C 1 2
+ GROUP "end" PRE V 5.
+.FIN
+"""
+
+
+@pytest.mark.parametrize("ending", [".vtu", ".vtk", ".med", ".inp", ".msh", ".bdf"])
+def test_groups(ending: str, command, tmp_path: Path) -> None:
+    """Groups of the deck, also those of several records, are there when the file is imported again."""
+    from engrane_post.mesh_files import read
+
+    program = os.environ.get("ENGRANE", "")
+    if not Path(program).is_file():
+        pytest.skip("the variable ENGRANE names no program")
+    (tmp_path / "deck.dat").write_text(GROUPED)
+    subprocess.run([program, "-q", "deck.dat"], cwd=tmp_path, check=True, capture_output=True)
+    file = tmp_path / f"out{ending}"
+    status, out, err = command("export", tmp_path / "deck.h5", "--mesh", file)
+    assert (status, err) == (0, "")
+    nodes = {"foot, all": [0, 1, 4], "top": [2, 3, 5], "frame": [0, 2, 3, 4, 5]}
+    cells = {"both of them": [0, 1], "left (1)": [0], "right": [1], "group 9": [0, 1]}
+    if ending == ".inp":
+        nodes["foot_ all"] = nodes.pop("foot, all")
+    if ending in (".msh", ".bdf"):
+        kept = ("left (1)", "right") if ending == ".msh" else ()
+        left = [*nodes, *(name for name in cells if name not in kept)]
+        assert all(f'"{name}"' in out.split("left out: ")[-1] for name in left)
+        nodes, cells = {}, {name: cells[name] for name in kept}
+    else:
+        assert '"' not in out
+    if ending == ".msh":  # the importer reads no fields
+        file.write_bytes(file.read_bytes().split(b"$NodeData")[0])
+    mesh = read(file)
+    assert {name: rows.tolist() for name, rows in mesh.point_groups.items()} == nodes
+    found = {name: np.concatenate(rows).tolist() for name, rows in mesh.cell_groups.items()}
+    assert {name: rows for name, rows in found.items() if not name.startswith("property")} == cells

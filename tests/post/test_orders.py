@@ -147,6 +147,30 @@ def test_a_map_needs_a_run_up(two: Path, command, tmp_path: Path, monkeypatch) -
     assert command("orders", two, "7.normal_force", "--wheel", "node/1/WZ")[0] == 0
 
 
+def test_a_short_run_up_has_longer_stretches(command, tmp_path: Path, monkeypatch) -> None:
+    """Unbalance over 8.8 turns: a sixteenth of them does not hold a period of it."""
+    monkeypatch.chdir(tmp_path)
+    t = models.STEP * np.arange(4001)
+    angle = 2 * np.pi * (20 * t + 0.5 * 1e4 * t**2)
+    models.two_wheels(
+        tmp_path / "short.h5",
+        history={
+            "element/7/NORMAL_FORCE": (80 * np.sin(angle), "N", "normal force"),
+            "element/7/PSI_A": (angle, "rad", "turn of wheel A"),
+        },
+    )
+    words = ("orders", "short", "7.normal_force", "--map", "--csv", "m.csv", "--harmonics", "0")
+    status, out, err = command(*words)
+    assert (status, err) == (0, "")
+    assert "map: stretches of 2.933 turns, resolution 0.6818" in out and "note" not in out
+    table = list(csv.reader((tmp_path / "m.csv").open()))
+    orders, body = np.array(table[0][1:], float), np.array(table[1:], float)
+    assert orders[body[:, 1:].argmax(axis=1)] == pytest.approx(1, abs=0.1)
+    assert body[:, 1:].max(axis=1) == pytest.approx(80, rel=0.1)
+    out = command(*words, "--turns", "0.55")[1]
+    assert "these stretches do not show order 1 as a line; that takes 2 turns or more" in out
+
+
 def test_help(command, capsys) -> None:
     with pytest.raises(SystemExit) as e:
         command("orders", "--help")

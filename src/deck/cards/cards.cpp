@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "deck/cards/card_chapters.hpp"
@@ -84,13 +86,82 @@ Schema frame_card() {
   return card.schema();
 }
 
+const char* content_of(const GroupCard& group) {
+  return group.kind.is("NODES") ? "nodes" : group.kind.is("FACES") ? "faces" : "elements";
+}
+
+/// Why two records of one number cannot be one group; empty if they can.
+std::string contradiction(const GroupCard& earlier, const GroupCard& later) {
+  if (earlier.kind.tag != later.kind.tag) return fmt::format("of {} and of {}", content_of(earlier), content_of(later));
+  const bool renamed = !earlier.name.empty() && !later.name.empty() && earlier.name != later.name;
+  if (renamed) return fmt::format("named \"{}\" and \"{}\"", earlier.name, later.name);
+  if ((earlier.of_file || later.of_file) && earlier.name != later.name) return "in a mesh file and elsewhere";
+  return {};
+}
+
+/// Groups of one number, or of one name and kind, are one group.
+void unite_groups(const std::vector<Record*>& records, Diagnostics& diagnostics) {
+  std::vector<std::vector<GroupCard*>> groups;
+  struct Known {
+    std::size_t group;
+    const Record* first;
+  };
+  std::map<int, Known> by_number;
+  std::map<std::pair<std::string, std::string>, Known> by_name;
+  const auto find = [](const auto& known, const auto& key) {
+    const auto found = known.find(key);
+    return found == known.end() ? nullptr : &found->second;
+  };
+  int largest = 0;
+  for (const Record* record : records) largest = std::max(largest, record->id);
+  for (Record* record : records) {
+    auto& card = std::any_cast<GroupCard&>(record->data);
+    const auto name = std::pair(card.kind.tag, card.name);
+    const Known* numbered = find(by_number, card.number);
+    const Known* named = card.name.empty() ? nullptr : find(by_name, name);
+    std::string wrong = numbered ? contradiction(*groups[numbered->group].front(), card) : "";
+    if (!wrong.empty() && card.of_file) {
+      card.number = record->id = ++largest;
+      numbered = nullptr;
+      wrong.clear();
+    }
+    if (wrong.empty() && numbered && named && numbered->group != named->group)
+      wrong = fmt::format("and \"{}\" is another group, in line {}", card.name, named->first->location.line);
+    if (!wrong.empty()) {
+      diagnostics.error(record->location, fmt::format(".SEL {} is given twice, {}", card.number, wrong),
+                        fmt::format("first in line {}; records of one number, or of one name and kind, are one group",
+                                    numbered->first->location.line));
+      record->faulty = true;
+      continue;
+    }
+    const std::size_t group = numbered ? numbered->group : named ? named->group : groups.size();
+    if (group == groups.size()) groups.emplace_back();
+    groups[group].push_back(&card);
+    by_number.try_emplace(card.number, Known{group, record});
+    if (!card.name.empty()) by_name.try_emplace(name, Known{group, record});
+  }
+  for (const std::vector<GroupCard*>& group : groups) {
+    std::vector<std::string> names;
+    for (const GroupCard* card : group)
+      for (const std::string& name : {card->name, std::to_string(card->number)})
+        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    for (GroupCard* card : group) {
+      card->group = group.front()->number;
+      card->names = names;
+    }
+  }
+}
+
 Schema group_card() {
   Card<GroupCard> card(".SEL", {".SELECTION"}, "Named groups of nodes, elements or faces");
   card.chapter(model_chapter).key("GROUP");
   card.describe(
       "What a group holds is given by numbers and ranges (`1 A 20`, or `I 1 J 20 K 1`: from, to, step; `I 7`), by TOUT, by a "
       "box, by other groups, or by the attribute of elements; several of these add up. Faces are given one by one, by their cell "
-      "and their number there (`I 57 3`). Other cards name a group by its number or by its name.");
+      "and their number there (`I 57 3`). Other cards name a group by its number or by its name. Records of one number, or of "
+      "one "
+      "name and kind, are one group: later ones add to it. A condition or load on nodes is for those that the records above it "
+      "name.");
   card.add("NOM", &GroupCard::name, "name").synonyms({"NAME"});
   card.add("KIND", &GroupCard::kind, "what the group holds")
       .synonyms({"GENRE"})
@@ -108,6 +179,7 @@ Schema group_card() {
       .unit(dimension::length)
       .values(6, 6);
   card.add("AT", &GroupCard::attribute, "elements with this attribute").synonyms({"ATTRIBUTE", "ATTRIBUT"});
+  card.unite(unite_groups);
   card.finish([](GroupCard& group, Record& record, Diagnostics& diagnostics) {
     group.number = record.id;
     if (group.kind.is("FACES")) {

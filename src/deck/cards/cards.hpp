@@ -2,6 +2,7 @@
 // Structs of the general commands of a deck (`.NOE`, `.CLM`, `.SAM`, …). Elements declare theirs next to their physics.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -49,6 +50,13 @@ struct GroupCard {
   std::vector<std::string> united;  ///< UNION: names or numbers of groups
   std::vector<double> box;          ///< BOITE xmin xmax ymin ymax zmin zmax
   std::optional<int> attribute;     ///< MAILLE AT n
+  bool of_file = false;             ///< of a mesh file: nobody chose its number
+
+  // Several records may give one group. Set when the deck has been read, the same for all of them.
+  int group = 0;                   ///< number of the first of the records
+  std::vector<std::string> names;  ///< name and numbers of the group, by which others refer to it
+
+  bool is_called(const std::string& wanted) const { return std::find(names.begin(), names.end(), wanted) != names.end(); }
 };
 
 /// `.MAT I id NOM "steel" BEHA "ELASTIC" YT … NT … M …`; orthotropic with `YT e1 e2 e3 NT n12 n23 n13 G g12 g23 g13`.

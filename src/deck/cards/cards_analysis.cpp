@@ -73,7 +73,7 @@ Schema analysis_card() {
   card.add(
           "SOLVER", &AnalysisCard::solver,
           "solver of the linear systems. With several processes, one of them solves systems of up to 3000 equations, with any of "
-          "these; all together solve larger ones, with MUMPS or CG")
+          "these; all together solve larger ones, with MUMPS, BLR or CG")
       .synonyms({"SOLVEUR"})
       .option({"MUMPS", {}, "multifrontal"})
       .option(
@@ -81,6 +81,11 @@ Schema analysis_card() {
       .option({"KLU", {}, "fastest for mechanisms"})
       .option({"UMFPACK", {}, "multifrontal, serial"})
       .option({"SUPERLU", {}, "supernodal, serial"})
+      .option(
+          {"BLR",
+           {},
+           "MUMPS with blocks of low rank (tolerance 1E-9, solutions refined): less memory for factors of a million equations "
+           "and more; of full rank where a solution is not good enough"})
       .option({"CG",
                {},
                "conjugate gradients with algebraic multigrid, on any number of processes: for meshes of solids whose factors do "

@@ -5,11 +5,11 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include "base/text.hpp"
 #include "deck/language/token_stream.hpp"
+#include "deck/read/numbers_given.hpp"
 #include "deck/read/recognised.hpp"
 #include "deck/read/record_reader.hpp"
 #include "deck/schema/matching.hpp"
@@ -103,31 +103,6 @@ class CommandTable {
   std::vector<std::string> words_;
 };
 
-/// The line in which each number of a command was given. Ascending numbers, the usual case, are kept in a sorted vector.
-class NumbersGiven {
- public:
-  /// Returns the line in which the number was given before; if it is new, records it and returns nothing.
-  std::optional<int> add(int number, int line) {
-    if (ascending_.empty() || number > ascending_.back().number) {
-      ascending_.push_back({number, line});
-      return {};
-    }
-    const auto found = std::lower_bound(ascending_.begin(), ascending_.end(), number,
-                                        [](const Given& given, int wanted) { return given.number < wanted; });
-    if (found->number == number) return found->line;
-    const auto [entry, fresh] = others_.try_emplace(number, line);
-    return fresh ? std::nullopt : std::optional<int>(entry->second);
-  }
-
- private:
-  struct Given {
-    int number;
-    int line;
-  };
-  std::vector<Given> ascending_;
-  std::unordered_map<int, int> others_;
-};
-
 /// Reads a deck command by command.
 class Reader {
  public:
@@ -142,6 +117,8 @@ class Reader {
     read_commands();
     for (const std::string& card : cards) read_instead(card);
     records_.report_skipped();
+    unite_records();
+    check_skipped(settings_, deck_.records, diagnostics_);
     set_faulty_apart();
     for (const Record& record : deck_.faulty) deck_.incomplete.emplace(record.schema->command());
     return std::move(deck_);
@@ -181,6 +158,13 @@ class Reader {
     read_commands();
   }
 
+  void unite_records() {
+    std::map<const Schema*, std::vector<Record*>> all;
+    for (Record& record : deck_.records)
+      if (record.schema->unite && !record.faulty) all[record.schema].push_back(&record);
+    for (const auto& [schema, records] : all) schema->unite(records, diagnostics_);
+  }
+
   void set_faulty_apart() {
     const auto good = [](const Record& record) { return !record.faulty; };
     if (std::all_of(deck_.records.begin(), deck_.records.end(), good)) return;
@@ -203,6 +187,7 @@ class Reader {
   void unknown_command(const Token& word) {
     if (const Recognised* known = find_recognised(word.text)) {
       report(*known, word);
+      if (known->skipped()) return skip_settings(*known);
     } else {
       std::string hint = did_you_mean_card(word.text, commands_.words());
       if (const Order* order = find_order(word.text))
@@ -217,6 +202,17 @@ class Reader {
 
   void skip_command() {
     while (!tokens_.peek().is_end() && !tokens_.peek().is_command()) tokens_.skip();
+  }
+
+  /// Skips a command without meaning here, and notes its words for check_skipped(). `TEMP 0` is as if it were not there.
+  void skip_settings(const Recognised& known) {
+    while (!tokens_.peek().is_end() && !tokens_.peek().is_command()) {
+      const Token word = tokens_.peek();
+      tokens_.skip();
+      const Token& value = tokens_.peek();
+      if (word.is_word() && !(value.is_number() && value.value == 0))
+        settings_.push_back({known.name, std::string(word.text), word.where});
+    }
   }
 
   void report(const Recognised& known, const Token& word) {
@@ -248,10 +244,12 @@ class Reader {
     const auto gone = [&](const Record& record) { return !command || record.schema->command() == command->name; };
     const auto removed = std::erase_if(deck_.records, gone);
     std::erase_if(once_, [&](const auto& entry) { return !command || entry.first->command() == command->name; });
-    if (command)
+    if (command) {
       ids_.erase(command->name);
-    else
+    } else {
       ids_.clear();
+      settings_.clear();
+    }
     return static_cast<int>(removed);
   }
 
@@ -409,6 +407,7 @@ class Reader {
   }
 
   void check_new_id(Record& record, const std::vector<int>& copies) {
+    if (record.schema->unite) return;
     const std::string command(record.schema->command());
     auto& known = ids_[command];
     const auto check = [&](int id) {
@@ -527,7 +526,8 @@ class Reader {
   RecordReader records_;
   Deck deck_;
   std::map<std::string, NumbersGiven> ids_;  ///< by command
-  std::map<const Schema*, Location> once_;   ///< locations of the cards that a deck may have only once
+  std::vector<SkippedSetting> settings_;
+  std::map<const Schema*, Location> once_;  ///< locations of the cards that a deck may have only once
 };
 
 }  // namespace

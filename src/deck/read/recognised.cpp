@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "deck/read/recognised.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -21,7 +23,7 @@ const std::vector<Recognised>& recognised_commands() {
       {".CLM LIA", "linear relations between displacements", "write it as a record of .LIA"},
       {".DES", "drawing", ""},
       {".ALG", "settings of the solution algorithms", ""},
-      {".GEL", "the temperature of all elements, on which nothing depends", ""},
+      {".GEL", "the temperature of all elements", ""},
   };
   return all;
 }
@@ -56,6 +58,29 @@ const Recognised* find_recognised(std::string_view command, std::string_view key
     return known == name && (key.empty() ? known_key.empty() : !known_key.empty() && starts_recognised(key, known_key));
   });
   return found == all.end() ? nullptr : &*found;
+}
+
+void check_skipped(const std::vector<SkippedSetting>& settings, const std::vector<Record>& records, Diagnostics& diagnostics) {
+  const auto any = [&](const char* card, const char* keyword, std::size_t least) {
+    return std::any_of(records.begin(), records.end(), [&](const Record& record) {
+      const Field* field = record.schema->name == card ? record.schema->find(keyword) : nullptr;
+      return field && record.given(*field) && field->load(record.data).numbers.size() >= least;
+    });
+  };
+  const auto first = [&](std::string_view command, std::string_view start) {
+    return std::find_if(settings.begin(), settings.end(), [&](const SkippedSetting& setting) {
+      return setting.command == command && upper(setting.word).starts_with(start);
+    });
+  };
+  const auto temperature = first(".GEL", "TEMP"), axes = first(".ALG", "AXE");
+  if (temperature != settings.end() && any(".MAT", "A", 1) && any(".CLM TEMP", "V", 1))
+    diagnostics.error(temperature->where,
+                      "`.GEL TEMP` is skipped, but it matters here: materials have A, and .CLM TEMP warms them",
+                      "V of .CLM TEMP is the rise above the state without stress: give such rises there, and remove .GEL");
+  if (axes != settings.end() && any(".MAT", "YT", 2))
+    diagnostics.error(axes->where,
+                      fmt::format("`.ALGO {}` is skipped, but it matters here: a material has axes", upper(axes->word)),
+                      "give its axes by THETA or FRAME of .AEL, and remove this");
 }
 
 }  // namespace engrane::deck

@@ -5,6 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/diagnostics.hpp"
+#include "deck/schema/schema.hpp"
+
 namespace engrane::deck {
 
 /// A command or record of BACON that this version recognises but does not implement.
@@ -29,5 +32,15 @@ bool starts_recognised(std::string_view word, RecognisedKey key);
 
 /// Looks up a command word and record key (`.CLM`, `PRE`; empty key for a whole command); nullptr if unknown.
 const Recognised* find_recognised(std::string_view command, std::string_view key = {});
+
+/// A word within a command that is skipped: `TEMP` of `.GEL`.
+struct SkippedSetting {
+  std::string command;
+  std::string word;
+  Location where;
+};
+
+/// Reports as errors the settings that would change the results of a deck with these records.
+void check_skipped(const std::vector<SkippedSetting>& settings, const std::vector<Record>& records, Diagnostics& diagnostics);
 
 }  // namespace engrane::deck

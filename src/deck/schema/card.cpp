@@ -199,6 +199,11 @@ CardText& CardText::key(std::string_view word) {
   schema_.record_key = word;
   return *this;
 }
+CardText& CardText::unite(void (*records_of_deck)(const std::vector<Record*>&, Diagnostics&)) {
+  schema_.unite = records_of_deck;
+  return *this;
+}
+
 CardText& CardText::repeated_ids() {
   schema_.repeated_ids = true;
   return *this;

@@ -55,6 +55,7 @@ class CardText {
   CardText& rows();
   CardText& once();
   CardText& redefines();
+  CardText& unite(void (*records_of_deck)(const std::vector<Record*>&, Diagnostics&));
 
   /// Adds a keyword for a mesh file (Catalogue::read_mesh), allowed only before the first record.
   FieldBuilder add_mesh_file(std::string_view keyword, std::string_view help);

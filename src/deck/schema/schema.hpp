@@ -132,6 +132,9 @@ struct Schema {
   std::function<std::any()> make;  ///< creates the struct a record starts from
   /// Checks across fields and derives values, after the record has been read without a fault; may be empty.
   std::function<void(Record&, Diagnostics&)> finish;
+  /// Unites the records of a deck that add up, given in its order; those that contradict become faulty. If empty, a number that
+  /// is given twice is an error.
+  std::function<void(const std::vector<Record*>&, Diagnostics&)> unite;
 
   const Field* find(std::string_view keyword) const;  ///< exact canonical keyword
   std::string_view command() const;                   ///< `.CLM` of `.CLM FIX`; `.MCE` for elements

@@ -125,8 +125,8 @@ class NodeForce final : public TemplatedElement<NodeForce, 1, 6>, public Determi
   }
 
   Drawing drawing() const override {
-    return {fmt::format(R"("shape": "arrow", "node": {}, "center": {}, "axis": {})", layout().nodes[0], json(point_),
-                        json(Vec3(value_ < 0 ? -direction_ : direction_)))};
+    return {fmt::format(R"("shape": "arrow", "node": {}, "center": {}, "axis": {}, "holder": {})", layout().nodes[0],
+                        json(point_), json(Vec3(value_ < 0 ? -direction_ : direction_)), follow_ ? layout().nodes[0] : 0)};
   }
 
  private:

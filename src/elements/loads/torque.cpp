@@ -63,9 +63,13 @@ class Torque final : public TemplatedElement<Torque, 2, 6>, public DeterminedCha
   }
 
   Drawing drawing() const override {
-    return {fmt::format(R"("shape": "arrow", "node": {}, "center": {}, "axis": {})",
-                        layout().nodes[1] != 0 ? layout().nodes[1] : layout().nodes[0], json(center_),
-                        json(Vec3(value_ < 0 ? -axis_ : axis_)))};
+    const auto& nodes = layout().nodes;
+    const bool on_last = nodes[1] != 0;  // the first node bears the opposite moment
+    return {fmt::format(R"("shape": "arrow", "couple": true, "node": {}, "center": {}, "axis": {}, "holder": {})",
+                        on_last ? nodes[1] : nodes[0], json(center_), json(Vec3((value_ < 0) == on_last ? -axis_ : axis_)),
+                        holder_ == Holder::space   ? 0
+                        : holder_ == Holder::first ? nodes[0]
+                                                   : nodes[1])};
   }
 
  private:

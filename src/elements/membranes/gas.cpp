@@ -122,12 +122,11 @@ class Surface {
       if (const auto* data = record.get<MembraneData>()) membranes[record.id] = data;
     bool good = true;
     for (const std::string& name : groups) {
-      const deck::GroupCard* group = nullptr;
+      std::vector<const deck::GroupCard*> group;
       for (const deck::Record& record : *context_.records)
-        if (const auto* card = record.get<deck::GroupCard>();
-            card && card->kind.is("ELEMENTS") && (card->name == name || std::to_string(card->number) == name))
-          group = card;
-      if (!group) {
+        if (const auto* card = record.get<deck::GroupCard>(); card && card->kind.is("ELEMENTS") && card->is_called(name))
+          group.push_back(card);
+      if (group.empty()) {
         context_.diagnostics.missing(".SEL", context_.record.where("GROUP"),
                                      fmt::format("there is no group of elements \"{}\"", name),
                                      "declare it with .SEL GROUP n MAILLES");
@@ -135,8 +134,12 @@ class Surface {
         continue;
       }
       for (const int id : book_->cells(name)) good = add_cell(id) && good;
-      for (const auto& [id, data] : membranes)
-        if (group->all || std::find(group->ids.begin(), group->ids.end(), id) != group->ids.end()) add(data->nodes);
+      for (const auto& [id, data] : membranes) {
+        const auto holds = [id](const deck::GroupCard* card) {
+          return card->all || std::find(card->ids.begin(), card->ids.end(), id) != card->ids.end();
+        };
+        if (std::any_of(group.begin(), group.end(), holds)) add(data->nodes);
+      }
     }
     if (good && cells_.empty()) {
       context_.error("GROUP", "there are no membranes in the group",

@@ -129,14 +129,17 @@ const std::vector<int>* CellBook::faces(const std::string& group) const {
 }
 
 void CellBook::read_groups(const std::vector<deck::Record>& records) {
+  std::map<int, Group> so_far;  // groups by GroupCard::group: what the records up to here give them
+  std::map<int, std::vector<int>> faces_of;
   for (const deck::Record& record : records) {
     const auto* card = record.get<deck::GroupCard>();
     if (card && card->kind.is("FACES")) {
-      if (!card->name.empty()) faces_[card->name] = card->ids;
-      if (card->number != 0) faces_[std::to_string(card->number)] = card->ids;
+      std::vector<int>& faces = faces_of[card->group];
+      faces.insert(faces.end(), card->ids.begin(), card->ids.end());
+      for (const std::string& name : card->names) faces_[name] = faces;
     }
     if (!card || !card->kind.is("ELEMENTS")) continue;
-    Group group;
+    Group& group = so_far[card->group];
     const auto chosen = [&](const Cell& cell) {
       if (card->all) return true;
       const std::vector<int>& attribute = cell.record->get<CellData>()->attribute;
@@ -151,8 +154,7 @@ void CellBook::read_groups(const std::vector<deck::Record>& records) {
         group.insert(group.end(), other->second.begin(), other->second.end());
     std::sort(group.begin(), group.end());
     group.erase(std::unique(group.begin(), group.end()), group.end());
-    if (!card->name.empty()) groups_[card->name] = group;
-    if (card->number != 0) groups_[std::to_string(card->number)] = std::move(group);
+    for (const std::string& name : card->names) groups_[name] = group;
   }
 }
 

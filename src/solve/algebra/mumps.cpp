@@ -16,6 +16,10 @@ namespace {
 /// factorisation is repeated.
 constexpr int some_room = 10, usual_room = 50, most_room = 3000;
 
+/// Blocks are approximated to this, relative to the scaled matrix: one refinement brings the solution to rounding, where 1e-6
+/// does not, and saves little more (docs/decisions/0027-solver-ladder.md).
+constexpr double low_rank_tolerance = 1e-9;
+
 constexpr double gigabyte = 1e9, megabyte = 1e6;
 
 double infog(Mat factors, PetscInt index) {
@@ -47,6 +51,10 @@ bool Mumps::analyse() {
   if (symmetric) check_petsc(MatSetOption(matrix_, MAT_SPD, form_ == Form::definite ? PETSC_TRUE : PETSC_FALSE));
   check_petsc(MatGetFactor(matrix_, MATSOLVERMUMPS, symmetric ? MAT_FACTOR_CHOLESKY : MAT_FACTOR_LU, factors_.out()));
   check_petsc(MatMumpsSetIcntl(factors_, 14, room_));
+  if (low_rank_) {
+    check_petsc(MatMumpsSetIcntl(factors_, 35, 2));  // low-rank blocks in factors and solutions
+    check_petsc(MatMumpsSetCntl(factors_, 7, low_rank_tolerance));
+  }
   MatFactorInfo info;
   check_petsc(MatFactorInfoInitialize(&info));
   check_petsc(symmetric ? MatCholeskyFactorSymbolic(factors_, matrix_, nullptr, &info)
@@ -77,6 +85,12 @@ bool Mumps::factor() {
 }
 
 bool Mumps::improve() {
+  if (low_rank_) {
+    low_rank_ = false;
+    left_low_rank_ = true;
+    become(form_);
+    return factor();
+  }
   become(form_ == Form::definite ? Form::symmetric : Form::general);
   return factor();
 }
@@ -130,11 +144,16 @@ void Mumps::refuse_without_memory() const {
                   rows_of(matrix_), most[0] / gigabyte, -most[1] / gigabyte));
 }
 
+std::string Mumps::remark() const {
+  return left_low_rank_ ? "SOLVER BLR: a solution with low-rank blocks was not good enough, and the factors are of full rank"
+                        : "";
+}
+
 SolverWork Mumps::work() const {
   if (!factors_) return {};
   PetscReal operations = 0;
   check_petsc(MatMumpsGetRinfog(factors_, 3, &operations));
-  return mumps_work(static_cast<double>(rows_of(matrix_)), entries(infog(factors_, 29)), operations);
+  return mumps_work(static_cast<double>(rows_of(matrix_)), entries(infog(factors_, low_rank_ ? 35 : 29)), operations);
 }
 
 double Mumps::bytes() const { return factors_ ? megabyte * infog(factors_, 19) : 0; }  // of all ranks, in the factorisation

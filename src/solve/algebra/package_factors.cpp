@@ -13,7 +13,7 @@ namespace engrane::solve {
 std::unique_ptr<Factors> make_factors(Mat matrix, const std::string& package) {
   if (package == "KLU") return std::make_unique<Klu>(matrix);
   if (package == "CG") return std::make_unique<ConjugateGradients>(matrix);
-  if (package == "MUMPS") return std::make_unique<Mumps>(matrix);
+  if (package == "MUMPS" || package == "BLR") return std::make_unique<Mumps>(matrix, package == "BLR");
   return std::make_unique<PackageFactors>(matrix, package);
 }
 

@@ -161,10 +161,14 @@ std::string unshared_nodes(const Assembler& assembler, const Vector& null) {
 std::string advice(const Assembler& assembler, const std::vector<int>& order, const Vector& null, Resistance resistance) {
   const Model& model = assembler.model();
   const double largest = std::abs(null[order[0]]);
-  if (resistance == Resistance::at_rest)
+  if (resistance != Resistance::in_motion)
     return unshared_nodes(assembler, null) +
-           ". Statics needs something that holds every motion: a support (.CLM FIX), a joint, a spring or a drive; what is to "
-           "move freely needs TYPE DYNAMIC" +
+           fmt::format(". {} needs something that holds every motion: a support (.CLM FIX), a joint, a spring or a drive; ",
+                       resistance == Resistance::at_rest ? "Statics" : "The equilibrium of START STATIC") +
+           (resistance == Resistance::at_rest
+                ? "what is to move freely needs TYPE DYNAMIC"
+                : "if this motion is to be free, hold it by a spring too weak to matter, or leave START STATIC out and give "
+                  "positions by .INI DEP") +
            plane_advice(model);
   std::vector<bool> bodies(model.nodes.size(), false);
   for (const Model::Part& part : model.parts)
@@ -255,15 +259,16 @@ std::string explain_null_vector(const Assembler& assembler, const std::string& w
   return describe(assembler, what, {Vector::Map(null.data(), static_cast<Eigen::Index>(null.size())), 1}, resistance);
 }
 
-std::string explain_unresisted(Assembler& assembler, const Configuration& equilibrium, const std::string& what) {
+std::string explain_unresisted(Assembler& assembler, const Configuration& equilibrium, const std::string& what,
+                               Resistance resistance) {
   constexpr int most_equations = 100'000;  // more cost minutes
   const int n = assembler.numbering().equations();
   if (n == 0 || n > most_equations) return {};
-  assembler.tangent(outside_of_steps(equilibrium), {1, 0, 0});
+  assembler.tangent(at_start_of_step(equilibrium), {1, 0, 0});
   const Sparse matrix = whole_matrix(assembler);
   if (!Vector::Map(matrix.valuePtr(), matrix.nonZeros()).allFinite()) return {};
   const NullVector nearest = nearest_null_vector(matrix, singular_to_rounding);
-  return nearest.of > 0 && moves(assembler.numbering(), nearest.entries) ? describe(assembler, what, nearest, Resistance::at_rest)
+  return nearest.of > 0 && moves(assembler.numbering(), nearest.entries) ? describe(assembler, what, nearest, resistance)
                                                                          : std::string();
 }
 
@@ -278,7 +283,7 @@ std::string plane_advice(const Model& model) {
 std::string explain_free_motion(Assembler& assembler, const Configuration& configuration, const Mobility& mobility) {
   const int freedom = mobility.freedom();
   if (freedom <= 0) return {};
-  const ConstraintFactors factors(assembler, outside_of_steps(configuration), ConstraintColumns::gradients, 1e-9);
+  const ConstraintFactors factors(assembler, at_start_of_step(configuration), ConstraintColumns::gradients, 1e-9);
   std::string text = fmt::format(
       "a KINEMATIC analysis needs drives that leave no freedom, but {} free here, for example that of {}: give a joint a DRIVE, "
       "prescribe a displacement, or use TYPE DYNAMIC",

@@ -11,21 +11,23 @@ namespace engrane::solve {
 
 struct Mobility;
 
-/// What resists a motion: only forces that depend on the position, or inertia too.
-enum class Resistance { at_rest, in_motion };
+/// Resistance to a motion: only of forces that depend on the position (statics, or the static start of dynamics), or of inertia
+/// too.
+enum class Resistance { at_rest, at_start, in_motion };
 
 /// Names the motion or the reactions that make the matrix of `assembler` singular: returns `what`, followed by the unknowns of
 /// the nearest null vector. Collective.
 std::string explain_singular(Assembler& assembler, const std::string& what, Resistance resistance = Resistance::in_motion);
 
-/// The same for a null vector that is known, by equation; on every rank.
+/// Text like that of explain_singular() for a null vector that is known, by equation; on every rank.
 std::string explain_null_vector(const Assembler& assembler, const std::string& what, std::span<const double> null,
                                 Resistance resistance);
 
 /// Names the motion that nothing resists in an equilibrium whose tangent is singular up to rounding: returns `what`, followed by
 /// the motion and advice; empty if the tangent is regular, and for more than 100 000 equations. Overwrites the matrix of
 /// `assembler`. Collective.
-std::string explain_unresisted(Assembler& assembler, const Configuration& equilibrium, const std::string& what);
+std::string explain_unresisted(Assembler& assembler, const Configuration& equilibrium, const std::string& what,
+                               Resistance resistance = Resistance::at_rest);
 
 /// "; if all motion is in the plane of the cells, .SAM PLANE XY solves it there"; empty without plane cells in a model of space.
 std::string plane_advice(const Model& model);
@@ -42,7 +44,7 @@ std::string explain_residual(Assembler& assembler, const Configuration& configur
 std::string explain_unresolved(const Assembler& assembler, const References& references, bool one_tangent,
                                const Configuration& configuration, double energy);
 
-/// What is said of an element whose forces are not finite, after its name, if the element knows no reason.
+/// Words after the name of an element whose forces are not finite, if the element knows no reason.
 inline constexpr const char* gives_not_finite = "gives a force or a slope of it that is not a finite number";
 
 /// Names the first element whose forces or tangent are not finite numbers; empty when all are.
