@@ -50,6 +50,8 @@ class Attempt {
   void run();
   /// What is done behind each accepted step; false to stop.
   bool after_step(const Configuration& solved, const solve::StepReport& step);
+  /// Ends the run where its energies have gone wrong; false then.
+  bool energies_hold(const Configuration& solved, bool last);
   void find_buckling_modes(const Configuration& solved, const solve::StepReport& step);
   /// Lets the observer see an accepted step, and tells what is due of it.
   Schedule::Due show(const Configuration& solved, const solve::StepReport& step);
@@ -91,6 +93,8 @@ class Attempt {
   std::optional<solve::Runner> runner_;
   Configuration whole_;     ///< in_space()
   double last_time_ = 0;    ///< of the last accepted step
+  double handled_ = 0;      ///< observe::EnergyBalance::handled() at its end
+  int steps_off_ = 0;       ///< number of steps in a row whose energies were off
   std::string failure_;     ///< what stopped the run; empty when nothing did
   bool complete_ = false;   ///< the run came to its end
   bool unsolved_ = false;   ///< no solution was found at some step

@@ -42,10 +42,13 @@ int print_model(const Reading& reading, std::ostream& out) {
     apply_initial_displacements(context, c);
     context.start.assemble(c, report);
     const bool moves = !model.commands.analysis.type.is("STATIC");
-    if (moves) apply_initial_velocities(context, c);
     // drives may agree on positions but not on velocities; supports move nodes only if there is motion
-    context.start.fit_velocities(c, Assembler::Metric::geometric, report, moves);
-    if (!moves) report.velocities_fitted = false;
+    if (moves) {
+      apply_initial_velocities(context, c);
+      context.start.fit_velocities(c, Assembler::Metric::geometric, report);
+    } else {
+      context.start.project_velocities(c, Assembler::Metric::geometric);
+    }
     if (context.options.analysis == SolverOptions::Analysis::kinematics)
       if (const std::string free = explain_free_motion(context.assembler, c, context.redundancy.mobility()); !free.empty())
         throw SolutionFailure(free);

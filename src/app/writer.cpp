@@ -38,6 +38,18 @@ Results make_results(const std::string& prefix, ResultsLayout layout, const Resu
   return {prefix, std::move(layout)};
 }
 
+/// Empty for a model without a mesh.
+std::string listed_loads(const observe::Observer& observer, const UnitSystem& units) {
+  const auto value = [&observer](const char* name, std::size_t next = 0) {
+    return observer.values()[static_cast<std::size_t>(observer.channel("run", name)) + next];
+  };
+  const auto vector = [&value](const char* first) { return Vec3(value(first), value(first, 1), value(first, 2)); };
+  if (observer.channel("run", "LOAD_WORK") < 0) return {};
+  return listing_loads(
+      {vector("LOAD_FORCE_X"), vector("LOAD_MOMENT_X"), vector("GROUND_FORCE_X"), vector("GROUND_MOMENT_X"), value("LOAD_WORK")},
+      units);
+}
+
 /// Further events are only counted.
 constexpr long most_listed_events = 100;
 constexpr std::size_t most_listed_bodies = 100, most_listed_peaks = 400;
@@ -165,7 +177,7 @@ void Writer::started(const StartReport& start) {
 }
 
 void Writer::step(const Configuration& c, const StepReport& step, const Schedule::Due& due, const Numbering& numbering) {
-  show(c.time, schedule_.controlled() ? schedule_.even(c.time) : step.regular, due);
+  show(c.time, schedule_.controlled() ? schedule_.even(c.time) : step.regular, due, !step.events.empty() || step.corner);
   if (observer_.not_unique().size() != marked_) {
     marked_ = observer_.not_unique().size();
     results_.mark_not_unique(observer_.not_unique());
@@ -196,8 +208,8 @@ void Writer::between(double time, const Schedule::Due& due) {
   frame_between_ = frame_between_ || due.frame;
 }
 
-void Writer::show(double time, bool regular, const Schedule::Due& due) {
-  if (!checks_.empty()) checks_.observe(time, observer_.values(), regular);
+void Writer::show(double time, bool regular, const Schedule::Due& due, bool corner) {
+  if (!checks_.empty()) checks_.observe(time, observer_.values(), regular, corner);
   if (due.sample || !checks_.empty()) follow(time);
   if (due.sample) results_.sample(time, observer_.values());
   if (due.frame) results_.frame(time, frame_values(reading_.model, observer_));
@@ -224,6 +236,10 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
     listing_.write(listing_section("Reactions at the end"));
     listing_.write(listing_reactions(reactions, units));
   }
+  if (const std::string loads = listed_loads(observer_, units); !loads.empty()) {
+    listing_.write(listing_section("Loads and reactions at the end"));
+    listing_.write(loads);
+  }
   if (!ground_.empty()) {
     listing_.write(listing_section("Forces of the ground"));
     listing_.write(listing_ground(ground_, units));
@@ -248,7 +264,7 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
   if (event_count_ > 0) {
     listing_.write(listing_section("Events"));
     listing_.write(events_);
-    if (event_count_ > most_listed_events) listing_.write(fmt::format("  and {} more\n", event_count_ - most_listed_events));
+    if (event_count_ > listed_events_) listing_.write(fmt::format("  and {} more\n", event_count_ - listed_events_));
     listing_.write(fmt::format("  {} in all, located by {} attempts beyond those of the steps\n", event_count_, locating_));
   }
   if (!remarks_.empty()) {
@@ -382,7 +398,9 @@ std::string Writer::wanted_table() const {
 
 void Writer::note_events(const Configuration& c, const StepReport& step) {
   for (const Event& e : step.events) {
-    if (++event_count_ > most_listed_events) continue;
+    ++event_count_;
+    if (listed_events_ == most_listed_events) continue;
+    ++listed_events_;
     const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(e.part)];
     const SwitchNames& names = part.element->layout().switches[static_cast<std::size_t>(e.index)];
     events_ +=

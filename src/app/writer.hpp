@@ -73,7 +73,7 @@ class Writer {
   /// Updates the resultants of the ground forces, and the peaks.
   void follow(double time);
   output::GroundRow ground(double time) const;
-  void show(double time, bool regular, const Schedule::Due& due);
+  void show(double time, bool regular, const Schedule::Due& due, bool corner = false);
   void note_events(const Configuration& c, const solve::StepReport& step);
   void note_critical(const solve::CriticalPoint& point);
   void collect_remarks(const Configuration& c, const Numbering& numbering);
@@ -96,7 +96,7 @@ class Writer {
   std::string events_, critical_, buckling_, remarks_, accuracy_;
   bool frame_between_ = false;  ///< a frame was due within the step
   std::size_t marked_ = 0;      ///< number of channels marked as not unique so far
-  long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, locating_ = 0, coupled_ = 0;
+  long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, listed_events_ = 0, locating_ = 0, coupled_ = 0;
 };
 
 }  // namespace engrane::app

@@ -161,12 +161,27 @@ void Assembler::set_idle(const std::vector<int>& multipliers) {
   note_released();
 }
 
-bool Assembler::numbered(int multiplier) const { return numbering_.equation(numbering_.motion_slots() + multiplier) >= 0; }
+bool Assembler::numbered(int multiplier) const { return equation_of(static_cast<std::size_t>(multiplier)) >= 0; }
 
 void Assembler::note_released() {
   any_released_ = false;
   for (std::size_t m = 0; m < released_.size() && !any_released_; ++m)
     any_released_ = released_[m] && numbered(static_cast<int>(m));
+}
+
+void Assembler::multipliers_to_unknowns(const Configuration& configuration, std::span<double> unknowns) const {
+  for (std::size_t m = 0; m < scale_.size(); ++m)
+    if (const int e = equation_of(m); e >= 0) unknowns[static_cast<std::size_t>(e)] = configuration.multipliers[m] / scale_[m];
+}
+
+void Assembler::unknowns_to_multipliers(std::span<const double> unknowns, Configuration& configuration) const {
+  for (std::size_t m = 0; m < scale_.size(); ++m)
+    if (const int e = equation_of(m); e >= 0) configuration.multipliers[m] = scale_[m] * unknowns[static_cast<std::size_t>(e)];
+}
+
+void Assembler::add_to_multipliers(std::span<const double> change, std::span<double> multipliers) const {
+  for (std::size_t m = 0; m < scale_.size(); ++m)
+    if (const int e = equation_of(m); e >= 0) multipliers[m] += scale_[m] * change[static_cast<std::size_t>(e)];
 }
 
 void Assembler::save(Snapshot& snapshot) const {

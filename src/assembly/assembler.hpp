@@ -48,6 +48,11 @@ class Assembler {
 
   /// Scale factor k of each multiplier, in the order of Configuration::multipliers.
   const std::vector<double>& scale() const { return scale_; }
+  /// Between the multipliers kλ of a configuration and the unknowns λ, by equation: writes one from the other, or adds changes of
+  /// unknowns. Those without an equation stay as they are.
+  void multipliers_to_unknowns(const Configuration& configuration, std::span<double> unknowns) const;
+  void unknowns_to_multipliers(std::span<const double> unknowns, Configuration& configuration) const;
+  void add_to_multipliers(std::span<const double> change, std::span<double> multipliers) const;
   double penalty = 0;           ///< penalty factor p of the augmented Lagrangian
   double contact_homotopy = 0;  ///< see State::contact_homotopy
 
@@ -109,7 +114,7 @@ class Assembler {
   }
   /// As above, into a matrix from new_matrix(), with `give` times the stiffness added to the mass matrix.
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into, double give = 0);
-  /// What stood for the inertia of motions without any in the last projection by mass, as a moment of inertia: masses times the
+  /// Substitute inertia of motions without any in the last projection by mass, as a moment of inertia: masses times the
   /// square of the extent.
   double missing_inertia() const { return missing_inertia_; }
   /// Unscaled Φ and its first two time derivatives along the motion, in the order of the multipliers; zero for idle ones.
@@ -137,8 +142,8 @@ class Assembler {
 
  private:
   const Element& element(int part) const { return *model_.parts[static_cast<std::size_t>(part)].element; }
-  /// What stands for missing inertia, by measure of the equation: a negligible part of the largest inertia of that kind or, where
-  /// there is none, of the other kind by the extent. Sets missing_inertia_.
+  /// Substitute inertia of motions without mass, by measure of the equation: a negligible part of the largest inertia of that
+  /// kind or, where there is none, of the other kind by the extent. Sets missing_inertia_.
   Magnitudes find_missing_inertia(const Magnitudes& heaviest);
   /// Finds gravity_ and varying_gravity_.
   void find_gravity(double time) const;
@@ -163,6 +168,9 @@ class Assembler {
   std::span<const State> views(const Batch& batch, const Configuration& configuration);
   /// Multiplies the rows and columns of an element's multipliers by their k, and zeroes the rows of released ones.
   void scale_multipliers(int part, std::span<double> k) const;
+  int equation_of(std::size_t multiplier) const {
+    return numbering_.equation(numbering_.motion_slots() + static_cast<int>(multiplier));
+  }
   bool numbered(int multiplier) const;
   void note_released();
   /// Whether the equation belongs to a released constraint.

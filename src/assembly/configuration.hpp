@@ -24,4 +24,11 @@ struct Configuration {
   double load_time() const { return time + lead; }
 };
 
+/// Returns `c` with increments of rotations that start anew (T = identity). Elements take tangents with respect to the increment
+/// of a step's rotation vector: only here they are those of the motion itself, and symmetric where forces have a potential.
+inline Configuration at_start_of_step(Configuration c) {
+  for (NodeState& node : c.nodes) node.T.setIdentity();
+  return c;
+}
+
 }  // namespace engrane

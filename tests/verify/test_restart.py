@@ -4,6 +4,7 @@ the run that was not interrupted is a test of tests/decks.py; here are the rest 
 
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -349,6 +350,23 @@ def test_events_behind_a_run_that_located_none(tmp_path, law, before, end):
         with Results(tmp_path / "then.h5") as results:
             assert results.times()[-1] == 2
             assert max(results.history("run/EVENTS")[1]) >= 1
+
+
+def test_events_that_the_listing_leaves_out(tmp_path):
+    """Those listed before the restart point counted as listed behind it."""
+    law = "MAX 0.01 MIN -0.01 KSTOP 1D5"
+    text = SLIDER.format(law=law, sam="DYNAMIC SCHEME RADAU", end=2, tol="TOL 1E-4").replace("K 100", "K 0")
+    (tmp_path / "stops.dat").write_text(
+        text.replace("V 5", "V 0").replace(".SAM", ".INI\n VIT NOEUD 1 C 1 V 2\n.SAM")
+    )
+    run(tmp_path, "stops.dat", "--until", "0.9", status=2)
+    run(tmp_path, "stops.dat", "--restart", "stops", "-o", "stops")
+    section = (tmp_path / "stops.lst").read_text(encoding="utf-8").split("Events")[-1]
+    total = int(re.search(r"(\d+) in all", section)[1])
+    more = int(re.search(r"and (\d+) more", section)[1])
+    assert total > 110
+    assert section.count("  t = ") == total - more
+    assert section.count("  t = ") > 10
 
 
 @pytest.mark.parametrize("after", ["DYNAMIC", "DYNAMIC ACCURACY FAST", "KINEMATIC"])

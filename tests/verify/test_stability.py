@@ -122,6 +122,22 @@ def test_compressible_column(tmp_path: Path) -> None:
     assert orders(errors)[-1] == pytest.approx(4, abs=0.3)
 
 
+def test_redundant_constraints_are_no_directions(tmp_path: Path) -> None:
+    """Two hinges clamp the column, with four constraints too many. Beside these only the parity of the number
+    of directions was known: two of them counted as none."""
+    line = Line(straight(LENGTH, (0, 1, 0)), 4)
+    joints = " I 900 HINGE N 0 1 AXIS 1 0 0\n I 901 HINGE N 0 1 AXIS 0 1 0"
+    loads = f" CHA NOEUD {line.last} C 2 V {-EULER!r} NF 1"
+    section = "EA 1D7 GA 4D6 4D6 GJ 1D3 EI 1D3 1.5D3"
+    text = deck([line], section, path(loads, ".PATH", 1.7), "BPR 1 AXIS2 1 0 0", joints)
+    found = run(text, tmp_path)
+    points = critical_points(found)
+    assert [kind for kind, _ in points] == ["bifurcation", "bifurcation"]
+    assert [load for _, load in points] == pytest.approx([1, 1.5], rel=1e-3)
+    for load, unstable in zip(found["run/LOAD_TIME"], found["run/UNSTABLE"], strict=True):
+        assert unstable == sum(load > at for _, at in points)
+
+
 def test_branch(tmp_path: Path) -> None:
     """The bent column is Euler's elastica: with the end turned by 60 degrees, P = (2 K/pi)^2 of the critical
     load and the end 2 k L/K to the side. It is stable, and lies on the side that AMPLITUDE says."""

@@ -21,7 +21,7 @@ void add_row(const Rows& rows, PetscInt row, const PetscScalar* x, double& remai
   }
 }
 
-/// The same for all rows of a matrix whose upper half is stored. A row gets its products in the order of the columns.
+/// Does that for all rows of a matrix whose upper half is stored. A row gets its products in the order of the columns.
 void add_halves(const Rows& rows, const PetscScalar* x, PetscScalar* remainder, double* terms) {
   for (PetscInt row = 0; row < rows.size(); ++row) {
     PetscInt k = rows.begin()[row];

@@ -61,14 +61,14 @@ class Factors {
   /// Factors the matrix as it stands in the same way as the run that load() continues; false if it is singular.
   virtual bool restore() { return factor(); }
 
-  /// What the user should know about how the matrix was solved; empty if there is nothing to say.
+  /// A note for the user on how the matrix was solved; empty if there is nothing to say.
   virtual std::string remark() const { return {}; }
   virtual SolverWork work() const = 0;
   /// Memory of the factors as the package reports it; 0 when it does not.
   virtual double bytes() const = 0;
 };
 
-/// `package` as in the deck: MUMPS, KLU, UMFPACK, SUPERLU, CG; for a matrix on several ranks, MUMPS or CG.
+/// `package` as in the deck: MUMPS, BLR, KLU, UMFPACK, SUPERLU, CG; for a matrix on several ranks, MUMPS, BLR or CG.
 std::unique_ptr<Factors> make_factors(Mat matrix, const std::string& package);
 
 }  // namespace engrane::solve

@@ -38,7 +38,7 @@ class Klu : public Factors {
   /// Factors with the present pivots; false if they are of no use.
   bool refactor();
   bool factor_with_new_pivots();
-  /// The same with the values in chosen_for_.
+  /// Factors the values in chosen_for_ with new pivots.
   bool factor_chosen();
 
   Mat matrix_;

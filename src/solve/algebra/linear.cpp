@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "solve/algebra/guarded.hpp"
 #include "solve/algebra/rows.hpp"
 
 namespace engrane::solve {
@@ -64,9 +65,7 @@ bool LinearSolver::solve(Vec right, Vec solution) {
   return false;
 }
 
-void LinearSolver::rethrow() {
-  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
-}
+void LinearSolver::rethrow() { solve::rethrow(failure_); }
 
 void LinearSolver::reset() {
   if (factors_) factors_->reset();
@@ -127,24 +126,18 @@ bool LinearSolver::solve_with_factors(Vec right, Vec solution) {
 PetscErrorCode LinearSolver::set_up(PC pc) {
   LinearSolver* self = nullptr;
   PetscCall(PCShellGetContext(pc, &self));
-  try {
+  return guarded(self->failure_, [&] {
     const bool regular = self->restored_ || self->factor();
     return PCSetFailedReason(pc, regular ? PC_NOERROR : PC_FACTOR_NUMERIC_ZEROPIVOT);
-  } catch (...) {
-    self->failure_ = std::current_exception();
-    return PETSC_ERR_LIB;
-  }
+  });
 }
 
 PetscErrorCode LinearSolver::apply(PC pc, Vec right, Vec solution) {
   LinearSolver* self = nullptr;
   PetscCall(PCShellGetContext(pc, &self));
-  try {
+  return guarded(self->failure_, [&] {
     return self->solve_with_factors(right, solution) ? 0 : PCSetFailedReason(pc, PC_FACTOR_NUMERIC_ZEROPIVOT);
-  } catch (...) {
-    self->failure_ = std::current_exception();
-    return PETSC_ERR_LIB;
-  }
+  });
 }
 
 void LinearSolver::save(Snapshot& snapshot) const {

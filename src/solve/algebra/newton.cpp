@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "solve/algebra/guarded.hpp"
 #include "solve/algebra/rows.hpp"
 
 namespace engrane::solve {
@@ -112,7 +113,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   references_.begin(work);
   solver_.correct_only(keep);
   rows_.clear();
-  failure_.clear();
+  failure_ = nullptr;
   solving_ = true;
   const PetscErrorCode code = SNESSolve(snes_, nullptr, x);
   solving_ = refined_ = false;
@@ -121,7 +122,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   if (code == 0) check_petsc(SNESGetConvergedReason(snes_, &reason));
   report.converged = reason > 0;
   if (!report.converged) refuse_last();
-  if (!failure_.empty()) throw PetscFailure(failure_);
+  rethrow(failure_);
   solver_.rethrow();
   check_petsc(code);
   report.singular = reason == SNES_DIVERGED_LINEAR_SOLVE;
@@ -148,7 +149,7 @@ NewtonReport Newton::solve(Vec x, Weights weights, bool keep, const Apply& apply
   return report;
 }
 
-/// Beside the forces of an iteration that went astray the next one would count as converged at once.
+/// Beside the large forces of an iteration that failed the next one would count as converged at once.
 void Newton::refuse_last() {
   loads_before_.resize(references_.memory().size());
   references_.restore(loads_before_);
@@ -156,18 +157,14 @@ void Newton::refuse_last() {
 
 PetscErrorCode Newton::form_function(SNES snes, Vec x, Vec f, void* context) {
   auto& self = *static_cast<Newton*>(context);
-  try {
+  return guarded(self.failure_, [&]() -> PetscErrorCode {
     (*self.apply_)(self.assembler_.gather(x), *self.work_);
     self.assembler_.residual(*self.work_, f);
     self.references_.take(*self.work_, self.assembler_.carried());
     const Imbalance found = self.imbalance_ = imbalance(self.assembler_, self.references_, f);
     self.row_ = {0, found.force, found.moment, found.length, found.angle, 0, found.worst};
-  } catch (const std::exception& e) {
-    self.failure_ = e.what();
-    return PETSC_ERR_LIB;
-  }
-  if (!std::isfinite(self.imbalance_.largest())) return SNESSetFunctionDomainError(snes);
-  return 0;
+    return std::isfinite(found.largest()) ? 0 : SNESSetFunctionDomainError(snes);
+  });
 }
 
 void Newton::make_tangent() {
@@ -185,15 +182,19 @@ void Newton::make_tangent() {
 
 PetscErrorCode Newton::before_solution(KSP, Vec right, Vec, void* context) {
   auto& self = *static_cast<Newton*>(context);
-  if (self.solving_ && self.keep_ && !self.fresh_) self.frames_.turn_right_side(*self.work_, right);
-  return 0;
+  return guarded(self.failure_, [&] {
+    if (self.solving_ && self.keep_ && !self.fresh_) self.frames_.turn_right_side(*self.work_, right);
+    return 0;
+  });
 }
 
 PetscErrorCode Newton::after_solution(KSP, Vec, Vec solution, void* context) {
   auto& self = *static_cast<Newton*>(context);
-  if (self.solving_ && self.keep_ && !self.fresh_) self.frames_.turn_solution(solution);
-  self.fresh_ = false;
-  return 0;
+  return guarded(self.failure_, [&] {
+    if (self.solving_ && self.keep_ && !self.fresh_) self.frames_.turn_solution(solution);
+    self.fresh_ = false;
+    return 0;
+  });
 }
 
 void Newton::choose_factors() {
@@ -264,15 +265,12 @@ std::vector<Vec3> Newton::sliding() const {
 
 PetscErrorCode Newton::change_step(SNESLineSearch, Vec x, Vec step, PetscBool* changed, void* context) {
   auto& self = *static_cast<Newton*>(context);
-  try {
+  return guarded(self.failure_, [&] {
     if (self.border_) self.border_->complete(x, step);
     const bool shortened = !self.sliding_parts_.empty() && self.keep_sliding(x, step);
     *changed = self.border_ || shortened ? PETSC_TRUE : PETSC_FALSE;
-  } catch (const std::exception& e) {
-    self.failure_ = e.what();
-    return PETSC_ERR_LIB;
-  }
-  return 0;
+    return 0;
+  });
 }
 
 /// The curve of a regularised friction is flat on both sides and steep in between: a tangent on one side leads far over to the
@@ -367,7 +365,7 @@ PetscErrorCode Newton::test_convergence(SNES, PetscInt iteration, PetscReal, Pet
                                         void* context) {
   auto& self = *static_cast<Newton*>(context);
   *reason = SNES_CONVERGED_ITERATING;
-  try {
+  return guarded(self.failure_, [&] {
     if (!std::isfinite(self.imbalance_.largest()))
       *reason = SNES_DIVERGED_FNORM_NAN;
     else if (self.judge(static_cast<int>(iteration)))
@@ -376,11 +374,8 @@ PetscErrorCode Newton::test_convergence(SNES, PetscInt iteration, PetscReal, Pet
       *reason = SNES_DIVERGED_MAX_IT;
     else
       self.choose_factors();
-  } catch (const std::exception& e) {
-    self.failure_ = e.what();
-    return PETSC_ERR_LIB;
-  }
-  return 0;
+    return 0;
+  });
 }
 
 }  // namespace engrane::solve

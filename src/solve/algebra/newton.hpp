@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
@@ -46,7 +47,7 @@ class Border {
 /// Newton's method (PETSc's SNES) on the assembled system, with a convergence test that distinguishes forces from lengths.
 class Newton {
  public:
-  /// Sets the configuration that belongs to the unknowns; multipliers are scaled, λ = unknown × k.
+  /// Sets the configuration that belongs to the unknowns; its multipliers are kλ = k × unknown.
   using Apply = std::function<void(std::span<const double> unknowns, Configuration& configuration)>;
 
   Newton(Assembler& assembler, LinearSolver& solver, double precision, int iterations);
@@ -138,7 +139,7 @@ class Newton {
   NewtonRow row_;
   Imbalance imbalance_;  ///< of the last residual
   std::vector<NewtonRow> rows_;
-  std::string failure_;  ///< of an exception inside a callback
+  std::exception_ptr failure_;  ///< thrown inside a callback
 };
 
 }  // namespace engrane::solve

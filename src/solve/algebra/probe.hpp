@@ -9,8 +9,8 @@ namespace engrane::solve {
 /// differences are alike, and none depends on the ranks.
 double probe_value(std::size_t place);
 void fill_probe(Vec vector);
-/// The same as loads of the assembler's equations: moments are these numbers times the extent, as they are in other units of
-/// length, too.
+/// Fills a vector with such numbers as loads of the assembler's equations: moments are these numbers times the extent, as they
+/// are in other units of length, too.
 void fill_loads(const Assembler& assembler, Vec loads);
 
 /// Stiffness of a motion x beside what its unknowns meet one by one: |xᵀKx| / Σ d x², with `load` = K x. d is the magnitude of

@@ -29,13 +29,13 @@ class References {
   }
   /// Largest force, or moment, so far on the nodes of the element that owns a constraint's equation; at least load().
   double peak(int equation) const;
-  /// The same on the nodes of any element: a component.
+  /// peak() on the nodes of any element: a component.
   double peak_on(std::size_t part, bool turns) const;
   /// Reference length of an unknown's correction, or of a constraint violation; 1 radian for rotations, the largest value so far
   /// for signals of controllers.
   double length(int equation) const { return lengths_[static_cast<std::size_t>(equation)]; }
 
-  /// Change of an unknown over its reference. The unknown of a multiplier is λ/k, a displacement; its change over the length or
+  /// Change of an unknown over its reference. The unknown λ of a multiplier is a displacement; its change over the length or
   /// that of the force over the load counts, whichever is less. Where k is small, as for motions without mass, only the force
   /// shows that nothing changes any more.
   double relative_change(int equation, double change) const;
@@ -43,7 +43,7 @@ class References {
   /// Largest force on a node at the ends of iterations so far. Their trial positions, where stiff parts may resist with many
   /// times as much, do not count.
   double largest_force() const { return std::max(solved_force_, last_force_); }
-  /// The same in the last residual alone.
+  /// Largest force on a node in the last residual alone.
   double last_force() const { return last_force_; }
   /// Largest loads so far, to be restored after a failed iteration.
   const std::vector<double>& memory() const { return largest_of_slot_; }

@@ -37,7 +37,7 @@ ForeseenWork foresee_work(Mat matrix) {
 }
 
 std::string choose_package(Mat matrix, const std::string& wanted) {
-  if (wanted == "CG") return wanted;
+  if (wanted == "CG" || wanted == "BLR") return wanted;
   if (!is_sequential(matrix)) return "MUMPS";
   if (wanted != "AUTO") return wanted;
   return foresee_work(matrix).other_over("KLU") >= 1 ? "KLU" : "MUMPS";

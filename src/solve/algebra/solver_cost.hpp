@@ -10,7 +10,7 @@ namespace engrane::solve {
 /// Instructions of a factorisation with old pivots and of a solution by KLU, for factors with this number of entries and of
 /// floating-point operations (docs/decisions/0027-solver-ladder.md).
 SolverWork klu_work(double entries, double operations);
-/// The same for MUMPS, for a matrix with this number of rows.
+/// Instructions of MUMPS, for a matrix with this number of rows.
 SolverWork mumps_work(double rows, double entries, double operations);
 
 /// Cost of KLU and MUMPS, predicted from the pattern of a sequential matrix: the same in every run.

@@ -16,7 +16,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon(), none = std::n
 constexpr double seen = 1e-7;
 /// And this fraction of the squared rotation of a step: the scheme's own error of reactions is about a tenth of that square.
 constexpr double seen_of_scheme = 0.01;
-/// What sums of changes leave open is closed so slowly that the force for it is this fraction of the loads.
+/// Violations that sums of changes leave are closed so slowly that the force for it is this fraction of the loads.
 constexpr double closing = 1e-9;
 /// A constraint open by more than this fraction of its length is closed by positions.
 constexpr double open_by_far = 1e-9;

@@ -36,11 +36,6 @@ Vector relative_open(const Assembler& assembler, const std::vector<double>& phi)
       .cwiseQuotient(constraint_sizes(assembler));
 }
 
-Configuration outside_of_steps(Configuration c) {
-  for (NodeState& node : c.nodes) node.T.setIdentity();
-  return c;
-}
-
 MotionRows::MotionRows(const Assembler& assembler) {
   const Numbering& numbering = assembler.numbering();
   const double extent = assembler.model().extent();

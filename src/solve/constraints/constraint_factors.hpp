@@ -32,10 +32,6 @@ Eigen::VectorXd constraint_sizes(const Assembler& assembler);
 /// Magnitudes of the constraint violations, over the extent or in radians.
 Eigen::VectorXd relative_open(const Assembler& assembler, const std::vector<double>& phi);
 
-/// Returns `c` as the start of a step (T = identity): elements take tangents with respect to the increment of a step's rotation
-/// vector.
-Configuration outside_of_steps(Configuration c);
-
 /// The free motions as rows of a matrix, scaled by their size.
 struct MotionRows {
   explicit MotionRows(const Assembler& assembler);

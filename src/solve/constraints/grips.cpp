@@ -174,8 +174,7 @@ void Grips::let_go(Configuration& c) {
 
 void Grips::fit(Configuration& c, bool massless) {
   redundancy_.analyse(c);
-  StartReport unused;
-  start_.fit_velocities(c, Assembler::Metric::mass, unused, false);
+  start_.project_velocities(c, Assembler::Metric::mass);
   std::optional<MasslessMotions> none;
   if (massless) none.emplace(assembler_, c);
   start_.balance_accelerations(c, 12, nullptr, none ? &*none : nullptr);
@@ -203,8 +202,7 @@ Configuration Grips::without_stopping(const Configuration& c, const std::vector<
   write(grips, moving);
   try {
     redundancy_.analyse(moving);
-    StartReport unused;
-    start_.fit_velocities(moving, Assembler::Metric::mass, unused, false);
+    start_.project_velocities(moving, Assembler::Metric::mass);
   } catch (const SolutionFailure&) {
     copy_velocities(c, moving);
   }

@@ -43,7 +43,7 @@ class Grips {
   };
   static bool rests(const Seen& grip);
   static bool overloaded(const Seen& grip);
-  /// What a grip that holds carries, over its limit; and that of the most loaded of those which carry too much, less rounding.
+  /// Force of a grip that holds over its limit; and the largest such ratio of the grips that carry too much, less rounding.
   static double load(const Seen& grip);
   static double largest_load(const std::vector<Seen>& grips);
   static bool turns_back(const Seen& grip);

@@ -109,7 +109,7 @@ std::string outside(const Assembler& assembler, const MotionRows& rows, const Ro
 }  // namespace
 
 MasslessMotions::MasslessMotions(Assembler& assembler, const Configuration& configuration) : rows_(assembler) {
-  const Configuration c = outside_of_steps(configuration);
+  const Configuration c = at_start_of_step(configuration);
   const Triplets mass = motion_block(assembler, c, rows_, {0, 0, 1});
   if (all_have_mass(mass, rows_)) return;
   const auto n = static_cast<Eigen::Index>(rows_.slot.size());
@@ -125,7 +125,7 @@ MasslessMotions::MasslessMotions(Assembler& assembler, const Configuration& conf
 
 std::string MasslessMotions::explain_unheld(Assembler& assembler, const Configuration& configuration) const {
   if (!any()) return {};
-  const Configuration c = outside_of_steps(configuration);
+  const Configuration c = at_start_of_step(configuration);
   SideBySide seen(seen_.rows());
   seen.add(seen_);
   seen.add(motion_block(assembler, c, rows_, {1, 0, 0}));

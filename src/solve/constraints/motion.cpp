@@ -17,7 +17,7 @@ double compensated_sum(double a, double b, double& remainder) {
   return sum;
 }
 
-/// The same for a rotation and an increment in material axes.
+/// Compensated product of a rotation and that of an increment in material axes; `remainder` as in compensated_sum().
 Mat3 compensated_turn(const Mat3& R, const Vec3& y, Eigen::Ref<Vec3> remainder) {
   const Mat3 change = R * rotation_change(y + remainder), turned = orthonormalized(R + change);
   // the difference of two close matrices is exact, and so is what it lacks of the change
@@ -142,6 +142,19 @@ std::vector<MotionSlots::Prescribed> MotionSlots::prescribed(double time) const 
     all.push_back({static_cast<std::size_t>(6 * s.node + s.component), s.value * f.f, s.value * f.d1, s.value * f.d2});
   }
   return all;
+}
+
+void MotionSlots::prescribe_increment(double from, double to, std::span<double> y) const {
+  const auto before = prescribed(from), after = prescribed(to);
+  for (std::size_t i = 0; i < after.size(); ++i) y[after[i].slot] = after[i].u - before[i].u;
+}
+
+void MotionSlots::prescribe_rates(double time, std::span<double> v) const {
+  for (const Prescribed& p : prescribed(time)) v[p.slot] = p.v;
+}
+
+void MotionSlots::prescribe_accelerations(double time, std::span<double> a) const {
+  for (const Prescribed& p : prescribed(time)) a[p.slot] = p.a;
 }
 
 }  // namespace engrane::solve

@@ -21,7 +21,7 @@ class MotionSlots {
   /// compensated (Configuration::remainders).
   void move(const Configuration& from, std::span<const double> y, Configuration& to) const;
 
-  /// What move() starts from; a fifth of a configuration's size if few nodes have turned.
+  /// Starting point of move(); a fifth of a configuration's size if few nodes have turned.
   class Origin {
    public:
     explicit Origin(const Configuration& c);
@@ -33,7 +33,7 @@ class MotionSlots {
     std::vector<double> scalars;
     std::vector<double> remainders;  ///< empty: all are zero
   };
-  /// The same for a `to` that was equal to the origin and has only been moved since.
+  /// Moves `to`, which was equal to the origin and has only been moved since.
   void move(const Origin& from, std::span<const double> y, Configuration& to) const;
 
   std::vector<double> velocities(const Configuration& c) const;
@@ -53,6 +53,11 @@ class MotionSlots {
     double u, v, a;
   };
   std::vector<Prescribed> prescribed(double time) const;
+  /// Writes the displacements of these slots from one time to another into the increment `y`, or their rates and accelerations
+  /// into those of all slots.
+  void prescribe_increment(double from, double to, std::span<double> y) const;
+  void prescribe_rates(double time, std::span<double> v) const;
+  void prescribe_accelerations(double time, std::span<double> a) const;
 
  private:
   const Model& model_;

@@ -69,7 +69,7 @@ void narrow(Assembler& assembler, const MotionSlots& motion, const Vector& weigh
       gradients.to_slots(way, y);
       Configuration tried = c;
       motion.move(c, y, tried);
-      tried = outside_of_steps(std::move(tried));
+      tried = at_start_of_step(std::move(tried));
       const Vector then = weight.cwiseProduct(scaled_open(assembler, tried));
       better = then.allFinite() && then.squaredNorm() < open.squaredNorm();
       if (!better) {
@@ -141,7 +141,7 @@ std::string loop_of(const Model& model, int part) {
 std::string explain_open_loop(Assembler& assembler, const MotionSlots& motion, const Configuration& given) {
   const Model& model = assembler.model();
   const Numbering& numbering = assembler.numbering();
-  Configuration c = outside_of_steps(given);
+  Configuration c = at_start_of_step(given);
   Vector open = scaled_open(assembler, c);
   if (open.size() == 0) return "the mechanism does not close";
   if (!open.allFinite()) return "the mechanism does not close: a constraint is not a finite number where the parts are put";

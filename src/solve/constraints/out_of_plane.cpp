@@ -37,7 +37,7 @@ void OutOfPlane::find(Configuration& c) {
   const Numbering& numbering = assembler_.numbering();
   const auto& parts = assembler_.model().parts;
   const double extent = assembler_.model().extent();
-  const Configuration here = outside_of_steps(c);
+  const Configuration here = at_start_of_step(c);
   // rows are moments: forces are multiplied by the extent
   const auto size = [&](int slot) { return slot % 6 < 3 ? extent : 1.0; };
   const auto weight = [&](int m) { return size_of(numbering.multiplier(m), extent); };

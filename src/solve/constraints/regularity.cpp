@@ -11,7 +11,7 @@
 namespace engrane::solve {
 
 Regularity::Regularity(Assembler& assembler, const Configuration& c)
-    : gradient_(with_columns_scaled(ConstraintMatrix(assembler, outside_of_steps(c), ConstraintColumns::gradients).matrix,
+    : gradient_(with_columns_scaled(ConstraintMatrix(assembler, at_start_of_step(c), ConstraintColumns::gradients).matrix,
                                     constraint_sizes(assembler).cwiseInverse())) {
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(gradient_ * gradient_.transpose());
   Eigen::VectorXd motion(gradient_.rows());

@@ -129,13 +129,10 @@ std::vector<int> Start::held_positions() const {
   return equations;
 }
 
-void Start::assemble(Configuration& c, StartReport& report, bool initial) {
-  if (!initial || tooth_deformations().empty()) {
-    assemble_once(c, report, initial);
-    return;
-  }
+void Start::assemble(Configuration& c, StartReport& report) {
   const Configuration given = c;
-  assemble_once(c, report, true);
+  assemble_once(c, report);
+  if (tooth_deformations().empty()) return;
   PressedTeeth pressed = most_pressed_teeth(c);
   if (!(pressed.modules > most_modules)) return;
   // to deform teeth is the shortest way to close the gap of a drive that begins far away, but no wheel stays behind its mate
@@ -143,12 +140,12 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
   StartReport stiff_report;
   holds_teeth_ = true;
   try {
-    assemble_once(stiff, stiff_report, true);
+    assemble_once(stiff, stiff_report);
   } catch (const SolutionFailure&) {
     stiff = given;
     stiff_report = {};
     holds_teeth_ = false;
-    assemble_once(stiff, stiff_report, true);
+    assemble_once(stiff, stiff_report);
   }
   holds_teeth_ = false;
   c = std::move(stiff);
@@ -164,8 +161,18 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
       part.type, part.element->id(), pressed.deflection, assembler_.model().units.label(dimension::length), pressed.modules));
 }
 
-void Start::assemble_once(Configuration& c, StartReport& report, bool initial) {
-  if (initial && assembler_.numbering().slots() == assembler_.numbering().motion_slots() && assembler_.model().initial.empty() &&
+int Start::close_again(Configuration& c) {
+  const Configuration given = c;
+  const Closing closing = close(c, {}, {});
+  if (closing.singular)
+    throw SolutionFailure(explain_singular(assembler_, "the constraints of the mechanism contradict or repeat one another"));
+  if (!closing.closed) throw SolutionFailure(explain_open_loop(assembler_, motion_, given));
+  if (const std::string conflict = redundancy_.conflict(c); !conflict.empty()) throw SolutionFailure(conflict);
+  return closing.iterations;
+}
+
+void Start::assemble_once(Configuration& c, StartReport& report) {
+  if (assembler_.numbering().slots() == assembler_.numbering().motion_slots() && assembler_.model().initial.empty() &&
       assembler_.model().initial_coordinates.empty()) {
     // nothing joins the parts, or moves them from where the deck has put them
     redundancy_.analyse(c);
@@ -175,45 +182,35 @@ void Start::assemble_once(Configuration& c, StartReport& report, bool initial) {
     return;
   }
   const Configuration given = c;
-  if (initial) {
-    redundancy_.analyse(given);
-    note_open(given, report);
-    Closing closing = close_initial(c, report);
-    std::string conflict = closing.closed ? redundancy_.conflict(c) : "";
-    bool sharp = true;
-    // where the parts do not quite fit, redundant constraints look independent: analyse again with a looser tolerance
-    if (!closing.closed || !conflict.empty()) {
-      if (Configuration again = given; redundancy_.analyse(given, 1e-4)) {
-        closing = close_initial(again, report);
-        conflict = closing.closed ? redundancy_.conflict(again) : "";
-        c = std::move(again);
-        sharp = false;
-      }
+  redundancy_.analyse(given);
+  note_open(given, report);
+  Closing closing = close_initial(c, report);
+  std::string conflict = closing.closed ? redundancy_.conflict(c) : "";
+  bool sharp = true;
+  // where the parts do not quite fit, redundant constraints look independent: analyse again with a looser tolerance
+  if (!closing.closed || !conflict.empty()) {
+    if (Configuration again = given; redundancy_.analyse(given, 1e-4)) {
+      closing = close_initial(again, report);
+      conflict = closing.closed ? redundancy_.conflict(again) : "";
+      c = std::move(again);
+      sharp = false;
     }
-    // redundant joints are exactly redundant only where the mechanism is closed
-    if (closing.closed && conflict.empty() && (closing.iterations > 0 || !sharp) && redundancy_.analyse(c)) {
-      closing = close(c, held_positions(), {});
-      conflict = closing.closed ? redundancy_.conflict(c) : "";
-    }
-    if (!conflict.empty()) throw SolutionFailure(conflict);
-    if (!closing.closed) throw SolutionFailure(explain_open_loop(assembler_, motion_, given));
-    if (!assembler_.model().initial_coordinates.empty()) {
-      move_coordinates(c, report);
-      redundancy_.analyse(c);
-      if (conflict = redundancy_.conflict(c); !conflict.empty()) throw SolutionFailure(conflict);
-    }
-    report.redundant = redundancy_.mobility().redundant();
-    report.friction = friction_on_redundant(assembler_, redundancy_.mobility());
-    report.mobility = describe_mobility(assembler_, c, redundancy_.mobility());
-  } else {
-    const Closing closing = close(c, {}, {});
-    report.position_iterations = closing.iterations;
-    if (closing.singular)
-      throw SolutionFailure(explain_singular(assembler_, "the constraints of the mechanism contradict or repeat one another"));
-    if (!closing.closed) throw SolutionFailure(explain_open_loop(assembler_, motion_, given));
-    if (const std::string conflict = redundancy_.conflict(c); !conflict.empty()) throw SolutionFailure(conflict);
-    return;
   }
+  // redundant joints are exactly redundant only where the mechanism is closed
+  if (closing.closed && conflict.empty() && (closing.iterations > 0 || !sharp) && redundancy_.analyse(c)) {
+    closing = close(c, held_positions(), {});
+    conflict = closing.closed ? redundancy_.conflict(c) : "";
+  }
+  if (!conflict.empty()) throw SolutionFailure(conflict);
+  if (!closing.closed) throw SolutionFailure(explain_open_loop(assembler_, motion_, given));
+  if (!assembler_.model().initial_coordinates.empty()) {
+    move_coordinates(c, report);
+    redundancy_.analyse(c);
+    if (conflict = redundancy_.conflict(c); !conflict.empty()) throw SolutionFailure(conflict);
+  }
+  report.redundant = redundancy_.mobility().redundant();
+  report.friction = friction_on_redundant(assembler_, redundancy_.mobility());
+  report.mobility = describe_mobility(assembler_, c, redundancy_.mobility());
   std::vector<double> wished(motion_.size(), 0.0);
   for (std::size_t i = 0; i < given.nodes.size(); ++i) {
     const Vec3 turn = rotation_log(given.nodes[i].R);
@@ -292,7 +289,7 @@ Start::Closing Start::close(Configuration& c, std::span<const int> held, const T
     // damped: a step that opens the constraints further is halved, at most four times
     for (int halvings = 0;; ++halvings) {
       motion_.move(c, y, moved);
-      for (NodeState& node : moved.nodes) node.T.setIdentity();
+      moved = at_start_of_step(std::move(moved));
       open = measure(moved);
       if (open <= before || before < 1e-6 || halvings == 4) break;
       result.far = true;
@@ -415,7 +412,7 @@ bool Start::turns_differ(const Configuration& counted, Configuration other) {
 
 int Start::orientation(const Configuration& c, std::span<const int> held) {
   const Numbering& numbering = assembler_.numbering();
-  const ConstraintMatrix gradients(assembler_, outside_of_steps(c), ConstraintColumns::gradients);
+  const ConstraintMatrix gradients(assembler_, at_start_of_step(c), ConstraintColumns::gradients);
   std::vector<bool> is_held(static_cast<std::size_t>(numbering.equations()), false);
   for (const int e : held) is_held[static_cast<std::size_t>(e)] = true;
   std::vector<int> row(gradients.rows.slot.size(), 0);
@@ -481,15 +478,19 @@ void Start::note_moved(const std::vector<NodeState>& begun, const Configuration&
   std::stable_sort(report.moved.begin(), report.moved.end(), [&](const auto& a, const auto& b) { return size(a) > size(b); });
 }
 
-void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report, bool initial) {
+void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report) { fit(c, metric, &report); }
+
+void Start::project_velocities(Configuration& c, Assembler::Metric metric) { fit(c, metric, nullptr); }
+
+void Start::fit(Configuration& c, Assembler::Metric metric, StartReport* report) {
   const Numbering& numbering = assembler_.numbering();
   std::vector<double> v = motion_.velocities(c);
-  for (const auto& p : motion_.prescribed(c.time)) v[p.slot] = p.v;
+  motion_.prescribe_rates(c.time, v);
   motion_.set_velocities(v, c);
   std::vector<double> phi, rate, second, change;
   assembler_.constraint_rates(c, phi, rate, second);
-  report.velocities_fitted = true;
-  const auto asked = initial ? coordinates_.wanted(true) : std::vector<StartCoordinates::Wanted>{};
+  if (report) report->velocities_fitted = true;
+  const auto asked = report ? coordinates_.wanted(true) : std::vector<StartCoordinates::Wanted>{};
   if (largest(rate) == 0 && asked.empty()) return;
   std::vector<double> right(static_cast<std::size_t>(numbering.equations()), 0.0);
   double fastest = 0;
@@ -505,9 +506,9 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
     fastest = relative;
     worst = e;
   }
-  if (initial && fastest > 0) report.rate_violated_most = numbering.describe(static_cast<int>(worst));
+  if (report && fastest > 0) report->rate_violated_most = numbering.describe(static_cast<int>(worst));
   const std::vector<double> wished = v;
-  const std::vector<int> held = initial ? imposed(true) : std::vector<int>{};
+  const std::vector<int> held = report ? imposed(true) : std::vector<int>{};
   const auto free = undecided(c, asked, held);
   assembler_.projection(c, metric, held);
   if (!solve(right, change) || !add_coordinates(c, free, change))
@@ -522,16 +523,16 @@ void Start::fit_velocities(Configuration& c, Assembler::Metric metric, StartRepo
     if (const std::string conflict = redundancy_.rate_conflict(c, rate, std::max(open, largest(v))); !conflict.empty())
       throw SolutionFailure(conflict);
   }
+  if (!report) return;
   delta.resize(6 * c.nodes.size());  // scalars follow: their change says nothing
-  report.largest_velocity_change = 0;
+  report->largest_velocity_change = 0;
   std::size_t fastest_slot = 0;
   for (std::size_t i = 0; i < delta.size(); ++i) {
-    if (std::abs(delta[i]) <= report.largest_velocity_change) continue;
-    report.largest_velocity_change = std::abs(delta[i]);
+    if (std::abs(delta[i]) <= report->largest_velocity_change) continue;
+    report->largest_velocity_change = std::abs(delta[i]);
     fastest_slot = i;
   }
-  if (initial && report.largest_velocity_change > 0) report.velocity_changed_most = slot_name(assembler_.model(), fastest_slot);
-  if (!initial) return;
+  if (report->largest_velocity_change > 0) report->velocity_changed_most = slot_name(assembler_.model(), fastest_slot);
   verify_imposed(c, wished, true);
   verify_coordinates(c, asked);
 }

@@ -37,12 +37,17 @@ class Start {
   Start(Assembler& assembler, LinearSolver& solver, const MotionSlots& motion, Redundancy& redundancy);
 
   /// Moves `c` as little as possible until all constraints are closed at c.time. Throws SolutionFailure naming the loop that
-  /// stays open. `initial`: initial values imposed by the deck hold, redundant constraints are looked for, and after a long
-  /// displacement the position is compared with the one reached by closing the gaps gradually.
-  void assemble(Configuration& c, StartReport& report, bool initial = true);
+  /// stays open. Initial values imposed by the deck hold, redundant constraints are looked for, and after a long displacement the
+  /// position is compared with the one reached by closing the gaps gradually.
+  void assemble(Configuration& c, StartReport& report);
   /// Changes the velocities of `c` as little as possible (in kinetic energy, or geometrically) until they satisfy the
-  /// constraints.
-  void fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report, bool initial = true);
+  /// constraints and the initial values of the deck.
+  void fit_velocities(Configuration& c, Assembler::Metric metric, StartReport& report);
+  /// Closes the constraints that a step of an assembled mechanism has opened, whatever the deck's initial values; returns the
+  /// number of iterations. Throws SolutionFailure.
+  int close_again(Configuration& c);
+  /// Changes velocities as little as possible until they satisfy the constraints, whatever the deck's initial values.
+  void project_velocities(Configuration& c, Assembler::Metric metric);
   /// Sets accelerations and multipliers from the equations of motion and the second derivatives of the constraints. Few
   /// iterations are enough if those of `c` are close. Fills its phase of `report`, if given. Accelerations of `massless`
   /// motions stay as they are, since no balance of forces determines them.
@@ -56,6 +61,12 @@ class Start {
   /// steps resolve change by a part of second order. False, with `c` unchanged, if nothing vibrates so fast or no such mean is
   /// found.
   bool soften(Configuration& c, double h, StartReport* report = nullptr, const MasslessMotions* massless = nullptr);
+  /// The same for the states of controllers with a lag shorter than a step of h resolves: their rates would overshoot by the step
+  /// over the lag. True if there are any, whatever they do at the moment.
+  bool soften_signals(Configuration& c, double h) const;
+  /// Places states with lags far shorter than a step of h where they are after these lags, for which `later`, `c` after the time
+  /// `span`, tells how fast that changes. True if there are any.
+  bool settle_signals(Configuration& c, const Configuration& later, double span, double h) const;
 
   /// Moment below which a force in `c` is but rounding of accelerations, times what stands for the inertia of motions without
   /// any (Assembler::missing_inertia). All forces are, where nothing has inertia and nothing is loaded.
@@ -69,7 +80,9 @@ class Start {
   static constexpr double longest_step_ = 0.2;
 
   /// assemble() with the teeth as soft as they are, or as held as they can be (holds_teeth_).
-  void assemble_once(Configuration& c, StartReport& report, bool initial);
+  void assemble_once(Configuration& c, StartReport& report);
+  /// fit_velocities() or, without a report, project_velocities().
+  void fit(Configuration& c, Assembler::Metric metric, StartReport* report);
   /// A pair of elastic teeth and how far they are pressed in, over their module; no part if none is.
   struct PressedTeeth {
     int part = -1;
@@ -140,12 +153,12 @@ class Start {
   void note_moved(const std::vector<NodeState>& begun, const Configuration& c, StartReport& report) const;
   /// Equations of the imposed initial values, of position or of velocity.
   std::vector<int> imposed(bool velocity) const;
-  /// Those that the assembly moves last: imposed positions and, if holds_teeth_, the deformations of teeth.
+  /// Equations that the assembly moves last: imposed positions and, if holds_teeth_, the deformations of teeth.
   std::vector<int> held_positions() const;
   void verify_imposed(const Configuration& c, std::span<const double> wished, bool velocity) const;
   bool solve(std::vector<double>& right, std::vector<double>& solution);
 
-  /// Those of the wanted coordinates (or rates) that are left free by constraints, held equations and the coordinates before
+  /// The wanted coordinates (or rates) that are left free by constraints, held equations and the coordinates before
   /// them. The projection must be assembled again afterwards.
   std::vector<StartCoordinates::Wanted> undecided(const Configuration& c, const std::vector<StartCoordinates::Wanted>& all,
                                                   std::span<const int> held);

@@ -2,6 +2,7 @@
 // Accelerations and multipliers at a start, also where something is stiffer than a step resolves.
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -48,6 +49,62 @@ void note_accelerations(const Assembler& assembler, const Configuration& c, int 
 
 /// Displacement from rest by a mean acceleration over a step of h, over that acceleration, by the trapezoidal rule.
 double give_of(double h) { return h * h / 4; }
+
+using Matrix = Eigen::MatrixXd;
+
+/// States with shorter lags than a step over this begin where they are after the lag: what is lost with it is a tenth of the
+/// work of a step at most. No round number, since rounding would decide for lags that are a round part of a step.
+constexpr double lags_in_a_step = std::numbers::pi * std::numbers::pi;
+
+/// The states of one controller and their equations.
+struct SignalRows {
+  const Assembler& assembler;
+  int part;
+  Eigen::Index first;  ///< index into Configuration::scalars
+
+  const Element& element() const { return *assembler.model().parts[static_cast<std::size_t>(part)].element; }
+  Eigen::Index size() const { return static_cast<Eigen::Index>(element().layout().scalars.size()); }
+
+  /// Their tangent with these weights.
+  Matrix block(const Configuration& c, const Weights& weights) const {
+    const Eigen::Index slots = element().layout().slots(), begin = element().layout().node_slots();
+    std::vector<double> r(static_cast<std::size_t>(slots)), k(r.size() * r.size());
+    element().tangent(assembler.view(part, c), weights, r, k);
+    return Eigen::Map<const Matrix>(k.data(), slots, slots).transpose().block(begin, begin, size(), size());
+  }
+  /// Their residual if they were zero and at rest.
+  Eigen::VectorXd without_states(const Configuration& c) const {
+    const std::vector<double> none(static_cast<std::size_t>(size()), 0.0);
+    State state = assembler.view(part, c);
+    state.scalars = state.scalar_rates = state.scalar_accelerations = none;
+    std::vector<double> r(static_cast<std::size_t>(element().layout().slots()));
+    element().residual(state, r);
+    return Eigen::Map<const Eigen::VectorXd>(r.data() + element().layout().node_slots(), size());
+  }
+};
+
+std::vector<SignalRows> signals_of(const Assembler& assembler) {
+  std::vector<SignalRows> found;
+  for (const Unknown& u : assembler.numbering().unknowns())
+    if (!u.multiplier && u.signal && (found.empty() || found.back().part != u.part))
+      found.push_back({assembler, u.part, assembler.numbering().scalar_begin(u.part)});
+  return found;
+}
+
+/// Projection onto what dx/dt = A x damps faster than by `rate`: (I + sign(−A/rate − I))/2, the sign by Newton's iteration, which
+/// does not mind multiple poles.
+Matrix part_beyond(const Matrix& A, double rate) {
+  constexpr int most_iterations = 100;
+  const Matrix one = Matrix::Identity(A.rows(), A.rows());
+  Matrix sign = -A / rate - one;
+  for (int i = 0; i < most_iterations; ++i) {
+    const Matrix next = 0.5 * (sign + sign.inverse());
+    const double change = (next - sign).norm();
+    sign = next;
+    if (!(change > 1e-12 * sign.norm())) break;
+  }
+  return sign.allFinite() ? Matrix(0.5 * (one + sign)) : Matrix(0 * one);
+}
 
 }  // namespace
 
@@ -147,7 +204,7 @@ bool Start::overshoots(const Configuration& c, double h) const {
 
 bool Start::soften(Configuration& c, double h, StartReport* report, const MasslessMotions* massless) {
   if (!overshoots(c, h)) return false;
-  Configuration softer = outside_of_steps(c);
+  Configuration softer = at_start_of_step(c);
   StartReport found = report ? *report : StartReport();
   try {
     if (!balance_softly(softer, give_of(h), report ? &found : nullptr, massless)) return false;
@@ -158,6 +215,45 @@ bool Start::soften(Configuration& c, double h, StartReport* report, const Massle
   found.softened = true;
   if (report) *report = std::move(found);
   return true;
+}
+
+bool Start::soften_signals(Configuration& c, double h) const {
+  // for one lag: shorter than h/π, as periods are that soften() looks for
+  constexpr double half = 1 + std::numbers::pi / 2, unresolved = half * half - 1;
+  std::vector<double> a = motion_.accelerations(c);
+  bool any = false;
+  for (const SignalRows& rows : signals_of(assembler_)) {
+    const Matrix mass = rows.block(c, {0, 0, 1}), soft = rows.block(c, {give_of(h), h / 2, 1});
+    // the rates of states depend on no accelerations, and no force depends on theirs
+    if (!(mass.partialPivLu().solve(soft - mass).cwiseAbs().rowwise().sum().maxCoeff() > unresolved)) continue;
+    any = true;
+    Eigen::Map<Eigen::VectorXd> own(a.data() + 6 * assembler_.model().nodes.size() + rows.first, rows.size());
+    own = soft.partialPivLu().solve(mass * own).eval();
+  }
+  if (any) motion_.set_accelerations(a, c);
+  return any;
+}
+
+bool Start::settle_signals(Configuration& c, const Configuration& later, double span, double h) const {
+  bool any = false;
+  for (const SignalRows& rows : signals_of(assembler_)) {
+    // dx/dt = A x + b of the states x = ż + κ z, from their equations (z̈ − dx/dt)/κ + ż = 0
+    const Eigen::VectorXd pace = rows.block(c, {0, 0, 1}).diagonal().cwiseInverse();
+    const Matrix one = Matrix::Identity(rows.size(), rows.size()), A = pace.asDiagonal() * (one - rows.block(c, {0, 1, 0}));
+    const Matrix fast = part_beyond(A, lags_in_a_step / h);
+    if (!(fast.trace() > 0.5)) continue;  // its rank
+    any = true;
+    const Eigen::VectorXd b = -pace.cwiseProduct(rows.without_states(c)),
+                          b_later = -pace.cwiseProduct(rows.without_states(later));
+    // x = −A⁻¹ (b + A⁻¹ ḃ) where A is fast
+    const auto inverse = Matrix(A * fast - (one - fast)).partialPivLu();
+    const Eigen::VectorXd rate = -inverse.solve((b_later - b) / span), there = inverse.solve(rate - b);
+    Eigen::Map<Eigen::VectorXd> z(c.scalars.data() + rows.first, rows.size()), v(c.scalar_rates.data() + rows.first, rows.size());
+    const Eigen::VectorXd before = v + pace.cwiseProduct(z), x = before + fast * (there - before);
+    v += fast * (rate.cwiseQuotient(pace) - v).eval();
+    z = (x - v).cwiseQuotient(pace);
+  }
+  return any;
 }
 
 std::vector<double> Start::out_of_balance(const Configuration& c, const MasslessMotions* massless) {
@@ -202,7 +298,7 @@ bool Start::balance_softly(Configuration& c, double give, StartReport* report, c
     a = motion_.accelerations(c);
     massless->keep(a);
   }
-  for (const auto& p : motion_.prescribed(c.time)) a[p.slot] = p.a;
+  motion_.prescribe_accelerations(c.time, a);
   Configuration still = c;
   motion_.set_accelerations(a, still);
   std::vector<double> last;
@@ -231,7 +327,7 @@ bool Start::balance_softly(Configuration& c, double give, StartReport* report, c
 
 void Start::balance_accelerations(Configuration& c, int most_iterations, StartReport* report, const MasslessMotions* massless) {
   std::vector<double> a = motion_.accelerations(c);
-  for (const auto& p : motion_.prescribed(c.time)) a[p.slot] = p.a;
+  motion_.prescribe_accelerations(c.time, a);
   motion_.set_accelerations(a, c);
   double before = std::numeric_limits<double>::infinity();
   // linear but for forces that depend on the multipliers (|λ| of the separating force), hence a short iteration

@@ -20,7 +20,7 @@ class StartCoordinates {
     const InitialCoordinate* coordinate;
     double value;
   };
-  /// Those of the deck: positions, or velocities.
+  /// Joint coordinates that the deck wants: positions, or velocities.
   std::vector<Wanted> wanted(bool velocity) const;
 
   double value(const Configuration& c, const InitialCoordinate& coordinate) const { return channel(c, coordinate, 0); }

@@ -8,7 +8,7 @@
 
 namespace engrane::solve {
 
-/// What the start did, phase by phase, for the listing.
+/// Report of the start, phase by phase, for the listing.
 struct StartReport {
   struct Moved {
     int node = 0;  ///< index into Model::nodes

@@ -9,9 +9,10 @@
 #include <cmath>
 #include <utility>
 
+#include "solve/algebra/guarded.hpp"
 #include "solve/algebra/probe.hpp"
-#include "solve/algebra/tangent_factors.hpp"
 #include "solve/constraints/diagnosis.hpp"
+#include "solve/schemes/equilibrium_tangent.hpp"
 #include "solve/schemes/load_derivative.hpp"
 #include "solve/schemes/mode_text.hpp"
 
@@ -23,8 +24,8 @@ namespace {
 constexpr double first_step = 1e-3, good_step = 1e-2;
 /// Times that change by more than this fraction with another difference are rounding.
 constexpr double same = 1e-3;
-/// The same for modes after the first, whose difference is not chosen for them.
-constexpr double alike = 1e-2;
+/// Such a fraction for modes after the first, whose difference is not chosen for them.
+constexpr double alike_later = 1e-2;
 constexpr int most_passes = 8;
 constexpr double precision = 1e-10;
 /// Times farther away than this many runs are rounding, and so are those nearer than that fraction of one.
@@ -37,23 +38,20 @@ struct Slepc {
 
 class Problem {
  public:
-  Problem(SolverContext& context, const Configuration& equilibrium)
-      : context_(context), factors_(context.assembler.new_matrix()) {
+  Problem(SolverContext& context, const Configuration& equilibrium) : context_(context), tangent_(context) {
     *change_.out() = context.assembler.new_matrix();
     for (Owned<Vec>* vector : {&loads_, &way_, &product_}) *vector->out() = context.assembler.new_vector();
-    move_and_rest(context, equilibrium, std::vector<double>(context.motion.size(), 0.0), base_);
-    context.assembler.tangent(base_, {1, 0, 0}, factors_.matrix());
-    if (!factors_.factor())
+    if (!tangent_.factor(equilibrium))
       throw SolutionFailure(
           explain_singular(context.assembler, "no buckling loads: the tangent matrix is singular", Resistance::at_rest));
-    if (is_doubtful()) {
+    if (tangent_.neutral(way_)) {
       const std::string free =
           explain_unresisted(context.assembler, equilibrium, "no buckling loads: the tangent matrix is singular");
       if (!free.empty()) throw SolutionFailure(free);
     }
     LoadDerivative derivative(context, first_step * context.options.step);
-    derivative.find(base_, loads_);
-    factors_.solve(loads_, way_);
+    derivative.find(tangent_.place(), loads_);
+    tangent_.solve(loads_, way_);
     check_petsc(VecScale(way_, -1));
     const auto all = context.assembler.gather(way_);
     along_.assign(all.begin(), all.end());
@@ -66,12 +64,12 @@ class Problem {
   /// K′ by the forward difference of order 4: exact where the tangent is a polynomial of that degree.
   void differentiate(double step) {
     static constexpr std::array<double, 5> weights{-25.0 / 12, 4, -3, 4.0 / 3, -1.0 / 4};
-    check_petsc(MatCopy(factors_.matrix(), change_, SAME_NONZERO_PATTERN));
+    check_petsc(MatCopy(tangent_.matrix(), change_, SAME_NONZERO_PATTERN));
     check_petsc(MatScale(change_, weights[0]));
     Owned<Mat> later;
     *later.out() = context_.assembler.new_matrix();
     for (std::size_t k = 1; k < weights.size(); ++k) {
-      context_.assembler.tangent(moved(static_cast<double>(k) * step), {1, 0, 0}, later);
+      tangent_.evaluate(moved(static_cast<double>(k) * step), later);
       check_petsc(MatAXPY(change_, weights[k], later, SAME_NONZERO_PATTERN));
     }
     check_petsc(MatScale(change_, 1 / step));
@@ -89,8 +87,8 @@ class Problem {
     check_petsc(VecGetSize(way_, &global));
     check_petsc(MatCreateShell(context_.assembler.comm(), local, local, global, global, this, shell.out()));
     check_petsc(MatShellSetOperation(shell, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
-    EPS eps = nullptr;
-    check_petsc(EPSCreate(context_.assembler.comm(), &eps));
+    Owned<EPS> eps;
+    check_petsc(EPSCreate(context_.assembler.comm(), eps.out()));
     check_petsc(EPSSetOperators(eps, shell, nullptr));
     check_petsc(EPSSetProblemType(eps, EPS_NHEP));
     check_petsc(EPSSetWhichEigenpairs(eps, EPS_LARGEST_MAGNITUDE));
@@ -101,7 +99,9 @@ class Problem {
     Vec first = product_;
     check_petsc(EPSSetInitialSpace(eps, 1, &first));
     check_petsc(EPSSetFromOptions(eps));
-    check_petsc(EPSSolve(eps));
+    const PetscErrorCode code = EPSSolve(eps);
+    rethrow(failure_);
+    check_petsc(code);
     PetscInt converged = 0;
     check_petsc(EPSGetConverged(eps, &converged));
     std::vector<Pair> pairs;
@@ -116,7 +116,6 @@ class Problem {
       const auto all = context_.assembler.gather(real);
       pairs.push_back({-1 / value, {all.begin(), all.end()}});
     }
-    check_petsc(EPSDestroy(&eps));
     // of loads ±λ that buckle alike, rounding decides which comes first
     for (std::size_t i = 1; i < pairs.size(); ++i)
       if (pairs[i - 1].time < 0 && pairs[i].time > 0 && std::abs(pairs[i - 1].time + pairs[i].time) <= same * pairs[i].time)
@@ -125,20 +124,14 @@ class Problem {
   }
 
  private:
-  /// Whether K may be singular up to rounding.
-  bool is_doubtful() {
-    constexpr double doubtful = 1e-13;
-    fill_probe(product_);
-    factors_.solve(product_, way_);
-    return relative_stiffness(context_.assembler, factors_.matrix(), way_, product_) <= doubtful;
-  }
-
   static PetscErrorCode multiply(Mat shell, Vec x, Vec y) {
     Problem* self = nullptr;
     PetscCall(MatShellGetContext(shell, &self));
-    PetscCall(MatMult(self->change_, x, self->loads_));
-    self->factors_.solve(self->loads_, y);
-    return 0;
+    return guarded(self->failure_, [&] {
+      check_petsc(MatMult(self->change_, x, self->loads_));
+      self->tangent_.solve(self->loads_, y);
+      return 0;
+    });
   }
 
   /// The equilibrium later by `time`, if everything goes on as it does.
@@ -146,24 +139,23 @@ class Problem {
     std::vector<double> y(context_.motion.size(), 0.0), step(along_.size());
     for (std::size_t i = 0; i < step.size(); ++i) step[i] = time * along_[i];
     context_.motion.scatter(step, y);
-    const auto before = context_.motion.prescribed(base_.load_time()),
-               after = context_.motion.prescribed(base_.load_time() + time);
-    for (std::size_t i = 0; i < after.size(); ++i) y[after[i].slot] = after[i].u - before[i].u;
-    move_and_rest(context_, base_, y, moved_);
+    const Configuration& base = tangent_.place();
+    context_.motion.prescribe_increment(base.load_time(), base.load_time() + time, y);
+    moved_ = base;
+    context_.motion.move(base, y, moved_);
+    moved_ = at_start_of_step(std::move(moved_));
     moved_.lead += time;
-    const auto motion = context_.motion.size();
-    for (std::size_t m = 0; m < moved_.multipliers.size(); ++m)
-      if (const int equation = context_.numbering.equation(static_cast<int>(motion + m)); equation >= 0)
-        moved_.multipliers[m] += context_.assembler.scale()[m] * step[static_cast<std::size_t>(equation)];
+    context_.assembler.add_to_multipliers(step, moved_.multipliers);
     return moved_;
   }
 
   SolverContext& context_;
-  TangentFactors factors_;
+  EquilibriumTangent tangent_;
   Owned<Mat> change_;
   Owned<Vec> loads_, way_, product_;
-  Configuration base_, moved_;
+  Configuration moved_;
   std::vector<double> along_;
+  std::exception_ptr failure_;  ///< thrown inside a callback
 };
 
 /// Removes the times that another difference of the tangent does not give: a system that buckles in fewer ways than were asked
@@ -171,7 +163,7 @@ class Problem {
 void keep_confirmed(std::vector<Problem::Pair>& found, const std::vector<Problem::Pair>& again) {
   std::erase_if(found, [&](const Problem::Pair& pair) {
     return std::none_of(again.begin(), again.end(), [&](const Problem::Pair& other) {
-      return std::abs(other.time - pair.time) <= alike * std::abs(pair.time);
+      return std::abs(other.time - pair.time) <= alike_later * std::abs(pair.time);
     });
   });
 }

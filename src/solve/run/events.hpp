@@ -24,7 +24,7 @@ class Switches {
   /// Whether no step ends for any of them.
   bool empty() const { return empty_; }
   std::vector<Switch> at(const Configuration& c) const;
-  /// The same at the beginning of a step: as a rule the values of the last take().
+  /// Switches at the beginning of a step: as a rule with the values of the last take().
   std::vector<Switch> before(const Configuration& c) const;
 
   /// Takes the sides of an accepted configuration and returns the switches that have changed. A value at rounding level keeps

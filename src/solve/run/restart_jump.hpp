@@ -17,8 +17,8 @@ namespace engrane::solve {
 /// with the velocity of the jump over the step. Every rank finds the same.
 std::string explain_jump(SolverContext& context, const Configuration& c);
 
-/// Saves the speeds of drives and supports in the motion up to a restart point, and reads them back. The velocities there cannot
-/// tell: between fixed steps they are only near what is imposed.
+/// Saves the speeds of drives and supports in the motion up to a restart point, and reads them back. The velocities
+/// there do not show them: between fixed steps they are only near what is imposed.
 void save_speeds(const std::vector<ValueAndRate>& speeds, Snapshot& snapshot);
 std::vector<ValueAndRate> load_speeds(const Model& model, const Snapshot& snapshot, double time);
 

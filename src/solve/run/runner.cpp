@@ -183,7 +183,7 @@ bool Runner::march() {
       const bool impulse = scheme_.meets_events() && speed_jump(context_.model, corner);
       const bool jumps = scheme_.meets_events() &&
                          (impulse || context_.model.jumps_at(corner) || imposed_acceleration_jumps(context_.model, corner));
-      const double before = jumps ? std::nextafter(corner, begin) : corner, least = shortest_way * (end - begin);
+      const double before = jumps ? number_before(corner) : corner, least = shortest_way * (end - begin);
       const bool there = jumps && now_.time == before;  // where a resumed run begins
       if (!there && (corner - now_.time < least || end - corner < least)) continue;
       corner_ = before;

@@ -78,8 +78,8 @@ class Runner {
   double next_size(double left) const;
   /// Would a step `shorter` than one of `size` be shorter than CUTS allows?
   bool shortest(double size, double shorter) const;
-  /// Do equilibria jump within a load step whose error is too large and that would be cut to `shorter`, or does no step that
-  /// CUTS allows tell?
+  /// Do equilibria jump within a load step whose error is too large and that would be cut to `shorter`, or is no step that
+  /// CUTS allows short enough to decide?
   bool jumps_at(double size, double shorter, double error);
   /// Where equilibria near now_ have come to an end, as at a limit load, and no shorter step finds one: seeks next_ where the
   /// structure would snap to, and by Newton's iteration, with steps longer than `size`, to the next multiple of H at most.

@@ -10,7 +10,6 @@
 
 #include "solve/algebra/probe.hpp"
 #include "solve/schemes/mode_text.hpp"
-#include "solve/schemes/stability.hpp"
 
 namespace engrane::solve {
 
@@ -67,7 +66,7 @@ double product(std::span<const double> weights, std::span<const double> a, std::
 }  // namespace
 
 ArcLength::ArcLength(SolverContext& context)
-    : Statics(context), factors_(context.assembler.new_matrix()), load_derivative_(context, load_step * context.options.step) {
+    : Statics(context), tangent_(context), load_derivative_(context, load_step * context.options.step) {
   for (Owned<Vec>* vector : {&load_, &toward_, &right_, &plane_}) *vector->out() = context.assembler.new_vector();
   const double extent = context.model.extent();
   int node = -1;
@@ -128,16 +127,13 @@ int ArcLength::turned(const Point& a, const Point& b) const {
 }
 
 bool ArcLength::examine(const Configuration& c, const Point* before, Point& point) {
-  Configuration rested;
-  move_and_rest(context_, c, std::vector<double>(context_.motion.size(), 0.0), rested);
-  context_.assembler.tangent(rested, {1, 0, 0}, factors_.matrix());
-  if (!factors_.factor()) return false;
+  if (!tangent_.factor(c)) return false;
   load_derivative_.turn(!before || before->load >= 0);
-  load_derivative_.find(rested, load_);
-  factors_.solve(load_, toward_);
+  load_derivative_.find(tangent_.place(), load_);
+  tangent_.solve(load_, toward_);
   point.way = copy(context_.assembler.gather(toward_));
-  point.negative = factors_.negative();
-  point.symmetric = factors_.symmetric();
+  point.negative = tangent_.negative();
+  point.symmetric = tangent_.symmetric();
   const double size = length(point.way);
   if (!std::isfinite(size)) return false;
   if (unit_ == 0) unit_ = size;
@@ -160,12 +156,10 @@ bool ArcLength::examine(const Configuration& c, const Point* before, Point& poin
 bool ArcLength::loads_have_ended(const Configuration& c) {
   Point point;
   if (!examine(c, &here_, point)) return false;
-  Configuration rested;
-  move_and_rest(context_, c, std::vector<double>(context_.motion.size(), 0.0), rested);
   const double begin = context_.options.begin, span = context_.options.end - begin, by = longest_step * span;
   for (double later = -by; c.load_time() + later > begin - span; later -= by) {
-    load_derivative_.change(rested, later, load_);
-    factors_.solve(load_, toward_);
+    load_derivative_.change(tangent_.place(), later, load_);
+    tangent_.solve(load_, toward_);
     if (length(context_.assembler.gather(toward_)) > stands_still * unit_ * span) return false;
   }
   return true;
@@ -184,14 +178,8 @@ NewtonReport ArcLength::follow(const Configuration& from, double h, Configuratio
   to.h = h;
   now_ = at_end ? context_.options.end : from.load_time() + here_.load * h;
   load_derivative_.turn(here_.load >= 0);
-  const auto before = context_.motion.prescribed(from.load_time());
   std::vector<double> y(context_.motion.size(), 0.0), guess(here_.way.size(), 0.0), normal(here_.way.size());
-  const auto prescribe = [&] {
-    if (before.empty()) return;
-    const auto after = context_.motion.prescribed(now_);
-    for (std::size_t i = 0; i < after.size(); ++i) y[after[i].slot] = after[i].u - before[i].u;
-  };
-  multipliers_to_unknowns(from, guess);
+  context_.assembler.multipliers_to_unknowns(from, guess);
   for (std::size_t i = 0; i < guess.size(); ++i) {
     guess[i] += h * here_.way[i];
     normal[i] = relative_[i] * here_.way[i];
@@ -200,10 +188,10 @@ NewtonReport ArcLength::follow(const Configuration& from, double h, Configuratio
   context_.assembler.spread(normal, plane_);
   const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
     context_.motion.scatter(unknowns, y);
-    prescribe();
+    context_.motion.prescribe_increment(from.load_time(), now_, y);
     context_.motion.move(from, y, c);
     c.lead = now_ - c.time;
-    unknowns_to_multipliers(unknowns, c);
+    context_.assembler.unknowns_to_multipliers(unknowns, c);
   };
   context_.assembler.spread(guess, unknowns());
   work_ = &to;
@@ -444,7 +432,7 @@ ArcLength::Mode ArcLength::least_mode() {
     const double size = length(mode.vector);
     for (std::size_t i = 0; i < equations; ++i) right[i] = weights_[i] * mode.vector[i] / size;
     context_.assembler.spread(right, right_);
-    factors_.solve(right_, toward_);
+    tangent_.solve(right_, toward_);
     std::vector<double> next = copy(context_.assembler.gather(toward_));
     const double inverse = product(weights_, mode.vector, next) / size;
     const double before = mode.eigenvalue;

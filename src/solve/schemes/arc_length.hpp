@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "solve/algebra/tangent_factors.hpp"
+#include "solve/schemes/equilibrium_tangent.hpp"
 #include "solve/schemes/load_derivative.hpp"
 #include "solve/schemes/statics.hpp"
 
@@ -36,8 +36,8 @@ class ArcLength final : public Statics, private Border {
   /// Data of an equilibrium.
   struct Point {
     std::vector<double> way;  ///< tangent of the path, by equation (multipliers scaled), over its length
-    double load = 1;          ///< the same of the load time
-    int negative = 0;         ///< TangentFactors::negative()
+    double load = 1;          ///< change of the load time over that length
+    int negative = 0;         ///< EquilibriumTangent::negative()
     bool symmetric = true;
   };
   /// The eigenvalue of the tangent of least magnitude, with the weights of the length, and its vector by equation.
@@ -81,7 +81,7 @@ class ArcLength final : public Statics, private Border {
   /// beginning, of the opposite sign to that at the end.
   Bracket locate(const Configuration& from, double& h, Configuration& to, Point& there, double first, double precision,
                  const std::function<double(const Configuration&, const Point&)>& value);
-  /// What ends the path, as numbers.
+  /// The deck's conditions that end the path, as numbers.
   std::vector<double> goal() const;
   /// Ends a step that passes a critical point at that point; behind it if that is a bifurcation.
   void find_critical(const Configuration& from, double& h, Configuration& to, Point& there);
@@ -100,7 +100,7 @@ class ArcLength final : public Statics, private Border {
   /// Number of directions by which the stability of two points differs; its parity where the tangent of only one is symmetric.
   int turned(const Point& a, const Point& b) const;
 
-  TangentFactors factors_;
+  EquilibriumTangent tangent_;  ///< examined last
   LoadDerivative load_derivative_;
   Owned<Vec> load_, toward_, right_;  ///< derivative of the residual by the load time, solutions, right sides
   std::vector<double> weights_;       ///< of the length, by equation

@@ -29,7 +29,7 @@ class CoupledStages {
   /// with stages at `places`, `increments` (by motion slot) from its beginning; false if singular.
   bool solve(const std::vector<Configuration>& places, const std::vector<std::vector<double>>& increments, double h,
              const std::vector<Owned<Vec>>& residuals, const std::vector<Owned<Vec>>& changes);
-  /// Those of each stage at the last solution.
+  /// Matrices of each stage at the last solution.
   const std::vector<StageMatrices>& matrices() const { return matrices_; }
 
  private:

@@ -32,7 +32,7 @@ class Descent {
 
   SolverContext& context_;
   std::vector<double> lengths_;   ///< by equation; 0 for multipliers
-  std::vector<double> unknowns_;  ///< by equation; multipliers as λ/k
+  std::vector<double> unknowns_;  ///< by equation; multipliers as λ
   Owned<Vec> residual_, change_, diagonal_;
 };
 

@@ -20,7 +20,7 @@ constexpr double most_change = 0.3, no_speed = 1e-9;
 
 }  // namespace
 
-Dynamics::Dynamics(SolverContext& context) : Scheme(context), error_(context.model, context.numbering, context.options) {
+Dynamics::Dynamics(SolverContext& context) : Scheme(context), error_(context.assembler, context.options) {
   *unknowns_.out() = context.assembler.new_vector();
 }
 
@@ -32,14 +32,12 @@ class Dynamics::Inside : public Within {
   void at(double time, Configuration& c) override {
     const MotionSlots& slots = scheme_.context_.motion;
     motion_.at(time, now_);
-    scheme_.prescribe_step(from().time, time, now_.y);
+    scheme_.context_.motion.prescribe_increment(from().time, time, now_.y);
     motion_.place(time, now_, c);
     c.h = time - from().time;
     auto v = slots.velocities(c), a = slots.accelerations(c);
-    for (const auto& p : slots.prescribed(time)) {
-      v[p.slot] = p.v;
-      a[p.slot] = p.a;
-    }
+    slots.prescribe_rates(time, v);
+    slots.prescribe_accelerations(time, a);
     slots.set_velocities(v, c);
     slots.set_accelerations(a, c);
     const double part = c.h / (to().time - from().time);
@@ -68,8 +66,8 @@ Configuration Dynamics::glide(const Configuration& c, double h) const {
   }
   Configuration later = c;
   later.time = c.time + h;
-  prescribe_step(c.time, later.time, y);
-  for (const auto& p : context_.motion.prescribed(later.time)) ahead[p.slot] = p.v;
+  context_.motion.prescribe_increment(c.time, later.time, y);
+  context_.motion.prescribe_rates(later.time, ahead);
   context_.motion.move(c, y, later);
   context_.motion.set_velocities(ahead, later);
   return later;
@@ -90,7 +88,7 @@ void Dynamics::drift(Configuration& c, double h) {
   auto v = context_.motion.velocities(c);
   const auto after = context_.motion.accelerations(c);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
-  for (const auto& p : context_.motion.prescribed(c.time)) v[p.slot] = p.v;
+  context_.motion.prescribe_rates(c.time, v);
   context_.motion.set_velocities(v, c);
   if (constrained()) {
     context_.motion.set_velocities(fitting_velocities(c), c);
@@ -156,9 +154,8 @@ void Dynamics::refine_grips(Configuration& c) {
 std::vector<double> Dynamics::fitting_velocities(const Configuration& c) const {
   std::vector<double> v = context_.motion.velocities(c);
   Configuration fitted = c;
-  StartReport unused;
   try {
-    context_.start.fit_velocities(fitted, Assembler::Metric::mass, unused, false);
+    context_.start.project_velocities(fitted, Assembler::Metric::mass);
   } catch (const SolutionFailure&) {
     return v;  // the step itself finds the conflict, and says when
   }

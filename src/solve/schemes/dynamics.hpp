@@ -32,7 +32,7 @@ class Dynamics : public Scheme {
   /// Starts the scheme's memory from `c`, a solution at the start of the run. `softened`: its accelerations have been softened
   /// (Start::soften).
   virtual void start_memory(const Configuration& c, const MasslessMotions* massless, bool softened) = 0;
-  /// The same after an event, at which forces may set in; may change accelerations of `c` as soften() does.
+  /// Starts that memory again after an event, at which forces may set in; may change accelerations of `c` as soften() does.
   virtual void restart_memory(Configuration& c) = 0;
 
   /// Returns `c` moved by h with its velocities and accelerations; accelerations and multipliers do not change.
@@ -48,6 +48,10 @@ class Dynamics : public Scheme {
   const MasslessMotions* massless_at(const Configuration& c);
   /// Start::soften() for fixed steps; controlled ones are to find out how short they have to be.
   bool soften(Configuration& c, double h, const MasslessMotions* massless, StartReport* report = nullptr) const;
+  /// The same for what controllers follow faster than steps resolve (Start::soften_signals).
+  bool soften_signals(Configuration& c, double h) const;
+  /// Start::settle_signals() for fixed steps. `c` is `from` after the time `after`.
+  bool settle_signals(Configuration& c, const Configuration& from, double after, double h) const;
   /// Gives `c` the multipliers that balance it at its own time.
   void refine_grips(Configuration& c);
   /// Chooses the scales k of the multipliers for steps of h with these weights. Only the order of magnitude of k matters, so
@@ -61,7 +65,7 @@ class Dynamics : public Scheme {
   class Inside;
   /// drift_error() between fixed steps.
   double stiff_drift(const Configuration& c, double h);
-  /// What balance requires of motions without mass at one instant.
+  /// Changes of motions without mass that balance requires at one instant.
   struct Relaxed {
     std::vector<double> jump;   ///< from springs: displacement to where their forces balance; one entry per motion slot
     std::vector<double> speed;  ///< from dampers: change of the velocity

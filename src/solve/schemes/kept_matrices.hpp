@@ -27,7 +27,7 @@ class KeptMatrices {
   bool restore(double h);
   /// Evaluates the matrices of this phase at `c`, and forms the systems for steps of h.
   void evaluate(const Configuration& c, double h);
-  /// Those that the solver's systems were last formed from; null if they have been discarded since.
+  /// The matrices that the solver's systems were last formed from; null if they have been discarded since.
   const StageMatrices* current() const;
   /// Discards the matrices of this phase.
   void drop() { sets_.erase(phase_); }

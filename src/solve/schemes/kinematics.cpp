@@ -21,7 +21,7 @@ StartReport Kinematics::start(Configuration& c) {
   StartReport report;
   apply_initial_displacements(context_, c);
   context_.start.assemble(c, report);
-  c = outside_of_steps(std::move(c));  // rates are not those of the turn that led here
+  c = at_start_of_step(std::move(c));  // rates are not those of the turn that led here
   refuse_free_motion(c);
   apply_initial_velocities(context_, c);
   context_.start.fit_velocities(c, Assembler::Metric::geometric, report);
@@ -50,11 +50,10 @@ void Kinematics::load(const Snapshot& snapshot) {
 }
 
 int Kinematics::solve(Configuration& to) {
-  StartReport assembly;
-  context_.start.assemble(to, assembly, false);
-  context_.start.fit_velocities(to, Assembler::Metric::geometric, assembly, false);
+  const int iterations = context_.start.close_again(to);
+  context_.start.project_velocities(to, Assembler::Metric::geometric);
   context_.start.balance_accelerations(to);
-  return assembly.position_iterations;
+  return iterations;
 }
 
 Kinematics::Kinematics(SolverContext& context) : Scheme(context) {
@@ -90,7 +89,7 @@ std::vector<double> Kinematics::predict(const Configuration& from, double length
   c.time = from.time + length;
   c.h = length;
   for (std::size_t i = 0; i < y.size(); ++i) y[i] = length * (v[i] + 0.5 * length * a[i]);
-  prescribe_step(from.time, c.time, y);
+  context_.motion.prescribe_increment(from.time, c.time, y);
   context_.motion.move(from, y, c);
   return y;
 }
@@ -185,7 +184,7 @@ bool Kinematics::reach_limit(const Configuration& from, double h, double amplifi
   to = first;
   to.time = from.time + h;
   to.h = h;
-  prescribe_step(first.time, to.time, y);
+  context_.motion.prescribe_increment(first.time, to.time, y);
   context_.motion.move(first, y, to);
   context_.motion.set_velocities(v, to);
   context_.motion.set_accelerations(a, to);

@@ -38,7 +38,7 @@ class Kinematics final : public Scheme {
   /// Sets `c` to where the motion at `from` leads in a time of `length`: close enough to stay on the same branch of assembly.
   /// Returns the step there.
   std::vector<double> predict(const Configuration& from, double length, Configuration& c) const;
-  /// The same, and solves there; returns the number of position iterations.
+  /// Sets `c` by predict() and solves there; returns the number of position iterations.
   int follow(const Configuration& from, double length, Configuration& c);
   /// Sets `to` to the limit of the motion at a singular position, where the equations do not determine how it goes on: what four
   /// positions before it lead to. `amplification`: that of `from`. Throws SolutionFailure if there is no limit; false, with `to`

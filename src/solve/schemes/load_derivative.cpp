@@ -28,20 +28,13 @@ void LoadDerivative::change(const Configuration& c, double later, Vec f) {
 void LoadDerivative::residual(const Configuration& c, double later, Vec into) {
   const double now = c.load_time();
   moved_ = c;
-  if (const auto before = context_.motion.prescribed(now); !before.empty()) {
-    const auto after = context_.motion.prescribed(now + later);
+  if (!context_.motion.prescribed(now).empty()) {
     std::vector<double> y(context_.motion.size(), 0.0);
-    for (std::size_t i = 0; i < after.size(); ++i) y[after[i].slot] = after[i].u - before[i].u;
+    context_.motion.prescribe_increment(now, now + later, y);
     context_.motion.move(c, y, moved_);
   }
   moved_.lead += later;
   context_.assembler.residual(moved_, into);
-}
-
-void move_and_rest(const SolverContext& context, const Configuration& from, std::span<const double> y, Configuration& to) {
-  to = from;
-  context.motion.move(from, y, to);
-  for (NodeState& node : to.nodes) node.T.setIdentity();
 }
 
 }  // namespace engrane::solve

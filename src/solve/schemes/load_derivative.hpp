@@ -13,7 +13,7 @@ class LoadDerivative {
   LoadDerivative(SolverContext& context, double step);
 
   void find(const Configuration& c, Vec f);
-  /// Writes the change of the same to a load time that is `later` by so much into `f`.
+  /// Writes the change of the residual to a load time that is `later` by so much into `f`.
   void change(const Configuration& c, double later, Vec f);
   /// Makes differences look ahead, or back.
   void turn(bool ahead) { step_ = ahead ? std::abs(step_) : -std::abs(step_); }
@@ -26,9 +26,5 @@ class LoadDerivative {
   Owned<Vec> next_;
   Configuration moved_;
 };
-
-/// Sets `to` to `from` with every motion slot moved by y, as a configuration with symmetric tangents: increments of rotations
-/// start anew there.
-void move_and_rest(const SolverContext& context, const Configuration& from, std::span<const double> y, Configuration& to);
 
 }  // namespace engrane::solve

@@ -164,7 +164,7 @@ void Radau::differentiate(const Configuration& from, double h) {
   for (std::size_t i = 0; i < stages; ++i) {
     for (std::size_t slot = 0; slot < now_.y[i].size(); ++slot)
       if (!has_equation(slot)) now_.y[i][slot] = 0;
-    prescribe_step(from.time, from.time + h * collocation_.c[static_cast<Eigen::Index>(i)], now_.y[i]);
+    context_.motion.prescribe_increment(from.time, from.time + h * collocation_.c[static_cast<Eigen::Index>(i)], now_.y[i]);
   }
   for (std::size_t i = 0; i < stages; ++i) {
     std::vector<double>& v = now_.v[i];
@@ -261,14 +261,10 @@ Radau::Correction Radau::correct() {
   for (std::size_t i = 0; i < changes_.size(); ++i) {
     const auto change = context_.assembler.gather(changes_[i]);
     if (error_.wanted() && i + 1 == changes_.size()) context_.motion.scatter(change, last_change_);
+    context_.assembler.add_to_multipliers(change, now_.multipliers[i]);
     for (std::size_t e = 0; e < change.size(); ++e) {
       const Unknown& u = numbering.unknown(static_cast<int>(e));
-      const auto slot = static_cast<std::size_t>(u.slot);
-      if (u.multiplier)
-        now_.multipliers[i][slot - context_.motion.size()] +=
-            context_.assembler.scale()[slot - context_.motion.size()] * change[e];
-      else
-        now_.y[i][slot] += change[e];
+      if (!u.multiplier) now_.y[i][static_cast<std::size_t>(u.slot)] += change[e];
       double& size = u.multiplier ? largest.forces : largest.motion;
       size = std::max(size, references_.relative_change(static_cast<int>(e), change[e]));
     }
@@ -343,7 +339,7 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
       break;
     }
     if (renew) {
-      keep(outside_of_steps(configurations_[configurations_.size() / 2]), h);
+      keep(at_start_of_step(configurations_[configurations_.size() / 2]), h);
       evaluated = true;
       slowest = 0;
       uses = 0;
@@ -381,12 +377,14 @@ NewtonReport Radau::iterate(const Configuration& from, double h, CoupledStages* 
 void Radau::keep(const Configuration& c, double h) {
   kept_.evaluate(c, h);
   kept_step_ = matrices_step_ = h;
+  factored_ = true;
   kept_scale_ = context_.assembler.scale();
 }
 
 bool Radau::recall(double h) {
   if (!error_.wanted() || !kept_.recall(h)) return false;
   kept_step_ = matrices_step_ = h;
+  factored_ = true;
   kept_scale_ = context_.assembler.scale();
   return true;
 }
@@ -415,6 +413,7 @@ NewtonReport Radau::find_stages(const Configuration& from, double h) {
 
 Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   scale_for(from, h, solver_.weights(h));
+  factored_ = kept_step_ > 0 && kept_scale_ == context_.assembler.scale();
   for (std::size_t i = 0; i < configurations_.size(); ++i) {
     const double part = collocation_.c[static_cast<Eigen::Index>(i)];
     configurations_[i] = from;
@@ -427,7 +426,7 @@ Outcome Radau::attempt(const Configuration& from, double h, Configuration& to) {
   if (!foreseen.converged) return {std::move(foreseen), {}};
 
   NewtonReport report = find_stages(from, h);
-  to = outside_of_steps(configurations_.back());
+  to = at_start_of_step(configurations_.back());
   refuse_half_turns(now_.y.back(), report);
   if (!report.converged) return {std::move(report), {}};
   if (refuse_conflict(to, report)) return {std::move(report), {}};
@@ -493,9 +492,9 @@ bool Radau::restore_balance(Configuration& c) {
     context_.motion.set_accelerations(a, c);
     return moved && balance_near(c, most_balance_corrections);
   };
-  if (!found()) {
+  if (!factored_ || !found()) {
     // Matrices good enough for the step may not be so here; the next phase must not find those of this place.
-    keep(outside_of_steps(before), matrices_step_);
+    keep(at_start_of_step(before), matrices_step_);
     kept_.drop();
     kept_step_ = 0;
     if (!found()) {
@@ -508,7 +507,6 @@ bool Radau::restore_balance(Configuration& c) {
 }
 
 bool Radau::balance_near(Configuration& c, int most) {
-  const Numbering& numbering = context_.numbering;
   Assembler& assembler = context_.assembler;
   // K + (γ/h) C + (γ/h)² M, with the factors that the step has left
   const double rate = solver_.real_rate() / matrices_step_, precision = context_.options.precision;
@@ -527,17 +525,13 @@ bool Radau::balance_near(Configuration& c, int most) {
     const auto change = assembler.gather(changes_[0]);
     std::fill(y.begin(), y.end(), 0.0);
     context_.motion.scatter(change, y);
-    for (std::size_t e = 0; e < change.size(); ++e)
-      if (const Unknown& u = numbering.unknown(static_cast<int>(e)); u.multiplier) {
-        const std::size_t m = static_cast<std::size_t>(u.slot) - context_.motion.size();
-        c.multipliers[m] += assembler.scale()[m] * change[e];
-      }
+    assembler.add_to_multipliers(change, c.multipliers);
     auto v = context_.motion.velocities(c), a = context_.motion.accelerations(c);
     add(rate, y, v);
     add(rate * rate, y, a);
     const Configuration from = c;
     context_.motion.move(from, y, c);
-    c = outside_of_steps(std::move(c));
+    c = at_start_of_step(std::move(c));
     context_.motion.set_velocities(v, c);
     context_.motion.set_accelerations(a, c);
   }
@@ -557,6 +551,7 @@ void Radau::save(Snapshot& snapshot) const {
   multipliers_.save(snapshot, "radau/multipliers");
   solver_.save(snapshot);
   snapshot.put("radau/kept_step", kept_step_);
+  snapshot.put("radau/matrices_step", matrices_step_);
   snapshot.put("radau/open", open_);
   snapshot.put("radau/judged", {judged_.step, judged_.error});
   snapshot.put("radau/coupled", {coupled_.step, static_cast<double>(coupled_.tries), static_cast<double>(coupled_.left)});
@@ -587,6 +582,7 @@ void Radau::load(const Snapshot& snapshot) {
   }
   kept_.load(part_of(snapshot, "radau/kept/"));
   kept_step_ = 0;
+  if (snapshot.has("radau/matrices_step")) matrices_step_ = snapshot.number("radau/matrices_step");  // as above
   if (const double h = snapshot.number("radau/kept_step"); h > 0 && kept_.restore(h)) {
     solver_.restore_factors();
     kept_step_ = matrices_step_ = h;

@@ -26,7 +26,7 @@ class Radau final : public Dynamics {
   const References& references() const override { return references_; }
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
-  /// Those of generalised-α swing about what the constraints ask for, long after a jump of a drive's speed.
+  /// Velocities of generalised-α oscillate about the values that satisfy the constraints, long after a jump of a drive's speed.
   bool takes_velocities(const Snapshot& snapshot) const override { return !snapshot.has("scheme/algorithmic"); }
 
  private:
@@ -138,6 +138,7 @@ class Radau final : public Dynamics {
   Coupled coupled_;
   double kept_step_ = 0;      ///< for which the systems may be reused; 0: none
   double matrices_step_ = 0;  ///< for which they were last made; 0: never
+  bool factored_ = false;     ///< the solver has their factors, and so it would after a restart at the beginning of the step
   std::vector<double> kept_scale_;
   bool has_friction_ = false;
   Owned<Mat> balance_matrix_;

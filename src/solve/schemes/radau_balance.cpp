@@ -156,7 +156,7 @@ void Radau::drift(Configuration& c, double h) {
   const auto before = context_.motion.accelerations(c);
   Configuration later = glide(c, h);
   auto a = context_.motion.accelerations(later);
-  for (const auto& p : context_.motion.prescribed(later.time)) a[p.slot] = p.a;
+  context_.motion.prescribe_accelerations(later.time, a);
   context_.motion.set_accelerations(a, later);
   if (balance_kept_)
     balance_fits_ = false;
@@ -166,7 +166,7 @@ void Radau::drift(Configuration& c, double h) {
   auto v = context_.motion.velocities(later);
   const auto after = context_.motion.accelerations(later);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.5 * h * (after[i] - before[i]);
-  for (const auto& p : context_.motion.prescribed(later.time)) v[p.slot] = p.v;
+  context_.motion.prescribe_rates(later.time, v);
   context_.motion.set_velocities(v, later);
   if (constrained() && !(fit_velocities(later) && fit_accelerations(later))) return Dynamics::drift(c, h);
   c = std::move(later);

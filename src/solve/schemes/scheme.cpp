@@ -14,11 +14,6 @@
 
 namespace engrane::solve {
 
-void Scheme::prescribe_step(double from, double to, std::span<double> y) const {
-  const auto before = context_.motion.prescribed(from), after = context_.motion.prescribed(to);
-  for (std::size_t i = 0; i < after.size(); ++i) y[after[i].slot] = after[i].u - before[i].u;
-}
-
 void apply_initial_displacements(const SolverContext& context, Configuration& c) {
   std::vector<double> y(context.motion.size(), 0.0);
   for (const InitialValue& value : context.model.initial)
@@ -88,20 +83,6 @@ bool Scheme::refuse_conflict(const Configuration& to, NewtonReport& report) cons
   return true;
 }
 
-void Scheme::multipliers_to_unknowns(const Configuration& c, std::span<double> unknowns) const {
-  const auto motion = context_.motion.size();
-  for (std::size_t m = 0; m < c.multipliers.size(); ++m)
-    if (const int equation = context_.numbering.equation(static_cast<int>(motion + m)); equation >= 0)
-      unknowns[static_cast<std::size_t>(equation)] = c.multipliers[m] / context_.assembler.scale()[m];
-}
-
-void Scheme::unknowns_to_multipliers(std::span<const double> unknowns, Configuration& c) const {
-  const auto motion = context_.motion.size();
-  for (std::size_t m = 0; m < c.multipliers.size(); ++m)
-    if (const int equation = context_.numbering.equation(static_cast<int>(motion + m)); equation >= 0)
-      c.multipliers[m] = context_.assembler.scale()[m] * unknowns[static_cast<std::size_t>(equation)];
-}
-
 NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to, bool keep,
                            Border* border) {
   NewtonReport report;
@@ -115,7 +96,7 @@ NewtonReport Scheme::solve(Vec unknowns, Weights weights, const Newton::Apply& a
     if (!context_.redundancy.share(to)) break;
     const auto all = context_.assembler.gather(unknowns);
     std::vector<double> shared(all.begin(), all.end());
-    multipliers_to_unknowns(to, shared);
+    context_.assembler.multipliers_to_unknowns(to, shared);
     context_.assembler.spread(shared, unknowns);
   }
   report.iterations = iterations;

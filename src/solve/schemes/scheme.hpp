@@ -51,7 +51,7 @@ class Scheme {
   virtual StartReport start(Configuration& c) = 0;
   /// Tries a step of h from an accepted configuration; `to` is a solution if the outcome is converged.
   virtual Outcome attempt(const Configuration& from, double h, Configuration& to) = 0;
-  /// The same where equilibria near `from` have come to an end: seeks the one to which the structure would snap.
+  /// Tries a step where equilibria near `from` have come to an end: seeks the one to which the structure would snap.
   virtual Outcome snap(const Configuration& /*from*/, double /*h*/, Configuration& /*to*/) { return {}; }
   /// Did the last attempt, from one equilibrium to the other, leap to where no path of equilibria leads? Shorter steps may then
   /// stay on theirs. Collective.
@@ -100,19 +100,13 @@ class Scheme {
   virtual bool takes_velocities(const Snapshot&) const { return true; }
 
  protected:
-  /// Writes the displacements of the prescribed slots between two times into a flat step.
-  void prescribe_step(double from, double to, std::span<double> y) const;
   /// Fails a converged step in which a node turned so far that turns can no longer be counted.
   void refuse_half_turns(std::span<const double> y, NewtonReport& report) const;
-  /// The same before a step of h: fails if nodes would turn so far at the speeds v. Newton's iteration finds no angle of a
-  /// drive more than half a turn away, and could not say why.
+  /// refuse_half_turns() before a step of h: fails if nodes would turn so far at the speeds v. Newton's iteration finds no angle
+  /// of a drive more than half a turn away, and could not say why.
   NewtonReport foresee(std::span<const double> v, double h) const;
   /// Fails a converged step that leaves constraints open that were taken to be redundant; true if it does.
   bool refuse_conflict(const Configuration& to, NewtonReport& report) const;
-  /// Converts the multipliers of `c` to the scaled unknowns of the solver, and back.
-  void multipliers_to_unknowns(const Configuration& c, std::span<double> unknowns) const;
-  void unknowns_to_multipliers(std::span<const double> unknowns, Configuration& c) const;
-
   /// Newton's method from the given unknowns, with redundant constraints: checks that these are closed, and makes their
   /// multipliers the smallest.
   NewtonReport solve(Vec unknowns, Weights weights, const Newton::Apply& apply, Configuration& to, bool keep = false,

@@ -12,7 +12,7 @@ inline void save_part(const Snapshot& own, const std::string& prefix, Snapshot& 
   for (const auto& [name, values] : own.arrays()) snapshot.put(prefix + name, values);
 }
 
-/// The same for a `part` that saves itself.
+/// Saves a `part` that writes a snapshot of its own, under names with this prefix.
 template <class Part>
 void save_part(const Part& part, const std::string& prefix, Snapshot& snapshot) {
   Snapshot own;

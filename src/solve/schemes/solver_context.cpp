@@ -15,8 +15,9 @@ namespace {
 
 /// Whether MUMPS factors a single tangent that is symmetric by construction, so that half of it is enough.
 bool half_is_enough(const Model& model, const SolverOptions& options, const Numbering& numbering) {
-  return options.package == "MUMPS" && options.analysis == SolverOptions::Analysis::statics && !options.path.follow &&
-         !model.commands.buckling && numbering.partition().ranks() == 1 && numbering.slots() == numbering.motion_slots() &&
+  return (options.package == "MUMPS" || options.package == "BLR") && options.analysis == SolverOptions::Analysis::statics &&
+         !options.path.follow && !model.commands.buckling && numbering.partition().ranks() == 1 &&
+         numbering.slots() == numbering.motion_slots() &&
          std::all_of(model.parts.begin(), model.parts.end(),
                      [](const Model::Part& part) { return part.element->is_linear() && part.element->layout().scalars.empty(); });
 }

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/algebra/probe.hpp"
-#include "solve/algebra/tangent_factors.hpp"
-#include "solve/schemes/load_derivative.hpp"
+#include "solve/schemes/equilibrium_tangent.hpp"
 
 namespace engrane::solve {
 
@@ -18,19 +16,6 @@ namespace {
 constexpr int looks = 8;
 /// Largest number of equations: the factors of larger ones take a good part of the memory.
 constexpr int most_equations = 50000;
-/// A direction that resists by less than this fraction has no sign.
-constexpr double neutral = 1e-13;
-
-/// Takes the columns of released constraints, whose multipliers do not change, out of the tangent: it is then symmetric.
-void leave_out_released(const SolverContext& context, Mat tangent) {
-  if (context.assembler.half()) return;
-  std::vector<PetscInt> rows;
-  for (int row = context.numbering.first_row(); row < context.numbering.end_row(); ++row)
-    if (const Unknown& u = context.numbering.unknown(row);
-        u.multiplier && context.assembler.released(u.slot - context.numbering.motion_slots()))
-      rows.push_back(row);
-  check_petsc(MatZeroRowsColumns(tangent, static_cast<PetscInt>(rows.size()), rows.data(), -1, nullptr, nullptr));
-}
 
 /// Do loads without a potential, such as a moment about a fixed axis in space, matter in a motion x: is the antisymmetric part of
 /// the tangent K, by Σ |x (K − Kᵀ) x|, more than a hundredth of |xᵀKx|? Beside stiff parts it is below the rounding of K.
@@ -49,32 +34,17 @@ bool has_no_potential(Mat tangent, Vec motion) {
   return lost > part * std::abs(energy);
 }
 
-/// Number of directions in which the equilibrium is unstable; nothing if its tangent does not tell.
+/// Number of directions in which the equilibrium is unstable; nullopt if its tangent is singular or has no potential.
 std::optional<int> examine(SolverContext& context, const Configuration& equilibrium) {
-  Configuration rested;
-  move_and_rest(context, equilibrium, std::vector<double>(context.motion.size(), 0.0), rested);
-  TangentFactors factors(context.assembler.new_matrix());
-  context.assembler.tangent(rested, {1, 0, 0}, factors.matrix());
-  leave_out_released(context, factors.matrix());
-  if (!factors.factor() || !factors.symmetric()) return {};
-  Owned<Vec> load, motion;
-  for (Owned<Vec>* vector : {&load, &motion}) *vector->out() = context.assembler.new_vector();
-  fill_loads(context.assembler, load);
-  factors.solve(load, motion);
-  if (relative_stiffness(context.assembler, factors.matrix(), motion, load) <= neutral) return {};
-  if (has_no_potential(factors.matrix(), motion)) return {};
-  return unstable_directions(context, factors.negative(), true);
+  EquilibriumTangent tangent(context);
+  if (!tangent.factor(equilibrium) || !tangent.symmetric()) return {};
+  Owned<Vec> motion;
+  *motion.out() = context.assembler.new_vector();
+  if (tangent.neutral(motion) || has_no_potential(tangent.matrix(), motion)) return {};
+  return unstable_directions(context, tangent.negative(), true);
 }
 
 }  // namespace
-
-int unstable_directions(const SolverContext& context, int negative, bool symmetric) {
-  const std::vector<Unknown>& unknowns = context.numbering.unknowns();
-  const auto constraints =
-      static_cast<int>(std::count_if(unknowns.begin(), unknowns.end(), [&](const Unknown& u) { return u.multiplier; }));
-  // each of them turns the sign of the determinant
-  return symmetric ? negative - constraints : (negative + constraints) % 2;
-}
 
 StabilityWatch::StabilityWatch(SolverContext& context)
     : context_(context),

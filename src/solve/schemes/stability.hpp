@@ -8,10 +8,6 @@
 
 namespace engrane::solve {
 
-/// Number of directions in which an equilibrium is unstable, by the negative eigenvalues of its tangent (TangentFactors): each
-/// constraint, released or not, adds one to them. Of an unsymmetric tangent 1 if the number is odd, else 0.
-int unstable_directions(const SolverContext& context, int negative, bool symmetric);
-
 /// Watches equilibria of a static analysis for ones that are unstable, as Newton's iteration finds those of a straight column
 /// beyond its buckling load: nature leaves them. A few are examined, evenly spread over the time of the analysis, and the last.
 class StabilityWatch {

@@ -27,7 +27,7 @@ class StageSolver {
   void combine(const StageMatrices& matrices, double h);
   /// Finds the changes of all stages' unknowns that bring the residuals to zero, one vector for each stage; false if singular.
   bool solve(const std::vector<Owned<Vec>>& residuals, const std::vector<Owned<Vec>>& changes);
-  /// The same for the system of the real eigenvalue alone, with its present factors. The residual is overwritten.
+  /// Solves the system of the real eigenvalue alone, with its present factors. The residual is overwritten.
   bool solve_real(Vec residual, Vec change);
   /// State of the linear solvers, for a restart.
   void save(Snapshot& snapshot) const;

@@ -53,7 +53,7 @@ class Statics::Inside final : public Within {
     const double h = to().time - from().time;
     scheme_.path_.at(time, h, y);
     for (std::size_t i = 0; i < slots; ++i) y[i] -= scheme_.way_[i] - scheme_.y_[i];
-    scheme_.prescribe_step(from().time, time, y);
+    scheme_.context_.motion.prescribe_increment(from().time, time, y);
     c = from();
     c.time = time;
     c.h = time - from().time;
@@ -69,7 +69,7 @@ class Statics::Inside final : public Within {
 
 Statics::Statics(SolverContext& context)
     : Scheme(context),
-      error_(context.model, context.numbering, context.options),
+      error_(context.assembler, context.options),
       path_(points, longest_continuation),
       forces_(points, longest_continuation),
       way_(error_.wanted() ? context.motion.size() : 0, 0.0),
@@ -103,11 +103,12 @@ StartReport Statics::start(Configuration& c) {
   if (!newton.converged) {
     std::string why = fmt::format("no equilibrium at the start, t = {:.6g}: {}", c.time, newton.reason);
     if (newton.conflict) throw SolutionFailure(why);
-    if (newton.singular) throw SolutionFailure(explain_singular(context_.assembler, why, Resistance::at_rest));
+    const Resistance resistance = context_.options.moves() ? Resistance::at_start : Resistance::at_rest;
+    if (newton.singular) throw SolutionFailure(explain_singular(context_.assembler, why, resistance));
     const Configuration reference = context_.numbering.reference_configuration(c.time);
-    const std::string free =
-        explain_unresisted(context_.assembler, reference,
-                           fmt::format("no equilibrium at the start, t = {:.6g}: the stiffness matrix is singular", c.time));
+    const std::string free = explain_unresisted(
+        context_.assembler, reference,
+        fmt::format("no equilibrium at the start, t = {:.6g}: the stiffness matrix is singular", c.time), resistance);
     if (!free.empty()) throw SolutionFailure(free);
     why += "; " + explain_residual(context_.assembler, c, newton);
     throw SolutionFailure(
@@ -141,12 +142,12 @@ Outcome Statics::snap(const Configuration& from, double h, Configuration& to) {
   to.time = from.time + h;
   to.h = h;
   std::fill(y_.begin(), y_.end(), 0.0);
-  prescribe_step(from.time, to.time, y_);
+  context_.motion.prescribe_increment(from.time, to.time, y_);
   if (!Descent(context_).descend(move(origin, y_), unknowns_of(y_, to), to)) return {};
   NewtonReport report = resisted_balance(false, origin, y_, to);
   tried_time_ = to.time;
   tried_forces_ = to.multipliers;
-  return {std::move(report), error(from, h)};
+  return {std::move(report), error_.wanted() ? error(from, h) : std::nullopt};
 }
 
 bool Statics::leaps(const Configuration& from, const Configuration& to) {
@@ -175,7 +176,7 @@ NewtonReport Statics::find(const Configuration& from, double h, Configuration& t
     for (std::size_t i = 0; i < y.size(); ++i) y[i] -= way_[i];
     forces_.at(to.time, h, to.multipliers);
   }
-  prescribe_step(begin, begin + h, y);
+  context_.motion.prescribe_increment(begin, begin + h, y);
   const bool jumps = !contacts_.empty() && !predicted;
   NewtonReport report = jumps ? balance_contacts(origin, y, to) : resisted_balance(false, origin, y, to);
   if (report.unresisted && !predicted) throw SolutionFailure(report.reason);
@@ -210,7 +211,7 @@ void Statics::stay_on_branch(const Configuration& from, double h, NewtonReport& 
   other.time = from.time + h;
   other.h = h;
   for (std::size_t i = 0; i < y_.size(); ++i) y_[i] = h / last_h_ * last_y_[i];
-  prescribe_step(from.time, other.time, y_);
+  context_.motion.prescribe_increment(from.time, other.time, y_);
   NewtonReport again = balance(MotionSlots::Origin(from), y_, other);
   again.iterations += report.iterations;
   response_ = last_response_;
@@ -310,14 +311,14 @@ Newton::Apply Statics::move(const MotionSlots::Origin& from, std::span<double> y
   return [this, &from, y](std::span<const double> unknowns, Configuration& c) {
     context_.motion.scatter(unknowns, y);
     context_.motion.move(from, y, c);
-    unknowns_to_multipliers(unknowns, c);
+    context_.assembler.unknowns_to_multipliers(unknowns, c);
   };
 }
 
 std::vector<double> Statics::unknowns_of(std::span<const double> y, const Configuration& c) const {
   std::vector<double> unknowns(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
   context_.motion.gather(y, unknowns);
-  multipliers_to_unknowns(c, unknowns);
+  context_.assembler.multipliers_to_unknowns(c, unknowns);
   return unknowns;
 }
 

@@ -22,7 +22,7 @@ class Statics : public Scheme {
   StartReport start(Configuration& c) override;
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
   Outcome snap(const Configuration& from, double h, Configuration& to) override;
-  /// Only models with gaps are watched: Newton's iteration goes astray where a contact opens on its way.
+  /// Only models with gaps are watched: Newton's iteration may leave the branch where a contact opens on its way.
   bool leaps(const Configuration& from, const Configuration& to) override;
   void accept() override;
   int order_of_error() const override { return static_cast<int>(points); }
@@ -53,12 +53,12 @@ class Statics : public Scheme {
   std::vector<double> unknowns_of(std::span<const double> y, const Configuration& c) const;
   /// Newton's iteration from the displacements `y` and the multipliers of `to`, which end as the solution.
   NewtonReport balance(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
-  /// The same where flanks across a gap have no stiffness towards each other: contacts begin as springs that fade away.
+  /// balance() where flanks across a gap have no stiffness towards each other: contacts begin as springs that fade away.
   NewtonReport balance_across_gaps(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
-  /// One of both, with require_resistance().
+  /// One of these balances, with require_resistance().
   NewtonReport resisted_balance(bool across_gaps, const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
-  /// The same in the better order. Where contacts only touch at the beginning, rounding decides whether the first tangent has
-  /// their stiffness, and with it how far Newton's iteration goes: they begin as springs. So do contacts where the iteration
+  /// Both balances in the better order. Where contacts only touch at the beginning, rounding decides whether the first tangent
+  /// has their stiffness, and with it how far Newton's iteration goes: they begin as springs. So do contacts where the iteration
   /// finds nothing, or what nothing resists, or goes far, or ends where some only touch, which it may come to past others.
   NewtonReport balance_contacts(const MotionSlots::Origin& from, std::span<double> y, Configuration& to);
 

@@ -87,7 +87,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   to.h = h;
   for (std::size_t slot = 0; slot < n; ++slot)
     if (context_.numbering.equation(static_cast<int>(slot)) < 0) y[slot] = 0;
-  prescribe_step(from.time, to.time, y);
+  context_.motion.prescribe_increment(from.time, to.time, y);
   NewtonReport foreseen = foresee(v0, h);
   if (!foreseen.converged) return {std::move(foreseen), {}};
   const auto prescribed = context_.motion.prescribed(to.time);
@@ -100,7 +100,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
   std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
   if (far) context_.motion.gather(predicted, guess);
   if (keep) multipliers_.at(to.time, h, to.multipliers);
-  multipliers_to_unknowns(to, guess);
+  context_.assembler.multipliers_to_unknowns(to, guess);
   changes_.begin(from, predicted);
 
   const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& c) {
@@ -124,7 +124,7 @@ Outcome Transient::attempt(const Configuration& from, double h, Configuration& t
     if (constrained() && !changes_.any()) std::fill(c.remainders.begin(), c.remainders.end(), 0.0);
     context_.motion.set_velocities(v, c);
     context_.motion.set_accelerations(vdot, c);
-    unknowns_to_multipliers(unknowns, c);
+    context_.assembler.unknowns_to_multipliers(unknowns, c);
     changes_.state(from, h, y);
   };
   context_.assembler.spread(guess, unknowns_);

@@ -22,7 +22,7 @@ struct AlphaScheme {
 };
 
 /// Generalised-α on the Lie group, constraints at index 3 (Arnold and Brüls 2007; Brüls, Cardona and Arnold 2012).
-/// The unknowns of a step are λ/k and the corrections of its predicted increments h Δq (rotation vectors, positions, scalars),
+/// The unknowns of a step are λ and the corrections of its predicted increments h Δq (rotation vectors, positions, scalars),
 /// or the increments themselves where predictions leave the model.
 class Transient final : public Dynamics {
  public:
@@ -64,7 +64,7 @@ class Transient final : public Dynamics {
   std::vector<double> fitting_, offset_;
   std::vector<double> tried_;  ///< `algorithmic_` at the end of the last attempt
   double tried_step_ = 0;
-  Extrapolation accelerations_{3, 2}, multipliers_{3, 2};  ///< of `algorithmic_` and λ, at ends of steps since the last event
+  Extrapolation accelerations_{3, 2}, multipliers_{3, 2};  ///< of `algorithmic_` and kλ, at ends of steps since the last event
   std::vector<double> tried_multipliers_;                  ///< at the end of the last attempt
   double tried_time_ = 0;
 };
