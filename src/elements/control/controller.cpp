@@ -61,7 +61,7 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
     const T& m = speed_ ? in.rate : in.measured.value;
     const auto x = [&](int i) { return T(motion.scalar_rate[at(i)] + law_.pace[i] * motion.scalar[at(i)]); };
     const T y = law_.command(r, m, x);
-    const T limited = limit(y);
+    const T limited = limit(y, balance.contact_homotopy());
     for (int i = 0; i < law_.order(); ++i) {
       T rate = law_.b_r[i] * r + law_.b_m[i] * m;
       if (law_.b_v[i] != 0) rate += law_.b_v[i] * in.rate;
@@ -193,11 +193,13 @@ class Controller final : public TemplatedElement<Controller, 4, 24 + most_scalar
   T reference(const T& time) const {
     return function_ ? T(reference_ * engrane::evaluate(*function_, time)) : T(reference_);
   }
+  /// The command within its limits. While statics searches, the fraction `passing` of what exceeds them passes
+  /// (State::contact_homotopy): a command at its limit resists no motion, even where the equilibrium lies within the limits.
   template <class T>
-  T limit(const T& y) const {
-    if (value_of(y) > output_law_.high) return T(output_law_.high);
-    if (value_of(y) < output_law_.low) return T(output_law_.low);
-    return y;
+  T limit(const T& y, double passing = 0) const {
+    const double bound = std::clamp(value_of(y), output_law_.low, output_law_.high);
+    if (bound == value_of(y)) return y;
+    return passing > 0 ? T(bound + passing * (y - bound)) : T(bound);
   }
 
   double law_state(const State& state, int i) const { return state.scalar_rates[at(i)] + law_.pace[i] * state.scalars[at(i)]; }
@@ -280,11 +282,21 @@ bool check_law(const ControllerData& data, const BuildContext& context) {
       context.error("KP", "a controller without a law", "give KP, KI, KD, or NUM and DEN");
       return false;
     }
+    const bool winds_up = data.integral != 0 && !data.limits.empty();
+    const auto idle = [&](const char* keyword, bool given, const char* without, const char* what) {
+      if (given) context.error(keyword, fmt::format("{} without {}", keyword, without), what);
+      return given;
+    };
+    if (idle("TF", data.filter && data.derivative == 0, "KD", "it filters the derivative: give KD, or leave TF out") ||
+        idle("I0", data.integral_start && data.integral == 0, "KI", "the integral starts with it: give KI, or leave I0 out") ||
+        idle("TT", data.tracking && !winds_up, data.integral == 0 ? "KI" : "LIMITS",
+             "in that time the integral tracks a limited command: it needs KI and LIMITS"))
+      return false;
     if (data.derivative != 0 && !data.filter && data.proportional == 0) {
       context.error("KD", "the derivative has no filter", "give its time constant TF; the default, KD/(10 KP), needs KP");
       return false;
     }
-    if (data.integral != 0 && !data.limits.empty() && !data.tracking && data.proportional == 0) {
+    if (winds_up && !data.tracking && data.proportional == 0) {
       context.error("LIMITS", "the integral of a limited command would wind up",
                     "give the time TT in which it tracks the limit; the default, KP/KI, needs KP");
       return false;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
+
 namespace engrane::elements::control {
 
 PlacedCoordinate::PlacedCoordinate(Coordinate wanted, Layout& layout)
@@ -50,7 +52,7 @@ std::optional<Coordinate> find_coordinate(const BuildContext& context, std::stri
   if (name.empty()) return all.front();
   std::vector<std::string> names;
   for (const Coordinate& c : all) {
-    if (c.name == name) return c;
+    if (same_word(c.name, name)) return c;
     names.push_back(c.name);
   }
   context.error(name_keyword, fmt::format("{} {} has no coordinate {}", found.record->schema->name, id, name),

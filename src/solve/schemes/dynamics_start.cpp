@@ -20,7 +20,7 @@ StartReport Dynamics::start(Configuration& c) {
     apply_initial_displacements(context_, c);
     context_.start.assemble(c, report);
   }
-  c = outside_of_steps(std::move(c));  // rates are not those of the turn that led here
+  c = at_start_of_step(std::move(c));  // rates are not those of the turn that led here
   apply_initial_velocities(context_, c);
   context_.start.fit_velocities(c, Assembler::Metric::mass, report);
   MasslessMotions massless(context_.assembler, c);
@@ -34,12 +34,27 @@ StartReport Dynamics::start(Configuration& c) {
   else
     context_.start.balance_accelerations(c, 12, &report);
   const MasslessMotions* none = *has_massless_ ? &massless : nullptr;
-  start_memory(c, none, soften(c, context_.options.step, none, &report));
+  // a rate that sets in here is what their first step would make a jump of; a second time with what that changes of accelerations
+  if (context_.options.family != SolverOptions::Family::radau)
+    for (int pass = 0; pass < 2 && settle_signals(c, c, 0, context_.options.step); ++pass)
+      context_.start.balance_accelerations(c, 12, &report, none);
+  const bool softened = soften(c, context_.options.step, none, &report);
+  soften_signals(c, context_.options.step);
+  start_memory(c, none, softened);
   return report;
 }
 
 bool Dynamics::soften(Configuration& c, double h, const MasslessMotions* massless, StartReport* report) const {
   return !error_.wanted() && context_.start.soften(c, h, report, massless);
+}
+
+bool Dynamics::soften_signals(Configuration& c, double h) const {
+  return !error_.wanted() && context_.start.soften_signals(c, h);
+}
+
+bool Dynamics::settle_signals(Configuration& c, const Configuration& from, double after, double h) const {
+  const double span = 0.01 * h;
+  return !error_.wanted() && context_.start.settle_signals(c, glide(from, after + span), span, h);
 }
 
 Dynamics::Relaxed Dynamics::relax(Configuration& c, MasslessMotions& massless) {
@@ -54,7 +69,7 @@ Dynamics::Relaxed Dynamics::relax(Configuration& c, MasslessMotions& massless) {
   const auto v0 = context_.motion.velocities(c), a0 = context_.motion.accelerations(c);
   std::vector<double> first(n, 0.0), y(n, 0.0), v(n), a(n);
   for (const bool again : {false, true}) {
-    const Configuration from = outside_of_steps(c);
+    const Configuration from = at_start_of_step(c);
     Configuration to = from;
     const Newton::Apply apply = [&](std::span<const double> unknowns, Configuration& tried) {
       context_.motion.scatter(unknowns, y);
@@ -65,16 +80,16 @@ Dynamics::Relaxed Dynamics::relax(Configuration& c, MasslessMotions& massless) {
       context_.motion.move(from, y, tried);
       context_.motion.set_velocities(v, tried);
       context_.motion.set_accelerations(a, tried);
-      unknowns_to_multipliers(unknowns, tried);
+      context_.assembler.unknowns_to_multipliers(unknowns, tried);
     };
     std::vector<double> guess(static_cast<std::size_t>(context_.numbering.equations()), 0.0);
-    multipliers_to_unknowns(from, guess);
+    context_.assembler.multipliers_to_unknowns(from, guess);
     context_.assembler.spread(guess, unknowns_);
     const NewtonReport newton = solve(unknowns_, weights, apply, to);
     if (!newton.converged)
       throw SolutionFailure(fmt::format("no balance at t = {:.6g} of what has no mass, such as {}: {}; {}", c.time,
                                         massless.example(), newton.reason, explain_residual(context_.assembler, to, newton)));
-    c = outside_of_steps(std::move(to));
+    c = at_start_of_step(std::move(to));
     context_.motion.set_velocities(v0, c);
     context_.motion.set_accelerations(a0, c);
     if (!again) std::swap(first, y);
@@ -89,7 +104,7 @@ Dynamics::Relaxed Dynamics::relax(Configuration& c, MasslessMotions& massless) {
     y[i] *= -2;
   }
   context_.motion.move(moved, y, c);
-  c = outside_of_steps(std::move(c));
+  c = at_start_of_step(std::move(c));
   massless = MasslessMotions(context_.assembler, c);
   massless.keep(relaxed.jump);
   massless.keep(relaxed.speed);

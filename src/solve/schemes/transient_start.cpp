@@ -25,6 +25,7 @@ void Transient::restart_memory(Configuration& c) {
   const double h = context_.options.step;
   const MasslessMotions* massless = massless_at(c);
   const bool softened = soften(c, h, massless);
+  soften_signals(c, h);
   start_memory(c, h, slope_span * h, massless, softened);
 }
 
@@ -35,8 +36,10 @@ std::vector<double> Transient::slope_of_accelerations(const Configuration& c, do
   // models whose forces change much faster than a step is long.
   const auto after = [&](double time) {
     Configuration later = glide(c, time);
+    if (span == h) settle_signals(later, c, time, h);  // as at the start itself
     context_.start.balance_accelerations(later, span < h ? 1 : 12, nullptr, massless);
     if (softened) soften(later, h, massless);
+    soften_signals(later, h);
     return context_.motion.accelerations(later);
   };
   std::vector<double> slope = context_.motion.accelerations(c), middle, end;
@@ -93,9 +96,9 @@ std::vector<double> Transient::renew_memory(const Configuration& from, double h)
   if (constrained()) context_.motion.set_velocities(fitting_velocities(c), c);
   const MasslessMotions* massless = massless_at(c);
   context_.start.balance_accelerations(c, 3, nullptr, massless);
-  const bool softened = soften(c, h, massless);
+  const bool softened = soften(c, h, massless), signals = soften_signals(c, h);
   start_memory(c, h, slope_span * h, massless, softened);
-  return context_.motion.accelerations(softened ? c : from);
+  return context_.motion.accelerations(softened || signals ? c : from);
 }
 
 std::vector<double> Transient::first_velocities(const Configuration& from, double h) {
