@@ -19,8 +19,7 @@ Measure measure_of(const Named& named, bool multiplier) {
 
 }  // namespace
 
-Numbering::Numbering(const Model& model, Partition partition)
-    : model_(model), partition_(std::move(partition)), rotates_(model.nodes.size(), false) {
+Numbering::Numbering(const Model& model, Partition partition) : model_(model), partition_(std::move(partition)) {
   const auto node_slots = 6 * model.nodes.size();
   std::vector<bool> used(node_slots, false);
   for (const Model::Part& part : model.parts) {
@@ -30,7 +29,6 @@ Numbering::Numbering(const Model& model, Partition partition)
       if (node == 0) continue;
       for (int c = 0; c < 6; ++c)
         if (layout.has(i, c)) used[6 * node + static_cast<std::size_t>(c)] = true;
-      if (layout.needs_any(i, NodeNeed::rotation)) rotates_[node] = true;
     }
     scalars_ += static_cast<int>(layout.scalars.size());
     multipliers_ += static_cast<int>(layout.own_multipliers());

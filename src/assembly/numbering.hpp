@@ -74,9 +74,6 @@ class Numbering {
   /// The initial state as given by the deck: reference positions, initial values of the elements, everything at rest.
   Configuration reference_configuration(double time) const;
 
-  /// Whether any element needs the rotations of the node (free or held).
-  bool rotates(int node) const { return rotates_[static_cast<std::size_t>(node)]; }
-
   /// "node 57 (rz)" or "GEAR 7 (LAMBDA_1)".
   std::string describe(int equation) const;
 
@@ -97,7 +94,6 @@ class Numbering {
   std::vector<Unknown> left_out_;  ///< multipliers without an equation, sorted by slot
   std::vector<Part> parts_;        ///< one entry per part and a final one with the ends
   std::vector<int> part_slots_;
-  std::vector<bool> rotates_;
   int motion_slots_ = 0;
   int scalars_ = 0, multipliers_ = 0, history_ = 0;
 };

@@ -150,10 +150,7 @@ class Builder {
                                                                                   : nullptr)
         diagnostics_.warning_once(what, record.location,
                                   fmt::format("the deck has no cells (.MAI): this {} has no effect", what));
-    if (const auto* check = record.get<deck::CheckCard>()) {
-      model_.commands.checks.push_back(*check);
-      model_.commands.check_locations.push_back(record.location);
-    }
+    if (const auto* check = record.get<deck::CheckCard>()) model_.commands.checks.push_back(*check);
     if (const auto* fix = record.get<deck::FixCard>()) add_supports(record, *fix, fix->components, {}, 0);
     if (const auto* dep = record.get<deck::DisplacementCard>())
       add_supports(record, *dep, dep->components, dep->values, dep->function);

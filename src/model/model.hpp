@@ -68,7 +68,6 @@ struct Commands {
   std::optional<deck::BucklingCard> buckling;
   deck::ArchiveCard archive;
   std::vector<deck::CheckCard> checks;
-  std::vector<Location> check_locations;
 };
 
 /// The mechanism described by the deck; constant during the solution.
