@@ -103,16 +103,16 @@ std::string FastTurns::remark() const {
   for (const Body& body : bodies_)
     if (warns_of(body) && (!worst || body.angle > worst->angle)) worst = &body;
   if (!worst) return {};
-  const Model::Part& part = model_.parts[static_cast<std::size_t>(worst->part)];
+  const Model::Part& part = model_.part(worst->part);
   const double angle = worst->angle;
   const std::string error =
       radau_ ? "" : fmt::format(", by about {:.0f} % here", 100 * std::min(1.0, error_per_square_ * angle * angle));
   return fmt::format(
-      "{} {} (node {}) turned by {:.3g} rad in the step to t = {:.6g}, about an axis that turns as well. With more than {:.2g} "
+      "{} (node {}) turned by {:.3g} rad in the step to t = {:.6g}, about an axis that turns as well. With more than {:.2g} "
       "rad "
       "per step precession, nutation and gyroscopic moments are wrong{}: take H of at most {:.2g}, or ACCURACY, whose steps "
       "follow their error",
-      part.type, part.element->id(), model_.nodes[static_cast<std::size_t>(worst->node)].id, angle, worst->time, limit_, error,
+      part.name(), model_.node(worst->node).id, angle, worst->time, limit_, error,
       (radau_ ? advised_of_radau : std::sqrt(advised_error / error_per_square_)) / angle * worst->step);
 }
 

@@ -32,7 +32,7 @@ void look_at_bodies(const Model& model, double extent, Diagnostics& diagnostics)
   for (const Model::Part& part : model.parts) {
     if (part.type != "INERTIA" && part.type != "RIGID") continue;
     if (part.nodes.empty() || part.nodes[0] == 0) continue;
-    const double moment = part.element->inertia_at(model.nodes[static_cast<std::size_t>(part.nodes[0])].id).diagonal().maxCoeff();
+    const double moment = part.element->inertia_at(model.node(part.nodes[0]).id).diagonal().maxCoeff();
     const double mass = moment > 0 ? mass_at_first_node(model, part) : 0;
     if (!(mass > 0)) continue;
     const double radius = std::sqrt(moment / mass);
@@ -164,8 +164,7 @@ bool has_steps_over_jumps(const Model& model) { return model.commands.analysis.t
 
 /// "the drive of HINGE 1"
 std::string mover_of(const SpeedJump& jump, const Model& model) {
-  return jump.drive ? fmt::format("the drive of {} {}", jump.drive->type, jump.drive->element->id())
-                    : fmt::format("the support of node {}", model.nodes[static_cast<std::size_t>(jump.node)].id);
+  return jump.drive ? "the drive of " + jump.drive->name() : fmt::format("the support of node {}", model.node(jump.node).id);
 }
 
 /// The warning of a speed that jumps at `time`; `cure` ends with the advice to give TOL.

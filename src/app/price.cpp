@@ -153,7 +153,7 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   const Weights weights = model.commands.analysis.type.is("DYNAMIC") ? Weights{1, 1 / h, 4 / (h * h)} : Weights{1, 0, 0};
 
   std::map<std::string, std::vector<int>> kinds;
-  for (int p = 0; p < numbering.parts(); ++p) kinds[model.parts[static_cast<std::size_t>(p)].type].push_back(p);
+  for (int p = 0; p < numbering.parts(); ++p) kinds[model.part(p).type].push_back(p);
   std::map<std::string, double> times;
   double elements = 0;
   std::vector<double> r, k;
@@ -165,7 +165,7 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
         const std::size_t n = numbering.part_slots(parts[i]).size();
         r.assign(n, 0);
         k.assign(n * n, 0);
-        model.parts[static_cast<std::size_t>(parts[i])].element->tangent(context.assembler.view(parts[i], here), weights, r, k);
+        model.part(parts[i]).element->tangent(context.assembler.view(parts[i], here), weights, r, k);
       }
     });
     times[kind] = time * static_cast<double>(parts.size()) / static_cast<double>(count);

@@ -84,7 +84,7 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
         diagnostics.missing(".MCE", record.where("ELEMENT"), fmt::format("there is no element {}", *check.element));
       return;
     }
-    const Model::Part& part = model.parts[static_cast<std::size_t>(found->second)];
+    const Model::Part& part = model.part(found->second);
     owner = fmt::format("{} {}", part.type, *check.element);
     names = names_of(part.element->channels());
   } else if (check.node) {

@@ -218,8 +218,7 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
   listing_.write(listing_section("Energies"));
   listing_.write(listing_energies(thinned_energies(), units));
   std::vector<ReactionRow> reactions;
-  for (const Reaction& r : observer_.reactions())
-    reactions.push_back({reading_.model.nodes[static_cast<std::size_t>(r.node)].id, r.force, r.torque});
+  for (const Reaction& r : observer_.reactions()) reactions.push_back({reading_.model.node(r.node).id, r.force, r.torque});
   if (!reactions.empty()) {
     listing_.write(listing_section("Reactions at the end"));
     listing_.write(listing_reactions(reactions, units));
@@ -383,10 +382,9 @@ std::string Writer::wanted_table() const {
 void Writer::note_events(const Configuration& c, const StepReport& step) {
   for (const Event& e : step.events) {
     if (++event_count_ > most_listed_events) continue;
-    const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(e.part)];
+    const Model::Part& part = reading_.model.part(e.part);
     const SwitchNames& names = part.element->layout().switches[static_cast<std::size_t>(e.index)];
-    events_ +=
-        fmt::format("  t = {:<14.9g} {} {}: {}\n", c.time, part.type, part.element->id(), e.rises ? names.rises : names.falls);
+    events_ += fmt::format("  t = {:<14.9g} {}: {}\n", c.time, part.name(), e.rises ? names.rises : names.falls);
   }
   if (!step.chatter) return;
   const std::string text =
@@ -439,11 +437,11 @@ void Writer::buckling(const std::vector<BucklingMode>& modes, int asked, const C
 
 void Writer::collect_remarks(const Configuration& c, const Numbering& numbering) {
   for (int p = 0; p < numbering.parts(); ++p) {
-    const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(p)];
+    const Model::Part& part = reading_.model.part(p);
     const auto size = static_cast<std::size_t>(part.element->layout().history);
     for (const std::string& remark :
          part.element->remarks(std::span(c.history).subspan(static_cast<std::size_t>(numbering.history_begin(p)), size)))
-      warn(fmt::format("{} {}: {}", part.type, part.element->id(), remark));
+      warn(part.name() + ": " + remark);
   }
 }
 

@@ -85,7 +85,7 @@ void Assembler::for_each_tangent(const Configuration& configuration, Weights wei
 }
 
 State Assembler::view(int part, const Configuration& c) const {
-  const Model::Part& p = model_.parts[static_cast<std::size_t>(part)];
+  const Model::Part& p = model_.part(part);
   const Layout& layout = p.element->layout();
   const auto piece = [](const std::vector<double>& all, int begin, std::size_t count) {
     return std::span(all).subspan(static_cast<std::size_t>(begin), count);

@@ -136,7 +136,7 @@ class Assembler {
   void commit(Configuration& configuration);
 
  private:
-  const Element& element(int part) const { return *model_.parts[static_cast<std::size_t>(part)].element; }
+  const Element& element(int part) const { return *model_.part(part).element; }
   /// What stands for missing inertia, by measure of the equation: a negligible part of the largest inertia of that kind or, where
   /// there is none, of the other kind by the extent. Sets missing_inertia_.
   Magnitudes find_missing_inertia(const Magnitudes& heaviest);

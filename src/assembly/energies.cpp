@@ -17,7 +17,7 @@ constexpr double stand_still = 1e-9;
 Energies own_energies(Assembler& assembler, const Configuration& c) {
   Energies sum;
   for (const int p : assembler.own_parts()) {
-    const Energies e = assembler.model().parts[static_cast<std::size_t>(p)].element->energies(assembler.view(p, c));
+    const Energies e = assembler.model().part(p).element->energies(assembler.view(p, c));
     sum.kinetic += e.kinetic;
     sum.potential += e.potential;
     sum.external += e.external;
@@ -77,7 +77,7 @@ StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration 
     std::vector<double> works;
     works.reserve(assembler.own_parts().size());
     for (const int p : assembler.own_parts()) {
-      const Energies rates = assembler.model().parts[static_cast<std::size_t>(p)].element->energies(assembler.view(p, c));
+      const Energies rates = assembler.model().part(p).element->energies(assembler.view(p, c));
       works.push_back(time * rates.external);
       dissipated += std::abs(rates.dissipated);
       given += std::max(-rates.dissipated, 0.0);

@@ -155,13 +155,13 @@ const char* component_name(int component) {
 
 std::string Numbering::describe(int equation) const {
   const Unknown& u = unknown(equation);
-  if (u.part < 0) return fmt::format("node {} ({})", model_.nodes[static_cast<std::size_t>(u.node)].id, component_name(u.item));
-  const Model::Part& part = model_.parts[static_cast<std::size_t>(u.part)];
+  if (u.part < 0) return fmt::format("node {} ({})", model_.node(u.node).id, component_name(u.item));
+  const Model::Part& part = model_.part(u.part);
   const Layout& layout = part.element->layout();
   const auto item = static_cast<std::size_t>(u.item);
   const Named& named =
       u.multiplier ? static_cast<const Named&>(layout.multipliers[item]) : static_cast<const Named&>(layout.scalars[item]);
-  return fmt::format("{} {} ({})", part.type, part.element->id(), named.name);
+  return fmt::format("{} ({})", part.name(), named.name);
 }
 
 }  // namespace engrane

@@ -50,7 +50,7 @@ double size_of_nodes(const Model& model) {
   const auto of_each = [&model](auto&& with) {
     for (const Model::Part& part : model.parts)
       for (const int node : part.nodes)
-        if (node > 0) with(model.nodes[static_cast<std::size_t>(node)].x);
+        if (node > 0) with(model.node(node).x);
   };
   // The mean is taken from one of the nodes, so that a model far from the origin loses no digits in the sum.
   double count = 0, away = 0, farthest = 0;
@@ -69,7 +69,7 @@ double size_of_nodes(const Model& model) {
 /// Radius of gyration of a body about its first node; 0 if the element has no mass there.
 double radius_of_gyration(const Model& model, const Model::Part& part) {
   if (part.nodes.empty() || part.nodes.front() <= 0) return 0;
-  const Mat3 inertia = part.element->inertia_at(model.nodes[static_cast<std::size_t>(part.nodes.front())].id);
+  const Mat3 inertia = part.element->inertia_at(model.node(part.nodes.front()).id);
   const double moment = inertia.diagonal().maxCoeff();
   const double mass = moment > 0 ? mass_at_first_node(model, part) : 0;
   return mass > 0 ? std::sqrt(moment / mass) : 0;

@@ -81,6 +81,9 @@ struct Model {
     const deck::Record* record = nullptr;
     Location location;
     std::vector<int> nodes;  ///< indices of the element's nodes
+
+    /// "GEAR 7".
+    std::string name() const { return type + " " + std::to_string(element->id()); }
   };
 
   std::string title;
@@ -98,6 +101,8 @@ struct Model {
   Commands commands;
   PlaneModel plane;  ///< not active unless the deck asks for it (`.SAM PLANE`)
 
+  const Node& node(int index) const { return nodes[static_cast<std::size_t>(index)]; }
+  const Part& part(int index) const { return parts[static_cast<std::size_t>(index)]; }
   int node_index(int id) const;  ///< -1 when there is no such node
   Vec3 gravity_at(double time) const;
   /// The part of it that functions of time give; nothing if there are none.

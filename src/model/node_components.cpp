@@ -116,7 +116,7 @@ void check_nodal_loads(const Model& model, Diagnostics& diagnostics) {
       if (!lack || !told.insert({part.location.file, part.location.line}).second) continue;
       diagnostics.error(part.location,
                         fmt::format("{} on node {}: {}", component < 3 ? "a force along z cannot act" : "a moment cannot act",
-                                    model.nodes[static_cast<std::size_t>(node)].id, lack->node),
+                                    model.node(node).id, lack->node),
                         lack->components);
     }
   }

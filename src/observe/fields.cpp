@@ -159,7 +159,7 @@ void ElementFields::evaluate_own(const Configuration& c) {
 void ElementFields::estimate_errors(const Configuration& c) {
   energies_.assign(2, 0.0);
   for (const int p : assembler_.own_parts()) {
-    const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(p)];
+    const Model::Part& part = assembler_.model().part(p);
     const std::span<const double> recovered = averages_.at_nodes(stress, part);
     if (recovered.empty()) continue;
     const StressEnergies found = part.element->stress_energies(assembler_.view(p, c), recovered);

@@ -351,11 +351,11 @@ std::string explain_unresolved(const Assembler& assembler, const References& ref
   const Model::Part& stiff = parts[static_cast<std::size_t>(culprit)];
   const bool turns = numbering.unknown(worst_equation).measure == Measure::moment;
   return fmt::format(
-      "{} {} is so stiff that the rounding of positions makes {:.2g} {} in it, {:.2g} of the loads of {}: its forces are known "
+      "{} is so stiff that the rounding of positions makes {:.2g} {} in it, {:.2g} of the loads of {}: its forces are known "
       "no "
       "better. Take a rigid joint (WELD, DISTANCE) for it, or a stiffness at most {:.0g} of this one",
-      stiff.type, stiff.element->id(), worst_noise, assembler.model().units.label(turns ? dimension::moment : dimension::force),
-      worst.part, numbering.describe(worst_equation), 1e-6 / worst.part);
+      stiff.name(), worst_noise, assembler.model().units.label(turns ? dimension::moment : dimension::force), worst.part,
+      numbering.describe(worst_equation), 1e-6 / worst.part);
 }
 
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report) {
@@ -381,7 +381,7 @@ std::string explain_residual(Assembler& assembler, const Configuration& configur
         culprit = &parts[p];
       }
   }
-  if (culprit) text += fmt::format(" from {} {}", culprit->type, culprit->element->id());
+  if (culprit) text += " from " + culprit->name();
   return text;
 }
 

@@ -386,10 +386,7 @@ std::size_t Grips::first_that_holds(const std::vector<Seen>& grips, const std::v
 
 std::string Grips::name(std::size_t grip) const {
   for (const Place& place : places_) {
-    if (grip < place.layout->grips.size()) {
-      const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(place.part)];
-      return fmt::format("{} {}", part.type, part.element->id());
-    }
+    if (grip < place.layout->grips.size()) return assembler_.model().part(place.part).name();
     grip -= place.layout->grips.size();
   }
   return {};

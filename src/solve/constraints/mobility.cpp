@@ -189,7 +189,7 @@ std::string names(Assembler& assembler, const Configuration& c, const std::vecto
         continue;
       }
       const Model::Part& owner = assembler.model().parts[static_cast<std::size_t>(part)];
-      text += fmt::format("{}{} {} (", elements > 1 ? "), " : "", owner.type, owner.element->id());
+      text += fmt::format("{}{} (", elements > 1 ? "), " : "", owner.name());
       all = directions[part] > 3 && directions[part] == owner.element->layout().multipliers.size();
       text += all ? "in all directions that it holds" : describe_direction(assembler, c, u);
     } else if (elements <= most && !all) {
@@ -286,10 +286,7 @@ std::string friction_on_redundant(const Assembler& assembler, const Mobility& mo
     for (const int m : one.members)
       if (has_friction(assembler, m)) parts.insert(multiplier_unknown(assembler.numbering(), m).part);
   std::string text;
-  for (const int p : parts) {
-    const Model::Part& part = assembler.model().parts[static_cast<std::size_t>(p)];
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", part.type, part.element->id());
-  }
+  for (const int p : parts) text += (text.empty() ? "" : ", ") + assembler.model().part(p).name();
   return text;
 }
 
@@ -353,8 +350,8 @@ std::string Redundancy::cure_of(const RedundantGroup& one) const {
     if (!is_drive(assembler_.model(), u)) continue;
     return fmt::format(
         "the joints leave a drive no freedom, or drives disagree: see whether a place, an axis or a drive's function is wrong, "
-        "or leave out the drive of {} {}",
-        part.type, part.element->id());
+        "or leave out the drive of {}",
+        part.name());
   }
   Sparse null(mobility_.null.rows(), one.redundant);
   Eigen::Index count = 0;

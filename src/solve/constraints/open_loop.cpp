@@ -127,12 +127,8 @@ std::string loop_of(const Model& model, int part) {
   std::string text = node_name(model, target);
   for (int node = target; node != begin;) {
     const Way& way = seen.at(node);
-    if (way.part >= 0) {
-      const Model::Part& p = model.parts[static_cast<std::size_t>(way.part)];
-      text = fmt::format("{} - {} {} - ", node_name(model, way.from), p.type, p.element->id()) + text;
-    } else {
-      text = fmt::format("{} - support - ", node_name(model, way.from)) + text;
-    }
+    const std::string by = way.part >= 0 ? model.part(way.part).name() : "support";
+    text = fmt::format("{} - {} - ", node_name(model, way.from), by) + text;
     node = way.from;
   }
   return text;
@@ -178,11 +174,11 @@ std::string explain_open_loop(Assembler& assembler, const MotionSlots& motion, c
   if (angle > 1e-6) gap += fmt::format("{}{:.4g} deg", gap.empty() ? "" : " and ", angle / degree);
   if (gap.empty())
     return fmt::format(
-        "the mechanism does not close from where its parts are put, although it can be closed elsewhere: {} {} stays open by "
+        "the mechanism does not close from where its parts are put, although it can be closed elsewhere: {} stays open by "
         "{:.3g} {}; give initial positions nearer to it (.INI DEP), or a drive that begins nearer",
-        joint.type, joint.element->id(), largest * (u.measure == Measure::length ? model.extent() : 1.0),
+        joint.name(), largest * (u.measure == Measure::length ? model.extent() : 1.0),
         model.units.label(u.measure == Measure::length ? dimension::length : dimension::angle));
-  const std::string name = fmt::format("{} {}", joint.type, joint.element->id());
+  const std::string name = joint.name();
   std::string text =
       drive ? fmt::format("the mechanism does not close: with all joints closed the drive of {} is short by {}", name, gap)
             : fmt::format("the mechanism does not close: with all other joints closed {} stays open by {}", name, gap);

@@ -157,11 +157,11 @@ void Start::assemble(Configuration& c, StartReport& report, bool initial) {
   if (!(pressed.modules > most_modules)) return;
   const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(pressed.part)];
   report.remarks.push_back(fmt::format(
-      "the teeth of {} {} are pressed in by {:.4g} {} at the start, {:.3g} times their module, and carry the force that goes "
+      "the teeth of {} are pressed in by {:.4g} {} at the start, {:.3g} times their module, and carry the force that goes "
       "with "
       "it: the positions given for the wheels do not fit the gear ratio. Give the position of one wheel only (.INI DEP ELEMENT, "
       "or a drive); the other one follows",
-      part.type, part.element->id(), pressed.deflection, assembler_.model().units.label(dimension::length), pressed.modules));
+      part.name(), pressed.deflection, assembler_.model().units.label(dimension::length), pressed.modules));
 }
 
 void Start::assemble_once(Configuration& c, StartReport& report, bool initial) {

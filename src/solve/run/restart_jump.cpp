@@ -48,7 +48,7 @@ std::optional<std::size_t> driven_channel(const Element& element, int item) {
 std::string explain_drive(const SolverContext& context, const Configuration& c, const Unknown& u, double open,
                           const std::string& unit) {
   const Model::Part& part = context.model.parts[static_cast<std::size_t>(u.part)];
-  const std::string name = fmt::format("{} {}", part.type, part.element->id());
+  const std::string name = part.name();
   const std::optional<std::size_t> channel = driven_channel(*part.element, u.item);
   if (!channel)
     return fmt::format("{} stands {:.6g} {} from where its drive ({}) asks it to be", name, std::abs(open), unit,
