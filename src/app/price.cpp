@@ -156,17 +156,11 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   for (int p = 0; p < numbering.parts(); ++p) kinds[model.part(p).type].push_back(p);
   std::map<std::string, double> times;
   double elements = 0;
-  std::vector<double> r, k;
   for (const auto& [kind, parts] : kinds) {
     // a hundred elements of a kind are representative
     const std::size_t count = std::min<std::size_t>(parts.size(), 100);
     const double time = shortest([&] {
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t n = numbering.part_slots(parts[i]).size();
-        r.assign(n, 0);
-        k.assign(n * n, 0);
-        model.part(parts[i]).element->tangent(context.assembler.view(parts[i], here), weights, r, k);
-      }
+      for (std::size_t i = 0; i < count; ++i) context.assembler.element_tangent(parts[i], here, weights);
     });
     times[kind] = time * static_cast<double>(parts.size()) / static_cast<double>(count);
     elements += times[kind];

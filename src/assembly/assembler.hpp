@@ -129,6 +129,13 @@ class Assembler {
 
   /// State of one element. Its spans refer to the configuration.
   State view(int part, const Configuration& configuration) const;
+  /// Residual and tangent of one element, not scaled, in its slots (Numbering::part_slots); the tangent is square and row-major.
+  struct ElementTangent {
+    std::span<const double> r, k;
+  };
+  /// Valid until the next call of this function or of element_residual().
+  ElementTangent element_tangent(int part, const Configuration& configuration, Weights weights) const;
+  std::span<const double> element_residual(int part, const Configuration& configuration) const;
 
   /// Lets every element update its turn counters. Also used during iterations that search for a position.
   void count_turns(Configuration& configuration);
@@ -191,6 +198,7 @@ class Assembler {
   // buffers for one batch
   std::vector<State> states_;
   std::vector<double> local_r_, local_k_;
+  mutable std::vector<double> element_r_, element_k_;  ///< buffers of element_tangent()
 };
 
 }  // namespace engrane

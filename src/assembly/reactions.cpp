@@ -34,11 +34,10 @@ std::vector<Reaction> Reactions::at(const Configuration& c) {
   std::vector<Reaction> reactions;
   if (nodes_.empty()) return reactions;
   const Numbering& numbering = assembler_.numbering();
-  std::vector<double> sums(6 * nodes_.size(), 0.0), r;
+  std::vector<double> sums(6 * nodes_.size(), 0.0);
   for (const int part : parts_) {
     const std::span<const int> slots = numbering.part_slots(part);
-    r.resize(slots.size());
-    assembler_.model().part(part).element->residual(assembler_.view(part, c), r);
+    const auto r = assembler_.element_residual(part, c);
     for (std::size_t i = 0; i < slots.size(); ++i) {
       const auto node = static_cast<std::size_t>(slots[i] / 6);
       if (node < place_.size() && place_[node] >= 0) sums[static_cast<std::size_t>(6 * place_[node] + slots[i] % 6)] += r[i];
@@ -56,11 +55,9 @@ std::vector<Reaction> Reactions::at(const Configuration& c) {
 
 Resultant Reactions::resultant(const Configuration& c, const std::vector<Reaction>& reactions) {
   std::array<double, 6> sum{};
-  std::vector<double> r;
   for (const int part : grounded_) {
     const std::span<const int> slots = assembler_.numbering().part_slots(part);
-    r.resize(slots.size());
-    assembler_.model().part(part).element->residual(assembler_.view(part, c), r);
+    const auto r = assembler_.element_residual(part, c);
     // the ground is at the origin and does not rotate, so its slots are forces and moments about the origin
     for (std::size_t i = 0; i < slots.size(); ++i)
       if (slots[i] < 6) sum[static_cast<std::size_t>(slots[i])] += r[i];

@@ -79,16 +79,13 @@ ConstraintMatrix::ConstraintMatrix(Assembler& assembler, const Configuration& co
     : rows(assembler) {
   const Numbering& numbering = assembler.numbering();
   std::vector<Eigen::Triplet<double>> entries;
-  std::vector<double> r, k;
   const auto& parts = assembler.model().parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const std::size_t count = parts[p].element->layout().multipliers.size();
     if (count == 0) continue;
     const auto& slots = numbering.part_slots(static_cast<int>(p));
     const std::size_t n = slots.size(), first = n - count;
-    r.assign(n, 0);
-    k.assign(n * n, 0);
-    parts[p].element->tangent(assembler.view(static_cast<int>(p), configuration), {1, 0, 0}, r, k);
+    const auto k = assembler.element_tangent(static_cast<int>(p), configuration, {1, 0, 0}).k;
     for (std::size_t m = first; m < n; ++m) {
       if (assembler.idle(slots[m] - numbering.motion_slots())) continue;
       for (std::size_t i = 0; i < first; ++i) {

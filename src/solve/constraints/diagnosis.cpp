@@ -306,14 +306,11 @@ std::string explain_unresolved(const Assembler& assembler, const References& ref
   } worst{visible, assembler.rank()};  // layout of MPI_DOUBLE_INT
   double worst_noise = 0;
   int worst_equation = -1, culprit = -1;
-  std::vector<double> r, k;
   for (const int p : assembler.own_parts()) {
     const Element& element = *parts[static_cast<std::size_t>(p)].element;
     const auto& slots = numbering.part_slots(p);
     const std::size_t n = slots.size(), of_nodes = static_cast<std::size_t>(element.layout().node_slots());
-    r.assign(n, 0);
-    k.assign(n * n, 0);
-    element.tangent(assembler.view(p, configuration), {1, 0, 0, 0}, r, k);
+    const auto k = assembler.element_tangent(p, configuration, {1, 0, 0, 0}).k;
     // rounding in one direction is compared with what the element carries in any: a beam in pure bending has no axial force
     double carried = 0;
     for (std::size_t i = 0; i < of_nodes; ++i)
@@ -369,12 +366,10 @@ std::string explain_residual(Assembler& assembler, const Configuration& configur
   double hardest = 0;
   const Model::Part* culprit = nullptr;
   const auto& parts = assembler.model().parts;
-  std::vector<double> r;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& slots = numbering.part_slots(static_cast<int>(p));
     if (std::find(slots.begin(), slots.end(), unknown.slot) == slots.end()) continue;
-    r.assign(slots.size(), 0);
-    parts[p].element->residual(assembler.view(static_cast<int>(p), configuration), r);
+    const auto r = assembler.element_residual(static_cast<int>(p), configuration);
     for (std::size_t i = 0; i < slots.size(); ++i)
       if (slots[i] == unknown.slot && std::abs(r[i]) >= hardest) {
         hardest = std::abs(r[i]);
@@ -387,13 +382,9 @@ std::string explain_residual(Assembler& assembler, const Configuration& configur
 
 std::string explain_not_finite(Assembler& assembler, const Configuration& configuration) {
   const auto& parts = assembler.model().parts;
-  std::vector<double> r, k;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const Element& element = *parts[p].element;
-    const auto n = static_cast<std::size_t>(element.layout().slots());
-    r.assign(n, 0);
-    k.assign(n * n, 0);
-    element.tangent(assembler.view(static_cast<int>(p), configuration), {1, 1, 1}, r, k);
+    const auto [r, k] = assembler.element_tangent(static_cast<int>(p), configuration, {1, 1, 1});
     const auto finite = [](double x) { return std::isfinite(x); };
     if (std::all_of(r.begin(), r.end(), finite) && std::all_of(k.begin(), k.end(), finite)) continue;
     const std::string kind = element.cell_shape() == CellShape::none ? parts[p].type : "cell";

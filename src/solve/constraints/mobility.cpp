@@ -157,8 +157,7 @@ std::string describe_direction(Assembler& assembler, const Configuration& c, con
   const bool force = named.role == Role::force, moment = named.role == Role::moment;
   if (!force && !moment) return named.role == Role::tooth ? "tooth force" : named.help;
   const std::size_t n = static_cast<std::size_t>(layout.slots()), nodes = part.nodes.size();
-  std::vector<double> r(n), k(n * n);
-  part.element->tangent(assembler.view(u.part, c), {1, 0, 0}, r, k);
+  const auto k = assembler.element_tangent(u.part, c, {1, 0, 0}).k;
   const std::size_t row = n - layout.multipliers.size() + static_cast<std::size_t>(u.item);
   for (std::size_t i = nodes; i-- > 0;) {
     const int slot = layout.node_slot(i, force ? NodeNeed::translation : NodeNeed::rotation);
@@ -206,7 +205,7 @@ std::string counted(int number, const char* what) { return fmt::format("{} {}{}"
 /// Change of the forces in each motion slot when the multipliers of `from` become those of `to`.
 Vector change_of_forces(Assembler& assembler, const Configuration& from, const Configuration& to) {
   Vector change = Vector::Zero(assembler.numbering().slots());
-  std::vector<double> before, after;
+  std::vector<double> before;
   const auto& parts = assembler.model().parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto part = static_cast<int>(p);
@@ -217,10 +216,9 @@ Vector change_of_forces(Assembler& assembler, const Configuration& from, const C
                    to.multipliers.begin() + static_cast<long>(begin)))
       continue;
     const auto& slots = assembler.numbering().part_slots(part);
-    before.assign(slots.size(), 0);
-    after.assign(slots.size(), 0);
-    parts[p].element->residual(assembler.view(part, from), before);
-    parts[p].element->residual(assembler.view(part, to), after);
+    const auto first = assembler.element_residual(part, from);
+    before.assign(first.begin(), first.end());
+    const auto after = assembler.element_residual(part, to);
     for (std::size_t i = 0; i < slots.size(); ++i) change[slots[i]] += after[i] - before[i];
   }
   return change;
