@@ -434,6 +434,12 @@ void Assembler::constraint_rates(const Configuration& configuration, std::span<c
     if (idle_[m]) phi[m] = rate[m] = second[m] = 0;
 }
 
+std::vector<double> Assembler::violations(const Configuration& configuration) {
+  std::vector<double> phi, rate, second;
+  constraint_rates(configuration, phi, rate, second);
+  return phi;
+}
+
 std::vector<double> Assembler::slot_residual(const Configuration& configuration) {
   std::vector<double> all(static_cast<std::size_t>(numbering_.slots()), 0.0);
   for (const int p : own_parts()) {

@@ -119,6 +119,9 @@ class Assembler {
   void constraint_rates(const Configuration& configuration, std::span<const int> parts, std::vector<double>& phi,
                         std::vector<double>& rate, std::vector<double>& second);
 
+  /// Returns Φ alone.
+  std::vector<double> violations(const Configuration& configuration);
+
   /// Returns the unscaled residual of every slot, including those without an equation (reactions of supports), on every rank.
   std::vector<double> slot_residual(const Configuration& configuration);
 

@@ -33,7 +33,7 @@ bool move_along(Assembler& assembler, const MotionSlots& motion, const Constrain
   Vector way = here.possible_motion(wish);
   const double largest = way.size() > 0 ? way.lpNorm<Eigen::Infinity>() : 0;
   if (!(largest > 1e-6)) return false;
-  std::vector<double> y(motion.size(), 0.0), phi, rate, second;
+  std::vector<double> y(motion.size(), 0.0);
   const auto move = [&](const ConstraintFactors& factors, const Vector& by) {
     std::fill(y.begin(), y.end(), 0.0);
     factors.to_slots(by, y);
@@ -45,7 +45,7 @@ bool move_along(Assembler& assembler, const MotionSlots& motion, const Constrain
   std::optional<ConstraintFactors> factors;
   double before = 0;
   for (int iteration = 0; iteration < 12; ++iteration) {
-    assembler.constraint_rates(c, phi, rate, second);
+    const std::vector<double> phi = assembler.violations(c);
     const double open = relative_open(assembler, phi).lpNorm<Eigen::Infinity>();
     if (!std::isfinite(open)) return false;
     if (open < 1e-13) return true;
@@ -256,8 +256,7 @@ Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const
     found.groups = group(found.null);
   };
   if (here.deficiency() == 0) return found;
-  std::vector<double> phi, rate, second;
-  assembler.constraint_rates(c, phi, rate, second);
+  const std::vector<double> phi = assembler.violations(c);
   take(here);
   if (found.freedom() > 0 && move_along(assembler, motion, here, c, tolerance)) {
     const ConstraintFactors there(assembler, c, ConstraintColumns::gradients, tolerance);
@@ -320,8 +319,7 @@ bool Redundancy::analyse(const Configuration& c, double tolerance) {
 
 std::string Redundancy::conflict(const Configuration& c) {
   if (!active()) return {};
-  std::vector<double> phi, rate, second;
-  assembler_.constraint_rates(c, phi, rate, second);
+  const std::vector<double> phi = assembler_.violations(c);
   const Vector relative = relative_open(assembler_, phi);
   const Numbering& numbering = assembler_.numbering();
   for (const RedundantGroup& one : mobility_.groups)

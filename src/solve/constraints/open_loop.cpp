@@ -22,8 +22,7 @@ using Vector = Eigen::VectorXd;
 
 /// Constraint violations over the extent, or in radians.
 Vector scaled_open(Assembler& assembler, const Configuration& c) {
-  std::vector<double> phi, rate, second;
-  assembler.constraint_rates(c, phi, rate, second);
+  const std::vector<double> phi = assembler.violations(c);
   const Vector sizes = constraint_sizes(assembler);
   return Eigen::Map<const Vector>(phi.data(), sizes.size()).cwiseQuotient(sizes);
 }

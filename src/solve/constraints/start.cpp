@@ -365,8 +365,7 @@ Start::Closing Start::close_initial(Configuration& c, StartReport& report) {
 int Start::follow(Configuration& c, std::span<const int> held) {
   constexpr double shortest = 1e-3;
   constexpr int most_steps = 100000;  // about 3000 turns
-  std::vector<double> phi, rate, second;
-  assembler_.constraint_rates(c, phi, rate, second);
+  const std::vector<double> phi = assembler_.violations(c);
   double done = 0, part = 0.1;
   for (int steps = 1; steps <= most_steps;) {
     const double next = std::min(1.0, done + part);
@@ -453,8 +452,7 @@ void Start::remark_on_branch(const Configuration& given, const Configuration& c,
 void Start::note_open(const Configuration& given, StartReport& report) {
   const Numbering& numbering = assembler_.numbering();
   const double extent = assembler_.model().extent();
-  std::vector<double> phi, rate, second;
-  assembler_.constraint_rates(given, phi, rate, second);
+  const std::vector<double> phi = assembler_.violations(given);
   const Eigen::VectorXd relative = relative_open(assembler_, phi);
   std::vector<StartReport::Opened> all;
   for (std::size_t m = 0; m < phi.size(); ++m) {

@@ -79,8 +79,7 @@ std::string explain_support(const SolverContext& context, const Configuration& c
 
 std::string explain_jump(SolverContext& context, const Configuration& c) {
   const Numbering& numbering = context.numbering;
-  std::vector<double> phi, rate, second;
-  context.assembler.constraint_rates(c, phi, rate, second);
+  const std::vector<double> phi = context.assembler.violations(c);
   // far from the origin the digits of positions are fewer
   double far = context.model.extent();
   for (const NodeState& node : c.nodes) far = std::max(far, node.x.norm());
