@@ -255,7 +255,7 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
         const auto slot = static_cast<std::size_t>(slots[j]);
         const int equation = slot < motion ? numbering_.equation(slots[j]) : -1;
         if (equation < 0) continue;
-        const double lever = numbering_.measure(equation) == Measure::moment ? extent : 1;
+        const double lever = numbering_.unknown(equation).rotational() ? extent : 1;
         const double entry = local[i * n + j] / (std::max(std::abs(weights.q), 1e-300) * lever);
         sums[multiplier].steep += entry * entry;
         if (diagonal[slot] == 0) continue;
@@ -272,9 +272,7 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
   // moments. Rounding may leave a tiny value, hence the threshold; real machines have ratios down to about 1e-27.
   constexpr double nothing = 1e-30;
   const double square = extent * extent;
-  const auto lever = [&](std::size_t i) {
-    return numbering_.multiplier(static_cast<int>(i)).measure == Measure::angle ? square : 1;
-  };
+  const auto lever = [&](std::size_t i) { return numbering_.multiplier(static_cast<int>(i)).rotational() ? square : 1; };
   double stiffest = 0;
   for (std::size_t i = 0; i < k.size(); ++i) stiffest = std::max(stiffest, k[i] / lever(i));
   for (std::size_t i = 0; i < k.size(); ++i)

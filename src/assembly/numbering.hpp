@@ -23,6 +23,9 @@ struct Unknown {
   bool multiplier = false;
   bool signal = false;               ///< see Scalar::signal
   Measure measure = Measure::force;  ///< of its equation
+
+  /// Whether it is an angle or a moment; so is its residual.
+  bool rotational() const { return measure == Measure::moment || measure == Measure::angle; }
 };
 
 /// Numbering of slots and equations. A slot is the storage place of one value: six per node, whether or not these are unknowns,

@@ -333,7 +333,7 @@ class Examination {
   /// In-plane forces must not depend on out-of-plane reactions, which are unknown in the plane problem.
   void look_at_friction(const Model::Part& part, std::size_t begin, double forces) {
     const Layout& layout = part.element->layout();
-    if (layout.slides == 0 && layout.grips.empty()) return;
+    if (!layout.has_friction()) return;
     std::vector<double> before(layout.grips.size()), after(before.size()), first;
     bool follows = false;
     for (const Probe& probe : probes_) {

@@ -88,7 +88,7 @@ void ConstraintChanges::state(const Configuration& from, double h, std::span<con
 double ConstraintChanges::moved(int multiplier, std::span<const double> y) const {
   const Unknown& u = multiplier_unknown(assembler_.numbering(), multiplier);
   const double length = newton_.length(multiplier);
-  const bool turns = u.measure == Measure::angle;
+  const bool turns = u.rotational();
   double most = 0;
   for (const int node : assembler_.model().parts[static_cast<std::size_t>(u.part)].nodes)
     for (std::size_t k = 0; k < 6; ++k)

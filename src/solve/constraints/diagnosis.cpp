@@ -315,7 +315,7 @@ std::string explain_unresolved(const Assembler& assembler, const References& ref
     double carried = 0;
     for (std::size_t i = 0; i < of_nodes; ++i)
       if (const int row = numbering.equation(slots[i]); row >= 0)
-        carried = std::max(carried, references.load(row) / (numbering.unknown(row).measure == Measure::moment ? extent : 1));
+        carried = std::max(carried, references.load(row) / (numbering.unknown(row).rotational() ? extent : 1));
     // parts of a mesh that waves have not reached yet carry no forces of interest
     const double elsewhere = element.cell_shape() == CellShape::none ? 0 : references.largest_force();
     for (std::size_t i = 0; i < of_nodes; ++i) {
@@ -330,7 +330,7 @@ std::string explain_unresolved(const Assembler& assembler, const References& ref
       }
       // a machine without loads has no forces to resolve
       if (!(energy > 1e3 * noise * place)) continue;
-      const double lever = numbering.unknown(row).measure == Measure::moment ? extent : 1;
+      const double lever = numbering.unknown(row).rotational() ? extent : 1;
       const double part = noise / std::max(lever * std::max(carried, least), elsewhere);
       if (!(part > worst.part)) continue;
       worst.part = part;
@@ -346,7 +346,7 @@ std::string explain_unresolved(const Assembler& assembler, const References& ref
   MPI_Bcast(&worst_noise, 1, MPI_DOUBLE, worst.rank, assembler.comm());
   if (worst_equation < 0) return {};
   const Model::Part& stiff = parts[static_cast<std::size_t>(culprit)];
-  const bool turns = numbering.unknown(worst_equation).measure == Measure::moment;
+  const bool turns = numbering.unknown(worst_equation).rotational();
   return fmt::format(
       "{} is so stiff that the rounding of positions makes {:.2g} {} in it, {:.2g} of the loads of {}: its forces are known "
       "no "

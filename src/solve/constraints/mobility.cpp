@@ -227,9 +227,7 @@ Vector change_of_forces(Assembler& assembler, const Configuration& from, const C
 /// Whether the element that owns a multiplier has friction.
 bool has_friction(const Assembler& assembler, int multiplier) {
   const int part = multiplier_unknown(assembler.numbering(), multiplier).part;
-  if (part < 0) return false;
-  const Layout& layout = assembler.model().parts[static_cast<std::size_t>(part)].element->layout();
-  return layout.slides > 0 || !layout.grips.empty();
+  return part >= 0 && assembler.model().part(part).element->layout().has_friction();
 }
 
 constexpr const char* usual_cure =
