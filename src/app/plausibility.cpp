@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "deck/cards/initial_motion.hpp"
+#include "model/masses.hpp"
 #include "model/pulses.hpp"
 #include "model/solver_options.hpp"
 #include "model/speed_jumps.hpp"
@@ -31,17 +32,14 @@ void look_at_bodies(const Model& model, double extent, Diagnostics& diagnostics)
   if (model.nodes.size() < 3) return;  // a single point has no size
   for (const Model::Part& part : model.parts) {
     if (part.type != "INERTIA" && part.type != "RIGID") continue;
-    if (part.nodes.empty() || part.nodes[0] == 0) continue;
-    const double moment = part.element->inertia_at(model.node(part.nodes[0]).id).diagonal().maxCoeff();
-    const double mass = moment > 0 ? mass_at_first_node(model, part) : 0;
-    if (!(mass > 0)) continue;
-    const double radius = std::sqrt(moment / mass);
+    const double radius = radius_of_gyration(model, part);
+    if (!(radius > 0)) continue;
     if (radius < too_large * extent && radius * too_small > extent) continue;
     const std::string unit = model.units.label(dimension::length);
     diagnostics.warning(
         part.location,
-        fmt::format("the radius of gyration sqrt(J/M) of {} {} is {:.3g} {}, {} the size of the mechanism, {:.3g} {}", part.type,
-                    part.element->id(), radius, unit,
+        fmt::format("the radius of gyration sqrt(J/M) of {} is {:.3g} {}, {} the size of the mechanism, {:.3g} {}", part.name(),
+                    radius, unit,
                     radius > extent ? fmt::format("{:.3g} times", radius / extent) : fmt::format("1/{:.3g} of", extent / radius),
                     extent, unit),
         "are J, M and the coordinates in the same units? A moment of inertia in kg mm2 is 1e-6 of one in kg m2");

@@ -127,9 +127,6 @@ struct Model {
 /// Whether the deck has a mesh.
 bool has_cells(const Model& model);
 
-/// Translational mass that an element contributes to its first node, from its residual under unit acceleration.
-double mass_at_first_node(const Model& model, const Model::Part& part);
-
 /// The record of an element as JSON, for the results file. For a load on several nodes, only the node of this element is given.
 std::string parameters_json(const Model::Part& part);
 
