@@ -262,10 +262,9 @@ bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
   // what follows is output, and may have the memory
   if (step.last && task_.reading.is_one_solution() && context_.solver.direct() && !task_.options.condition)
     context_.solver.reset();
-  const auto seen = [this](const Configuration& found) -> const Configuration& { return in_space(found); };
   std::optional<Instants> instants;
   if (schedule_.controlled() && step.number > 0) {
-    instants.emplace(schedule_, observer_, seen, last_time_, solved, step);
+    instants.emplace(schedule_, observer_, context_.out_of_plane, last_time_, solved, step);
     instants->observe_inside();
   }
   const auto watch = times_.output();
@@ -305,12 +304,12 @@ void Attempt::find_buckling_modes(const Configuration& solved, const StepReport&
 Schedule::Due Attempt::show(const Configuration& solved, const StepReport& step) {
   const Schedule::Due due = schedule_.at(solved.time, step.number == 0 ? 0.0 : step.step, step.regular, step.last);
   const bool looked_at = due.sample || due.frame || !task_.reading.model.commands.checks.empty();
-  observe(looked_at ? in_space(solved) : solved, step, due);
+  observe(looked_at ? context_.out_of_plane.completed(solved) : solved, step, due);
   return due;
 }
 
 Schedule::Due Attempt::show_instants(Instants& instants, const Configuration& solved, const StepReport& step) {
-  observe(in_space(solved), step, {});
+  observe(context_.out_of_plane.completed(solved), step, {});
   if (companion_ && rank_ == 0) companion_->widen(observer_);
   return instants.show([this](double time, const Schedule::Due& due) {
     write([&] {
@@ -330,13 +329,6 @@ void Attempt::observe(const Configuration& seen, const StepReport& step, const S
   observer_.observe(seen, observed, due.sample || !context_.model.commands.checks.empty(), due.frame);
   if (context_.redundancy.active() && (step.last || (step.number & (step.number - 1)) == 0))
     observer_.find_not_unique(seen, context_.redundancy.undetermined(seen));
-}
-
-const Configuration& Attempt::in_space(const Configuration& found) {
-  if (!context_.out_of_plane.active()) return found;
-  whole_ = found;
-  context_.out_of_plane.find(whole_);
-  return whole_;
 }
 
 template <class Write>

@@ -57,8 +57,6 @@ class Attempt {
   Schedule::Due show_instants(Instants& instants, const Configuration& solved, const solve::StepReport& step);
   /// What is not unique is looked for at the start, after 1, 2, 4, … steps and at the end.
   void observe(const Configuration& seen, const solve::StepReport& step, const Schedule::Due& due);
-  /// With its forces out of the plane, which are found for those who look.
-  const Configuration& in_space(const Configuration& found);
   /// Has rank 0 do something that may fail on its files. A failure is that of the run.
   template <class Write>
   void write(const Write& write);
@@ -89,7 +87,6 @@ class Attempt {
   std::optional<Writer> writer_;  ///< of rank 0
   std::unique_ptr<solve::Scheme> scheme_;
   std::optional<solve::Runner> runner_;
-  Configuration whole_;     ///< in_space()
   double last_time_ = 0;    ///< of the last accepted step
   std::string failure_;     ///< what stopped the run; empty when nothing did
   bool complete_ = false;   ///< the run came to its end

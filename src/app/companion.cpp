@@ -112,15 +112,8 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   const double from = resumption ? resumption->point.time : options.begin;
   if (resumption) estimate_.since = from;
   double last = from;
-  Configuration whole;
   const auto take = [&](double time) {
     if (context.assembler.rank() == 0) record(time, observer.values());
-  };
-  const auto in_space = [&](const Configuration& c) -> const Configuration& {
-    if (!context.out_of_plane.active()) return c;
-    whole = c;
-    context.out_of_plane.find(whole);
-    return whole;
   };
   int ranks = 1;
   MPI_Comm_size(comm, &ranks);
@@ -129,9 +122,9 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   };
   const solve::Observer seen = [&](const Configuration& c, const StepReport& step) {
     std::optional<Instants> instants;
-    if (step.number > 0) instants.emplace(schedule, observer, in_space, last, c, step);
+    if (step.number > 0) instants.emplace(schedule, observer, context.out_of_plane, last, c, step);
     if (instants) instants->observe_inside(judges_run_);
-    observer.observe(in_space(c), {step.step, 0, step.events.size(), step.corner}, true, false);
+    observer.observe(context.out_of_plane.completed(c), {step.step, 0, step.events.size(), step.corner}, true, false);
     if (instants) instants->show([&](double time, const Schedule::Due&) { take(time); });
     if (schedule.even(c.time)) take(c.time);
     progress.update(c.time, step.step, step.number);

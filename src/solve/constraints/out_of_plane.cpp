@@ -32,8 +32,14 @@ OutOfPlane::OutOfPlane(Assembler& assembler) : assembler_(assembler) {
     if (model.parts[p].element->layout().shares_multipliers) holds_[p] = holds_[p - 1];
 }
 
+const Configuration& OutOfPlane::completed(const Configuration& c) {
+  if (slots_.empty()) return c;
+  completed_ = c;
+  find(completed_);
+  return completed_;
+}
+
 void OutOfPlane::find(Configuration& c) {
-  if (!active()) return;
   const Numbering& numbering = assembler_.numbering();
   const auto& parts = assembler_.model().parts;
   const double extent = assembler_.model().extent();
