@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -14,6 +13,7 @@
 #include "app/interruption.hpp"
 #include "app/selection.hpp"
 #include "app/writer.hpp"
+#include "base/processor_time.hpp"
 #include "output/progress.hpp"
 
 namespace engrane::app {
@@ -59,8 +59,6 @@ Vec3 nearest_rotation_vector(const Vec3& v, const Vec3& other) {
   if (angle == 0) return v;
   return v * (1 + turn / angle * std::round((v.dot(other) / angle - angle) / turn));
 }
-
-double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
 
@@ -156,8 +154,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
 
 void Companion::choose_columns(const observe::Observer& observer, const Model& model) {
   const deck::ArchiveCard& archive = model.commands.archive;
-  const bool selected = !archive.elements.empty() || !archive.kinds.empty() || !archive.nodes.empty() ||
-                        !archive.groups.empty() || !archive.channels.empty();
+  const bool selected = selects(archive) || !archive.channels.empty();
   std::set<int> asked, asked_of_run;
   if (!selected)
     for (const deck::CheckCard& check : model.commands.checks)

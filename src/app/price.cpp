@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <map>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "app/layout.hpp"
 #include "app/schedule.hpp"
 #include "app/selection.hpp"
+#include "base/processor_time.hpp"
 #include "observe/observer.hpp"
 #include "output/table.hpp"
 
@@ -20,22 +20,16 @@ namespace engrane::app {
 
 namespace {
 
-/// Processor time, because other programs may be using the processor too.
-double seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Shortest time of `work`, which is called repeatedly for about four milliseconds, at most 20 times and at least once.
+/// Shortest time of `work`, which is called repeatedly for about four milliseconds, at most 20 times and at least once. In
+/// processor time, because other programs may be using the processor too.
 template <class Work>
 double shortest(const Work& work) {
   double least = std::numeric_limits<double>::infinity();
-  const double begun = seconds();
-  for (int call = 0; call < 1 || (call < 20 && seconds() - begun < 0.004); ++call) {
-    const double start = seconds();
+  const double begun = processor_time();
+  for (int call = 0; call < 1 || (call < 20 && processor_time() - begun < 0.004); ++call) {
+    const double start = processor_time();
     work();
-    least = std::min(least, seconds() - start);
+    least = std::min(least, processor_time() - start);
   }
   return least;
 }
