@@ -12,8 +12,6 @@ double size_of(const Unknown& u, double extent) {
   return u.measure == Measure::force || u.measure == Measure::length ? extent : 1.0;
 }
 
-const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier) { return numbering.multiplier(multiplier); }
-
 const Multiplier& multiplier_of(const Model& model, const Unknown& multiplier) {
   const Model::Part& part = model.parts[static_cast<std::size_t>(multiplier.part)];
   return part.element->layout().multipliers[static_cast<std::size_t>(multiplier.item)];
@@ -26,7 +24,7 @@ Vector constraint_sizes(const Assembler& assembler) {
   const double extent = assembler.model().extent();
   const Numbering& numbering = assembler.numbering();
   Vector sizes(numbering.slots() - numbering.motion_slots());
-  for (int m = 0; m < static_cast<int>(sizes.size()); ++m) sizes[m] = size_of(multiplier_unknown(numbering, m), extent);
+  for (int m = 0; m < static_cast<int>(sizes.size()); ++m) sizes[m] = size_of(numbering.multiplier(m), extent);
   return sizes;
 }
 

@@ -286,7 +286,7 @@ std::string explain_free_motion(Assembler& assembler, const Configuration& confi
       factors.motions().largest_part(assembler.numbering(), factors.possible_motion(factors.motions().any())));
   bool driven = false;
   for (int m = 0; m < static_cast<int>(configuration.multipliers.size()) && !driven; ++m)
-    driven = is_drive(assembler.model(), multiplier_unknown(assembler.numbering(), m));
+    driven = is_drive(assembler.model(), assembler.numbering().multiplier(m));
   // links in line take a freedom that the drive has elsewhere, and leave one to the rest
   if (driven && mobility.redundant() > 0)
     text += "; if the drives move everything elsewhere, this is a dead position, with links in line: start a little beside it";

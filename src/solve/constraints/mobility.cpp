@@ -77,7 +77,7 @@ void prefer_grips_and_drives(const Model& model, const Numbering& numbering, Spa
   for (Eigen::Index j = 0; j < null.cols(); ++j)
     for (Sparse::InnerIterator it(null, j); it; ++it) {
       const auto m = static_cast<int>(it.row());
-      const Unknown& u = multiplier_unknown(numbering, m);
+      const Unknown& u = numbering.multiplier(m);
       if (is_grip(model, u) || is_drive(model, u)) preferred.emplace_back(is_grip(model, u), m);
     }
   std::sort(preferred.begin(), preferred.end(), std::greater<>());
@@ -176,11 +176,11 @@ std::string names(Assembler& assembler, const Configuration& c, const std::vecto
   std::string text;
   int part = -1, elements = 0;
   std::map<int, std::size_t> directions;
-  for (const int m : members) ++directions[multiplier_unknown(assembler.numbering(), m).part];
+  for (const int m : members) ++directions[assembler.numbering().multiplier(m).part];
   bool all = false;
   std::size_t unnamed = 0;
   for (const int m : members) {
-    const Unknown& u = multiplier_unknown(assembler.numbering(), m);
+    const Unknown& u = assembler.numbering().multiplier(m);
     if (u.part != part) {
       part = u.part;
       if (elements++ >= most) {
@@ -226,7 +226,7 @@ Vector change_of_forces(Assembler& assembler, const Configuration& from, const C
 
 /// Whether the element that owns a multiplier has friction.
 bool has_friction(const Assembler& assembler, int multiplier) {
-  const int part = multiplier_unknown(assembler.numbering(), multiplier).part;
+  const int part = assembler.numbering().multiplier(multiplier).part;
   return part >= 0 && assembler.model().part(part).element->layout().has_friction();
 }
 
@@ -279,7 +279,7 @@ std::string friction_on_redundant(const Assembler& assembler, const Mobility& mo
   std::set<int> parts;
   for (const RedundantGroup& one : mobility.groups)
     for (const int m : one.members)
-      if (has_friction(assembler, m)) parts.insert(multiplier_unknown(assembler.numbering(), m).part);
+      if (has_friction(assembler, m)) parts.insert(assembler.numbering().multiplier(m).part);
   std::string text;
   for (const int p : parts) text += (text.empty() ? "" : ", ") + assembler.model().part(p).name();
   return text;
@@ -324,7 +324,7 @@ std::string Redundancy::conflict(const Configuration& c) {
     for (const int m : one.members) {
       const double open = phi[static_cast<std::size_t>(m)];
       if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
-      const Unknown& u = multiplier_unknown(numbering, m);
+      const Unknown& u = numbering.multiplier(m);
       if (relative[m] <= consistent || is_grip(assembler_.model(), u)) continue;  // a grip gives way (Grips)
       const bool length = u.measure == Measure::length;
       return fmt::format("conflicting constraints: {} stays open by {:.3g} {} when the others are closed; {} among {}: {}",
@@ -339,7 +339,7 @@ std::string Redundancy::conflict(const Configuration& c) {
 std::string Redundancy::cure_of(const RedundantGroup& one) const {
   // of drives the last in the deck, as the one that was added to what moved before
   for (auto m = one.members.rbegin(); m != one.members.rend(); ++m) {
-    const Unknown& u = multiplier_unknown(assembler_.numbering(), *m);
+    const Unknown& u = assembler_.numbering().multiplier(*m);
     const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(u.part)];
     if (!is_drive(assembler_.model(), u)) continue;
     return fmt::format(
@@ -366,7 +366,7 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
   for (const RedundantGroup& one : mobility_.groups)
     for (const int m : one.members) {
       if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
-      const Unknown& u = multiplier_unknown(numbering, m);
+      const Unknown& u = numbering.multiplier(m);
       if (relative[m] <= 1e-8 * speed || relative[m] * span <= opens_never || is_grip(assembler_.model(), u)) continue;
       const bool length = u.measure == Measure::length;
       return fmt::format("conflicting constraints: {} asks for a speed that the others forbid, by {:.4g} {}; {} among {}: {}",

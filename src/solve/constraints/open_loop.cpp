@@ -147,17 +147,17 @@ std::string explain_open_loop(Assembler& assembler, const MotionSlots& motion, c
   const double largest = open.cwiseAbs().maxCoeff(&widest);
   double driven = 1e-2 * largest;
   for (Eigen::Index m = 0; m < open.size(); ++m)
-    if (std::abs(open[m]) > driven && is_drive(model, multiplier_unknown(numbering, static_cast<int>(m)))) {
+    if (std::abs(open[m]) > driven && is_drive(model, numbering.multiplier(static_cast<int>(m)))) {
       driven = std::abs(open[m]);
       widest = m;
     }
-  const Unknown& u = multiplier_unknown(numbering, static_cast<int>(widest));
+  const Unknown& u = numbering.multiplier(static_cast<int>(widest));
   const bool drive = is_drive(model, u);
   const Model::Part& joint = model.parts[static_cast<std::size_t>(u.part)];
   Vector weight = Vector::Ones(open.size());
   std::vector<int> members;
   for (Eigen::Index m = 0; m < open.size(); ++m) {
-    const Unknown& other = multiplier_unknown(numbering, static_cast<int>(m));
+    const Unknown& other = numbering.multiplier(static_cast<int>(m));
     if (other.part != u.part || is_drive(model, other) != drive) continue;
     members.push_back(static_cast<int>(m));
     weight[m] = 1e-4;
@@ -165,7 +165,7 @@ std::string explain_open_loop(Assembler& assembler, const MotionSlots& motion, c
   narrow(assembler, motion, weight, c);
   open = scaled_open(assembler, c);
   double length = 0, angle = 0;
-  for (const int m : members) (multiplier_unknown(numbering, m).measure == Measure::length ? length : angle) += open[m] * open[m];
+  for (const int m : members) (numbering.multiplier(m).measure == Measure::length ? length : angle) += open[m] * open[m];
   length = std::sqrt(length) * model.extent();
   angle = std::sqrt(angle);
   std::string gap;

@@ -457,7 +457,7 @@ void Start::note_open(const Configuration& given, StartReport& report) {
   std::vector<StartReport::Opened> all;
   for (std::size_t m = 0; m < phi.size(); ++m) {
     if (relative[static_cast<Eigen::Index>(m)] < 1e-9) continue;
-    const Unknown& u = multiplier_unknown(numbering, static_cast<int>(m));
+    const Unknown& u = numbering.multiplier(static_cast<int>(m));
     if (all.empty() || all.back().part != u.part) all.push_back({u.part, 0, 0});
     double& sum = u.measure == Measure::length ? all.back().length : all.back().angle;
     sum = std::hypot(sum, phi[m]);

@@ -37,7 +37,7 @@ void note_accelerations(const Assembler& assembler, const Configuration& c, int 
   for (const Measure measure : {Measure::length, Measure::angle}) {
     if (report.largest_force > 0) break;
     for (std::size_t m = 0; m < c.multipliers.size(); ++m) {
-      const Unknown& u = multiplier_unknown(assembler.numbering(), static_cast<int>(m));
+      const Unknown& u = assembler.numbering().multiplier(static_cast<int>(m));
       if (u.measure != measure || std::abs(c.multipliers[m]) <= report.largest_force) continue;
       report.largest_force = std::abs(c.multipliers[m]);
       carried = u.slot;

@@ -91,7 +91,7 @@ std::string explain_jump(SolverContext& context, const Configuration& c) {
     const auto index = static_cast<int>(m);
     // redundant constraints follow from the others, and a step that opens them says so
     if (context.assembler.released(index) || numbering.equation(numbering.motion_slots() + index) < 0) continue;
-    const Unknown& u = multiplier_unknown(numbering, index);
+    const Unknown& u = numbering.multiplier(index);
     const double open = std::abs(phi[m]) / (allowed * (u.measure == Measure::length ? far : 1.0));
     const bool drive = is_drive(context.model, u);
     // a drive that jumps is more often the cause than a joint
@@ -106,7 +106,7 @@ std::string explain_jump(SolverContext& context, const Configuration& c) {
     const std::string support = explain_support(context, c, allowed * far);
     return support.empty() ? support : fmt::format("{} at t = {:.6g}. {}", support, c.time, cure);
   }
-  const Unknown& u = multiplier_unknown(numbering, widest);
+  const Unknown& u = numbering.multiplier(widest);
   const double open = phi[static_cast<std::size_t>(widest)];
   const std::string unit = context.model.units.label(u.measure == Measure::length ? dimension::length : dimension::angle);
   if (of_drive) return fmt::format("{} at t = {:.6g}. {}", explain_drive(context, c, u, open, unit), c.time, cure);
