@@ -424,15 +424,10 @@ int Attempt::finish() {
                                     runner_->now(), observer_.energies().handled());
   if (rank_ == 0) {
     try {
-      if (!unresolved.empty()) writer_->warn(unresolved);
-      const std::string of_energy = energy_remark(context_, runner_->references(), observer_);
-      for (const std::string& remark : {complete_ ? of_energy : "", stability_.remark(), fast_turns_.remark()}) {
-        if (remark.empty()) continue;
-        writer_->warn(remark);
-        task_.summary.diagnostics.push_back({.severity = Severity::warning, .location = {}, .message = remark, .hint = {}});
-      }
-      if (const std::string remark = looser_before(); complete_ && !remark.empty()) writer_->warn(remark);
-      if (const std::string remark = context_.solver.remark(); !remark.empty()) writer_->warn(remark);
+      const std::string of_energy = complete_ ? energy_remark(context_, runner_->references(), observer_) : "";
+      for (const std::string& remark : {unresolved, of_energy, stability_.remark(), fast_turns_.remark(),
+                                        complete_ ? looser_before() : "", context_.solver.remark()})
+        if (!remark.empty()) writer_->warn(remark);
       if (runner_->started()) writer_->remember(runner_->now(), *runner_, false, true);
       status = writer_->finish(complete_ ? RunStatus::complete : RunStatus::failed, failure_, times_.split(context_.solver));
     } catch (const OutputError& e) {
@@ -443,6 +438,9 @@ int Attempt::finish() {
     const Options& options = task_.options;
     task_.summary.failure = failure_;
     task_.summary.files = writer_->paths();
+    // only now: an attempt that another one replaces keeps its warnings to itself
+    std::vector<Diagnostic>& told = task_.summary.diagnostics;
+    told.insert(told.end(), writer_->warnings().begin(), writer_->warnings().end());
     if (!failure_.empty()) {
       std::cerr << "engrane: " << terminal_text(failure_) << '\n';
       if (writer_->holds_samples() || !unwritten_)
