@@ -27,9 +27,9 @@ using namespace solve;
 
 namespace {
 
-/// Bytes of factors that a run speaks of before it takes them.
+/// Factors with more bytes than this are announced before they are computed.
 constexpr double worth_announcing = 1e9;
-/// Part of the tolerance that the next has at least: estimates of coarse runs are coarse.
+/// Least ratio of the next tolerance to the present one: estimates of coarse runs are coarse.
 constexpr double most_at_once = 0.01;
 
 /// The text of the first rank that has one; empty when none has. Collective.
@@ -40,7 +40,7 @@ std::string first_text(std::string text, MPI_Comm comm, int rank, int ranks) {
   return text_of_rank(teller, std::move(text), comm);
 }
 
-/// The failure with what user routines and formulas, on whichever rank, complained of last. Collective.
+/// Adds the last failures of user routines and formulas, on any rank, to the text of a failure. Collective.
 std::string with_causes(std::string failure, MPI_Comm comm, int rank, int ranks) {
   const std::string routine = first_text(user::last_failure(), comm, rank, ranks);
   const std::string function = first_text(last_function_failure(), comm, rank, ranks);
@@ -67,8 +67,8 @@ std::vector<double> times_of(const std::vector<deck::CheckCard>& checks) {
   return times;
 }
 
-/// Is an energy as good as none: the work of what iterations leave of forces in a machine at rest, or that of a billionth of the
-/// extent, covered by all masses in the time of the analysis?
+/// Whether an energy is negligible: no more than the work of the residual forces of a machine at rest, or than the kinetic energy
+/// of all masses that cover a billionth of the extent in the time of the analysis.
 bool counts_as_none(double energy, const SolverContext& context, const References& references) {
   const Model& model = context.model;
   const double extent = model.extent();
@@ -79,12 +79,12 @@ bool counts_as_none(double energy, const SolverContext& context, const Reference
   return energy <= 0.5 * (all.mass + all.inertia.trace() / (extent * extent)) * speed * speed;
 }
 
-/// Does the deck let the energies of its run be judged?
+/// Whether the deck asks for the energy balance to be checked.
 bool judges_energies(const SolverOptions& options) {
   return options.analysis == SolverOptions::Analysis::dynamics && options.energy_error > 0;
 }
 
-/// What user routines may have to do with an energy balance that is off; empty without any.
+/// How user routines may cause an error of the energy balance, to follow a message; empty if the model has none.
 std::string routine_to_blame(const Model& model) {
   if (std::none_of(model.functions.begin(), model.functions.end(),
                    [](const auto& function) { return dynamic_cast<const UserFunction*>(function.second.get()) != nullptr; }))
@@ -92,7 +92,7 @@ std::string routine_to_blame(const Model& model) {
   return ". A LAW USER has the same effect if the energy that its routine returns depends on the time: it is then left unset";
 }
 
-/// Why the run must end when its energies say that it is wrong; empty when they do not.
+/// Why the run must end if the error of its energy balance is too large; empty if it is not.
 std::string energy_failure(const SolverContext& context, const References& references, const observe::Observer& observer,
                            const Configuration& c) {
   const double allowed = context.options.energy_error;
@@ -113,7 +113,7 @@ std::string energy_failure(const SolverContext& context, const References& refer
       routine_to_blame(context.model));
 }
 
-/// A warning where the equilibria of a run are not on one path; empty where they are.
+/// A warning if the equilibria of a run are not on one path; empty if they are.
 std::string jump_remark(const SolverContext& context, const References& references, const observe::EnergyBalance& balance) {
   constexpr double small = 1e-3;
   const observe::Jump& jump = balance.jump;
@@ -142,7 +142,7 @@ std::string jump_remark(const SolverContext& context, const References& referenc
       follows ? "" : ".PATH follows the equilibria in between; ");
 }
 
-/// A warning where a run that has come to its end has lost or won more energy than results should; empty where it has not.
+/// A warning if the energy balance of a complete run was off by more than results should be; empty if it was not.
 std::string energy_remark(const SolverContext& context, const References& references, const observe::Observer& observer) {
   constexpr double much = 0.05;
   const observe::EnergyBalance& balance = observer.energies();
@@ -156,7 +156,7 @@ std::string energy_remark(const SolverContext& context, const References& refere
       context.options.tolerance > 0 ? "TOL" : "step H", routine_to_blame(context.model));
 }
 
-/// Those of user routines and formulas that have been said, or that belong to attempts which were cut.
+/// Clears failures of user routines and formulas that were reported or belong to rejected attempts of a step.
 void forget_failures() {
   user::forget_failures();
   forget_function_failures();

@@ -36,9 +36,9 @@ constexpr double order_of_alpha = 2, order_of_radau = 4;
 constexpr double smooth_ratio_of_alpha = 3.5, smooth_ratio_of_radau = 2.3, rough = 2.5;
 /// TOL has chosen the steps where they are shorter than the longest by this, on the average.
 constexpr double well_below = 2;
-/// Part of the run that tells whether they are.
+/// Fraction of the run after which this is decided.
 constexpr double early = 0.2;
-/// Ratios of steps nearer to 1 say nothing.
+/// Nearer to 1 a ratio of steps shows nothing.
 constexpr double least_ratio = 1.02;
 /// Three runs show the order that errors fall with where each has at least so many times the steps of the one before.
 constexpr double telling_ratio = 1.2;
@@ -46,10 +46,10 @@ constexpr double telling_ratio = 1.2;
 constexpr double least_order = 1;
 /// No more values than this are kept, of no more instants: errors are means over time.
 constexpr std::size_t most_values = std::size_t{1} << 23, most_instants = 2000;
-/// A channel whose range is less than this part of the largest of its dimension, or of its own size, tells of rounding; so does
-/// an acceleration that changes no velocity by more than this in the whole run.
+/// A channel with a range of less than this fraction of the largest of its dimension, or of its own size, is taken as rounding;
+/// so is an acceleration that changes no velocity by more than this in the whole run.
 constexpr double no_range = 1e-6;
-/// So does one whose range is less than this part of the sizes of its kind, which is what iterations leave of them.
+/// So is one with a range of less than this fraction of the sizes of its kind, about the residuals of iterations.
 constexpr double no_size = 1e-9;
 
 /// The rotation vector of the same rotation that is nearest to `other`: as many turns about its axis are added as it takes.

@@ -52,15 +52,15 @@ std::string size_text(double bytes) {
                        : fmt::format("{:.3g} GB", bytes / 1e9);
 }
 
-/// What HDF5 1.10 adds, in bytes, as measured in files of this program: the header of an array with its entry in the group, the
+/// Bytes that HDF5 1.10 adds, as measured in files of this program: the header of an array with its entry in the group, the
 /// index of an array in chunks, and a group.
 constexpr double array_bytes = 240, index_bytes = 2100, group_bytes = 1100;
 /// Arrays above this size are stored in chunks and compressed (hdf5::Place).
 constexpr double small = 4096;
-/// What compression leaves of arrays of computed values, and of texts.
+/// Fraction left by compression of arrays of computed values, and of texts.
 constexpr double values_left = 0.75, text_left = 0.25;
 
-/// An array in the file. `left`: what compression leaves of it.
+/// Bytes of an array in the file. `left`: fraction left by compression.
 double array_size(double bytes, double left) { return array_bytes + (bytes <= small ? bytes : index_bytes + left * bytes); }
 
 double numbers_size(std::size_t count, double left = values_left) { return array_size(8.0 * static_cast<double>(count), left); }

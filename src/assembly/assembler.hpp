@@ -109,8 +109,8 @@ class Assembler {
   }
   /// As above, into a matrix from new_matrix(), with `give` times the stiffness added to the mass matrix.
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into, double give = 0);
-  /// What stood for the inertia of motions without any in the last projection by mass, as a moment of inertia: masses times the
-  /// square of the extent.
+  /// Substitute inertia of motions without mass in the last projection by mass, as a moment of inertia: masses times the square
+  /// of the extent.
   double missing_inertia() const { return missing_inertia_; }
   /// Unscaled Φ and its first two time derivatives along the motion, in the order of the multipliers; zero for idle ones.
   void constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
@@ -147,8 +147,8 @@ class Assembler {
 
  private:
   const Element& element(int part) const { return *model_.part(part).element; }
-  /// What stands for missing inertia, by measure of the equation: a negligible part of the largest inertia of that kind or, where
-  /// there is none, of the other kind by the extent. Sets missing_inertia_.
+  /// Substitute inertia of motions without mass, by measure of the equation: a negligible part of the largest inertia of that
+  /// kind or, where there is none, of the other kind by the extent. Sets missing_inertia_.
   Magnitudes find_missing_inertia(const Magnitudes& heaviest);
   /// Finds gravity_ and varying_gravity_.
   void find_gravity(double time) const;

@@ -33,8 +33,8 @@ void come_to_rest(Configuration& c) {
   std::fill(c.scalar_accelerations.begin(), c.scalar_accelerations.end(), 0.0);
 }
 
-/// What the free components of the nodes lack to be in balance. After a restart, loads need not be those that the equilibrium was
-/// found with: it lacks those that have gone, less those that have come.
+/// Unbalanced loads on the free components of the nodes. After a restart, loads need not be those that the equilibrium was
+/// found with: loads that have ended are unbalanced, and those that were added, with the opposite sign.
 std::vector<Reaction> lack_of_balance(Assembler& assembler, const Configuration& c) {
   const std::vector<double> r = assembler.slot_residual(c);
   std::vector<Reaction> lacks;

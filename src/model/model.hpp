@@ -60,7 +60,7 @@ struct Gravity {
   const Function* function = nullptr;
 };
 
-/// What to run and how.
+/// The analysis to run and its settings.
 struct Commands {
   deck::AnalysisCard analysis;
   deck::SteppingCard stepping;
