@@ -225,7 +225,7 @@ void Attempt::run() {
   scheme_ = make_scheme(context_);
   runner_.emplace(context_, *scheme_);
   if (schedule_.controlled()) observer_.keep_ends();
-  const Observer seen = [this](const Configuration& solved, const StepReport& step) { return after_step(solved, step); };
+  const StepCallback seen = [this](const Configuration& solved, const StepReport& step) { return after_step(solved, step); };
   leave_at_once(true);
   try {
     if (const Resumption* resumption = task_.resumption) {

@@ -118,7 +118,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   const auto follows = [&](long steps, double time) {
     return static_cast<double>(steps) * loose.longest >= well_below * (time - from);
   };
-  const solve::Observer seen = [&](const Configuration& c, const StepReport& step) {
+  const StepCallback seen = [&](const Configuration& c, const StepReport& step) {
     std::optional<Instants> instants;
     if (step.number > 0) instants.emplace(schedule, observer, context.out_of_plane, last, c, step);
     if (instants) instants->observe_inside(judges_run_);
