@@ -26,7 +26,7 @@ class ContentHash {
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
-/// What came of reading on one rank.
+/// Outcome of reading on one rank.
 struct Account {
   std::string trouble;         ///< why it failed, one line; empty if it did not
   std::uint64_t contents = 0;  ///< hash of what was read

@@ -28,9 +28,9 @@ using namespace solve;
 
 namespace {
 
-/// Bytes of factors that a run speaks of before it takes them.
+/// Factors with more bytes than this are announced before they are computed.
 constexpr double worth_announcing = 1e9;
-/// Part of the tolerance that the next has at least: estimates of coarse runs are coarse.
+/// Least ratio of the next tolerance to the present one: estimates of coarse runs are coarse.
 constexpr double most_at_once = 0.01;
 
 /// The text of the first rank that has one; empty when none has. Collective.
@@ -41,7 +41,7 @@ std::string first_text(std::string text, MPI_Comm comm, int rank, int ranks) {
   return text_of_rank(teller, std::move(text), comm);
 }
 
-/// The failure with what user routines and formulas, on whichever rank, complained of last. Collective.
+/// Adds the last failures of user routines and formulas, on any rank, to the text of a failure. Collective.
 std::string with_causes(std::string failure, MPI_Comm comm, int rank, int ranks) {
   const std::string routine = first_text(user::last_failure(), comm, rank, ranks);
   const std::string function = first_text(last_function_failure(), comm, rank, ranks);
@@ -71,8 +71,8 @@ std::vector<double> times_of(const std::vector<deck::CheckCard>& checks) {
   return times;
 }
 
-/// Is an energy as good as none: the work of what iterations leave of forces in a machine at rest, or that of a billionth of the
-/// extent, covered by all masses in the time of the analysis?
+/// Whether an energy is negligible: no more than the work of the residual forces of a machine at rest, or than the kinetic energy
+/// of all masses that cover a billionth of the extent in the time of the analysis.
 bool counts_as_none(double energy, const SolverContext& context, const References& references) {
   const Model& model = context.model;
   const double extent = model.extent();
@@ -83,12 +83,12 @@ bool counts_as_none(double energy, const SolverContext& context, const Reference
   return energy <= 0.5 * (all.mass + all.inertia.trace() / (extent * extent)) * speed * speed;
 }
 
-/// Does the deck let the energies of its run be judged?
+/// Whether the deck asks for the energy balance to be checked.
 bool judges_energies(const SolverOptions& options) {
   return options.analysis == SolverOptions::Analysis::dynamics && options.energy_error > 0;
 }
 
-/// What user routines may have to do with an energy balance that is off; empty without any.
+/// How user routines may cause an error of the energy balance, to follow a message; empty if the model has none.
 std::string routine_to_blame(const Model& model) {
   if (std::none_of(model.functions.begin(), model.functions.end(),
                    [](const auto& function) { return dynamic_cast<const UserFunction*>(function.second.get()) != nullptr; }))
@@ -96,7 +96,7 @@ std::string routine_to_blame(const Model& model) {
   return ". A LAW USER has the same effect if the energy that its routine returns depends on the time: it is then left unset";
 }
 
-/// Why the run must end when its energies say that it is wrong; empty when they do not.
+/// Why the run must end if the error of its energy balance is too large; empty if it is not.
 std::string energy_failure(const SolverContext& context, const References& references, const observe::Observer& observer,
                            const Configuration& c) {
   const double allowed = context.options.energy_error;
@@ -117,7 +117,7 @@ std::string energy_failure(const SolverContext& context, const References& refer
       routine_to_blame(context.model));
 }
 
-/// A warning where the equilibria of a run are not on one path; empty where they are.
+/// A warning if the equilibria of a run are not on one path; empty if they are.
 std::string jump_remark(const SolverContext& context, const References& references, const observe::EnergyBalance& balance) {
   constexpr double small = 1e-3;
   const observe::Jump& jump = balance.jump;
@@ -146,7 +146,7 @@ std::string jump_remark(const SolverContext& context, const References& referenc
       follows ? "" : ".PATH follows the equilibria in between; ");
 }
 
-/// A warning where a run that has come to its end has lost or won more energy than results should; empty where it has not.
+/// A warning if the energy balance of a complete run was off by more than results should be; empty if it was not.
 std::string energy_remark(const SolverContext& context, const References& references, const observe::Observer& observer) {
   constexpr double much = 0.05;
   const observe::EnergyBalance& balance = observer.energies();
@@ -160,7 +160,7 @@ std::string energy_remark(const SolverContext& context, const References& refere
       context.options.tolerance > 0 ? "TOL" : "step H", routine_to_blame(context.model));
 }
 
-/// Those of user routines and formulas that have been said, or that belong to attempts which were cut.
+/// Clears failures of user routines and formulas that were reported or belong to rejected attempts of a step.
 void forget_failures() {
   user::forget_failures();
   forget_function_failures();
@@ -231,7 +231,7 @@ void Attempt::run() {
   scheme_ = make_scheme(context_);
   runner_.emplace(context_, *scheme_);
   if (schedule_.controlled()) observer_.keep_ends();
-  const Observer seen = [this](const Configuration& solved, const StepReport& step) { return after_step(solved, step); };
+  const StepCallback seen = [this](const Configuration& solved, const StepReport& step) { return after_step(solved, step); };
   leave_at_once(true);
   try {
     if (const Resumption* resumption = task_.resumption) {
@@ -269,10 +269,9 @@ bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
   // what follows is output, and may have the memory
   if (step.last && task_.reading.is_one_solution() && context_.solver.direct() && !task_.options.condition)
     context_.solver.reset();
-  const auto seen = [this](const Configuration& found) -> const Configuration& { return in_space(found); };
   std::optional<Instants> instants;
   if (schedule_.controlled() && step.number > 0) {
-    instants.emplace(schedule_, observer_, seen, last_time_, solved, step);
+    instants.emplace(schedule_, observer_, context_.out_of_plane, last_time_, solved, step);
     instants->observe_inside();
   }
   const auto watch = times_.output();
@@ -321,12 +320,12 @@ void Attempt::find_buckling_modes(const Configuration& solved, const StepReport&
 Schedule::Due Attempt::show(const Configuration& solved, const StepReport& step) {
   const Schedule::Due due = schedule_.at(solved.time, step.number == 0 ? 0.0 : step.step, step.regular, step.last);
   const bool looked_at = due.sample || due.frame || !task_.reading.model.commands.checks.empty();
-  observe(looked_at ? in_space(solved) : solved, step, due);
+  observe(looked_at ? context_.out_of_plane.completed(solved) : solved, step, due);
   return due;
 }
 
 Schedule::Due Attempt::show_instants(Instants& instants, const Configuration& solved, const StepReport& step) {
-  observe(in_space(solved), step, {});
+  observe(context_.out_of_plane.completed(solved), step, {});
   if (companion_ && rank_ == 0) companion_->widen(observer_);
   return instants.show([this](double time, const Schedule::Due& due) {
     write([&] {
@@ -346,13 +345,6 @@ void Attempt::observe(const Configuration& seen, const StepReport& step, const S
   observer_.observe(seen, observed, due.sample || !context_.model.commands.checks.empty(), due.frame);
   if (context_.redundancy.active() && (step.last || (step.number & (step.number - 1)) == 0))
     observer_.find_not_unique(seen, context_.redundancy.undetermined(seen));
-}
-
-const Configuration& Attempt::in_space(const Configuration& found) {
-  if (!context_.out_of_plane.active()) return found;
-  whole_ = found;
-  context_.out_of_plane.find(whole_);
-  return whole_;
 }
 
 template <class Write>
@@ -448,15 +440,10 @@ int Attempt::finish() {
                                     runner_->now(), observer_.energies().handled());
   if (rank_ == 0) {
     try {
-      if (!unresolved.empty()) writer_->warn(unresolved);
-      const std::string of_energy = energy_remark(context_, runner_->references(), observer_);
-      for (const std::string& remark : {complete_ ? of_energy : "", stability_.remark(), fast_turns_.remark()}) {
-        if (remark.empty()) continue;
-        writer_->warn(remark);
-        task_.summary.diagnostics.push_back({.severity = Severity::warning, .location = {}, .message = remark, .hint = {}});
-      }
-      if (const std::string remark = looser_before(); complete_ && !remark.empty()) writer_->warn(remark);
-      if (const std::string remark = context_.solver.remark(); !remark.empty()) writer_->warn(remark);
+      const std::string of_energy = complete_ ? energy_remark(context_, runner_->references(), observer_) : "";
+      for (const std::string& remark : {unresolved, of_energy, stability_.remark(), fast_turns_.remark(),
+                                        complete_ ? looser_before() : "", context_.solver.remark()})
+        if (!remark.empty()) writer_->warn(remark);
       if (runner_->started()) writer_->remember(runner_->now(), *runner_, false, true);
       status = writer_->finish(complete_ ? RunStatus::complete : RunStatus::failed, failure_, times_.split(context_.solver));
     } catch (const OutputError& e) {
@@ -467,6 +454,9 @@ int Attempt::finish() {
     const Options& options = task_.options;
     task_.summary.failure = failure_;
     task_.summary.files = writer_->paths();
+    // only now: an attempt that another one replaces keeps its warnings to itself
+    std::vector<Diagnostic>& told = task_.summary.diagnostics;
+    told.insert(told.end(), writer_->warnings().begin(), writer_->warnings().end());
     if (!failure_.empty()) {
       std::cerr << "engrane: " << terminal_text(failure_) << '\n';
       if (writer_->holds_samples() || !unwritten_)

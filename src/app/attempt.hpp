@@ -23,7 +23,7 @@
 
 namespace engrane::app {
 
-/// What the user asked for; each attempt at it is a run of the same.
+/// The run that the user asked for. Each attempt at it has the same task.
 struct Task {
   Reading& reading;
   const Options& options;
@@ -33,53 +33,51 @@ struct Task {
   MPI_Comm comm;
 };
 
-/// One run of a deck on all ranks of a communicator, from the start to its last word. Rank 0 writes the results and speaks.
+/// One run of a deck on all ranks of a communicator, from start to final output. Rank 0 writes files and messages.
 class Attempt {
  public:
-  /// `companion`: with longer steps, tells the error; none where the deck asks for no ACCURACY.
+  /// `companion`: a run with longer steps, for the error estimate; none if the deck does not ask for ACCURACY.
   Attempt(const Task& task, const Trial& trial, std::optional<Companion>& companion);
 
-  /// Makes the run. Collective.
+  /// Runs. Collective.
   Verdict make();
 
  private:
-  /// False where the files cannot be made, which every rank then knows.
+  /// Returns false on every rank if the files cannot be created.
   bool open_results();
   void announce();
-  /// The steps, up to the end or to what stops them.
+  /// Makes the steps, up to the end or to a failure.
   void run();
-  /// What is done behind each accepted step; false to stop.
+  /// Called after each accepted step; returns false to stop.
   bool after_step(const Configuration& solved, const solve::StepReport& step);
   /// Ends the run where its energies have gone wrong; false then.
   bool energies_hold(const Configuration& solved, bool last);
   void find_buckling_modes(const Configuration& solved, const solve::StepReport& step);
-  /// Lets the observer see an accepted step, and tells what is due of it.
+  /// Observes an accepted step; returns which outputs are due.
   Schedule::Due show(const Configuration& solved, const solve::StepReport& step);
-  /// The same of a controlled step; the instants within it are written.
+  /// show() for a controlled step; also writes the output instants within it.
   Schedule::Due show_instants(Instants& instants, const Configuration& solved, const solve::StepReport& step);
-  /// What is not unique is looked for at the start, after 1, 2, 4, … steps and at the end.
+  /// Observes a configuration. Looks for channels that are not unique at the start, after 1, 2, 4, … steps and at the end.
   void observe(const Configuration& seen, const solve::StepReport& step, const Schedule::Due& due);
-  /// With its forces out of the plane, which are found for those who look.
-  const Configuration& in_space(const Configuration& found);
-  /// Has rank 0 do something that may fail on its files. A failure is that of the run.
+  /// Calls `write` on rank 0. If it throws OutputError, the run has failed.
   template <class Write>
   void write(const Write& write);
 
-  /// The run to make because the error of this one is too large; none where it is not. Collective.
+  /// The next run to make if the error of this one is too large, otherwise nothing. Collective.
   std::optional<Trial> sharper();
-  /// The tolerance and the longest step of that; no tolerance for none. Collective.
+  /// Tolerance and longest step (time) of that run; the tolerance is 0 if there is none. Collective.
   std::array<double, 2> sharper_steps();
-  /// Is nearly every step as long as it may be, so that TOL has chosen few?
+  /// Whether nearly every step was as long as HMAX allows, so that TOL determined few of them.
   bool steps_are_longest() const;
-  /// A warning on the part of a continued run that came before, where the rest was repeated.
+  /// A warning that the part before the restart point was solved with a looser tolerance than the rest; empty if it was not.
   std::string looser_before() const;
   void tell_condition();
-  /// Ends the results; the exit status. Collective.
+  /// Completes the results; returns the exit status. Collective.
   int finish();
 
   const Task& task_;
   const Trial& trial_;
-  std::vector<double> differences_;  ///< Trial::differences, and that of this run; on rank 0
+  std::vector<double> differences_;  ///< Trial::differences and the difference of this run; on rank 0
   std::optional<Companion>& companion_;
   int rank_ = 0, ranks_ = 1;
   Times times_;
@@ -91,14 +89,13 @@ class Attempt {
   std::optional<Writer> writer_;  ///< of rank 0
   std::unique_ptr<solve::Scheme> scheme_;
   std::optional<solve::Runner> runner_;
-  Configuration whole_;     ///< in_space()
   double last_time_ = 0;    ///< of the last accepted step
   double handled_ = 0;      ///< observe::EnergyBalance::handled() at its end
   int steps_off_ = 0;       ///< number of steps in a row whose energies were off
   std::string failure_;     ///< what stopped the run; empty when nothing did
   bool complete_ = false;   ///< the run came to its end
   bool unsolved_ = false;   ///< no solution was found at some step
-  bool wrong_ = false;      ///< energies say that solutions are none
+  bool wrong_ = false;      ///< the energy balance shows that the solutions are wrong
   bool unwritten_ = false;  ///< results could not be written
 };
 

@@ -41,7 +41,7 @@ int print_model(const Reading& reading, std::ostream& out) {
   try {
     apply_initial_displacements(context, c);
     context.start.assemble(c, report);
-    const bool moves = !model.commands.analysis.type.is("STATIC");
+    const bool moves = context.options.moves();
     // drives may agree on positions but not on velocities; supports move nodes only if there is motion
     if (moves) {
       apply_initial_velocities(context, c);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -14,6 +13,7 @@
 #include "app/interruption.hpp"
 #include "app/selection.hpp"
 #include "app/writer.hpp"
+#include "base/processor_time.hpp"
 #include "output/progress.hpp"
 
 namespace engrane::app {
@@ -36,9 +36,9 @@ constexpr double order_of_alpha = 2, order_of_radau = 4;
 constexpr double smooth_ratio_of_alpha = 3.5, smooth_ratio_of_radau = 2.3, rough = 2.5;
 /// TOL has chosen the steps where they are shorter than the longest by this, on the average.
 constexpr double well_below = 2;
-/// Part of the run that tells whether they are.
+/// Fraction of the run after which this is decided.
 constexpr double early = 0.2;
-/// Ratios of steps nearer to 1 say nothing.
+/// Nearer to 1 a ratio of steps shows nothing.
 constexpr double least_ratio = 1.02;
 /// Three runs show the order that errors fall with where each has at least so many times the steps of the one before.
 constexpr double telling_ratio = 1.2;
@@ -46,10 +46,10 @@ constexpr double telling_ratio = 1.2;
 constexpr double least_order = 1;
 /// No more values than this are kept, of no more instants: errors are means over time.
 constexpr std::size_t most_values = std::size_t{1} << 23, most_instants = 2000;
-/// A channel whose range is less than this part of the largest of its dimension, or of its own size, tells of rounding; so does
-/// an acceleration that changes no velocity by more than this in the whole run.
+/// A channel with a range of less than this fraction of the largest of its dimension, or of its own size, is taken as rounding;
+/// so is an acceleration that changes no velocity by more than this in the whole run.
 constexpr double no_range = 1e-6;
-/// So does one whose range is less than this part of the sizes of its kind, which is what iterations leave of them.
+/// So is one with a range of less than this fraction of the sizes of its kind, about the residuals of iterations.
 constexpr double no_size = 1e-9;
 
 /// The rotation vector of the same rotation that is nearest to `other`: as many turns about its axis are added as it takes.
@@ -59,8 +59,6 @@ Vec3 nearest_rotation_vector(const Vec3& v, const Vec3& other) {
   if (angle == 0) return v;
   return v * (1 + turn / angle * std::round((v.dot(other) / angle - angle) / turn));
 }
-
-double processor_time() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
 
@@ -112,26 +110,19 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
   const double from = resumption ? resumption->point.time : options.begin;
   if (resumption) estimate_.since = from;
   double last = from;
-  Configuration whole;
   const auto take = [&](double time) {
     if (context.assembler.rank() == 0) record(time, observer.values());
-  };
-  const auto in_space = [&](const Configuration& c) -> const Configuration& {
-    if (!context.out_of_plane.active()) return c;
-    whole = c;
-    context.out_of_plane.find(whole);
-    return whole;
   };
   int ranks = 1;
   MPI_Comm_size(comm, &ranks);
   const auto follows = [&](long steps, double time) {
     return static_cast<double>(steps) * loose.longest >= well_below * (time - from);
   };
-  const solve::Observer seen = [&](const Configuration& c, const StepReport& step) {
+  const StepCallback seen = [&](const Configuration& c, const StepReport& step) {
     std::optional<Instants> instants;
-    if (step.number > 0) instants.emplace(schedule, observer, in_space, last, c, step);
+    if (step.number > 0) instants.emplace(schedule, observer, context.out_of_plane, last, c, step);
     if (instants) instants->observe_inside(judges_run_);
-    observer.observe(in_space(c), {step.step, 0, step.events.size(), step.corner}, true, false);
+    observer.observe(context.out_of_plane.completed(c), {step.step, 0, step.events.size(), step.corner}, true, false);
     if (instants) instants->show([&](double time, const Schedule::Due&) { take(time); });
     if (schedule.even(c.time)) take(c.time);
     progress.update(c.time, step.step, step.number);
@@ -163,8 +154,7 @@ Companion::Companion(const Reading& reading, const SolverOptions& options, MPI_C
 
 void Companion::choose_columns(const observe::Observer& observer, const Model& model) {
   const deck::ArchiveCard& archive = model.commands.archive;
-  const bool selected = !archive.elements.empty() || !archive.kinds.empty() || !archive.nodes.empty() ||
-                        !archive.groups.empty() || !archive.channels.empty();
+  const bool selected = selects(archive) || !archive.channels.empty();
   std::set<int> asked, asked_of_run;
   if (!selected)
     for (const deck::CheckCard& check : model.commands.checks)

@@ -9,43 +9,44 @@
 
 namespace engrane::app {
 
-/// What the results are estimated to be off by.
+/// Error estimate of a run, from its difference to its companion. Times are processor times in seconds.
 struct ErrorEstimate {
   double error = 0;     ///< the largest of all channels asked for: root of the mean square over time, over the channel's range
-  std::string channel;  ///< that has it
-  double share = 1;     ///< of the difference between the run and its companion, which is taken as the error
-  bool falls = true;    ///< smaller TOL make the difference smaller; else all of it is the error
+  std::string channel;  ///< the one with this error
+  double share = 1;     ///< fraction of the difference between the run and its companion that is taken as the error
+  bool falls = true;    ///< the difference falls with TOL; if not, all of it is taken as the error
   double tolerance = 0, companion_tolerance = 0;  ///< TOL of the run and of its companion
   double seconds = 0, companion_seconds = 0;
-  double earlier_seconds = 0;   ///< of runs before the companion
-  double ratio_of_steps = 1;    ///< how many times the companion's the run has
-  double order = 1;             ///< the power of TOL that errors go with, as far as steps follow it
-  double order_of_steps = 1;    ///< the power of the steps that errors go with
-  double longest = 0;           ///< the steps' length, where all are as long as they may be, so that TOL does not matter; else 0
-  double shortened = 0;         ///< the longest step, where earlier runs made it shorter than the deck does; else 0
-  bool begins_looser = false;   ///< runs of its kind begin with AccuracyRung::first
-  std::optional<double> since;  ///< where both runs went on from an earlier one, of which the estimate knows nothing
+  double earlier_seconds = 0;  ///< of all runs before the companion
+  double ratio_of_steps = 1;   ///< number of steps of the run over that of its companion
+  double order = 1;            ///< power of TOL to which errors are proportional, where steps follow TOL
+  double order_of_steps = 1;   ///< power of the step length to which errors are proportional
+  double longest = 0;    ///< length of the steps (time) if all are as long as HMAX allows, so that TOL has no effect; else 0
+  double shortened = 0;  ///< longest step (time) if earlier runs reduced the HMAX of the deck; else 0
+  bool begins_looser = false;   ///< runs with this scheme begin with AccuracyRung::first
+  std::optional<double> since;  ///< time of the restart point of both runs; the error before it is not in the estimate
   std::string trouble;          ///< why there is no estimate
 
-  /// What the two runs differ by, as `error`.
+  /// Difference of the two runs, in the same measure as `error`.
   double difference() const { return error / share; }
   /// Compares with the differences of earlier pairs of runs with larger TOL, the first one first: sets `falls`.
   void follow(const std::vector<double>& differences);
-  /// All steps of both runs are as long as they may be, of this length or twice that: they pass over what is shorter.
+  /// Call if all steps of the run have this length, the longest allowed, and those of the companion twice that: motions that are
+  /// faster are not seen.
   void steps_reach(double longest_step);
-  /// A length of steps that is expected to give half of an error. `differences`: as for follow().
+  /// Length of steps that is expected to give half of an error `target`. `differences`: as for follow().
   double longest_for(double target, const std::vector<double>& differences) const;
   /// Error and processor time that another tolerance is expected to have.
   double error_at(double other) const;
   double seconds_at(double other) const;
-  /// A tolerance that is expected to give half of an error.
+  /// Tolerance that is expected to give half of an error `target`.
   double tolerance_for(double target) const;
-  /// The one that another setting would end with: runs that miss its target are made again (Attempt::sharper()).
+  /// Tolerance with which a run of another setting would end: runs that miss its target are repeated (Attempt::sharper()).
   double tolerance_of(const AccuracyRung& rung) const;
-  /// Where there is no estimate, or it is more than the `target`; empty otherwise. `sharper_failed`: why the run was not made
-  /// again with a smaller tolerance; empty if that may help.
+  /// A warning if there is no estimate, or if it exceeds the `target`; otherwise empty. `sharper_failed`: why the run was not
+  /// repeated with a smaller tolerance; empty if that may help.
   std::string warning(double target, const std::string& sharper_failed) const;
-  /// For the listing, beside the `target` that was asked for.
+  /// Text for the listing. `target`: the error asked for.
   std::string describe(double target) const;
 };
 

@@ -24,9 +24,10 @@ double error_per_square(const SolverOptions& options) {
                                                            : options.damping;
   return 0.56 + 2.55 * shift * shift;
 }
-/// Errors that are warned of, and left by the steps advised.
+/// Relative error of precession that is warned of, and the one expected with the advised steps.
 constexpr double most_error = 0.023, advised_error = 0.006;
-/// The same angles for Radau IIA, whose error is 1e-4 at 1 rad, 1e-3 at 1.5 and 5e-2 at 3.
+/// For Radau IIA, the angles per step in radians that are warned of and advised, whose error is 1e-4 at 1 rad, 1e-3 at 1.5 and
+/// 5e-2 at 3.
 constexpr double limit_of_radau = 2.5, advised_of_radau = 1;
 /// Angle in radians by which an axis must turn during the run. Wheels on flexible shafts wobble by less.
 constexpr double turned_axis = 0.01;
@@ -103,16 +104,16 @@ std::string FastTurns::remark() const {
   for (const Body& body : bodies_)
     if (warns_of(body) && (!worst || body.angle > worst->angle)) worst = &body;
   if (!worst) return {};
-  const Model::Part& part = model_.parts[static_cast<std::size_t>(worst->part)];
+  const Model::Part& part = model_.part(worst->part);
   const double angle = worst->angle;
   const std::string error =
       radau_ ? "" : fmt::format(", by about {:.0f} % here", 100 * std::min(1.0, error_per_square_ * angle * angle));
   return fmt::format(
-      "{} {} (node {}) turned by {:.3g} rad in the step to t = {:.6g}, about an axis that turns as well. With more than {:.2g} "
+      "{} (node {}) turned by {:.3g} rad in the step to t = {:.6g}, about an axis that turns as well. With more than {:.2g} "
       "rad "
       "per step precession, nutation and gyroscopic moments are wrong{}: take H of at most {:.2g}, or ACCURACY, whose steps "
       "follow their error",
-      part.type, part.element->id(), model_.nodes[static_cast<std::size_t>(worst->node)].id, angle, worst->time, limit_, error,
+      part.name(), model_.node(worst->node).id, angle, worst->time, limit_, error,
       (radau_ ? advised_of_radau : std::sqrt(advised_error / error_per_square_)) / angle * worst->step);
 }
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/instants.hpp"
 
-#include <utility>
-
 namespace engrane::app {
 
-Instants::Instants(Schedule& schedule, observe::Observer& observer, InSpace in_space, double from, const Configuration& end,
-                   const solve::StepReport& step)
+Instants::Instants(Schedule& schedule, observe::Observer& observer, solve::OutOfPlane& out_of_plane, double from,
+                   const Configuration& end, const solve::StepReport& step)
     : schedule_(schedule),
       observer_(observer),
-      in_space_(std::move(in_space)),
+      out_of_plane_(out_of_plane),
       end_(end),
       step_(step),
       times_(schedule.between(from, end.time)) {
@@ -26,9 +24,9 @@ void Instants::observe_inside(bool work) {
     within_->at(time, c_);
     if (!within_->balance(c_)) return;
     if (times_.empty())
-      observer_.integrate_inside(in_space_(c_));
+      observer_.integrate_inside(out_of_plane_.completed(c_));
     else
-      observer_.observe_inside(in_space_(c_));
+      observer_.observe_inside(out_of_plane_.completed(c_));
   }
 }
 
@@ -44,25 +42,25 @@ Schedule::Due Instants::show(const std::function<void(double, const Schedule::Du
     }
     const Schedule::Due due = schedule_.within(time);
     restart = restart || due.restart;
-    observer_.between(in_space_(c_), within_ != nullptr);
+    observer_.between(out_of_plane_.completed(c_), within_ != nullptr);
     if (due.frame) find_fields(c_);
     take(time, due);
   }
   if (!times_.empty()) observer_.back_to_end();
   Schedule::Due due = schedule_.at(end_.time, even, schedule_.even(end_.time), step_.last);
   due.restart = due.restart || restart;
-  if (due.frame) observer_.find_fields(in_space_(end_));
+  if (due.frame) observer_.find_fields(out_of_plane_.completed(end_));
   return due;
 }
 
 void Instants::find_fields(const Configuration& c) {
   Configuration balanced = c;
   if (!within_ || (!step_.settled && within_->balance(balanced))) {
-    observer_.find_fields(in_space_(balanced));
+    observer_.find_fields(out_of_plane_.completed(balanced));
     return;
   }
-  const Configuration from = in_space_(within_->from()), to = in_space_(within_->to());
-  observer_.find_fields(in_space_(c), from, to);
+  const Configuration from = out_of_plane_.completed(within_->from()), to = out_of_plane_.completed(within_->to());
+  observer_.find_fields(out_of_plane_.completed(c), from, to);
 }
 
 }  // namespace engrane::app

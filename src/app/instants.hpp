@@ -6,6 +6,7 @@
 
 #include "app/schedule.hpp"
 #include "observe/observer.hpp"
+#include "solve/constraints/out_of_plane.hpp"
 #include "solve/run/runner.hpp"
 
 namespace engrane::app {
@@ -14,12 +15,9 @@ namespace engrane::app {
 /// observed, and afterwards produces what is due between its ends.
 class Instants {
  public:
-  /// Returns the configuration to be observed: in a plane model, with its out-of-plane forces added.
-  using InSpace = std::function<const Configuration&(const Configuration&)>;
-
-  /// `from`: the end of the previous step. `end` and `step` must outlive this object.
-  Instants(Schedule& schedule, observe::Observer& observer, InSpace in_space, double from, const Configuration& end,
-           const solve::StepReport& step);
+  /// `from`: the end of the previous step. All arguments must outlive this object.
+  Instants(Schedule& schedule, observe::Observer& observer, solve::OutOfPlane& out_of_plane, double from,
+           const Configuration& end, const solve::StepReport& step);
 
   /// Observes two instants in equilibrium. In a step without output instants only their power counts: nothing is done there
   /// without `work`.
@@ -33,7 +31,7 @@ class Instants {
 
   Schedule& schedule_;
   observe::Observer& observer_;
-  InSpace in_space_;
+  solve::OutOfPlane& out_of_plane_;
   const Configuration& end_;
   const solve::StepReport& step_;
   std::vector<double> times_;

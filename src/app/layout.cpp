@@ -32,8 +32,8 @@ output::ResultsLayout results_layout(const Reading& reading, const observe::Obse
     layout.points.push_back(model.nodes[i].x);
   }
   for (const int node : observer.points().copies()) {
-    layout.node_ids.push_back(model.nodes[static_cast<std::size_t>(node)].id);
-    layout.points.push_back(model.nodes[static_cast<std::size_t>(node)].x);
+    layout.node_ids.push_back(model.node(node).id);
+    layout.points.push_back(model.node(node).x);
   }
   for (const Model::Part& part : model.parts) {
     if (!has_cell(part)) continue;
@@ -56,7 +56,7 @@ output::ResultsLayout results_layout(const Reading& reading, const observe::Obse
     points.elements.reserve(field.place_count);
     points.points.reserve(field.place_count);
     for (const int part : observer.place_parts(f)) {
-      const int id = model.parts[static_cast<std::size_t>(part)].element->id();
+      const int id = model.part(part).element->id();
       points.points.push_back(!points.elements.empty() && points.elements.back() == id ? points.points.back() + 1 : 0);
       points.elements.push_back(id);
     }

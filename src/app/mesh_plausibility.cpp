@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/selection.hpp"
 #include "deck/cards/mesh_cards.hpp"
 #include "elements/structural/cell_book.hpp"
 
@@ -60,7 +61,7 @@ std::string named(const deck::Record& record, const deck::MaterialCard& card) {
 
 /// Warns about materials without density whose cells should have inertia or weight. ROT warns of them by itself.
 void look_at_densities(const deck::Deck& deck, const Model& model, const CellBook& book, Diagnostics& diagnostics) {
-  const bool moves = !model.commands.analysis.type.is("STATIC");
+  const bool motion = moves(model);
   const bool weighs =
       std::any_of(model.gravity.begin(), model.gravity.end(), [](const Gravity& g) { return !g.acceleration.isZero(0); });
   const auto count = cells_by_material(deck, model, book);
@@ -72,16 +73,16 @@ void look_at_densities(const deck::Deck& deck, const Model& model, const CellBoo
     diagnostics.warning(record.location,
                         fmt::format("{} has no density: its {} no {}", named(record, *card),
                                     found->second == 1 ? "cell has" : fmt::format("{} cells have", found->second),
-                                    moves && weighs ? "inertia and no weight"
-                                    : moves         ? "inertia"
-                                                    : "weight"),
+                                    motion && weighs ? "inertia and no weight"
+                                    : motion         ? "inertia"
+                                                     : "weight"),
                         "M of .MAT is the density");
   }
 }
 
 /// Whether densities count in a deck, and one is missing.
 bool misses_density(const deck::Deck& deck, const Model& model) {
-  if (model.commands.analysis.type.is("STATIC") &&
+  if (!moves(model) &&
       std::all_of(model.gravity.begin(), model.gravity.end(), [](const Gravity& g) { return g.acceleration.isZero(0); }))
     return false;
   return std::any_of(deck.records.begin(), deck.records.end(), [](const deck::Record& record) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "deck/cards/initial_motion.hpp"
+#include "model/masses.hpp"
 #include "model/pulses.hpp"
 #include "model/solver_options.hpp"
 #include "model/speed_jumps.hpp"
@@ -31,17 +32,14 @@ void look_at_bodies(const Model& model, double extent, Diagnostics& diagnostics)
   if (model.nodes.size() < 3) return;  // a single point has no size
   for (const Model::Part& part : model.parts) {
     if (part.type != "INERTIA" && part.type != "RIGID") continue;
-    if (part.nodes.empty() || part.nodes[0] == 0) continue;
-    const double moment = part.element->inertia_at(model.nodes[static_cast<std::size_t>(part.nodes[0])].id).diagonal().maxCoeff();
-    const double mass = moment > 0 ? mass_at_first_node(model, part) : 0;
-    if (!(mass > 0)) continue;
-    const double radius = std::sqrt(moment / mass);
+    const double radius = radius_of_gyration(model, part);
+    if (!(radius > 0)) continue;
     if (radius < too_large * extent && radius * too_small > extent) continue;
     const std::string unit = model.units.label(dimension::length);
     diagnostics.warning(
         part.location,
-        fmt::format("the radius of gyration sqrt(J/M) of {} {} is {:.3g} {}, {} the size of the mechanism, {:.3g} {}", part.type,
-                    part.element->id(), radius, unit,
+        fmt::format("the radius of gyration sqrt(J/M) of {} is {:.3g} {}, {} the size of the mechanism, {:.3g} {}", part.name(),
+                    radius, unit,
                     radius > extent ? fmt::format("{:.3g} times", radius / extent) : fmt::format("1/{:.3g} of", extent / radius),
                     extent, unit),
         "are J, M and the coordinates in the same units? A moment of inertia in kg mm2 is 1e-6 of one in kg m2");
@@ -164,8 +162,7 @@ bool has_steps_over_jumps(const Model& model) { return model.commands.analysis.t
 
 /// "the drive of HINGE 1"
 std::string mover_of(const SpeedJump& jump, const Model& model) {
-  return jump.drive ? fmt::format("the drive of {} {}", jump.drive->type, jump.drive->element->id())
-                    : fmt::format("the support of node {}", model.nodes[static_cast<std::size_t>(jump.node)].id);
+  return jump.drive ? "the drive of " + jump.drive->name() : fmt::format("the support of node {}", model.node(jump.node).id);
 }
 
 /// The warning of a speed that jumps at `time`; `cure` ends with the advice to give TOL.

@@ -22,7 +22,7 @@ void warn_of_short_pulses(const deck::Deck& deck, const Model& model, Diagnostic
 /// there. Steps that follow their error pass it as an impact without rebound.
 void warn_of_speed_jumps(const Model& model, Diagnostics& diagnostics);
 
-/// The same of a restart point at `time`, where the motion has had other speeds up to now than the deck imposes from there on.
+/// A warning about a speed that jumps at a restart point at `time`, where the deck imposes another one than the motion had.
 std::optional<Diagnostic> speed_jump_warning(const Model& model, const Snapshot& memory, double time);
 
 /// Tells of initial values in a deck that continues another run: an error where they must hold, otherwise a warning.

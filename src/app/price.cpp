@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <map>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "app/layout.hpp"
 #include "app/schedule.hpp"
 #include "app/selection.hpp"
+#include "base/processor_time.hpp"
 #include "observe/observer.hpp"
 #include "output/table.hpp"
 
@@ -20,22 +20,16 @@ namespace engrane::app {
 
 namespace {
 
-/// Processor time, because other programs may be using the processor too.
-double seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Shortest time of `work`, which is called repeatedly for about four milliseconds, at most 20 times and at least once.
+/// Shortest time of `work`, which is called repeatedly for about four milliseconds, at most 20 times and at least once. In
+/// processor time, because other programs may be using the processor too.
 template <class Work>
 double shortest(const Work& work) {
   double least = std::numeric_limits<double>::infinity();
-  const double begun = seconds();
-  for (int call = 0; call < 1 || (call < 20 && seconds() - begun < 0.004); ++call) {
-    const double start = seconds();
+  const double begun = processor_time();
+  for (int call = 0; call < 1 || (call < 20 && processor_time() - begun < 0.004); ++call) {
+    const double start = processor_time();
     work();
-    least = std::min(least, seconds() - start);
+    least = std::min(least, processor_time() - start);
   }
   return least;
 }
@@ -58,15 +52,15 @@ std::string size_text(double bytes) {
                        : fmt::format("{:.3g} GB", bytes / 1e9);
 }
 
-/// What HDF5 1.10 adds, in bytes, as measured in files of this program: the header of an array with its entry in the group, the
+/// Bytes that HDF5 1.10 adds, as measured in files of this program: the header of an array with its entry in the group, the
 /// index of an array in chunks, and a group.
 constexpr double array_bytes = 240, index_bytes = 2100, group_bytes = 1100;
 /// Arrays above this size are stored in chunks and compressed (hdf5::Place).
 constexpr double small = 4096;
-/// What compression leaves of arrays of computed values, and of texts.
+/// Fraction left by compression of arrays of computed values, and of texts.
 constexpr double values_left = 0.75, text_left = 0.25;
 
-/// An array in the file. `left`: what compression leaves of it.
+/// Bytes of an array in the file. `left`: fraction left by compression.
 double array_size(double bytes, double left) { return array_bytes + (bytes <= small ? bytes : index_bytes + left * bytes); }
 
 double numbers_size(std::size_t count, double left = values_left) { return array_size(8.0 * static_cast<double>(count), left); }
@@ -153,20 +147,14 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   const Weights weights = model.commands.analysis.type.is("DYNAMIC") ? Weights{1, 1 / h, 4 / (h * h)} : Weights{1, 0, 0};
 
   std::map<std::string, std::vector<int>> kinds;
-  for (int p = 0; p < numbering.parts(); ++p) kinds[model.parts[static_cast<std::size_t>(p)].type].push_back(p);
+  for (int p = 0; p < numbering.parts(); ++p) kinds[model.part(p).type].push_back(p);
   std::map<std::string, double> times;
   double elements = 0;
-  std::vector<double> r, k;
   for (const auto& [kind, parts] : kinds) {
     // a hundred elements of a kind are representative
     const std::size_t count = std::min<std::size_t>(parts.size(), 100);
     const double time = shortest([&] {
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t n = numbering.part_slots(parts[i]).size();
-        r.assign(n, 0);
-        k.assign(n * n, 0);
-        model.parts[static_cast<std::size_t>(parts[i])].element->tangent(context.assembler.view(parts[i], here), weights, r, k);
-      }
+      for (std::size_t i = 0; i < count; ++i) context.assembler.element_tangent(parts[i], here, weights);
     });
     times[kind] = time * static_cast<double>(parts.size()) / static_cast<double>(count);
     elements += times[kind];

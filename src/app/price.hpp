@@ -18,7 +18,7 @@ namespace engrane::app {
 /// events and contact cost more.
 std::string describe_price(const Reading& reading, solve::SolverContext& context, const Configuration& c);
 
-/// What the size of a result file follows from, beside its layout.
+/// Numbers that determine the size of a result file, together with its layout.
 struct ResultCounts {
   std::size_t samples = 0, frames = 0;
   std::size_t restarts = 0;  ///< restart points, of which a run leaves at least one

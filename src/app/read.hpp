@@ -28,7 +28,7 @@ struct Reading {
   void forget_mesh();
 };
 
-/// What the command line adds to a deck.
+/// Additions to a deck from the command line.
 struct Wishes {
   deck::Overrides overrides;         ///< `-D NAME=VALUE` and `--card ".SUB TF 1 H 0.1"`
   std::vector<std::string> results;  ///< `--result "ELEMENT 3 NORMAL_FORCE MAX"`: beginnings of .CHK records

@@ -29,10 +29,6 @@ std::map<int, int> parts_by_id(const Model& model) {
   return parts;
 }
 
-bool selects(const deck::ArchiveCard& archive) {
-  return !archive.elements.empty() || !archive.kinds.empty() || !archive.nodes.empty() || !archive.groups.empty();
-}
-
 bool is_large(const Model& model) { return model.parts.size() + model.nodes.size() - 1 > most_with_all_histories; }
 
 std::string joined(const std::vector<std::string>& names) {
@@ -84,7 +80,7 @@ void check_check(const deck::Record& record, const deck::CheckCard& check, const
         diagnostics.missing(".MCE", record.where("ELEMENT"), fmt::format("there is no element {}", *check.element));
       return;
     }
-    const Model::Part& part = model.parts[static_cast<std::size_t>(found->second)];
+    const Model::Part& part = model.part(found->second);
     owner = fmt::format("{} {}", part.type, *check.element);
     names = names_of(part.element->channels());
   } else if (check.node) {
@@ -174,6 +170,10 @@ void check_stability(const deck::Record& record, const Model& model, Diagnostics
 }  // namespace
 
 bool moves(const Model& model) { return !model.commands.analysis.type.is("STATIC"); }
+
+bool selects(const deck::ArchiveCard& archive) {
+  return !archive.elements.empty() || !archive.kinds.empty() || !archive.nodes.empty() || !archive.groups.empty();
+}
 
 observe::Selection select_histories(const Model& model) {
   const deck::ArchiveCard& archive = model.commands.archive;

@@ -14,6 +14,9 @@ constexpr std::size_t most_with_all_histories = 300;
 /// Whether the analysis has velocities, accelerations and kinetic energy.
 bool moves(const Model& model);
 
+/// Whether `.SAI` selects elements or nodes.
+bool selects(const deck::ArchiveCard& archive);
+
 /// The histories to keep: those that `.SAI` selects, and always those that `.CHK` needs.
 observe::Selection select_histories(const Model& model);
 

@@ -87,7 +87,8 @@ SessionFolder::SessionFolder() {
   setenv("OMPI_MCA_btl", "self", 0);
   // nor collective operations for several processes, whose plugins are loaded one by one
   setenv("OMPI_MCA_coll", "basic,self,libnbc", 0);
-  // and nobody asks where displays and PCI devices are, which takes a seventh of the start (docs/decisions/0025-start-up.md)
+  // locations of displays and PCI devices are not used, and finding them takes a seventh of the start
+  // (docs/decisions/0025-start-up.md)
   setenv("HWLOC_COMPONENTS", "-gl,-opencl,-pci,-linuxio,-x86", 0);
 }
 

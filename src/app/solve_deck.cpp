@@ -89,7 +89,7 @@ std::unique_ptr<Resumption> agreed_resumption(const Reading& reading, const Opti
       agreement.failed > 0 ? "cannot read them: " + agreement.trouble : "finds another restart point than rank 0"));
 }
 
-/// Where the deck leaves the plane to the program, a run goes on in the one that it began in, or in space.
+/// If the deck lets the program choose the plane, a resumed run continues in the plane it began in, or in space.
 void keep_plane(Model& model, const Snapshot& memory) {
   if (!model.commands.analysis.plane.is("AUTO") || !memory.has("plane")) return;
   const int before = static_cast<int>(memory.number("plane"));
@@ -98,7 +98,7 @@ void keep_plane(Model& model, const Snapshot& memory) {
   model.plane = std::move(plane);
 }
 
-/// `.SUB` says TOL.
+/// Whether `.SUB` has TOL.
 bool gives_tolerance(const deck::Deck& deck) {
   return std::any_of(deck.records.begin(), deck.records.end(), [](const deck::Record& record) {
     const deck::SteppingCard* card = record.get<deck::SteppingCard>();
@@ -106,8 +106,8 @@ bool gives_tolerance(const deck::Deck& deck) {
   });
 }
 
-/// Runs the companion of the first run, which begins with longer steps than its setting's own where TOL chooses them: what those
-/// are made for are contacts that vibrate within a few of the longest steps. Collective.
+/// Runs the companion of the first run. Where TOL chooses the steps, that run begins with a looser TOL than its setting's own,
+/// which is needed only for contacts that vibrate within a few of the longest steps. Collective.
 Companion first_companion(const Reading& reading, Trial& trial, MPI_Comm comm, bool quiet) {
   const AccuracyRung* rung = accuracy_rung(reading.model.commands.analysis);
   if (rung && trial.options.family == SolverOptions::Family::radau && !gives_tolerance(reading.deck)) {
@@ -139,7 +139,7 @@ std::string wrong_until(const Options& options, double start) {
   return fmt::format("--until {:.10g} lies before the start of the run, t = {:.10g}", *options.until, start);
 }
 
-/// The mesh of the deck that bears the name of the results; empty when none does.
+/// Path of the mesh of the deck that has the name of the results file; empty if none has.
 std::string mesh_in_the_way(const Reading& reading, const std::string& prefix) {
   std::error_code error;
   for (const std::filesystem::path& mesh : reading.deck.meshes)
@@ -149,7 +149,7 @@ std::string mesh_in_the_way(const Reading& reading, const std::string& prefix) {
 
 Verdict solve_once(const Task& task, const Trial& trial, std::optional<Companion>& companion) {
   leave_at_once(true);
-  user::forget_failures();  // those of another run
+  user::forget_failures();  // of another run
   forget_function_failures();
   int rank = 0;
   MPI_Comm_rank(task.comm, &rank);

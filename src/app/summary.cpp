@@ -126,8 +126,8 @@ std::string describe_geometry(const Model& model) {
   std::size_t alike = 0;
   const auto tell = [&] {
     if (!first) return;
-    text += fmt::format("\n  {} {}, nodes {}", first->type, first->element->id(), fmt::join(first->element->node_ids(), " "));
-    if (alike > 0) text += fmt::format(", and {} alike up to {} {}", alike, last->type, last->element->id());
+    text += fmt::format("\n  {}, nodes {}", first->name(), fmt::join(first->element->node_ids(), " "));
+    if (alike > 0) text += fmt::format(", and {} alike up to {}", alike, last->name());
     text += "\n" + before;
   };
   for (const Model::Part& part : model.parts) {
@@ -169,7 +169,7 @@ std::string describe_masses(const Model& model, std::size_t most) {
       cells.add(one);
       continue;
     }
-    rows.push_back({fmt::format("{} {}", part.type, part.element->id()), one.mass, one.centre, one.inertia});
+    rows.push_back({part.name(), one.mass, one.centre, one.inertia});
   }
   if (cells.any()) rows.push_back({"cells", cells.mass, cells.centre, cells.inertia});
   return listing_masses(rows, {"all", sum.mass, sum.centre, sum.inertia}, model.units, most);

@@ -38,8 +38,8 @@ Times::Sum Times::Event::since() const {
 
 Times::Times() {
   check_petsc(PetscLogDefaultBegin());
-  // PETSc times everything it does, which in a small mechanism takes a sixth of a step, and nobody reads it. Only its two
-  // solver events are needed, and those of this program, which belong to no class of PETSc.
+  // PETSc times everything it does, which in a small mechanism takes a sixth of a step, and shows it only with -log_view. Only
+  // its two solver events are needed, and those of this program, which belong to no class of PETSc.
   PetscBool viewed = PETSC_FALSE;
   check_petsc(PetscOptionsHasName(nullptr, nullptr, "-log_view", &viewed));
   if (!viewed) leave_out_the_rest();

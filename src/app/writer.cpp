@@ -50,6 +50,9 @@ std::string listed_loads(const observe::Observer& observer, const UnitSystem& un
       units);
 }
 
+/// The message with its hint, if it has one.
+std::string with_hint(const Diagnostic& one) { return one.hint.empty() ? one.message : one.message + "; " + one.hint; }
+
 /// Further events are only counted.
 constexpr long most_listed_events = 100;
 constexpr std::size_t most_listed_bodies = 100, most_listed_peaks = 400;
@@ -125,10 +128,8 @@ void Writer::resumed(const Resumption& from) {
     const std::vector<Diagnostic>& all = reading_.diagnostics.all();
     return std::any_of(all.begin(), all.end(), [&](const Diagnostic& one) { return one.message == message; });
   };
-  if (auto jump = speed_jump_warning(reading_.model, memory, from.point.time); jump && !is_told(jump->message)) {
-    warn(jump->message + "; " + jump->hint);
-    summary_.diagnostics.push_back(std::move(*jump));
-  }
+  if (auto jump = speed_jump_warning(reading_.model, memory, from.point.time); jump && !is_told(jump->message))
+    warn(std::move(*jump));
   if (reading_.model.commands.archive.newton) listing_.write(listing_section("Newton iterations"));
 }
 
@@ -218,65 +219,64 @@ void Writer::show(double time, bool regular, const Schedule::Due& due, bool corn
 void Writer::accuracy(const ErrorEstimate& estimate, double target, const std::string& sharper_failed) {
   accuracy_ = estimate.describe(target);
   summary_.accuracy = estimate;
-  const std::string warning = estimate.warning(target, sharper_failed);
-  if (warning.empty()) return;
-  warn(warning);
-  summary_.diagnostics.push_back({.severity = Severity::warning, .location = {}, .message = warning, .hint = {}});
+  if (const std::string warning = estimate.warning(target, sharper_failed); !warning.empty()) warn(warning);
 }
 
 int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit& times) {
   progress_.finish();
+  list_results();
+  section("The run failed", failure.empty() ? "" : "  " + failure + "\n");
+  const bool passed = list_checks(failure.empty());
+  list_accuracy();
+  list_effort(times);
+  results_.modes(std::move(modes_));
+  results_.finish(status);
+  listing_.finish(status == RunStatus::complete);
+  summary_.energies = observer_.energies();
+  summary_.steps = std::max(0L, steps_ - 1);
+  summary_.iterations = iterations_;
+  summary_.cuts = cuts_;
+  summary_.events = event_count_;
+  summary_.seconds = times.total;
+  if (!failure.empty()) return exit_status::solution_failed;
+  return passed ? exit_status::fine : exit_status::check_failed;
+}
+
+void Writer::section(const char* title, const std::string& text) {
+  if (text.empty()) return;
+  listing_.write(listing_section(title));
+  listing_.write(text);
+}
+
+void Writer::list_results() {
   const UnitSystem& units = reading_.model.units;
-  listing_.write(listing_section("Energies"));
+  listing_.write(listing_section("Energies"));  // even without any, as after a failure at the start
   listing_.write(listing_energies(thinned_energies(), units));
   std::vector<ReactionRow> reactions;
-  for (const Reaction& r : observer_.reactions())
-    reactions.push_back({reading_.model.nodes[static_cast<std::size_t>(r.node)].id, r.force, r.torque});
-  if (!reactions.empty()) {
-    listing_.write(listing_section("Reactions at the end"));
-    listing_.write(listing_reactions(reactions, units));
-  }
-  if (const std::string loads = listed_loads(observer_, units); !loads.empty()) {
-    listing_.write(listing_section("Loads and reactions at the end"));
-    listing_.write(loads);
-  }
-  if (!ground_.empty()) {
-    listing_.write(listing_section("Forces of the ground"));
-    listing_.write(listing_ground(ground_, units));
-  }
-  if (const std::string peaks = listing_peaks(results_.layout().history, peaks_, units, most_listed_peaks); !peaks.empty()) {
-    listing_.write(listing_section("Peaks"));
-    listing_.write("  largest magnitude of each channel, with its sign, over the instants observed; angles in radians\n\n");
-    listing_.write(peaks);
-  }
-  if (marked_ > 0) {
-    listing_.write(listing_section("Not unique"));
-    listing_.write(listing_not_unique(results_.layout().history, observer_.not_unique()));
-  }
-  if (!buckling_.empty()) {
-    listing_.write(listing_section("Linearised buckling"));
-    listing_.write(buckling_);
-  }
-  if (!critical_.empty()) {
-    listing_.write(listing_section("Critical points"));
-    listing_.write(critical_);
-  }
+  for (const Reaction& r : observer_.reactions()) reactions.push_back({reading_.model.node(r.node).id, r.force, r.torque});
+  section("Reactions at the end", listing_reactions(reactions, units));
+  section("Loads and reactions at the end", listed_loads(observer_, units));
+  section("Forces of the ground", ground_.empty() ? "" : listing_ground(ground_, units));
+  const std::string peaks = listing_peaks(results_.layout().history, peaks_, units, most_listed_peaks);
+  section("Peaks",
+          peaks.empty()
+              ? ""
+              : "  largest magnitude of each channel, with its sign, over the instants observed; angles in radians\n\n" + peaks);
+  section("Not unique", marked_ > 0 ? listing_not_unique(results_.layout().history, observer_.not_unique()) : "");
+  section("Linearised buckling", buckling_);
+  section("Critical points", critical_);
   if (event_count_ > 0) {
     listing_.write(listing_section("Events"));
     listing_.write(events_);
     if (event_count_ > listed_events_) listing_.write(fmt::format("  and {} more\n", event_count_ - listed_events_));
     listing_.write(fmt::format("  {} in all, located by {} attempts beyond those of the steps\n", event_count_, locating_));
   }
-  if (!remarks_.empty()) {
-    listing_.write(listing_section("Remarks"));
-    listing_.write(remarks_);
-  }
-  int exit = exit_status::fine;
-  if (!failure.empty()) {
-    listing_.write(listing_section("The run failed"));
-    listing_.write("  " + failure + "\n");
-    exit = exit_status::solution_failed;
-  }
+  std::string remarks;
+  for (const Diagnostic& one : warnings_) remarks += "  warning: " + with_hint(one) + "\n";
+  section("Remarks", remarks);
+}
+
+bool Writer::list_checks(bool talk) {
   std::vector<CheckResult> results = checks_.results();
   const auto first_wanted = results.end() - static_cast<std::ptrdiff_t>(reading_.wanted);
   summary_.results.assign(first_wanted, results.end());
@@ -284,54 +284,36 @@ int Writer::finish(RunStatus status, const std::string& failure, const TimeSplit
   if (!results.empty()) {
     results_.checks(results);
     const std::string table = listing_checks(results);
-    listing_.write(listing_section("Checks"));
-    listing_.write(table);
-    if (failure.empty()) {
-      if (!options_.json) std::cout << terminal_text(table);
-      for (const CheckResult& r : results)
-        if (!r.passed) exit = exit_status::check_failed;
-    }
+    section("Checks", table);
+    if (talk && !options_.json) std::cout << terminal_text(table);
   }
-  if (!summary_.results.empty()) {
-    const std::string table = wanted_table();
-    listing_.write(listing_section("Results asked for"));
-    listing_.write(table);
-    if (!options_.json) std::cout << terminal_text(table);
-  }
+  const std::string wanted = wanted_table();
+  section("Results asked for", wanted);
+  if (!options_.json) std::cout << terminal_text(wanted);
   summary_.checks = std::move(results);
-  summary_.energies = observer_.energies();
+  return std::all_of(summary_.checks.begin(), summary_.checks.end(), [](const CheckResult& r) { return r.passed; });
+}
+
+void Writer::list_accuracy() {
   summary_.stress_error = observer_.stress_error();
-  if (!accuracy_.empty() || summary_.stress_error) {
-    listing_.write(listing_section("Accuracy"));
-    listing_.write(accuracy_);
-  }
+  std::string text = accuracy_;
   if (summary_.stress_error)
-    listing_.write(fmt::format(
+    text += fmt::format(
         "  estimated error of the stresses, energy norm: {:.3g} %   (Zienkiewicz and Zhu; by cells in the field ERROR)\n",
-        100 * summary_.stress_error->relative()));
-  if (summary_.conditioning) {
-    listing_.write(listing_section("Last linear system"));
-    listing_.write(summary_.conditioning->describe());
-  }
-  listing_.write(listing_section("Effort"));
+        100 * summary_.stress_error->relative());
+  section("Accuracy", text);
+}
+
+void Writer::list_effort(const TimeSplit& times) {
+  section("Last linear system", summary_.conditioning ? summary_.conditioning->describe() : "");
+  std::string text = "  no steps\n";
   if (steps_ > 1)
-    listing_.write(fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1,
-                               iterations_, static_cast<double>(iterations_) / static_cast<double>(steps_ - 1), cuts_));
-  else
-    listing_.write("  no steps\n");
+    text = fmt::format("  {} steps, {} Newton iterations ({:.2f} per step), {} failed attempts\n", steps_ - 1, iterations_,
+                       static_cast<double>(iterations_) / static_cast<double>(steps_ - 1), cuts_);
   if (coupled_ > 0)
-    listing_.write(fmt::format("  {} solved with a tangent for each stage: one tangent for all stages did not converge\n",
-                               coupled_ == 1 ? "1 step was" : fmt::format("{} steps were", coupled_)));
-  listing_.write(listing_times(times));
-  results_.modes(std::move(modes_));
-  results_.finish(status);
-  listing_.finish(status == RunStatus::complete);
-  summary_.steps = std::max(0L, steps_ - 1);
-  summary_.iterations = iterations_;
-  summary_.cuts = cuts_;
-  summary_.events = event_count_;
-  summary_.seconds = times.total;
-  return exit;
+    text += fmt::format("  {} solved with a tangent for each stage: one tangent for all stages did not converge\n",
+                        coupled_ == 1 ? "1 step was" : fmt::format("{} steps were", coupled_));
+  section("Effort", text + listing_times(times));
 }
 
 std::string Writer::stem() const { return path().substr(0, path().size() - std::string_view(".h5").size()); }
@@ -401,10 +383,9 @@ void Writer::note_events(const Configuration& c, const StepReport& step) {
     ++event_count_;
     if (listed_events_ == most_listed_events) continue;
     ++listed_events_;
-    const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(e.part)];
+    const Model::Part& part = reading_.model.part(e.part);
     const SwitchNames& names = part.element->layout().switches[static_cast<std::size_t>(e.index)];
-    events_ +=
-        fmt::format("  t = {:<14.9g} {} {}: {}\n", c.time, part.type, part.element->id(), e.rises ? names.rises : names.falls);
+    events_ += fmt::format("  t = {:<14.9g} {}: {}\n", c.time, part.name(), e.rises ? names.rises : names.falls);
   }
   if (!step.chatter) return;
   const std::string text =
@@ -457,17 +438,17 @@ void Writer::buckling(const std::vector<BucklingMode>& modes, int asked, const C
 
 void Writer::collect_remarks(const Configuration& c, const Numbering& numbering) {
   for (int p = 0; p < numbering.parts(); ++p) {
-    const Model::Part& part = reading_.model.parts[static_cast<std::size_t>(p)];
+    const Model::Part& part = reading_.model.part(p);
     const auto size = static_cast<std::size_t>(part.element->layout().history);
     for (const std::string& remark :
          part.element->remarks(std::span(c.history).subspan(static_cast<std::size_t>(numbering.history_begin(p)), size)))
-      warn(fmt::format("{} {}: {}", part.type, part.element->id(), remark));
+      warn(part.name() + ": " + remark);
   }
 }
 
-void Writer::warn(const std::string& text) {
-  remarks_ += "  warning: " + text + "\n";
-  progress_.note("engrane: " + text);
+void Writer::warn(Diagnostic warning) {
+  progress_.note("engrane: " + with_hint(warning));
+  warnings_.push_back(std::move(warning));
 }
 
 void Writer::write_newton(const Configuration& c, const StepReport& step, const Numbering& numbering) {

@@ -63,8 +63,10 @@ class Writer {
   void note(const std::string& text) { progress_.note(text); }
   /// Modes of linearised buckling at an equilibrium, of `asked` ones wanted.
   void buckling(const std::vector<solve::BucklingMode>& modes, int asked, const Configuration& equilibrium);
-  /// A warning for the terminal and for the remarks of the listing.
-  void warn(const std::string& text);
+  /// Shows a warning on the terminal and puts it into the remarks of the listing.
+  void warn(Diagnostic warning);
+  void warn(const std::string& text) { warn({.severity = Severity::warning, .location = {}, .message = text, .hint = {}}); }
+  const std::vector<Diagnostic>& warnings() const { return warnings_; }
 
  private:
   /// path() without its extension.
@@ -79,6 +81,14 @@ class Writer {
   void collect_remarks(const Configuration& c, const Numbering& numbering);
   void write_newton(const Configuration& c, const solve::StepReport& step, const Numbering& numbering);
   std::vector<output::EnergyRow> thinned_energies() const;
+  /// Writes a section of the listing, unless the text is empty.
+  void section(const char* title, const std::string& text);
+  // the end of the listing
+  void list_results();
+  /// Lists checks and results asked for; false if a check failed. `talk`: checks are shown on the terminal as well.
+  bool list_checks(bool talk);
+  void list_accuracy();
+  void list_effort(const output::TimeSplit& times);
 
   const Reading& reading_;
   const Options& options_;
@@ -93,7 +103,8 @@ class Writer {
   std::vector<output::GroundRow> ground_;  ///< the last, that with the largest force, and that with the largest moment
   std::vector<output::EnergyRow> energies_;
   std::vector<output::ModeShape> modes_;
-  std::string events_, critical_, buckling_, remarks_, accuracy_;
+  std::string events_, critical_, buckling_, accuracy_;
+  std::vector<Diagnostic> warnings_;
   bool frame_between_ = false;  ///< a frame was due within the step
   std::size_t marked_ = 0;      ///< number of channels marked as not unique so far
   long steps_ = 0, iterations_ = 0, cuts_ = 0, event_count_ = 0, listed_events_ = 0, locating_ = 0, coupled_ = 0;

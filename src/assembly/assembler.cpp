@@ -85,7 +85,7 @@ void Assembler::for_each_tangent(const Configuration& configuration, Weights wei
 }
 
 State Assembler::view(int part, const Configuration& c) const {
-  const Model::Part& p = model_.parts[static_cast<std::size_t>(part)];
+  const Model::Part& p = model_.part(part);
   const Layout& layout = p.element->layout();
   const auto piece = [](const std::vector<double>& all, int begin, std::size_t count) {
     return std::span(all).subspan(static_cast<std::size_t>(begin), count);
@@ -105,6 +105,20 @@ State Assembler::view(int part, const Configuration& c) const {
   s.penalty = penalty;
   s.contact_homotopy = contact_homotopy;
   return s;
+}
+
+Assembler::ElementTangent Assembler::element_tangent(int part, const Configuration& configuration, Weights weights) const {
+  const std::size_t n = numbering_.part_slots(part).size();
+  element_r_.resize(n);
+  element_k_.resize(n * n);
+  element(part).tangent(view(part, configuration), weights, element_r_, element_k_);
+  return {element_r_, element_k_};
+}
+
+std::span<const double> Assembler::element_residual(int part, const Configuration& configuration) const {
+  element_r_.resize(numbering_.part_slots(part).size());
+  element(part).residual(view(part, configuration), element_r_);
+  return element_r_;
 }
 
 void Assembler::find_gravity(double time) const {
@@ -256,7 +270,7 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
         const auto slot = static_cast<std::size_t>(slots[j]);
         const int equation = slot < motion ? numbering_.equation(slots[j]) : -1;
         if (equation < 0) continue;
-        const double lever = numbering_.measure(equation) == Measure::moment ? extent : 1;
+        const double lever = numbering_.unknown(equation).rotational() ? extent : 1;
         const double entry = local[i * n + j] / (std::max(std::abs(weights.q), 1e-300) * lever);
         sums[multiplier].steep += entry * entry;
         if (diagonal[slot] == 0) continue;
@@ -273,9 +287,7 @@ void Assembler::choose_scale(const Configuration& configuration, Weights weights
   // moments. Rounding may leave a tiny value, hence the threshold; real machines have ratios down to about 1e-27.
   constexpr double nothing = 1e-30;
   const double square = extent * extent;
-  const auto lever = [&](std::size_t i) {
-    return numbering_.multiplier(static_cast<int>(i)).measure == Measure::angle ? square : 1;
-  };
+  const auto lever = [&](std::size_t i) { return numbering_.multiplier(static_cast<int>(i)).rotational() ? square : 1; };
   double stiffest = 0;
   for (std::size_t i = 0; i < k.size(); ++i) stiffest = std::max(stiffest, k[i] / lever(i));
   for (std::size_t i = 0; i < k.size(); ++i)
@@ -348,16 +360,12 @@ void Assembler::projection(const Configuration& configuration, Metric metric, st
   const auto motion = static_cast<std::size_t>(numbering_.motion_slots());
   std::vector<double> inertia(motion, 0.0);
   Scatter::MatrixSum sum(scatter_, into);
-  std::vector<double> of_mass, unused;
   for_each_tangent(configuration, {1, 0, 0}, [&](std::size_t at, std::span<double> k) {
     const int part = evaluated(at);
     const auto slots = numbering_.part_slots(part);
     const std::size_t n = slots.size(), m0 = n - element(part).layout().multipliers.size();
-    if (mass) {
-      of_mass.resize(n * n);
-      unused.resize(n);
-      element(part).tangent(view(part, configuration), {give, 0, 1, 0}, unused, of_mass);
-    }
+    std::span<const double> of_mass;
+    if (mass) of_mass = element_tangent(part, configuration, {give, 0, 1, 0}).k;
     for (std::size_t i = 0; i < m0; ++i) {
       for (std::size_t j = 0; j < m0; ++j) k[i * n + j] = mass ? of_mass[i * n + j] : 0.0;
       if (!is_ghost(at)) inertia[static_cast<std::size_t>(slots[i])] += k[i * n + i];
@@ -439,13 +447,17 @@ void Assembler::constraint_rates(const Configuration& configuration, std::span<c
     if (idle_[m]) phi[m] = rate[m] = second[m] = 0;
 }
 
+std::vector<double> Assembler::violations(const Configuration& configuration) {
+  std::vector<double> phi, rate, second;
+  constraint_rates(configuration, phi, rate, second);
+  return phi;
+}
+
 std::vector<double> Assembler::slot_residual(const Configuration& configuration) {
   std::vector<double> all(static_cast<std::size_t>(numbering_.slots()), 0.0);
-  std::vector<double> r;
   for (const int p : own_parts()) {
-    const auto& slots = numbering_.part_slots(p);
-    r.resize(slots.size());
-    element(p).residual(view(p, configuration), r);
+    const auto slots = numbering_.part_slots(p);
+    const auto r = element_residual(p, configuration);
     for (std::size_t i = 0; i < slots.size(); ++i) all[static_cast<std::size_t>(slots[i])] += r[i];
   }
   if (size_ > 1) MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, comm_);

@@ -114,8 +114,8 @@ class Assembler {
   }
   /// As above, into a matrix from new_matrix(), with `give` times the stiffness added to the mass matrix.
   void projection(const Configuration& configuration, Metric metric, std::span<const int> held, Mat into, double give = 0);
-  /// Substitute inertia of motions without any in the last projection by mass, as a moment of inertia: masses times the
-  /// square of the extent.
+  /// Substitute inertia of motions without mass in the last projection by mass, as a moment of inertia: masses times the square
+  /// of the extent.
   double missing_inertia() const { return missing_inertia_; }
   /// Unscaled Φ and its first two time derivatives along the motion, in the order of the multipliers; zero for idle ones.
   void constraint_rates(const Configuration& configuration, std::vector<double>& phi, std::vector<double>& rate,
@@ -123,6 +123,9 @@ class Assembler {
   /// As above, for the constraints of the elements `parts` (indices into Model::parts); zero for all others.
   void constraint_rates(const Configuration& configuration, std::span<const int> parts, std::vector<double>& phi,
                         std::vector<double>& rate, std::vector<double>& second);
+
+  /// Returns Φ alone.
+  std::vector<double> violations(const Configuration& configuration);
 
   /// Returns the unscaled residual of every slot, including those without an equation (reactions of supports), on every rank.
   std::vector<double> slot_residual(const Configuration& configuration);
@@ -134,6 +137,13 @@ class Assembler {
 
   /// State of one element. Its spans refer to the configuration.
   State view(int part, const Configuration& configuration) const;
+  /// Residual and tangent of one element, not scaled, in its slots (Numbering::part_slots); the tangent is square and row-major.
+  struct ElementTangent {
+    std::span<const double> r, k;
+  };
+  /// Valid until the next call of this function or of element_residual().
+  ElementTangent element_tangent(int part, const Configuration& configuration, Weights weights) const;
+  std::span<const double> element_residual(int part, const Configuration& configuration) const;
 
   /// Lets every element update its turn counters. Also used during iterations that search for a position.
   void count_turns(Configuration& configuration);
@@ -141,7 +151,7 @@ class Assembler {
   void commit(Configuration& configuration);
 
  private:
-  const Element& element(int part) const { return *model_.parts[static_cast<std::size_t>(part)].element; }
+  const Element& element(int part) const { return *model_.part(part).element; }
   /// Substitute inertia of motions without mass, by measure of the equation: a negligible part of the largest inertia of that
   /// kind or, where there is none, of the other kind by the extent. Sets missing_inertia_.
   Magnitudes find_missing_inertia(const Magnitudes& heaviest);
@@ -199,6 +209,7 @@ class Assembler {
   // buffers for one batch
   std::vector<State> states_;
   std::vector<double> local_r_, local_k_;
+  mutable std::vector<double> element_r_, element_k_;  ///< buffers of element_tangent()
 };
 
 }  // namespace engrane

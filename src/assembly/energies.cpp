@@ -17,7 +17,7 @@ constexpr double stand_still = 1e-9;
 Energies own_energies(Assembler& assembler, const Configuration& c) {
   Energies sum;
   for (const int p : assembler.own_parts()) {
-    const Energies e = assembler.model().parts[static_cast<std::size_t>(p)].element->energies(assembler.view(p, c));
+    const Energies e = assembler.model().part(p).element->energies(assembler.view(p, c));
     sum.kinetic += e.kinetic;
     sum.potential += e.potential;
     sum.external += e.external;
@@ -33,8 +33,8 @@ void come_to_rest(Configuration& c) {
   std::fill(c.scalar_accelerations.begin(), c.scalar_accelerations.end(), 0.0);
 }
 
-/// Forces that the free components of the nodes lack to be in balance. After a restart, loads need not be those that the
-/// equilibrium was found with: it lacks those that have gone, less those that have come.
+/// Unbalanced loads on the free components of the nodes. After a restart, loads need not be those that the equilibrium was
+/// found with: loads that have ended are unbalanced, and those that were added, with the opposite sign.
 std::vector<Reaction> lack_of_balance(Assembler& assembler, const Configuration& c) {
   const std::vector<double> r = assembler.slot_residual(c);
   std::vector<Reaction> lacks;
@@ -77,7 +77,7 @@ StaticWork static_work(Assembler& assembler, Reactions& supports, Configuration 
     std::vector<double> works;
     works.reserve(assembler.own_parts().size());
     for (const int p : assembler.own_parts()) {
-      const Energies rates = assembler.model().parts[static_cast<std::size_t>(p)].element->energies(assembler.view(p, c));
+      const Energies rates = assembler.model().part(p).element->energies(assembler.view(p, c));
       works.push_back(time * rates.external);
       dissipated += std::abs(rates.dissipated);
       given += std::max(-rates.dissipated, 0.0);

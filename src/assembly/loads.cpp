@@ -18,7 +18,7 @@ LoadSum sum_loads(const Assembler& assembler, const Configuration& c) {
   std::vector<double> forces;
   LoadSum sum;
   for (const int p : assembler.own_parts()) {
-    const Model::Part& part = model.parts[static_cast<std::size_t>(p)];
+    const Model::Part& part = model.part(p);
     const Layout& layout = part.element->layout();
     forces.resize(static_cast<std::size_t>(layout.slots()));
     if (!part.element->applied(assembler.view(p, c), forces)) continue;

@@ -19,8 +19,7 @@ Measure measure_of(const Named& named, bool multiplier) {
 
 }  // namespace
 
-Numbering::Numbering(const Model& model, Partition partition)
-    : model_(model), partition_(std::move(partition)), rotates_(model.nodes.size(), false) {
+Numbering::Numbering(const Model& model, Partition partition) : model_(model), partition_(std::move(partition)) {
   const auto node_slots = 6 * model.nodes.size();
   std::vector<bool> used(node_slots, false);
   for (const Model::Part& part : model.parts) {
@@ -30,7 +29,6 @@ Numbering::Numbering(const Model& model, Partition partition)
       if (node == 0) continue;
       for (int c = 0; c < 6; ++c)
         if (layout.has(i, c)) used[6 * node + static_cast<std::size_t>(c)] = true;
-      if (layout.needs_any(i, NodeNeed::rotation)) rotates_[node] = true;
     }
     scalars_ += static_cast<int>(layout.scalars.size());
     multipliers_ += static_cast<int>(layout.own_multipliers());
@@ -157,13 +155,13 @@ const char* component_name(int component) {
 
 std::string Numbering::describe(int equation) const {
   const Unknown& u = unknown(equation);
-  if (u.part < 0) return fmt::format("node {} ({})", model_.nodes[static_cast<std::size_t>(u.node)].id, component_name(u.item));
-  const Model::Part& part = model_.parts[static_cast<std::size_t>(u.part)];
+  if (u.part < 0) return fmt::format("node {} ({})", model_.node(u.node).id, component_name(u.item));
+  const Model::Part& part = model_.part(u.part);
   const Layout& layout = part.element->layout();
   const auto item = static_cast<std::size_t>(u.item);
   const Named& named =
       u.multiplier ? static_cast<const Named&>(layout.multipliers[item]) : static_cast<const Named&>(layout.scalars[item]);
-  return fmt::format("{} {} ({})", part.type, part.element->id(), named.name);
+  return fmt::format("{} ({})", part.name(), named.name);
 }
 
 }  // namespace engrane

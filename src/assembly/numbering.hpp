@@ -23,6 +23,9 @@ struct Unknown {
   bool multiplier = false;
   bool signal = false;               ///< see Scalar::signal
   Measure measure = Measure::force;  ///< of its equation
+
+  /// Whether it is an angle or a moment; so is its residual.
+  bool rotational() const { return measure == Measure::moment || measure == Measure::angle; }
 };
 
 /// Numbering of slots and equations. A slot is the storage place of one value: six per node, whether or not these are unknowns,
@@ -74,9 +77,6 @@ class Numbering {
   /// The initial state as given by the deck: reference positions, initial values of the elements, everything at rest.
   Configuration reference_configuration(double time) const;
 
-  /// Whether any element needs the rotations of the node (free or held).
-  bool rotates(int node) const { return rotates_[static_cast<std::size_t>(node)]; }
-
   /// "node 57 (rz)" or "GEAR 7 (LAMBDA_1)".
   std::string describe(int equation) const;
 
@@ -97,7 +97,6 @@ class Numbering {
   std::vector<Unknown> left_out_;  ///< multipliers without an equation, sorted by slot
   std::vector<Part> parts_;        ///< one entry per part and a final one with the ends
   std::vector<int> part_slots_;
-  std::vector<bool> rotates_;
   int motion_slots_ = 0;
   int scalars_ = 0, multipliers_ = 0, history_ = 0;
 };

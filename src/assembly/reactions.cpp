@@ -18,9 +18,9 @@ Reactions::Reactions(Assembler& assembler) : assembler_(assembler) {
   place_.assign(model.nodes.size(), -1);
   for (std::size_t i = 0; i < nodes_.size(); ++i) place_[static_cast<std::size_t>(nodes_[i])] = static_cast<int>(i);
   for (const int p : assembler.own_parts()) {
-    const std::vector<int>& ends = model.parts[static_cast<std::size_t>(p)].nodes;
+    const std::vector<int>& ends = model.part(p).nodes;
     if (std::find(ends.begin(), ends.end(), 0) != ends.end()) grounded_.push_back(p);
-    for (const int node : model.parts[static_cast<std::size_t>(p)].nodes)
+    for (const int node : model.part(p).nodes)
       if (node >= 0 && this->supported(node)) {
         parts_.push_back(p);
         break;
@@ -34,11 +34,10 @@ std::vector<Reaction> Reactions::at(const Configuration& c) {
   std::vector<Reaction> reactions;
   if (nodes_.empty()) return reactions;
   const Numbering& numbering = assembler_.numbering();
-  std::vector<double> sums(6 * nodes_.size(), 0.0), r;
+  std::vector<double> sums(6 * nodes_.size(), 0.0);
   for (const int part : parts_) {
     const std::span<const int> slots = numbering.part_slots(part);
-    r.resize(slots.size());
-    assembler_.model().parts[static_cast<std::size_t>(part)].element->residual(assembler_.view(part, c), r);
+    const auto r = assembler_.element_residual(part, c);
     for (std::size_t i = 0; i < slots.size(); ++i) {
       const auto node = static_cast<std::size_t>(slots[i] / 6);
       if (node < place_.size() && place_[node] >= 0) sums[static_cast<std::size_t>(6 * place_[node] + slots[i] % 6)] += r[i];
@@ -56,11 +55,9 @@ std::vector<Reaction> Reactions::at(const Configuration& c) {
 
 Resultant Reactions::resultant(const Configuration& c, const std::vector<Reaction>& reactions) {
   std::array<double, 6> sum{};
-  std::vector<double> r;
   for (const int part : grounded_) {
     const std::span<const int> slots = assembler_.numbering().part_slots(part);
-    r.resize(slots.size());
-    assembler_.model().parts[static_cast<std::size_t>(part)].element->residual(assembler_.view(part, c), r);
+    const auto r = assembler_.element_residual(part, c);
     // the ground is at the origin and does not rotate, so its slots are forces and moments about the origin
     for (std::size_t i = 0; i < slots.size(); ++i)
       if (slots[i] < 6) sum[static_cast<std::size_t>(slots[i])] += r[i];

@@ -150,10 +150,7 @@ class Builder {
                                                                                   : nullptr)
         diagnostics_.warning_once(what, record.location,
                                   fmt::format("the deck has no cells (.MAI): this {} has no effect", what));
-    if (const auto* check = record.get<deck::CheckCard>()) {
-      model_.commands.checks.push_back(*check);
-      model_.commands.check_locations.push_back(record.location);
-    }
+    if (const auto* check = record.get<deck::CheckCard>()) model_.commands.checks.push_back(*check);
     if (const auto* fix = record.get<deck::FixCard>()) add_supports(record, *fix, fix->components, {}, 0);
     if (const auto* dep = record.get<deck::DisplacementCard>())
       add_supports(record, *dep, dep->components, dep->values, dep->function);
@@ -378,7 +375,7 @@ class Builder {
   /// Returns the number of elements built from the record.
   int add_element(const ElementRecord& element, int number) {
     const deck::Record& record = *element.record;
-    if (!check_references(record, diagnostics_)) return 0;
+    if (!has_nodes_named(record, nodes_, diagnostics_)) return 0;
     const std::string& name = element.type->schema.name;
     const bool command = name.front() == '.';
     if (command && taken(number, record)) return 0;
@@ -441,7 +438,7 @@ class Builder {
     if (!element.type->place) return;
     const deck::Record& record = *element.record;
     Diagnostics unheard;  // reported again when the element is built
-    if (!check_references(record, unheard)) return;
+    if (!has_nodes_named(record, nodes_, unheard)) return;
     const auto placed = element.type->place(context_of(record, unheard));
     if (!placed) return;
     if (fixed_.count(placed->node) > 0) {
@@ -471,21 +468,6 @@ class Builder {
                       old->second->id),
           "keep PLACE in one of them");
     }
-  }
-
-  bool check_references(const deck::Record& record, Diagnostics& diagnostics) {
-    bool good = true;
-    for (const deck::Field& field : record.schema->fields) {
-      if (field.reference != deck::Reference::node) continue;
-      for (const double value : field.load(record.data).numbers) {
-        const int id = static_cast<int>(value);
-        if (nodes_.contains(id)) continue;
-        diagnostics.missing(".NOE", record.where(field.keyword),
-                            fmt::format("node {} of {} {} does not exist", id, record.schema->name, record.id));
-        good = false;
-      }
-    }
-    return good;
   }
 
   /// Infinite if all rotations of the node are supported.

@@ -12,7 +12,7 @@ class ElasticTeeth {
   virtual int tooth_deformation() const = 0;
   /// How far the flank that carries load is pressed in, a length along the circumference; 0 within the backlash.
   virtual double tooth_deflection(const State& state) const = 0;
-  /// What deflections are measured by: the normal module, or a backlash that is wider.
+  /// Length to which deflections are compared: the normal module, or the backlash if it is wider.
   virtual double tooth_size() const = 0;
 
  protected:

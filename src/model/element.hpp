@@ -71,10 +71,11 @@ struct Field : Named {
   int points = 1;                            ///< for Place::point: number of points per element
   bool averaged = false;                     ///< also extrapolated to the nodes and averaged there (Element::section)
 
+  std::size_t width() const { return components.empty() ? 1 : components.size(); }
   /// Number of values on an element with this many nodes.
   std::size_t size(std::size_t nodes) const {
     const std::size_t places = place == Place::node ? nodes : place == Place::point ? static_cast<std::size_t>(points) : 1;
-    return places * (components.empty() ? 1 : components.size());
+    return places * width();
   }
 };
 
@@ -147,6 +148,8 @@ struct Layout {
   int slides = 0;                     ///< number of dry frictions regularised near zero speed (Element::sliding)
   std::vector<SwitchNames> switches;  ///< where the element's law is not smooth; in dynamics, steps end at their sign changes
 
+  /// Dry friction of either kind.
+  bool has_friction() const { return slides > 0 || !grips.empty(); }
   bool needs_any(std::size_t node, NodeNeed what) const {
     return (static_cast<unsigned>(needs[node]) & static_cast<unsigned>(what)) != 0;
   }

@@ -15,7 +15,7 @@ struct ElementAtRest {
         rates(scalars.size()),
         multipliers(part.element->layout().multipliers.size()),
         history(static_cast<std::size_t>(part.element->layout().history)) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].x = model.nodes[static_cast<std::size_t>(part.nodes[i])].x;
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].x = model.node(part.nodes[i]).x;
     part.element->start(scalars, history);
   }
 

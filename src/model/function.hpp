@@ -32,7 +32,7 @@ class Function {
   /// are more than `most`, as for a measured curve. Unknown, hence empty, for user routines, and between infinite limits for
   /// formulas and periodic functions.
   virtual std::vector<double> corners(double /*from*/, double /*to*/, std::size_t /*most*/) const { return {}; }
-  /// The same with the points at which a derivative up to the third jumps: the function is smooth between them.
+  /// The corners and the points at which a derivative up to the third jumps: the function is smooth between them.
   virtual std::vector<double> joints(double from, double to, std::size_t most) const { return corners(from, to, most); }
   /// Period; 0 if not periodic or unknown.
   virtual double period() const { return 0; }

@@ -31,9 +31,7 @@ struct GripState {
   /// The friction limit may be exceeded by this fraction, to allow for rounding.
   static constexpr double slack = 1e-9;
 
-  static GripState slides_towards(const Vec3& direction, const Vec3& held = Vec3::Zero()) {
-    return {sliding, held, direction.normalized()};
-  }
+  static GripState slides_towards(const Vec3& direction, const Vec3& held) { return {sliding, held, direction.normalized()}; }
   static GripState holds_at(const Vec3& held) { return {holding, held}; }
 
   /// Number of history values.

@@ -113,6 +113,17 @@ MassProperties plane_mass_properties(const Model& model, const Model::Part& part
   return found;
 }
 
+/// Translational mass that an element contributes to its first node, from its residual under unit acceleration.
+double mass_at_first_node(const Model& model, const Model::Part& part) {
+  ElementAtRest body(model, part);
+  const auto n = static_cast<std::size_t>(part.element->layout().slots());
+  std::vector<double> still(n), moved(n);
+  part.element->residual(body.view(), still);
+  body.nodes[0].a = Vec3::UnitX();
+  part.element->residual(body.view(), moved);
+  return moved[0] - still[0];
+}
+
 }  // namespace
 
 void MassProperties::add(const MassProperties& other) {
@@ -157,6 +168,14 @@ double mass_of(const Model& model, const Model::Part& part) {
   const bool is_plane_cell = part.element->cell_shape() != CellShape::none && part.element->layout().node_slots() > 0 &&
                              part.element->layout().needs_any(0, NodeNeed::in_plane);
   return is_plane_cell ? plane_mass_properties(model, part, true).mass : mass_properties(model, part).mass;
+}
+
+double radius_of_gyration(const Model& model, const Model::Part& part) {
+  if (part.nodes.empty() || part.nodes.front() <= 0) return 0;
+  const Mat3 inertia = part.element->inertia_at(model.node(part.nodes.front()).id);
+  const double moment = inertia.diagonal().maxCoeff();
+  const double mass = moment > 0 ? mass_at_first_node(model, part) : 0;
+  return mass > 0 ? std::sqrt(moment / mass) : 0;
 }
 
 }  // namespace engrane

@@ -18,7 +18,9 @@ struct MassProperties {
 
 /// Mass properties of one element: its inertia forces and moments for rigid-body accelerations of all its nodes.
 MassProperties mass_properties(const Model& model, const Model::Part& part);
-/// The same mass only; for a plane cell at half the cost.
+/// The mass alone; for a plane cell at half the cost.
 double mass_of(const Model& model, const Model::Part& part);
+/// Radius of gyration of a body about its first node, √(J/M) with the largest J; 0 if it has no mass there.
+double radius_of_gyration(const Model& model, const Model::Part& part);
 
 }  // namespace engrane

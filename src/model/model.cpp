@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "model/element_at_rest.hpp"
 #include "model/jump.hpp"
+#include "model/masses.hpp"
 #include "model/user_function.hpp"
 
 namespace engrane {
@@ -50,7 +50,7 @@ double size_of_nodes(const Model& model) {
   const auto of_each = [&model](auto&& with) {
     for (const Model::Part& part : model.parts)
       for (const int node : part.nodes)
-        if (node > 0) with(model.nodes[static_cast<std::size_t>(node)].x);
+        if (node > 0) with(model.node(node).x);
   };
   // The mean is taken from one of the nodes, so that a model far from the origin loses no digits in the sum.
   double count = 0, away = 0, farthest = 0;
@@ -64,15 +64,6 @@ double size_of_nodes(const Model& model) {
   const Vec3 mean = sum / std::max(count, 1.0);
   of_each([&](const Vec3& x) { farthest = std::max(farthest, (x - one - mean).norm()); });
   return 2 * farthest > rounding * away ? 2 * farthest : 0;
-}
-
-/// Radius of gyration of a body about its first node; 0 if the element has no mass there.
-double radius_of_gyration(const Model& model, const Model::Part& part) {
-  if (part.nodes.empty() || part.nodes.front() <= 0) return 0;
-  const Mat3 inertia = part.element->inertia_at(model.nodes[static_cast<std::size_t>(part.nodes.front())].id);
-  const double moment = inertia.diagonal().maxCoeff();
-  const double mass = moment > 0 ? mass_at_first_node(model, part) : 0;
-  return mass > 0 ? std::sqrt(moment / mass) : 0;
 }
 
 /// Whether the lengths known to an element only bound a motion, which may never reach them: "no lower limit" is often written as
@@ -129,16 +120,6 @@ void Model::measure() {
   const KnownLengths known = known_lengths(*this);
   // A bound can only tell that motions are small. An unreachable one thus has no effect.
   extent_ = known.largest > 0 ? known.largest : std::min(1.0, known.bound);
-}
-
-double mass_at_first_node(const Model& model, const Model::Part& part) {
-  ElementAtRest body(model, part);
-  const auto n = static_cast<std::size_t>(part.element->layout().slots());
-  std::vector<double> still(n), moved(n);
-  part.element->residual(body.view(), still);
-  body.nodes[0].a = Vec3::UnitX();
-  part.element->residual(body.view(), moved);
-  return moved[0] - still[0];
 }
 
 bool has_cells(const Model& model) {

@@ -60,7 +60,7 @@ struct Gravity {
   const Function* function = nullptr;
 };
 
-/// What to run and how.
+/// The analysis to run and its settings.
 struct Commands {
   deck::AnalysisCard analysis;
   deck::SteppingCard stepping;
@@ -68,7 +68,6 @@ struct Commands {
   std::optional<deck::BucklingCard> buckling;
   deck::ArchiveCard archive;
   std::vector<deck::CheckCard> checks;
-  std::vector<Location> check_locations;
 };
 
 /// The mechanism described by the deck; constant during the solution.
@@ -82,6 +81,9 @@ struct Model {
     const deck::Record* record = nullptr;
     Location location;
     std::vector<int> nodes;  ///< indices of the element's nodes
+
+    /// "GEAR 7".
+    std::string name() const { return type + " " + std::to_string(element->id()); }
   };
 
   std::string title;
@@ -99,6 +101,8 @@ struct Model {
   Commands commands;
   PlaneModel plane;  ///< not active unless the deck asks for it (`.SAM PLANE`)
 
+  const Node& node(int index) const { return nodes[static_cast<std::size_t>(index)]; }
+  const Part& part(int index) const { return parts[static_cast<std::size_t>(index)]; }
   int node_index(int id) const;  ///< -1 when there is no such node
   Vec3 gravity_at(double time) const;
   /// The part of it that functions of time give; nothing if there are none.
@@ -122,9 +126,6 @@ struct Model {
 
 /// Whether the deck has a mesh.
 bool has_cells(const Model& model);
-
-/// Translational mass that an element contributes to its first node, from its residual under unit acceleration.
-double mass_at_first_node(const Model& model, const Model::Part& part);
 
 /// The record of an element as JSON, for the results file. For a load on several nodes, only the node of this element is given.
 std::string parameters_json(const Model::Part& part);

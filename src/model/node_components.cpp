@@ -18,8 +18,8 @@ namespace {
 
 bool is_nodal_load(const Model::Part& part) { return part.type == "CHA"; }
 
-/// What the elements of each node need of it, as a sum of NodeNeed; 0 if it has no element. Nodal loads need the components that
-/// they act on, and do not give them to a node.
+/// Node components that elements use, as NodeNeed flags, one entry per node; 0 if it has no element. Nodal loads are left out:
+/// they need the components that they act on, but do not give them to a node.
 std::vector<unsigned> needs_of_nodes(const Model& model) {
   std::vector<unsigned> needs(model.nodes.size(), 0);
   for (const Model::Part& part : model.parts)
@@ -28,13 +28,13 @@ std::vector<unsigned> needs_of_nodes(const Model& model) {
   return needs;
 }
 
-/// How a record gives values for components that a node with such needs lacks.
+/// Why a component of a node does not exist, for a message.
 struct Lack {
   std::string node;        ///< what the node is
-  std::string components;  ///< those that it has
+  std::string components;  ///< the components that it has
 };
 
-/// Has a node with such needs no such component, counted from 0?
+/// The reason if a node with these NodeNeed flags lacks a component (0 to 5); nothing if it has it.
 std::optional<Lack> lacks(unsigned needs, int component) {
   if (needs == static_cast<unsigned>(NodeNeed::in_plane) && component > 1)
     return Lack{"the node is one of plane cells", "its components are 1 and 2"};
@@ -116,7 +116,7 @@ void check_nodal_loads(const Model& model, Diagnostics& diagnostics) {
       if (!lack || !told.insert({part.location.file, part.location.line}).second) continue;
       diagnostics.error(part.location,
                         fmt::format("{} on node {}: {}", component < 3 ? "a force along z cannot act" : "a moment cannot act",
-                                    model.nodes[static_cast<std::size_t>(node)].id, lack->node),
+                                    model.node(node).id, lack->node),
                         lack->components);
     }
   }

@@ -143,7 +143,7 @@ class Examination {
   void fault(const Location& location, std::string what, std::string hint) {
     faults_.push_back({location, std::move(what), std::move(hint)});
   }
-  std::string node_name(int node) const { return fmt::format("node {}", model_.nodes[static_cast<std::size_t>(node)].id); }
+  std::string node_name(int node) const { return fmt::format("node {}", model_.node(node).id); }
   bool leaves(int component) const { return plane_.leaves_out(component); }
 
   /// Checks supports, initial values and gravity.
@@ -173,7 +173,7 @@ class Examination {
 
   /// A coordinate whose rate is zero whatever the velocities in the plane are can only change out of it.
   void look_at_coordinate(const InitialCoordinate& one) {
-    const Model::Part& part = model_.parts[static_cast<std::size_t>(one.part)];
+    const Model::Part& part = model_.part(one.part);
     const auto channel = static_cast<std::size_t>(one.channel);
     const std::vector<Channel>& channels = part.element->channels();
     prepare(part);
@@ -182,8 +182,8 @@ class Examination {
     const double size = channels[channel].dimension.length == 0 ? 1 : model_.extent();
     if (!(std::abs(values[channel + 1]) <= residue * size / span_of(model_.commands.stepping))) return;
     fault(one.location,
-          fmt::format("the initial {} of {} {} leads out of the plane {}", channels[channel + (one.velocity ? 1 : 0)].name,
-                      part.type, part.element->id(), name()),
+          fmt::format("the initial {} of {} leads out of the plane {}", channels[channel + (one.velocity ? 1 : 0)].name,
+                      part.name(), name()),
           "leave it out, or solve in space (PLANE NO)");
   }
 
@@ -278,8 +278,8 @@ class Examination {
       plane_.out_of_plane[begin + m] = out;
       if (!out || multiplier.role == Role::grip || !open[m].acts_out()) continue;
       fault(part.location,
-            fmt::format("{} {} moves its nodes out of the plane {}: its {} is not zero there", part.type, part.element->id(),
-                        name(), multiplier.help.empty() ? multiplier.name : multiplier.help),
+            fmt::format("{} moves its nodes out of the plane {}: its {} is not zero there", part.name(), name(),
+                        multiplier.help.empty() ? multiplier.name : multiplier.help),
             fmt::format("put its nodes at the same {}, its axes along {} or in the plane, and drive it in the plane only", axis(),
                         axis()));
       return false;
@@ -320,11 +320,10 @@ class Examination {
       }
     if (forces.acts_out()) {
       const int c = components_[worst];
-      PlaneFault pushes{
-          part.location,
-          fmt::format("{} {} is not of the plane {}: it {} {} {} {}", part.type, part.element->id(), name(),
-                      c < 3 ? "pushes" : "turns", node_name(nodes_[worst]), c < 3 ? "along" : "about", "xyz"[c % 3]),
-          hint_for(part)};
+      PlaneFault pushes{part.location,
+                        fmt::format("{} is not of the plane {}: it {} {} {} {}", part.name(), name(), c < 3 ? "pushes" : "turns",
+                                    node_name(nodes_[worst]), c < 3 ? "along" : "about", "xyz"[c % 3]),
+                        hint_for(part)};
       // joints cannot justify loads given out of plane
       (is_load(part) ? faults_ : pushed_).push_back(std::move(pushes));
     }
@@ -334,7 +333,7 @@ class Examination {
   /// In-plane forces must not depend on out-of-plane reactions, which are unknown in the plane problem.
   void look_at_friction(const Model::Part& part, std::size_t begin, double forces) {
     const Layout& layout = part.element->layout();
-    if (layout.slides == 0 && layout.grips.empty()) return;
+    if (!layout.has_friction()) return;
     std::vector<double> before(layout.grips.size()), after(before.size()), first;
     bool follows = false;
     for (const Probe& probe : probes_) {
@@ -354,10 +353,9 @@ class Examination {
         follows = follows || std::abs(after[i] - before[i]) > 1e-9 * std::abs(before[i]);
     }
     if (follows)
-      rubbed_.push_back(
-          {part.location,
-           fmt::format("the friction of {} {} follows from forces out of the plane {}", part.type, part.element->id(), name()),
-           "leave out its friction, or remove what pushes out of the plane"});
+      rubbed_.push_back({part.location,
+                         fmt::format("the friction of {} follows from forces out of the plane {}", part.name(), name()),
+                         "leave out its friction, or remove what pushes out of the plane"});
   }
 
   /// If elements exert out-of-plane forces: checks whether constraints that act only out of plane restrain all nodes there.

@@ -35,7 +35,7 @@ class BuildNotes {
   std::map<std::type_index, std::shared_ptr<void>> notes_;
 };
 
-/// What an element may look up while it is built from its record. Faults of the deck go to `diagnostics`, at the location of
+/// Context in which an element is built from its record. Faults of the deck go to `diagnostics`, at the location of
 /// the wrong keyword (`record.where("MN")`). An element that cannot be built is nullptr.
 struct BuildContext {
   const NodePositions& nodes;  ///< in the reference configuration; the ground, node 0, is at the origin
@@ -69,7 +69,7 @@ struct BuildContext {
 
   /// The function a keyword names; nullptr with an error if it does not exist.
   const Function* function(int id, std::string_view keyword) const;
-  /// The same for a function of time: error-controlled steps end at its corners.
+  /// The function of time a keyword names, as function(): error-controlled steps end at its corners.
   const Function* function_of_time(int id, std::string_view keyword) const;
   void error(std::string_view keyword, std::string message, std::string hint = {}) const {
     diagnostics.error(record.where(keyword), std::move(message), std::move(hint));

@@ -27,14 +27,15 @@ NodePositions positions_of(const deck::Deck& deck) {
   return NodePositions(std::move(nodes));
 }
 
-/// Whether the nodes that a record names exist; if not, reports errors. All of them are added to `named`.
-bool has_nodes(const deck::Record& record, const NodePositions& nodes, std::set<int>& named, Diagnostics& diagnostics) {
+}  // namespace
+
+bool has_nodes_named(const deck::Record& record, const NodePositions& nodes, Diagnostics& diagnostics, std::set<int>* named) {
   bool good = true;
   for (const deck::Field& field : record.schema->fields) {
     if (field.reference != deck::Reference::node) continue;
     for (const double value : field.load(record.data).numbers) {
       const int id = static_cast<int>(value);
-      named.insert(id);
+      if (named) named->insert(id);
       if (nodes.contains(id)) continue;
       diagnostics.missing(".NOE", record.where(field.keyword),
                           fmt::format("node {} of {} {} does not exist", id, record.schema->name, record.id));
@@ -43,8 +44,6 @@ bool has_nodes(const deck::Record& record, const NodePositions& nodes, std::set<
   }
   return good;
 }
-
-}  // namespace
 
 void ShortForm::add(std::string_view card, int id, std::any data) {
   const deck::Schema* schema = cards_.find(card);
@@ -100,7 +99,7 @@ std::shared_ptr<const deck::Deck> write_out(const deck::Deck& deck, const std::v
     const ElementType* type = form_of(record);
     if (!type) {
       out->records.push_back(record);
-    } else if (has_nodes(record, nodes, named, diagnostics)) {
+    } else if (has_nodes_named(record, nodes, diagnostics, &named)) {
       ShortForm form(record, deck, cards, nodes, free, out->records, diagnostics);
       type->expand(form);
     }

@@ -14,6 +14,10 @@
 
 namespace engrane {
 
+/// Whether the nodes that a record names exist; if not, reports errors. All of them are added to `named`.
+bool has_nodes_named(const deck::Record& record, const NodePositions& nodes, Diagnostics& diagnostics,
+                     std::set<int>* named = nullptr);
+
 /// A record of a short form during its expansion.
 class ShortForm {
  public:

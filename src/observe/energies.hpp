@@ -29,7 +29,7 @@ struct EnergyBalance {
   double largest_error = 0;  ///< largest |error()| so far
   double passed = 0;         ///< integral of the absolute values of all power in and out
   double exchanged = 0;      ///< largest change of the potential energy since the start
-  Jump jump;                 ///< statics: the one that lost or won most
+  Jump jump;                 ///< statics: the jump with the largest energy
 
   /// Upper bound for a plausible error(): the initial energy, the energy that passed through the model, and the largest change
   /// of the potential energy.
@@ -75,13 +75,13 @@ class EnergyLedger {
     Energies energies;
   };
   Moment moment_at(const Configuration& c, const std::vector<Reaction>& reactions);
-  /// Integrates the powers from the last moment on, by the polynomial or the trapezoidal rule.
+  /// Integrates the powers from the last moment to this one, by the polynomial or the trapezoidal rule.
   void integrate_to(const Moment& moment);
   /// Integrates the powers over the whole step with the points inside.
   void integrate_over_inside(const Moment& end);
   /// Makes the points inside ends of steps of their own.
   void end_steps_inside();
-  /// The work is up to date: makes this the last moment.
+  /// Makes this the last moment, after its work has been added.
   void arrive(const Moment& moment);
 
   Assembler& assembler_;

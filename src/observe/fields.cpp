@@ -75,9 +75,7 @@ ElementFields::ElementFields(Assembler& assembler) : assembler_(assembler), poin
     kind_of_part_.push_back(kind->second);
     for (const Use& use : kinds_[static_cast<std::size_t>(kind->second)].uses) fields_[use.field].place_count += use.places;
     for (const Field& field : declared)
-      if (const std::size_t width = std::max<std::size_t>(1, field.components.size());
-          field.averaged && width == fields_[known.at(field.name)].width())
-        averages_.declare(field, part);
+      if (field.averaged && field.width() == fields_[known.at(field.name)].width()) averages_.declare(field, part);
   }
   // fields with one value per part need no second list
   for (std::size_t f = 0; f < fields_.size(); ++f)
@@ -102,7 +100,7 @@ ElementFields::Kind ElementFields::make_kind(const Model::Part& part, std::map<s
   for (const Field& field : part.element->fields()) {
     const auto [at, is_new] = known.try_emplace(field.name, fields_.size());
     if (is_new) fields_.push_back({field, field.components, {}, {}, 0});
-    const std::size_t size = field.size(part.nodes.size()), width = std::max<std::size_t>(1, field.components.size());
+    const std::size_t size = field.size(part.nodes.size()), width = field.width();
     if (width == fields_[at->second].width()) kind.uses.push_back({at->second, kind.size, size / width, field.averaged});
     kind.size += size;
   }
@@ -159,7 +157,7 @@ void ElementFields::evaluate_own(const Configuration& c) {
 void ElementFields::estimate_errors(const Configuration& c) {
   energies_.assign(2, 0.0);
   for (const int p : assembler_.own_parts()) {
-    const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(p)];
+    const Model::Part& part = assembler_.model().part(p);
     const std::span<const double> recovered = averages_.at_nodes(stress, part);
     if (recovered.empty()) continue;
     const StressEnergies found = part.element->stress_energies(assembler_.view(p, c), recovered);

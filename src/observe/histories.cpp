@@ -122,7 +122,7 @@ void Histories::find_known() {
   std::size_t column = 0;
   for (std::size_t t = 0; t < part_tables_; ++t)
     for (const int part : tables_[t].owners) {
-      const Element& element = *assembler_.model().parts[static_cast<std::size_t>(part)].element;
+      const Element& element = *assembler_.model().part(part).element;
       const auto* known = dynamic_cast<const DeterminedChannels*>(&element);
       const std::vector<DeterminedChannels::Determined> all = known ? known->determined() : decltype(known->determined())();
       for (const int place : tables_[t].places) {
@@ -146,7 +146,7 @@ const std::vector<double>& Histories::sources(const Configuration& c) {
     if (channels.empty()) continue;
     const int part = known.part;
     if (std::exchange(seen, part) != part) {
-      const Element& element = *assembler_.model().parts[static_cast<std::size_t>(part)].element;
+      const Element& element = *assembler_.model().part(part).element;
       element_.resize(element.channels().size());
       element.observe(assembler_.view(part, c), element_);
     }
@@ -179,7 +179,7 @@ const std::vector<double>& Histories::evaluate(const Configuration& c, const std
   for (std::size_t t = 0; t < part_tables_; ++t)
     for (const int part : tables_[t].owners) {
       if (!assembler_.owns(part)) continue;
-      const Element& element = *model.parts[static_cast<std::size_t>(part)].element;
+      const Element& element = *model.part(part).element;
       element_.resize(element.channels().size());
       element.observe(assembler_.view(part, c), element_);
       for (const int place : tables_[t].places) own_.push_back(element_[static_cast<std::size_t>(place)]);
@@ -206,8 +206,7 @@ void Histories::put_nodes(const Configuration& c, const std::vector<Reaction>& r
       const NodeState& node = c.nodes[static_cast<std::size_t>(index)];
       all.clear();
       const auto put = [&all](const Vec3& v) { all.insert(all.end(), v.data(), v.data() + 3); };
-      put(node.x - model.nodes[static_cast<std::size_t>(index)].x +
-          Eigen::Map<const Vec3>(&c.remainders[6 * static_cast<std::size_t>(index)]));
+      put(node.x - model.node(index).x + Eigen::Map<const Vec3>(&c.remainders[6 * static_cast<std::size_t>(index)]));
       put(rotation_log(node.R));
       if (moves_) {
         put(node.v);

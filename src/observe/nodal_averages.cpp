@@ -33,7 +33,7 @@ NodalAverages::Sum* NodalAverages::find(const std::string& name, std::size_t wid
 }
 
 void NodalAverages::declare(const Field& field, const Model::Part& part) {
-  const std::size_t width = std::max<std::size_t>(1, field.components.size());
+  const std::size_t width = field.width();
   if (std::none_of(sums_.begin(), sums_.end(), [&](const Sum& sum) { return sum.name == field.name; })) {
     sums_.push_back({field.name, width, std::vector<int>(points_.size(), 0), {}});
     fields_.push_back({field, field.components, {}});
@@ -95,7 +95,7 @@ void NodalAverages::finish(MPI_Comm comm) {
 std::span<const double> NodalAverages::at_nodes(const std::string& name, const Model::Part& part) {
   std::size_t width = 0;
   for (const Field& field : part.element->fields())
-    if (field.name == name) width = std::max<std::size_t>(1, field.components.size());
+    if (field.name == name) width = field.width();
   const Sum* sum = find(name, width, part);
   if (!sum) return {};
   gathered_.clear();

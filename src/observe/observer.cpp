@@ -88,8 +88,7 @@ Observer::Observer(Assembler& assembler, bool moves, const Selection& selection)
       cells_(has_cells(assembler.model())),
       ends_(most_ends, std::numeric_limits<double>::infinity()) {
   if (!cells_) return;
-  for (const int p : assembler.own_parts())
-    mass_ += mass_of(assembler.model(), assembler.model().parts[static_cast<std::size_t>(p)]);
+  for (const int p : assembler.own_parts()) mass_ += mass_of(assembler.model(), assembler.model().part(p));
   MPI_Allreduce(MPI_IN_PLACE, &mass_, 1, MPI_DOUBLE, MPI_SUM, assembler.comm());
 }
 

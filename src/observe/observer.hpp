@@ -42,7 +42,7 @@ class Observer {
   void keep_ends();
   /// Observes a configuration in equilibrium inside the step whose end is observed next, at one of the lobatto_points.
   void observe_inside(const Configuration& c);
-  /// Takes the power of such a configuration, but no histories.
+  /// Takes only the power of a configuration as for observe_inside(), without histories.
   void integrate_inside(const Configuration& c) { ledger_.add_inside(c, supports_.at(c)); }
   /// Sets values() to those at an instant between the last two step ends, where `c` is the interpolated motion. Most values
   /// come from polynomials through the values observed since the last event (Channel::Course). Angles, velocities and angular
@@ -54,7 +54,8 @@ class Observer {
   void back_to_end();
   /// Computes the fields of a configuration in equilibrium.
   void find_fields(const Configuration& c);
-  /// As above, for an instant between two step ends where only the motion is known: forces are interpolated linearly.
+  /// Computes the fields at an instant between two step ends where only the motion `c` is known: forces are interpolated
+  /// linearly.
   void find_fields(const Configuration& c, const Configuration& from, const Configuration& to);
 
   /// Finds the channels that are not unique because of redundant constraints: those that change when a self-equilibrated
@@ -115,7 +116,7 @@ class Observer {
   double mass_ = 0;  ///< total mass, only if it has cells
 
   void evaluate_histories(const Configuration& c, const Step& step);
-  /// Writes the energies of the whole model to values(). Returns how many follow one another: the strain energy does not.
+  /// Writes the energies of the whole model to values(). Returns how many are adjacent: the strain energy is not.
   std::ptrdiff_t put_energies(const EnergyBalance& e);
   /// Adds the values of inside_ to the interpolation points, with the work that is known now.
   void keep_inside();

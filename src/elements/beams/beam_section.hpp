@@ -57,7 +57,6 @@ class SectionLine {
 
   /// Section at a fraction of the length: 0 at the first node, 1 at the last.
   std::shared_ptr<const BeamSection> at(double part) const { return between_ ? between_(part) : first_; }
-  bool is_even() const { return !between_; }
   const BeamSection& first() const { return *first_; }
 
  private:

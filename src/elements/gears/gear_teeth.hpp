@@ -113,7 +113,7 @@ struct ToothLaw {
     double weighted = 0, by_depth = 0, by_phase = 0;
   };
   /// Of all pairs on the path, the one pressed in most first.
-  std::vector<PairDepth> pair_depths(double phase, double depth, bool back = false) const;
+  std::vector<PairDepth> pair_depths(double phase, double depth, bool back) const;
   /// Largest number of pairs on the path.
   int most_pairs() const { return static_cast<int>(std::ceil(relief.contact_ratio() + relief.edge / relief.base_pitch)); }
 

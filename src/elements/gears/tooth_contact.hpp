@@ -174,7 +174,6 @@ class ToothContact {
   /// `opening` at most.
   std::vector<std::string> remarks(double deflection, double opening) const;
   double cos_alpha() const { return cos_alpha_; }
-  double sin_alpha() const { return sin_alpha_; }
 
   /// Writes all residual rows except the parts of ψ_A and of B's motion due to (21) and the frame, which the element derives
   /// from `loads`. `closing` is φ₁/cosα_n without u_m. Returns the normal force kλ₁.

@@ -169,15 +169,8 @@ void Joint::act(const Motion<T, 2>& motion, const State& state, Balance<T, 2>& b
     for (const JointFriction& f : parts_.friction) {
       const bool turns = f.kind != Rubbing::guide && f.kind != Rubbing::ball && f.radius > 0;
       const Measured<T> turn = turns ? measured(f.turn, pose, state) : Measured<T>();
-      if (f.law.rests) {
-        const JointRub<T> found = rest(f, grip++, pose, carried, carried_moment, turn, normal, rates, state, balance);
-        force += found.force;
-        moment += found.moment;
-        if constexpr (std::is_same_v<T, double>)
-          if (report) report->push_back(found);
-        continue;
-      }
-      const JointRub<T> found = rub(f, pose, carried, carried_moment, turn, normal, rates);
+      const JointRub<T> found = f.law.rests ? rest(f, grip++, pose, carried, carried_moment, turn, normal, rates, state, balance)
+                                            : rub(f, pose, carried, carried_moment, turn, normal, rates);
       force += found.force;
       moment += found.moment;
       if constexpr (std::is_same_v<T, double>)

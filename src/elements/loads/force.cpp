@@ -4,17 +4,17 @@
 #include <fmt/format.h>
 
 #include "elements/common/line.hpp"
-#include "model/determined_channels.hpp"
+#include "elements/loads/applied_load.hpp"
 
 namespace engrane::elements::loads {
 
 namespace {
 
 /// Force along the line of two ends; positive pushes them apart.
-class LineForce final : public TemplatedElement<LineForce, 2, 6>, public DeterminedChannels {
+class LineForce final : public AppliedLoad<LineForce, 2, 6> {
  public:
   LineForce(int id, const LineEnds& ends, double value, const Function* function)
-      : TemplatedElement(id), ends_(ends), value_(value), function_(function) {
+      : AppliedLoad(id, value, function), ends_(ends) {
     Layout layout;
     layout.nodes.assign(ends.nodes.begin(), ends.nodes.end());
     layout.needs = ends.needs();
@@ -24,14 +24,7 @@ class LineForce final : public TemplatedElement<LineForce, 2, 6>, public Determi
   template <class T>
   void evaluate(const Motion<T, 2>& motion, const State&, Balance<T, 2>& balance) const {
     const auto reach = ends_.reach<T>(motion.node);
-    const T push = function_ ? T(value_) * engrane::evaluate(*function_, motion.time) : T(value_);
-    ends_.pull(Vec3T<T>(reach.direction * (-push)), balance);
-  }
-
-  Energies energies(const State& state) const override {
-    Energies e;
-    e.external = push(state.time) * ends_.reach<double>(state.nodes).rate;
-    return e;
+    ends_.pull(Vec3T<T>(reach.direction * (-size_at(motion.time))), balance);
   }
 
   const std::vector<Channel>& channels() const override {
@@ -43,42 +36,24 @@ class LineForce final : public TemplatedElement<LineForce, 2, 6>, public Determi
   }
 
   void observe(const State& state, std::span<double> values) const override {
-    const auto reach = ends_.reach<double>(state.nodes);
-    values[0] = push(state.time);
-    values[1] = reach.length;
-    values[2] = reach.rate;
-    values[3] = values[0] * reach.rate;
+    AppliedLoad::observe(state, values);
+    values[1] = ends_.reach<double>(state.nodes).length;
   }
 
-  std::vector<Determined> determined() const override {
-    return function_ ? std::vector<Determined>{{0}, {3, {2}}} : std::vector<Determined>();
-  }
-  double determine(int channel, double time, std::span<const double> speed) const override {
-    return channel == 0 ? push(time) : push(time) * speed[0];
-  }
+  double speed(const State& state) const { return ends_.reach<double>(state.nodes).rate; }
 
   Drawing drawing() const override { return {fmt::format(R"("shape": "line", "points": {})", json(layout().nodes))}; }
 
  private:
-  double push(double time) const { return function_ ? value_ * function_->at(time).f : value_; }
-
   LineEnds ends_;
-  double value_;
-  const Function* function_;
 };
 
 /// External force on one node, at a point that moves with it.
-class NodeForce final : public TemplatedElement<NodeForce, 1, 6>, public DeterminedChannels {
+class NodeForce final : public AppliedLoad<NodeForce, 1, 6> {
  public:
   NodeForce(int id, int node, const Vec3& direction, const Vec3& center, const Vec3& offset, bool follow, double value,
             const Function* function)
-      : TemplatedElement(id),
-        direction_(direction),
-        point_(center + offset),
-        offset_(offset),
-        follow_(follow),
-        value_(value),
-        function_(function) {
+      : AppliedLoad(id, value, function), direction_(direction), point_(center + offset), offset_(offset), follow_(follow) {
     Layout layout;
     layout.nodes = {node};
     layout.needs = {follow || !offset.isZero(0) ? NodeNeed::both : NodeNeed::translation};
@@ -88,7 +63,7 @@ class NodeForce final : public TemplatedElement<NodeForce, 1, 6>, public Determi
   template <class T>
   void evaluate(const Motion<T, 1>& motion, const State&, Balance<T, 1>& balance) const {
     const auto& node = motion.node[0];
-    const T size = function_ ? T(value_) * engrane::evaluate(*function_, motion.time) : T(value_);
+    const T size = size_at(motion.time);
     const Vec3T<T> along = direction_.template cast<T>();
     const Vec3T<T> force = (follow_ ? rotate(node.R, direction_) : along) * size;
     balance.force(0, Vec3T<T>(-force));
@@ -98,12 +73,6 @@ class NodeForce final : public TemplatedElement<NodeForce, 1, 6>, public Determi
     }
   }
 
-  Energies energies(const State& state) const override {
-    Energies e;
-    e.external = size(state.time) * speed(state);
-    return e;
-  }
-
   const std::vector<Channel>& channels() const override {
     static const std::vector<Channel> all = {{"FORCE", dimension::force, "along its direction"},
                                              {"SPEED", dimension::velocity, "of the point along the direction"},
@@ -111,36 +80,20 @@ class NodeForce final : public TemplatedElement<NodeForce, 1, 6>, public Determi
     return all;
   }
 
-  void observe(const State& state, std::span<double> values) const override {
-    values[0] = size(state.time);
-    values[1] = speed(state);
-    values[2] = values[0] * values[1];
-  }
-
-  std::vector<Determined> determined() const override {
-    return function_ ? std::vector<Determined>{{0}, {2, {1}}} : std::vector<Determined>();
-  }
-  double determine(int channel, double time, std::span<const double> speed) const override {
-    return channel == 0 ? size(time) : size(time) * speed[0];
-  }
-
   Drawing drawing() const override {
     return {fmt::format(R"("shape": "arrow", "node": {}, "center": {}, "axis": {}, "holder": {})", layout().nodes[0],
-                        json(point_), json(Vec3(value_ < 0 ? -direction_ : direction_)), follow_ ? layout().nodes[0] : 0)};
+                        json(point_), json(Vec3(value() < 0 ? -direction_ : direction_)), follow_ ? layout().nodes[0] : 0)};
   }
 
- private:
-  double size(double time) const { return function_ ? value_ * function_->at(time).f : value_; }
   double speed(const State& state) const {
     const NodeState& node = state.nodes[0];
     const Vec3 along = follow_ ? Vec3(node.R * direction_) : direction_;
     return along.dot(node.v + node.R * cross(node.W, offset_));
   }
 
+ private:
   Vec3 direction_, point_, offset_;
   bool follow_;
-  double value_;
-  const Function* function_;
 };
 
 std::unique_ptr<Element> build_line(const ForceData& data, BuildContext& context, const Function* function) {

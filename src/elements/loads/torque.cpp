@@ -4,20 +4,19 @@
 #include <fmt/format.h>
 
 #include "elements/common/building.hpp"
-#include "model/determined_channels.hpp"
-#include "model/templated_element.hpp"
+#include "elements/loads/applied_load.hpp"
 
 namespace engrane::elements::loads {
 
 namespace {
 
 /// Moment between two nodes; the ground replaces a missing first one.
-class Torque final : public TemplatedElement<Torque, 2, 6>, public DeterminedChannels {
+class Torque final : public AppliedLoad<Torque, 2, 6> {
  public:
   enum class Holder : unsigned char { space, first, last };  ///< what the axis is fixed to
 
   Torque(int id, int first, int last, const Vec3& axis, double value, const Function* function, Holder holder, const Vec3& center)
-      : TemplatedElement(id), axis_(axis), value_(value), function_(function), holder_(holder), center_(center) {
+      : AppliedLoad(id, value, function), axis_(axis), holder_(holder), center_(center) {
     Layout layout;
     layout.nodes = {first, last};
     layout.needs = {NodeNeed::rotation, NodeNeed::rotation};
@@ -28,18 +27,11 @@ class Torque final : public TemplatedElement<Torque, 2, 6>, public DeterminedCha
   void evaluate(const Motion<T, 2>& motion, const State&, Balance<T, 2>& balance) const {
     const auto& a = motion.node[0];
     const auto& b = motion.node[1];
-    const T size = function_ ? T(value_) * engrane::evaluate(*function_, motion.time) : T(value_);
     const Vec3T<T> held = axis_.template cast<T>();
     const Vec3T<T> axis = holder_ == Holder::space ? held : holder_ == Holder::first ? rotate(a.R, axis_) : rotate(b.R, axis_);
-    const Vec3T<T> moment = axis * size;
+    const Vec3T<T> moment = axis * size_at(motion.time);
     balance.moment(0, rotate_back(a.R, moment));
     balance.moment(1, rotate_back(b.R, Vec3T<T>(-moment)));
-  }
-
-  Energies energies(const State& state) const override {
-    Energies e;
-    e.external = size(state.time) * speed(state);
-    return e;
   }
 
   const std::vector<Channel>& channels() const override {
@@ -49,40 +41,24 @@ class Torque final : public TemplatedElement<Torque, 2, 6>, public DeterminedCha
     return all;
   }
 
-  void observe(const State& state, std::span<double> values) const override {
-    values[0] = size(state.time);
-    values[1] = speed(state);
-    values[2] = values[0] * values[1];
-  }
-
-  std::vector<Determined> determined() const override {
-    return function_ ? std::vector<Determined>{{0}, {2, {1}}} : std::vector<Determined>();
-  }
-  double determine(int channel, double time, std::span<const double> speed) const override {
-    return channel == 0 ? size(time) : size(time) * speed[0];
-  }
-
   Drawing drawing() const override {
     const auto& nodes = layout().nodes;
     const bool on_last = nodes[1] != 0;  // the first node bears the opposite moment
     return {fmt::format(R"("shape": "arrow", "couple": true, "node": {}, "center": {}, "axis": {}, "holder": {})",
-                        on_last ? nodes[1] : nodes[0], json(center_), json(Vec3((value_ < 0) == on_last ? -axis_ : axis_)),
+                        on_last ? nodes[1] : nodes[0], json(center_), json(Vec3((value() < 0) == on_last ? -axis_ : axis_)),
                         holder_ == Holder::space   ? 0
                         : holder_ == Holder::first ? nodes[0]
                                                    : nodes[1])};
   }
 
- private:
-  double size(double time) const { return function_ ? value_ * function_->at(time).f : value_; }
   double speed(const State& state) const {
     const NodeState &a = state.nodes[0], &b = state.nodes[1];
     const Vec3 axis = holder_ == Holder::space ? axis_ : Vec3((holder_ == Holder::first ? a.R : b.R) * axis_);
     return axis.dot(b.R * b.W - a.R * a.W);
   }
 
+ private:
   Vec3 axis_;
-  double value_;
-  const Function* function_;
   Holder holder_;
   Vec3 center_;
 };

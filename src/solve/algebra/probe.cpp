@@ -60,10 +60,8 @@ void fill_loads(const Assembler& assembler, Vec loads) {
   PetscScalar* x = nullptr;
   check_petsc(VecGetOwnershipRange(loads, &first, &end));
   check_petsc(VecGetArray(loads, &x));
-  for (PetscInt i = first; i < end; ++i) {
-    const Measure measure = assembler.numbering().measure(static_cast<int>(i));
-    if (measure == Measure::moment || measure == Measure::angle) x[i - first] *= lever;
-  }
+  for (PetscInt i = first; i < end; ++i)
+    if (assembler.numbering().unknown(static_cast<int>(i)).rotational()) x[i - first] *= lever;
   check_petsc(VecRestoreArray(loads, &x));
 }
 

@@ -19,7 +19,6 @@ constexpr double remembered = 1e-3;
 constexpr double part_of_lever = 0.1;
 /// Through the rounding of its position a node's forces make moments, and moments forces.
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-bool is_rotational(Measure m) { return m == Measure::moment || m == Measure::angle; }
 
 }  // namespace
 
@@ -72,7 +71,7 @@ void References::find_sources() {
       pair = signal ? pairs_.size() - 1 : spans_.size() + static_cast<std::size_t>(u.part);
       if (signal && !u.multiplier) signals_.push_back(sources_.size());
     }
-    sources_.push_back({pair, is_rotational(u.measure)});
+    sources_.push_back({pair, u.rotational()});
   }
   lengths_.assign(sources_.size(), 1.0);
   for (const std::size_t e : signals_) lengths_[e] = least_load;

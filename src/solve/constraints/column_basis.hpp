@@ -38,8 +38,7 @@ class ColumnBasis {
   /// Returns a small vector with (Aᵀy)_i = b_i for all independent columns i.
   Vector solve_transposed(const Vector& b) const;
 
-  /// Number of columns taken by leaves, and of entries of R for the others: a measure of the cost.
-  std::size_t leaf_columns() const { return leaves_.columns.size(); }
+  /// Number of entries of R, for the columns not taken by leaves: a measure of the cost.
   std::size_t factor_entries() const { return upper_.entry.size() + pivot_.size(); }
 
  private:

@@ -39,7 +39,7 @@ void ConstraintChanges::begin(const Configuration& from, std::span<const double>
       noise[m] = 0;
       continue;
     }
-    const int part = multiplier_unknown(assembler_.numbering(), i).part;
+    const int part = assembler_.numbering().multiplier(i).part;
     if (!parts_.empty() && part <= parts_.back()) continue;
     parts_.push_back(part);
     // and the elements whose shares make up its constraints
@@ -86,9 +86,9 @@ void ConstraintChanges::state(const Configuration& from, double h, std::span<con
 }
 
 double ConstraintChanges::moved(int multiplier, std::span<const double> y) const {
-  const Unknown& u = multiplier_unknown(assembler_.numbering(), multiplier);
+  const Unknown& u = assembler_.numbering().multiplier(multiplier);
   const double length = newton_.length(multiplier);
-  const bool turns = u.measure == Measure::angle;
+  const bool turns = u.rotational();
   double most = 0;
   for (const int node : assembler_.model().parts[static_cast<std::size_t>(u.part)].nodes)
     for (std::size_t k = 0; k < 6; ++k)

@@ -12,8 +12,6 @@ double size_of(const Unknown& u, double extent) {
   return u.measure == Measure::force || u.measure == Measure::length ? extent : 1.0;
 }
 
-const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier) { return numbering.multiplier(multiplier); }
-
 const Multiplier& multiplier_of(const Model& model, const Unknown& multiplier) {
   const Model::Part& part = model.parts[static_cast<std::size_t>(multiplier.part)];
   return part.element->layout().multipliers[static_cast<std::size_t>(multiplier.item)];
@@ -26,7 +24,7 @@ Vector constraint_sizes(const Assembler& assembler) {
   const double extent = assembler.model().extent();
   const Numbering& numbering = assembler.numbering();
   Vector sizes(numbering.slots() - numbering.motion_slots());
-  for (int m = 0; m < static_cast<int>(sizes.size()); ++m) sizes[m] = size_of(multiplier_unknown(numbering, m), extent);
+  for (int m = 0; m < static_cast<int>(sizes.size()); ++m) sizes[m] = size_of(numbering.multiplier(m), extent);
   return sizes;
 }
 
@@ -74,16 +72,13 @@ ConstraintMatrix::ConstraintMatrix(Assembler& assembler, const Configuration& co
     : rows(assembler) {
   const Numbering& numbering = assembler.numbering();
   std::vector<Eigen::Triplet<double>> entries;
-  std::vector<double> r, k;
   const auto& parts = assembler.model().parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const std::size_t count = parts[p].element->layout().multipliers.size();
     if (count == 0) continue;
     const auto& slots = numbering.part_slots(static_cast<int>(p));
     const std::size_t n = slots.size(), first = n - count;
-    r.assign(n, 0);
-    k.assign(n * n, 0);
-    parts[p].element->tangent(assembler.view(static_cast<int>(p), configuration), {1, 0, 0}, r, k);
+    const auto k = assembler.element_tangent(static_cast<int>(p), configuration, {1, 0, 0}).k;
     for (std::size_t m = first; m < n; ++m) {
       if (assembler.idle(slots[m] - numbering.motion_slots())) continue;
       for (std::size_t i = 0; i < first; ++i) {

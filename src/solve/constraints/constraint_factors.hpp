@@ -19,9 +19,6 @@ enum class ConstraintColumns { gradients, forces };
 /// Size that makes an unknown or its equation comparable with others: the extent for translations, 1 for rotations.
 double size_of(const Unknown& u, double extent);
 
-/// The unknown of a multiplier (index into Configuration::multipliers).
-const Unknown& multiplier_unknown(const Numbering& numbering, int multiplier);
-
 /// The element's description of the unknown of a multiplier.
 const Multiplier& multiplier_of(const Model& model, const Unknown& multiplier);
 bool is_drive(const Model& model, const Unknown& multiplier);

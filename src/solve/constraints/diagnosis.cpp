@@ -291,7 +291,7 @@ std::string explain_free_motion(Assembler& assembler, const Configuration& confi
       factors.motions().largest_part(assembler.numbering(), factors.possible_motion(factors.motions().any())));
   bool driven = false;
   for (int m = 0; m < static_cast<int>(configuration.multipliers.size()) && !driven; ++m)
-    driven = is_drive(assembler.model(), multiplier_unknown(assembler.numbering(), m));
+    driven = is_drive(assembler.model(), assembler.numbering().multiplier(m));
   // links in line take a freedom that the drive has elsewhere, and leave one to the rest
   if (driven && mobility.redundant() > 0)
     text += "; if the drives move everything elsewhere, this is a dead position, with links in line: start a little beside it";
@@ -311,19 +311,16 @@ std::string explain_unresolved(const Assembler& assembler, const References& ref
   } worst{visible, assembler.rank()};  // layout of MPI_DOUBLE_INT
   double worst_noise = 0;
   int worst_equation = -1, culprit = -1;
-  std::vector<double> r, k;
   for (const int p : assembler.own_parts()) {
     const Element& element = *parts[static_cast<std::size_t>(p)].element;
     const auto& slots = numbering.part_slots(p);
     const std::size_t n = slots.size(), of_nodes = static_cast<std::size_t>(element.layout().node_slots());
-    r.assign(n, 0);
-    k.assign(n * n, 0);
-    element.tangent(assembler.view(p, configuration), {1, 0, 0, 0}, r, k);
+    const auto k = assembler.element_tangent(p, configuration, {1, 0, 0, 0}).k;
     // rounding in one direction is compared with what the element carries in any: a beam in pure bending has no axial force
     double carried = 0;
     for (std::size_t i = 0; i < of_nodes; ++i)
       if (const int row = numbering.equation(slots[i]); row >= 0)
-        carried = std::max(carried, references.load(row) / (numbering.unknown(row).measure == Measure::moment ? extent : 1));
+        carried = std::max(carried, references.load(row) / (numbering.unknown(row).rotational() ? extent : 1));
     // parts of a mesh that waves have not reached yet carry no forces of interest
     const double elsewhere = element.cell_shape() == CellShape::none ? 0 : references.largest_force();
     for (std::size_t i = 0; i < of_nodes; ++i) {
@@ -338,7 +335,7 @@ std::string explain_unresolved(const Assembler& assembler, const References& ref
       }
       // a machine without loads has no forces to resolve
       if (!(energy > 1e3 * noise * place)) continue;
-      const double lever = numbering.unknown(row).measure == Measure::moment ? extent : 1;
+      const double lever = numbering.unknown(row).rotational() ? extent : 1;
       const double part = noise / std::max(lever * std::max(carried, least), elsewhere);
       if (!(part > worst.part)) continue;
       worst.part = part;
@@ -354,13 +351,13 @@ std::string explain_unresolved(const Assembler& assembler, const References& ref
   MPI_Bcast(&worst_noise, 1, MPI_DOUBLE, worst.rank, assembler.comm());
   if (worst_equation < 0) return {};
   const Model::Part& stiff = parts[static_cast<std::size_t>(culprit)];
-  const bool turns = numbering.unknown(worst_equation).measure == Measure::moment;
+  const bool turns = numbering.unknown(worst_equation).rotational();
   return fmt::format(
-      "{} {} is so stiff that the rounding of positions makes {:.2g} {} in it, {:.2g} of the loads of {}: its forces are known "
+      "{} is so stiff that the rounding of positions makes {:.2g} {} in it, {:.2g} of the loads of {}: its forces are known "
       "no "
       "better. Take a rigid joint (WELD, DISTANCE) for it, or a stiffness at most {:.0g} of this one",
-      stiff.type, stiff.element->id(), worst_noise, assembler.model().units.label(turns ? dimension::moment : dimension::force),
-      worst.part, numbering.describe(worst_equation), 1e-6 / worst.part);
+      stiff.name(), worst_noise, assembler.model().units.label(turns ? dimension::moment : dimension::force), worst.part,
+      numbering.describe(worst_equation), 1e-6 / worst.part);
 }
 
 std::string explain_residual(Assembler& assembler, const Configuration& configuration, const NewtonReport& report) {
@@ -374,31 +371,25 @@ std::string explain_residual(Assembler& assembler, const Configuration& configur
   double hardest = 0;
   const Model::Part* culprit = nullptr;
   const auto& parts = assembler.model().parts;
-  std::vector<double> r;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& slots = numbering.part_slots(static_cast<int>(p));
     if (std::find(slots.begin(), slots.end(), unknown.slot) == slots.end()) continue;
-    r.assign(slots.size(), 0);
-    parts[p].element->residual(assembler.view(static_cast<int>(p), configuration), r);
+    const auto r = assembler.element_residual(static_cast<int>(p), configuration);
     for (std::size_t i = 0; i < slots.size(); ++i)
       if (slots[i] == unknown.slot && std::abs(r[i]) >= hardest) {
         hardest = std::abs(r[i]);
         culprit = &parts[p];
       }
   }
-  if (culprit) text += fmt::format(" from {} {}", culprit->type, culprit->element->id());
+  if (culprit) text += " from " + culprit->name();
   return text;
 }
 
 std::string explain_not_finite(Assembler& assembler, const Configuration& configuration) {
   const auto& parts = assembler.model().parts;
-  std::vector<double> r, k;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const Element& element = *parts[p].element;
-    const auto n = static_cast<std::size_t>(element.layout().slots());
-    r.assign(n, 0);
-    k.assign(n * n, 0);
-    element.tangent(assembler.view(static_cast<int>(p), configuration), {1, 1, 1}, r, k);
+    const auto [r, k] = assembler.element_tangent(static_cast<int>(p), configuration, {1, 1, 1});
     const auto finite = [](double x) { return std::isfinite(x); };
     if (std::all_of(r.begin(), r.end(), finite) && std::all_of(k.begin(), k.end(), finite)) continue;
     const std::string kind = element.cell_shape() == CellShape::none ? parts[p].type : "cell";

@@ -110,7 +110,7 @@ std::vector<Grips::Seen> Grips::look(const Configuration& c) const {
       static_cast<Grip&>(seen) = found[i];
       seen.state.rest = rest_;
       for (std::size_t k = 0; k < static_cast<std::size_t>(found[i].shape.size); ++k, ++multiplier) {
-        const bool length = multiplier_unknown(assembler_.numbering(), multiplier).measure == Measure::length;
+        const bool length = assembler_.numbering().multiplier(multiplier).measure == Measure::length;
         const Fastest& fastest = length ? moving : turning;
         const double lever = found[i].shape.lever[k];
         // where all is at rest the fastest node is rounding, too
@@ -384,10 +384,7 @@ std::size_t Grips::first_that_holds(const std::vector<Seen>& grips, const std::v
 
 std::string Grips::name(std::size_t grip) const {
   for (const Place& place : places_) {
-    if (grip < place.layout->grips.size()) {
-      const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(place.part)];
-      return fmt::format("{} {}", part.type, part.element->id());
-    }
+    if (grip < place.layout->grips.size()) return assembler_.model().part(place.part).name();
     grip -= place.layout->grips.size();
   }
   return {};

@@ -24,15 +24,12 @@ constexpr double unseen = 1e-11;
 /// The block of a tangent for the motions, scaled like them on both sides.
 Triplets motion_block(Assembler& assembler, const Configuration& c, const MotionRows& rows, Weights weights) {
   Triplets entries;
-  std::vector<double> r, k;
   const auto& parts = assembler.model().parts;
   weights.multipliers = 0;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto& slots = assembler.numbering().part_slots(static_cast<int>(p));
     const std::size_t n = slots.size(), motions = n - parts[p].element->layout().multipliers.size();
-    r.assign(n, 0);
-    k.assign(n * n, 0);
-    parts[p].element->tangent(assembler.view(static_cast<int>(p), c), weights, r, k);
+    const auto k = assembler.element_tangent(static_cast<int>(p), c, weights).k;
     for (std::size_t i = 0; i < motions; ++i)
       for (std::size_t j = 0; j < motions; ++j) {
         const int row = rows.row[static_cast<std::size_t>(slots[i])], column = rows.row[static_cast<std::size_t>(slots[j])];

@@ -42,7 +42,7 @@ void prefer_grips_and_drives(const Model& model, const Numbering& numbering, Spa
   for (Eigen::Index j = 0; j < null.cols(); ++j)
     for (Sparse::InnerIterator it(null, j); it; ++it) {
       const auto m = static_cast<int>(it.row());
-      const Unknown& u = multiplier_unknown(numbering, m);
+      const Unknown& u = numbering.multiplier(m);
       if (is_grip(model, u) || is_drive(model, u)) preferred.emplace_back(is_grip(model, u), m);
     }
   std::sort(preferred.begin(), preferred.end(), std::greater<>());
@@ -145,8 +145,7 @@ std::string describe_direction(Assembler& assembler, const Configuration& c, con
   const bool force = named.role == Role::force, moment = named.role == Role::moment;
   if (!force && !moment) return named.role == Role::tooth ? "tooth force" : named.help;
   const std::size_t n = static_cast<std::size_t>(layout.slots()), nodes = part.nodes.size();
-  std::vector<double> r(n), k(n * n);
-  part.element->tangent(assembler.view(u.part, c), {1, 0, 0}, r, k);
+  const auto k = assembler.element_tangent(u.part, c, {1, 0, 0}).k;
   const std::size_t row = n - layout.multipliers.size() + static_cast<std::size_t>(u.item);
   for (std::size_t i = nodes; i-- > 0;) {
     const int slot = layout.node_slot(i, force ? NodeNeed::translation : NodeNeed::rotation);
@@ -165,11 +164,11 @@ std::string names(Assembler& assembler, const Configuration& c, const std::vecto
   std::string text;
   int part = -1, elements = 0;
   std::map<int, std::size_t> directions;
-  for (const int m : members) ++directions[multiplier_unknown(assembler.numbering(), m).part];
+  for (const int m : members) ++directions[assembler.numbering().multiplier(m).part];
   bool all = false;
   std::size_t unnamed = 0;
   for (const int m : members) {
-    const Unknown& u = multiplier_unknown(assembler.numbering(), m);
+    const Unknown& u = assembler.numbering().multiplier(m);
     if (u.part != part) {
       part = u.part;
       if (elements++ >= most) {
@@ -177,7 +176,7 @@ std::string names(Assembler& assembler, const Configuration& c, const std::vecto
         continue;
       }
       const Model::Part& owner = assembler.model().parts[static_cast<std::size_t>(part)];
-      text += fmt::format("{}{} {} (", elements > 1 ? "), " : "", owner.type, owner.element->id());
+      text += fmt::format("{}{} (", elements > 1 ? "), " : "", owner.name());
       all = directions[part] > 3 && directions[part] == owner.element->layout().multipliers.size();
       text += all ? "in all directions that it holds" : describe_direction(assembler, c, u);
     } else if (elements <= most && !all) {
@@ -194,7 +193,7 @@ std::string counted(int number, const char* what) { return fmt::format("{} {}{}"
 /// Change of the forces in each motion slot when the multipliers of `from` become those of `to`.
 Vector change_of_forces(Assembler& assembler, const Configuration& from, const Configuration& to) {
   Vector change = Vector::Zero(assembler.numbering().slots());
-  std::vector<double> before, after;
+  std::vector<double> before;
   const auto& parts = assembler.model().parts;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto part = static_cast<int>(p);
@@ -205,10 +204,9 @@ Vector change_of_forces(Assembler& assembler, const Configuration& from, const C
                    to.multipliers.begin() + static_cast<long>(begin)))
       continue;
     const auto& slots = assembler.numbering().part_slots(part);
-    before.assign(slots.size(), 0);
-    after.assign(slots.size(), 0);
-    parts[p].element->residual(assembler.view(part, from), before);
-    parts[p].element->residual(assembler.view(part, to), after);
+    const auto first = assembler.element_residual(part, from);
+    before.assign(first.begin(), first.end());
+    const auto after = assembler.element_residual(part, to);
     for (std::size_t i = 0; i < slots.size(); ++i) change[slots[i]] += after[i] - before[i];
   }
   return change;
@@ -216,10 +214,8 @@ Vector change_of_forces(Assembler& assembler, const Configuration& from, const C
 
 /// Whether the element that owns a multiplier has friction.
 bool has_friction(const Assembler& assembler, int multiplier) {
-  const int part = multiplier_unknown(assembler.numbering(), multiplier).part;
-  if (part < 0) return false;
-  const Layout& layout = assembler.model().parts[static_cast<std::size_t>(part)].element->layout();
-  return layout.slides > 0 || !layout.grips.empty();
+  const int part = assembler.numbering().multiplier(multiplier).part;
+  return part >= 0 && assembler.model().part(part).element->layout().has_friction();
 }
 
 constexpr const char* usual_cure =
@@ -240,8 +236,7 @@ Mobility analyse_mobility(Assembler& assembler, const MotionSlots& motion, const
   found.constraints = static_cast<int>(here.columns()) - assembler.idle_count();
   found.rank = static_cast<int>(here.rank());
   if (here.deficiency() == 0) return found;
-  std::vector<double> phi, rate, second;
-  assembler.constraint_rates(c, phi, rate, second);
+  const std::vector<double> phi = assembler.violations(c);
   found.dependent = here.dependent();
   found.null = here.null_multipliers();
   if (const Islands islands(assembler); found.freedom() > 0 && move_along(assembler, motion, islands, here, c, tolerance)) {
@@ -266,12 +261,9 @@ std::string friction_on_redundant(const Assembler& assembler, const Mobility& mo
   std::set<int> parts;
   for (const RedundantGroup& one : mobility.groups)
     for (const int m : one.members)
-      if (has_friction(assembler, m)) parts.insert(multiplier_unknown(assembler.numbering(), m).part);
+      if (has_friction(assembler, m)) parts.insert(assembler.numbering().multiplier(m).part);
   std::string text;
-  for (const int p : parts) {
-    const Model::Part& part = assembler.model().parts[static_cast<std::size_t>(p)];
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", part.type, part.element->id());
-  }
+  for (const int p : parts) text += (text.empty() ? "" : ", ") + assembler.model().part(p).name();
   return text;
 }
 
@@ -307,15 +299,14 @@ bool Redundancy::analyse(const Configuration& c, double tolerance) {
 
 std::string Redundancy::conflict(const Configuration& c) {
   if (!active()) return {};
-  std::vector<double> phi, rate, second;
-  assembler_.constraint_rates(c, phi, rate, second);
+  const std::vector<double> phi = assembler_.violations(c);
   const Vector relative = relative_open(assembler_, phi);
   const Numbering& numbering = assembler_.numbering();
   for (const RedundantGroup& one : mobility_.groups)
     for (const int m : one.members) {
       const double open = phi[static_cast<std::size_t>(m)];
       if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
-      const Unknown& u = multiplier_unknown(numbering, m);
+      const Unknown& u = numbering.multiplier(m);
       if (relative[m] <= consistent || is_grip(assembler_.model(), u)) continue;  // a grip gives way (Grips)
       const bool length = u.measure == Measure::length;
       return fmt::format("conflicting constraints: {} stays open by {:.3g} {} when the others are closed; {} among {}: {}",
@@ -330,13 +321,13 @@ std::string Redundancy::conflict(const Configuration& c) {
 std::string Redundancy::cure_of(const RedundantGroup& one) const {
   // of drives the last in the deck, as the one that was added to what moved before
   for (auto m = one.members.rbegin(); m != one.members.rend(); ++m) {
-    const Unknown& u = multiplier_unknown(assembler_.numbering(), *m);
+    const Unknown& u = assembler_.numbering().multiplier(*m);
     const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(u.part)];
     if (!is_drive(assembler_.model(), u)) continue;
     return fmt::format(
         "the joints leave a drive no freedom, or drives disagree: see whether a place, an axis or a drive's function is wrong, "
-        "or leave out the drive of {} {}",
-        part.type, part.element->id());
+        "or leave out the drive of {}",
+        part.name());
   }
   Sparse null(mobility_.null.rows(), one.redundant);
   Eigen::Index count = 0;
@@ -357,7 +348,7 @@ std::string Redundancy::rate_conflict(const Configuration& c, const std::vector<
   for (const RedundantGroup& one : mobility_.groups)
     for (const int m : one.members) {
       if (!std::binary_search(mobility_.dependent.begin(), mobility_.dependent.end(), m)) continue;
-      const Unknown& u = multiplier_unknown(numbering, m);
+      const Unknown& u = numbering.multiplier(m);
       if (relative[m] <= 1e-8 * speed || relative[m] * span <= opens_never || is_grip(assembler_.model(), u)) continue;
       const bool length = u.measure == Measure::length;
       return fmt::format("conflicting constraints: {} asks for a speed that the others forbid, by {:.4g} {}; {} among {}: {}",

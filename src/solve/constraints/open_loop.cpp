@@ -22,8 +22,7 @@ using Vector = Eigen::VectorXd;
 
 /// Constraint violations over the extent, or in radians.
 Vector scaled_open(Assembler& assembler, const Configuration& c) {
-  std::vector<double> phi, rate, second;
-  assembler.constraint_rates(c, phi, rate, second);
+  const std::vector<double> phi = assembler.violations(c);
   const Vector sizes = constraint_sizes(assembler);
   return Eigen::Map<const Vector>(phi.data(), sizes.size()).cwiseQuotient(sizes);
 }
@@ -127,12 +126,8 @@ std::string loop_of(const Model& model, int part) {
   std::string text = node_name(model, target);
   for (int node = target; node != begin;) {
     const Way& way = seen.at(node);
-    if (way.part >= 0) {
-      const Model::Part& p = model.parts[static_cast<std::size_t>(way.part)];
-      text = fmt::format("{} - {} {} - ", node_name(model, way.from), p.type, p.element->id()) + text;
-    } else {
-      text = fmt::format("{} - support - ", node_name(model, way.from)) + text;
-    }
+    const std::string by = way.part >= 0 ? model.part(way.part).name() : "support";
+    text = fmt::format("{} - {} - ", node_name(model, way.from), by) + text;
     node = way.from;
   }
   return text;
@@ -152,17 +147,17 @@ std::string explain_open_loop(Assembler& assembler, const MotionSlots& motion, c
   const double largest = open.cwiseAbs().maxCoeff(&widest);
   double driven = 1e-2 * largest;
   for (Eigen::Index m = 0; m < open.size(); ++m)
-    if (std::abs(open[m]) > driven && is_drive(model, multiplier_unknown(numbering, static_cast<int>(m)))) {
+    if (std::abs(open[m]) > driven && is_drive(model, numbering.multiplier(static_cast<int>(m)))) {
       driven = std::abs(open[m]);
       widest = m;
     }
-  const Unknown& u = multiplier_unknown(numbering, static_cast<int>(widest));
+  const Unknown& u = numbering.multiplier(static_cast<int>(widest));
   const bool drive = is_drive(model, u);
   const Model::Part& joint = model.parts[static_cast<std::size_t>(u.part)];
   Vector weight = Vector::Ones(open.size());
   std::vector<int> members;
   for (Eigen::Index m = 0; m < open.size(); ++m) {
-    const Unknown& other = multiplier_unknown(numbering, static_cast<int>(m));
+    const Unknown& other = numbering.multiplier(static_cast<int>(m));
     if (other.part != u.part || is_drive(model, other) != drive) continue;
     members.push_back(static_cast<int>(m));
     weight[m] = 1e-4;
@@ -170,7 +165,7 @@ std::string explain_open_loop(Assembler& assembler, const MotionSlots& motion, c
   narrow(assembler, motion, weight, c);
   open = scaled_open(assembler, c);
   double length = 0, angle = 0;
-  for (const int m : members) (multiplier_unknown(numbering, m).measure == Measure::length ? length : angle) += open[m] * open[m];
+  for (const int m : members) (numbering.multiplier(m).measure == Measure::length ? length : angle) += open[m] * open[m];
   length = std::sqrt(length) * model.extent();
   angle = std::sqrt(angle);
   std::string gap;
@@ -178,11 +173,11 @@ std::string explain_open_loop(Assembler& assembler, const MotionSlots& motion, c
   if (angle > 1e-6) gap += fmt::format("{}{:.4g} deg", gap.empty() ? "" : " and ", angle / degree);
   if (gap.empty())
     return fmt::format(
-        "the mechanism does not close from where its parts are put, although it can be closed elsewhere: {} {} stays open by "
+        "the mechanism does not close from where its parts are put, although it can be closed elsewhere: {} stays open by "
         "{:.3g} {}; give initial positions nearer to it (.INI DEP), or a drive that begins nearer",
-        joint.type, joint.element->id(), largest * (u.measure == Measure::length ? model.extent() : 1.0),
+        joint.name(), largest * (u.measure == Measure::length ? model.extent() : 1.0),
         model.units.label(u.measure == Measure::length ? dimension::length : dimension::angle));
-  const std::string name = fmt::format("{} {}", joint.type, joint.element->id());
+  const std::string name = joint.name();
   std::string text =
       drive ? fmt::format("the mechanism does not close: with all joints closed the drive of {} is short by {}", name, gap)
             : fmt::format("the mechanism does not close: with all other joints closed {} stays open by {}", name, gap);

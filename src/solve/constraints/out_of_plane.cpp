@@ -32,8 +32,14 @@ OutOfPlane::OutOfPlane(Assembler& assembler) : assembler_(assembler) {
     if (model.parts[p].element->layout().shares_multipliers) holds_[p] = holds_[p - 1];
 }
 
+const Configuration& OutOfPlane::completed(const Configuration& c) {
+  if (slots_.empty()) return c;
+  completed_ = c;
+  find(completed_);
+  return completed_;
+}
+
 void OutOfPlane::find(Configuration& c) {
-  if (!active()) return;
   const Numbering& numbering = assembler_.numbering();
   const auto& parts = assembler_.model().parts;
   const double extent = assembler_.model().extent();
@@ -43,18 +49,12 @@ void OutOfPlane::find(Configuration& c) {
   const auto weight = [&](int m) { return size_of(numbering.multiplier(m), extent); };
   Vector right = Vector::Zero(static_cast<Eigen::Index>(slots_.size()));
   std::vector<Eigen::Triplet<double>> entries;
-  std::vector<double> r, k;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const auto part = static_cast<int>(p);
     const auto slots = numbering.part_slots(part);
     const std::size_t n = slots.size(), first = n - parts[p].element->layout().multipliers.size();
-    r.assign(n, 0);
-    if (holds_[p]) {
-      k.assign(n * n, 0);
-      parts[p].element->tangent(assembler_.view(part, here), {0, 0, 0, 1}, r, k);
-    } else {
-      parts[p].element->residual(assembler_.view(part, here), r);
-    }
+    const auto [r, k] = holds_[p] ? assembler_.element_tangent(part, here, {0, 0, 0, 1})
+                                  : Assembler::ElementTangent{assembler_.element_residual(part, here), {}};
     for (std::size_t i = 0; i < first; ++i) {
       const int row = row_[static_cast<std::size_t>(slots[i])];
       if (row < 0) continue;

@@ -15,18 +15,20 @@ class OutOfPlane {
  public:
   explicit OutOfPlane(Assembler& assembler);
 
-  /// Whether anything is carried out of the plane; otherwise these multipliers are zero.
-  bool active() const { return !slots_.empty(); }
-  /// Sets the multipliers left out to the smallest values (forces as they are, moments over the extent, in the mean square)
-  /// that balance the forces and moments out of the plane. Not collective: every rank finds the same.
-  void find(Configuration& c);
+  /// Returns the configuration with the multipliers left out set to the smallest values (forces as they are, moments over the
+  /// extent, in the mean square) that balance the forces and moments out of the plane. If nothing is carried out of the plane,
+  /// they are zero: returns `c` itself. The result is valid until the next call. Not collective: every rank finds the same.
+  const Configuration& completed(const Configuration& c);
 
  private:
+  void find(Configuration& c);
+
   Assembler& assembler_;
   std::vector<int> slots_, row_;  ///< slots unknown in space only, and the row of every motion slot; -1: none
   std::vector<int> multipliers_, column_;
   std::vector<bool> holds_;  ///< of each part: whether it has such multipliers
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
+  Configuration completed_;
 };
 
 }  // namespace engrane::solve

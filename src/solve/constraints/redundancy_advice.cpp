@@ -25,7 +25,7 @@ std::vector<Cure> cures_of(const Assembler& assembler, int part) {
   const Eigen::Index begin = assembler.numbering().multiplier_begin(part);
   std::vector<Cure> cures;
   for (const Release& release : p.element->releases()) {
-    Cure cure{fmt::format(fmt::runtime(release.change), fmt::format("{} {}", p.type, p.element->id())), {}, release.what};
+    Cure cure{fmt::format(fmt::runtime(release.change), p.name()), {}, release.what};
     for (const int m : release.multipliers) cure.rows.push_back(begin + m);
     cures.push_back(std::move(cure));
   }

@@ -154,11 +154,11 @@ void Start::assemble(Configuration& c, StartReport& report) {
   if (!(pressed.modules > most_modules)) return;
   const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(pressed.part)];
   report.remarks.push_back(fmt::format(
-      "the teeth of {} {} are pressed in by {:.4g} {} at the start, {:.3g} times their module, and carry the force that goes "
+      "the teeth of {} are pressed in by {:.4g} {} at the start, {:.3g} times their module, and carry the force that goes "
       "with "
       "it: the positions given for the wheels do not fit the gear ratio. Give the position of one wheel only (.INI DEP ELEMENT, "
       "or a drive); the other one follows",
-      part.type, part.element->id(), pressed.deflection, assembler_.model().units.label(dimension::length), pressed.modules));
+      part.name(), pressed.deflection, assembler_.model().units.label(dimension::length), pressed.modules));
 }
 
 int Start::close_again(Configuration& c) {
@@ -362,8 +362,7 @@ Start::Closing Start::close_initial(Configuration& c, StartReport& report) {
 int Start::follow(Configuration& c, std::span<const int> held) {
   constexpr double shortest = 1e-3;
   constexpr int most_steps = 100000;  // about 3000 turns
-  std::vector<double> phi, rate, second;
-  assembler_.constraint_rates(c, phi, rate, second);
+  const std::vector<double> phi = assembler_.violations(c);
   double done = 0, part = 0.1;
   for (int steps = 1; steps <= most_steps;) {
     const double next = std::min(1.0, done + part);
@@ -450,13 +449,12 @@ void Start::remark_on_branch(const Configuration& given, const Configuration& c,
 void Start::note_open(const Configuration& given, StartReport& report) {
   const Numbering& numbering = assembler_.numbering();
   const double extent = assembler_.model().extent();
-  std::vector<double> phi, rate, second;
-  assembler_.constraint_rates(given, phi, rate, second);
+  const std::vector<double> phi = assembler_.violations(given);
   const Eigen::VectorXd relative = relative_open(assembler_, phi);
   std::vector<StartReport::Opened> all;
   for (std::size_t m = 0; m < phi.size(); ++m) {
     if (relative[static_cast<Eigen::Index>(m)] < 1e-9) continue;
-    const Unknown& u = multiplier_unknown(numbering, static_cast<int>(m));
+    const Unknown& u = numbering.multiplier(static_cast<int>(m));
     if (all.empty() || all.back().part != u.part) all.push_back({u.part, 0, 0});
     double& sum = u.measure == Measure::length ? all.back().length : all.back().angle;
     sum = std::hypot(sum, phi[m]);

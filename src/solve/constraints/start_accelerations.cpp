@@ -38,7 +38,7 @@ void note_accelerations(const Assembler& assembler, const Configuration& c, int 
   for (const Measure measure : {Measure::length, Measure::angle}) {
     if (report.largest_force > 0) break;
     for (std::size_t m = 0; m < c.multipliers.size(); ++m) {
-      const Unknown& u = multiplier_unknown(assembler.numbering(), static_cast<int>(m));
+      const Unknown& u = assembler.numbering().multiplier(static_cast<int>(m));
       if (u.measure != measure || std::abs(c.multipliers[m]) <= report.largest_force) continue;
       report.largest_force = std::abs(c.multipliers[m]);
       carried = u.slot;
@@ -121,9 +121,7 @@ void Start::verify_balance(const Configuration& c, std::span<const double> unbal
   const Numbering& numbering = assembler_.numbering();
   // without friction such accelerations always exist
   const auto& parts = assembler_.model().parts;
-  if (std::none_of(parts.begin(), parts.end(), [](const Model::Part& part) {
-        return part.element->layout().slides > 0 || !part.element->layout().grips.empty();
-      }))
+  if (std::none_of(parts.begin(), parts.end(), [](const Model::Part& part) { return part.element->layout().has_friction(); }))
     return;
   assembler_.residual(c, right_);
   const double extent = assembler_.model().extent();
@@ -176,7 +174,7 @@ double Start::largest_force(std::span<const double> by_slot) const {
     const std::size_t own = slot < 6 * assembler_.model().nodes.size() ? slot / 3 : slot;
     if (own != group) square = 0;
     group = own;
-    const double part = by_slot[slot] / (u.measure == Measure::moment ? assembler_.model().extent() : 1);
+    const double part = by_slot[slot] / (u.rotational() ? assembler_.model().extent() : 1);
     square += part * part;
     if (!std::isfinite(square)) return square;
     largest = std::max(largest, square);

@@ -79,7 +79,7 @@ double StartCoordinates::free_response(const std::vector<double>& gradient) cons
 
 std::string StartCoordinates::name(const InitialCoordinate& coordinate) const {
   const Model::Part& part = assembler_.model().parts[static_cast<std::size_t>(coordinate.part)];
-  return fmt::format("{} of {} {}", named(coordinate).name, part.type, part.element->id());
+  return fmt::format("{} of {}", named(coordinate).name, part.name());
 }
 
 std::string StartCoordinates::shown(const InitialCoordinate& coordinate, double value) const {

@@ -23,9 +23,7 @@ std::string positions(const Model& model, const StartReport& report) {
   const std::string unit = model.units.label(dimension::length);
   for (std::size_t i = 0; i < report.opened.size() && i < most_rows; ++i) {
     const StartReport::Opened& o = report.opened[i];
-    const Model::Part& part = model.parts[static_cast<std::size_t>(o.part)];
-    text +=
-        fmt::format("     {:<22}{}", fmt::format("{} {}", part.type, part.element->id()), i == 0 ? "was open by" : "           ");
+    text += fmt::format("     {:<22}{}", model.part(o.part).name(), i == 0 ? "was open by" : "           ");
     if (o.length > 0) text += fmt::format(" {:.4g} {}", o.length, unit);
     if (o.angle > 0) text += fmt::format("{} {:.4g} deg", o.length > 0 ? " and" : "", o.angle / degree);
     text += '\n';

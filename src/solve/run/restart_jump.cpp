@@ -48,7 +48,7 @@ std::optional<std::size_t> driven_channel(const Element& element, int item) {
 std::string explain_drive(const SolverContext& context, const Configuration& c, const Unknown& u, double open,
                           const std::string& unit) {
   const Model::Part& part = context.model.parts[static_cast<std::size_t>(u.part)];
-  const std::string name = fmt::format("{} {}", part.type, part.element->id());
+  const std::string name = part.name();
   const std::optional<std::size_t> channel = driven_channel(*part.element, u.item);
   if (!channel)
     return fmt::format("{} stands {:.6g} {} from where its drive ({}) asks it to be", name, std::abs(open), unit,
@@ -79,8 +79,7 @@ std::string explain_support(const SolverContext& context, const Configuration& c
 
 std::string explain_jump(SolverContext& context, const Configuration& c) {
   const Numbering& numbering = context.numbering;
-  std::vector<double> phi, rate, second;
-  context.assembler.constraint_rates(c, phi, rate, second);
+  const std::vector<double> phi = context.assembler.violations(c);
   // far from the origin the digits of positions are fewer
   double far = context.model.extent();
   for (const NodeState& node : c.nodes) far = std::max(far, node.x.norm());
@@ -92,7 +91,7 @@ std::string explain_jump(SolverContext& context, const Configuration& c) {
     const auto index = static_cast<int>(m);
     // redundant constraints follow from the others, and a step that opens them says so
     if (context.assembler.released(index) || numbering.equation(numbering.motion_slots() + index) < 0) continue;
-    const Unknown& u = multiplier_unknown(numbering, index);
+    const Unknown& u = numbering.multiplier(index);
     const double open = std::abs(phi[m]) / (allowed * (u.measure == Measure::length ? far : 1.0));
     const bool drive = is_drive(context.model, u);
     // a drive that jumps is more often the cause than a joint
@@ -107,7 +106,7 @@ std::string explain_jump(SolverContext& context, const Configuration& c) {
     const std::string support = explain_support(context, c, allowed * far);
     return support.empty() ? support : fmt::format("{} at t = {:.6g}. {}", support, c.time, cure);
   }
-  const Unknown& u = multiplier_unknown(numbering, widest);
+  const Unknown& u = numbering.multiplier(widest);
   const double open = phi[static_cast<std::size_t>(widest)];
   const std::string unit = context.model.units.label(u.measure == Measure::length ? dimension::length : dimension::angle);
   if (of_drive) return fmt::format("{} at t = {:.6g}. {}", explain_drive(context, c, u, open, unit), c.time, cure);

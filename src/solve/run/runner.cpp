@@ -77,8 +77,8 @@ Runner::Runner(SolverContext& context, Scheme& scheme)
       now_(context.numbering.reference_configuration(options_.begin)),
       h_(control_.active() ? std::min(options_.step, options_.longest) : options_.step) {}
 
-bool Runner::run(const Observer& observer, const std::function<void(const StartReport&)>& started) {
-  observer_ = &observer;
+bool Runner::run(const StepCallback& after_step, const std::function<void(const StartReport&)>& started) {
+  after_step_ = &after_step;
   started(scheme_.start(now_));
   // the start used matrices of other kinds; the steps need their own analysis
   if (!context_.newton.keeps_one_tangent()) context_.solver.reset();
@@ -88,11 +88,11 @@ bool Runner::run(const Observer& observer, const std::function<void(const StartR
   step_.course = scheme_.course();
   step_.last = over();
   if (!step_.last) next_ = now_;
-  return observer(now_, step_) && march();
+  return after_step(now_, step_) && march();
 }
 
-bool Runner::resume(const Snapshot& snapshot, const Observer& observer) {
-  observer_ = &observer;
+bool Runner::resume(const Snapshot& snapshot, const StepCallback& after_step) {
+  after_step_ = &after_step;
   load_configuration(snapshot, now_);
   next_ = now_;
   context_.load(snapshot);
@@ -423,7 +423,7 @@ bool Runner::accepted(double size, bool regular, bool solved) {
   if (control_.active() && solved)
     step_.within = [this] { return scheme_.within(next_, unsettled_ ? *unsettled_ : now_, ended_); };
   step_.chatter = locator_.chatters();
-  const bool go_on = (*observer_)(now_, step_);
+  const bool go_on = (*after_step_)(now_, step_);
   step_.cuts = step_.locating = 0;
   step_.impulse = false;
   return go_on;

@@ -32,20 +32,20 @@ struct StepReport {
 };
 
 /// Called with the start and every accepted step; false ends the run early.
-using Observer = std::function<bool(const Configuration&, const StepReport&)>;
+using StepCallback = std::function<bool(const Configuration&, const StepReport&)>;
 
 /// Advances from the start to the end of `.SUB`: cuts steps that fail, lets them grow again, and ends them at events and at
-/// multiples of H. With a tolerance steps are controlled by their error, and observers may ask for instants in between.
+/// multiples of H. With a tolerance steps are controlled by their error, and `after_step` may ask for instants in between.
 class Runner {
  public:
   Runner(SolverContext& context, Scheme& scheme);
 
-  /// Starts, and runs to the end; false if the observer ended it. Throws SolutionFailure if step cuts do not help.
-  bool run(const Observer& observer, const std::function<void(const StartReport&)>& started);
-  /// Continues from a snapshot made by save(); the observer sees the steps after it.
-  bool resume(const Snapshot& snapshot, const Observer& observer);
+  /// Starts, and runs to the end; false if `after_step` ended it. Throws SolutionFailure if step cuts do not help.
+  bool run(const StepCallback& after_step, const std::function<void(const StartReport&)>& started);
+  /// Continues from a snapshot made by save(); `after_step` is called for the steps after it.
+  bool resume(const Snapshot& snapshot, const StepCallback& after_step);
 
-  /// Saves the last accepted configuration and everything that later steps depend on. May be called by the observer, and after
+  /// Saves the last accepted configuration and everything that later steps depend on. May be called by `after_step`, and after
   /// run() has returned or thrown.
   void save(Snapshot& snapshot) const;
   const Configuration& now() const { return now_; }
@@ -95,7 +95,7 @@ class Runner {
   const SolverOptions& options_;
   EventLocator locator_;
   StepControl control_;
-  const Observer* observer_ = nullptr;
+  const StepCallback* after_step_ = nullptr;
   Configuration now_, next_;
   std::optional<Configuration> unsettled_;  ///< now_ before frictions came to rest or gave way there
   std::vector<double> ended_;               ///< scalars of now_ before whole turns were counted

@@ -95,7 +95,7 @@ bool Descent::runs_away() const {
     const Unknown& u = context_.numbering.unknown(static_cast<int>(e));
     if (u.multiplier || u.part >= 0) continue;
     const double way = std::abs(unknowns_[e]);
-    if (way > (u.measure == Measure::moment ? std::numbers::pi : farthest_move * extent)) return true;
+    if (way > (u.rotational() ? std::numbers::pi : farthest_move * extent)) return true;
   }
   return false;
 }

@@ -80,10 +80,7 @@ Radau::Radau(SolverContext& context)
     *residuals_.emplace_back().out() = context.assembler.new_vector();
     *changes_.emplace_back().out() = context.assembler.new_vector();
   }
-  for (const Model::Part& part : context.model.parts) {
-    const Layout& layout = part.element->layout();
-    has_friction_ = has_friction_ || layout.slides > 0 || !layout.grips.empty();
-  }
+  for (const Model::Part& part : context.model.parts) has_friction_ = has_friction_ || part.element->layout().has_friction();
   *right_.out() = context.assembler.new_vector();
   *solution_.out() = context.assembler.new_vector();
   const std::vector<double> slots(context.motion.size(), 0.0);
