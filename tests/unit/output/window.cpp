@@ -31,7 +31,9 @@ TEST(Window, ErrorsAreOfFourthOrder) {
   for (const int samples : {20, 40, 80}) {
     const Window::Measures found = sine(samples);
     const double off = std::abs(found.mean - mean);
-    if (before > 0) EXPECT_LT(off, before / 12);
+    if (before > 0) {
+      EXPECT_LT(off, before / 12);
+    }
     before = off;
     EXPECT_NEAR(found.least, 1, 2 / std::pow(samples, 3));
     EXPECT_NEAR(found.largest, 5, 2 / std::pow(samples, 3));
@@ -54,7 +56,9 @@ TEST(Window, NoExtremeIsInventedAtACorner) {
     for (int i = 0; i <= 20; ++i) window.add(0.1 * i, i < 10 ? 1.0 : 1 + 3 * (0.1 * i - 1), known && i == 10, 0);
     EXPECT_DOUBLE_EQ(window.measures().least, 1);
     EXPECT_DOUBLE_EQ(window.measures().largest, 4);
-    if (known) EXPECT_NEAR(window.measures().mean, 1.75, 1e-14);
+    if (known) {
+      EXPECT_NEAR(window.measures().mean, 1.75, 1e-14);
+    }
   }
 }
 
