@@ -61,8 +61,12 @@ Schedule::Due Schedule::within(double time) {
 
 Schedule::Due Schedule::even_due(double time, double early, bool at_end, bool last) {
   Due due;
-  due.sample = last || (sample_.length > 0 ? on(sample_.length, time) : at_end);
-  due.frame = last || (fields_even_ ? on(frame_.length, time) : due.sample && frame_.due(early, start_));
+  // once at each instant, also where a step ends there before a jump
+  const auto even = [&](Interval& interval) {
+    return on(interval.length, time) && interval.due(time + 0.5 * interval.length, start_);
+  };
+  due.sample = (sample_.length > 0 ? even(sample_) : at_end) || last;
+  due.frame = (fields_even_ ? even(frame_) : due.sample && frame_.due(early, start_)) || last;
   due.restart = restart_ && restart_->due(early, start_);
   return due;
 }

@@ -60,8 +60,8 @@ class Schedule {
   bool controlled_;
   std::vector<double> wanted_;  ///< instants of ask(), ascending
   int parts_ = 1;
-  std::vector<double> even_;    ///< intervals between even instants of controlled steps: of samples, then of fields
-  double asked_ = 0;            ///< last regular time passed to at(), including the margin for early times
+  std::vector<double> even_;  ///< intervals between even instants of controlled steps: of samples, then of fields
+  double asked_ = 0;          ///< last regular time passed to at(), including the margin for early times
   Interval sample_, frame_;
   bool fields_even_ = false;  ///< fields of controlled steps are due at even instants of their own
   std::optional<Interval> restart_;

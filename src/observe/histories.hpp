@@ -77,6 +77,7 @@ class Histories {
   /// Values of the source channels of known(), one after another, on rank 0, which holds the whole configuration. They need not
   /// be among those that are kept: a selection does not change results.
   const std::vector<double>& sources(const Configuration& c);
+  std::size_t source_count() const { return sources_.size(); }
   /// Number of tables of elements.
   std::size_t part_tables() const { return part_tables_; }
 

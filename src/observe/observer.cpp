@@ -381,8 +381,7 @@ void Observer::load(const Snapshot& snapshot) {
   // with other histories the columns have another meaning; non-unique ones will be found again
   if (snapshot.number("observe/columns") != static_cast<double>(values_.size())) return;
   for (const double column : snapshot.array("observe/not_unique")) not_unique_.push_back(static_cast<int>(column));
-  if (!snapshot.has("observe/points") || snapshot.array("observe/end").size() != ways_.size() + 2 * histories_.known().size())
-    return;
+  if (!snapshot.has("observe/points") || snapshot.array("observe/end").size() != ways_.size() + histories_.source_count()) return;
   end_ = snapshot.array("observe/end");
   const std::vector<double>& points = snapshot.array("observe/points");
   end_time_ = points.at(0);

@@ -12,8 +12,8 @@ namespace {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 /// Neighbouring intervals of a stretch differ at most by this factor: polynomials through samples closer together are noise.
 constexpr double most_uneven = 100;
-/// An extreme lies at most this many times as far beyond the samples as parabolas have it.
-constexpr double trusted = 2;
+/// Parabolas through three samples may differ by so much from the cubic in how far an extreme lies beyond the samples.
+constexpr double trusted = 0.5;
 
 /// Polynomial of degree up to three through samples, in powers of the time from `origin`.
 struct Cubic {
@@ -109,12 +109,14 @@ void Window::take(std::size_t i) {
   std::vector<Cubic> parabolas;
   for (std::size_t first = i > 0 ? i - 1 : 0; first <= i && first + 2 < stretch_.size(); ++first)
     parabolas.emplace_back(std::span(stretch_).subspan(first, 3));
-  if (parabolas.empty()) return;
   for (const double sign : {1.0, -1.0}) {
-    const double level = std::max(sign * ya, sign * yb);
-    double most = std::numeric_limits<double>::infinity();
-    for (const Cubic& parabola : parabolas) most = std::min(most, trusted * parabola.beyond(a, b, sign, level));
-    see(sign * (level + std::min(most, cubic.beyond(a, b, sign, level))));
+    const double level = std::max(sign * ya, sign * yb), beyond = cubic.beyond(a, b, sign, level);
+    const auto confirms = [&](const Cubic& parabola) {
+      const double one = parabola.beyond(a, b, sign, level);
+      return one > 0 && std::abs(beyond - one) <= trusted * one;
+    };
+    const bool found = stretch_.size() == 4 && std::all_of(parabolas.begin(), parabolas.end(), confirms);
+    if (found) see(sign * (level + beyond));
   }
 }
 

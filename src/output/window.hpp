@@ -12,7 +12,7 @@ namespace engrane::output {
 /// Between samples the channel is the cubic through the four samples around, or through fewer where a smooth stretch has no more.
 /// Stretches end at events and corners, and where intervals differ a hundredfold, as those of a sample beside the end of a step.
 /// Errors of the integrals are of fourth order where the channel is smooth. An extreme between samples is only found where the
-/// parabolas through three of them have it, too: at a corner of which nothing is known none is invented.
+/// parabolas through three of them have it, too: at a corner or jump of which nothing is known none is invented.
 class Window {
  public:
   /// Limits of the window; infinite: the whole run.

@@ -29,8 +29,7 @@ bool EquilibriumTangent::factor(const Configuration& equilibrium) {
 }
 
 bool EquilibriumTangent::neutral(Vec motion) {
-  constexpr double least = 1e-13;  // stiffness of the softest motion beside what
-                                   // its unknowns meet one by one
+  constexpr double least = 1e-13;  // stiffness of the softest motion beside what its unknowns meet one by one
   if (!loads_) *loads_.out() = context_.assembler.new_vector();
   fill_loads(context_.assembler, loads_);
   factors_.solve(loads_, motion);

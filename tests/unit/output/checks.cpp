@@ -99,7 +99,7 @@ TEST(Checks, MeanWeighsByTime) {
   Checks checks({{card("MEAN", 2.4), 0}, {card("RMS", std::sqrt(2 * 16.0 / 3 / 5 + 3 * 7.0 / 5)), 0}});
   // steps of unequal length: 0 to 4 in 2 s, then 4 … 1 in 3 s
   checks.observe(0, std::vector{0.0});
-  checks.observe(2, std::vector{4.0});
+  checks.observe(2, std::vector{4.0}, true, true);  // a corner
   checks.observe(5, std::vector{1.0});
   EXPECT_NEAR(checks.results()[0].value, (2 * 2 + 3 * 2.5) / 5, 1e-15);
   EXPECT_TRUE(checks.results()[1].passed) << checks.results()[1].value;
