@@ -135,7 +135,7 @@ class Surface {
       }
       for (const int id : book_->cells(name)) good = add_cell(id) && good;
       for (const auto& [id, data] : membranes) {
-        const auto holds = [id](const deck::GroupCard* card) {
+        const auto holds = [id = id](const deck::GroupCard* card) {
           return card->all || std::find(card->ids.begin(), card->ids.end(), id) != card->ids.end();
         };
         if (std::any_of(group.begin(), group.end(), holds)) add(data->nodes);
