@@ -5,7 +5,7 @@ material, and the same averages made here from the points that the results hold.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 
 import numpy as np
@@ -142,8 +142,9 @@ def test_effectivity(kind: int, tmp_path: Path) -> None:
     assert found[1][2] < found[0][2]
 
 
-def averaged(mesh: Sheet, kind: int, results: Results) -> np.ndarray:
-    """From the points of each cell to its nodes by least squares, then the mean over the cells at each."""
+def averaged(mesh: Sheet, kind: int, results: Results, part: Collection[int] | None = None) -> np.ndarray:
+    """From the points of each cell to its nodes by least squares, then the mean over the cells at each: all
+    cells, or those of a part, counted from 0; not a number where it has none."""
     powers = [(0, 0), (1, 0), (0, 1)] + ([(1, 1)] if mesh.corners == 4 else [])
     points = POINTS[kind]
     corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)] if mesh.corners == 4 else [(0, 0), (1, 0), (0, 1)]
@@ -159,10 +160,12 @@ def averaged(mesh: Sheet, kind: int, results: Results) -> np.ndarray:
     values = results.dataset("fields/STRESS/000000" if one else "points/STRESS/000000")
     values = values.reshape(len(mesh.cells), len(points), 4)
     total, count = np.zeros((len(mesh.points), 4)), np.zeros((len(mesh.points), 1))
-    for cell, own in zip(mesh.cells, values, strict=True):
+    for e, (cell, own) in enumerate(zip(mesh.cells, values, strict=True)):
+        if part is not None and e not in part:
+            continue
         total[cell] += (to @ np.linalg.lstsq(at, own, rcond=None)[0])[: len(cell)]
         count[cell] += 1
-    return total / count
+    return np.where(count > 0, total / np.maximum(count, 1), np.nan)
 
 
 @pytest.mark.parametrize("kind", EFFECTIVITY)
@@ -232,6 +235,46 @@ def test_jumps_of_the_material_stay(kind: int, large: bool, tmp_path: Path) -> N
         both = np.sort(np.reshape([stress[ids == i + 1] for i in doubled], (-1, 2)), axis=1)
         assert both == pytest.approx(np.tile([low, 2 * low], (len(doubled), 1)), rel=1e-9)
         assert energy["energy"] < 1e-18 * energy["strain_energy"]
+
+
+@pytest.mark.parametrize("kind", EFFECTIVITY)
+def test_groups_are_averaged_apart(kind: int, tmp_path: Path) -> None:
+    """Cells of one section are of one part if they are in the same of the groups that give properties, which
+    may overlap; groups that are there for other ends do not count."""
+    mesh, deck = tube(4, kind)
+    middles = [mesh.unit[cell].mean(axis=0) for cell in mesh.cells]
+    groups = {
+        "inner": {e for e, u in enumerate(middles) if u[0] < 0.5},
+        "low": {e for e, u in enumerate(middles) if u[1] < 0.6},
+        "heavy": {e for e, u in enumerate(middles) if u[0] > 0.3},
+    }
+    rows = [
+        f'.SEL GROUP {k} NOM "{name}" MAILLES ' + " ".join(f"I {e + 1}" for e in sorted(cells))
+        for k, (name, cells) in enumerate(groups.items(), 2)
+    ]
+    rows += [
+        '.AEL GROUP "inner" MAT 1',
+        '.HYP DEFO PLAN GROUP "low"',
+        '.CLM ADD GROUP "heavy" ROT VAL 0. AXE 0 0 1',
+    ]
+    deck = deck.replace("\n.FIN 1", "\n" + "\n".join(rows) + "\n.FIN 1")
+    parts: dict[tuple[bool, bool], set[int]] = {}
+    for e in range(len(mesh.cells)):
+        parts.setdefault((e in groups["inner"], e in groups["low"]), set()).add(e)
+    assert len(parts) == 4
+    for ranks in (1, 3):
+        _, results = solved(deck, tmp_path, ranks)
+        with results:
+            expected = [averaged(mesh, kind, results, part) for part in parts.values()]
+            stress, ids = results.dataset("nodes/STRESS/000000"), results.node_ids
+        scale = np.abs(stress).max()
+        for node in range(len(mesh.points)):
+            own = np.array(sorted(tuple(s[node]) for s in expected if not np.isnan(s[node, 0])))
+            found = np.array(sorted(tuple(row) for row in stress[ids == node + 1]))
+            assert found == pytest.approx(own, abs=1e-9 * scale)
+        assert len(ids) == sum(
+            len(np.unique(np.concatenate([mesh.cells[e] for e in p]))) for p in parts.values()
+        )
 
 
 DECKS = Path(__file__).parents[2] / "decks" / "elements" / "structural"

@@ -178,7 +178,7 @@ class Reader {
     if (begins_with_word(word.text, ".DEL")) return delete_records(word);
     const Command* command = commands_.find(word.text);
     if (!command) return unknown_command(word);
-    if (command->redefines()) open_again(*command, word);
+    open_again(*command, word);
     if (command->elements || command->numbered()) return read_numbered(*command);
     if (command->keyed()) return read_keyed(*command);
     read_plain(*command, word);
@@ -253,11 +253,13 @@ class Reader {
     return static_cast<int>(removed);
   }
 
-  /// `.CLM ADD` adds to earlier records, `.CLM` alone drops them.
+  /// `.CLM ADD` adds to earlier records, `.CLM` alone drops them. Other commands add anyway, unless a deck has them once.
   void open_again(const Command& command, const Token& word) {
+    if (!command.elements && command.only().once) return;
     const Token& next = tokens_.peek();
     if (next.is_word() && !next.starts_line && (same_word(next.text, "ADD") || same_word(next.text, "AJOUT")))
       return tokens_.skip();
+    if (!command.redefines()) return;
     if (const int dropped = forget(&command); dropped > 0)
       diagnostics_.warning(
           word.where,

@@ -29,11 +29,9 @@ double free_strain(const NeoHookean& material, const Voigt& strain) {
   return std::expm1(y) / 2;
 }
 
-}  // namespace
-
 /// Bonet and Wood (2008), Nonlinear Continuum Mechanics for Finite Element Analysis, (6.27) to (6.32):
 /// W = μ/2 (tr C − 3) − μ ln J + λ/2 (ln J)², S = μ (I − C⁻¹) + λ ln J C⁻¹. Evaluated without cancellation at small strains.
-Response respond(const NeoHookean& material, Hypothesis hypothesis, Voigt strain) {
+Response elastic_response(const NeoHookean& material, Hypothesis hypothesis, Voigt strain) {
   const bool plane_stress = hypothesis == Hypothesis::plane_stress;
   if (plane_stress) strain[2] = free_strain(material, strain);
   Mat3 twice;  // C − I
@@ -65,6 +63,25 @@ Response respond(const NeoHookean& material, Hypothesis hypothesis, Voigt strain
     response.moduli -= column * column.transpose() / column[2];
     response.stress[2] = 0;
   }
+  return response;
+}
+
+}  // namespace
+
+/// Multiplicative split F = F_e F_θ with F_θ = θ I (Vujošević and Lubarda 2002, Theor. Appl. Mech. 28–29, 379): the energy is
+/// that of the freely expanded material, W = θ³ W_e(C_e) with C_e = C/θ². Hence S = θ S_e, ∂S/∂E = ∂S_e/∂E_e / θ and
+/// ∂W/∂θ = θ² (3 W_e − S_e : C_e). In plane stress W does not depend on the strain along z to first order.
+Response respond(const NeoHookean& material, Hypothesis hypothesis, const Voigt& strain, double growth) {
+  const double stretch = 1 + growth, square = stretch * stretch, free = growth * (2 + growth) / 2;
+  Voigt elastic = strain;
+  elastic.head<3>().array() -= free;
+  elastic /= stretch > 0 ? square : std::numeric_limits<double>::quiet_NaN();
+  Response response = elastic_response(material, hypothesis, elastic);
+  response.by_growth = square * (3 * response.energy - response.stress.head<3>().sum() - 2 * response.stress.dot(elastic));
+  response.energy *= square * stretch;
+  response.stress *= stretch;
+  response.moduli /= stretch;
+  response.transverse = square * response.transverse + free;
   return response;
 }
 

@@ -139,7 +139,7 @@ std::unique_ptr<Element> build(const CellData& data, BuildContext& context) {
     return skin;
   }
   plan.warmth = warmth_of(plan.nodes, context);
-  if (plan.warmth && section->law.expansion.isZero(0) && !section->law.neo_hookean)
+  if (plan.warmth && section->law.expansion.isZero(0))
     context.diagnostics.warning_once("warm", context.record.location,
                                      fmt::format("the material of cell {} does not expand: TEMP has no effect on it", plan.id),
                                      "A of its .MAT is the coefficient of thermal expansion");

@@ -63,6 +63,7 @@ CellBook::CellBook(const BuildContext& context)
   read_cells(records);
   read_groups(records);
   read_properties(records);
+  number_parts(records);
   read_rotations(context);
   make_sections(context.nodes);
   check_beams(context.temperatures);
@@ -201,6 +202,28 @@ void CellBook::read_properties(const std::vector<deck::Record>& records) {
   }
 }
 
+void CellBook::number_parts(const std::vector<deck::Record>& records) {
+  std::set<std::string> named;
+  for (const deck::Record& record : records) {
+    if (const auto* hypothesis = record.get<deck::HypothesisCard>())
+      named.insert(hypothesis->groups.begin(), hypothesis->groups.end());
+    if (const auto* property = record.get<deck::PropertyCard>()) named.insert(property->groups.begin(), property->groups.end());
+    if (const auto* assignment = record.get<deck::AssignmentCard>())
+      named.insert(assignment->groups.begin(), assignment->groups.end());
+  }
+  int parts = 1;
+  for (const std::string& name : named) {
+    const auto group = groups_.find(name);
+    if (group == groups_.end()) continue;
+    std::map<int, int> cut;  // from each part so far to the piece of it that lies in the group
+    for (const std::size_t i : group->second) {
+      const auto [piece, fresh] = cut.try_emplace(cells_[i].part, parts);
+      if (fresh) ++parts;
+      cells_[i].part = piece->second;
+    }
+  }
+}
+
 void CellBook::check_skin(const deck::Record& record, const deck::HypothesisCard& card) {
   if (!is_skin(card)) {
     for (const char* keyword : {"TENSION", "WRINKLING", "SLACK"})
@@ -293,13 +316,18 @@ void CellBook::refuse_warm(const Temperatures& temperatures) {
     return std::any_of(nodes.begin(), nodes.end(), is_warm);
   };
   const auto skin = [&](const Cell& cell) { return cell.section && cell.section->skin && any_warm(cell); };
-  const auto rubber = [&](const Cell& cell) {
-    return cell.section && !cell.section->skin && cell.section->law.neo_hookean && any_warm(cell);
+  // without the function of time
+  const auto vanishes = [&](const Cell& cell) {
+    if (!cell.section || cell.section->skin || !cell.section->law.neo_hookean) return false;
+    const double expansion = cell.section->law.expansion[0];
+    const std::vector<int>& nodes = cell.record->get<CellData>()->nodes;
+    return std::any_of(nodes.begin(), nodes.end(),
+                       [&](int node) { return is_warm(node) && expansion * temperatures.at(std::abs(node)).rise <= -1; });
   };
   report_lack(skin, "is a membrane and has warm nodes: thermal expansion of membranes is not in this version",
               "leave these nodes out of TEMP");
-  report_lack(rubber, "is neo-Hookean and has warm nodes: thermal expansion of this material is not in this version",
-              "leave these nodes out of TEMP, or take BEHA \"ELASTIC\"");
+  report_lack(vanishes, "shrinks to nothing: its temperature rise times A is -1 or less",
+              "A of its .MAT is per degree, such as 2E-4 for rubber");
 }
 
 std::optional<Mat3> CellBook::axes_of(const Cell& cell, const NodePositions& nodes) {
@@ -383,7 +411,7 @@ void CellBook::make_sections(const NodePositions& nodes) {
   report_lack([](const Cell& cell) { return !is_beam(cell) && !cell.material; }, "has no material", ".AEL I 1 J 9 K 1 MAT 1");
   report_lack([&](const Cell& cell) { return is_stress(cell) && cell.thickness == 0; }, "has no thickness",
               "plane stress needs .PHP GROUP \"name\" THICK VAL t");
-  using Key = std::tuple<Hypothesis, int, double, double, int, const deck::Record*>;
+  using Key = std::tuple<Hypothesis, int, double, double, int, const deck::Record*, int>;
   std::map<Key, std::shared_ptr<const CellSection>> sections;
   std::map<Key, int> numbers;
   for (Cell& cell : cells_) {
@@ -392,7 +420,7 @@ void CellBook::make_sections(const NodePositions& nodes) {
     if (is_beam(cell) || !formulation || !fits(cell) || !has_material || (is_stress(cell) && cell.thickness == 0)) continue;
     const deck::Record* skin = skin_card(cell.hypothesis) ? cell.hypothesis : nullptr;
     const bool alone = !skin && frames_.is_curved(cell.frame);  // axes differ from cell to cell
-    const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame, skin};
+    const Key key{*formulation, cell.material->id, cell.thickness, cell.theta.value_or(0), cell.frame, skin, cell.part};
     Key group = key;
     // isotropic: axes, which decks may give cell by cell, do not matter
     if (cell.material->get<deck::MaterialCard>()->young.size() == 1) {

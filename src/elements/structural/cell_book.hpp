@@ -31,8 +31,9 @@ struct CellSection {
   double thickness = 1;
   bool linear = true;  ///< small displacements
   /// Number of the section within the deck. Cells with the same number have the same material, hypothesis and thickness and, if
-  /// the material is anisotropic, the same definition of its axes. In a curved frame, such as a cylindrical one, the axes
-  /// differ from cell to cell: each cell then has its own CellSection with this number.
+  /// the material is anisotropic, the same definition of its axes, and are in the same of the groups that give properties. In a
+  /// curved frame, such as a cylindrical one, the axes differ from cell to cell: each cell then has its own CellSection with this
+  /// number.
   int number = 0;
   bool lumped = false;                   ///< lumped instead of consistent masses
   std::optional<SkinOptions> skin = {};  ///< membranes in space
@@ -90,6 +91,7 @@ class CellBook {
     const deck::Record* axes = nullptr;  ///< record that gives `theta` or `frame`
     int profile = 0;                     ///< beams only; 0: not given
     std::optional<Vec3> axis_2 = {};
+    int part = 0;  ///< set by number_parts()
     std::shared_ptr<const CellSection> section = nullptr;
     std::shared_ptr<const CellRotation> rotation = nullptr;
   };
@@ -99,6 +101,9 @@ class CellBook {
   void read_groups(const std::vector<deck::Record>& records);
   void read_properties(const std::vector<deck::Record>& records);
   void read_rotations(const BuildContext& context);
+  /// Numbers the parts of the mesh: two cells are of one part if they are in the same groups, of those that `.HYP`, `.PHP` and
+  /// `.AEL` name.
+  void number_parts(const std::vector<deck::Record>& records);
   void check_skin(const deck::Record& record, const deck::HypothesisCard& card);
   void assign(const deck::Record& record, const deck::AssignmentCard& assignment);
   void make_sections(const NodePositions& nodes);

@@ -38,7 +38,8 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
 
   using Local = CellStrain<D, Axi>;
   using Local::normals, Local::shears, Local::strains;
-  using typename Local::Deformation, typename Local::Square, typename Local::Stiffness, typename Local::Strain;
+  using typename Local::Deformation, typename Local::Expansion, typename Local::Square, typename Local::Stiffness,
+      typename Local::Strain;
 
   using Places = Eigen::Matrix<double, D, N>;
   using Moves = Eigen::Matrix<double, D, columns>;  ///< displacements of the nodes, then amplitudes of the modes
@@ -113,12 +114,12 @@ class CellKernel : public CellStrain<CellTraits<S>::dimension, Axi> {
     return d;
   }
 
-  /// The law with the thermal strain at each point.
+  /// The law with the thermal expansion at each point.
   struct Law : Local::Law {
     bool is_warm = false;
-    std::array<Strain, static_cast<std::size_t>(most_points)> free{};
+    std::array<Expansion, static_cast<std::size_t>(most_points)> free{};
 
-    const Strain* free_at(int point) const { return is_warm ? &free[static_cast<std::size_t>(point)] : nullptr; }
+    const Expansion* free_at(int point) const { return is_warm ? &free[static_cast<std::size_t>(point)] : nullptr; }
   };
 
   /// Internal forces of nodes and modes for given displacements and amplitudes and, unless `k` is nullptr, their tangent. Of

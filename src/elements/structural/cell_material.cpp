@@ -43,9 +43,9 @@ std::optional<Elastic> neo_hookean_of(const deck::Record& record, const deck::Ma
   else if (!(card.poisson.front() >= 0 && card.poisson.front() < 0.5))
     diagnostics.error(record.where("NT"), fmt::format("NT = {} is out of range for a neo-Hookean material", card.poisson.front()),
                       "NT is at least 0 and below 0.5, such as 0.49 for rubber");
-  else if (!card.expansion.empty())
-    diagnostics.error(record.where("A"), "thermal expansion of a neo-Hookean material is not in this version",
-                      "leave A out, or take BEHA \"ELASTIC\"");
+  else if (card.expansion.size() > 1)
+    diagnostics.error(record.where("A"), fmt::format("the neo-Hookean material {} expands alike in all directions", record.id),
+                      "one value of A");
   else {
     Elastic material = materials::isotropic(card.young.front(), card.poisson.front());
     material.neo_hookean = materials::neo_hookean(card.young.front(), card.poisson.front());

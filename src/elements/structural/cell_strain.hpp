@@ -64,7 +64,7 @@ struct CellStrain {
     return e;
   }
 
-  /// Material law: stress = stiffness · (strain − free).
+  /// Material law: stress = stiffness · (strain − free thermal strain).
   struct Law {
     Stiffness stiffness;
     bool linear = true;                                  ///< small displacements
@@ -72,24 +72,31 @@ struct CellStrain {
     materials::Hypothesis hypothesis = materials::Hypothesis::solid;
   };
 
+  /// Free thermal expansion at a point.
+  struct Expansion {
+    Strain strain = Strain::Zero();  ///< linear materials
+    double growth = 0;               ///< neo-Hookean materials: the stretch in all directions, minus 1
+  };
+
   /// Second Piola–Kirchhoff stress, its derivative by the strain and the strain energy per unit reference volume.
   struct Response {
     Strain stress;
     Stiffness moduli;
     double energy;
+    double by_growth = 0;  ///< derivative of the energy by Expansion::growth
   };
-  /// `free`: the thermal strain; nullptr: none. With large displacements the response is NaN where the cell is inverted.
-  static Response respond(const Law& law, const Strain* free, const Deformation& now) {
+  /// `free`: nullptr for no expansion. With large displacements the response is NaN where the cell is inverted.
+  static Response respond(const Law& law, const Expansion* free, const Deformation& now) {
     Strain e = strain(now, law.linear);
     // the Green–Lagrange strain cannot detect inversion
     if (!law.linear && !now.is_right_way_round()) e.setConstant(std::numeric_limits<double>::quiet_NaN());
     if (law.neo_hookean) {
       materials::Voigt all = materials::Voigt::Zero();
       all(components) = e;
-      const materials::Response found = materials::respond(*law.neo_hookean, law.hypothesis, all);
-      return {reduced(found.stress), reduced(found.moduli), found.energy};
+      const materials::Response found = materials::respond(*law.neo_hookean, law.hypothesis, all, free ? free->growth : 0);
+      return {reduced(found.stress), reduced(found.moduli), found.energy, found.by_growth};
     }
-    if (free) e -= *free;
+    if (free) e -= free->strain;
     const Strain stress = law.stiffness * e;
     return {stress, law.stiffness, e.dot(stress) / 2};
   }

@@ -95,10 +95,14 @@ class Cells final : public Block {
       if (!law.is_warm) continue;
       // the strain energy V also depends on ΔT: a change of temperature supplies ∂V/∂ΔT dΔT
       const Sample& s = Kernel::samples()[static_cast<std::size_t>(i)];
+      const double heating = volume * rise_rate(cell, state, s);
+      if (section.law.neo_hookean) {
+        energies.external += heating * response.by_growth * section.law.expansion[0];
+        continue;
+      }
       const double held = section.law.held * section.law.expansion[2] * section.law.expansion[2], warmer = rise(cell, state, s);
       energies.strain += volume / 2 * held * warmer * warmer;
-      energies.external +=
-          volume * (held * warmer - Kernel::reduced(section.law.growth).dot(response.stress)) * rise_rate(cell, state, s);
+      energies.external += heating * (held * warmer - Kernel::reduced(section.law.growth).dot(response.stress));
     }
     energies.potential = energies.strain;
     const Places v = rates(state);
@@ -246,8 +250,12 @@ class Cells final : public Block {
              cell.section->hypothesis},
             cell.warmth != nullptr};
     for (std::size_t i = 0; law.is_warm && i < Kernel::samples().size(); ++i)
-      law.free[i] = rise(cell, state, Kernel::samples()[i]) * Kernel::reduced(material.growth);
+      law.free[i] = expansion(material, rise(cell, state, Kernel::samples()[i]));
     return law;
+  }
+
+  static typename Kernel::Expansion expansion(const materials::Elasticity& material, double rise) {
+    return {rise * Kernel::reduced(material.growth), rise * material.expansion[0]};
   }
 
   /// Damping of a cell whose material has some. `kernel` and `moves` must outlive it.
@@ -298,7 +306,8 @@ class Cells final : public Block {
     p.strain.setZero();
     p.strain(Kernel::components) = Kernel::strain(now, section.linear);
     if (material.neo_hookean) {
-      const materials::Response response = materials::respond(*material.neo_hookean, section.hypothesis, p.strain);
+      const materials::Response response =
+          materials::respond(*material.neo_hookean, section.hypothesis, p.strain, warmer * material.expansion[0]);
       p.second = response.stress;
       p.strain[2] = response.transverse;
       p.energy = response.energy;

@@ -37,7 +37,8 @@ std::unique_ptr<Element> build(const GroupPressureData& data, BuildContext& cont
       continue;
     }
     for (std::size_t i = 0; i + 1 < faces->size(); i += 2) {
-      auto one = make_pressure({(*faces)[i], (*faces)[i + 1], data.pressure, function}, number, "GROUP", *book, context);
+      auto one =
+          make_pressure({(*faces)[i], (*faces)[i + 1], data.pressure, function, data.dead}, number, "GROUP", *book, context);
       if (!one) continue;
       ++number;
       if (!first)
@@ -58,8 +59,8 @@ ElementType group_pressure_type() {
       .describe(
           "On all faces of groups of faces (`.SEL GROUP n FACES`), of solids or of plane cells, or on groups of membranes (`.SEL "
           "GROUP n MAILLES`). A positive pressure pushes into the cells, and membranes to the side from which their corners go "
-          "round counterclockwise. With large displacements it follows the faces.")
-      .example(".CLM\n GROUP \"flank\" PRE V 5.\n PRE GROUP \"bore\" V 2. NF 1");
+          "round counterclockwise. With large displacements it follows the faces unless it is DEAD.")
+      .example(".CLM\n GROUP \"flank\" PRE V 5. DEAD\n PRE GROUP \"bore\" V 2. NF 1");
   card.add("GROUP", &GroupPressureData::groups, "groups of faces, or of membranes: names or numbers")
       .refers(deck::Reference::group)
       .values(1, deck::any_number)
@@ -69,6 +70,8 @@ ElementType group_pressure_type() {
       .synonyms({"VAL"})
       .unit(dimension::pressure)
       .required();
+  card.add("DEAD", &GroupPressureData::dead, "it keeps the direction and the area of each face in the reference configuration")
+      .synonyms({"MORTE"});
   card.add("NF", &GroupPressureData::function, "number of the function of time; 0: constant")
       .refers(deck::Reference::function)
       .at_least(0);

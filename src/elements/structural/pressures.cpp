@@ -62,7 +62,7 @@ void Pressures<D>::push(const Face& face, const State& state, double sign, std::
   std::fill(f.begin(), f.end(), 0.0);
   std::fill(k.begin(), k.end(), 0.0);
   const CellSection& section = *face.section;
-  const bool axi = section.hypothesis == materials::Hypothesis::axisymmetric, follows = !section.linear;
+  const bool axi = section.hypothesis == materials::Hypothesis::axisymmetric, follows = face.follows();
   std::vector<Vector> x = face.places;
   for (std::size_t i = 0; i < nodes && follows; ++i) x[i] = state.nodes[i].x.template head<D>();
   const double factor = sign * face.pressure * (face.function ? face.function->at(state.time).f : 1) *
@@ -112,7 +112,7 @@ namespace {
 template <int D>
 std::unique_ptr<Element> add(const PressureOn& on, const Connectivity& cell, int number,
                              const std::shared_ptr<const CellSection>& section, BuildContext& context) {
-  typename Pressures<D>::Face face{{}, {}, on.pressure, on.function, section};
+  typename Pressures<D>::Face face{{}, {}, on.pressure, on.function, on.dead, section};
   std::vector<int> indices(cell.nodes.size());
   std::iota(indices.begin(), indices.end(), 0);
   if (!section->skin) indices = face_nodes(cell.shape, on.face - 1);

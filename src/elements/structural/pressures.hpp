@@ -22,7 +22,7 @@ std::vector<FaceSample> face_samples(bool solid, std::size_t nodes);
 
 /// Pressures on edges of plane cells (D = 2) or on faces of solids (D = 3). The force on node i is −p ∫ N_i n dA with n the
 /// outward normal, consistent with the shape functions of the cell. With large displacements it follows the face (with the
-/// initial thickness), and its tangent is not symmetric.
+/// initial thickness), and its tangent is not symmetric. A dead pressure keeps the forces of the reference configuration.
 template <int D>
 class Pressures final : public Block {
  public:
@@ -38,7 +38,10 @@ class Pressures final : public Block {
     std::vector<Vector> places;
     double pressure = 0;  ///< positive against the normal given by the order of the nodes
     const Function* function = nullptr;
+    bool dead = false;  ///< keeps normal and area of the reference configuration
     std::shared_ptr<const CellSection> section;
+
+    bool follows() const { return !dead && !section->linear; }
   };
 
   std::size_t add(Face face) {
@@ -50,7 +53,7 @@ class Pressures final : public Block {
   const Layout& layout() const override { return layout_; }
   std::span<const int> node_ids(std::size_t e) const override { return faces_[e].nodes; }
   bool in_mesh() const override { return false; }
-  bool is_linear(std::size_t e) const override { return faces_[e].section->linear; }
+  bool is_linear(std::size_t e) const override { return !faces_[e].follows(); }
 
   void residual(std::size_t first, std::span<const State> states, std::span<double> r) const override {
     const std::size_t n = width();
@@ -98,6 +101,7 @@ struct PressureOn {
   int cell = 0, face = 0;  ///< cell number; face or edge number, counted from 1
   double pressure = 0;     ///< positive against the outward normal
   const Function* function = nullptr;
+  bool dead = false;  ///< keeps normal and area of the reference configuration
 };
 
 /// Builds the element of a pressure. Returns nullptr if there is no such face, which is reported at `keyword`, or if the cell

@@ -9,73 +9,11 @@
 #include <numbers>
 
 #include "elements/structural/cell_topology.hpp"
-#include "elements/structural/make_cell.hpp"
-#include "elements/suite.hpp"
+#include "elements/structural/plane_cells.hpp"
 #include "math/rotation.hpp"
 
-namespace engrane::elements::structural {
+namespace engrane::elements::structural::plane_cells {
 namespace {
-
-using namespace suite;
-using materials::Hypothesis;
-
-constexpr double young = 70, poisson = 0.3, density = 2.7, thickness = 0.4;
-
-/// What a section has beside its hypothesis.
-struct Kind {
-  bool linear = false, rubber = false, lumped = false;
-  double damping = 0;
-};
-
-std::shared_ptr<const CellSection> section(Hypothesis hypothesis, Kind kind) {
-  materials::Elastic material = materials::isotropic(young, poisson);
-  material.density = density;
-  material.damping = kind.damping;
-  if (kind.rubber) material.neo_hookean = materials::neo_hookean(young, poisson);
-  return std::make_shared<CellSection>(CellSection{hypothesis, materials::law_of(hypothesis, material),
-                                                   hypothesis == Hypothesis::axisymmetric ? 1 : thickness, kind.linear, 0,
-                                                   kind.lumped});
-}
-std::shared_ptr<const CellSection> section(Hypothesis hypothesis, bool linear) { return section(hypothesis, Kind{linear}); }
-
-/// A distorted cell of each kind, sides of 6 and 8 nodes curved, away from the axis.
-std::vector<Eigen::Vector2d> distorted(std::size_t count) {
-  std::vector<Eigen::Vector2d> x{{1, 0.1}, {2.3, -0.2}, {2.1, 1.3}};
-  if (count == 4 || count == 8) x.emplace_back(0.8, 0.9);
-  const std::size_t corners = x.size();
-  if (count > corners) {
-    const Eigen::Vector2d bend[] = {{0.03, 0.05}, {-0.06, 0.02}, {0.04, -0.03}, {0.02, 0.05}};
-    for (std::size_t i = 0; i < corners; ++i) x.emplace_back((x[i] + x[(i + 1) % corners]) / 2 + bend[i]);
-  }
-  return x;
-}
-
-std::vector<int> numbers(std::size_t count) {
-  std::vector<int> ids;
-  for (std::size_t i = 0; i < count; ++i) ids.push_back(static_cast<int>(i) + 1);
-  return ids;
-}
-
-NodeMap node_map(const std::vector<Eigen::Vector2d>& places) {
-  NodeMap nodes;
-  for (std::size_t i = 0; i < places.size(); ++i) nodes[static_cast<int>(i) + 1] = {places[i][0], places[i][1], 0};
-  return nodes;
-}
-
-CellPlan plan_of(const std::vector<Eigen::Vector2d>& places, const std::shared_ptr<const CellSection>& of) {
-  const std::map<std::size_t, CellShape> shapes{
-      {3, CellShape::triangle}, {6, CellShape::triangle6}, {4, CellShape::quadrilateral}, {8, CellShape::quadrilateral8}};
-  CellPlan plan{1, shapes.at(places.size()), numbers(places.size()), {}, of};
-  for (const Eigen::Vector2d& x : places) plan.places.emplace_back(x[0], x[1], 0);
-  return plan;
-}
-
-std::unique_ptr<Element> cell(const std::vector<Eigen::Vector2d>& places, const std::shared_ptr<const CellSection>& of,
-                              double rise = 0) {
-  CellPlan plan = plan_of(places, of);
-  if (rise != 0) plan.warmth = std::make_shared<const std::vector<Warmth>>(places.size(), Warmth{rise});
-  return make_plane_cell(plan, nullptr);
-}
 
 /// Area, or volume round the axis, by Gauss points enough for curved sides: of the polygon of many points on the sides.
 double area_of(const std::vector<Eigen::Vector2d>& x, bool axi) {
@@ -95,12 +33,20 @@ double area_of(const std::vector<Eigen::Vector2d>& x, bool axi) {
   return sum;
 }
 
+/// A cell whose nodes have temperatures of their own, which vary with time.
+std::unique_ptr<Element> warm_cell(const std::vector<Eigen::Vector2d>& places, const std::shared_ptr<const CellSection>& of) {
+  static const Wave wave(0.3, 0.7, 1.9, 0.4);
+  CellPlan plan = plan_of(places, of);
+  std::vector<Warmth> warmth;
+  for (std::size_t i = 0; i < places.size(); ++i) warmth.push_back({20 + 3 * static_cast<double>(i), &wave});
+  plan.warmth = std::make_shared<const std::vector<Warmth>>(warmth);
+  return make_plane_cell(plan, nullptr);
+}
+
 Subject subject(std::size_t count, Hypothesis hypothesis, Kind kind) {
   const bool axi = hypothesis == Hypothesis::axisymmetric;
   Subject s;
-  s.name = std::to_string(count) + " nodes, hypothesis " + std::to_string(static_cast<int>(hypothesis)) +
-           (kind.linear ? ", small" : ", large") + (kind.rubber ? ", neo-Hookean" : "") + (kind.lumped ? ", lumped" : "") +
-           (kind.damping > 0 ? ", damped" : "");
+  s.name = name_of(count, hypothesis, kind);
   s.nodes = node_map(distorted(count));
   s.in_plane = true;
   s.length = 0.06;  // a cell of four nodes finds its modes for strains of this size
@@ -108,11 +54,13 @@ Subject subject(std::size_t count, Hypothesis hypothesis, Kind kind) {
   s.build = [=](const Mat3& Q) {
     auto places = distorted(count);
     for (Eigen::Vector2d& x : places) x = (Q * Vec3(x[0], x[1], 0)).head<2>();
-    return cell(places, section(hypothesis, kind));
+    return kind.warm ? warm_cell(places, section(hypothesis, kind)) : cell(places, section(hypothesis, kind));
   };
   s.mass = density * (axi ? 1 : thickness) * area_of(distorted(count), axi);
   s.skip[Check::equilibrium] = "inertia and weight are outer forces";
   if (kind.damping > 0) s.skip[Check::lagrange] = "a damper has no potential";
+  if (kind.warm)
+    for (const Check check : {Check::rigid, Check::zero}) s.skip[check] = "warmth has forces at rest";
   for (const Check check : {Check::rigid, Check::objectivity}) {
     if (kind.linear) s.skip[check] = "small displacements do not turn far";
     if (axi) s.skip[check] = "the axis stands still";
@@ -121,13 +69,13 @@ Subject subject(std::size_t count, Hypothesis hypothesis, Kind kind) {
   return s;
 }
 
-constexpr Hypothesis hypotheses[] = {Hypothesis::plane_stress, Hypothesis::plane_strain, Hypothesis::axisymmetric};
-
 TEST(Cell, Suite) {
   for (const std::size_t count : {3U, 6U, 4U, 8U})
     for (const Hypothesis hypothesis : hypotheses)
       for (const Kind kind : {Kind{true}, Kind{false}, Kind{false, true}, Kind{true, false, true}, Kind{false, false, true},
-                              Kind{true, false, false, 0.3}, Kind{false, false, false, 0.3}, Kind{false, true, false, 0.3}})
+                              Kind{true, false, false, 0.3}, Kind{false, false, false, 0.3}, Kind{false, true, false, 0.3},
+                              Kind{true, false, false, 0, true}, Kind{false, false, false, 0, true},
+                              Kind{false, true, false, 0, true}, Kind{false, true, true, 0.3, true}})
         run_suite(subject(count, hypothesis, kind));
 }
 
@@ -222,38 +170,6 @@ TEST(Cell, LinearIsTheDerivativeAtRest) {
     }
 }
 
-/// Moves all nodes by a function of their place.
-template <class Move>
-StateBuffer moved(const Element& element, const NodeMap& nodes, const Move& move) {
-  StateBuffer state(element, nodes);
-  for (NodeState& node : state.nodes) {
-    const Eigen::Vector2d u = move(Eigen::Vector2d(node.x.head<2>()));
-    node.x += Vec3(u[0], u[1], 0);
-  }
-  return state;
-}
-
-/// All values of a field at all points, a row for each point.
-Eigen::MatrixXd field_of(const Element& element, const StateBuffer& state, const std::string& name) {
-  std::vector<double> values;
-  std::size_t size = 0, at = 0, width = 0, points = 0;
-  for (const Field& field : element.fields()) {
-    if (field.name == name) {
-      at = size;
-      width = std::max<std::size_t>(field.components.size(), 1);
-      points = static_cast<std::size_t>(field.points);
-    }
-    size += field.size(element.node_ids().size());
-  }
-  values.resize(size);
-  element.evaluate_fields(state.view(), values);
-  Eigen::MatrixXd rows(points, width);
-  for (std::size_t i = 0; i < points; ++i)
-    for (std::size_t k = 0; k < width; ++k)
-      rows(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = values[at + i * width + k];
-  return rows;
-}
-
 TEST(Cell, RigidTurnsHaveNoStressWhateverTheirSize) {
   for (const std::size_t count : {3U, 6U, 4U, 8U})
     for (const Hypothesis hypothesis : {Hypothesis::plane_stress, Hypothesis::plane_strain})
@@ -319,42 +235,6 @@ TEST(Cell, ConstantStrainsAreExactInAnyShape) {
         const double energy = element->energies(state.view()).strain;
         const double expected = thickness * area_of(places, false) * (S.cwiseProduct(E)).sum() / 2;
         EXPECT_NEAR(energy, expected, 1e-12 * young) << count << " nodes";
-      }
-}
-
-/// A stress without forces in the middle of a patch: the node where distorted cells meet stays in balance.
-TEST(Cell, PatchesOfDistortedCellsAreInBalance) {
-  // four cells round node 9 of a square with an inner node out of the middle
-  const std::vector<Eigen::Vector2d> grid{{0, 0}, {1.1, 0}, {2, 0}, {2, 0.8}, {2, 2}, {0.7, 2}, {0, 2}, {0, 1.2}, {1.3, 0.9}};
-  const std::vector<std::vector<int>> quads{{0, 1, 8, 7}, {1, 2, 3, 8}, {8, 3, 4, 5}, {7, 8, 5, 6}};
-  Eigen::Matrix2d slope;
-  slope << 0.03, -0.02, 0.07, 0.05;
-  for (const Hypothesis hypothesis : {Hypothesis::plane_stress, Hypothesis::plane_strain})
-    for (const bool linear : {true, false})
-      for (const std::size_t count : {3U, 4U, 6U, 8U}) {
-        Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-        double largest = 0;
-        for (const std::vector<int>& quad : quads) {
-          std::vector<std::vector<int>> cells{quad};
-          if (count == 3 || count == 6) cells = {{quad[0], quad[1], quad[2]}, {quad[0], quad[2], quad[3]}};
-          for (const std::vector<int>& corners : cells) {
-            std::vector<Eigen::Vector2d> places;
-            for (const int i : corners) places.push_back(grid[static_cast<std::size_t>(i)]);
-            if (count > places.size())
-              for (std::size_t i = 0; i < corners.size(); ++i)
-                places.emplace_back((places[i] + places[(i + 1) % corners.size()]) / 2);
-            const auto element = cell(places, section(hypothesis, linear));
-            const StateBuffer state =
-                moved(*element, node_map(places), [&](const Eigen::Vector2d& x) { return Eigen::Vector2d(slope * x); });
-            const auto r = residual_of(*element, state);
-            for (std::size_t i = 0; i < corners.size(); ++i) {
-              largest = std::max(largest, std::abs(r[6 * i]));
-              if (corners[i] == 8) sum += Eigen::Vector2d(r[6 * i], r[6 * i + 1]);
-            }
-          }
-        }
-        EXPECT_GT(largest, 0.1);
-        EXPECT_LT(sum.norm(), 1e-13 * young) << count << " nodes";
       }
 }
 
@@ -437,6 +317,44 @@ TEST(Cell, WarmthOfABodyFreeInItsPlane) {
     }
 }
 
+/// Warm rubber grows by 1 + α ΔT, however far, and has no stress if it is free; turned as well.
+TEST(Cell, WarmRubberGrowsFreely) {
+  for (const std::size_t count : {3U, 6U, 4U, 8U})
+    for (const Hypothesis hypothesis : {Hypothesis::plane_stress, Hypothesis::axisymmetric})
+      for (const double rise : {150.0, -200.0}) {
+        const auto places = distorted(count);
+        const auto element = cell(places, section(hypothesis, Kind{false, true, false, 0, true}), rise);
+        const Eigen::Matrix2d turn =
+            (1 + expansion * rise) * Eigen::Rotation2Dd(hypothesis == Hypothesis::axisymmetric ? 0 : 2.1).toRotationMatrix();
+        const StateBuffer state =
+            moved(*element, node_map(places), [&](const Eigen::Vector2d& x) { return Eigen::Vector2d(turn * x - x); });
+        const Eigen::MatrixXd stress = field_of(*element, state, "STRESS"), strain = field_of(*element, state, "STRAIN");
+        EXPECT_LT(stress.cwiseAbs().maxCoeff(), 1e-12 * young) << count << " nodes";
+        for (Eigen::Index p = 0; p < strain.rows(); ++p)
+          EXPECT_NEAR(strain(p, 2), expansion * rise * (1 + expansion * rise / 2), 1e-13);
+        for (const double r : residual_of(*element, state)) EXPECT_NEAR(r, 0, 1e-12 * young);
+        EXPECT_NEAR(element->energies(state.view()).strain, 0, 1e-14 * young);
+      }
+}
+
+/// The smaller the warmth, the closer are forces of rubber to those of the linear material with small displacements.
+TEST(Cell, SlightlyWarmRubberIsLinear) {
+  for (const std::size_t count : {3U, 6U, 4U, 8U})
+    for (const Hypothesis hypothesis : hypotheses)
+      for (const double rise : {1e-3, 1e-5}) {
+        const auto places = distorted(count);
+        const auto forces = [&](Kind kind) {
+          const auto element = cell(places, section(hypothesis, kind), rise);
+          const auto r = residual_of(*element, StateBuffer(*element, node_map(places)));
+          return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(r.data(), static_cast<Eigen::Index>(r.size())));
+        };
+        const Eigen::VectorXd rubber = forces({false, true, false, 0, true}), linear = forces({true, false, false, 0, true});
+        const double largest = linear.cwiseAbs().maxCoeff();
+        EXPECT_GT(largest, 0.1 * young * expansion * rise);
+        EXPECT_LT((rubber - linear).cwiseAbs().maxCoeff(), 10 * expansion * rise * largest) << count << " nodes";
+      }
+}
+
 TEST(Cell, NodesAreOrdered) {
   const auto nodes = [](std::vector<int> written) { return connectivity(written)->nodes; };
   EXPECT_EQ(nodes({5, 6, 7}), (std::vector{5, 6, 7}));
@@ -453,4 +371,4 @@ TEST(Cell, NodesAreOrdered) {
 }
 
 }  // namespace
-}  // namespace engrane::elements::structural
+}  // namespace engrane::elements::structural::plane_cells

@@ -11,7 +11,7 @@ namespace {
 using namespace suite;
 
 /// A solid, and a pressure of 3 on some of its faces.
-std::string solid_deck(const std::string& cell, int nodes, const std::string& faces, const char* size) {
+std::string solid_deck(const std::string& cell, int nodes, const std::string& faces, const char* size, const char* dead = "") {
   const double x[8][3] = {{0, 0, 0},       {1.2, 0.1, 0}, {1.1, 0.9, 0.1}, {-0.1, 1, 0},
                           {0.1, 0.1, 0.8}, {1, 0, 1},     {1.2, 1.1, 0.9}, {0, 1.2, 1.1}};
   std::string text = ".NOE\n";
@@ -25,7 +25,7 @@ std::string solid_deck(const std::string& cell, int nodes, const std::string& fa
         " I 8 X -0.05 Y 0.5\n I 9 X 0.5 Y 0.6\n I 10 X 0.5 Y 1. Z 0.1\n";
   }
   return text + ".MAI\n I 1 N " + cell + "\n.MAT\n I 1 YT 70 NT 0.3\n.AEL\n I 1 MAT 1\n.SEL GROUP 1 NOM \"skin\" FACES\n" +
-         faces + ".CLM\n GROUP \"skin\" PRE V 3.\n.SAM TYPE STATIC DISPLACEMENTS " + size + "\n";
+         faces + ".CLM\n GROUP \"skin\" PRE V 3. " + dead + "\n.SAM TYPE STATIC DISPLACEMENTS " + size + "\n";
 }
 
 struct FacedCell {
@@ -97,6 +97,42 @@ TEST(GroupPressure, TangentsOfLargeDisplacements) {
     for (const Check check : {Check::rigid, Check::zero, Check::equilibrium}) s.skip[check] = "a load pushes";
     s.skip[Check::rotated_copy] = "built by a deck in its place";
     run_suite(s);
+  }
+}
+
+/// A dead pressure is that of the reference configuration, however the solid moves, and so is that on a membrane.
+TEST(GroupPressure, DeadInLargeDisplacements) {
+  const std::string skin =
+      ".NOE\n I 1 X 0 Y 0 Z 0\n I 2 X 1.2 Y 0.1 Z 0\n I 3 X 1.1 Y 0.9 Z 0.1\n I 4 X -0.1 Y 1 Z 0\n.MAI\n I 1 N 1 2 3 4\n"
+      ".MAT\n I 1 YT 70 NT 0.3\n.AEL\n I 1 MAT 1\n.HYP MEMBRANE\n.SEL GROUP 1 NOM \"skin\" MAILLES TOUT\n"
+      ".PHP GROUP 1 THICK VAL 0.1\n.SAM TYPE STATIC\n.CLM\n GROUP \"skin\" PRE V 3. ";
+  std::vector<std::pair<std::string, std::string>> decks{{skin, skin + "DEAD\n"}};
+  for (const FacedCell& kind : kinds) {
+    const std::string row = " I 1 " + std::to_string(kind.faces) + "\n";
+    decks.emplace_back(solid_deck(kind.cell, kind.nodes, row, "SMALL"), solid_deck(kind.cell, kind.nodes, row, "LARGE", "DEAD"));
+  }
+  for (const auto& [at_rest_text, dead_text] : decks) {
+    const DeckModel at_rest(at_rest_text), dead(dead_text);
+    const Element &first = *at_rest.model.parts.back().element, &element = *dead.model.parts.back().element;
+    const auto expected = residual_of(first, StateBuffer(first, dead.nodes()));
+    Subject s;
+    s.name = dead_text;
+    s.nodes = dead.nodes();
+    s.length = 0.2;
+    s.build = [text = dead_text](const Mat3&) {
+      static std::vector<std::unique_ptr<DeckModel>> kept;
+      kept.push_back(std::make_unique<DeckModel>(text));
+      return std::move(kept.back()->model.parts.back().element);
+    };
+    s.skip[Check::lagrange] = "a load";
+    for (const Check check : {Check::rigid, Check::zero, Check::equilibrium}) s.skip[check] = "a load pushes";
+    s.skip[Check::rotated_copy] = "built by a deck in its place";
+    s.skip[Check::objectivity] = "its direction is fixed in space";
+    run_suite(s);
+    Random random(3);
+    const StateBuffer state = random_state(s, element, random);
+    EXPECT_EQ(residual_of(element, state), expected);
+    for (const double slope : tangent_of(element, state, {1, 1, 1})) EXPECT_EQ(slope, 0);
   }
 }
 
