@@ -2,6 +2,11 @@
 #include "model/archive.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
 
 namespace engrane {
 
@@ -44,6 +49,25 @@ void add_archive(deck::ArchiveCard& all, const deck::Record& record, Diagnostics
     diagnostics.error(record.location,
                       fmt::format("KEEP {} of one .SAI and what another selects exclude each other", all.keep.tag),
                       "leave one of them out");
+}
+
+void tell_codes(const std::vector<deck::Record>& records, Diagnostics& diagnostics) {
+  const deck::Record* first = nullptr;
+  std::map<std::string, std::set<int>> codes;  // by what they stand for
+  for (const deck::Record& record : records) {
+    const auto* card = record.get<deck::ArchiveCard>();
+    if (!card || card->codes.empty()) continue;
+    if (!first) first = &record;
+    for (const deck::Code& code : record.schema->find("STYP")->codes)
+      if (std::find(card->codes.begin(), card->codes.end(), code.number) != card->codes.end())
+        codes[code.meaning].insert(code.number);
+  }
+  if (!first) return;
+  std::string list;
+  for (const auto& [meaning, numbers] : codes)
+    list +=
+        fmt::format("{}{} {} {}", list.empty() ? "" : ", ", fmt::join(numbers, " "), numbers.size() == 1 ? "is" : "are", meaning);
+  diagnostics.warning(first->where("STYP"), "STYP selects nothing, as all results are archived: " + list);
 }
 
 }  // namespace engrane

@@ -51,6 +51,7 @@ class Builder {
       if (record.get<deck::FunctionCard>()) add_function(record);
     for (const ElementRecord& element : elements_) place_node(element);
     for (const deck::Record& record : deck_.records) add_command(record);
+    tell_codes(deck_.records, diagnostics_);
     settle_tolerance(deck_, model_.commands, diagnostics_);
     if (has_mesh_) model_.commands.analysis.displacements.tag = deck::has_small_displacements(deck_.records) ? "SMALL" : "LARGE";
     others_are_asked_for_ =
@@ -135,11 +136,7 @@ class Builder {
     if (const auto* stepping = record.get<deck::SteppingCard>()) set_stepping(record, *stepping);
     if (const auto* path = record.get<deck::PathCard>()) model_.commands.path = *path;
     if (const auto* buckling = record.get<deck::BucklingCard>()) model_.commands.buckling = *buckling;
-    if (const auto* archive = record.get<deck::ArchiveCard>()) {
-      add_archive(record, *archive);
-      if (!archive->codes.empty())
-        diagnostics_.warning_once("STYP", record.where("STYP"), "STYP selects nothing in this version: all fields are archived");
-    }
+    if (const auto* archive = record.get<deck::ArchiveCard>()) add_archive(record, *archive);
     // a record in error may be the one that refers to it
     if (!has_mesh_ && !diagnostics_.has_errors())
       if (const char* what = record.get<deck::MaterialCard>() && !names_material_ ? "material"

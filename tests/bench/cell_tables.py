@@ -6,13 +6,17 @@ ENGRANE=build/bin/engrane python tests/bench/cell_tables.py
 
 import sys
 import tempfile
+from itertools import product
 from pathlib import Path
+
+import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "verify"))
 
-from cell_problems import COOK, PLANE, Hole, cook, even_tube, orders, stiff_tube
-from macneal import LOADS, SHAPES, SOLIDS, plane_beam, solid_beam
+from cell_problems import COOK, PLANE, Disc, Hole, cook, even_tube, orders, stiff_tube
+from macneal import LOADS, SHAPES, SOLIDS, orders_of_changes, plane_beam, solid_beam
+from solid_problems import cantilever, rod_tip, tube_error
 
 
 def row(*cells) -> None:
@@ -73,6 +77,24 @@ def main() -> None:
                 ]
                 row(hypothesis, nodes, *(f"{e:.1e}" for e in errors), numbers(orders(errors)))
 
+        head("Rotating disc", "", "nodes", *sizes, "orders")
+        for hypothesis in ("stress", "strain", "axis"):
+            for nodes in PLANE:
+                errors = [Disc(hypothesis).solve(nodes, n, folder) for n in sizes]
+                row(hypothesis, nodes, *(f"{e:.1e}" for e in errors), numbers(orders(errors)))
+
+        head("Thick tube of solids", "cell", 2, 4, 8, "orders")
+        for kind, (corners, second) in {"T4": (4, False), **SOLIDS}.items():
+            errors = [tube_error(corners, second, n, folder) for n in (2, 4, 8)]
+            row(kind, *(f"{e:.1e}" for e in errors), numbers(orders(errors)))
+
+        sizes, tip = (8, 16, 32, 64), rod_tip()
+        head("Cantilever bent far", "cell", *sizes, "orders")
+        for kind in ("T10", "W15", "H8", "H20"):
+            found = [cantilever(*SOLIDS[kind], n, folder) for n in sizes]
+            errors = [float(np.hypot(*(place - tip))) for place in found]
+            row(kind, *(f"{e:.1e}" for e in errors), numbers(orders(errors)))
+
         ratios = (0.3, 0.49, 0.499, 0.4999)
         head("Thick tube, nearly incompressible", "", "nodes", *ratios)
         for hypothesis in ("strain", "axis"):
@@ -105,6 +127,23 @@ def main() -> None:
             row(nodes, f"{plane_beam('curved', nodes, 'in plane', folder):.4f}", "", "", "")
         for kind in SOLIDS:
             row(kind, *(f"{solid_beam(n, kind, load, folder):.4f}" for n in names for load in LOADS[1:3]))
+
+        finer = (1, 2, 4, 8)
+        head("Beams of finer meshes", "beam", "cell", *finer, "orders")
+        for name in ("straight", "curved"):
+            for nodes in PLANE:
+                shares = [plane_beam(name, nodes, "in plane", folder, finer=k) for k in finer]
+                row(
+                    f"{name}, in plane",
+                    nodes,
+                    *(f"{s:.4f}" for s in shares),
+                    numbers(orders_of_changes(shares)),
+                )
+        for name, load in product(("curved", "twisted"), LOADS[1:3]):
+            for kind in SOLIDS:
+                shares = [solid_beam(name, kind, load, folder, finer=k) for k in finer[:3]]
+                figures = [f"{s:.4f}" for s in shares]
+                row(f"{name}, {load}", kind, *figures, "", numbers(orders_of_changes(shares)))
 
 
 if __name__ == "__main__":

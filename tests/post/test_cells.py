@@ -16,6 +16,7 @@ import pytest
 from engrane_post import Results
 from engrane_post.cells import BY_NAME, BY_XDMF, outer_faces, runs
 from engrane_post.surfaces import KINDS
+from small_decks import SQUARES
 
 CODES = {"triangle": 4, "quad": 5, "tetra": 6, "wedge": 8, "hexahedron": 9, "triangle6": 36, "quad8": 37}
 CODES |= {"tetra10": 38, "wedge15": 40, "hexahedron20": 48}
@@ -510,25 +511,17 @@ def test_round_trip(command, tmp_path: Path) -> None:
     assert back.point_data["displacement"][:, 0] == pytest.approx(start.points[:, 0] * 5e-6, abs=1e-15)
 
 
-GROUPED = """.NOE
- I 1 X 0 Y 0
- I 2 X 10 Y 0
- I 3 X 10 Y 10
- I 4 X 0 Y 10
- I 5 X 20 Y 0
- I 6 X 20 Y 10
-.MAI
- I 11 AT 1 0 N 1 2 3 4
- I 12 AT 2 0 N 2 5 6 3
-.SEL
+GROUPED = (
+    SQUARES
+    + """.SEL
  GROUP 1 MAILLES NOM "both of them" TOUT
- GROUP 2 MAILLES NOM "left (1)" I 11
+ GROUP 2 MAILLES NOM "left (1)" I 1
  GROUP 3 MAILLES NOM "right" AT 2
- GROUP 4 NOEUDS NOM "foot, all" I 1 I 5
+ GROUP 4 NOEUDS NOM "foot, all" I 1 I 3
  GROUP 5 NOEUDS NOM "top" BOITE -1 30 9 11 -1 1
  GROUP 6 NOEUDS NOM "frame" UNION "foot, all" "top"
  GROUP 7 FACES NOM "end"
-  I 12 2
+  I 2 2
 .SEL
  GROUP 8 NOEUDS NOM "foot, all" I 2
  GROUP 9 MAILLES UNION "right" 2
@@ -541,6 +534,7 @@ GROUPED = """.NOE
  GROUP "end" PRE V 5.
 .FIN
 """
+)
 
 
 @pytest.mark.parametrize("ending", [".vtu", ".vtk", ".med", ".inp", ".msh", ".bdf"])
@@ -556,7 +550,7 @@ def test_groups(ending: str, command, tmp_path: Path) -> None:
     file = tmp_path / f"out{ending}"
     status, out, err = command("export", tmp_path / "deck.h5", "--mesh", file)
     assert (status, err) == (0, "")
-    nodes = {"foot, all": [0, 1, 4], "top": [2, 3, 5], "frame": [0, 2, 3, 4, 5]}
+    nodes = {"foot, all": [0, 1, 2], "top": [3, 4, 5], "frame": [0, 2, 3, 4, 5]}
     cells = {"both of them": [0, 1], "left (1)": [0], "right": [1], "group 9": [0, 1]}
     if ending == ".inp":
         nodes["foot_ all"] = nodes.pop("foot, all")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`engrane import`: what mesh files of other programs say of places, and how VTK writes them."""
+"""`engrane import`: what mesh files of other programs say of places, how they order the nodes of cells of
+second order, and how VTK writes meshes."""
 
 from __future__ import annotations
 
@@ -8,6 +9,7 @@ from pathlib import Path
 import meshes
 import meshio
 import numpy as np
+import pytest
 from test_import import check_cell, imported
 
 
@@ -42,6 +44,42 @@ def test_what_places_nodes_is_read_or_refused(command, tmp_path: Path) -> None:
             found, _, err = command("import", bulk, "-o", tmp_path / "d.dat", "--force")
             assert found == status and ("field CP" in err) == (status == 1), err
     assert np.allclose(meshes.read_deck(tmp_path / "d.dat").nodes[2], [10, 0, 0])
+
+
+@pytest.mark.parametrize("version", ["2.2", "4.1"])
+@pytest.mark.parametrize("kind", ["tetra10", "wedge15", "hexahedron20"])
+def test_files_of_gmsh(kind: str, version: str, command, tmp_path: Path) -> None:
+    """One cell of second order in a file of Gmsh 4.15, whose mid-side nodes have their own order; coordinates
+    rounded to nine digits. Physical groups of the cell, of the face z = 0 and of a corner."""
+    deck, out, err = imported(command, tmp_path, Path(__file__).parent / "gmsh" / f"{kind}_{version}.msh")
+    assert err == "" and 'group "base side": 1 face' in out
+    check_cell(deck, deck.cells[1])
+    places = [sorted(x.round(6).tolist() for x in of) for of in (deck.nodes.values(), meshes.points_of(kind))]
+    assert places[0] == places[1]
+    assert deck.groups["body"] == ("MAILLES", [(1,)])
+    what, ((cell, face),) = deck.groups["base side"]
+    assert what == "FACES" and cell == 1
+    below = {n for n, x in deck.nodes.items() if x[2] == 0}
+    assert meshes.face(deck.cells[1], face) < below
+    assert {n for (n,) in deck.groups["base side nodes"][1]} == below
+    ((pin,),) = deck.groups["pin"][1]
+    assert deck.nodes[pin].tolist() == [2, 0, 0]
+
+
+@pytest.mark.parametrize("suffix", [".vtk", ".med", ".inp", ".bdf"])
+@pytest.mark.parametrize("kind", ["triangle6", "quad8", "tetra10", "hexahedron20"])
+def test_cells_of_second_order(kind: str, suffix: str, command, tmp_path: Path) -> None:
+    """As meshio writes them: every mid-side node is in the middle of its side, and none is lost."""
+    points = meshes.points_of(kind)
+    if suffix == ".med" and points[:, 2].any():
+        points = points * [1, -1, 1]  # solids of MED run the other way round, which meshio does not know
+    file = tmp_path / f"mesh{suffix}"
+    meshio.Mesh(points, [(kind, np.arange(len(points))[None, :])]).write(file)
+    deck, _, _ = imported(command, tmp_path, file)
+    assert len(deck.cells) == 1 and len(deck.nodes) == len(points)
+    check_cell(deck, deck.cells[1])
+    places = [sorted(x.round(9).tolist() for x in of) for of in (deck.nodes.values(), points)]
+    assert places[0] == places[1]
 
 
 def test_vtk_as_vtk_writes_it(command, tmp_path: Path) -> None:

@@ -184,6 +184,60 @@ def stiff_tube(hypothesis: str, poisson: float, alternating: bool = True) -> Tub
     return Tube(hypothesis, (3.0, 3.5, 4.2, 5.2, 6.75, 9.0), 1000.0, poisson, 1.0, alternating)
 
 
+class Disc(NamedTuple):
+    """A disc with a hole that turns about its axis: a quarter in plane stress, free all round; or a long one
+    held along its axis, as a quarter in plane strain or as a slice round the axis."""
+
+    hypothesis: str = "stress"
+    inner: float = 1.0
+    outer: float = 2.0
+    young: float = 1000.0
+    poisson: float = 0.3
+    density: float = 2.0
+    speed: float = 3.0
+
+    def displacement(self, radius: np.ndarray) -> np.ndarray:
+        """Radial (S. P. Timoshenko and J. N. Goodier 1970, Theory of Elasticity, article 32); in plane strain
+        with E/(1 - nu^2) and nu/(1 - nu) for E and nu (article 16)."""
+        young, nu = self.young, self.poisson
+        if self.hypothesis != "stress":
+            young, nu = young / (1 - nu**2), nu / (1 - nu)
+        scale = (3 + nu) / 8 * self.density * self.speed**2
+        sum_, product = self.inner**2 + self.outer**2, (self.inner * self.outer) ** 2
+        along = scale * (sum_ - product / radius**2 - radius**2)
+        round_ = scale * (sum_ + product / radius**2 - (1 + 3 * nu) / (3 + nu) * radius**2)
+        return radius / young * (round_ - nu * along)
+
+    def error(self, points: np.ndarray, moved: np.ndarray, round_axis: bool = False) -> float:
+        """Of radial displacements: root of the mean square over nodes, of the largest one."""
+        radius = points[:, 0] if round_axis else np.hypot(points[:, 0], points[:, 1])
+        radial = moved[:, 0] if round_axis else (moved[:, :2] * points[:, :2]).sum(axis=1) / radius
+        expected = self.displacement(radius)
+        return float(np.sqrt(np.mean((radial - expected) ** 2)) / expected.max())
+
+    def place(self, u: np.ndarray) -> np.ndarray:
+        """The quarter, of the unit square."""
+        radius, angle = self.inner + (self.outer - self.inner) * u[0], np.pi / 2 * u[1]
+        return radius * np.array([np.cos(angle), np.sin(angle)])
+
+    def solve(self, nodes: int, boxes: int, folder: Path) -> float:
+        """Its error with so many boxes along the radius, and as many round it; one along the axis."""
+        slice_ = self.hypothesis == "axis"
+
+        def place(u):
+            return np.array([self.inner + (self.outer - self.inner) * u[0], u[1] / boxes])
+
+        mesh = Sheet((boxes, 1 if slice_ else boxes), nodes, place if slice_ else self.place, curved=True)
+        deck = [
+            *mesh.model(self.hypothesis, self.young, self.poisson, 0.3, self.density),
+            mesh.group(2, "low", mesh.nodes(lambda u: u[1] == 0)),
+            mesh.group(3, "high", mesh.nodes(lambda u: u[1] == 1)),
+            f'.CLM\n GROUP "low" FIX C 2\n GROUP "high" FIX C {2 if slice_ else 1}',
+            f' GROUP "all" ROT VAL {self.speed} AXE {"0 1 0" if slice_ else "0 0 5"}',
+        ]
+        return self.error(mesh.points, solve(deck, folder), slice_)
+
+
 def orders(errors: list[float]) -> list[float]:
     """Of errors on meshes each twice as fine as the one before."""
     return [float(np.log2(a / b)) for a, b in pairwise(errors)]

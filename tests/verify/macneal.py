@@ -7,6 +7,7 @@ curved beam the end turns, and corners differ by some per cent."""
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -86,11 +87,14 @@ def twist(block: Block, model: list[str], folder: Path) -> float:
     return float(found[corner(block, 1, 1, 1), 2] - found[corner(block, 1, 0, 1), 2]) / 0.2
 
 
-def plane_beam(name: str, nodes: int, load: str, folder: Path, shape: str = "rectangles") -> float:
-    """The straight or the curved beam of 6 plane cells, or of triangles that fill the same boxes."""
+def plane_beam(
+    name: str, nodes: int, load: str, folder: Path, shape: str = "rectangles", finer: int = 1
+) -> float:
+    """The straight or the curved beam of 6 plane cells, or of triangles that fill the same boxes, or with
+    `finer` times as many boxes along each side."""
     young, poisson, theory = STRAIGHT if name == "straight" else CURVED
     place = straight_place(shape) if name == "straight" else curved_place
-    mesh = Sheet((6, 1), nodes, place, curved=name == "curved")
+    mesh = Sheet((6 * finer, finer), nodes, place, curved=name == "curved")
     axis = AXES[load] if name == "straight" else 0
     force = mesh.forces(lambda u: u[0] == 1, lambda x, n: np.eye(2)[axis] / 0.2)
     found = tip(mesh, mesh.model("stress", young, poisson, 0.1), force, folder)
@@ -112,3 +116,9 @@ def solid_beam(
     axis = 0 if name == "curved" and load == "in plane" else AXES[load]
     found = tip(block, model, block.spread(lambda u: u[0] == 1, np.eye(3)[axis]), folder)
     return float(found[corner(block, 1, 1, 1), axis] / theory[load])
+
+
+def orders_of_changes(shares: list[float]) -> list[float]:
+    """Of meshes each twice as fine as the one before; their limit is not that of the theory of beams."""
+    changes = np.diff(shares)
+    return [float(np.log2(a / b)) for a, b in pairwise(changes)]

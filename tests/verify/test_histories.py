@@ -2,6 +2,7 @@
 """Whose histories a run keeps, what a result costs on the disk, and what a disk without space does."""
 
 import os
+import re
 import resource
 import shutil
 import signal
@@ -9,6 +10,7 @@ import subprocess
 import time
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from engrane_post import Results
@@ -182,3 +184,58 @@ def test_records_of_sai_add_up(tmp_path: Path) -> None:
         owners = {name.rpartition("/")[0] for name in results.channels}
         assert {o for o in owners if o != "run"} == {"node/1", "node/2", "element/2"}
         assert list(results.frame_times) == [0, 0.5, 1]
+
+
+CELLS = """.NOE
+ I 1 X 0 Y 0
+ I 2 X 1 Y 0
+ I 3 X 1 Y 1
+ I 4 X 0 Y 1
+.MAI
+ I 1 N 1 2 3 4
+.SEL GROUP 1 MAILLES TOUT
+.MAT
+ I 1 BEHA "ELASTIC" YT 1000. NT 0.3
+.HYP DEFO PLAN GROUP 1
+.AEL I 1 MAT 1
+.CLM
+ NOEUD 1 FIX C 1 2
+ NOEUD 4 FIX C 1
+ NOEUD 2 CHA C 1 V 1.
+.SAI ARCHIVE STRUCTURE STYP 163 223 1411 1421 1431 1445 3411 3421 3435 3446
+.FIN 1
+"""
+BODY = """.NOE
+ I 1
+.MCE
+ I 1 INERTIA N 1 M 1 J 1
+.CLM
+ NOEUD 1 FIX C 2 3 5 6
+ NOEUD 1 CHA C 1 V 1.
+.SAM TYPE DYNAMIC
+.SUB TF 0.1 H 0.05
+.SAI STYP 163 191 221 224 901 981 982 984 985
+.FIN 1
+"""
+
+
+@pytest.mark.parametrize("deck", [CELLS, BODY], ids=["cells", "body"])
+def test_results_hold_what_codes_stand_for(deck: str, tmp_path: Path) -> None:
+    done = run(deck, tmp_path)
+    assert done.returncode == 0, done.stderr
+    (said,) = re.findall(r"all results are archived: (.*)", done.stderr)
+    named = dict(re.findall(r"([\d ]+) (?:is|are) ([^,]*)", said))
+    codes = {word for text in named for word in text.split()}
+    assert codes == set(re.search(r"STYP ([\d ]+)", deck)[1].split())
+    with h5py.File(tmp_path / "deck.h5") as file:
+        run_channels = [name.decode() for name in file["history/run/channels"][:]]
+        for meaning in named.values():
+            what, _, where = meaning.partition(" ")
+            if where == "of the run":
+                assert what in run_channels
+            elif meaning == "the times of the histories":
+                assert len(file["history/time"])
+            elif where:
+                assert len(file[{"at nodes": "nodes", "of cells": "fields"}[where]][what]) > 0
+            else:
+                assert len(file[f"fields/{what}"]) > 0

@@ -9,7 +9,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from macneal import LOADS, SHAPES, SOLIDS, plane_beam, solid_beam
+from macneal import LOADS, SHAPES, SOLIDS, orders_of_changes, plane_beam, solid_beam
 from plane_meshes import CUTS, KINDS, PlaneMesh
 from runs import run
 from solid_meshes import Mesh, SolidMesh
@@ -85,6 +85,22 @@ def test_curved_and_twisted_beams(kind: str, tmp_path: Path) -> None:
     assert found == pytest.approx(BENT_SOLID[kind], abs=6e-5)
     if kind == "H8":
         assert found[:2] == pytest.approx(HEX8_CURVED, abs=6e-4)
+
+
+# shares with 1, 2 and 4 times as many boxes along each side, and the order of their changes
+FINER_PLANE = {6: (1.01269, 3.36), 4: (1.01062, 3.43), 8: (1.01365, 2.96)}
+FINER_SOLID = {"T10": (1.01063, 3.29), "W15": (1.01171, 3.00), "H8": (1.00807, 3.20), "H20": (1.01142, 3.48)}
+
+
+@pytest.mark.parametrize("cell", [*FINER_PLANE, *FINER_SOLID])
+def test_curved_beam_converges(cell: int | str, tmp_path: Path) -> None:
+    if cell in FINER_PLANE:
+        shares = [plane_beam("curved", cell, "in plane", tmp_path, finer=k) for k in (1, 2, 4)]
+    else:
+        shares = [solid_beam("curved", cell, "in plane", tmp_path, finer=k) for k in (1, 2, 4)]
+    last, order = {**FINER_PLANE, **FINER_SOLID}[cell]
+    assert shares[-1] == pytest.approx(last, abs=6e-6)
+    assert orders_of_changes(shares)[0] == pytest.approx(order, abs=6e-3)
 
 
 def test_twisted_beam_converges_to_theory(tmp_path: Path) -> None:

@@ -233,25 +233,39 @@ Schema archive_card() {
       .at_least(0);
   card.add("ARCHIVE", &ArchiveCard::archives, "a word of BACON before STYP, without effect").repeats();
   card.add("STRUCTURE", &ArchiveCard::of_structure, "likewise").repeats();
+  // by the labels of SAMCEF that Muscat 2.5.2 (IO/SamcefOutputReader.py) copies; docs/legacy.md has other sources
+  const char* const stress_at_nodes = "STRESS at nodes";
+  const char* const strain_at_nodes = "STRAIN at nodes";
+  const char* const stress_of_cells = "STRESS of cells";
+  const char* const strain_of_cells = "STRAIN of cells";
   card.add("STYP", &ArchiveCard::codes,
-           "result codes to archive, below zero not to archive; codes unknown here are skipped with a warning")
+           "result codes of SAMCEF, below zero not to archive; all results are archived, whatever the codes, and codes without "
+           "a result here are skipped with a warning. What the results hold for a code:")
       .repeats()
       .codes({{163, "displacement"},
               {191, "rotation"},
-              {223, "reaction force"},
-              {224, "reaction torque"},
-              {901, "time"},
-              {981, "kinetic energy"},
-              {982, "potential energy"},
-              {984, "work of external forces"},
-              {985, "time step"},
-              {986, "integration error"},
-              {1411, "stress"},
-              {1421, "strain"},
-              {1437, "normal force"},
-              {1438, "normal moment"},
-              {1524, "force vector"},
-              {1525, "moment vector"}});
+              {221, "reaction_force"},
+              {223, "reaction_force"},
+              {224, "reaction_torque"},
+              {901, "the times of the histories"},
+              {981, "KINETIC_ENERGY of the run"},
+              {982, "POTENTIAL_ENERGY of the run"},
+              {984, "EXTERNAL_WORK of the run"},
+              {985, "STEP of the run"},
+              {1411, stress_at_nodes},
+              {1421, strain_at_nodes},
+              {1431, stress_at_nodes},
+              {1435, stress_at_nodes},
+              {1436, stress_at_nodes},
+              {1445, strain_at_nodes},
+              {1446, strain_at_nodes},
+              {3411, stress_of_cells},
+              {3421, strain_of_cells},
+              {3431, stress_of_cells},
+              {3435, stress_of_cells},
+              {3436, stress_of_cells},
+              {3445, strain_of_cells},
+              {3446, strain_of_cells}});
   card.add("ELEMENT", &ArchiveCard::elements, "elements whose histories are kept: ids and ranges")
       .synonyms({"MCE", "ELEMENTS"})
       .refers(Reference::element)

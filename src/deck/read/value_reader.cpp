@@ -344,7 +344,7 @@ void ValueReader::read_choice(Work& work) {
   check_count(work, option->min_values, option->max_values, option);
 }
 
-/// Result codes that translators write but this version does not know must not make a deck invalid.
+/// Result codes that translators write but that stand for no result of this version must not make a deck invalid.
 void ValueReader::skip_unknown_codes(Work& work) {
   if (work.result.faulty) return;
   auto& numbers = work.result.values.numbers;
@@ -364,8 +364,8 @@ void ValueReader::report_unknown_codes() {
   for (const auto& [keyword, unknown] : unknown_codes_) {
     std::string list;
     for (const int code : unknown.codes) list += " " + std::to_string(code);
-    diagnostics_.warning(unknown.where,
-                         keyword + list + (unknown.codes.size() == 1 ? " is" : " are") + " not known here and skipped");
+    diagnostics_.warning(unknown.where, keyword + list + (unknown.codes.size() == 1 ? " has" : " have") + " no result here and " +
+                                            (unknown.codes.size() == 1 ? "is" : "are") + " skipped");
   }
   unknown_codes_.clear();
 }
