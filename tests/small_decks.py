@@ -15,3 +15,36 @@ ABRE '/L' '0.5' '/M' '2.'
 .CHK
  RUN ENERGY_ERROR V 0 ATOL 1E-2
 """
+
+# springs of 10 and {stiff} in a row, with masses of 1 behind each, pulled by 2
+SPRINGS = """
+.NOE
+ I 1 X 0
+ I 2 X 1
+ I 3 X 2
+.MCE
+ I 1 SPRING N 1 2 K 10
+ I 2 SPRING N 2 3 K {stiff!r}
+ I 3 INERTIA N 2 M 1
+ I 4 INERTIA N 3 M 1
+ I 5 FORCE N 3 DIR 1 0 0 V 2
+.CLM
+ FIX NOEUD 1 C 1 2 3
+ FIX NOEUD 2 3 C 2 3
+.SAM TYPE {kind}
+.SUB TF 1 H {h}
+.FIN 1
+"""
+
+# a mesh of two squares of 10 in a row
+SQUARES = """.NOE
+ I 1 X 0 Y 0
+ I 2 X 10 Y 0
+ I 3 X 20 Y 0
+ I 4 X 0 Y 10
+ I 5 X 10 Y 10
+ I 6 X 20 Y 10
+.MAI
+ I 1 AT 1 0 N 1 2 5 4
+ I 2 AT 2 0 N 2 3 6 5
+"""

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <utility>
 #include <vector>
@@ -15,8 +14,6 @@
 #include "base/memory.hpp"
 #include "deck/cards/cards.hpp"
 #include "model/function_failure.hpp"
-#include "model/masses.hpp"
-#include "model/user_function.hpp"
 #include "solve/constraints/diagnosis.hpp"
 #include "solve/run/buckling.hpp"
 #include "user/routine.hpp"
@@ -71,95 +68,6 @@ std::vector<double> times_of(const std::vector<deck::CheckCard>& checks) {
   return times;
 }
 
-/// Whether an energy is negligible: no more than the work of the residual forces of a machine at rest, or than the kinetic energy
-/// of all masses that cover a billionth of the extent in the time of the analysis.
-bool counts_as_none(double energy, const SolverContext& context, const References& references) {
-  const Model& model = context.model;
-  const double extent = model.extent();
-  if (energy <= 1e-6 * references.largest_force() * extent) return true;
-  MassProperties all;
-  for (const Model::Part& part : model.parts) all.add(mass_properties(model, part));
-  const double speed = 1e-9 * extent / (context.options.end - context.options.begin);
-  return energy <= 0.5 * (all.mass + all.inertia.trace() / (extent * extent)) * speed * speed;
-}
-
-/// Whether the deck asks for the energy balance to be checked.
-bool judges_energies(const SolverOptions& options) {
-  return options.analysis == SolverOptions::Analysis::dynamics && options.energy_error > 0;
-}
-
-/// How user routines may cause an error of the energy balance, to follow a message; empty if the model has none.
-std::string routine_to_blame(const Model& model) {
-  if (std::none_of(model.functions.begin(), model.functions.end(),
-                   [](const auto& function) { return dynamic_cast<const UserFunction*>(function.second.get()) != nullptr; }))
-    return {};
-  return ". A LAW USER has the same effect if the energy that its routine returns depends on the time: it is then left unset";
-}
-
-/// Why the run must end if the error of its energy balance is too large; empty if it is not.
-std::string energy_failure(const SolverContext& context, const References& references, const observe::Observer& observer,
-                           const Configuration& c) {
-  const double allowed = context.options.energy_error;
-  const observe::EnergyBalance& balance = observer.energies();
-  const double off = std::abs(balance.error());
-  if (!judges_energies(context.options) || off <= allowed * balance.handled() ||
-      counts_as_none(off / allowed, context, references))
-    return {};
-  const std::string unit = context.model.units.label(dimension::energy);
-  return fmt::format(
-      "the energy balance is off by {:.4g} {} at t = {:.6g}, more than {}the {:.4g} {} that were in the machine or passed "
-      "through it: the results went wrong some time before this. Take a smaller {}{}{}; ENERGY 0 in .SAM lets the run continue",
-      balance.error(), unit, c.time, allowed == 1 ? "" : fmt::format("{:g} of ", allowed), balance.handled(), unit,
-      context.options.tolerance > 0 ? "TOL or HMAX" : "step H",
-      context.options.family == SolverOptions::Family::newmark || context.options.damping > 0.99
-          ? ", or a scheme with damping (RHO below 1): without it, rounding errors in the constraints grow"
-          : "",
-      routine_to_blame(context.model));
-}
-
-/// A warning if the equilibria of a run are not on one path; empty if they are.
-std::string jump_remark(const SolverContext& context, const References& references, const observe::EnergyBalance& balance) {
-  constexpr double small = 1e-3;
-  const observe::Jump& jump = balance.jump;
-  const double energy = std::abs(jump.lost);
-  // what cannot be deformed does not snap: drives that turn far within a step are all that the works differ by
-  if (balance.handled() <= small * energy) return {};
-  if (energy <= small * balance.handled() || counts_as_none(energy, context, references)) return {};
-  const std::string begin = fmt::format("{:.6g}", jump.begin), end = fmt::format("{:.6g}", jump.end);
-  const std::string when = begin == end ? "at t = " + begin : fmt::format("between t = {} and {}", begin, end),
-                    unit = context.model.units.label(dimension::energy);
-  const bool follows = context.options.path.follow;
-  // a path leads there, if not a straight one; and only models with gaps are known to go astray
-  if (jump.lost < 0 && (follows || std::none_of(context.model.parts.begin(), context.model.parts.end(),
-                                                [](const Model::Part& part) { return part.element->has_gaps(); })))
-    return {};
-  if (jump.lost < 0)
-    return fmt::format(
-        "{} the structure came to an equilibrium that it cannot reach by itself, as on the far side of a contact: {:.3g} {} of "
-        "energy appeared from nothing{}",
-        when, energy, unit, begin == end ? "" : ". Smaller steps H may avoid it");
-  return fmt::format(
-      "{} the structure snapped to a distant equilibrium: {:.3g} {} of energy went into a motion that statics leave out. "
-      "{}{}TYPE "
-      "DYNAMIC follows the motion",
-      when, energy, unit, begin == end ? "" : "Smaller steps H show at which load; ",
-      follows ? "" : ".PATH follows the equilibria in between; ");
-}
-
-/// A warning if the energy balance of a complete run was off by more than results should be; empty if it was not.
-std::string energy_remark(const SolverContext& context, const References& references, const observe::Observer& observer) {
-  constexpr double much = 0.05;
-  const observe::EnergyBalance& balance = observer.energies();
-  const double off = balance.largest_error;
-  if (balance.jump.lost != 0) return jump_remark(context, references, balance);
-  if (!judges_energies(context.options) || off <= much * balance.handled() || counts_as_none(off, context, references)) return {};
-  return fmt::format(
-      "the energy balance was off by up to {:.3g} {}, {:.0f} % of what was in the machine or passed through it: "
-      "results may be as wrong. A smaller {} would tell{}",
-      off, context.model.units.label(dimension::energy), 100 * off / balance.handled(),
-      context.options.tolerance > 0 ? "TOL" : "step H", routine_to_blame(context.model));
-}
-
 /// Clears failures of user routines and formulas that were reported or belong to rejected attempts of a step.
 void forget_failures() {
   user::forget_failures();
@@ -177,6 +85,7 @@ Attempt::Attempt(const Task& task, const Trial& trial, std::optional<Companion>&
       schedule_(task.reading.model.commands.stepping, task.reading.model.commands.archive),
       fast_turns_(task.reading.model, trial.options),
       stability_(context_),
+      energies_(context_, observer_),
       last_time_(task.reading.model.commands.stepping.start) {
   MPI_Comm_rank(task.comm, &rank_);
   MPI_Comm_size(task.comm, &ranks_);
@@ -239,7 +148,7 @@ void Attempt::run() {
       observer_.load(memory);
       schedule_.load(memory);
       last_time_ = resumption->point.time;
-      handled_ = observer_.energies().handled();
+      energies_.resume();
       if (rank_ == 0) writer_->resumed(*resumption);
       complete_ = runner_->resume(memory, seen);
     } else {
@@ -284,7 +193,11 @@ bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
   });
   int stop = failure_.empty() ? 0 : 1;
   if (ranks_ > 1) MPI_Bcast(&stop, 1, MPI_INT, 0, task_.comm);
-  if (stop == 0 && !energies_hold(solved, step.last)) stop = 1;
+  if (stop == 0) {
+    failure_ = energies_.failure(runner_->references(), solved.time, step.last);
+    wrong_ = !failure_.empty();
+    if (wrong_) stop = 1;
+  }
   const bool far_enough = task_.options.until && solved.time >= *task_.options.until && !step.last;
   if (were_interrupted(task_.comm, ranks_) || far_enough) {
     failure_ = fmt::format("interrupted at t = {:.6g}", solved.time);
@@ -292,19 +205,6 @@ bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
     stop = 1;
   }
   return stop == 0;
-}
-
-bool Attempt::energies_hold(const Configuration& solved, bool last) {
-  // Where a machine begins to move, the first steps handle most of the energy so far, and the error of their work is of its size:
-  // it tells nothing until energies no longer double from step to step, unless it stays.
-  constexpr int most_steps = 10;
-  const double handled = observer_.energies().handled(), before = std::exchange(handled_, handled);
-  std::string wrong = energy_failure(context_, runner_->references(), observer_, solved);
-  steps_off_ = wrong.empty() ? 0 : steps_off_ + 1;
-  if (wrong.empty() || (handled > 2 * before && steps_off_ < most_steps && !last)) return true;
-  failure_ = std::move(wrong);
-  wrong_ = true;
-  return false;
 }
 
 void Attempt::find_buckling_modes(const Configuration& solved, const StepReport& step) {
@@ -440,7 +340,7 @@ int Attempt::finish() {
                                     runner_->now(), observer_.energies().handled());
   if (rank_ == 0) {
     try {
-      const std::string of_energy = complete_ ? energy_remark(context_, runner_->references(), observer_) : "";
+      const std::string of_energy = complete_ ? energies_.remark(runner_->references()) : "";
       for (const std::string& remark : {unresolved, of_energy, stability_.remark(), fast_turns_.remark(),
                                         complete_ ? looser_before() : "", context_.solver.remark()})
         if (!remark.empty()) writer_->warn(remark);

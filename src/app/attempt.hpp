@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/companion.hpp"
+#include "app/energy_watch.hpp"
 #include "app/fast_turns.hpp"
 #include "app/instants.hpp"
 #include "app/options.hpp"
@@ -50,8 +51,6 @@ class Attempt {
   void run();
   /// Called after each accepted step; returns false to stop.
   bool after_step(const Configuration& solved, const solve::StepReport& step);
-  /// Ends the run where its energies have gone wrong; false then.
-  bool energies_hold(const Configuration& solved, bool last);
   void find_buckling_modes(const Configuration& solved, const solve::StepReport& step);
   /// Observes an accepted step; returns which outputs are due.
   Schedule::Due show(const Configuration& solved, const solve::StepReport& step);
@@ -86,12 +85,11 @@ class Attempt {
   Schedule schedule_;
   FastTurns fast_turns_;
   solve::StabilityWatch stability_;
+  EnergyWatch energies_;
   std::optional<Writer> writer_;  ///< of rank 0
   std::unique_ptr<solve::Scheme> scheme_;
   std::optional<solve::Runner> runner_;
   double last_time_ = 0;    ///< of the last accepted step
-  double handled_ = 0;      ///< observe::EnergyBalance::handled() at its end
-  int steps_off_ = 0;       ///< number of steps in a row whose energies were off
   std::string failure_;     ///< what stopped the run; empty when nothing did
   bool complete_ = false;   ///< the run came to its end
   bool unsolved_ = false;   ///< no solution was found at some step

@@ -22,8 +22,6 @@ namespace {
 
 using elements::structural::CellBook;
 
-bool is_cell(const Model::Part& part) { return part.type == "MAI"; }
-
 /// The groups of cells of a deck, read again: the model does not keep them.
 std::vector<int> cells_of(const CellBook& book, const std::vector<std::string>& groups) {
   std::vector<int> all;
@@ -50,7 +48,7 @@ std::unordered_map<const deck::Record*, std::size_t> cells_by_material(const dec
   }
   std::unordered_map<const deck::Record*, std::size_t> count;
   for (const Model::Part& part : model.parts)
-    if (const auto found = of_cell.find(part.element->id()); is_cell(part) && found != of_cell.end()) ++count[found->second];
+    if (const auto found = of_cell.find(part.element->id()); part.is_cell() && found != of_cell.end()) ++count[found->second];
   return count;
 }
 
@@ -144,7 +142,7 @@ void look_for_cells_twice(const Model& model, Diagnostics& diagnostics) {
   using Marked = std::pair<std::uint64_t, std::size_t>;  // of a part
   std::vector<Marked> marked;
   for (std::size_t p = 0; p < model.parts.size(); ++p)
-    if (is_cell(model.parts[p])) marked.emplace_back(mark_of(model.parts[p].element->node_ids()), p);
+    if (model.parts[p].is_cell()) marked.emplace_back(mark_of(model.parts[p].element->node_ids()), p);
   std::sort(marked.begin(), marked.end());
   // nodes and part of the cells with one mark: sorted, those on the same nodes are neighbours
   std::vector<std::pair<std::vector<int>, std::size_t>> alike;
@@ -177,7 +175,7 @@ void look_for_cells_twice(const Model& model, Diagnostics& diagnostics) {
 }  // namespace
 
 void warn_of_mesh_slips(const deck::Deck& deck, const Model& model, Diagnostics& diagnostics) {
-  if (std::none_of(model.parts.begin(), model.parts.end(), is_cell)) return;
+  if (std::none_of(model.parts.begin(), model.parts.end(), [](const Model::Part& part) { return part.is_cell(); })) return;
   look_for_cells_twice(model, diagnostics);
   const bool misses = misses_density(deck, model);
   const bool turns = std::any_of(deck.records.begin(), deck.records.end(),

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "app/layout.hpp"
@@ -152,11 +153,11 @@ std::string describe_price(const Reading& reading, solve::SolverContext& context
   double elements = 0;
   for (const auto& [kind, parts] : kinds) {
     // a hundred elements of a kind are representative
-    const std::size_t count = std::min<std::size_t>(parts.size(), 100);
+    const std::span<const int> some = std::span(parts).first(std::min<std::size_t>(parts.size(), 100));
     const double time = shortest([&] {
-      for (std::size_t i = 0; i < count; ++i) context.assembler.element_tangent(parts[i], here, weights);
+      for (const int part : some) context.assembler.element_tangent(part, here, weights);
     });
-    times[kind] = time * static_cast<double>(parts.size()) / static_cast<double>(count);
+    times[kind] = time * static_cast<double>(parts.size()) / static_cast<double>(some.size());
     elements += times[kind];
   }
   context.assembler.choose_scale(here, weights, context.options.scale);

@@ -25,7 +25,7 @@ bool is_in_deck(const deck::Deck& deck, int id) {
 std::map<int, int> parts_by_id(const Model& model) {
   std::map<int, int> parts;
   for (std::size_t p = 0; p < model.parts.size(); ++p)
-    if (model.parts[p].type != "CHA") parts.try_emplace(model.parts[p].element->id(), static_cast<int>(p));
+    if (!model.parts[p].is_nodal_load()) parts.try_emplace(model.parts[p].element->id(), static_cast<int>(p));
   return parts;
 }
 

@@ -65,7 +65,7 @@ std::unique_ptr<Resumption> find_resumption(const Reading& reading, const Option
         "{} would be continued from t = {:.10g}, but .SUB ends at TF = {:.10g}: give a later TF, or RESTART with an earlier T{}",
         earlier.path(), point.time, reading.model.commands.stepping.end, newer.empty() ? newer : ". " + newer));
   }
-  return std::make_unique<Resumption>(std::move(earlier), std::move(point));
+  return std::make_unique<Resumption>(Resumption{std::move(earlier), std::move(point)});
 }
 
 /// As find_resumption(), on every rank. Collective: all ranks throw if one does, or if they find other restart points than rank

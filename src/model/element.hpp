@@ -296,6 +296,7 @@ struct Derived {
   std::string name;
   double value = 0;
   Dimension dimension;
+  bool bound = false;  ///< the quantity only bounds a motion, which may never reach it: "no lower limit" is often MIN -1E9
 };
 
 /// A finite element or joint. Elements are immutable after building and know neither the assembly nor each other.
@@ -379,6 +380,8 @@ class Element {
   virtual std::vector<Release> releases() const;
   /// Whether the element makes its nodes a body that can have mass; used for advice on motions without inertia.
   virtual bool is_body() const { return false; }
+  /// Whether the element is a force or moment that the deck gives.
+  virtual bool is_load() const { return false; }
   /// Whether the static forces are linear in the displacements, so that one tangent is valid for every equilibrium. Without
   /// multipliers this tangent must be symmetric, as such forces have a potential.
   virtual bool is_linear() const { return false; }

@@ -66,10 +66,6 @@ double size_of_nodes(const Model& model) {
   return 2 * farthest > rounding * away ? 2 * farthest : 0;
 }
 
-/// Whether the lengths known to an element only bound a motion, which may never reach them: "no lower limit" is often written as
-/// MIN -1E9.
-bool knows_bounds_only(const Model::Part& part) { return part.type == "STOP"; }
-
 /// The lengths known to elements.
 struct KnownLengths {
   double largest = 0;                                      ///< of sizes; 0 if there is none
@@ -80,11 +76,10 @@ KnownLengths known_lengths(const Model& model) {
   KnownLengths known;
   for (const Model::Part& part : model.parts) {
     known.largest = std::max(known.largest, radius_of_gyration(model, part));
-    const bool bounds = knows_bounds_only(part);
     for (const Derived& d : part.element->derived()) {
       const double length = std::abs(d.value);
       if (d.dimension != dimension::length || !std::isfinite(length)) continue;
-      if (!bounds)
+      if (!d.bound)
         known.largest = std::max(known.largest, length);
       else if (length > 0)
         known.bound = std::min(known.bound, length);
@@ -124,7 +119,7 @@ void Model::measure() {
 
 bool has_cells(const Model& model) {
   return std::any_of(model.parts.begin(), model.parts.end(),
-                     [](const Model::Part& part) { return part.element->cell_shape() != CellShape::none || part.type == "MAI"; });
+                     [](const Model::Part& part) { return part.element->cell_shape() != CellShape::none || part.is_cell(); });
 }
 
 std::string parameters_json(const Model::Part& part) {

@@ -82,6 +82,10 @@ struct Model {
     Location location;
     std::vector<int> nodes;  ///< indices of the element's nodes
 
+    /// Whether it is a nodal load (`.CLM CHA`), which has no number in the deck.
+    bool is_nodal_load() const { return type == "CHA"; }
+    /// Whether it is a cell of the deck's mesh (`.MAI`); beams are cells without a CellShape.
+    bool is_cell() const { return type == "MAI"; }
     /// "GEAR 7".
     std::string name() const { return type + " " + std::to_string(element->id()); }
   };

@@ -16,14 +16,12 @@ namespace engrane {
 
 namespace {
 
-bool is_nodal_load(const Model::Part& part) { return part.type == "CHA"; }
-
 /// Node components that elements use, as NodeNeed flags, one entry per node; 0 if it has no element. Nodal loads are left out:
 /// they need the components that they act on, but do not give them to a node.
 std::vector<unsigned> needs_of_nodes(const Model& model) {
   std::vector<unsigned> needs(model.nodes.size(), 0);
   for (const Model::Part& part : model.parts)
-    for (std::size_t i = 0; i < part.nodes.size() && !is_nodal_load(part); ++i)
+    for (std::size_t i = 0; i < part.nodes.size() && !part.is_nodal_load(); ++i)
       needs[static_cast<std::size_t>(part.nodes[i])] |= static_cast<unsigned>(part.element->layout().needs[i]);
   return needs;
 }
@@ -100,13 +98,13 @@ void check_supports(const Model& model, std::span<const Location> locations, Dia
 }
 
 void check_nodal_loads(const Model& model, Diagnostics& diagnostics) {
-  if (std::none_of(model.parts.begin(), model.parts.end(), is_nodal_load)) return;
+  if (std::none_of(model.parts.begin(), model.parts.end(), [](const Model::Part& part) { return part.is_nodal_load(); })) return;
   const std::vector<unsigned> needs = needs_of_nodes(model);
   std::set<std::pair<int, int>> supported;  // node and component
   for (const Support& s : model.supports) supported.emplace(s.node, s.component);
   std::set<std::pair<int, int>> told;  // file and line
   for (const Model::Part& part : model.parts) {
-    if (!is_nodal_load(part)) continue;
+    if (!part.is_nodal_load()) continue;
     const int node = part.nodes.front();
     // a load with a moment needs all translations
     for (const int component : {5, 4, 3, 2}) {

@@ -28,33 +28,14 @@ const std::vector<Channel>& named(bool force, bool moment) {
   return lists[(force ? 1U : 0U) + (moment ? 2U : 0U)];
 }
 
-/// The channels of a load are functions of time alone.
-std::vector<DeterminedChannels::Determined> by_time(const Element& load, const Function* function) {
-  std::vector<DeterminedChannels::Determined> all;
-  for (std::size_t i = 0; function && i < load.channels().size(); ++i) all.push_back({static_cast<int>(i)});
-  return all;
-}
-
-class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6>, public DeterminedChannels {
+/// Force and moment of given directions, fixed in space. `Base` is the base of the element, which is constructed from its number.
+template <class Base>
+class FixedLoad : public Base, public DeterminedChannels {
  public:
-  NodeLoad(int id, int node, const Vec3& at, const Vec3& force, const Vec3& moment, const Function* function)
-      : TemplatedElement(id), at_(at), force_(force), moment_(moment), function_(function) {
-    Layout layout;
-    layout.nodes = {node};
-    const bool pushes = !force.isZero(0), turns = !moment.isZero(0);
-    layout.needs = {pushes && turns ? NodeNeed::both : turns ? NodeNeed::rotation : NodeNeed::translation};
-    set_layout(std::move(layout));
-  }
+  FixedLoad(int id, const Vec3& at, const Vec3& force, const Vec3& moment, const Function* function)
+      : Base(id), at_(at), force_(force), moment_(moment), function_(function) {}
 
-  template <class T>
-  void evaluate(const Motion<T, 1>& motion, const State&, Balance<T, 1>& balance) const {
-    const T size = function_ ? engrane::evaluate(*function_, motion.time) : T(1);
-    balance.force(0, Vec3T<T>(force_.template cast<T>() * (-size)));
-    // a moment fixed in space, in components of the rotating node: its tangent is not symmetric, and the dual numbers provide
-    // it
-    balance.moment(0, Vec3T<T>(rotate_back(motion.node[0].R, Vec3T<T>(moment_.template cast<T>() * (-size)))));
-  }
-
+  bool is_load() const override { return true; }
   Energies energies(const State& state) const override {
     const NodeState& node = state.nodes[0];
     Energies e;
@@ -62,24 +43,17 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6>, public Determine
     return e;
   }
 
-  bool applied(const State& state, std::span<double> forces) const override {
-    const double size = factor(state.time);
-    const Vec3 force = size * force_, moment = size * (state.nodes[0].R.transpose() * moment_);
-    double* out = forces.data();
-    if (layout().needs_any(0, NodeNeed::translation)) out = std::copy_n(force.data(), 3, out);
-    std::copy_n(moment.data(), 3, out);
-    return true;
-  }
-
-  const std::vector<Channel>& channels() const override { return named(!force_.isZero(0), !moment_.isZero(0)); }
-
+  const std::vector<Channel>& channels() const override { return named(pushes(), turns()); }
   void observe(const State& state, std::span<double> values) const override {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = determine(static_cast<int>(i), state.time, {});
   }
-  std::vector<Determined> determined() const override { return by_time(*this, function_); }
+  std::vector<Determined> determined() const override {
+    std::vector<Determined> all;
+    for (std::size_t i = 0; function_ && i < channels().size(); ++i) all.push_back({static_cast<int>(i)});
+    return all;
+  }
   double determine(int channel, double time, std::span<const double>) const override {
-    const Vec3& load = channel < 3 && !force_.isZero(0) ? force_ : moment_;
-    return factor(time) * load[channel % 3];
+    return factor(time) * (channel < 3 && pushes() ? force_ : moment_)[channel % 3];
   }
 
   Drawing drawing() const override {
@@ -87,25 +61,65 @@ class NodeLoad final : public TemplatedElement<NodeLoad, 1, 6>, public Determine
     for (const Vec3* load : {&force_, &moment_}) {
       if (load->isZero(0)) continue;
       const Vec3 axis = load->normalized();
-      shapes.push_back(
-          fmt::format(R"("shape": "arrow", "couple": {}, "node": {}, "center": [{}, {}, {}], "axis": [{}, {}, {}], "holder": 0)",
-                      load == &moment_, layout().nodes[0], at_[0], at_[1], at_[2], axis[0], axis[1], axis[2]));
+      shapes.push_back(fmt::format(R"("shape": "arrow", {}"node": {}, "center": [{}, {}, {}], "axis": [{}, {}, {}], "holder": 0)",
+                                   load == &moment_ ? R"("couple": true, )" : "", this->layout().nodes[0], at_[0], at_[1], at_[2],
+                                   axis[0], axis[1], axis[2]));
     }
     return shapes;
   }
 
- private:
+ protected:
+  bool pushes() const { return !force_.isZero(0); }
+  bool turns() const { return !moment_.isZero(0); }
+  /// In the units of a load whose function is 1.
+  const Vec3& force() const { return force_; }
+  const Vec3& moment() const { return moment_; }
   double factor(double time) const { return function_ ? function_->at(time).f : 1.0; }
+  /// The factor with its derivatives, for evaluate().
+  template <class T>
+  T factor_at(const T& time) const {
+    return function_ ? engrane::evaluate(*function_, time) : T(1);
+  }
 
+ private:
   Vec3 at_, force_, moment_;
   const Function* function_;
 };
 
+class NodeLoad final : public FixedLoad<TemplatedElement<NodeLoad, 1, 6>> {
+ public:
+  NodeLoad(int id, int node, const Vec3& at, const Vec3& force, const Vec3& moment, const Function* function)
+      : FixedLoad(id, at, force, moment, function) {
+    Layout layout;
+    layout.nodes = {node};
+    layout.needs = {pushes() && turns() ? NodeNeed::both : turns() ? NodeNeed::rotation : NodeNeed::translation};
+    set_layout(std::move(layout));
+  }
+
+  template <class T>
+  void evaluate(const Motion<T, 1>& motion, const State&, Balance<T, 1>& balance) const {
+    const T size = factor_at(motion.time);
+    balance.force(0, Vec3T<T>(force().template cast<T>() * (-size)));
+    // a moment fixed in space, in components of the rotating node: its tangent is not symmetric, and the dual numbers provide
+    // it
+    balance.moment(0, Vec3T<T>(rotate_back(motion.node[0].R, Vec3T<T>(moment().template cast<T>() * (-size)))));
+  }
+
+  bool applied(const State& state, std::span<double> forces) const override {
+    const double size = factor(state.time);
+    const Vec3 push = size * force(), turn = size * (state.nodes[0].R.transpose() * moment());
+    double* out = forces.data();
+    if (layout().needs_any(0, NodeNeed::translation)) out = std::copy_n(push.data(), 3, out);
+    std::copy_n(turn.data(), 3, out);
+    return true;
+  }
+};
+
 /// A force without a moment, which depends on time only.
-class NodeForce final : public Element, public DeterminedChannels {
+class NodeForce final : public FixedLoad<Element> {
  public:
   NodeForce(int id, int node, const Vec3& at, const Vec3& force, const Function* function)
-      : Element(id), at_(at), force_(force), function_(function) {
+      : FixedLoad(id, at, force, Vec3::Zero(), function) {
     layout_.nodes = {node};
     // a force in the plane XY needs no z translation, which nodes of plane cells do not have
     layout_.needs = {force[2] == 0 ? NodeNeed::in_plane : NodeNeed::translation};
@@ -114,42 +128,20 @@ class NodeForce final : public Element, public DeterminedChannels {
   const Layout& layout() const override { return layout_; }
   bool is_linear() const override { return true; }
   void residual(const State& state, std::span<double> r) const override {
-    for (std::size_t i = 0; i < r.size(); ++i) r[i] = -factor(state.time) * force_[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] = -factor(state.time) * force()[static_cast<Eigen::Index>(i)];
   }
   void tangent(const State& state, Weights, std::span<double> r, std::span<double> k) const override {
     residual(state, r);
     std::fill(k.begin(), k.end(), 0.0);
   }
   void constraint_rates(const State&, std::span<double>, std::span<double>, std::span<double>) const override {}
-
-  Energies energies(const State& state) const override {
-    Energies e;
-    e.external = factor(state.time) * force_.dot(state.nodes[0].v);
-    return e;
-  }
   bool applied(const State& state, std::span<double> forces) const override {
     residual(state, forces);
-    for (double& force : forces) force = -force;
+    for (double& slot : forces) slot = -slot;
     return true;
   }
 
-  const std::vector<Channel>& channels() const override { return named(true, false); }
-  void observe(const State& state, std::span<double> values) const override {
-    for (std::size_t i = 0; i < 3; ++i) values[i] = determine(static_cast<int>(i), state.time, {});
-  }
-  std::vector<Determined> determined() const override { return by_time(*this, function_); }
-  double determine(int channel, double time, std::span<const double>) const override { return factor(time) * force_[channel]; }
-  Drawing drawing() const override {
-    const Vec3 axis = force_.normalized();
-    return {fmt::format(R"("shape": "arrow", "node": {}, "center": [{}, {}, {}], "axis": [{}, {}, {}], "holder": 0)",
-                        layout_.nodes[0], at_[0], at_[1], at_[2], axis[0], axis[1], axis[2])};
-  }
-
  private:
-  double factor(double time) const { return function_ ? function_->at(time).f : 1.0; }
-
-  Vec3 at_, force_;
-  const Function* function_;
   Layout layout_;
 };
 

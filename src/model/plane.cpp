@@ -325,7 +325,7 @@ class Examination {
                                     node_name(nodes_[worst]), c < 3 ? "along" : "about", "xyz"[c % 3]),
                         hint_for(part)};
       // joints cannot justify loads given out of plane
-      (is_load(part) ? faults_ : pushed_).push_back(std::move(pushes));
+      (part.element->is_load() ? faults_ : pushed_).push_back(std::move(pushes));
     }
     look_at_friction(part, begin, forces.in);
   }
@@ -383,13 +383,9 @@ class Examination {
     plane_.carries = true;
   }
 
-  static bool is_load(const Model::Part& part) {
-    return part.type == "CHA" || part.type == "FORCE" || part.type == "TORQUE" || part.type == "LINE_LOAD";
-  }
-
   std::string hint_for(const Model::Part& part) const {
-    if (is_load(part)) return fmt::format("give it forces in the plane and moments about {} only", axis());
-    if (part.element->is_body() || part.type == "INERTIA")
+    if (part.element->is_load()) return fmt::format("give it forces in the plane and moments about {} only", axis());
+    if (part.element->is_body())
       return fmt::format("its nodes and its centre of mass must be at the same {0}, and {0} be a principal axis of its inertia",
                          axis());
     return fmt::format(

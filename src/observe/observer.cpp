@@ -207,7 +207,7 @@ std::ptrdiff_t Observer::put_energies(const EnergyBalance& e) {
 void Observer::keep_ends() {
   keeps_ends_ = true;
   ledger_.integrate_smoothly();
-  ways_ = ways();
+  channels_ = channels();
   const auto mark = [this](const Named& named) { angles_.push_back(named.dimension == dimension::angle ? 1 : 0); };
   for (std::size_t t = 0; t < histories_.part_tables(); ++t)
     for (std::size_t owner = 0; owner < tables()[t].owners.size(); ++owner)
@@ -227,14 +227,15 @@ void Observer::between(const Configuration& c, bool motion) {
   ends_.at(c.time, 0, all);
   std::copy_n(all.begin(), values_.size(), values_.begin());
   for (std::size_t i = smooth ? histories_.node_columns() : 0; i < moved->size(); ++i)
-    if (ways_[i].moves && (motion || !smooth)) values_[i] = (*moved)[i];
+    if (of_motion(channels_[i]->dimension) && (motion || !smooth)) values_[i] = (*moved)[i];
   const auto [before, after, part] = ends_.around(c.time);
   const std::vector<double> weights = ends_.weights(c.time, 0), calm = ends_.weights(c.time, 0, most_weight);
   const bool astray = calm.size() < weights.size();
   for (std::size_t i = 0; i < values_.size(); ++i) {
-    switch (ways_[i].course) {
+    const Channel& channel = *channels_[i];
+    switch (channel.course) {
       case Channel::Course::smooth:
-        if (astray && !(ways_[i].moves && (motion || !smooth)))
+        if (astray && !(of_motion(channel.dimension) && (motion || !smooth)))
           values_[i] = calmed(i, weights.size(), weighted(i, calm), values_[i]);
         break;
       case Channel::Course::size:
@@ -251,7 +252,7 @@ void Observer::between(const Configuration& c, bool motion) {
         values_[i] = end_[i];
         break;
     }
-    values_[i] = std::clamp(values_[i], ways_[i].low, ways_[i].high);
+    values_[i] = std::clamp(values_[i], channel.low, channel.high);
   }
   put_known(c, smooth, std::span(all).subspan(values_.size()));
 }
@@ -329,15 +330,12 @@ void Observer::find_fields(const Configuration& c, const Configuration& from, co
   }
 }
 
-std::vector<Observer::Way> Observer::ways() const {
-  std::vector<Way> all;
-  const auto append = [&all](const Channel& channel) {
-    all.push_back({channel.course, of_motion(channel.dimension), channel.low, channel.high});
-  };
+std::vector<const Channel*> Observer::channels() const {
+  std::vector<const Channel*> all;
   for (const Table& table : histories_.tables())
     for (std::size_t owner = 0; owner < table.owners.size(); ++owner)
-      for (const Channel& channel : table.channels) append(channel);
-  for (const Channel& channel : run_channels_) append(channel);
+      for (const Channel& channel : table.channels) all.push_back(&channel);
+  for (const Channel& channel : run_channels_) all.push_back(&channel);
   return all;
 }
 
@@ -381,7 +379,8 @@ void Observer::load(const Snapshot& snapshot) {
   // with other histories the columns have another meaning; non-unique ones will be found again
   if (snapshot.number("observe/columns") != static_cast<double>(values_.size())) return;
   for (const double column : snapshot.array("observe/not_unique")) not_unique_.push_back(static_cast<int>(column));
-  if (!snapshot.has("observe/points") || snapshot.array("observe/end").size() != ways_.size() + histories_.source_count()) return;
+  if (!snapshot.has("observe/points") || snapshot.array("observe/end").size() != channels_.size() + histories_.source_count())
+    return;
   end_ = snapshot.array("observe/end");
   const std::vector<double>& points = snapshot.array("observe/points");
   end_time_ = points.at(0);

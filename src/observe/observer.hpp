@@ -120,13 +120,8 @@ class Observer {
   std::ptrdiff_t put_energies(const EnergyBalance& e);
   /// Adds the values of inside_ to the interpolation points, with the work that is known now.
   void keep_inside();
-  /// How a value is interpolated between two step ends.
-  struct Way {
-    Channel::Course course;
-    bool moves;        ///< it may be evaluated from the interpolated motion
-    double low, high;  ///< Channel::low, Channel::high
-  };
-  std::vector<Way> ways() const;
+  /// The channel of each value: how it is interpolated between two step ends.
+  std::vector<const Channel*> channels() const;
   /// Adds values() and sources_ to the interpolation points.
   void keep(double time);
   /// The polynomial with these weights of the interpolation points.
@@ -139,10 +134,10 @@ class Observer {
   /// Sets the values of Histories::known(), for between(). `sources`: the interpolated sources.
   void put_known(const Configuration& c, bool smooth, std::span<const double> sources);
   bool keeps_ends_ = false;
-  std::vector<Way> ways_;
-  std::vector<char> angles_;     ///< for each value of elements: it is an angle, which may jump by a turn
-  std::vector<double> sources_;  ///< of the values of Histories::known(), which are found from them between two instants
-  std::vector<double> end_;      ///< values at the latest interpolation point, at end_time_, and then their sources
+  std::vector<const Channel*> channels_;  ///< channels(), once keep_ends() has been called
+  std::vector<char> angles_;              ///< for each value of elements: it is an angle, which may jump by a turn
+  std::vector<double> sources_;           ///< of the values of Histories::known(), which are found from them between two instants
+  std::vector<double> end_;               ///< values at the latest interpolation point, at end_time_, and then their sources
   double end_time_ = 0;
   Extrapolation ends_;
   std::size_t steady_ = 0;  ///< consecutive points without a jump of an angle between them, and close enough to detect one

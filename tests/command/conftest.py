@@ -19,7 +19,8 @@ from small_decks import PENDULUM  # noqa: E402
 
 @pytest.fixture
 def engrane(tmp_path):
-    """Calls the program in an empty folder: engrane("check", "x.dat")."""
+    """Calls the program in an empty folder: engrane("check", "x.dat"), or engrane.succeeds("x", text, "-q")
+    with a deck."""
     program = os.environ.get("ENGRANE", "")
     if not Path(program).is_file():
         pytest.skip("the variable ENGRANE names no program")
@@ -30,7 +31,15 @@ def engrane(tmp_path):
             command, cwd=tmp_path, capture_output=True, text=True, timeout=timeout, **options
         )
 
+    def succeeds(name, text, *words):
+        """Runs a deck of this name and text, with status 0."""
+        (tmp_path / f"{name}.dat").write_text(text)
+        done = call(f"{name}.dat", *words)
+        assert done.returncode == 0, done.stderr
+        return done
+
     call.folder = tmp_path
+    call.succeeds = succeeds
     return call
 
 

@@ -30,9 +30,7 @@ DECK = """.UNIT SI
 
 
 def test_arrows(engrane):
-    (engrane.folder / "loads.dat").write_text(DECK)
-    done = engrane("loads.dat", "-q")
-    assert done.returncode == 0, done.stderr
+    engrane.succeeds("loads", DECK, "-q")
     with Results(engrane.folder / "loads.h5") as result:
         arrows = [d for e in result.elements for d in e.drawing if d["shape"] == "arrow"]
     seen = [(d.get("couple", False), d["node"], d["axis"], d["holder"]) for d in arrows]

@@ -5,6 +5,7 @@ import json
 from pathlib import Path
 
 import pytest
+from small_decks import SPRINGS
 
 
 def acceleration(engrane, deck, *words):
@@ -133,29 +134,9 @@ def test_json_tells_what_is_wrong(engrane, pendulum):
     assert (fault["severity"], fault["file"], fault["line"]) == ("error", "wrong.dat", 3)
 
 
-STIFF = """
-.NOE
- I 1 X 0
- I 2 X 1
- I 3 X 2
-.MCE
- I 1 SPRING N 1 2 K 10
- I 2 SPRING N 2 3 K 1E16
- I 3 FORCE N 3 DIR 1 0 0 V 2
-.CLM
- FIX NOEUD 1 C 1 2 3
- FIX NOEUD 2 3 C 2 3
-.SAM TYPE STATIC
-.SUB TF 1 H 1
-.FIN 1
-"""
-
-
 def test_json_has_the_warnings_of_the_run(engrane):
     """Each as often as the listing has it."""
-    (engrane.folder / "stiff.dat").write_text(STIFF)
-    done = engrane("stiff.dat", "--json")
-    assert done.returncode == 0
+    done = engrane.succeeds("stiff", SPRINGS.format(stiff=1e16, kind="STATIC", h=1), "--json")
     warnings = json.loads(done.stdout)["runs"][0]["diagnostics"]
     (stiff,) = [one for one in warnings if "SPRING 2 is so stiff" in one["message"]]
     assert (stiff["severity"], "file" in stiff) == ("warning", False)

@@ -88,20 +88,9 @@ TEST(Newton, IsQuadraticInDynamicsAtLargeSteps) {
 /// Steps of Radau IIA too long for one tangent of all stages are solved with those of each. This top turns by a radian in a
 /// step: tangents that leave out how velocities depend on rotations reduce corrections to 0.4.
 TEST(Newton, IsQuadraticOnTheStagesOfLongSteps) {
-  DeckRun deck(R"(
-.NOE
- I 1 X 0 0 0
- I 2 X 0 1 0
-.MCE
- I 1 RIGID N 1 2 M 15 J 0.234375 0.46875 0.234375 CG 0 1 0
-.CLM
- FIX NOEUD 1 C 1 2 3
- STRU ACC VAL 0 0 -9.81
-.INI
- VIT NOEUD 1 C 4 5 6 V 0 150 -4.61538
-.SAM TYPE DYNAMIC SCHEME RADAU PREC 1e-12
-.SUB TF 0.07 H 0.007
-)");
+  DeckRun deck("INPUT \"" ENGRANE_SOURCE_DIR
+               "/tests/verify/tumbling_top.dat\"\n"
+               ".SAM TYPE DYNAMIC SCHEME RADAU PREC 1e-12\n.SUB TF 0.07 H 0.007\n");
   int judged = 0;
   deck.run([&](const Configuration&, const StepReport& step) {
     if (!step.newton || !step.newton->coupled) return;

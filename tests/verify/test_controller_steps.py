@@ -138,6 +138,30 @@ def test_short_lags(tau: float, scheme: str, units: str, tmp_path: Path) -> None
     assert errors[1] < errors[0] / 3.8
 
 
+@pytest.mark.parametrize("scheme", ["RHO 0.8", "SCHEME HHT"])
+def test_short_lags_behind_limits(scheme: str, tmp_path: Path) -> None:
+    """The command reaches and leaves its limits. Placing states after their lags at the start is not enough:
+    where their rates are not softened, they overshoot behind each event, until no step has a solution."""
+
+    def command(t: float | np.ndarray, angle: float | np.ndarray) -> float | np.ndarray:  # the lag is past
+        return np.clip(50 * (np.sin(2 * np.pi * t) - angle), -15, 15)
+
+    t, effort = wheel("NUM 50 DEN 1E-6 1 LIMITS -15 15", scheme, 0.01, "m s kg", tmp_path)
+    angle = solve_ivp(
+        lambda t, y: [y[1], command(t, y[0])],
+        (0, 1),
+        [0, 0],
+        "DOP853",
+        t,
+        rtol=1e-10,
+        atol=1e-12,
+        max_step=1e-3,
+    ).y[0]
+    exact = command(t, angle)
+    assert np.ptp(exact) == 30
+    assert np.abs(effort - exact).max() < 1e-3 * 30
+
+
 @pytest.mark.parametrize("units", UNITS)
 @pytest.mark.parametrize("scheme", ["RHO 0.8", "SCHEME HHT"])
 def test_short_filters(scheme: str, units: str, tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ import pytest
 from engrane_post import Results
 from runs import Run, run
 from scipy.integrate import solve_ivp
+from small_decks import SPRINGS
 
 EPSILON = np.finfo(float).eps
 
@@ -32,33 +33,13 @@ def ends(text: str, folder: Path) -> tuple[int, str]:
     return done.returncode, done.stderr
 
 
-SERIES = """
-.NOE
- I 1 X 0
- I 2 X 1
- I 3 X 2
-.MCE
- I 1 SPRING N 1 2 K 10
- I 2 SPRING N 2 3 K {stiff!r}
- I 3 INERTIA N 2 M 1
- I 4 INERTIA N 3 M 1
- I 5 FORCE N 3 DIR 1 0 0 V 2
-.CLM
- FIX NOEUD 1 C 1 2 3
- FIX NOEUD 2 3 C 2 3
-.SAM TYPE {kind}
-.SUB TF 1 H {h}
-.FIN 1
-"""
-
-
 @pytest.mark.parametrize("ratio", [1e3, 1e6, 1e9, 1e12, 1e15])
 @pytest.mark.parametrize("kind", ["STATIC", "DYNAMIC RHO 0.8"])
 def test_stiffness_ratio(kind: str, ratio: float, tmp_path: Path) -> None:
     """Motion and the force in the soft spring hold at any ratio. That in the stiff one follows from its
     change of length, which has the rounding of positions; a warning says so before it is seen."""
     h = 0.01 if kind == "STATIC" else 0.001
-    status, words = ends(SERIES.format(stiff=10 * ratio, kind=kind, h=h), tmp_path)
+    status, words = ends(SPRINGS.format(stiff=10 * ratio, kind=kind, h=h), tmp_path)
     assert status == 0
     result = Run(tmp_path / "deck.h5")
     noise = 20 * ratio * EPSILON * 10

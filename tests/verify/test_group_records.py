@@ -11,19 +11,8 @@ import h5py
 import numpy as np
 import pytest
 from runs import run
+from small_decks import SQUARES
 
-# two squares of 10 in a row, thickness 1
-MESH = """.NOE
- I 1 X 0 Y 0
- I 2 X 10 Y 0
- I 3 X 20 Y 0
- I 4 X 0 Y 10
- I 5 X 10 Y 10
- I 6 X 20 Y 10
-.MAI
- I 1 AT 1 0 N 1 2 5 4
- I 2 AT 2 0 N 2 3 6 5
-"""
 CARDS = """.MAT I 1 BEHA "ELASTIC" YT 1000. NT 0. M 1.
 .HYP MEMB BIDIM
 .PHP GROUP "plate" THICK VAL 1.
@@ -38,7 +27,9 @@ WALL = ' GROUP 2 NOEUDS NOM "wall" I 1 I 4\n'
 def test_nodes_of_one_name_are_one_group(tmp_path: Path) -> None:
     tip = '.SEL\n GROUP 3 NOEUDS NOM "tip" I 3\n.SEL\n GROUP 4 NOEUDS NOM "tip" I 6\n'
     for name in ('"tip"', "3", "4"):
-        result = run(f"{MESH}.SEL\n{PLATE}{WALL}{tip}{CARDS} GROUP {name} CHA C 1 V 10.\n.FIN 1\n", tmp_path)
+        result = run(
+            f"{SQUARES}.SEL\n{PLATE}{WALL}{tip}{CARDS} GROUP {name} CHA C 1 V 10.\n.FIN 1\n", tmp_path
+        )
         assert result["run/LOAD_FORCE_X"][-1] == pytest.approx(20, rel=1e-12)
         assert result["node/3/UX"][-1] == pytest.approx(result["node/6/UX"][-1], rel=1e-12)
 
@@ -46,7 +37,7 @@ def test_nodes_of_one_name_are_one_group(tmp_path: Path) -> None:
 def test_nodes_of_one_number_are_one_group(tmp_path: Path) -> None:
     """A support is lost if the first record is."""
     wall = ' GROUP 2 NOEUDS NOM "wall" I 1\n.SEL\n GROUP 2 NOEUDS I 4\n'
-    deck = f"{MESH}.SEL\n{PLATE}{wall}{CARDS} NOEUD 3 CHA C 1 V 5.\n NOEUD 6 CHA C 1 V 5.\n.FIN 1\n"
+    deck = f"{SQUARES}.SEL\n{PLATE}{wall}{CARDS} NOEUD 3 CHA C 1 V 5.\n NOEUD 6 CHA C 1 V 5.\n.FIN 1\n"
     result = run(deck, tmp_path)
     assert result["node/3/UX"][-1] == pytest.approx(10 * 20 / (1000 * 10), rel=1e-9)
     assert result["run/GROUND_FORCE_X"][-1] == pytest.approx(-10, rel=1e-9)
@@ -55,7 +46,7 @@ def test_nodes_of_one_number_are_one_group(tmp_path: Path) -> None:
 def test_records_above_see_what_was_there(tmp_path: Path) -> None:
     tip = '.SEL\n GROUP 3 NOEUDS NOM "tip" I 3\n'
     more = '.SEL\n GROUP 3 NOEUDS NOM "tip" I 6\n.CLM ADD\n GROUP "tip" CHA C 1 V 100.\n'
-    deck = f"{MESH}.SEL\n{PLATE}{WALL}{tip}{CARDS} GROUP 3 CHA C 1 V 1.\n{more}.FIN 1\n"
+    deck = f"{SQUARES}.SEL\n{PLATE}{WALL}{tip}{CARDS} GROUP 3 CHA C 1 V 1.\n{more}.FIN 1\n"
     assert run(deck, tmp_path)["run/LOAD_FORCE_X"][-1] == pytest.approx(201, rel=1e-12)
 
 
@@ -63,7 +54,7 @@ def test_elements_and_faces(tmp_path: Path) -> None:
     plate = ' GROUP 1 MAILLES NOM "plate" AT 1\n.SEL\n GROUP 7 MAILLES NOM "plate" I 2\n'
     lid = ' GROUP 8 FACES NOM "lid"\n  I 1 3\n.SEL\n GROUP 9 FACES NOM "lid"\n  I 2 3\n'
     for name in ("8", '"lid"'):
-        deck = f"{MESH}.SEL\n{plate}{WALL}{lid}{CARDS} GROUP {name} PRE V 3.\n.FIN 1\n"
+        deck = f"{SQUARES}.SEL\n{plate}{WALL}{lid}{CARDS} GROUP {name} PRE V 3.\n.FIN 1\n"
         result = run(deck, tmp_path)
         assert result["run/MASS"][-1] == pytest.approx(200, rel=1e-12)
         assert result["run/LOAD_FORCE_Y"][-1] == pytest.approx(-60, rel=1e-12)
@@ -71,7 +62,7 @@ def test_elements_and_faces(tmp_path: Path) -> None:
 
 def test_one_name_of_nodes_and_of_elements_is_two_groups(tmp_path: Path) -> None:
     both = ' GROUP 3 NOEUDS NOM "plate" I 3\n'
-    deck = f'{MESH}.SEL\n{PLATE}{WALL}{both}{CARDS} GROUP "plate" CHA C 1 V 10.\n.FIN 1\n'
+    deck = f'{SQUARES}.SEL\n{PLATE}{WALL}{both}{CARDS} GROUP "plate" CHA C 1 V 10.\n.FIN 1\n'
     assert run(deck, tmp_path)["run/LOAD_FORCE_X"][-1] == pytest.approx(10, rel=1e-12)
 
 
@@ -93,7 +84,7 @@ def refusal(deck: str, folder: Path) -> str:
 )
 def test_contradictions_name_both_places(second: str, words: str, tmp_path: Path) -> None:
     third = " GROUP 3 NOEUDS I 6\n"
-    said = refusal(f"{MESH}.SEL\n{PLATE}{WALL}{third}.SEL\n {second}\n{CARDS}.FIN 1\n", tmp_path)
+    said = refusal(f"{SQUARES}.SEL\n{PLATE}{WALL}{third}.SEL\n {second}\n{CARDS}.FIN 1\n", tmp_path)
     assert "is given twice" in said and words in said
     assert "wrong.dat:16:" in said and f"first in line {13 if 'GROUP 2' in second else 14}" in said
     assert said.count("error:") == 1

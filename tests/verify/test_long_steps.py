@@ -46,20 +46,13 @@ def test_friction_of_teeth(setting: str, asked: float, tmp_path: Path) -> None:
     assert "error about" not in listing
 
 
-TOP = """.NOE
- I 1 X 0 0 0
- I 2 X 0 1 0
-.MCE
- I 1 RIGID N 1 2 M 15 J 0.234375 0.46875 0.234375 CG 0 1 0
-.CLM
- FIX NOEUD 1 C 1 2 3
- STRU ACC VAL 0 0 -9.81
-.INI
- VIT NOEUD 1 C 4 5 6 V 0 150 -4.61538
-.SAM TYPE DYNAMIC SCHEME RADAU {restart}
+TOP = (
+    f'INPUT "{Path(__file__).with_name("tumbling_top.dat")}"\n'
+    + """.SAM TYPE DYNAMIC SCHEME RADAU {restart}
 .SUB TF 0.3 H 0.007 TOL 0.1
 .SAI HISTORY DT 0.001 RESTART DT 1E-6
 """
+)
 
 
 def test_values_within_them_behind_a_restart(tmp_path: Path) -> None:

@@ -35,6 +35,7 @@ class LineLoad final : public TemplatedElement<LineLoad<Nodes>, Nodes, 6 * Nodes
     for (int i = 0; i < Nodes; ++i) balance.force(i, Vec3T<T>(-forces[static_cast<std::size_t>(i)]));
   }
 
+  bool is_load() const override { return true; }
   Energies energies(const State& state) const override {
     Energies e;
     e.external = power(state);

@@ -19,6 +19,7 @@ class AppliedLoad : public TemplatedElement<Derived, Nodes, Lanes>, public Deter
   AppliedLoad(int id, double value, const Function* function)
       : TemplatedElement<Derived, Nodes, Lanes>(id), value_(value), function_(function) {}
 
+  bool is_load() const override { return true; }
   Energies energies(const State& state) const override {
     Energies e;
     e.external = size(state.time) * self().speed(state);

@@ -199,7 +199,7 @@ class Stop final : public TemplatedElement<Stop<Coordinate>, 2, 12>, public Dete
   std::vector<Derived> derived() const override {
     std::vector<Derived> list;
     for (const StopLimit& limit : range_.limits)
-      list.push_back({limit.sign > 0 ? "lower limit" : "upper limit", limit.place, Coordinate::measure});
+      list.push_back({limit.sign > 0 ? "lower limit" : "upper limit", limit.place, Coordinate::measure, true});
     if (tells_damping_) {
       Dimension d = Coordinate::rate_measure;
       d.length = static_cast<signed char>(-d.length);

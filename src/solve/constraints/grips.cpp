@@ -101,7 +101,7 @@ std::vector<Grips::Seen> Grips::look(const Configuration& c) const {
   std::size_t next = 0;
   for (const Place& place : places_) {
     const std::size_t count = place.layout->grips.size();
-    const Element& element = *assembler_.model().parts[static_cast<std::size_t>(place.part)].element;
+    const Element& element = *assembler_.model().part(place.part).element;
     found.resize(count);
     find_grips(element, assembler_.view(place.part, c), found);
     int multiplier = place.first;
@@ -166,8 +166,7 @@ void Grips::let_go(Configuration& c) {
   std::vector<Seen> grips = look(c);
   std::size_t next = 0;
   for (const Place& place : places_)
-    for (const GripState& state : unfollowed_grips(*assembler_.model().parts[static_cast<std::size_t>(place.part)].element))
-      grips[next++].state = state;
+    for (const GripState& state : unfollowed_grips(*assembler_.model().part(place.part).element)) grips[next++].state = state;
   write(grips, c);
   redundancy_.analyse(c);
 }
@@ -244,141 +243,160 @@ std::size_t Grips::unstoppable(const std::vector<Seen>& slips, const std::vector
   return fastest < count_ && energy_of_change(before, after) > can_take ? fastest : count_;
 }
 
-void Grips::settle(Configuration& c, bool massless) {
-  assembler_.count_turns(c);  // a place of rest may be that of the last count
-  std::vector<Seen> grips = look(c);
-  const std::vector<Seen> given = grips;
-  // those at rest may hold, or slide in any direction; the others slide on
-  std::vector<bool> at_rest(count_), turned(count_);
-  const double most_loaded = largest_load(grips);
+void Grips::Settling::changed(std::size_t i, bool cannot) {
+  std::fill(cannot_hold.begin(), cannot_hold.end(), false);
+  cannot_hold[i] = cannot;
+  aims[i] = Aim();
+  last = i;
+}
+
+Grips::Settling Grips::first_decisions(const Configuration& c) const {
+  Settling all;
+  all.grips = all.given = look(c);
+  all.at_rest.resize(count_);
+  all.turned.resize(count_);
+  all.cannot_hold.resize(count_);
+  all.aims.resize(count_);
+  const double most_loaded = largest_load(all.given);
   for (std::size_t i = 0; i < count_; ++i) {
-    Seen& grip = grips[i];
+    Seen& grip = all.grips[i];
     GripState& state = grip.state;
-    turned[i] = turns_back(grip);
-    at_rest[i] = state.mode == GripState::free ? rests(grip) : stops(grip) || state.mode == GripState::holding;
+    all.turned[i] = turns_back(grip);
+    all.at_rest[i] = state.mode == GripState::free ? rests(grip) : stops(grip) || state.mode == GripState::holding;
     if (dragged(grip)) {
       state = GripState::slides_towards(grip.speed, state.held);
-      at_rest[i] = false;
+      all.at_rest[i] = false;
     } else if (overloaded(grip) && load(grip) >= most_loaded) {
       state = GripState::slides_towards(-grip.force, state.held);  // friction opposes sliding
-    } else if (at_rest[i] && state.mode != GripState::holding) {
+    } else if (all.at_rest[i] && state.mode != GripState::holding) {
       state = GripState::holds_at(state.held + grip.place);
     } else if (state.mode == GripState::free || turns_back(grip)) {
       state = GripState::slides_towards(grip.speed, state.held);
       if (grip.shape.size > 1) state.speed = grip.speed.norm();
     }
   }
+  return all;
+}
+
+std::vector<Grips::Seen> Grips::find_slips(const Settling& all, Configuration& c) {
+  std::vector<Seen> slipping = all.grips;
+  bool stopping = false;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (all.grips[i].state.mode != GripState::holding || all.given[i].state.mode == GripState::holding) continue;
+    slipping[i] = all.given[i];
+    stopping = true;
+  }
+  if (!stopping) return all.given;
+  const Configuration moving = without_stopping(c, slipping);
+  copy_velocities(moving, c);
+  return look(moving);
+}
+
+bool Grips::turns_again(const Settling& all, std::size_t i, const Seen& now) const {
+  const GripState& state = all.grips[i].state;
+  return all.at_rest[i] && state.mode == GripState::sliding && !all.aims[i].tried && !still(now) &&
+         now.acceleration.dot(state.direction) < 0;
+}
+
+double Grips::least_load(const Settling& all, const std::vector<Seen>& now) const {
+  for (std::size_t i = 0; i < count_; ++i)
+    if (turns_again(all, i, now[i])) return std::numeric_limits<double>::infinity();
+  return largest_load(now);
+}
+
+bool Grips::change(Settling& all, std::size_t i, const Seen& now, double least) const {
+  GripState& state = all.grips[i].state;
+  bool gives_way = false;
+  if (state.mode == GripState::holding) {
+    gives_way = overloaded(now) && load(now) >= least;
+    if (pulled(now)) {  // its speed was gained only after its event
+      state = GripState::slides_towards(now.acceleration, state.held);
+    } else if (dragged(now)) {
+      state = GripState::slides_towards(now.speed, state.held);
+    } else if (gives_way && now.redundant && all.turned[i]) {
+      // a drive turns it back: how it and the drive share the load says nothing of where it slides
+      state = GripState::slides_towards(all.grips[i].speed, state.held);
+      all.at_rest[i] = false;
+    } else if (gives_way) {
+      state = GripState::slides_towards(-now.force, state.held);
+    } else {
+      return false;
+    }
+  } else if (turns_again(all, i, now)) {
+    // Where friction does not act along its coordinate, as that of skew flanks on bearings, what gives way may slide with the
+    // force that held it.
+    state = all.cannot_hold[i] ? GripState::slides_towards(-state.direction, state.held)
+                               : GripState::holds_at(state.held + now.place);
+  } else {
+    return false;
+  }
+  all.changed(i, gives_way);
+  return true;
+}
+
+bool Grips::change(Settling& all, const std::vector<Seen>& now, bool together) const {
+  const double least = together ? least_load(all, now) : 0;
+  bool changed = false;
+  for (std::size_t i = 0; i < count_ && (together || !changed); ++i)
+    if (all.at_rest[i] && change(all, i, now[i], least)) changed = true;
+  return changed;
+}
+
+bool Grips::aim(Settling& all, const std::vector<Seen>& now) const {
+  bool changed = false;
+  for (std::size_t i = 0; i < count_; ++i)
+    if (all.at_rest[i] && all.grips[i].state.mode == GripState::sliding && aim(all.grips[i], now[i], all.aims[i])) changed = true;
+  return changed;
+}
+
+void Grips::settle(Configuration& c, bool massless) {
+  assembler_.count_turns(c);  // a place of rest may be that of the last count
+  Settling all = first_decisions(c);
+  const std::vector<Seen> slips = find_slips(all, c);
   // At first what comes to rest is changed at once, and then the most loaded gives way, as it would under a growing load: where
   // friction is less once it slides, the others may hold. Later one grip is changed at a time, always the first in the deck: a
   // rule that returns to no combination except equivalent ones. Directions are adjusted once nothing else is wrong.
   const std::size_t together = 3 + 2 * count_, most = 3 + 20 * count_;
-  std::size_t last = 0;                // grip that was changed
-  std::vector<Seen> slipping = grips;  // but what comes to rest slides on
-  bool stopping = false;
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (grips[i].state.mode != GripState::holding || given[i].state.mode == GripState::holding) continue;
-    slipping[i] = given[i];
-    stopping = true;
-  }
-  std::vector<Seen> slips = given;
-  if (stopping) {
-    const Configuration moving = without_stopping(c, slipping);
-    slips = look(moving);
-    copy_velocities(moving, c);
-  }
-  std::vector<Aim> aims(count_);
-  std::vector<bool> cannot_hold(count_);  // while the other grips are as they are
-  const auto changes = [&](std::size_t i) {
-    for (std::size_t k = 0; k < count_; ++k) cannot_hold[k] = cannot_hold[k] && k == i;
-    last = i;
-    aims[i] = Aim();
-  };
   for (std::size_t pass = 0, aimed = 0; pass < most && aimed < most;) {
-    write(grips, c);
+    write(all.grips, c);
     const Configuration before = c;
     try {
       fit(c, massless);
     } catch (const SolutionFailure&) {
       // What sticks pushes in a direction that may let no forces balance.
-      const std::size_t i = first_that_holds(grips, at_rest);
+      const std::size_t i = first_that_holds(all);
       if (i == count_ || ++pass == most) throw;
       c = before;
-      grips[i].state = GripState::slides_towards(turned[i] ? grips[i].speed : Vec3::UnitX(), grips[i].state.held);
-      changes(i);
-      cannot_hold[i] = true;
+      Seen& grip = all.grips[i];
+      grip.state = GripState::slides_towards(all.turned[i] ? grip.speed : Vec3::UnitX(), grip.state.held);
+      all.changed(i, true);
       continue;
     }
     const std::vector<Seen> now = look(c);
     if (const std::size_t blocked = unstoppable(slips, now, before, c); blocked < count_) {
       copy_velocities(before, c);
-      grips[blocked].state = GripState::slides_towards(slips[blocked].speed, grips[blocked].state.held);
-      at_rest[blocked] = false;
-      changes(blocked);
+      GripState& state = all.grips[blocked].state;
+      state = GripState::slides_towards(slips[blocked].speed, state.held);
+      all.at_rest[blocked] = false;
+      all.changed(blocked, all.cannot_hold[blocked]);
       ++pass;
-      continue;
-    }
-    const auto turns_again = [&](std::size_t i) {
-      return at_rest[i] && grips[i].state.mode == GripState::sliding && !aims[i].tried && !still(now[i]) &&
-             now[i].acceleration.dot(grips[i].state.direction) < 0;
-    };
-    double least_load = 0;  // with which a grip gives way
-    if (pass < together) {
-      least_load = largest_load(now);
-      for (std::size_t i = 0; i < count_; ++i)
-        if (turns_again(i)) least_load = std::numeric_limits<double>::infinity();
-    }
-    bool changed = false;
-    for (std::size_t i = 0; i < count_ && !(changed && pass >= together); ++i) {
-      if (!at_rest[i]) continue;
-      GripState& state = grips[i].state;
-      const Seen& grip = now[i];
-      bool gives_way = false;
-      if (state.mode == GripState::holding) {
-        gives_way = overloaded(grip) && load(grip) >= least_load;
-        if (pulled(grip))  // its speed was gained only after its event
-          state = GripState::slides_towards(grip.acceleration, state.held);
-        else if (dragged(grip))
-          state = GripState::slides_towards(grip.speed, state.held);
-        else if (gives_way && grip.redundant && turned[i]) {
-          // a drive turns it back: how it and the drive share the load says nothing of where it slides
-          state = GripState::slides_towards(grips[i].speed, state.held);
-          at_rest[i] = false;
-        } else if (gives_way)
-          state = GripState::slides_towards(-grip.force, state.held);
-        else
-          continue;
-      } else if (turns_again(i)) {
-        // Where friction does not act along its coordinate, as that of skew flanks on bearings, what gives way may slide with
-        // the force that held it.
-        if (cannot_hold[i])
-          state = GripState::slides_towards(-state.direction, state.held);
-        else
-          state = GripState::holds_at(state.held + grip.place);
-      } else {
-        continue;
-      }
-      changed = true;
-      changes(i);
-      cannot_hold[i] = gives_way;
-    }
-    if (changed) {
+    } else if (change(all, now, pass < together)) {
       ++pass;
-      continue;
+    } else if (aim(all, now)) {
+      ++aimed;
+    } else {
+      return;
     }
-    for (std::size_t i = 0; i < count_; ++i)
-      if (at_rest[i] && grips[i].state.mode == GripState::sliding && aim(grips[i], now[i], aims[i])) changed = true;
-    if (!changed) return;
-    ++aimed;
   }
   throw SolutionFailure(
       fmt::format("t = {:.6g}: no combination of sticking and sliding contacts satisfies the equations; {} is one of them. "
                   "Check whether contacts jam one another",
-                  c.time, name(last)));
+                  c.time, name(all.last)));
 }
 
-std::size_t Grips::first_that_holds(const std::vector<Seen>& grips, const std::vector<bool>& at_rest) {
+std::size_t Grips::first_that_holds(const Settling& all) {
   std::size_t i = 0;
-  while (i < grips.size() && !(at_rest[i] && grips[i].state.mode == GripState::holding)) ++i;
+  while (i < all.grips.size() && !(all.at_rest[i] && all.grips[i].state.mode == GripState::holding)) ++i;
   return i;
 }
 

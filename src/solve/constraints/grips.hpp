@@ -41,6 +41,18 @@ class Grips {
     double slope = 0;                                         ///< change of the acceleration with the direction; 0: unknown
     bool tried = false, found = false;
   };
+  /// What settle() has decided so far, and what it knows of the grips.
+  struct Settling {
+    std::vector<Seen> given, grips;  ///< before it, and with their new states
+    std::vector<bool> at_rest;       ///< they may hold, or slide in any direction; the others slide on
+    std::vector<bool> turned;        ///< they had turned back
+    std::vector<bool> cannot_hold;   ///< while the other grips are as they are
+    std::vector<Aim> aims;
+    std::size_t last = 0;  ///< grip that was changed
+
+    /// The state of a grip has been changed; `cannot`: it cannot hold.
+    void changed(std::size_t i, bool cannot);
+  };
   static bool rests(const Seen& grip);
   static bool overloaded(const Seen& grip);
   /// Force of a grip that holds over its limit; and the largest such ratio of the grips that carry too much, less rounding.
@@ -57,8 +69,22 @@ class Grips {
 
   std::vector<Seen> look(const Configuration& c) const;
   void write(const std::vector<Seen>& grips, Configuration& c);
+  /// Decides by speeds and forces of `c`: what comes to rest holds, and the most loaded of those that carry too much gives way.
+  Settling first_decisions(const Configuration& c) const;
+  /// Grips where those that are about to stop slide on, and gives `c` the velocities there.
+  std::vector<Seen> find_slips(const Settling& all, Configuration& c);
   /// Index of the first grip at rest that holds; their number if none does.
-  static std::size_t first_that_holds(const std::vector<Seen>& grips, const std::vector<bool>& at_rest);
+  static std::size_t first_that_holds(const Settling& all);
+  /// Whether a grip that began to slide accelerates the other way.
+  bool turns_again(const Settling& all, std::size_t i, const Seen& now) const;
+  /// Least load with which a grip gives way together with others: none does while any turns again.
+  double least_load(const Settling& all, const std::vector<Seen>& now) const;
+  /// Changes the state of a grip at rest if it is wrong as the grip is `now`; false if it is not.
+  bool change(Settling& all, std::size_t i, const Seen& now, double least) const;
+  /// Changes all wrong states that may change `together`, or else the first one; false if there is none.
+  bool change(Settling& all, const std::vector<Seen>& now, bool together) const;
+  /// Adjusts the directions of all that begin to slide; false if there is nothing to adjust.
+  bool aim(Settling& all, const std::vector<Seen>& now) const;
   /// Adjusts the direction of a grip that begins to slide until it accelerates that way; false once it does.
   bool aim(Seen& grip, const Seen& now, Aim& aim) const;
   void fit(Configuration& c, bool massless);

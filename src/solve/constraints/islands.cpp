@@ -39,7 +39,7 @@ Islands::Islands(const Assembler& assembler) {
   };
   for (int p = 0; p < numbering.parts(); ++p) {
     const auto slots = numbering.part_slots(p);
-    const std::size_t count = assembler.model().parts[static_cast<std::size_t>(p)].element->layout().multipliers.size();
+    const std::size_t count = assembler.model().part(p).element->layout().multipliers.size();
     if (count == 0) continue;
     const std::size_t leader = leader_of(static_cast<std::size_t>(slots.back()));
     for (std::size_t i = 0; i < slots.size(); ++i)  // what is held joins nothing
@@ -80,7 +80,7 @@ bool move_along(Assembler& assembler, const MotionSlots& motion, const Islands& 
   };
 
   const Configuration start = c;
-  std::vector<double> y(motion.size(), 0.0), phi, rate, second;
+  std::vector<double> y(motion.size(), 0.0);
   const auto move = [&](const ConstraintFactors& factors, Vector by, auto&& factor_of) {
     for (Eigen::Index i = 0; i < by.size(); ++i) {
       const std::size_t k = island_of_row(i);
@@ -108,7 +108,7 @@ bool move_along(Assembler& assembler, const MotionSlots& motion, const Islands& 
   std::optional<ConstraintFactors> factors;
   bool renewed = false;
   for (int iteration = 0; iteration < 12 && any(State::closes); ++iteration) {
-    assembler.constraint_rates(c, phi, rate, second);
+    const std::vector<double> phi = assembler.violations(c);
     const Vector relative = relative_open(assembler, phi);
     for (Returning& one : ways) one.before = std::exchange(one.open, 0.0);
     for (Eigen::Index m = 0; m < relative.size(); ++m)

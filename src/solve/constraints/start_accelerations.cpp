@@ -62,15 +62,14 @@ struct SignalRows {
   int part;
   Eigen::Index first;  ///< index into Configuration::scalars
 
-  const Element& element() const { return *assembler.model().parts[static_cast<std::size_t>(part)].element; }
+  const Element& element() const { return *assembler.model().part(part).element; }
   Eigen::Index size() const { return static_cast<Eigen::Index>(element().layout().scalars.size()); }
 
   /// Their tangent with these weights.
   Matrix block(const Configuration& c, const Weights& weights) const {
     const Eigen::Index slots = element().layout().slots(), begin = element().layout().node_slots();
-    std::vector<double> r(static_cast<std::size_t>(slots)), k(r.size() * r.size());
-    element().tangent(assembler.view(part, c), weights, r, k);
-    return Eigen::Map<const Matrix>(k.data(), slots, slots).transpose().block(begin, begin, size(), size());
+    const Assembler::ElementTangent local = assembler.element_tangent(part, c, weights);
+    return Eigen::Map<const Matrix>(local.k.data(), slots, slots).transpose().block(begin, begin, size(), size());
   }
   /// Their residual if they were zero and at rest.
   Eigen::VectorXd without_states(const Configuration& c) const {
@@ -215,6 +214,10 @@ bool Start::soften(Configuration& c, double h, StartReport* report, const Massle
   return true;
 }
 
+// Controllers need two remedies. Softened accelerations leave states where they are, as those of a motion that goes on behind an
+// event have to be; but a rate that sets in with the run would still be an effort of order one or more in its first step. States
+// placed after their lags avoid that, but lose the work of the lag: too much from a tenth of a step on, where the first is
+// enough.
 bool Start::soften_signals(Configuration& c, double h) const {
   // for one lag: shorter than h/π, as periods are that soften() looks for
   constexpr double half = 1 + std::numbers::pi / 2, unresolved = half * half - 1;

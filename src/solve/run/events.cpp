@@ -80,11 +80,10 @@ std::optional<double> first_descent(double a, double da, double b, double db, do
 }
 
 Switches::Switches(SolverContext& context, const Scheme& scheme) : context_(context), scheme_(scheme) {
-  const auto& parts = context.model.parts;
   const Numbering& numbering = context.assembler.numbering();
-  for (int p = 0; p < static_cast<int>(parts.size()); ++p) {
+  for (int p = 0; p < numbering.parts(); ++p) {
     int index = 0;
-    for (const SwitchNames& names : parts[static_cast<std::size_t>(p)].element->layout().switches) {
+    for (const SwitchNames& names : context.model.part(p).element->layout().switches) {
       const bool of_force = names.multiplier >= 0;
       const int multiplier = of_force ? numbering.multiplier_begin(p) + names.multiplier : 0;
       const int equation = of_force ? numbering.equation(numbering.motion_slots() + multiplier) : -1;
@@ -99,7 +98,7 @@ Switches::Switches(SolverContext& context, const Scheme& scheme) : context_(cont
 std::vector<Switch> Switches::at(const Configuration& c) const {
   std::vector<Switch> values(places_.size());
   for (std::size_t i = 0; i < places_.size();) {
-    const Element& element = *context_.model.parts[static_cast<std::size_t>(places_[i].part)].element;
+    const Element& element = *context_.model.part(places_[i].part).element;
     const std::size_t count = element.layout().switches.size();
     element.switches(context_.assembler.view(places_[i].part, c), std::span(values).subspan(i, count));
     for (const std::size_t end = i + count; i < end; ++i) {
@@ -150,7 +149,7 @@ std::vector<Event> Switches::renew(const Configuration& c) {
   std::vector<Event> late;
   const std::vector<Switch> now = at(c);
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const Layout& layout = context_.model.parts[static_cast<std::size_t>(places_[i].part)].element->layout();
+    const Layout& layout = context_.model.part(places_[i].part).element->layout();
     if (places_[i].index < static_cast<int>(layout.switches.size() - 2 * layout.grips.size())) continue;
     if (side_[i] != 0 && taken_[i].unclear() && now[i].size == 0)
       late.push_back({places_[i].part, places_[i].index, side_[i] < 0});
@@ -308,6 +307,99 @@ std::optional<double> EventLocator::coasting_change(const Configuration& from, s
   return {};
 }
 
+void EventLocator::note_event() {
+  if (++located_ == most_events) chattered_ = true;
+}
+
+std::optional<double> EventLocator::change_within(Search& s, double h) {
+  std::vector<Switch> after = switches_.at(s.to);
+  Switches::complete(began_, after, h);
+  s.ahead = switches_.time_to_change(after, tolerance_);
+  const auto change = switches_.first_change(began_, after, h);
+  // the cubic predicts better than the rates at its end
+  if (!change && s.ahead > tolerance_ && s.ahead < h)
+    if (const auto next = switches_.next_change(began_, after, h, 2 * s.ahead)) s.ahead = *next;
+  return change || s.ahead > 0.1 * tolerance_ ? change : h;
+}
+
+bool EventLocator::sees_event(Search& s, double size, Finding& found) {
+  if (const auto seen = change_within(s, size)) {
+    s.event = *seen;
+    return true;
+  }
+  // a step that was to end just before an event has done so, or has narrowly missed it
+  s.event = size + s.ahead;
+  if (s.ahead > near_miss * size || s.event >= aimed_) return false;
+  if (s.ahead <= reach(size)) {
+    note_event();
+    found.kind = Finding::Kind::land;
+    found.drift = s.ahead + tolerance_;
+    return false;
+  }
+  s.free = size;
+  s.past = aimed_;
+  return true;
+}
+
+bool EventLocator::suspects_event(Search& s, double size) const {
+  // where a force jumps, a step that would end at the jump has no solution
+  s.event = switches_.time_to_change(began_, tolerance_);
+  if (s.event > foreseen * size) return false;
+  s.event = std::min(s.event, 0.5 * size);
+  s.failures = 1;
+  return true;
+}
+
+bool EventLocator::drifts_at_once(Search& s, Finding& found) const {
+  // an attempt that has crossed an event predicts its time poorly; over so short a time the motion at its start is better
+  const std::optional<double> near = s.coasted ? s.event : coasting_change(s.from, began_, shortest());
+  if (near) {
+    found.kind = Finding::Kind::drift;
+    found.drift = *near + tolerance_;
+    return true;
+  }
+  s.coasted = true;
+  s.event = shortest();
+  return false;
+}
+
+double EventLocator::next_size(const Search& s, int attempts) const {
+  // the step is to end before the event, where the law of its beginning still applies
+  double size = std::max(s.event - 0.5 * tolerance_, shortest());
+  if (attempts >= quick_attempts || size <= s.free || size >= s.past) size = 0.5 * (s.free + s.past);
+  return s.past - s.free <= 0.5 * tolerance_ || attempts == most_attempts ? s.free : size;
+}
+
+void EventLocator::locate(Search& s, Finding& found) {
+  while (found.kind == Finding::Kind::none) {
+    if (s.event < shortest() && drifts_at_once(s, found)) return;
+    const double size = next_size(s, found.attempts);
+    const bool last = size == s.free;
+    if (last && s.free == 0) {
+      found.kind = Finding::Kind::drift;
+      found.drift = s.past;
+      return;
+    }
+    found.outcome = scheme_.attempt(s.from, size, s.to);
+    found.step = size;
+    ++found.attempts;
+    if (!found.outcome->converged()) {
+      if (last || ++s.failures == most_failures) found.kind = Finding::Kind::failed;
+      s.past = size;
+      s.event = 0.5 * (s.free + s.past);
+    } else if (const auto change = change_within(s, size); last || (!change && s.ahead <= reach(size))) {
+      found.kind = Finding::Kind::land;
+      found.drift = std::min(s.ahead, s.past - size) + tolerance_;
+    } else if (change) {
+      s.past = size;
+      s.event = *change;
+    } else {
+      s.free = size;
+      s.event = s.free + s.ahead;
+    }
+  }
+}
+
 EventLocator::Finding EventLocator::inspect(const Configuration& from, double size, bool converged, Configuration& to) {
   Finding found;
   found.step = size;
@@ -315,96 +407,11 @@ EventLocator::Finding EventLocator::inspect(const Configuration& from, double si
   began_ = switches_.before(from);
   sharpen(began_, size);
   if (located_ >= most_events) return found;
-  std::vector<Switch>& before = began_;
-  std::vector<Switch> after;
-  double ahead = 0;  // from `to` to the next event
-  // a step that ends within rounding of an event may have used either law at its end, and counts as past it
-  const auto change_within = [&](double h) {
-    after = switches_.at(to);
-    Switches::complete(before, after, h);
-    ahead = switches_.time_to_change(after, tolerance_);
-    const auto change = switches_.first_change(before, after, h);
-    // the cubic predicts better than the rates at its end
-    if (!change && ahead > tolerance_ && ahead < h)
-      if (const auto next = switches_.next_change(before, after, h, 2 * ahead)) ahead = *next;
-    return change || ahead > 0.1 * tolerance_ ? change : h;
-  };
-  double free = 0, past = size, event = 0;  // no change up to `free`; one before `past`, or no solution there
-  int failures = 0;
-  if (converged) {
-    if (const auto seen = change_within(size)) {
-      event = *seen;
-    } else {
-      // a step that was to end just before an event has done so, or has narrowly missed it
-      event = size + ahead;
-      if (ahead > near_miss * size || event >= aimed_) return found;
-      if (ahead <= reach(size)) {
-        if (++located_ == most_events) chattered_ = true;
-        found.kind = Finding::Kind::land;
-        found.drift = ahead + tolerance_;
-        return found;
-      }
-      free = size;
-      past = aimed_;
-    }
-  } else {
-    // where a force jumps, a step that would end at the jump has no solution
-    event = switches_.time_to_change(before, tolerance_);
-    if (event > foreseen * size) return found;
-    event = std::min(event, 0.5 * size);
-    failures = 1;
-  }
-  if (++located_ == most_events) chattered_ = true;
-
-  bool coasted = false;
-  while (true) {
-    if (event < shortest()) {
-      // an attempt that has crossed an event predicts its time poorly; over so short a time the motion at its start is better
-      const std::optional<double> near = coasted ? event : coasting_change(from, before, shortest());
-      if (near) {
-        found.kind = Finding::Kind::drift;
-        found.drift = *near + tolerance_;
-        return found;
-      }
-      coasted = true;
-      event = shortest();
-    }
-    // the step is to end before the event, where the law of its beginning still applies
-    double size_tried = std::max(event - 0.5 * tolerance_, shortest());
-    if (found.attempts >= quick_attempts || size_tried <= free || size_tried >= past) size_tried = 0.5 * (free + past);
-    if (past - free <= 0.5 * tolerance_ || found.attempts == most_attempts) size_tried = free;
-    const bool last = size_tried == free;
-    if (last && free == 0) {
-      found.kind = Finding::Kind::drift;
-      found.drift = past;
-      return found;
-    }
-    found.outcome = scheme_.attempt(from, size_tried, to);
-    found.step = size_tried;
-    ++found.attempts;
-    if (!found.outcome->converged()) {
-      if (last || ++failures == most_failures) {
-        found.kind = Finding::Kind::failed;
-        return found;
-      }
-      past = size_tried;
-      event = 0.5 * (free + past);
-      continue;
-    }
-    const auto change = change_within(size_tried);
-    if (last || (!change && ahead <= reach(size_tried))) {
-      found.kind = Finding::Kind::land;
-      found.drift = std::min(ahead, past - size_tried) + tolerance_;
-      return found;
-    }
-    if (change) {
-      past = size_tried;
-      event = *change;
-    } else {
-      free = size_tried;
-      event = free + ahead;
-    }
-  }
+  Search search{from, to, 0, size};
+  if (!(converged ? sees_event(search, size, found) : suspects_event(search, size))) return found;
+  note_event();
+  locate(search, found);
+  return found;
 }
 
 }  // namespace engrane::solve

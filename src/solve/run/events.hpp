@@ -134,6 +134,32 @@ class EventLocator {
   bool chatters();
 
  private:
+  /// Search for the first event behind `from`.
+  struct Search {
+    const Configuration& from;
+    Configuration& to;     ///< end of the last attempt
+    double free, past;     ///< no change up to `free`; one before `past`, or no solution there
+    double event = 0;      ///< predicted time of the change
+    double ahead = 0;      ///< time from `to` to the next change
+    int failures = 0;      ///< attempts without a solution
+    bool coasted = false;  ///< the motion at `from` shows no event that would be too near for a step
+  };
+  /// Time of the first change within an attempt of h; sets `ahead`. A step that ends within rounding of an event may have used
+  /// either law at its end, and counts as past it.
+  std::optional<double> change_within(Search& search, double h);
+  /// Whether an event is to be located because of an attempt of `size` that converged. If not, it may be the step that was to end
+  /// before one (`found`).
+  bool sees_event(Search& search, double size, Finding& found);
+  /// The same because of one that did not converge.
+  bool suspects_event(Search& search, double size) const;
+  /// Whether an event too near for a step is to be crossed at once; otherwise the shortest step is tried.
+  bool drifts_at_once(Search& search, Finding& found) const;
+  /// Length of the next attempt; `free` if it is the last.
+  double next_size(const Search& search, int attempts) const;
+  /// Makes attempts until one shows how the event is met.
+  void locate(Search& search, Finding& found);
+  /// One more event on the way to the present multiple of H.
+  void note_event();
   /// Time to the first event within `size`, predicted by velocities and accelerations of `from`; `now`: the switches there.
   std::optional<double> coasting_change(const Configuration& from, std::vector<Switch> now, double size) const;
   /// How far before an event a step of `size` may end.

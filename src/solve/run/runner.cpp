@@ -220,99 +220,114 @@ double Runner::next_size(double left) const {
 bool Runner::reach(double target) {
   // a resumed run may have a drift to make first
   if (pending_drift_ > 0 && !drift(std::exchange(pending_drift_, 0), target)) return false;
-  while (now_.time < target) {
-    const double left = target - now_.time;
-    if (control_.active()) locator_.step_is(h_);
-    if (locator_.active() && left < locator_.shortest()) {
-      if (drifts(left)) {
-        if (!drift(left, target)) return false;
-        continue;
-      }
-      h_ = left;  // the last step was chosen for a motion that has ended, as at a corner of a load
-      locator_.step_is(h_);
-    }
-    double size = next_size(left);
-    if (control_.active()) size = locator_.foresee(now_, size);
-    Outcome outcome = scheme_.attempt(now_, size, next_);
-    EventLocator::Finding found = locator_.inspect(now_, size, outcome.converged(), next_);
-    using Kind = EventLocator::Finding::Kind;
-    step_.locating += found.attempts;
-    size = found.step;
-    if (found.outcome) outcome = std::move(*found.outcome);
-    if (found.kind == Kind::drift) {
-      if (const double way = before_event(found.drift);
-          way > 0 && scheme_.drift_error(now_, way) > (control_.active() ? share_of_drift : 1)) {
-        // the motion has changed since the step was chosen, as after a jump of a force: a shorter step gets there
-        if (control_.active()) {
-          ++step_.cuts;
-          h_ = found.drift;
-          continue;
-        }
-        // a drift is too inaccurate for what is stiff: a step of the shortest length passes over the event
-        size = locator_.shortest();
-        outcome = scheme_.attempt(now_, size, next_);
-        if (outcome.converged()) found.kind = Kind::pass;
-      }
-    }
-    const NewtonReport& report = outcome.newton;
-    bool jumps = false;
-    if (!report.converged && found.kind != Kind::drift) {
-      // other constraints may be redundant here than at the start
-      if (renew(report)) continue;
-      control_.refused();
-      const double shorter = (control_.active() ? aside : 0.5) * size;
-      const double way = shortest(size, shorter) ? find_beyond(size, left, outcome) : 0;
-      if (way == 0) {
-        cut(size, shorter, report);
-        continue;
-      }
-      size = way;
-      jumps = true;
-    }
-    const double error = outcome.error.value_or(0);
-    if (control_.active() && found.kind != Kind::drift && !(error <= 1) && !jumps) {
-      const double shorter = control_.retry(size, error);
-      jumps = jumps_at(size, shorter, error);
-      if (!jumps) {
-        NewtonReport inaccurate = report;
-        inaccurate.reason = fmt::format("the step's error is {:.3g} times the tolerance TOL", error);
-        cut(size, shorter, inaccurate);
-        continue;
-      }
-    }
-    if (!jumps && scheme_.leaps(now_, next_)) {
-      jumps = shortest(size, 0.5 * size);
-      if (!jumps) {
-        cut(size, 0.5 * size, report);
-        continue;
-      }
-    }
-    if (found.kind != Kind::drift) {
-      if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // avoids rounding accumulated in sums of h
-      scheme_.accept();
-      locator_.stepped(size);
-      std::swap(now_, next_);
-      // the inverse square of a short step amplifies rounding in accelerations and multipliers: they are computed anew
-      if (locator_.active() && size < noisy * (control_.active() ? h_ : options_.step)) scheme_.drift(now_, 0);
-      using Landing = StepControl::Landing;
-      const Landing landing = found.kind != Kind::land ? Landing::none : found.attempts > 0 ? Landing::sought : Landing::foreseen;
-      // back to the step asked for as soon as possible
-      h_ = control_.active() ? control_.after(size, error, h_, landing) : std::min(options_.step, 2 * h_);
-      step_.newton = &report;
-      if (control_.active() && found.kind == Kind::none) locator_.new_target();
-      if (jumps) pass_jump();
-      pending_drift_ = found.kind == Kind::land && now_.time < target ? found.drift : 0;
-      // between the ends of a jump there is no motion
-      if (!accepted(size, found.kind == Kind::none || now_.time == target, !jumps)) return false;
-      if (pending_drift_ > 0 && !drift(std::exchange(pending_drift_, 0), target)) return false;
-    } else if (!drift(found.drift, target)) {
-      return false;
-    }
-  }
+  while (now_.time < target)
+    if (!advance(target)) return false;
   locator_.new_target();
   renewed_ = false;
   step_.locating = 0;
   return true;
+}
+
+bool Runner::advance(double target) {
+  const double left = target - now_.time;
+  if (control_.active()) locator_.step_is(h_);
+  if (locator_.active() && left < locator_.shortest()) {
+    if (drifts(left)) return drift(left, target);
+    h_ = left;  // the last step was chosen for a motion that has ended, as at a corner of a load
+    locator_.step_is(h_);
+  }
+  Tried tried = attempt(left);
+  if (tried.found.kind == Kind::drift) return !crosses(tried) || drift(tried.found.drift, target);
+  if (!solved(tried, left) || !accurate(tried) || !stays(tried)) return true;
+  return take(tried, target);
+}
+
+Runner::Tried Runner::attempt(double left) {
+  Tried tried;
+  tried.size = next_size(left);
+  if (control_.active()) tried.size = locator_.foresee(now_, tried.size);
+  tried.outcome = scheme_.attempt(now_, tried.size, next_);
+  tried.found = locator_.inspect(now_, tried.size, tried.outcome.converged(), next_);
+  step_.locating += tried.found.attempts;
+  tried.size = tried.found.step;
+  if (tried.found.outcome) tried.outcome = std::move(*tried.found.outcome);
+  if (tried.found.kind != Kind::drift || control_.active() || !strays(tried.found.drift)) return tried;
+  // a drift is too inaccurate for what is stiff: a step of the shortest length passes over the event
+  tried.size = locator_.shortest();
+  tried.outcome = scheme_.attempt(now_, tried.size, next_);
+  if (tried.outcome.converged()) tried.found.kind = Kind::pass;
+  return tried;
+}
+
+bool Runner::strays(double drift) {
+  const double way = before_event(drift);
+  return way > 0 && scheme_.drift_error(now_, way) > (control_.active() ? share_of_drift : 1);
+}
+
+bool Runner::crosses(const Tried& tried) {
+  if (!control_.active() || !strays(tried.found.drift)) return true;
+  // the motion has changed since the step was chosen, as after a jump of a force: a shorter step gets there
+  ++step_.cuts;
+  h_ = tried.found.drift;
+  return false;
+}
+
+bool Runner::solved(Tried& tried, double left) {
+  const NewtonReport& report = tried.outcome.newton;
+  if (report.converged) return true;
+  // other constraints may be redundant here than at the start
+  if (renew(report)) return false;
+  control_.refused();
+  const double shorter = (control_.active() ? aside : 0.5) * tried.size;
+  const double way = shortest(tried.size, shorter) ? find_beyond(tried.size, left, tried.outcome) : 0;
+  if (way == 0) {
+    cut(tried.size, shorter, report);
+    return false;
+  }
+  tried.size = way;
+  tried.jumps = true;
+  return true;
+}
+
+bool Runner::accurate(Tried& tried) {
+  const double error = tried.error();
+  if (!control_.active() || error <= 1 || tried.jumps) return true;
+  const double shorter = control_.retry(tried.size, error);
+  tried.jumps = jumps_at(tried.size, shorter, error);
+  if (tried.jumps) return true;
+  NewtonReport inaccurate = tried.outcome.newton;
+  inaccurate.reason = fmt::format("the step's error is {:.3g} times the tolerance TOL", error);
+  cut(tried.size, shorter, inaccurate);
+  return false;
+}
+
+bool Runner::stays(Tried& tried) {
+  if (tried.jumps || !scheme_.leaps(now_, next_)) return true;
+  tried.jumps = shortest(tried.size, 0.5 * tried.size);
+  if (!tried.jumps) cut(tried.size, 0.5 * tried.size, tried.outcome.newton);
+  return tried.jumps;
+}
+
+bool Runner::take(const Tried& tried, double target) {
+  const EventLocator::Finding& found = tried.found;
+  const double size = tried.size;
+  if (std::abs(next_.time - target) <= 1e-9 * size) next_.time = target;  // avoids rounding accumulated in sums of h
+  scheme_.accept();
+  locator_.stepped(size);
+  std::swap(now_, next_);
+  // the inverse square of a short step amplifies rounding in accelerations and multipliers: they are computed anew
+  if (locator_.active() && size < noisy * (control_.active() ? h_ : options_.step)) scheme_.drift(now_, 0);
+  using Landing = StepControl::Landing;
+  const Landing landing = found.kind != Kind::land ? Landing::none : found.attempts > 0 ? Landing::sought : Landing::foreseen;
+  // back to the step asked for as soon as possible
+  h_ = control_.active() ? control_.after(size, tried.error(), h_, landing) : std::min(options_.step, 2 * h_);
+  step_.newton = &tried.outcome.newton;
+  if (control_.active() && found.kind == Kind::none) locator_.new_target();
+  if (tried.jumps) pass_jump();
+  pending_drift_ = found.kind == Kind::land && now_.time < target ? found.drift : 0;
+  // between the ends of a jump there is no motion
+  if (!accepted(size, found.kind == Kind::none || now_.time == target, !tried.jumps)) return false;
+  return !(pending_drift_ > 0) || drift(std::exchange(pending_drift_, 0), target);
 }
 
 double Runner::before_event(double drift) const {

@@ -57,8 +57,31 @@ class Runner {
   bool started() const { return started_; }  ///< now() is an accepted configuration
 
  private:
+  using Kind = EventLocator::Finding::Kind;
+  /// An attempt of a step from now_ to next_.
+  struct Tried {
+    double size = 0;
+    Outcome outcome;
+    EventLocator::Finding found;
+    bool jumps = false;  ///< equilibria jump within it
+
+    double error() const { return outcome.error.value_or(0); }
+  };
   bool march();
   bool reach(double target);
+  /// Makes one attempt towards `target`, and the step or the drift that it allows; false if `after_step` ended the run.
+  bool advance(double target);
+  Tried attempt(double left);
+  /// Would a drift across an event be too inaccurate before it?
+  bool strays(double drift);
+  /// Each of these is true if an attempt may be taken as far as it can tell, and otherwise has prepared the next one: a drift may
+  /// cross the event; there is a solution, or one where equilibria jump to; its error is allowed; it leaps to no other path.
+  bool crosses(const Tried& tried);
+  bool solved(Tried& tried, double left);
+  bool accurate(Tried& tried);
+  bool stays(Tried& tried);
+  /// Accepts an attempt, and drifts across the event that it ends before; false if `after_step` ended the run.
+  bool take(const Tried& tried, double target);
   /// Passes a corner of a function of time from `before`, which is the corner itself where nothing jumps.
   bool pass_corner(double before, double corner, bool impulse);
   /// Speeds of drives and supports in the motion up to now_, with which what follows has to fit.

@@ -485,7 +485,7 @@ void ArcLength::save(Snapshot& snapshot) const {
                               static_cast<double>(bifurcations_), static_cast<double>(steps_), branching_ ? 1.0 : 0.0,
                               course_.next, static_cast<double>(course_.unstable), course_.critical_time});
   snapshot.put("path/travelled", travelled_);
-  snapshot.put("path/measure", {measure_});
+  snapshot.put("path/measure", measure_);
   snapshot.put("path/arrived", course_.arrived ? goal() : std::vector<double>{});
 }
 
@@ -502,7 +502,7 @@ void ArcLength::load(const Snapshot& snapshot) {
   if (here_.way.size() != weights_.size()) throw std::out_of_range("the path has other equations");
   travelled_ = snapshot.array("path/travelled");
   weigh();
-  measure_ = snapshot.array("path/measure").at(0);
+  measure_ = snapshot.number("path/measure");
   here_.load = state.at(0);
   here_.negative = static_cast<int>(state.at(1));
   here_.symmetric = state.at(2) != 0;

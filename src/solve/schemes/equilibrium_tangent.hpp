@@ -6,24 +6,19 @@
 
 namespace engrane::solve {
 
-/// The tangent at an equilibrium and its factors: of forces at rest, with
-/// rotations as increments that start there, and without the columns of
-/// released constraints, whose multipliers do not change. It is then symmetric
-/// if all loads have a potential, and its negative eigenvalues tell in how many
-/// directions the equilibrium is unstable, beside redundant constraints too.
+/// The tangent at an equilibrium and its factors: of forces at rest, with rotations as increments that start there, and without
+/// the columns of released constraints, whose multipliers do not change. It is then symmetric if all loads have a potential,
+/// and its negative eigenvalues tell in how many directions the equilibrium is unstable, beside redundant constraints too.
 class EquilibriumTangent {
  public:
   explicit EquilibriumTangent(SolverContext& context);
 
-  /// Evaluates the tangent of any state like that of an equilibrium, in a
-  /// matrix from Assembler::new_matrix(). Collective.
+  /// Evaluates the tangent of any state like that of an equilibrium, in a matrix from Assembler::new_matrix(). Collective.
   void evaluate(const Configuration& at_start_of_step, Mat into) const;
-  /// Evaluates and factors it at an equilibrium; false if it is singular to the
-  /// last digit. Collective.
+  /// Evaluates and factors it at an equilibrium; false if it is singular to the last digit. Collective.
   bool factor(const Configuration& equilibrium);
-  /// Whether some motion meets no resistance but rounding: the sign of an
-  /// eigenvalue is then unknown. Sets `motion` to the answer to generic loads,
-  /// which is all but the softest motion. Collective.
+  /// Whether some motion meets no resistance but rounding: the sign of an eigenvalue is then unknown. Sets `motion` to the
+  /// answer to generic loads, which is all but the softest motion. Collective.
   bool neutral(Vec motion);
 
   Mat matrix() const { return factors_.matrix(); }
@@ -41,9 +36,8 @@ class EquilibriumTangent {
   Owned<Vec> loads_;  ///< made by the first neutral()
 };
 
-/// Number of directions in which an equilibrium is unstable, by the negative
-/// eigenvalues of its tangent: each constraint, released or not, adds one to
-/// them. Of an unsymmetric tangent 1 if the number is odd, else 0.
+/// Number of directions in which an equilibrium is unstable, by the negative eigenvalues of its tangent: each constraint,
+/// released or not, adds one to them. Of an unsymmetric tangent 1 if the number is odd, else 0.
 int unstable_directions(const SolverContext& context, int negative, bool symmetric);
 
 }  // namespace engrane::solve

@@ -43,6 +43,8 @@ void Kinematics::take_over(Configuration& c) {
   refuse_free_motion(c);
 }
 
+void Kinematics::accept() { from_ = std::exchange(to_, {}); }
+
 void Kinematics::save(Snapshot& snapshot) const { snapshot.put("kinematics/driven", driven_ ? 1 : 0); }
 
 void Kinematics::load(const Snapshot& snapshot) {
@@ -114,14 +116,18 @@ Outcome Kinematics::attempt(const Configuration& from, double h, Configuration& 
   } catch (const SolutionFailure& e) {
     failure = e.what();
   }
-  const Regularity before(context_.assembler, from), now(context_.assembler, to);
+  if (!from_) from_.emplace(context_.assembler, from);
+  const Regularity &before = *from_, &now = to_.emplace(context_.assembler, to);
   // close to a singular position the rounding of positions is amplified in positions, velocities, accelerations and forces in
   // turn, and may be all there is in the forces
   const double amplified = now.amplification();
   const bool doubtful = !(std::pow(amplified, 4) * std::numeric_limits<double>::epsilon() <= unknown) &&
                         !(amplified <= closer * before.amplification());
   if (doubtful && (!failure.empty() || blurred(from, h, to, unknown))) {
-    if (reach_limit(from, h, before.amplification(), to, report)) return outcome;
+    if (reach_limit(from, h, before.amplification(), to, report)) {
+      to_.reset();
+      return outcome;
+    }
     if (failure.empty()) failure = "close to a singular position (bars in line, or a drive at a dead point) forces are not known";
   }
   if (!failure.empty()) {

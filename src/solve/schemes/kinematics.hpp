@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solve/constraints/regularity.hpp"
@@ -16,6 +17,7 @@ class Kinematics final : public Scheme {
 
   StartReport start(Configuration& c) override;
   Outcome attempt(const Configuration& from, double h, Configuration& to) override;
+  void accept() override;
   void take_over(Configuration& c) override;
   void save(Snapshot& snapshot) const override;
   void load(const Snapshot& snapshot) override;
@@ -54,8 +56,9 @@ class Kinematics final : public Scheme {
   /// shorter parts, goes through one. `side`: that before the step.
   void refuse_other_branch(const Configuration& from, double h, const Regularity& side, NewtonReport& report);
 
-  double inertia_ = 0;   ///< of all masses over the extent, and their moments of inertia
-  bool driven_ = false;  ///< no motion is free: this run has been checked for that, or the one that it continues
+  double inertia_ = 0;                   ///< of all masses over the extent, and their moments of inertia
+  bool driven_ = false;                  ///< no motion is free: this run has been checked for that, or the one that it continues
+  std::optional<Regularity> from_, to_;  ///< at the ends of the last attempt; nothing if unknown
 };
 
 }  // namespace engrane::solve

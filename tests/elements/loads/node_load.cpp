@@ -14,7 +14,8 @@ const Wave wave(0.3, 0.7, 1.9, 0.4);
 
 TEST(NodeLoad, Suite) {
   const Vec3 none = Vec3::Zero(), some(3, -2, 1), other(0.5, 2, -1);
-  for (const auto& [force, moment] : {std::pair(some, none), {none, other}, {some, other}}) {
+  for (const auto& load : {std::pair(some, none), {none, other}, {some, other}}) {
+    const Vec3 force = load.first, moment = load.second;
     Subject s;
     s.name = "force " + std::to_string(force.norm()) + ", moment " + std::to_string(moment.norm());
     s.nodes = {{4, {1, 2, 3}}};
@@ -54,6 +55,21 @@ TEST(NodeLoad, Channels) {
     check(none, other, function);
     check(some, other, function);
   }
+}
+
+/// One arrow for each of them, as those of FORCE and TORQUE: only a moment says `couple`.
+TEST(NodeLoad, Arrows) {
+  const Vec3 none = Vec3::Zero(), some(0, -3, 0), other(0, 0, 2);
+  const auto arrows = [](const Vec3& force, const Vec3& moment) {
+    const auto load = make_node_load(1, 4, Vec3(1, 2, 3), force, moment, nullptr);
+    EXPECT_TRUE(load->is_load());
+    return load->drawing();
+  };
+  const std::string push = R"("shape": "arrow", "node": 4, "center": [1, 2, 3], "axis": [0, -1, 0], "holder": 0)",
+                    turn = R"("shape": "arrow", "couple": true, "node": 4, "center": [1, 2, 3], "axis": [0, 0, 1], "holder": 0)";
+  EXPECT_EQ(arrows(some, none), Drawing{push});
+  EXPECT_EQ(arrows(none, other), Drawing{turn});
+  EXPECT_EQ(arrows(some, other), (Drawing{push, turn}));
 }
 
 }  // namespace
