@@ -11,9 +11,8 @@ its own error is what it differs by from another of fixed steps, or of TOL 1e-8.
 the process with all it does, the estimate included, without that of a run of a single step; the least of
 --runs, in turn.
 
-Prints a Markdown table of the four settings; --tolerances: one of TOL, with the TOL that each setting
-would have needed; --picture: error over processor time of the models; --slopes: one of fixed steps of
-each scheme, with errors of positions, velocities and forces and their slopes.
+Prints a Markdown table of the four settings; --tolerances: one of TOL, with the TOL that each setting would
+have needed; --picture: only a diagram; --slopes: fixed steps of each scheme, with errors and their slopes.
 """
 
 import argparse
@@ -115,6 +114,7 @@ class Model:
     exact: tuple[str, str] = ("", "1e-9")  #: words of `.SAM`, and TOL, of the truth
     fixed: bool = False  #: the truth has fixed steps: forces at their ends, not between those about an event
     waves: bool = False  #: or events at once: the own error is what TOL 1e-8 differs by
+    resolved: bool = True  #: fixed steps of ordinary length follow its waves; if not, REFERENCE is not drawn
     schemes: tuple[str, ...] = ("",)  #: words that the settings are tried with
     names: tuple[str, ...] = field(init=False)
     more: str = field(init=False)  #: words of `.SAM` that stay
@@ -144,6 +144,7 @@ def elbow(text: str, more: str = "") -> Model:
         ),
         (0.05, 0.025, 0.0125, 0.00625),
         waves=True,
+        resolved=False,
     )
 
 
@@ -161,6 +162,7 @@ def flexible_crank(text: str, more: str = "") -> Model:
         ),
         (TURN / 500, TURN / 1000, TURN / 2000, TURN / 4000),
         waves=True,
+        resolved=False,
     )
 
 
@@ -346,14 +348,6 @@ class Bench:
         run = Run(times[even], values, max(seconds - self.start, 0.001), report["steps"], report)
         return run.compare(self.truth, model, self.units) if compare else run
 
-    def point(self, analysis: str, stepping: str) -> tuple[float, float] | None:
-        """Seconds and error, if the run comes to its end."""
-        try:
-            run = self.run(analysis, stepping)
-        except RuntimeError:
-            return None
-        return run.seconds, run.error
-
 
 def cell(value: float) -> str:
     return f"{value:.1e}" if math.isfinite(value) else ""
@@ -485,61 +479,71 @@ def slopes(bench: Bench) -> list[str]:
 
 
 LADDER = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
+KEPT, RADAU = "generalised-α, kept factors, fixed steps", "Radau IIA, fixed steps"
+CONTROLLED, DIAL, DECK = "Radau IIA, TOL", "ACCURACY, with its estimate", "the deck as it is"
 
 
-def picture(binary: Path, folder: Path, models: list[Model], path: Path, runs: int) -> None:
-    """Error over processor time of some models: fixed steps, tolerances and the settings, without REFERENCE
-    where there are waves that fixed steps do not follow."""
+def points(bench: Bench) -> dict[str, list[tuple[str, float, float]]]:
+    """What is drawn of a model: name, seconds and error of the runs of each line that come to their end."""
+    model = bench.model
+    settings, ladder = (list(SETTINGS), LADDER) if model.resolved else (list(SETTINGS)[:-1], LADDER[:-1])
+    steps = [model.steps[0] * 2.0**-k for k in range(6)]
+    lines = {
+        KEPT: [("", "RHO 0.8 SOLVER KLU TANGENT KEPT", f"H {h!r}") for h in steps],
+        RADAU: [("", "SCHEME RADAU SOLVER KLU", f"H {h!r}") for h in steps[:5]],
+        CONTROLLED: [("", "SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL {t!r}") for t in ladder],
+        DIAL: [(rung, f"ACCURACY {rung}", f"H {model.step!r}") for rung in settings],
+        DECK: [("", None, f"H {model.step!r}")],
+    }
+    found: dict[str, list[tuple[str, float, float]]] = {}
+    for label, tries in lines.items():
+        found[label] = []
+        for name, *words in tries:
+            try:
+                run = bench.run(*words)
+            except RuntimeError:
+                continue
+            found[label].append((name, run.seconds, run.error))
+    return found
+
+
+def draw(drawn: dict[str, dict[str, list[tuple[str, float, float]]]], path: Path) -> None:
+    """Error over processor time of each model, three in a row."""
     import matplotlib
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    from matplotlib.patheffects import withStroke
+    from matplotlib.ticker import LogLocator, NullLocator
 
-    rows = -(-len(models) // 3)
-    figure, axes = plt.subplots(
-        rows, 3, figsize=(13, 4.3 * rows), sharey=True, layout="constrained", squeeze=False
-    )
-    for axis, model in zip(axes.flat, models, strict=False):
-        settings = [rung for rung in SETTINGS if not (model.waves and rung == "REFERENCE")]
-        ladder = LADDER[:-1] if model.waves else LADDER
-        bench = Bench(binary, folder, model, runs)
-        steps = [model.steps[0] * 2.0**-k for k in range(6)]
-        lines = (
-            (
-                "generalised-α, kept factors, fixed steps",
-                "o-",
-                [("RHO 0.8 SOLVER KLU TANGENT KEPT", f"H {h!r}") for h in steps],
-            ),
-            ("Radau IIA, fixed steps", "s-", [("SCHEME RADAU SOLVER KLU", f"H {h!r}") for h in steps[:5]]),
-            (
-                "Radau IIA, TOL",
-                "^-",
-                [("SCHEME RADAU SOLVER KLU", f"H {model.step!r} TOL {t!r}") for t in ladder],
-            ),
-            (
-                "ACCURACY, with its estimate",
-                "D--",
-                [(f"ACCURACY {rung}", f"H {model.step!r}") for rung in settings],
-            ),
-        )
-        for label, mark, tries in lines:
-            points = [bench.point(*words) for words in tries]
-            ran = [point for point in points if point]
-            axis.loglog(*zip(*ran, strict=True), mark, label=label, markersize=7 if "D" in mark else 4)
-            if "D" in mark:
-                for place, rung in zip(points, settings, strict=True):
-                    if place:
-                        axis.annotate(rung, place, xytext=(6, 3), textcoords="offset points", fontsize=8)
-        own = bench.run(None, f"H {model.step!r}")
-        axis.plot(own.seconds, own.error, "k*", markersize=11, label="the deck as it is")
-        axis.set(title=model.title, xlabel="processor time (s)")
-        axis.margins(x=0.22)
+    marks = {KEPT: "o-", RADAU: "s-", CONTROLLED: "^-", DIAL: "D--", DECK: "k*"}
+    columns = min(3, len(drawn))
+    rows = -(-len(drawn) // columns)
+    figure, axes = plt.subplots(rows, columns, sharey=True, layout="constrained", squeeze=False)
+    figure.set_size_inches(4.4 * columns, 4 * rows + 0.4)
+    for axis, (title, lines) in zip(axes.flat, drawn.items(), strict=False):
+        for label, found in lines.items():
+            _, seconds, errors = zip(*found, strict=True)
+            size = {DIAL: 7, DECK: 11}.get(label, 4)
+            axis.loglog(seconds, errors, marks[label], label=label, markersize=size)
+        slow = lines[DIAL][0][1] > lines[DIAL][1][1]  # FAST, which is then right of NORMAL
+        for name, *place in lines[DIAL]:
+            left = name == "FINE" or name == ("NORMAL" if slow else "FAST")
+            words = {"textcoords": "offset points", "ha": "right" if left else "left", "fontsize": 8}
+            text = axis.annotate(name, place, (-7 if left else 7, 3), zorder=9, **words)
+            text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
+        axis.set_title(title)
+        axis.margins(x=0.1)
+        axis.xaxis.set_major_locator(LogLocator(subs=(1, 3)))
+        axis.xaxis.set_minor_locator(NullLocator())
+        axis.xaxis.set_major_formatter("{x:g}")
         axis.grid(True, which="major", alpha=0.3)
-    for axis in axes.flat[len(models) :]:
+    for axis in axes.flat[len(drawn) :]:
         axis.remove()
-    for axis in axes[:, 0]:
-        axis.set_ylabel("error over range (rms over time, worst of x, v, force)")
-    axes[0][0].legend(fontsize=7.5, loc="lower left")
+    figure.supxlabel("processor time (s)")
+    figure.supylabel("error over range")
+    handles, labels = axes[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, ncols=2 * columns - 1, loc="outside upper center")
     figure.savefig(path, dpi=100)
 
 
@@ -560,7 +564,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         if a.picture:
             drawn = [known[name] for name in a.models or known]
-            picture(a.binary.resolve(), Path(folder), drawn, a.picture, a.runs)
+            benches = (Bench(a.binary.resolve(), Path(folder), model, a.runs) for model in drawn)
+            draw({bench.model.title: points(bench) for bench in benches}, a.picture)
             return
         for name in a.models or known:
             bench = Bench(a.binary.resolve(), Path(folder), known[name], a.runs)

@@ -218,20 +218,44 @@ def draw(drawn: dict[str, dict[str, Curve]], path: Path) -> None:
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
+    from matplotlib.patheffects import withStroke
+    from matplotlib.ticker import LogLocator, NullLocator
 
     marks = {KEPT: "o-", FULL: "o:", KLU: "s-", MUMPS: "s:", RADAU: "^-", DIAL: "D--"}
-    rows = -(-len(drawn) // 3)
-    figure, axes = plt.subplots(rows, 3, figsize=(13, 4.1 * rows), layout="constrained", squeeze=False)
+    columns = min(3, len(drawn))
+    rows = -(-len(drawn) // columns)
+    size = (4.4 * columns, 3.9 * rows + 0.6)
+    figure, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False)
     for axis, (title, found) in zip(axes.flat, drawn.items(), strict=False):
         for label, mark in marks.items():
             curve = found[label]
-            points = [(s, e) for s, e in zip(curve.least, curve.errors, strict=True) if np.isfinite(e)]
-            axis.loglog(*zip(*points, strict=True), mark, label=label, markersize=7 if label == DIAL else 4)
-        axis.set(title=title, xlabel="processor time (s)", ylabel="error over range")
+            points = [
+                (s, e, name)
+                for s, e, (name, _) in zip(curve.least, curve.errors, curve.runs, strict=True)
+                if np.isfinite(e)
+            ]
+            seconds, errors, names = zip(*points, strict=True)
+            axis.loglog(seconds, errors, mark, label=label, markersize=7 if label == DIAL else 4)
+            if label != DIAL:
+                continue
+            for i, (name, *place) in enumerate(zip(names, seconds, errors, strict=True)):
+                left = i == (0 if seconds[0] < seconds[1] else 1)
+                words = {"textcoords": "offset points", "ha": "right" if left else "left", "fontsize": 8}
+                text = axis.annotate(name, place, (-7 if left else 7, 3), zorder=9, **words)
+                text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
+        axis.set_title(title)
+        axis.margins(x=0.1)
+        axis.xaxis.set_major_locator(LogLocator(subs=(1, 3)))
+        axis.xaxis.set_major_formatter("{x:g}")
+        axis.xaxis.set_minor_locator(NullLocator())
+        axis.yaxis.set_minor_locator(NullLocator())
         axis.grid(True, which="major", alpha=0.3)
     for axis in axes.flat[len(drawn) :]:
         axis.remove()
-    axes[0][0].legend(fontsize=7.5, loc="lower left")
+    figure.supxlabel("processor time (s)")
+    figure.supylabel("error over range")
+    handles, labels = axes[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, ncols=2 * columns, loc="outside upper center")
     figure.savefig(path, dpi=100)
 
 
