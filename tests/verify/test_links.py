@@ -66,7 +66,7 @@ def turn_of_rim(torque: float) -> float:
 
 
 @pytest.mark.parametrize("link", ["RIGID_LINK", "MEAN_LINK"])
-@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("ranks", [1, 2, 3])
 def test_rim_of_many_nodes(link: str, ranks: int, tmp_path: Path) -> None:
     """MUMPS needs more room than it foresees for the rigid link, and gets it."""
     results = Results(run(rim(link, 800, "DISPLACEMENTS LARGE", TORQUE), tmp_path, ranks=ranks).file)

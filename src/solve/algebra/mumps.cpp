@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/memory.hpp"
+#include "solve/algebra/mumps_analysis.hpp"
 #include "solve/algebra/rows.hpp"
 #include "solve/algebra/solver_cost.hpp"
 
@@ -49,16 +50,11 @@ bool Mumps::analyse() {
   if (form_ != Form::definite) note_analysed();  // without a choice of pivots only the pattern matters
   const bool symmetric = form_ != Form::general;
   if (symmetric) check_petsc(MatSetOption(matrix_, MAT_SPD, form_ == Form::definite ? PETSC_TRUE : PETSC_FALSE));
-  check_petsc(MatGetFactor(matrix_, MATSOLVERMUMPS, symmetric ? MAT_FACTOR_CHOLESKY : MAT_FACTOR_LU, factors_.out()));
-  check_petsc(MatMumpsSetIcntl(factors_, 14, room_));
-  if (low_rank_) {
-    check_petsc(MatMumpsSetIcntl(factors_, 35, 2));  // low-rank blocks in factors and solutions
-    check_petsc(MatMumpsSetCntl(factors_, 7, low_rank_tolerance));
-  }
-  MatFactorInfo info;
-  check_petsc(MatFactorInfoInitialize(&info));
-  check_petsc(symmetric ? MatCholeskyFactorSymbolic(factors_, matrix_, nullptr, &info)
-                        : MatLUFactorSymbolic(factors_, matrix_, nullptr, nullptr, &info));
+  analyse_for_mumps(matrix_, symmetric, room_, factors_, [this](Mat factors) {
+    if (!low_rank_) return;
+    check_petsc(MatMumpsSetIcntl(factors, 35, 2));  // low-rank blocks in factors and solutions
+    check_petsc(MatMumpsSetCntl(factors, 7, low_rank_tolerance));
+  });
   if (failed()) return false;
   refuse_without_memory();
   return true;

@@ -30,6 +30,24 @@ bool is_half(Mat matrix) {
   return half == PETSC_TRUE;
 }
 
+std::vector<PetscInt> lengths_of_rows(Mat matrix) {
+  PetscInt first = 0, end = 0;
+  check_petsc(MatGetOwnershipRange(matrix, &first, &end));
+  std::vector<PetscInt> lengths(static_cast<std::size_t>(end - first), 0);
+  if (is_sequential(matrix)) {
+    const Rows rows(matrix);
+    for (std::size_t row = 0; row < lengths.size(); ++row) lengths[row] = rows.begin()[row + 1] - rows.begin()[row];
+    return lengths;
+  }
+  for (PetscInt row = first; row < end; ++row) {
+    PetscInt& length = lengths[static_cast<std::size_t>(row - first)];
+    check_petsc(MatGetRow(matrix, row, &length, nullptr, nullptr));
+    PetscInt restored = length;
+    check_petsc(MatRestoreRow(matrix, row, &restored, nullptr, nullptr));
+  }
+  return lengths;
+}
+
 std::vector<double> magnitudes_times(Mat matrix, std::span<const double> x) {
   PetscInt first = 0, end = 0;
   check_petsc(MatGetOwnershipRange(matrix, &first, &end));

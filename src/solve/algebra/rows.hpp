@@ -16,6 +16,8 @@ PetscInt rows_of(Mat matrix);
 bool is_sequential(Mat matrix);
 /// Whether only the diagonal and the upper triangle of a symmetric matrix are stored (Scatter).
 bool is_half(Mat matrix);
+/// Number of stored entries of each row of this rank.
+std::vector<PetscInt> lengths_of_rows(Mat matrix);
 /// Reads and writes the entries of a sequential matrix; set_values() returns false if their number differs.
 std::vector<double> values_of(Mat matrix);
 bool set_values(Mat matrix, const std::vector<double>& values);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/algebra/symmetry.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "solve/algebra/probe.hpp"
 #include "solve/algebra/rows.hpp"
@@ -9,6 +11,8 @@
 namespace engrane::solve {
 
 namespace {
+
+constexpr double some_hundred = 300;  ///< terms of a sum, for whose rounding SymmetryTest::rounding stands
 
 PetscInt local_size(Vec vector) {
   PetscInt size = 0;
@@ -47,9 +51,12 @@ bool SymmetryTest::symmetric(double part) {
   check_petsc(VecGetArrayRead(product_, &ax));
   check_petsc(VecGetArrayRead(transposed_, &atx));
   check_petsc(VecGetArrayRead(largest_, &largest));
+  const std::vector<PetscInt> lengths = lengths_of_rows(matrix_);
   bool same = true;
-  for (PetscInt i = 0, n = local_size(product_); same && i < n; ++i)
-    same = std::abs(ax[i] - atx[i]) <= part * std::abs(largest[i]);
+  for (PetscInt i = 0, n = local_size(product_); same && i < n; ++i) {
+    const double share = std::max(1.0, static_cast<double>(lengths[static_cast<std::size_t>(i)]) / some_hundred);
+    same = std::abs(ax[i] - atx[i]) <= std::max(part, rounding * share) * std::abs(largest[i]);
+  }
   check_petsc(VecRestoreArrayRead(product_, &ax));
   check_petsc(VecRestoreArrayRead(transposed_, &atx));
   check_petsc(VecRestoreArrayRead(largest_, &largest));

@@ -11,7 +11,8 @@ namespace engrane::solve {
 class SymmetryTest {
  public:
   explicit SymmetryTest(Mat matrix) : matrix_(matrix), half_(is_half(matrix)) {}
-  /// Fraction of the largest entry of a row: rounding of a sum of some hundred terms.
+  /// Fraction of the largest entry of a row: rounding of a sum of some hundred terms. A row with more entries may differ by
+  /// more, in proportion; the rows of its columns, which are short, show an asymmetry all the same.
   static constexpr double rounding = 1e-12;
   /// Tests the matrix as it stands; rows may differ by the fraction `part` of their largest entry. Collective.
   bool symmetric(double part = rounding);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/algebra/tangent_factors.hpp"
 
+#include "solve/algebra/mumps_analysis.hpp"
+
 namespace engrane::solve {
 
 namespace {
@@ -8,28 +10,22 @@ namespace {
 /// Largest asymmetry that unbalanced forces at an equilibrium cause, relative to the largest entry of a row.
 constexpr double unbalanced = 1e-6;
 /// MUMPS' workspace for pivots that are not where the analysis expects them, per cent above the estimate.
-constexpr PetscInt first_room = 50, most_room = 5000;
+constexpr int first_room = 50, most_room = 5000;
 
 }  // namespace
 
 bool TangentFactors::factor() {
   is_symmetric_ = symmetry_.symmetric(unbalanced);
   if (is_symmetric_) check_petsc(MatSetOption(matrix_, MAT_SPD, PETSC_FALSE));
-  for (PetscInt room = first_room;; room *= 4) {
-    factors_ = {};
-    check_petsc(MatGetFactor(matrix_, MATSOLVERMUMPS, is_symmetric_ ? MAT_FACTOR_CHOLESKY : MAT_FACTOR_LU, factors_.out()));
-    check_petsc(MatMumpsSetIcntl(factors_, 14, room));
-    check_petsc(MatMumpsSetIcntl(factors_, 13, 1));  // so that the pivots of the last block are counted, too
-    if (!is_symmetric_) check_petsc(MatMumpsSetIcntl(factors_, 33, 1));
+  for (int room = first_room;; room *= 4) {
+    analyse_for_mumps(matrix_, is_symmetric_, room, factors_, [this](Mat factors) {
+      check_petsc(MatMumpsSetIcntl(factors, 13, 1));  // so that the pivots of the last block are counted, too
+      if (!is_symmetric_) check_petsc(MatMumpsSetIcntl(factors, 33, 1));
+    });
     MatFactorInfo info;
     check_petsc(MatFactorInfoInitialize(&info));
-    if (is_symmetric_) {
-      check_petsc(MatCholeskyFactorSymbolic(factors_, matrix_, nullptr, &info));
-      check_petsc(MatCholeskyFactorNumeric(factors_, matrix_, &info));
-    } else {
-      check_petsc(MatLUFactorSymbolic(factors_, matrix_, nullptr, nullptr, &info));
-      check_petsc(MatLUFactorNumeric(factors_, matrix_, &info));
-    }
+    check_petsc(is_symmetric_ ? MatCholeskyFactorNumeric(factors_, matrix_, &info)
+                              : MatLUFactorNumeric(factors_, matrix_, &info));
     MatFactorError error = MAT_FACTOR_NOERROR;
     check_petsc(MatFactorGetError(factors_, &error));
     if (error == MAT_FACTOR_NOERROR) break;
