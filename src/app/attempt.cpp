@@ -140,6 +140,7 @@ void Attempt::run() {
   scheme_ = make_scheme(context_);
   runner_.emplace(context_, *scheme_);
   if (schedule_.controlled()) observer_.keep_ends();
+  corner_powers_.emplace(context_, observer_);
   const StepCallback seen = [this](const Configuration& solved, const StepReport& step) { return after_step(solved, step); };
   leave_at_once(true);
   try {
@@ -182,6 +183,8 @@ bool Attempt::after_step(const Configuration& solved, const StepReport& step) {
   if (schedule_.controlled() && step.number > 0) {
     instants.emplace(schedule_, observer_, context_.out_of_plane, last_time_, solved, step);
     instants->observe_inside();
+  } else if (step.number > 0) {
+    corner_powers_->observe(solved, step);
   }
   const auto watch = times_.output();
   const Schedule::Due due = instants ? show_instants(*instants, solved, step) : show(solved, step);

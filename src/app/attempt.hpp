@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/companion.hpp"
+#include "app/corner_powers.hpp"
 #include "app/energy_watch.hpp"
 #include "app/fast_turns.hpp"
 #include "app/instants.hpp"
@@ -86,6 +87,7 @@ class Attempt {
   FastTurns fast_turns_;
   solve::StabilityWatch stability_;
   EnergyWatch energies_;
+  std::optional<CornerPowers> corner_powers_;
   std::optional<Writer> writer_;  ///< of rank 0
   std::unique_ptr<solve::Scheme> scheme_;
   std::optional<solve::Runner> runner_;

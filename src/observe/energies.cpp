@@ -31,10 +31,23 @@ constexpr std::array<std::array<double, 4>, 3> lobatto{{
 }  // namespace
 
 EnergyLedger::EnergyLedger(Assembler& assembler, Reactions& supports, bool moves)
-    : assembler_(assembler), supports_(supports), moves_(moves), powers_(points_of_powers, longest_beside) {}
+    : assembler_(assembler), supports_(supports), fillings_(assembler), moves_(moves), powers_(points_of_powers, longest_beside) {
+  int filled = fillings_.any() ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &filled, 1, MPI_INT, MPI_MAX, assembler.comm());
+  filled_ = moves && filled != 0;
+}
+
+double EnergyLedger::over_ranks(double work) const {
+  if (filled_) MPI_Allreduce(MPI_IN_PLACE, &work, 1, MPI_DOUBLE, MPI_SUM, assembler_.comm());
+  return work;
+}
 
 EnergyLedger::Moment EnergyLedger::moment_at(const Configuration& c, const std::vector<Reaction>& reactions) {
-  Moment moment{c.time, total_energies(assembler_, c)};
+  Moment moment{c.time, total_energies(assembler_, c), {}};
+  if (filled_) {
+    moment.fillings = fillings_.at(c);
+    moment.energies.external -= over_ranks(Fillings::power(moment.fillings));
+  }
   for (const Reaction& reaction : reactions)
     moment.energies.external += reaction.power(c.nodes[static_cast<std::size_t>(reaction.node)]);
   return moment;
@@ -57,7 +70,8 @@ void EnergyLedger::add(const Configuration& c, const std::vector<Reaction>& reac
     const double work = sum.kinetic - balance_.kinetic;
     balance_.external_work += work;
     balance_.passed += std::abs(work);
-  } else if (inside_.size() == lobatto_points.size()) {
+    fill_to(moment);
+  } else if (smooth_ && inside_.size() == lobatto_points.size()) {
     integrate_over_inside(moment);
   } else {
     end_steps_inside();
@@ -103,6 +117,14 @@ void EnergyLedger::integrate_to(const Moment& moment) {
   }
   balance_.passed +=
       half * (std::abs(external_power_) + std::abs(sum.external) + std::abs(dissipated_power_) + std::abs(sum.dissipated));
+  fill_to(moment);
+}
+
+void EnergyLedger::fill_to(const Moment& moment) {
+  if (!filled_) return;
+  const double work = over_ranks(fillings_.work(last_fillings_, moment.fillings));
+  balance_.external_work += work;
+  balance_.passed += std::abs(work);
 }
 
 void EnergyLedger::integrate_over_inside(const Moment& end) {
@@ -110,6 +132,11 @@ void EnergyLedger::integrate_over_inside(const Moment& end) {
   const double step = end.time - last_time_;
   const std::array<Energies, 4> powers{Energies{.dissipated = dissipated_power_, .external = external_power_},
                                        inside_[0].energies, inside_[1].energies, end.energies};
+  // continuous where the power of filling is not
+  const Fillings::At filled = last_fillings_;
+  std::array<double, 4> swells{};
+  for (std::size_t p = 1; p < swells.size(); ++p)
+    swells[p] = over_ranks(Fillings::integrand(filled, p <= inside_.size() ? inside_[p - 1].fillings : end.fillings));
   for (std::size_t i = 0; i < lobatto.size(); ++i) {
     balance_.external_work = begin.external_work;
     balance_.dissipated = begin.dissipated;
@@ -118,6 +145,12 @@ void EnergyLedger::integrate_over_inside(const Moment& end) {
       balance_.dissipated += step * lobatto[i][p] * powers[p].dissipated;
     }
     const Moment& moment = i < inside_.size() ? inside_[i] : end;
+    if (filled_) {
+      const double work = over_ranks(fillings_.work_at_end(filled, moment.fillings));
+      balance_.external_work += work;
+      for (std::size_t p = 0; p < swells.size(); ++p) balance_.external_work += step * lobatto[i][p] * swells[p];
+      if (i == inside_.size()) balance_.passed += std::abs(work);
+    }
     if (smooth_) powers_.add(moment.time, std::array{moment.energies.external, moment.energies.dissipated});
     if (i == inside_.size()) break;
     arrive(moment);
@@ -148,6 +181,7 @@ void EnergyLedger::arrive(const Moment& moment) {
   dissipated_power_ = sum.dissipated;
   last_potential_ = sum.potential;
   last_time_ = moment.time;
+  last_fillings_ = moment.fillings;
 }
 
 void EnergyLedger::begin_anew() {
@@ -190,6 +224,7 @@ void EnergyLedger::load(const Snapshot& snapshot) {
   balance_.initial += come;
   initial_potential_ += come;
   if (!moves_) before_ = PackedConfiguration(before);
+  if (filled_) last_fillings_ = fillings_.at(before);
 }
 
 }  // namespace engrane::observe

@@ -7,6 +7,7 @@
 
 #include "assembly/assembler.hpp"
 #include "assembly/energies.hpp"
+#include "assembly/fillings.hpp"
 #include "base/snapshot.hpp"
 #include "math/extrapolation.hpp"
 #include "observe/packed_configuration.hpp"
@@ -43,7 +44,7 @@ inline constexpr std::array lobatto_points{0.2763932022500210, 0.723606797749979
 
 /// Keeps the energy balance from step to step. The work during motion is the integral of the power: by the trapezoidal rule,
 /// or, with error-controlled and therefore possibly long steps, by Lobatto quadrature where the power inside the step is known,
-/// and by a polynomial through the last few values of the power elsewhere.
+/// and by a polynomial through the last few values of the power elsewhere. That of filling is computed from contents.
 class EnergyLedger {
  public:
   /// `moves`: the analysis has velocities; otherwise the work is computed between equilibria.
@@ -72,7 +73,8 @@ class EnergyLedger {
  private:
   struct Moment {
     double time = 0;
-    Energies energies;
+    Energies energies;  ///< the external power is that without filling
+    Fillings::At fillings;
   };
   Moment moment_at(const Configuration& c, const std::vector<Reaction>& reactions);
   /// Integrates the powers from the last moment to this one, by the polynomial or the trapezoidal rule.
@@ -81,11 +83,18 @@ class EnergyLedger {
   void integrate_over_inside(const Moment& end);
   /// Makes the points inside ends of steps of their own.
   void end_steps_inside();
+  /// Sum over all ranks of a work of filling. Collective.
+  double over_ranks(double work) const;
+  /// Adds the work of filling since the last moment.
+  void fill_to(const Moment& moment);
   /// Makes this the last moment, after its work has been added.
   void arrive(const Moment& moment);
 
   Assembler& assembler_;
   Reactions& supports_;
+  Fillings fillings_;
+  bool filled_ = false;  ///< any rank has elements that are filled
+  Fillings::At last_fillings_;
   bool moves_;
   bool started_ = false;
   EnergyBalance balance_;

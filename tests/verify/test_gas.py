@@ -151,3 +151,55 @@ def test_breathing(tmp_path: Path) -> None:
     assert errors[0, 0] < 0.04
     assert errors[0, 0] / errors[1, 0] > 3, "an error of second order in h"
     assert errors[0, 1] < 5e-6, "energy"
+
+
+BOX = """.NOE
+ I 1 X 0 0 0
+ I 2 X 1 0 0
+ I 3 X 1 1 0
+ I 4 X 0 1 0
+ I 5 X 0 0 1
+ I 6 X 1 0 1
+ I 7 X 1 1 1
+ I 8 X 0 1 1
+.MAT
+ I 1 YT 1D-9 NT 0. M 1.
+.MCE
+ I 1 MEMBRANE N 1 2 6 5 MAT 1 THICK 0.001
+ I 2 MEMBRANE N 2 3 7 6 MAT 1 THICK 0.001
+ I 3 MEMBRANE N 3 4 8 7 MAT 1 THICK 0.001
+ I 4 MEMBRANE N 4 1 5 8 MAT 1 THICK 0.001
+ I 5 MEMBRANE N 5 6 7 8 MAT 1 THICK 0.001
+ I 9 GAS GROUP "box" MASS 1. NF 2 R 1. TEMP 3. AMBIENT 2. CUT 0 0 1
+.SEL
+ GROUP 1 NOM "box" MAILLES
+ I 1 J 5 K 1
+.CLM
+ FIX NOEUD 1 2 3 4 5 6 7 8 C 1 2 3
+.FCT
+ I 2 TABLE 0 0.7 1 0.7 1.01 1.2 5 1.2
+"""
+
+
+@pytest.mark.parametrize(
+    ("analysis", "steps"),
+    [
+        ("DYNAMIC RHO 0.9", "H 0.01"),
+        ("DYNAMIC RHO 0.9", "H 0.07"),
+        ("DYNAMIC RHO 0.9", "H 0.01 TOL 1E-5"),
+        ("DYNAMIC SCHEME RADAU", "H 0.1"),
+        ("DYNAMIC ACCURACY NORMAL", "H 0.005"),
+        ("STATIC", "H 0.1"),
+    ],
+)
+def test_filling_at_once(analysis: str, steps: str, tmp_path: Path) -> None:
+    """A rigid box of volume 1 is filled within a hundredth of a second, wherever steps end: the work is the
+    integral of 3 ln(1.5 f) df from 0.7 to 1.2."""
+    solved = run(f"{BOX}.SAM TYPE {analysis}\n.SUB TF 2 {steps}\n.FIN 1\n", tmp_path)
+
+    def stored(f: float) -> float:
+        return float(3 * f * (np.log(1.5 * f) - 1))
+
+    work = stored(1.2) - stored(0.7)
+    assert solved["run/external_work"][-1] == pytest.approx(work, rel=1e-9)
+    assert abs(solved["run/energy_error"]).max() < 1e-9 * work

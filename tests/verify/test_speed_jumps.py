@@ -178,3 +178,22 @@ def test_radau_goes_on_from_fixed_steps_behind_a_jump(stepping: str, tmp_path: P
     behind = found.t > 0.5
     assert found["element/1/SPEED"][behind] == pytest.approx(0.8 / 0.18, rel=1e-9)
     assert found["node/1/EZ"][behind] == pytest.approx(0, abs=1e-6)
+
+
+def test_work_of_a_drive_to_a_corner(tmp_path: Path) -> None:
+    """A drive accelerates a wheel of inertia 1 to 10 rad/s within five steps of RADAU: its power,
+    400 t, ends at the corner, where the wheel has an energy of 50."""
+    deck = """.NOE
+ I 1 X 0 0 0
+.MCE
+ I 1 HINGE N 0 1 AXIS 0 0 1 DRIVE SPEED NF 1
+ I 2 INERTIA N 1 M 1 J 1
+.FCT
+ I 1 TABLE 0 0 0.5 10 10 10
+.SAM TYPE DYNAMIC SCHEME RADAU
+.SUB TF 1 H 0.1
+.FIN 1
+"""
+    whole = run(deck, tmp_path)
+    assert whole["run/external_work"][-1] == pytest.approx(50, rel=1e-9)
+    assert abs(whole["run/energy_error"]).max() < 1e-9 * 50

@@ -16,6 +16,7 @@
 #include "elements/structural/cell.hpp"
 #include "elements/structural/cell_book.hpp"
 #include "model/determined_channels.hpp"
+#include "model/filled.hpp"
 
 namespace engrane::elements::membranes {
 
@@ -30,7 +31,7 @@ std::vector<Multiplier> multipliers() {
 }
 
 /// The gas. Its unknown is the volume V divided by the area A of the surface in the reference configuration.
-class Gas final : public Element, public DeterminedChannels {
+class Gas final : public Element, public DeterminedChannels, public Filled {
  public:
   Gas(int id, const GasLaw& law, double area, double volume, double mass)
       : Element(id), law_(law), area_(area), volume_(volume), mass_(mass) {
@@ -70,6 +71,11 @@ class Gas final : public Element, public DeterminedChannels {
     e.external = law_.filling(volume(state), state.time);
     return e;
   }
+  Filling filling(const State& state) const override {
+    const double now = volume(state);
+    return {law_.amount_at(state.time), now, state.scalar_rates[0] * area_ / now, law_.filling(now, state.time)};
+  }
+  double work_of_filling(double from, double to, double volume) const override { return law_.work_of_filling(from, to, volume); }
 
   const std::vector<Channel>& channels() const override {
     static const std::vector<Channel> with_mass = {

@@ -27,4 +27,13 @@ double GasLaw::filling(double volume, double time) const {
   return p == 0 ? 0.0 : amount * function->at(time).d1 * std::log(p / rest);
 }
 
+/// ∫ ln(p/rest) d(p V) = [p V (ln(p/rest) − 1)], the difference of the free energies.
+double GasLaw::work_of_filling(double from, double to, double volume) const {
+  if (from == to) return 0;
+  const auto energy_of = [this, volume](double content) {
+    return content == 0 ? 0.0 : content * (std::log(content / (volume * rest)) - 1);
+  };
+  return energy_of(to) - energy_of(from);
+}
+
 }  // namespace engrane::elements::membranes

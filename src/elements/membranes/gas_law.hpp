@@ -22,8 +22,8 @@ struct GasLaw {
   double energy(double volume, double time) const;
   /// Power supplied by filling: ∂energy/∂t at constant volume.
   double filling(double volume, double time) const;
-
- private:
+  /// Work of filling from one amount c f to another at constant volume.
+  double work_of_filling(double from, double to, double volume) const;
   double amount_at(double time) const { return amount * (function ? function->at(time).f : 1); }
 };
 
